@@ -46,7 +46,7 @@ public final class OwnApplicationTest {
 
         ReleaseCommand(GeneralMessage message) {
             super(NAME, message);
-            pictures = new CommandFields(message.data()).whole("pictures", 1, 10);
+            pictures = new CommandFields(message.data).whole("pictures", 1, 10);
         }
     }
 

@@ -50,7 +50,7 @@ public abstract class AppBench {
         ListView list = (ListView) find(R.id.commands_list);
         for (int at = 0; at < list.getAdapter().getCount(); at++) {
             Object item = list.getAdapter().getItem(at);
-            if (item instanceof CommandForm && ((CommandForm) item).name().equals(command)) {
+            if (item instanceof CommandForm && ((CommandForm) item).name.equals(command)) {
                 list.performItemClick(null, at, at);
                 return;
             }

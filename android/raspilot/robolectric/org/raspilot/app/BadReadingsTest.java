@@ -112,7 +112,7 @@ public final class BadReadingsTest extends AppBench {
         int found = 0;
         for (EventBook.Entry each : RaspilotApplication.of(handset.application).events()
                 .entries()) {
-            found += each.text().contains(words) ? each.times() : 0;
+            found += each.text.contains(words) ? each.times : 0;
         }
         return found;
     }

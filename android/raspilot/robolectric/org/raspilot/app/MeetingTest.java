@@ -64,7 +64,7 @@ public final class MeetingTest extends AppBench {
             return text(R.id.ground_place).contains("49.74747");
         });
         fly("the seat", () -> handset.ground().status() != null
-                && handset.ground().status().standing() == SeatStanding.OURS);
+                && handset.ground().status().standing == SeatStanding.OURS);
 
         handset.choose(Screen.COMMANDS);
         openCommand("up.telemetry.frequency");
@@ -75,6 +75,6 @@ public final class MeetingTest extends AppBench {
         find(R.id.page_send).performClick();
         fly("the answer", () -> text(R.id.commands_newest).startsWith("Telemetry period")
                 && text(R.id.commands_newest).contains("carried out"));
-        fly("twenty frames a second", () -> handset.ground().status().rateHz() > 15);
+        fly("twenty frames a second", () -> handset.ground().status().rateHz > 15);
     }
 }

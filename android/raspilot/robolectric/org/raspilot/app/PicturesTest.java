@@ -154,9 +154,9 @@ public final class PicturesTest {
 
     private void stale(String name) throws Exception {
         proxy.setFlying(false);
-        long beacon = handset.ground().telemetry().beacon();
+        long beacon = handset.ground().telemetry().beacon;
         Wait.until("silence", () -> handset.ground().telemetry().isSilent(
-                handset.ground().nowMs()) && handset.ground().telemetry().beacon() >= beacon);
+                handset.ground().nowMs()) && handset.ground().telemetry().beacon >= beacon);
         Wait.pass(300);
         draw(name + "-stale");
         proxy.setFlying(true);
@@ -180,7 +180,7 @@ public final class PicturesTest {
         ListView list = (ListView) handset.window.get().findViewById(R.id.commands_list);
         for (int at = 0; at < list.getAdapter().getCount(); at++) {
             Object item = list.getAdapter().getItem(at);
-            if (item instanceof CommandForm && ((CommandForm) item).name().equals(command)) {
+            if (item instanceof CommandForm && ((CommandForm) item).name.equals(command)) {
                 list.performItemClick(null, at, at);
                 return;
             }
@@ -195,9 +195,9 @@ public final class PicturesTest {
         handset.sense(Sensor.TYPE_PRESSURE, 978.6f);
         handset.locate(49.74747, 13.37759, 345);
         assertNotNull(handset.ground());
-        Long before = handset.ground().telemetry().beacon();
+        Long before = handset.ground().telemetry().beacon;
         Wait.until("a new frame", () -> {
-            Long now = handset.ground().telemetry().beacon();
+            Long now = handset.ground().telemetry().beacon;
             return now != null && !now.equals(before);
         });
         Wait.pass(210);

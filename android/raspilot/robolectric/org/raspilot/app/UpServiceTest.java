@@ -57,8 +57,8 @@ public final class UpServiceTest extends AppBench {
     }
 
     private ProviderStatus provider(String name) {
-        for (ProviderStatus each : status.providers()) {
-            if (each.name().equals(name)) {
+        for (ProviderStatus each : status.providers) {
+            if (each.name.equals(name)) {
                 return each;
             }
         }
@@ -114,17 +114,17 @@ public final class UpServiceTest extends AppBench {
         handset.set(R.string.key_general_port, "many");
         assertEquals(Service.START_NOT_STICKY, handset.deliver(wish(), 1));
         assertNull(handset.up);
-        mustSay("many", RaspilotApplication.of(handset.application).events().newest().text());
+        mustSay("many", RaspilotApplication.of(handset.application).events().newest().text);
     }
 
     @Test
     public void aPhoneWithoutSensorsSaysWhatItLacks() throws Exception {
         start();
-        assertEquals(4, status.providers().size());
-        for (ProviderStatus each : status.providers()) {
-            if (!each.name().equals(BatteryProvider.NAME)) {
-                assertEquals(each.name(), ProviderState.ABSENT, each.state());
-                assertFalse(each.sensor().isEmpty());
+        assertEquals(4, status.providers.size());
+        for (ProviderStatus each : status.providers) {
+            if (!each.name.equals(BatteryProvider.NAME)) {
+                assertEquals(each.name, ProviderState.ABSENT, each.state);
+                assertFalse(each.sensor.isEmpty());
             }
         }
         handset.open();
@@ -160,9 +160,9 @@ public final class UpServiceTest extends AppBench {
                 android.Manifest.permission.ACCESS_FINE_LOCATION,
                 android.Manifest.permission.ACCESS_COARSE_LOCATION);
         start();
-        assertEquals(ProviderState.ABSENT, provider(LocationProvider.NAME).state());
+        assertEquals(ProviderState.ABSENT, provider(LocationProvider.NAME).state);
         mustSay(handset.application.getString(R.string.lack_location_permission),
-                provider(LocationProvider.NAME).sensor());
+                provider(LocationProvider.NAME).sensor);
         handset.fitLocation();
         ((BaseUpService.Airside) handset.up.get().onBind(wish())).permissionsChanged();
         Wait.until("the location", () -> {

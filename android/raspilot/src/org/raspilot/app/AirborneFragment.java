@@ -194,7 +194,7 @@ public final class AirborneFragment extends Fragment
         } else {
             EventBook.Entry newest = application.events().newest();
             run.showStopped(application.spawning().isAsking(),
-                    newest == null ? null : newest.text());
+                    newest == null ? null : newest.text);
         }
     }
 }

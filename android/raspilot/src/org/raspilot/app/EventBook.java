@@ -17,29 +17,17 @@ public final class EventBook {
 
     /** One line. Immutable. */
     public static final class Entry {
-        private final long timeMs;
-        private final String text;
-        private final int times;
+        /** When it happened last, ms since 1970. */
+        public final long timeMs;
+        /** What happened. */
+        public final String text;
+        /** How often in a row. */
+        public final int times;
 
         Entry(long timeMs, String text, int times) {
             this.timeMs = timeMs;
             this.text = text;
             this.times = times;
-        }
-
-        /** Returns when it happened last, ms since 1970. */
-        public long timeMs() {
-            return timeMs;
-        }
-
-        /** Returns what happened. */
-        public String text() {
-            return text;
-        }
-
-        /** Returns how often in a row. */
-        public int times() {
-            return times;
         }
     }
 

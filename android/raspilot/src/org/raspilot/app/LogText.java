@@ -22,9 +22,9 @@ final class LogText {
 
     /** Returns one line: its time and what happened. */
     String line(EventBook.Entry entry) {
-        String text = entry.times() == 1 ? entry.text()
-                : times.of(entry.text(), entry.times());
-        return format.format(new Date(entry.timeMs())) + "  " + text;
+        String text = entry.times == 1 ? entry.text
+                : times.of(entry.text, entry.times);
+        return format.format(new Date(entry.timeMs)) + "  " + text;
     }
 
     /** Returns all lines. */

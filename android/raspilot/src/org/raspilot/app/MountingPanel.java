@@ -73,9 +73,9 @@ final class MountingPanel implements SensorListener<Rotation> {
         newest = reading;
         // The declination is the service's; here north is the compass's.
         Attitude attitude = mounting.attitude(reading, 0);
-        roll.setText(context.getString(R.string.live_degrees, attitude.rollDeg()));
-        pitch.setText(context.getString(R.string.live_degrees, attitude.pitchDeg()));
-        yaw.setText(context.getString(R.string.live_yaw_degrees, attitude.yawDeg()));
+        roll.setText(context.getString(R.string.live_degrees, attitude.rollDeg));
+        pitch.setText(context.getString(R.string.live_degrees, attitude.pitchDeg));
+        yaw.setText(context.getString(R.string.live_yaw_degrees, attitude.yawDeg));
     }
 
     private void calibrate() {

@@ -50,8 +50,8 @@ final class SpawnDesk {
         if (isAsking) {
             return;
         }
-        SpawnService.ask(application, settings.runnerHost(), settings.runnerPort(),
-                settings.aircraft(), settings.profile(), answers);
+        SpawnService.ask(application, settings.runnerHost, settings.runnerPort,
+                settings.aircraft, settings.profile, answers);
         setAsking(true);
     }
 

@@ -14,9 +14,9 @@ public final class EventBookTest {
         book.add(1000, "connected");
         book.add(2000, "lost");
         assertEquals(2, book.entries().size());
-        assertEquals("connected", book.entries().get(0).text());
-        assertEquals("lost", book.newest().text());
-        assertEquals(2000, book.newest().timeMs());
+        assertEquals("connected", book.entries().get(0).text);
+        assertEquals("lost", book.newest().text);
+        assertEquals(2000, book.newest().timeMs);
     }
 
     @Test
@@ -24,8 +24,8 @@ public final class EventBookTest {
         book.add(1000, "no runner");
         book.add(3000, "no runner");
         assertEquals(1, book.entries().size());
-        assertEquals(2, book.newest().times());
-        assertEquals(3000, book.newest().timeMs());
+        assertEquals(2, book.newest().times);
+        assertEquals(3000, book.newest().timeMs);
     }
 
     @Test
@@ -34,7 +34,7 @@ public final class EventBookTest {
             book.add(line, "line " + line);
         }
         assertEquals(EventBook.KEPT, book.entries().size());
-        assertEquals("line 10", book.entries().get(0).text());
+        assertEquals("line 10", book.entries().get(0).text);
     }
 
     @Test

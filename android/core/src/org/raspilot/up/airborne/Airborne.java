@@ -99,8 +99,8 @@ public final class Airborne {
 
     /** Returns what the screen shows. */
     public AirborneStatus status() {
-        return new AirborneStatus(isRunning, link.isOpen(), link.status().sentence(),
-                link.status().place(), settings.mode(), settings.orientationTransport(),
+        return new AirborneStatus(isRunning, link.isOpen(), link.status().sentence,
+                link.status().place, settings.mode, settings.orientationTransport(),
                 link.orientationText(), providers().panic().delayMs(), providers().statuses(),
                 new AirborneCounters(up.commandReceiver(), link.connections(),
                         handlers.telemetry(), answers));
@@ -133,7 +133,7 @@ public final class Airborne {
      * @throws IllegalArgumentException when it is not within 300 to 1100 (a sentence)
      */
     public void setReferencePressureHPa(double hPa) {
-        basics.altitude().setReferenceHPa(hPa);
+        basics.altitude.setReferenceHPa(hPa);
     }
 
     /**
@@ -142,7 +142,7 @@ public final class Airborne {
      * @throws IllegalStateException without a reading of the barometer (a sentence)
      */
     public double zeroAltitudeHere() {
-        return basics.altitude().zeroHere();
+        return basics.altitude.zeroHere();
     }
 
     /** Retries immediately instead of after the wait, as when the phone's network is back. */

@@ -39,7 +39,7 @@ final class AirborneHandlers {
         executor.registerCommand(SpeakCommand.NAME, new BaseCommandHandler() {
             @Override
             public void runAction(BaseCommand command) {
-                speaker.speak(((SpeakCommand) command).text());
+                speaker.speak(((SpeakCommand) command).text);
             }
         });
         executor.registerCommand(PanicCommand.NAME, new BaseCommandHandler() {
@@ -57,14 +57,14 @@ final class AirborneHandlers {
         executor.registerCommand(AckCommand.NAME, new BaseCommandHandler() {
             @Override
             public void runAction(BaseCommand command) {
-                answers.onAck(((AckCommand) command).commandId());
+                answers.onAck(((AckCommand) command).commandId);
             }
         });
         executor.registerCommand(NackCommand.NAME, new BaseCommandHandler() {
             @Override
             public void runAction(BaseCommand command) {
                 NackCommand nack = (NackCommand) command;
-                answers.onNack(nack.commandId(), nack.reason());
+                answers.onNack(nack.commandId, nack.reason);
             }
         });
     }
@@ -75,12 +75,12 @@ final class AirborneHandlers {
     }
 
     private void follow(PanicCommand command) throws CommandRefusedException {
-        if (!command.panic()) {
+        if (!command.panic) {
             panic.forget();
             return;
         }
         try {
-            panic.follow(command.delayMs());
+            panic.follow(command.delayMs);
         } catch (IllegalArgumentException error) {
             throw new CommandRefusedException(NackCode.INVALID, error.getMessage());
         }

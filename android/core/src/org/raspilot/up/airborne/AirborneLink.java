@@ -99,7 +99,7 @@ final class AirborneLink implements Outlet, AnswerSink, UpSocketListener {
 
     /** Returns how often it came. */
     long connections() {
-        return socket.counters().connects();
+        return socket.counters().connects;
     }
 
     /** Returns the destination of orientation, or why it is not sent. */
@@ -144,7 +144,7 @@ final class AirborneLink implements Outlet, AnswerSink, UpSocketListener {
             orientation.reconnectNow();
         }
         wasLost = false;
-        owner.onOpened(connected.status().place());
+        owner.onOpened(connected.status().place);
     }
 
     @Override
@@ -157,16 +157,16 @@ final class AirborneLink implements Outlet, AnswerSink, UpSocketListener {
     public void onLost(UpSocket lost, String reason) {
         watch.closed();
         wasLost = true;
-        told = lost.status().sentence();
+        told = lost.status().sentence;
         owner.onClosed(reason);
     }
 
     @Override
     public void onStatus(UpSocket changed) {
         UpSocketStatus status = changed.status();
-        boolean isTrouble = status.state() == UpSocketStatus.State.WAITING;
-        if (isTrouble && !status.sentence().equals(told)) {
-            told = status.sentence();
+        boolean isTrouble = status.state == UpSocketStatus.State.WAITING;
+        if (isTrouble && !status.sentence.equals(told)) {
+            told = status.sentence;
             owner.onTrouble(told);
         }
     }

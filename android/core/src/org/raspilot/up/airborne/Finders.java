@@ -22,27 +22,27 @@ final class Finders {
     static PlaceFinder by(Loop loop, final AirborneSettings settings) {
         if (settings.isByRunner()) {
             RunnerRequest request = new RunnerRequest(
-                    settings.aircraft().isEmpty() ? NAMELESS : settings.aircraft(),
-                    settings.profile().isEmpty() ? null : settings.profile(),
+                    settings.aircraft.isEmpty() ? NAMELESS : settings.aircraft,
+                    settings.profile.isEmpty() ? null : settings.profile,
                     null);
-            return new RunnerClient(loop, settings.runnerHost(), settings.runnerPort(), request);
+            return new RunnerClient(loop, settings.runnerHost, settings.runnerPort, request);
         }
-        if (!settings.host().isEmpty()) {
+        if (!settings.host.isEmpty()) {
             return new FixedPlace(new Place(
-                    settings.host(), settings.generalPort(), settings.orientationPort()));
+                    settings.host, settings.generalPort, settings.orientationPort));
         }
-        return new DiscoveryClient(loop, asked(settings), settings.discoveryPort(),
-                settings.generalPort(), settings.orientationPort());
+        return new DiscoveryClient(loop, asked(settings), settings.discoveryPort,
+                settings.generalPort, settings.orientationPort);
     }
 
     private static BroadcastAddresses asked(final AirborneSettings settings) {
-        if (settings.discoveryHosts().isEmpty()) {
+        if (settings.discoveryHosts.isEmpty()) {
             return new InterfaceBroadcasts();
         }
         return new BroadcastAddresses() {
             @Override
             public List<String> current() {
-                return settings.discoveryHosts();
+                return settings.discoveryHosts;
             }
         };
     }

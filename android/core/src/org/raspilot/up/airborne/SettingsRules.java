@@ -15,28 +15,28 @@ final class SettingsRules {
 
     /** Judges all of them. */
     static void judge(AirborneSettings settings) {
-        present("the mode", settings.mode());
-        present("the way of orientation", settings.orientation());
-        present("the mounting", settings.mounting());
-        host("the host", settings.host());
-        host("the runner's host", settings.runnerHost());
-        hosts(settings.discoveryHosts());
-        port("the port of the Raspberry Pi", settings.generalPort());
-        port("the port for orientation", settings.orientationPort());
-        port("the port of Discovery", settings.discoveryPort());
-        port("the runner's port", settings.runnerPort());
-        aircraft(settings.aircraft());
-        profile(settings.profile());
-        whole("the rate of orientation (Hz)", settings.orientationHz(),
+        present("the mode", settings.mode);
+        present("the way of orientation", settings.orientation);
+        present("the mounting", settings.mounting);
+        host("the host", settings.host);
+        host("the runner's host", settings.runnerHost);
+        hosts(settings.discoveryHosts);
+        port("the port of the Raspberry Pi", settings.generalPort);
+        port("the port for orientation", settings.orientationPort);
+        port("the port of Discovery", settings.discoveryPort);
+        port("the runner's port", settings.runnerPort);
+        aircraft(settings.aircraft);
+        profile(settings.profile);
+        whole("the rate of orientation (Hz)", settings.orientationHz,
                 OrientationProvider.LEAST_HZ, OrientationProvider.MOST_HZ);
-        period("the period of the location", settings.locationPeriodMs());
-        period("the period of the altitude", settings.altitudePeriodMs());
-        period("the period of the heading", settings.headingPeriodMs());
-        range("the declination (deg)", settings.declinationDeg(), -180, 180);
-        range("the reference pressure (hPa)", settings.referencePressureHPa(),
+        period("the period of the location", settings.locationPeriodMs);
+        period("the period of the altitude", settings.altitudePeriodMs);
+        period("the period of the heading", settings.headingPeriodMs);
+        range("the declination (deg)", settings.declinationDeg, -180, 180);
+        range("the reference pressure (hPa)", settings.referencePressureHPa,
                 AltitudeProvider.LEAST_REFERENCE_HPA, AltitudeProvider.MOST_REFERENCE_HPA);
-        boolean isAlone = settings.runnerHost().isEmpty() && settings.host().isEmpty();
-        if (settings.mode() == AirborneMode.BLACK_BOX && isAlone) {
+        boolean isAlone = settings.runnerHost.isEmpty() && settings.host.isEmpty();
+        if (settings.mode == AirborneMode.BLACK_BOX && isAlone) {
             throw new IllegalArgumentException(
                     "Black Box Mode needs the runner's host, or that of a running server");
         }

@@ -42,12 +42,12 @@ final class SilenceReport {
     private void look() {
         timer = loop.schedule(PERIOD_MS, looking);
         for (ProviderStatus status : providers.statuses()) {
-            String who = status.name() + ": " + status.sensor();
-            if (status.state() == ProviderState.SILENT) {
-                if (silent.add(status.name())) {
+            String who = status.name + ": " + status.sensor;
+            if (status.state == ProviderState.SILENT) {
+                if (silent.add(status.name)) {
                     listener.onEvent(who + " says nothing");
                 }
-            } else if (silent.remove(status.name())) {
+            } else if (silent.remove(status.name)) {
                 listener.onEvent(who + " speaks again");
             }
         }

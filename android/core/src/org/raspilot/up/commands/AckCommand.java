@@ -16,7 +16,8 @@ public final class AckCommand extends BaseCommand {
         }
     };
 
-    private final String commandId;
+    /** The id of the Command that is answered. */
+    public final String commandId;
 
     /**
      * Creates the Command.
@@ -34,13 +35,8 @@ public final class AckCommand extends BaseCommand {
      */
     public AckCommand(GeneralMessage message) {
         super(NAME, message);
-        CommandFields fields = new CommandFields(message.data());
+        CommandFields fields = new CommandFields(message.data);
         commandId = fields.text("id", GeneralMessage.LONGEST_ID);
-    }
-
-    /** Returns the id of the Command that is answered. */
-    public String commandId() {
-        return commandId;
     }
 
     private static Map<String, Object> data(String commandId) {

@@ -22,8 +22,10 @@ public final class AltitudeCommand extends BaseCommand {
         }
     };
 
-    private final double altitudeM;
-    private final String mode;
+    /** The altitude in m. */
+    public final double altitudeM;
+    /** Returns {@code actual} for a measured value, {@code required} for a requested one. */
+    public final String mode;
 
     /**
      * Creates the Command.
@@ -41,19 +43,9 @@ public final class AltitudeCommand extends BaseCommand {
      */
     public AltitudeCommand(GeneralMessage message) {
         super(NAME, message);
-        CommandFields fields = new CommandFields(message.data());
+        CommandFields fields = new CommandFields(message.data);
         altitudeM = fields.number("altitude", -1000, 30000);
         mode = fields.choice("mode", MODES, "actual");
-    }
-
-    /** Returns the altitude in m. */
-    public double altitudeM() {
-        return altitudeM;
-    }
-
-    /** Returns {@code actual} for a measured value, {@code required} for a requested one. */
-    public String mode() {
-        return mode;
     }
 
     private static Map<String, Object> data(double altitudeM, String mode) {

@@ -21,18 +21,18 @@ final class AnswerMemory {
     /** Stores a message with an id; returns the known entry if the message is a repetition. */
     Entry remember(GeneralMessage message, long nowMs) {
         forgetOld(nowMs);
-        String content = message.name() + " " + Json.write(message.data());
-        Entry known = entries.get(message.id());
+        String content = message.name + " " + Json.write(message.data);
+        Entry known = entries.get(message.id);
         if (known != null && known.content.equals(content)) {
             return known;
         }
-        entries.remove(message.id());
+        entries.remove(message.id);
         Iterator<Entry> oldest = entries.values().iterator();
         while (entries.size() >= REMEMBERED) {
             oldest.next();
             oldest.remove();
         }
-        entries.put(message.id(), new Entry(content, nowMs));
+        entries.put(message.id, new Entry(content, nowMs));
         return null;
     }
 

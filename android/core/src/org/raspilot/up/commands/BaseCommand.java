@@ -24,28 +24,28 @@ public class BaseCommand {
 
     /** Creates the Command of a message, under its current name. */
     protected BaseCommand(String name, GeneralMessage message) {
-        this(name.equals(message.name()) ? message
-                : message.with(name, message.id(), message.beacon()));
+        this(name.equals(message.name) ? message
+                : message.with(name, message.id, message.beacon));
     }
 
     /** Returns the name on the wire. */
     public final String name() {
-        return message.name();
+        return message.name;
     }
 
     /** Returns the fields under their names on the wire, as JSON values; unmodifiable. */
     public final Map<String, Object> data() {
-        return message.data();
+        return message.data;
     }
 
     /** Returns the id for the requested answer, or null. */
     public final String id() {
-        return message.id();
+        return message.id;
     }
 
     /** Returns the beacon that it carries, or null. */
     public final Long beacon() {
-        return message.beacon();
+        return message.beacon;
     }
 
     /** Returns the message to send. */

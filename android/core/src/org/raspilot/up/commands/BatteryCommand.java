@@ -16,7 +16,8 @@ public final class BatteryCommand extends BaseCommand {
         }
     };
 
-    private final double levelPercent;
+    /** The level in percent. */
+    public final double levelPercent;
 
     /**
      * Creates the Command.
@@ -34,13 +35,8 @@ public final class BatteryCommand extends BaseCommand {
      */
     public BatteryCommand(GeneralMessage message) {
         super(NAME, message);
-        CommandFields fields = new CommandFields(message.data());
+        CommandFields fields = new CommandFields(message.data);
         levelPercent = fields.number("level", 0, 100);
-    }
-
-    /** Returns the level in percent. */
-    public double levelPercent() {
-        return levelPercent;
     }
 
     private static Map<String, Object> data(double levelPercent) {

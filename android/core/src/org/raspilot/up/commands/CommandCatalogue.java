@@ -44,8 +44,8 @@ public final class CommandCatalogue {
 
     private void add(CommandForm form) {
         forms.add(form);
-        byName.put(form.name(), form);
-        for (String alias : form.aliases()) {
+        byName.put(form.name, form);
+        for (String alias : form.aliases) {
             byName.put(alias, form);
         }
     }

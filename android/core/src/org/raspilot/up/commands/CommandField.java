@@ -8,16 +8,24 @@ import org.raspilot.up.wire.MalformedException;
 
 /** One field of a Command as the catalogue describes it. */
 public final class CommandField {
-    private final String name;
-    private final FieldType type;
-    private final String unit;
-    private final Double minimum;
-    private final Double maximum;
-    private final List<Object> choices;
-    private final Integer maxLength;
+    /** The name on the wire. */
+    public final String name;
+    /** The type of its value. */
+    public final FieldType type;
+    /** The unit, or an empty text. */
+    public final String unit;
+    /** The least value, or null. */
+    public final Double minimum;
+    /** The greatest value, or null. */
+    public final Double maximum;
+    /** What may be chosen, unmodifiable, or null when anything may. */
+    public final List<Object> choices;
+    /** The greatest number of characters, items or keys, or null. */
+    public final Integer maxLength;
     private final boolean nullable;
     private final boolean required;
-    private final String text;
+    /** The allowed values in words: "a number between 0 and 5 s". */
+    public final String text;
     private final FieldRule rule;
 
     private CommandField(CatalogueEntry entry) throws MalformedException {
@@ -44,41 +52,6 @@ public final class CommandField {
         return new CommandField(new CatalogueEntry(description));
     }
 
-    /** Returns the name on the wire. */
-    public String name() {
-        return name;
-    }
-
-    /** Returns the type of its value. */
-    public FieldType type() {
-        return type;
-    }
-
-    /** Returns the unit, or an empty text. */
-    public String unit() {
-        return unit;
-    }
-
-    /** Returns the least value, or null. */
-    public Double minimum() {
-        return minimum;
-    }
-
-    /** Returns the greatest value, or null. */
-    public Double maximum() {
-        return maximum;
-    }
-
-    /** Returns what may be chosen, unmodifiable, or null when anything may. */
-    public List<Object> choices() {
-        return choices;
-    }
-
-    /** Returns the greatest number of characters, items or keys, or null. */
-    public Integer maxLength() {
-        return maxLength;
-    }
-
     /** Returns whether null is allowed. */
     public boolean isNullable() {
         return nullable;
@@ -87,11 +60,6 @@ public final class CommandField {
     /** Returns whether the field is required. */
     public boolean isRequired() {
         return required;
-    }
-
-    /** Returns the allowed values in words: "a number between 0 and 5 s". */
-    public String text() {
-        return text;
     }
 
     /** Returns the error of a JSON value, a sentence that names the field, or null. */

@@ -10,11 +10,16 @@ import org.raspilot.up.wire.MalformedException;
 
 /** A Command as a person fills it in: its name, what it is for, its fields. */
 public final class CommandForm {
-    private final String name;
-    private final List<String> aliases;
-    private final String role;
-    private final String text;
-    private final boolean needsBeacon;
+    /** The name on the wire. */
+    public final String name;
+    /** Older names of the Command; unmodifiable. */
+    public final List<String> aliases;
+    /** The least role that may send it; {@code depends}: a field decides. */
+    public final String role;
+    /** What it is for, one sentence. */
+    public final String text;
+    /** Whether the Command needs fresh telemetry, whose beacon it echoes. */
+    public final boolean needsBeacon;
     private final Map<String, CommandField> fields = new LinkedHashMap<String, CommandField>();
 
     private CommandForm(CatalogueEntry entry) throws MalformedException {
@@ -28,39 +33,14 @@ public final class CommandForm {
         }
         aliases = Collections.unmodifiableList(names);
         for (Object described : entry.list("fields")) {
-            CommandField field = CommandField.read(CatalogueEntry.of(described).description());
-            fields.put(field.name(), field);
+            CommandField field = CommandField.read(CatalogueEntry.of(described).description);
+            fields.put(field.name, field);
         }
     }
 
     /** Reads a form out of a catalogue. */
     static CommandForm read(Object description) throws MalformedException {
         return new CommandForm(CatalogueEntry.of(description));
-    }
-
-    /** Returns the name on the wire. */
-    public String name() {
-        return name;
-    }
-
-    /** Returns older names of the Command; unmodifiable. */
-    public List<String> aliases() {
-        return aliases;
-    }
-
-    /** Returns the least role that may send it; {@code depends}: a field decides. */
-    public String role() {
-        return role;
-    }
-
-    /** Returns what it is for, one sentence. */
-    public String text() {
-        return text;
-    }
-
-    /** Returns whether the Command needs fresh telemetry, whose beacon it echoes. */
-    public boolean needsBeacon() {
-        return needsBeacon;
     }
 
     /** Returns the fields in their order; a copy. */
@@ -86,8 +66,8 @@ public final class CommandForm {
             }
         }
         for (CommandField field : fields.values()) {
-            if (field.isRequired() && !data.containsKey(field.name())) {
-                return field.name() + " is missing";
+            if (field.isRequired() && !data.containsKey(field.name)) {
+                return field.name + " is missing";
             }
         }
         return null;

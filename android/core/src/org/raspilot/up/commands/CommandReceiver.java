@@ -52,9 +52,9 @@ public final class CommandReceiver {
             addOne("repeated");
             return;
         }
-        String name = message.name();
+        String name = message.name;
         if (!registry.knows(name) && !executor.hasHandlers(name)) {
-            refuse(message.id(), answers, NackCode.UNKNOWN,
+            refuse(message.id, answers, NackCode.UNKNOWN,
                     "no Command '" + SafeText.of(name, SHOWN_NAME) + "'");
             return;
         }
@@ -62,12 +62,12 @@ public final class CommandReceiver {
         try {
             command = registry.read(message);
         } catch (InvalidCommandException fault) {
-            refuse(message.id(), answers, NackCode.INVALID,
+            refuse(message.id, answers, NackCode.INVALID,
                     registry.primaryName(name) + ": " + fault.getMessage());
             return;
         } catch (RuntimeException fault) {
             // A Command of an application costs this message and not the link.
-            refuse(message.id(), answers, NackCode.FAILED, FAILED);
+            refuse(message.id, answers, NackCode.FAILED, FAILED);
             tellLoop(fault);
             return;
         }
@@ -81,7 +81,7 @@ public final class CommandReceiver {
 
     /** Counts a line that is not a General Message; rejects it if its id is readable. */
     public void receiveMalformed(MalformedException malformed, AnswerSink answers) {
-        refuse(malformed.id(), answers, NackCode.MALFORMED, malformed.reason());
+        refuse(malformed.id, answers, NackCode.MALFORMED, malformed.reason());
     }
 
     /**
@@ -104,7 +104,7 @@ public final class CommandReceiver {
     }
 
     private boolean isRepeated(GeneralMessage message, AnswerSink answers) {
-        if (message.id() == null) {
+        if (message.id == null) {
             return false;
         }
         AnswerMemory.Entry known = memory(answers).remember(message, loop.nowMs());
@@ -118,14 +118,14 @@ public final class CommandReceiver {
             Throwable fault) {
         if (fault instanceof CommandRefusedException) {
             CommandRefusedException refusal = (CommandRefusedException) fault;
-            refuse(message.id(), answers, refusal.code(), refusal.reason());
+            refuse(message.id, answers, refusal.code, refusal.reason());
         } else if (fault != null) {
-            refuse(message.id(), answers, NackCode.FAILED, FAILED);
+            refuse(message.id, answers, NackCode.FAILED, FAILED);
         } else if (handlers == 0) {
-            refuse(message.id(), answers, NackCode.UNAVAILABLE,
-                    "nobody handles " + message.name());
-        } else if (message.id() != null) {
-            answer(message.id(), answers, new AckCommand(message.id()));
+            refuse(message.id, answers, NackCode.UNAVAILABLE,
+                    "nobody handles " + message.name);
+        } else if (message.id != null) {
+            answer(message.id, answers, new AckCommand(message.id));
         }
     }
 

@@ -8,7 +8,8 @@ package org.raspilot.up.commands;
 public final class CommandRefusedException extends Exception {
     private static final long serialVersionUID = 1L;
 
-    private final NackCode code;
+    /** The code of the answer. */
+    public final NackCode code;
 
     /** Refuses with the code {@code refused}. */
     public CommandRefusedException(String reason) {
@@ -19,11 +20,6 @@ public final class CommandRefusedException extends Exception {
     public CommandRefusedException(NackCode code, String reason) {
         super(reason);
         this.code = code;
-    }
-
-    /** Returns the code of the answer. */
-    public NackCode code() {
-        return code;
     }
 
     /** Returns why, for the asker. */

@@ -65,7 +65,7 @@ public final class CommandRegistry {
      * @throws InvalidCommandException with one sentence that names the field
      */
     public BaseCommand read(GeneralMessage message) {
-        CommandReader reader = readers.get(primaryName(message.name()));
+        CommandReader reader = readers.get(primaryName(message.name));
         return reader == null ? new BaseCommand(message) : reader.read(message);
     }
 

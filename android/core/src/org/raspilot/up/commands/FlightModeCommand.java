@@ -25,7 +25,8 @@ public final class FlightModeCommand extends BaseCommand {
         }
     };
 
-    private final String mode;
+    /** The mode. */
+    public final String mode;
 
     /**
      * Creates the Command.
@@ -43,13 +44,8 @@ public final class FlightModeCommand extends BaseCommand {
      */
     public FlightModeCommand(GeneralMessage message) {
         super(NAME, message);
-        CommandFields fields = new CommandFields(message.data());
+        CommandFields fields = new CommandFields(message.data);
         mode = fields.choice("mode", MODES);
-    }
-
-    /** Returns the mode. */
-    public String mode() {
-        return mode;
     }
 
     private static Map<String, Object> data(String mode) {

@@ -5,29 +5,17 @@ public final class Gains {
     /** The greatest gain. */
     public static final double GREATEST = 50;
 
-    private final double p;
-    private final double i;
-    private final double d;
+    /** The proportional gain. */
+    public final double p;
+    /** The integral gain. */
+    public final double i;
+    /** The derivative gain. */
+    public final double d;
 
     /** Creates the gains of one controller; {@link PidTuningsCommand} checks them. */
     public Gains(double p, double i, double d) {
         this.p = p;
         this.i = i;
         this.d = d;
-    }
-
-    /** Returns the proportional gain. */
-    public double p() {
-        return p;
-    }
-
-    /** Returns the integral gain. */
-    public double i() {
-        return i;
-    }
-
-    /** Returns the derivative gain. */
-    public double d() {
-        return d;
     }
 }

@@ -22,8 +22,10 @@ public final class HeadingCommand extends BaseCommand {
         }
     };
 
-    private final double headingDeg;
-    private final String mode;
+    /** The heading in deg. */
+    public final double headingDeg;
+    /** Returns {@code actual} for a measured value, {@code required} for a requested one. */
+    public final String mode;
 
     /**
      * Creates the Command.
@@ -41,19 +43,9 @@ public final class HeadingCommand extends BaseCommand {
      */
     public HeadingCommand(GeneralMessage message) {
         super(NAME, message);
-        CommandFields fields = new CommandFields(message.data());
+        CommandFields fields = new CommandFields(message.data);
         headingDeg = fields.number("heading", -360, 360);
         mode = fields.choice("mode", MODES);
-    }
-
-    /** Returns the heading in deg. */
-    public double headingDeg() {
-        return headingDeg;
-    }
-
-    /** Returns {@code actual} for a measured value, {@code required} for a requested one. */
-    public String mode() {
-        return mode;
     }
 
     private static Map<String, Object> data(double headingDeg, String mode) {

@@ -18,12 +18,18 @@ public final class LocationCommand extends BaseCommand {
         }
     };
 
-    private final double latitudeDeg;
-    private final double longitudeDeg;
-    private final Double altitudeM;
-    private final Double accuracyM;
-    private final Double speedMS;
-    private final Double bearingDeg;
+    /** The latitude in deg. */
+    public final double latitudeDeg;
+    /** The longitude in deg. */
+    public final double longitudeDeg;
+    /** The altitude in m, or null. */
+    public final Double altitudeM;
+    /** The accuracy in m, or null. */
+    public final Double accuracyM;
+    /** The speed over ground in m/s, or null. */
+    public final Double speedMS;
+    /** The course over ground in deg, or null. */
+    public final Double bearingDeg;
 
     /**
      * Creates the Command; null values are left out.
@@ -43,7 +49,7 @@ public final class LocationCommand extends BaseCommand {
      */
     public LocationCommand(GeneralMessage message) {
         super(NAME, message);
-        CommandFields fields = new CommandFields(message.data());
+        CommandFields fields = new CommandFields(message.data);
         latitudeDeg = fields.number("latitude", -90, 90);
         longitudeDeg = fields.number("longitude", -180, 180);
         altitudeM = fields.optionalNumber("altitude", -1000, 100000);
@@ -53,36 +59,6 @@ public final class LocationCommand extends BaseCommand {
         // Both are computed on board; they must only be what they claim to be.
         fields.optionalNumber("distance_from_home", -Double.MAX_VALUE, Double.MAX_VALUE);
         fields.optionalNumber("required_bearing", -Double.MAX_VALUE, Double.MAX_VALUE);
-    }
-
-    /** Returns the latitude in deg. */
-    public double latitudeDeg() {
-        return latitudeDeg;
-    }
-
-    /** Returns the longitude in deg. */
-    public double longitudeDeg() {
-        return longitudeDeg;
-    }
-
-    /** Returns the altitude in m, or null. */
-    public Double altitudeM() {
-        return altitudeM;
-    }
-
-    /** Returns the accuracy in m, or null. */
-    public Double accuracyM() {
-        return accuracyM;
-    }
-
-    /** Returns the speed over ground in m/s, or null. */
-    public Double speedMS() {
-        return speedMS;
-    }
-
-    /** Returns the course over ground in deg, or null. */
-    public Double bearingDeg() {
-        return bearingDeg;
     }
 
     private static Map<String, Object> data(double latitudeDeg, double longitudeDeg, Double

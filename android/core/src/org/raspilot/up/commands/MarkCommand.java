@@ -16,7 +16,8 @@ public final class MarkCommand extends BaseCommand {
         }
     };
 
-    private final String text;
+    /** The text, 1 to 200 characters. */
+    public final String text;
 
     /**
      * Creates the Command.
@@ -34,13 +35,8 @@ public final class MarkCommand extends BaseCommand {
      */
     public MarkCommand(GeneralMessage message) {
         super(NAME, message);
-        CommandFields fields = new CommandFields(message.data());
+        CommandFields fields = new CommandFields(message.data);
         text = fields.inkedText("text", 200);
-    }
-
-    /** Returns the text, 1 to 200 characters. */
-    public String text() {
-        return text;
     }
 
     private static Map<String, Object> data(String text) {

@@ -16,9 +16,12 @@ public final class NackCommand extends BaseCommand {
         }
     };
 
-    private final String commandId;
-    private final String code;
-    private final String reason;
+    /** The id of the Command that is answered. */
+    public final String commandId;
+    /** The code's word; see {@link NackCode#ofWord} for the current ones. */
+    public final String code;
+    /** Why, a sentence. */
+    public final String reason;
 
     /**
      * Creates the Command.
@@ -36,25 +39,10 @@ public final class NackCommand extends BaseCommand {
      */
     public NackCommand(GeneralMessage message) {
         super(NAME, message);
-        CommandFields fields = new CommandFields(message.data());
+        CommandFields fields = new CommandFields(message.data);
         commandId = fields.text("id", GeneralMessage.LONGEST_ID);
         code = fields.text("code", 32);
         reason = fields.text("reason", 500, "");
-    }
-
-    /** Returns the id of the Command that is answered. */
-    public String commandId() {
-        return commandId;
-    }
-
-    /** Returns the code's word; see {@link NackCode#ofWord} for the current ones. */
-    public String code() {
-        return code;
-    }
-
-    /** Returns why, a sentence. */
-    public String reason() {
-        return reason;
     }
 
     private static Map<String, Object> data(String commandId, String code, String reason) {

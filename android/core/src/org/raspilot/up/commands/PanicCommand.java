@@ -21,9 +21,12 @@ public final class PanicCommand extends BaseCommand {
         }
     };
 
-    private final boolean panic;
-    private final long delayMs;
-    private final Double utilizationPercent;
+    /** Whether Panic Mode is active. */
+    public final boolean panic;
+    /** The shortest period in ms, 0 to 10000. */
+    public final long delayMs;
+    /** The load in percent, or null. */
+    public final Double utilizationPercent;
 
     /**
      * Creates the Command; null values are left out.
@@ -41,26 +44,11 @@ public final class PanicCommand extends BaseCommand {
      */
     public PanicCommand(GeneralMessage message) {
         super(NAME, message);
-        CommandFields fields = new CommandFields(message.data());
+        CommandFields fields = new CommandFields(message.data);
         panic = fields.flag("panic");
         // An older Raspberry Pi sends 0 and fractions; rounding up never shortens a period.
         delayMs = (long) Math.ceil(fields.number("delay_ms", 0, 10000));
         utilizationPercent = fields.optionalNumber("utilization", 0, 100);
-    }
-
-    /** Returns whether Panic Mode is active. */
-    public boolean panic() {
-        return panic;
-    }
-
-    /** Returns the shortest period in ms, 0 to 10000. */
-    public long delayMs() {
-        return delayMs;
-    }
-
-    /** Returns the load in percent, or null. */
-    public Double utilizationPercent() {
-        return utilizationPercent;
     }
 
     private static Map<String, Object> data(boolean panic, long delayMs, Double utilizationPercent)

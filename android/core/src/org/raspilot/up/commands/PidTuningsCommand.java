@@ -17,8 +17,10 @@ public final class PidTuningsCommand extends BaseCommand {
         }
     };
 
-    private final boolean isRequest;
-    private final GainSet gains;
+    /** Whether it only requests the gains. */
+    public final boolean isRequest;
+    /** The set to use, or null for a request. */
+    public final GainSet gains;
 
     /** Creates the Command that requests the gains. */
     public static PidTuningsCommand request() {
@@ -42,22 +44,12 @@ public final class PidTuningsCommand extends BaseCommand {
      */
     public PidTuningsCommand(GeneralMessage message) {
         super(NAME, message);
-        CommandFields fields = new CommandFields(message.data());
+        CommandFields fields = new CommandFields(message.data);
         isRequest = Boolean.TRUE.equals(fields.optionalFlag("request"));
         Map<String, Object> pids = fields.optionalObject("pids");
         if (!isRequest && pids == null) {
             throw new InvalidCommandException("either request or pids is needed");
         }
         gains = isRequest ? null : GainSet.ofData(new LinkedHashMap<String, Object>(pids));
-    }
-
-    /** Returns whether it only requests the gains. */
-    public boolean isRequest() {
-        return isRequest;
-    }
-
-    /** Returns the set to use, or null for a request. */
-    public GainSet gains() {
-        return gains;
     }
 }

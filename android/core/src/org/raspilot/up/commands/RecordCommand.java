@@ -16,8 +16,10 @@ public final class RecordCommand extends BaseCommand {
         }
     };
 
-    private final String topic;
-    private final Map<String, Object> content;
+    /** The topic, words joined by dots. */
+    public final String topic;
+    /** The recorded object; at most 4 KiB as JSON. Unmodifiable. */
+    public final Map<String, Object> content;
 
     /**
      * Creates the Command.
@@ -35,19 +37,9 @@ public final class RecordCommand extends BaseCommand {
      */
     public RecordCommand(GeneralMessage message) {
         super(NAME, message);
-        CommandFields fields = new CommandFields(message.data());
+        CommandFields fields = new CommandFields(message.data);
         topic = fields.topic("topic");
         content = fields.object("content");
-    }
-
-    /** Returns the topic, words joined by dots. */
-    public String topic() {
-        return topic;
-    }
-
-    /** Returns the recorded object; at most 4 KiB as JSON. Unmodifiable. */
-    public Map<String, Object> content() {
-        return content;
     }
 
     private static Map<String, Object> data(String topic, Map<String, Object> content) {

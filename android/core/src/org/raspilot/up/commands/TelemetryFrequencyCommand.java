@@ -19,7 +19,8 @@ public final class TelemetryFrequencyCommand extends BaseCommand {
         }
     };
 
-    private final double periodMs;
+    /** The period in ms. */
+    public final double periodMs;
 
     /**
      * Creates the Command.
@@ -37,13 +38,8 @@ public final class TelemetryFrequencyCommand extends BaseCommand {
      */
     public TelemetryFrequencyCommand(GeneralMessage message) {
         super(NAME, message);
-        CommandFields fields = new CommandFields(message.data());
+        CommandFields fields = new CommandFields(message.data);
         periodMs = fields.number("frequency", 20, 10000);
-    }
-
-    /** Returns the period in ms. */
-    public double periodMs() {
-        return periodMs;
     }
 
     private static Map<String, Object> data(double periodMs) {

@@ -25,9 +25,11 @@ public final class Age {
     }
 
     private final boolean isKnown;
-    private final boolean isLinkLost;
+    /** Whether the link that delivered the frame is gone. */
+    public final boolean isLinkLost;
     private final long receivedMs;
-    private final long wayMs;
+    /** The frame's transit time, ms, as far as it is known. */
+    public final long wayMs;
     private final Map<String, Double> onBoardMs;
 
     private Age(boolean isKnown, boolean isLinkLost, long receivedMs, long wayMs,
@@ -62,16 +64,6 @@ public final class Age {
     /** Returns the same age after the link was lost: everything is stale from now on. */
     Age ofLostLink() {
         return new Age(isKnown, true, receivedMs, wayMs, onBoardMs);
-    }
-
-    /** Returns whether the link that delivered the frame is gone. */
-    public boolean isLinkLost() {
-        return isLinkLost;
-    }
-
-    /** Returns the frame's transit time, ms, as far as it is known. */
-    public long wayMs() {
-        return wayMs;
     }
 
     /** Returns the age of the frame including transit, ms; null without a frame. */

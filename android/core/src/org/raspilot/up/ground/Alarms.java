@@ -22,22 +22,14 @@ public final class Alarms {
 
     /** A snapshot of the alarms. Immutable. */
     public static final class Snapshot {
-        private final long version;
-        private final List<Alarm> active;
+        /** A number that rises with each change. */
+        public final long version;
+        /** The alarms that are on, by kind, unmodifiable. */
+        public final List<Alarm> active;
 
         Snapshot(long version, List<Alarm> active) {
             this.version = version;
             this.active = active;
-        }
-
-        /** Returns a number that rises with each change. */
-        public long version() {
-            return version;
-        }
-
-        /** Returns the alarms that are on, by kind, unmodifiable. */
-        public List<Alarm> active() {
-            return active;
         }
 
         /** Returns whether an active alarm should sound and vibrate. */
@@ -53,7 +45,7 @@ public final class Alarms {
         /** Returns whether an alarm of that kind is active. */
         public boolean has(Alarm.Kind kind) {
             for (Alarm each : active) {
-                if (each.kind() == kind) {
+                if (each.kind == kind) {
                     return true;
                 }
             }
@@ -86,8 +78,8 @@ public final class Alarms {
     boolean take(Telemetry telemetry, GroundStatus status, long nowMs) {
         hadBoard = hadBoard || Boolean.TRUE.equals(Fact.board(telemetry));
         for (Alarm each : wrong(telemetry, status)) {
-            known.put(each.kind(), each);
-            causeMs.put(each.kind(), nowMs);
+            known.put(each.kind, each);
+            causeMs.put(each.kind, nowMs);
         }
         for (Alarm.Kind kind : Alarm.Kind.values()) {
             final Long lastMs = causeMs.get(kind);
@@ -101,17 +93,17 @@ public final class Alarms {
 
     private boolean publish() {
         final List<Alarm> active = new ArrayList<Alarm>(known.values());
-        if (active.equals(snapshot.active())) {
+        if (active.equals(snapshot.active)) {
             return false;
         }
-        snapshot = new Snapshot(snapshot.version() + 1, Collections.unmodifiableList(active));
+        snapshot = new Snapshot(snapshot.version + 1, Collections.unmodifiableList(active));
         return true;
     }
 
     private List<Alarm> wrong(Telemetry telemetry, GroundStatus status) {
         final List<Alarm> found = new ArrayList<Alarm>();
         // Before the first frame nothing went silent.
-        if (telemetry != Telemetry.NOTHING && status.isSilent()) {
+        if (telemetry != Telemetry.NOTHING && status.isSilent) {
             found.add(new Alarm(Alarm.Kind.SILENT, EventLevel.ALARM, silence(status)));
         }
         if (isTrue(telemetry, "arduino.failsafe")) {
@@ -151,10 +143,10 @@ public final class Alarms {
         if (!status.isOpen()) {
             return "no link";
         }
-        if (Boolean.FALSE.equals(status.isAircraftOnline())) {
+        if (Boolean.FALSE.equals(status.isAircraftOnline)) {
             return "the aircraft is not connected to the proxy";
         }
-        return status.isLate() ? "telemetry comes too late" : "the aircraft is silent";
+        return status.isLate ? "telemetry comes too late" : "the aircraft is silent";
     }
 
     private static boolean isTrue(Telemetry telemetry, String path) {

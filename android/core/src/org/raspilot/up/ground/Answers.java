@@ -103,21 +103,21 @@ final class Answers {
 
     /** Takes a Command of the aircraft, if it is an answer. */
     void take(GeneralMessage message) {
-        final boolean isAck = message.name().equals(AckCommand.NAME);
-        if (isAck || message.name().equals(NackCommand.NAME)) {
-            final Object id = message.data().get("id");
+        final boolean isAck = message.name.equals(AckCommand.NAME);
+        if (isAck || message.name.equals(NackCommand.NAME)) {
+            final Object id = message.data.get("id");
             final Sent found = id instanceof String ? sent.get(id) : null;
             if (found == null) {
                 strange++;
             } else {
-                onAnswer(found, isAck, message.data());
+                onAnswer(found, isAck, message.data);
             }
             return;
         }
         for (Sent each : new ArrayList<Sent>(sent.values())) {
-            if (message.name().equals(each.awaited)) {
+            if (message.name.equals(each.awaited)) {
                 each.awaited = null;
-                each.data = Collections.unmodifiableMap(message.data());
+                each.data = Collections.unmodifiableMap(message.data);
                 if (each.ackedMs != null) {
                     end(each, Answer.Outcome.ACK, "", "", each.ackedMs);
                 }

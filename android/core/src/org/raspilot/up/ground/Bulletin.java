@@ -17,8 +17,8 @@ final class Bulletin {
     /** Reports a status. */
     void tell(GroundStatus status, long nowMs) {
         toldMs = nowMs;
-        wasSilent = status.isSilent();
-        wasLate = status.isLate();
+        wasSilent = status.isSilent;
+        wasLate = status.isLate;
         listener.onStatus(status);
     }
 
@@ -29,7 +29,7 @@ final class Bulletin {
 
     /** Returns whether a frame changes the reported age. */
     boolean isNews(Telemetry frame, long nowMs) {
-        return wasSilent != frame.isSilent(nowMs) || wasLate != frame.age().isLate(nowMs);
+        return wasSilent != frame.isSilent(nowMs) || wasLate != frame.age.isLate(nowMs);
     }
 
     /** Reports a change when the sum of all versions, which only increase, has increased. */

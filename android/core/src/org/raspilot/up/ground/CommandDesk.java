@@ -67,7 +67,7 @@ final class CommandDesk {
         }
         if (Boolean.FALSE.equals(facts.isAircraftOnline)) {
             return Answer.refused(command.name(), "no_aircraft", "the aircraft "
-                    + settings.aircraft() + " is not connected to the proxy");
+                    + settings.aircraft + " is not connected to the proxy");
         }
         if (standing() != SeatStanding.OURS) {
             return Answer.refused(command.name(), "no_seat",
@@ -83,7 +83,7 @@ final class CommandDesk {
     /** Returns the state of the seat; a seat we left is not ours, even while unconfirmed. */
     SeatStanding standing() {
         final LinkFacts facts = link.facts();
-        return SeatStanding.of(facts, settings.isDirect());
+        return SeatStanding.of(facts, settings.isDirect);
     }
 
     /** A pilot must see the aircraft's state to command: the screen may hang or show late data. */

@@ -49,14 +49,14 @@ final class CommandWords {
 
     /** Returns the outcome of a sent Command. */
     static String outcome(String words, Answer answer) {
-        switch (answer.outcome()) {
+        switch (answer.outcome) {
             case ACK:
                 return words + ": carried out";
             case NACK:
                 return words + ": refused by the aircraft: "
-                        + (answer.reason().isEmpty() ? answer.code() : answer.reason());
+                        + (answer.reason.isEmpty() ? answer.code : answer.reason);
             default:
-                return words + ": " + answer.reason();
+                return words + ": " + answer.reason;
         }
     }
 

@@ -15,22 +15,14 @@ public final class EventLog {
 
     /** A snapshot of the events. Immutable. */
     public static final class Snapshot {
-        private final long version;
-        private final List<Event> events;
+        /** A number that rises with each change. */
+        public final long version;
+        /** The events from the oldest to the newest, unmodifiable. */
+        public final List<Event> events;
 
         Snapshot(long version, List<Event> events) {
             this.version = version;
             this.events = events;
-        }
-
-        /** Returns a number that rises with each change. */
-        public long version() {
-            return version;
-        }
-
-        /** Returns the events from the oldest to the newest, unmodifiable. */
-        public List<Event> events() {
-            return events;
         }
     }
 
@@ -54,7 +46,7 @@ public final class EventLog {
 
     /** Returns the current events. */
     public Snapshot snapshot() {
-        if (snapshot.version() != number) {
+        if (snapshot.version != number) {
             snapshot = new Snapshot(number,
                     Collections.unmodifiableList(new ArrayList<Event>(events)));
         }

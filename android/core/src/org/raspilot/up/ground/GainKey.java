@@ -85,11 +85,11 @@ public final class GainKey {
             return null;
         }
         final Gains gains =
-                axis == 0 ? inLoop.ailerons() : axis == 1 ? inLoop.elevator() : inLoop.rudder();
+                axis == 0 ? inLoop.ailerons : axis == 1 ? inLoop.elevator : inLoop.rudder;
         if (gains == null) {
             return null;
         }
-        return term == 0 ? gains.p() : term == 1 ? gains.i() : gains.d();
+        return term == 0 ? gains.p : term == 1 ? gains.i : gains.d;
     }
 
     @Override
@@ -98,7 +98,7 @@ public final class GainKey {
     }
 
     private LoopGains loopOf(GainSet set) {
-        return loop == 0 ? set.rate() : loop == 1 ? set.stabilize() : set.navigation();
+        return loop == 0 ? set.rate : loop == 1 ? set.stabilize : set.navigation;
     }
 
     private static List<GainKey> all() {

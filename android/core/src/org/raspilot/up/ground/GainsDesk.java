@@ -24,11 +24,16 @@ public final class GainsDesk {
 
     /** A snapshot of the gains. Immutable. */
     public static final class Snapshot {
-        private final long version;
-        private final GainSet flying;
-        private final Long toldMs;
-        private final GainSet undo;
-        private final List<GainsEntry> history;
+        /** A number that rises with each change. */
+        public final long version;
+        /** The last gains that the aircraft reported; null: none so far. */
+        public final GainSet flying;
+        /** The time of that report, by the loop's clock, ms; null: none. */
+        public final Long toldMs;
+        /** What {@link GainsDesk#undo} would set; null: there is nothing to undo. */
+        public final GainSet undo;
+        /** The sets that were sent, from the oldest to the newest, unmodifiable. */
+        public final List<GainsEntry> history;
 
         Snapshot(long version, GainSet flying, Long toldMs, GainSet undo,
                 List<GainsEntry> history) {
@@ -37,31 +42,6 @@ public final class GainsDesk {
             this.toldMs = toldMs;
             this.undo = undo;
             this.history = history;
-        }
-
-        /** Returns a number that rises with each change. */
-        public long version() {
-            return version;
-        }
-
-        /** Returns the last gains that the aircraft reported; null: none so far. */
-        public GainSet flying() {
-            return flying;
-        }
-
-        /** Returns the time of that report, by the loop's clock, ms; null: none. */
-        public Long toldMs() {
-            return toldMs;
-        }
-
-        /** Returns what {@link GainsDesk#undo} would set; null: there is nothing to undo. */
-        public GainSet undo() {
-            return undo;
-        }
-
-        /** Returns the sets that were sent, from the oldest to the newest, unmodifiable. */
-        public List<GainsEntry> history() {
-            return history;
         }
     }
 
@@ -93,7 +73,7 @@ public final class GainsDesk {
 
     /** Returns the current gains. */
     public Snapshot snapshot() {
-        if (snapshot == null || snapshot.version() != version) {
+        if (snapshot == null || snapshot.version != version) {
             snapshot = new Snapshot(version, flying, toldMs, undoable.peekLast(),
                     Collections.unmodifiableList(new ArrayList<GainsEntry>(history)));
         }
@@ -197,7 +177,7 @@ public final class GainsDesk {
         sender.send(new PidTuningsCommand(gains), shownBeacon, new AnswerListener() {
             @Override
             public void onAnswer(Answer answer) {
-                if (answer.outcome() != Answer.Outcome.REFUSED) {
+                if (answer.outcome != Answer.Outcome.REFUSED) {
                     remember(before, gains, answer, isUndo);
                 }
                 listener.onAnswer(answer);
@@ -222,7 +202,7 @@ public final class GainsDesk {
             }
         }
         // After a timeout the active gains are unknown until the aircraft reports them.
-        isDue |= answer.outcome() != Answer.Outcome.NACK;
+        isDue |= answer.outcome != Answer.Outcome.NACK;
         version++;
     }
 

@@ -55,11 +55,11 @@ public final class GainsForm {
 
     /** Returns a sentence why a set may not be sent, or null. */
     public static String fault(GainSet set) {
-        if (set.rate() == null || set.stabilize() == null) {
-            return "the set is not whole: the " + (set.rate() == null ? "rate" : "stabilize")
+        if (set.rate == null || set.stabilize == null) {
+            return "the set is not whole: the " + (set.rate == null ? "rate" : "stabilize")
                     + " loop is missing";
         }
-        if ((set.rate().rudder() == null) != (set.stabilize().rudder() == null)) {
+        if ((set.rate.rudder == null) != (set.stabilize.rudder == null)) {
             return "the set is not whole: yaw must be in the rate and in the stabilize loop, or in"
                     + " neither";
         }

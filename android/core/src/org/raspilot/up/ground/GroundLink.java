@@ -57,9 +57,9 @@ final class GroundLink implements UpSocketListener {
                 .withConnectTimeoutMs(CONNECT_TIMEOUT_MS)
                 .withRetryMs(FIRST_RETRY_MS, LAST_RETRY_MS);
         socket = new UpSocket(loop,
-                new FixedPlace(new Place(settings.host(), settings.port(), 0)), this,
+                new FixedPlace(new Place(settings.host, settings.port, 0)), this,
                 // A thesis peer does not support heartbeats.
-                settings.isDirect() ? lines : lines.withHeartbeatMs(HEARTBEAT_MS), random);
+                settings.isDirect ? lines : lines.withHeartbeatMs(HEARTBEAT_MS), random);
     }
 
     LinkFacts facts() {
@@ -67,7 +67,7 @@ final class GroundLink implements UpSocketListener {
     }
 
     long tooLong() {
-        return socket.counters().tooLong();
+        return socket.counters().tooLong;
     }
 
     /** Returns whether messages can go now. */
@@ -110,7 +110,7 @@ final class GroundLink implements UpSocketListener {
     }
 
     boolean requestSeat() {
-        if (settings.isDirect() || facts.state == LinkState.STOPPED) {
+        if (settings.isDirect || facts.state == LinkState.STOPPED) {
             return false;
         }
         claim.want(Seat.COMMAND);
@@ -158,7 +158,7 @@ final class GroundLink implements UpSocketListener {
         final long nowMs = loop.nowMs();
         connectTookMs = nowMs - connectingMs;
         quiet.start();
-        isGreeted = settings.isDirect();
+        isGreeted = settings.isDirect;
         if (isGreeted) {
             opened(connectTookMs);
             return;
@@ -179,7 +179,7 @@ final class GroundLink implements UpSocketListener {
     public void onReceived(UpSocket from, byte[] bytes, int length) {
         quiet.heard();
         if (ControlLine.isControlLine(bytes, length)) {
-            if (settings.isDirect()) {
+            if (settings.isDirect) {
                 facts.strangeControl++;
             } else if (isGreeted) {
                 onControl(ControlLine.read(bytes, length));
@@ -212,13 +212,13 @@ final class GroundLink implements UpSocketListener {
             return;
         }
         judged = status;
-        if (status.state() == UpSocketStatus.State.WAITING) {
+        if (status.state == UpSocketStatus.State.WAITING) {
             facts.failures++;
             if (facts.state != LinkState.WAITING) {
-                close(LinkState.WAITING, status.sentence());
+                close(LinkState.WAITING, status.sentence);
             }
-        } else if (status.state() == UpSocketStatus.State.CONNECTING
-                || status.state() == UpSocketStatus.State.FINDING) {
+        } else if (status.state == UpSocketStatus.State.CONNECTING
+                || status.state == UpSocketStatus.State.FINDING) {
             connectingMs = loop.nowMs();
             facts.state = LinkState.CONNECTING;
         }
@@ -239,10 +239,10 @@ final class GroundLink implements UpSocketListener {
         if (answer == null) {
             facts.strangeControl++;
         } else if (!answer.isAccepted()) {
-            facts.rejection = answer.code();
-            socket.drop("the proxy refuses: " + SafeText.of(answer.reason(), 300) + " ("
-                    + answer.code() + ")");
-        } else if (answer.seat() == Seat.AIR) {
+            facts.rejection = answer.code;
+            socket.drop("the proxy refuses: " + SafeText.of(answer.reason, 300) + " ("
+                    + answer.code + ")");
+        } else if (answer.seat == Seat.AIR) {
             facts.strangeControl++;
         } else {
             isGreeted = true;
@@ -276,11 +276,11 @@ final class GroundLink implements UpSocketListener {
     private void opened(long roundTripMs) {
         endHello();
         facts.become(LinkState.OPEN, loop.nowMs(), "");
-        facts.roundTripMs = settings.isDirect() ? null : Double.valueOf(roundTripMs);
+        facts.roundTripMs = settings.isDirect ? null : Double.valueOf(roundTripMs);
         facts.rejection = "";
         facts.failures = 0;
         facts.connections++;
-        if (settings.isDirect()) {
+        if (settings.isDirect) {
             listener.onOpened();
             listener.onLink();
         }

@@ -15,11 +15,16 @@ public final class GroundSettings {
 
     private static final int LONGEST_HOST = 253;
 
-    private final String host;
-    private final int port;
-    private final String aircraft;
-    private final Seat seat;
-    private final boolean isDirect;
+    /** The name or address of the other side. */
+    public final String host;
+    /** Its TCP port. */
+    public final int port;
+    /** Which of the proxy's aircraft. */
+    public final String aircraft;
+    /** The seat that is requested first, COMMAND or LISTEN. */
+    public final Seat seat;
+    /** Whether the hello is omitted. */
+    public final boolean isDirect;
 
     /**
      * Creates settings.
@@ -62,31 +67,6 @@ public final class GroundSettings {
             return "the aircraft's name must be 1 to 32 letters, digits, '_', '.' or '-'";
         }
         return null;
-    }
-
-    /** Returns the name or address of the other side. */
-    public String host() {
-        return host;
-    }
-
-    /** Returns its TCP port. */
-    public int port() {
-        return port;
-    }
-
-    /** Returns which of the proxy's aircraft. */
-    public String aircraft() {
-        return aircraft;
-    }
-
-    /** Returns the seat that is requested first, COMMAND or LISTEN. */
-    public Seat seat() {
-        return seat;
-    }
-
-    /** Returns whether the hello is omitted. */
-    public boolean isDirect() {
-        return isDirect;
     }
 
     /** Returns host and port as people write them. */

@@ -103,10 +103,10 @@ public final class GroundSide implements TelemetrySource {
         final Telemetry newest = stream.newest();
         final GroundStatus.Draft draft = new GroundStatus.Draft();
         draft.link = link.facts();
-        draft.isDirect = settings.isDirect();
+        draft.isDirect = settings.isDirect;
         draft.rateHz = stream.rateHz(nowMs);
         draft.isSilent = newest.isSilent(nowMs);
-        draft.isLate = newest.age().isLate(nowMs);
+        draft.isLate = newest.age.isLate(nowMs);
         draft.role = newest.text("ground.role");
         draft.tuneInFlight = newest.flag("ground.tune_in_flight");
         draft.home = home.home();
@@ -198,12 +198,12 @@ public final class GroundSide implements TelemetrySource {
         final GainSet set = command.data().containsKey("pids")
                 ? GainsDesk.gainsOf(command) : null;
         final String words = set == null ? CommandWords.of(command) : CommandWords.ofGains(
-                GainsDesk.difference(gains.snapshot().flying(), set));
+                GainsDesk.difference(gains.snapshot().flying, set));
         final boolean isQuiet = Answers.isRequest(command);
         desk.send(command, shownBeacon, new AnswerListener() {
             @Override
             public void onAnswer(Answer answer) {
-                if (answer.outcome() != Answer.Outcome.REFUSED && !(isQuiet && answer.isAck())) {
+                if (answer.outcome != Answer.Outcome.REFUSED && !(isQuiet && answer.isAck())) {
                     events.note(loop.nowMs(),
                             answer.isAck() ? EventLevel.INFO : EventLevel.WARNING,
                             set == null ? "command" : "gains",
@@ -258,18 +258,18 @@ public final class GroundSide implements TelemetrySource {
     }
 
     private void tellChanged() {
-        bulletin.tellChanged(track.version() + events.version() + alarms.snapshot().version()
+        bulletin.tellChanged(track.version() + events.version() + alarms.snapshot().version
                 + gains.version());
     }
 
     private final class Links implements LinkListener {
         @Override
         public void onMessage(GeneralMessage message) {
-            if (message.name().equals(Telemetry.NAME)) {
+            if (message.name.equals(Telemetry.NAME)) {
                 onFrame(message);
                 return;
             }
-            if (message.name().equals(GainsDesk.VALUES) && !gains.told(message.data())) {
+            if (message.name.equals(GainsDesk.VALUES) && !gains.told(message.data)) {
                 events.note(loop.nowMs(), EventLevel.WARNING, "gains",
                         "the aircraft told gains that are no whole set");
             }

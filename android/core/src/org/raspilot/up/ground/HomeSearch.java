@@ -49,11 +49,11 @@ final class HomeSearch {
 
     /** Returns the great-circle distance (haversine), m. */
     static double distanceM(Home a, Home b) {
-        final double south = Math.toRadians(a.latitudeDeg());
-        final double north = Math.toRadians(b.latitudeDeg());
+        final double south = Math.toRadians(a.latitudeDeg);
+        final double north = Math.toRadians(b.latitudeDeg);
         final double halfNorth = Math.sin((north - south) / 2);
         final double halfEast =
-                Math.sin(Math.toRadians(b.longitudeDeg() - a.longitudeDeg()) / 2);
+                Math.sin(Math.toRadians(b.longitudeDeg - a.longitudeDeg) / 2);
         final double h = halfNorth * halfNorth
                 + Math.cos(south) * Math.cos(north) * halfEast * halfEast;
         return 2 * Earth.RADIUS_M * Math.asin(Math.min(1, Math.sqrt(h)));

@@ -40,14 +40,14 @@ final class Judge {
 
     /** Evaluates the link. */
     void onLink(final GroundStatus status, final long nowMs) {
-        final Object state = Arrays.<Object>asList(status.isOpen(), status.isAircraftOnline());
+        final Object state = Arrays.<Object>asList(status.isOpen(), status.isAircraftOnline);
         settled.take("link", state, nowMs, new Settled.Teller() {
             @Override
             public void tell(Object before, Object now) {
                 onLinkTold(status, before == null, nowMs);
             }
         });
-        if (!status.isDirect() && status.isOpen() && status.standing() != SeatStanding.LATER) {
+        if (!status.isDirect && status.isOpen() && status.standing != SeatStanding.LATER) {
             settled.take("seat", status.seatSentence(), nowMs, new Settled.Teller() {
                 @Override
                 public void tell(Object before, Object now) {
@@ -61,7 +61,7 @@ final class Judge {
     void onMoment(Telemetry telemetry, GroundStatus status, long nowMs) {
         settled.onMoment(nowMs);
         if (alarms.take(telemetry, status, nowMs)) {
-            say(Alarm.Kind.SILENT, "link", EventLevel.ALARM, status.isLate()
+            say(Alarm.Kind.SILENT, "link", EventLevel.ALARM, status.isLate
                     ? "telemetry comes too late" : "no telemetry any more",
                     "telemetry comes again", nowMs);
             say(Alarm.Kind.BATTERY, "battery", EventLevel.WARNING,
@@ -88,13 +88,13 @@ final class Judge {
         if (!status.isOpen()) {
             if (!isFirst) {
                 events.note(nowMs, EventLevel.WARNING, "link",
-                        "the link is gone: " + status.reason());
+                        "the link is gone: " + status.reason);
             }
-        } else if (Boolean.FALSE.equals(status.isAircraftOnline())) {
+        } else if (Boolean.FALSE.equals(status.isAircraftOnline)) {
             events.note(nowMs, EventLevel.WARNING, "link",
                     "the aircraft is not connected to the proxy");
         } else {
-            events.note(nowMs, EventLevel.INFO, "link", status.isAircraftOnline() == null
+            events.note(nowMs, EventLevel.INFO, "link", status.isAircraftOnline == null
                     ? "the link is there" : "the aircraft is connected");
         }
     }

@@ -25,9 +25,9 @@ final class SeatClaim {
 
     /** Resets to the seat of the settings and the stored token. */
     void begin() {
-        wanted = settings.seat();
+        wanted = settings.seat;
         token = null;
-        if (wanted == Seat.COMMAND && !settings.isDirect()) {
+        if (wanted == Seat.COMMAND && !settings.isDirect) {
             final String stored = tokens.load(settings.tokenKey());
             token = Hello.isToken(stored) ? stored : null;
         }
@@ -46,23 +46,23 @@ final class SeatClaim {
 
     /** Returns the hello that requests the seat. */
     Hello hello() {
-        return Hello.ofGround(settings.aircraft(), wanted, wanted == Seat.COMMAND ? token : null);
+        return Hello.ofGround(settings.aircraft, wanted, wanted == Seat.COMMAND ? token : null);
     }
 
     /** Takes the answer that accepts this ground. */
     void onAccepted(HelloAnswer answer) {
-        facts.seat = answer.seat();
-        if (answer.seat() == Seat.COMMAND) {
-            keep(answer.token());
+        facts.seat = answer.seat;
+        if (answer.seat == Seat.COMMAND) {
+            keep(answer.token);
         }
     }
 
     /** Takes a line of the proxy; returns false for one that only a ground sends. */
     boolean onControl(ControlLine said) {
-        switch (said.kind()) {
+        switch (said.kind) {
             case SEAT_COMMAND:
                 become(Seat.COMMAND);
-                keep(said.token());
+                keep(said.token);
                 return true;
             case SEAT_LISTEN:
                 become(Seat.LISTEN);
@@ -70,10 +70,10 @@ final class SeatClaim {
                 dropToken();
                 return true;
             case SEAT_ASKED:
-                facts.askedBy = said.number();
+                facts.askedBy = said.number;
                 return true;
             case SEAT_HOLDER:
-                facts.holder = said.number();
+                facts.holder = said.number;
                 facts.isHolderKnown = true;
                 return true;
             case AIRCRAFT_ONLINE:

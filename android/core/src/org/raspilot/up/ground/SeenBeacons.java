@@ -34,11 +34,11 @@ final class SeenBeacons {
         final Double periodMs = frame.number("system.period_ms");
         limitMs = periodMs == null ? FRESH_MS
                 : Math.max(FRESH_MS, Math.round(periodMs) + WAY_MS);
-        if (frame.beacon() == null) {
+        if (frame.beacon == null) {
             return;
         }
         hasBeacons = true;
-        heard.add(new Heard(frame.beacon(), frame.receivedMs() - frame.age().wayMs()));
+        heard.add(new Heard(frame.beacon, frame.receivedMs - frame.age.wayMs));
         if (heard.size() > KEPT) {
             heard.remove();
         }

@@ -25,10 +25,14 @@ public final class Telemetry {
     private static final int MOST_TEXTS = 32;
     private static final int LONGEST_OF_TEXTS = 80;
 
-    private final Map<String, Object> tree;
-    private final Long beacon;
-    private final long receivedMs;
-    private final Age age;
+    /** All fields as JSON values, unmodifiable at each depth. */
+    public final Map<String, Object> tree;
+    /** The aircraft's number of the frame; null: it has none. */
+    public final Long beacon;
+    /** The loop's clock when it came, ms. */
+    public final long receivedMs;
+    /** How old it is. */
+    public final Age age;
 
     private Telemetry(Map<String, Object> tree, Long beacon, long receivedMs, Age age) {
         this.tree = tree;
@@ -69,26 +73,6 @@ public final class Telemetry {
     /** Returns the same frame after its link was lost: everything in it is stale. */
     Telemetry ofLostLink() {
         return new Telemetry(tree, beacon, receivedMs, age.ofLostLink());
-    }
-
-    /** Returns all fields as JSON values, unmodifiable at each depth. */
-    public Map<String, Object> tree() {
-        return tree;
-    }
-
-    /** Returns the aircraft's number of the frame; null: it has none. */
-    public Long beacon() {
-        return beacon;
-    }
-
-    /** Returns the loop's clock when it came, ms. */
-    public long receivedMs() {
-        return receivedMs;
-    }
-
-    /** Returns how old it is. */
-    public Age age() {
-        return age;
     }
 
     /** Returns the age of the frame including transit, ms; null without a frame. */

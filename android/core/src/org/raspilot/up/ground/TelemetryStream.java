@@ -37,10 +37,10 @@ final class TelemetryStream {
 
     /** Takes a message of that name and returns it as a frame. */
     Telemetry take(GeneralMessage message, long nowMs) {
-        final Long beacon = message.beacon();
-        if (beacon != null && newest.beacon() != null) {
+        final Long beacon = message.beacon;
+        if (beacon != null && newest.beacon != null) {
             // Beacons are the peer's: their difference may not fit a long.
-            final double gap = (double) beacon - (double) newest.beacon();
+            final double gap = (double) beacon - (double) newest.beacon;
             if (gap > 1 && gap <= LARGEST_GAP) {
                 lost += (long) gap - 1;
             }
@@ -48,7 +48,7 @@ final class TelemetryStream {
                 delay.forget();
             }
         }
-        final Telemetry bare = Telemetry.of(message.data(), beacon, nowMs, 0);
+        final Telemetry bare = Telemetry.of(message.data, beacon, nowMs, 0);
         final Double heldMs = delay.take(bare.number("system.clock_ms"), nowMs);
         if (delay.hasBegun()) {
             leastTripMs = roundTripMs > 0 ? Double.valueOf(roundTripMs) : null;

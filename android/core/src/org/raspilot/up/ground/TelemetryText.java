@@ -50,7 +50,7 @@ public final class TelemetryText {
     /** Returns the rows in the frame's order, unmodifiable. */
     public static List<TelemetryRow> rows(Telemetry telemetry) {
         final List<TelemetryRow> rows = new ArrayList<TelemetryRow>();
-        add(rows, "", telemetry.tree());
+        add(rows, "", telemetry.tree);
         return Collections.unmodifiableList(rows);
     }
 

@@ -16,11 +16,19 @@ public final class Track {
 
     /** A snapshot of the track. Immutable. */
     public static final class Snapshot {
-        private final long version;
-        private final Home origin;
-        private final boolean isOriginHome;
-        private final List<TrackPoint> points;
-        private final TrackPoint newest;
+        /** A number that rises with each change. */
+        public final long version;
+        /** The position of north 0, east 0; null before the first position. */
+        public final Home origin;
+        /** Whether the origin is home; otherwise it is the first known position. */
+        public final boolean isOriginHome;
+        /**
+         * The points from the oldest on, unmodifiable; the same list until one is added or
+         * the origin moves.
+         */
+        public final List<TrackPoint> points;
+        /** The aircraft's position, which may not be on the track yet; null: unknown. */
+        public final TrackPoint newest;
 
         Snapshot(long version, Home origin, boolean isOriginHome, List<TrackPoint> points,
                 TrackPoint newest) {
@@ -29,34 +37,6 @@ public final class Track {
             this.isOriginHome = isOriginHome;
             this.points = points;
             this.newest = newest;
-        }
-
-        /** Returns a number that rises with each change. */
-        public long version() {
-            return version;
-        }
-
-        /** Returns the position of north 0, east 0; null before the first position. */
-        public Home origin() {
-            return origin;
-        }
-
-        /** Returns whether the origin is home; otherwise it is the first known position. */
-        public boolean isOriginHome() {
-            return isOriginHome;
-        }
-
-        /**
-         * Returns the points from the oldest on, unmodifiable; the same list until one is added or
-         * the origin moves.
-         */
-        public List<TrackPoint> points() {
-            return points;
-        }
-
-        /** Returns the aircraft's position, which may not be on the track yet; null: unknown. */
-        public TrackPoint newest() {
-            return newest;
         }
     }
 
@@ -96,7 +76,7 @@ public final class Track {
 
     /** Returns the current track. */
     public Snapshot snapshot() {
-        if (snapshot.version() != version) {
+        if (snapshot.version != version) {
             final Home origin = home == null ? firstPlace : home;
             final List<TrackPoint> way = way(origin);
             TrackPoint place = null;
@@ -134,7 +114,7 @@ public final class Track {
         if (altitude == null) {
             altitude = telemetry.number("altitude");
         }
-        if (!telemetry.age().isStale("location", nowMs)) {
+        if (!telemetry.age.isStale("location", nowMs)) {
             isAfterSilence |= gaps.take(nowMs);
         }
         if (firstPlace == null) {
@@ -179,7 +159,7 @@ public final class Track {
             pointsOrigin = origin;
             points.clear();
         } else if (points.size() == spots.size()) {
-            return snapshot.points();
+            return snapshot.points;
         }
         for (Spot each : spots.subList(points.size(), spots.size())) {
             points.add(point(origin, each));
@@ -188,8 +168,8 @@ public final class Track {
     }
 
     private static TrackPoint point(Home origin, Spot spot) {
-        return new TrackPoint(Earth.northM(origin.latitudeDeg(), spot.latitudeDeg),
-                Earth.eastM(origin.longitudeDeg(), spot.longitudeDeg, origin.latitudeDeg()),
+        return new TrackPoint(Earth.northM(origin.latitudeDeg, spot.latitudeDeg),
+                Earth.eastM(origin.longitudeDeg, spot.longitudeDeg, origin.latitudeDeg),
                 spot.altitudeM, spot.isAfterSilence);
     }
 

@@ -12,15 +12,15 @@ final class LinkWatch {
     private final IdleTimer stall;
 
     LinkWatch(Loop loop, UpSocketSettings settings, final Owner owner) {
-        beat = new IdleTimer(loop, settings.heartbeatMs(), new Runnable() {
+        beat = new IdleTimer(loop, settings.heartbeatMs, new Runnable() {
             @Override
             public void run() {
                 beat.start();
                 owner.onBeat();
             }
         });
-        silence = givingUp(loop, settings.silenceLimitMs(), "said nothing", owner);
-        stall = givingUp(loop, settings.stallLimitMs(), "took nothing", owner);
+        silence = givingUp(loop, settings.silenceLimitMs, "said nothing", owner);
+        stall = givingUp(loop, settings.stallLimitMs, "took nothing", owner);
     }
 
     /** Starts with a new connection. */

@@ -119,7 +119,7 @@ public final class OrientationSender {
     /** Returns a sentence without a full stop: the destination of frames, or why none are sent. */
     public String sentence() {
         if (socket != null) {
-            return socket.status().sentence();
+            return socket.status().sentence;
         }
         if (!isStarted) {
             return "stopped";
@@ -131,13 +131,13 @@ public final class OrientationSender {
         if (place == null) {
             return "the Raspberry Pi is not found yet";
         }
-        return hasPort() ? "datagrams to " + place.host() + ":" + place.orientationPort()
-                : place.host() + " has no orientation port";
+        return hasPort() ? "datagrams to " + place.host + ":" + place.orientationPort
+                : place.host + " has no orientation port";
     }
 
     /** Returns how many frames the system took whole. */
     public long sent() {
-        return socket != null ? socket.counters().sent() : udpSent;
+        return socket != null ? socket.counters().sent : udpSent;
     }
 
     /** Returns how many frames were dropped or replaced by a newer one. */
@@ -146,7 +146,7 @@ public final class OrientationSender {
             return dropped;
         }
         final UpSocketCounters counters = socket.counters();
-        return dropped + counters.dropped() + counters.replaced();
+        return dropped + counters.dropped + counters.replaced;
     }
 
     private boolean sendDatagram(byte[] frame) {
@@ -155,7 +155,7 @@ public final class OrientationSender {
         }
         final Place place = known.place();
         final boolean isSent = udp != null && hasPort()
-                && udp.send(frame, place.host(), place.orientationPort());
+                && udp.send(frame, place.host, place.orientationPort);
         if (isSent) {
             udpSent++;
         } else {
@@ -165,7 +165,7 @@ public final class OrientationSender {
     }
 
     private boolean hasPort() {
-        return known.place() != null && known.place().orientationPort() != 0;
+        return known.place() != null && known.place().orientationPort != 0;
     }
 
     private void openUdp() {
@@ -189,10 +189,10 @@ public final class OrientationSender {
         final Place place = known.place();
         if (socket != null && place != null && !place.equals(followed)) {
             followed = place;
-            if (place.equals(socket.status().place())) {
+            if (place.equals(socket.status().place)) {
                 reconnectNow();
             } else {
-                replaceConnection("the Raspberry Pi is now at " + place.host());
+                replaceConnection("the Raspberry Pi is now at " + place.host);
             }
         }
     }

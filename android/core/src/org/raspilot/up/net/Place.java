@@ -2,9 +2,12 @@ package org.raspilot.up.net;
 
 /** The address of a peer: a host, its General Message port and its orientation port. */
 public final class Place {
-    private final String host;
-    private final int generalPort;
-    private final int orientationPort;
+    /** The name or address. */
+    public final String host;
+    /** The General Message port. */
+    public final int generalPort;
+    /** The orientation port; 0: absent. */
+    public final int orientationPort;
 
     /**
      * Creates a place.
@@ -27,21 +30,6 @@ public final class Place {
         this.host = host;
         this.generalPort = generalPort;
         this.orientationPort = orientationPort;
-    }
-
-    /** Returns the name or address. */
-    public String host() {
-        return host;
-    }
-
-    /** Returns the General Message port. */
-    public int generalPort() {
-        return generalPort;
-    }
-
-    /** Returns the orientation port; 0: absent. */
-    public int orientationPort() {
-        return orientationPort;
     }
 
     @Override

@@ -9,13 +9,20 @@ import org.raspilot.up.wire.SafeText;
 public final class RunnerAnswer {
     private static final int LONGEST_WORDS = 200;
 
-    private final String message;
-    private final String error;
-    private final boolean isSpawned;
-    private final String instance;
-    private final Place place;
-    private final String proxyHost;
-    private final int proxyGroundPort;
+    /** The runner's message; null: none. */
+    public final String message;
+    /** A warning about the running instance, or null. */
+    public final String error;
+    /** Whether this request started it. */
+    public final boolean isSpawned;
+    /** The instance's name; null: absent. */
+    public final String instance;
+    /** The address of the instance. */
+    public final Place place;
+    /** The proxy's host for grounds of this aircraft; null: absent. */
+    public final String proxyHost;
+    /** The proxy's port for grounds; 0: absent. */
+    public final int proxyGroundPort;
 
     private RunnerAnswer(Map<?, ?> answer, Place place, Map<?, ?> proxy) {
         this.place = place;
@@ -64,41 +71,6 @@ public final class RunnerAnswer {
         }
         return new RunnerAnswer(answer, new Place(host, general, orientation),
                 object(answer, "proxy"));
-    }
-
-    /** Returns the runner's message; null: none. */
-    public String message() {
-        return message;
-    }
-
-    /** Returns a warning about the running instance, or null. */
-    public String error() {
-        return error;
-    }
-
-    /** Returns whether this request started it. */
-    public boolean isSpawned() {
-        return isSpawned;
-    }
-
-    /** Returns the instance's name; null: absent. */
-    public String instance() {
-        return instance;
-    }
-
-    /** Returns the address of the instance. */
-    public Place place() {
-        return place;
-    }
-
-    /** Returns the proxy's host for grounds of this aircraft; null: absent. */
-    public String proxyHost() {
-        return proxyHost;
-    }
-
-    /** Returns the proxy's port for grounds; 0: absent. */
-    public int proxyGroundPort() {
-        return proxyGroundPort;
     }
 
     private static Map<?, ?> object(Map<?, ?> from, String key) {

@@ -127,7 +127,7 @@ public final class RunnerClient implements PlaceFinder {
             }
             lastAnswer = read;
             cancel();
-            listener.onFound(read.place());
+            listener.onFound(read.place);
         }
 
         private void fail(String reason) {

@@ -46,8 +46,8 @@ public final class UpSocket {
         this.finder = finder;
         this.listener = listener;
         this.settings = settings;
-        queue = new SendQueue(settings.isRaw());
-        backOff = new BackOff(settings.firstRetryMs(), settings.lastRetryMs(), random);
+        queue = new SendQueue(settings.isRaw);
+        backOff = new BackOff(settings.firstRetryMs, settings.lastRetryMs, random);
         lines = new LineDelivery(loop, new LineDelivery.Receiver() {
             @Override
             public void onLine(byte[] line) {
@@ -69,7 +69,7 @@ public final class UpSocket {
 
     /** Starts to connect; no effect when started already. */
     public void start() {
-        if (status.state() == UpSocketStatus.State.STOPPED) {
+        if (status.state == UpSocketStatus.State.STOPPED) {
             backOff.reset();
             attempt();
         }
@@ -77,7 +77,7 @@ public final class UpSocket {
 
     /** Closes until the next {@link #start}; {@code onLost} is called if it was connected. */
     public void stop() {
-        if (status.state() != UpSocketStatus.State.STOPPED) {
+        if (status.state != UpSocketStatus.State.STOPPED) {
             final boolean wasConnected = end();
             become(UpSocketStatus.State.STOPPED, "stopped");
             if (wasConnected) {
@@ -91,9 +91,9 @@ public final class UpSocket {
      * attempt older than the shortest wait is restarted. No effect while connected.
      */
     public void reconnectNow() {
-        final UpSocketStatus.State state = status.state();
+        final UpSocketStatus.State state = status.state;
         final boolean isTrying = current != null && !isConnected()
-                && loop.nowMs() - current.beganMs >= settings.firstRetryMs();
+                && loop.nowMs() - current.beganMs >= settings.firstRetryMs;
         if (isTrying || state == UpSocketStatus.State.WAITING) {
             end();
             backOff.reset();
@@ -111,7 +111,7 @@ public final class UpSocket {
         if (isConnected()) {
             lost++;
             tookMs = 0;
-            if (nowMs - current.connectedMs >= settings.lastRetryMs()) {
+            if (nowMs - current.connectedMs >= settings.lastRetryMs) {
                 // Not earlier: the wait must grow for a peer that always hangs up immediately.
                 backOff.reset();
             }
@@ -269,11 +269,11 @@ public final class UpSocket {
                 return;
             }
             place = found;
-            final int port = settings.isRaw() ? found.orientationPort() : found.generalPort();
-            peer = found.host() + ":" + port;
+            final int port = settings.isRaw ? found.orientationPort : found.generalPort;
+            peer = found.host + ":" + port;
             become(UpSocketStatus.State.CONNECTING, "connecting to " + peer);
-            connection = loop.network().connectTcp(found.host(), port,
-                    settings.connectTimeoutMs(), this);
+            connection = loop.network().connectTcp(found.host, port,
+                    settings.connectTimeoutMs, this);
         }
 
         @Override
@@ -297,7 +297,7 @@ public final class UpSocket {
         public void onBytes(byte[] bytes, int length) {
             bytesIn += length;
             watch.heard();
-            if (settings.isRaw()) {
+            if (settings.isRaw) {
                 receive(bytes, length);
             } else {
                 lines.feed(bytes, length);

@@ -5,13 +5,20 @@ public final class UpSocketSettings {
     /** Most bytes that wait in order. */
     public static final int LONGEST_QUEUE_BYTES = 65536;
 
-    private final boolean isRaw;
-    private final int connectTimeoutMs;
-    private final int heartbeatMs;
-    private final int silenceLimitMs;
-    private final int stallLimitMs;
-    private final int firstRetryMs;
-    private final int lastRetryMs;
+    /** Whether raw frames go to the orientation port, instead of lines to the other. */
+    public final boolean isRaw;
+    /** The time-out of an attempt. */
+    public final int connectTimeoutMs;
+    /** The period of the heartbeat; 0: none. */
+    public final int heartbeatMs;
+    /** The limit of the peer's silence; 0: none. */
+    public final int silenceLimitMs;
+    /** How long the peer may accept none of the waiting data; 0: no limit. */
+    public final int stallLimitMs;
+    /** The wait after the first failure. */
+    public final int firstRetryMs;
+    /** The longest wait. */
+    public final int lastRetryMs;
 
     private UpSocketSettings(boolean isRaw, int connectTimeoutMs, int heartbeatMs,
             int silenceLimitMs, int stallLimitMs, int firstRetryMs, int lastRetryMs) {
@@ -68,41 +75,6 @@ public final class UpSocketSettings {
     public UpSocketSettings withRetryMs(int firstMs, int lastMs) {
         return new UpSocketSettings(isRaw, connectTimeoutMs, heartbeatMs, silenceLimitMs,
                 stallLimitMs, firstMs, lastMs);
-    }
-
-    /** Returns whether raw frames go to the orientation port, instead of lines to the other. */
-    public boolean isRaw() {
-        return isRaw;
-    }
-
-    /** Returns the time-out of an attempt. */
-    public int connectTimeoutMs() {
-        return connectTimeoutMs;
-    }
-
-    /** Returns the period of the heartbeat; 0: none. */
-    public int heartbeatMs() {
-        return heartbeatMs;
-    }
-
-    /** Returns the limit of the peer's silence; 0: none. */
-    public int silenceLimitMs() {
-        return silenceLimitMs;
-    }
-
-    /** Returns how long the peer may accept none of the waiting data; 0: no limit. */
-    public int stallLimitMs() {
-        return stallLimitMs;
-    }
-
-    /** Returns the wait after the first failure. */
-    public int firstRetryMs() {
-        return firstRetryMs;
-    }
-
-    /** Returns the longest wait. */
-    public int lastRetryMs() {
-        return lastRetryMs;
     }
 
     private static int atLeast(int least, int value) {

@@ -16,9 +16,12 @@ public final class UpSocketStatus {
         WAITING
     }
 
-    private final State state;
-    private final Place place;
-    private final String sentence;
+    /** What it does. */
+    public final State state;
+    /** The last place found; null: none so far. */
+    public final Place place;
+    /** A sentence without a full stop: the peer's address, or why it is not connected. */
+    public final String sentence;
 
     UpSocketStatus(State state, Place place, String sentence) {
         this.state = state;
@@ -26,24 +29,9 @@ public final class UpSocketStatus {
         this.sentence = sentence;
     }
 
-    /** Returns what it does. */
-    public State state() {
-        return state;
-    }
-
     /** Returns whether it is connected. */
     public boolean isConnected() {
         return state == State.CONNECTED;
-    }
-
-    /** Returns the last place found; null: none so far. */
-    public Place place() {
-        return place;
-    }
-
-    /** Returns a sentence without a full stop: the peer's address, or why it is not connected. */
-    public String sentence() {
-        return sentence;
     }
 
     @Override

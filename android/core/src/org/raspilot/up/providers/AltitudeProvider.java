@@ -55,7 +55,7 @@ public final class AltitudeProvider extends SensorProvider<Pressure> {
         if (newest() == null) {
             throw new IllegalStateException("the barometer has said nothing yet");
         }
-        setReferenceHPa(newest().hPa());
+        setReferenceHPa(newest().hPa);
         return referenceHPa;
     }
 
@@ -66,10 +66,10 @@ public final class AltitudeProvider extends SensorProvider<Pressure> {
 
     @Override
     protected BaseCommand read(Pressure pressure) {
-        if (!(pressure.hPa() > 0)) {
-            throw new IllegalArgumentException("a pressure of " + pressure.hPa() + " hPa");
+        if (!(pressure.hPa > 0)) {
+            throw new IllegalArgumentException("a pressure of " + pressure.hPa + " hPa");
         }
-        double altitudeM = StandardAtmosphere.altitudeM(pressure.hPa(), referenceHPa);
+        double altitudeM = StandardAtmosphere.altitudeM(pressure.hPa, referenceHPa);
         return new AltitudeCommand(new GeneralMessage(AltitudeCommand.NAME,
                 Collections.singletonMap("altitude", Rounded.to(2, altitudeM))));
     }

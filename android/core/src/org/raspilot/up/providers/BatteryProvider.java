@@ -21,10 +21,10 @@ public final class BatteryProvider extends SensorProvider<BatteryLevel> {
 
     @Override
     protected BaseCommand read(BatteryLevel level) {
-        if (!(level.percent() >= 0 && level.percent() <= 100)) {
-            throw new IllegalArgumentException("a level of " + level.percent() + " percent");
+        if (!(level.percent >= 0 && level.percent <= 100)) {
+            throw new IllegalArgumentException("a level of " + level.percent + " percent");
         }
         return new BatteryCommand(new GeneralMessage(BatteryCommand.NAME,
-                Collections.singletonMap("level", Math.round(level.percent()))));
+                Collections.singletonMap("level", Math.round(level.percent))));
     }
 }

@@ -8,10 +8,14 @@ public final class Cadence {
     /** How much of a period a message may leave sooner or later than it is due. */
     private static final double SLACK_PERIODS = 0.25;
 
-    private final double periodMs;
-    private final long repeatMs;
-    private final long worthMs;
-    private final long silenceLimitMs;
+    /** The shortest time between two messages. */
+    final double periodMs;
+    /** After how long the same is sent again; 0: never. */
+    final long repeatMs;
+    /** How old a reading may be when it is sent. */
+    final long worthMs;
+    /** The time without a reading after which the sensor counts as silent. */
+    final long silenceLimitMs;
 
     private Cadence(double periodMs, long repeatMs, long worthMs, long silenceLimitMs) {
         if (!(periodMs > 0) || silenceLimitMs <= 0) {
@@ -46,11 +50,6 @@ public final class Cadence {
         return new Cadence(leastMs, repeatMs, Long.MAX_VALUE, silenceLimitMs);
     }
 
-    /** Returns the shortest time between two messages. */
-    double periodMs() {
-        return periodMs;
-    }
-
     /** Returns how much sooner or later than it is due a message may leave to be fresh. */
     double slackMs() {
         return isLevel() ? 0 : SLACK_PERIODS * periodMs;
@@ -59,20 +58,5 @@ public final class Cadence {
     /** Returns whether the value holds until it changes. */
     boolean isLevel() {
         return repeatMs > 0;
-    }
-
-    /** Returns after how long the same is sent again; 0: never. */
-    long repeatMs() {
-        return repeatMs;
-    }
-
-    /** Returns how old a reading may be when it is sent. */
-    long worthMs() {
-        return worthMs;
-    }
-
-    /** Returns the time without a reading after which the sensor counts as silent. */
-    long silenceLimitMs() {
-        return silenceLimitMs;
     }
 }

@@ -33,6 +33,6 @@ public final class HeadingProvider extends SensorProvider<Rotation> {
     @Override
     protected BaseCommand read(Rotation rotation) {
         Attitude attitude = mounting.attitude(rotation, declinationDeg);
-        return new HeadingCommand(Rounded.direction(attitude.yawDeg()), ACTUAL);
+        return new HeadingCommand(Rounded.direction(attitude.yawDeg), ACTUAL);
     }
 }

@@ -19,17 +19,17 @@ public final class LocationProvider extends SensorProvider<Fix> {
 
     @Override
     protected BaseCommand read(Fix fix) {
-        if (fix.accuracyM() != null && fix.accuracyM() > WORST_ACCURACY_M) {
+        if (fix.accuracyM != null && fix.accuracyM > WORST_ACCURACY_M) {
             throw new IllegalArgumentException("a fix that may be off by more than "
                     + Math.round(WORST_ACCURACY_M) + " m is none to fly by");
         }
         return new LocationCommand(
-                Rounded.to(7, fix.latitudeDeg()),
-                Rounded.to(7, fix.longitudeDeg()),
-                rounded(1, fix.altitudeM()),
-                rounded(1, fix.accuracyM()),
-                rounded(2, fix.speedMS()),
-                isKnown(fix.bearingDeg()) ? Rounded.direction(fix.bearingDeg()) : null);
+                Rounded.to(7, fix.latitudeDeg),
+                Rounded.to(7, fix.longitudeDeg),
+                rounded(1, fix.altitudeM),
+                rounded(1, fix.accuracyM),
+                rounded(2, fix.speedMS),
+                isKnown(fix.bearingDeg) ? Rounded.direction(fix.bearingDeg) : null);
     }
 
     /** A value unknown to GPS must not prevent sending the position. */

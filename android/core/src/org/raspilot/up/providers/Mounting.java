@@ -18,7 +18,8 @@ public final class Mounting {
     /** When calibrated, the side at the nose may point up or down by at most 60 degrees. */
     private static final double LEAST_LEVEL = 0.5;
 
-    private final Quaternion bodyToDevice;
+    /** The rotation from aircraft axes to device axes. */
+    public final Quaternion bodyToDevice;
 
     /** Takes any rotation; throws IllegalArgumentException for an invalid quaternion. */
     public Mounting(Quaternion bodyToDevice) {
@@ -47,7 +48,7 @@ public final class Mounting {
      * @throws IllegalArgumentException when that side points up or down (a sentence)
      */
     public static Mounting level(Rotation rotation, Side nose) {
-        Quaternion deviceToNed = SWAP_NED_ENU.times(rotation.deviceToWorld());
+        Quaternion deviceToNed = SWAP_NED_ENU.times(rotation.deviceToWorld);
         double[] ahead = deviceToNed.turn(nose.x(), nose.y(), nose.z());
         if (Math.hypot(ahead[0], ahead[1]) < LEAST_LEVEL) {
             throw new IllegalArgumentException("the side that is to be at the nose points "
@@ -65,9 +66,9 @@ public final class Mounting {
      */
     public Attitude attitude(Rotation rotation, double declinationDeg) {
         Attitude magnetic = Attitude.of(
-                SWAP_NED_ENU.times(rotation.deviceToWorld()).times(bodyToDevice));
+                SWAP_NED_ENU.times(rotation.deviceToWorld).times(bodyToDevice));
         return new Attitude(
-                magnetic.rollDeg(), magnetic.pitchDeg(), magnetic.yawDeg() + declinationDeg);
+                magnetic.rollDeg, magnetic.pitchDeg, magnetic.yawDeg + declinationDeg);
     }
 
     /** Returns the rotation that a device mounted so has in an aircraft of this attitude. */
@@ -79,22 +80,17 @@ public final class Mounting {
     /** Returns the aircraft's roll, pitch and yaw rate about its own axes, deg/s. */
     public double[] ratesDegS(RotationRate rate) {
         double[] rates =
-                bodyToDevice.conjugate().turn(rate.xRadS(), rate.yRadS(), rate.zRadS());
+                bodyToDevice.conjugate().turn(rate.xRadS, rate.yRadS, rate.zRadS);
         for (int axis = 0; axis < rates.length; axis++) {
             rates[axis] = Math.toDegrees(rates[axis]);
         }
         return rates;
     }
 
-    /** Returns the rotation from aircraft axes to device axes. */
-    public Quaternion bodyToDevice() {
-        return bodyToDevice;
-    }
-
     /** Returns it as text for settings: four numbers, {@code w x y z}. */
     public String toText() {
-        return bodyToDevice.w() + " " + bodyToDevice.x() + " " + bodyToDevice.y() + " "
-                + bodyToDevice.z();
+        return bodyToDevice.w + " " + bodyToDevice.x + " " + bodyToDevice.y + " "
+                + bodyToDevice.z;
     }
 
     /**

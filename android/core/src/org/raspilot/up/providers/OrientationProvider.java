@@ -101,7 +101,7 @@ public final class OrientationProvider extends UpProvider {
         Attitude attitude = mounting.attitude(newest, declinationDeg);
         double[] rates = mounting.ratesDegS(isMeasured() ? measured : difference);
         OrientationFrame frame = new OrientationFrame(
-                (float) attitude.rollDeg(), (float) attitude.pitchDeg(), (float) attitude.yawDeg(),
+                (float) attitude.rollDeg, (float) attitude.pitchDeg, (float) attitude.yawDeg,
                 (float) rates[0], (float) rates[1], (float) rates[2]);
         if (!frame.isInRange()) {
             refuse("its reading cannot be used: a rate that is none, or above 4000 deg/s");
@@ -117,14 +117,14 @@ public final class OrientationProvider extends UpProvider {
     @Override
     protected String lastText() {
         return last == null ? "" : String.format(Locale.ROOT, "roll %.1f, pitch %.1f, yaw %.1f",
-                last.rollDeg(), last.pitchDeg(), last.yawDeg());
+                last.rollDeg, last.pitchDeg, last.yawDeg);
     }
 
     private void take(Rotation reading) {
         newest = reading;
         if (earlier == null) {
             earlier = reading;
-        } else if (reading.timeMs() - earlier.timeMs() >= LEAST_DIFFERENCE_MS) {
+        } else if (reading.timeMs - earlier.timeMs >= LEAST_DIFFERENCE_MS) {
             difference = RotationRate.between(earlier, reading);
             earlier = reading;
         }
@@ -133,6 +133,6 @@ public final class OrientationProvider extends UpProvider {
 
     /** Both times are the sensors' own: a gyroscope that fell behind is not believed. */
     private boolean isMeasured() {
-        return measured != null && newest.timeMs() - measured.timeMs() <= RATE_WORTH_MS;
+        return measured != null && newest.timeMs - measured.timeMs <= RATE_WORTH_MS;
     }
 }

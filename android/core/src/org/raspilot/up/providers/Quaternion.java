@@ -7,10 +7,14 @@ public final class Quaternion {
 
     private static final double SHORTEST = 1e-6;
 
-    private final double w;
-    private final double x;
-    private final double y;
-    private final double z;
+    /** The real part: of a rotation the cosine of half its angle. */
+    public final double w;
+    /** The first axis times the sine of half the angle. */
+    public final double x;
+    /** The second axis times the sine of half the angle. */
+    public final double y;
+    /** The third axis times the sine of half the angle. */
+    public final double z;
 
     /** Stores the four parts unchanged. */
     public Quaternion(double w, double x, double y, double z) {
@@ -83,25 +87,5 @@ public final class Quaternion {
         Quaternion turned =
                 times(new Quaternion(0, vectorX, vectorY, vectorZ)).times(conjugate());
         return new double[] {turned.x, turned.y, turned.z};
-    }
-
-    /** Returns the real part: of a rotation the cosine of half its angle. */
-    public double w() {
-        return w;
-    }
-
-    /** Returns the first axis times the sine of half the angle. */
-    public double x() {
-        return x;
-    }
-
-    /** Returns the second axis times the sine of half the angle. */
-    public double y() {
-        return y;
-    }
-
-    /** Returns the third axis times the sine of half the angle. */
-    public double z() {
-        return z;
     }
 }

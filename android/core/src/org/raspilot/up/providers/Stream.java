@@ -123,7 +123,7 @@ final class Stream implements Panic.Listener {
         if (isUnsent) {
             return isFirst ? 0 : Math.max(dueMs, calmMs()) + cadence.slackMs();
         }
-        return cadence.isLevel() ? lastMs + panic.periodMs(cadence.repeatMs()) : NEVER;
+        return cadence.isLevel() ? lastMs + panic.periodMs(cadence.repeatMs) : NEVER;
     }
 
     /** Returns the time from which a new reading is sent immediately. */
@@ -140,12 +140,12 @@ final class Stream implements Panic.Listener {
 
     private void emit(long nowMs) {
         isUnsent = false;
-        if (nowMs - newestMs > cadence.worthMs()) {
+        if (nowMs - newestMs > cadence.worthMs) {
             return;
         }
         // A message that leaves late does not shift those after it, one that is a period late does.
-        boolean isInStep = !isFirst && nowMs < dueMs + cadence.periodMs();
-        dueMs = (isInStep ? dueMs : nowMs) + cadence.periodMs();
+        boolean isInStep = !isFirst && nowMs < dueMs + cadence.periodMs;
+        dueMs = (isInStep ? dueMs : nowMs) + cadence.periodMs;
         isFirst = false;
         lastMs = nowMs;
         if (sender.transmit()) {

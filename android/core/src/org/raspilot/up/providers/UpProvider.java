@@ -104,7 +104,7 @@ public abstract class UpProvider {
         startedMs = loop.nowMs();
         stream.begin();
         try {
-            subscribe((long) cadence.periodMs());
+            subscribe((long) cadence.periodMs);
         } catch (RuntimeException fault) {
             // A sensor may refuse (a permission is missing): the others go on.
             stop();
@@ -168,7 +168,7 @@ public abstract class UpProvider {
         if (cadence.isLevel() && newestMs >= 0) {
             return false;
         }
-        return loop.nowMs() - Math.max(startedMs, newestMs) > cadence.silenceLimitMs();
+        return loop.nowMs() - Math.max(startedMs, newestMs) > cadence.silenceLimitMs;
     }
 
     private void look() {

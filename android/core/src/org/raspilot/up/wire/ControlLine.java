@@ -29,9 +29,12 @@ public final class ControlLine {
         AIRCRAFT_OFFLINE
     }
 
-    private final Kind kind;
-    private final Integer number;
-    private final String token;
+    /** Its kind. */
+    public final Kind kind;
+    /** The number of a ground, or null. */
+    public final Integer number;
+    /** The token of SEAT_COMMAND, otherwise null. */
+    public final String token;
 
     private ControlLine(Kind kind, Integer number, String token) {
         this.kind = kind;
@@ -74,21 +77,6 @@ public final class ControlLine {
             throw new IllegalArgumentException("a token is 32 to 64 hexadecimal digits");
         }
         return new ControlLine(Kind.SEAT_COMMAND, null, token);
-    }
-
-    /** Returns its kind. */
-    public Kind kind() {
-        return kind;
-    }
-
-    /** Returns the number of a ground, or null. */
-    public Integer number() {
-        return number;
-    }
-
-    /** Returns the token of SEAT_COMMAND, otherwise null. */
-    public String token() {
-        return token;
     }
 
     /** Returns whether a line starts as those that are never relayed: not a General Message. */

@@ -15,10 +15,14 @@ public final class GeneralMessage {
     /** Characters of the longest id. */
     public static final int LONGEST_ID = 64;
 
-    private final String name;
-    private final Map<String, Object> data;
-    private final String id;
-    private final Long beacon;
+    /** The name of the Command, 1 to 128 characters. */
+    public final String name;
+    /** The fields as JSON values ({@link Json}); unmodifiable to their depth, not null. */
+    public final Map<String, Object> data;
+    /** The id for the requested answer, or null. */
+    public final String id;
+    /** The beacon, or null. */
+    public final Long beacon;
 
     /** Creates a message without an id or a beacon. */
     public GeneralMessage(String name, Map<String, ?> data) {
@@ -44,26 +48,6 @@ public final class GeneralMessage {
     /** Returns a message of the same data under another name, id and beacon. */
     public GeneralMessage with(String otherName, String otherId, Long otherBeacon) {
         return new GeneralMessage(data, otherName, otherId, otherBeacon);
-    }
-
-    /** Returns the name of the Command, 1 to 128 characters. */
-    public String name() {
-        return name;
-    }
-
-    /** Returns the fields as JSON values ({@link Json}); unmodifiable to their depth, not null. */
-    public Map<String, Object> data() {
-        return data;
-    }
-
-    /** Returns the id for the requested answer, or null. */
-    public String id() {
-        return id;
-    }
-
-    /** Returns the beacon, or null. */
-    public Long beacon() {
-        return beacon;
     }
 
     /**

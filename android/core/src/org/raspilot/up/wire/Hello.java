@@ -18,9 +18,12 @@ public final class Hello {
     /** Bytes of the longest hello with its LF. */
     public static final int LONGEST_LINE = 512;
 
-    private final String aircraft;
-    private final Seat seat;
-    private final String token;
+    /** The name of the aircraft, 1 to 32 of {@code A-Z a-z 0-9 _ . -}, no dot first. */
+    public final String aircraft;
+    /** The seat that a ground requests; null: an aircraft's hello. */
+    public final Seat seat;
+    /** The resume token, or null. */
+    public final String token;
 
     private Hello(String aircraft, Seat seat, String token) {
         if (!isAircraftName(aircraft)) {
@@ -55,21 +58,6 @@ public final class Hello {
             throw new IllegalArgumentException("a ground asks to command or to listen");
         }
         return new Hello(aircraft, seat, token);
-    }
-
-    /** Returns the name of the aircraft, 1 to 32 of {@code A-Z a-z 0-9 _ . -}, no dot first. */
-    public String aircraft() {
-        return aircraft;
-    }
-
-    /** Returns the seat that a ground requests; null: an aircraft's hello. */
-    public Seat seat() {
-        return seat;
-    }
-
-    /** Returns the resume token, or null. */
-    public String token() {
-        return token;
     }
 
     /** Returns whether a text is a valid name of an aircraft, for a proxy and for a runner. */

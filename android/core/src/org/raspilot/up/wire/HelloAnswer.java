@@ -12,11 +12,16 @@ public final class HelloAnswer {
     private static final Pattern REFUSED =
             Pattern.compile("UP1 error code=([a-z]{1,32}) reason=\"([^\"]{0,400})\".*");
 
-    private final String aircraft;
-    private final Seat seat;
-    private final String token;
-    private final String code;
-    private final String reason;
+    /** The aircraft's name, or null when refused or absent. */
+    public final String aircraft;
+    /** The seat that was given, or null when refused. */
+    public final Seat seat;
+    /** The token that resumes the seat, or null when refused. */
+    public final String token;
+    /** Returns {@code malformed taken full address token}, or null when accepted. */
+    public final String code;
+    /** Why it was refused, or null when accepted. */
+    public final String reason;
 
     private HelloAnswer(String aircraft, Seat seat, String token, String code, String reason) {
         this.aircraft = aircraft;
@@ -39,31 +44,6 @@ public final class HelloAnswer {
     /** Returns whether the hello was accepted. */
     public boolean isAccepted() {
         return code == null;
-    }
-
-    /** Returns the aircraft's name, or null when refused or absent. */
-    public String aircraft() {
-        return aircraft;
-    }
-
-    /** Returns the seat that was given, or null when refused. */
-    public Seat seat() {
-        return seat;
-    }
-
-    /** Returns the token that resumes the seat, or null when refused. */
-    public String token() {
-        return token;
-    }
-
-    /** Returns {@code malformed taken full address token}, or null when accepted. */
-    public String code() {
-        return code;
-    }
-
-    /** Returns why it was refused, or null when accepted. */
-    public String reason() {
-        return reason;
     }
 
     /**

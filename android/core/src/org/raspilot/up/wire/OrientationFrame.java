@@ -16,12 +16,18 @@ public final class OrientationFrame {
     /** Greatest magnitude of a rate. */
     public static final float LARGEST_RATE_DEG_S = 4000f;
 
-    private final float rollDeg;
-    private final float pitchDeg;
-    private final float yawDeg;
-    private final float rollRateDegS;
-    private final float pitchRateDegS;
-    private final float yawRateDegS;
+    /** The roll in deg. */
+    public final float rollDeg;
+    /** The pitch in deg. */
+    public final float pitchDeg;
+    /** The yaw in deg. */
+    public final float yawDeg;
+    /** The roll rate in deg/s. */
+    public final float rollRateDegS;
+    /** The pitch rate in deg/s. */
+    public final float pitchRateDegS;
+    /** The yaw rate in deg/s. */
+    public final float yawRateDegS;
 
     /** Creates a frame of any values; see {@link #isInRange}. */
     public OrientationFrame(float rollDeg, float pitchDeg, float yawDeg, float rollRateDegS,
@@ -32,36 +38,6 @@ public final class OrientationFrame {
         this.rollRateDegS = rollRateDegS;
         this.pitchRateDegS = pitchRateDegS;
         this.yawRateDegS = yawRateDegS;
-    }
-
-    /** Returns the roll in deg. */
-    public float rollDeg() {
-        return rollDeg;
-    }
-
-    /** Returns the pitch in deg. */
-    public float pitchDeg() {
-        return pitchDeg;
-    }
-
-    /** Returns the yaw in deg. */
-    public float yawDeg() {
-        return yawDeg;
-    }
-
-    /** Returns the roll rate in deg/s. */
-    public float rollRateDegS() {
-        return rollRateDegS;
-    }
-
-    /** Returns the pitch rate in deg/s. */
-    public float pitchRateDegS() {
-        return pitchRateDegS;
-    }
-
-    /** Returns the yaw rate in deg/s. */
-    public float yawRateDegS() {
-        return yawRateDegS;
     }
 
     /** Returns whether a receiver accepts it: all six finite and within their limits. */

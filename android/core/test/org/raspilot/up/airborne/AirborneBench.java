@@ -58,7 +58,7 @@ final class AirborneBench implements Sensors, Speaker, AirborneListener {
     /** Starts it with the link for Commands connected. */
     Airborne connected(AirborneSettings settings) {
         start(settings);
-        accept(settings.generalPort());
+        accept(settings.generalPort);
         return airborne;
     }
 

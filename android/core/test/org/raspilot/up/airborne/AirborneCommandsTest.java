@@ -121,11 +121,11 @@ public final class AirborneCommandsTest {
         for (String name : new String[] {"up.panic", "load_guard.panic"}) {
             bench.hear("{\"name\": \"" + name + "\", \"data\": {\"panic\": true, "
                     + "\"delay_ms\": 150}, \"id\": \"" + name + "\"}");
-            assertEquals(150, airborne.status().panicDelayMs());
+            assertEquals(150, airborne.status().panicDelayMs);
             assertEquals(1, AirborneBench.count(bench.lines(), "up.ack"));
             bench.hear("{\"name\": \"up.panic\", \"data\": {\"panic\": false, "
                     + "\"delay_ms\": 150}}");
-            assertEquals(0, airborne.status().panicDelayMs());
+            assertEquals(0, airborne.status().panicDelayMs);
         }
         assertEquals("[connected 10.0.0.1:50001:50000, panic 150, panic 0, panic 150, panic 0]",
                 bench.events.toString());
@@ -142,7 +142,7 @@ public final class AirborneCommandsTest {
             String answer = bench.lines().toString();
             assertTrue(datas[at] + answer, answer.contains("\"code\": \"invalid\""));
         }
-        assertEquals(0, airborne.status().panicDelayMs());
+        assertEquals(0, airborne.status().panicDelayMs);
         assertEquals(datas.length, airborne.status().refused());
     }
 }

@@ -66,9 +66,9 @@ public final class AirborneOnLoopbackTest {
         Socket link = accept(general);
         give(airborne, mounting, 20);
         BufferedReader lines = reader(link);
-        assertEquals("up.location.update", read(lines).name());
-        assertEquals("up.heading.change", read(lines).name());
-        assertEquals(83L, read(lines).data().get("level"));
+        assertEquals("up.location.update", read(lines).name);
+        assertEquals("up.heading.change", read(lines).name);
+        assertEquals(83L, read(lines).data.get("level"));
 
         Socket frames = accept(orientation);
         running.await("the link for orientation", new Callable<Boolean>() {
@@ -79,23 +79,23 @@ public final class AirborneOnLoopbackTest {
         });
         give(airborne, mounting, 20);
         OrientationFrame frame = frame(frames);
-        assertEquals(20, frame.rollDeg(), 0.01);
-        assertEquals(-5, frame.pitchDeg(), 0.01);
+        assertEquals(20, frame.rollDeg, 0.01);
+        assertEquals(-5, frame.pitchDeg, 0.01);
 
         link.getOutputStream().write(("{\"name\": \"android.speak\", "
                 + "\"data\": {\"text\": \"ahoj\"}, \"id\": \"q\"}\n").getBytes(UTF_8));
         GeneralMessage answer = read(lines);
-        while (!answer.name().equals("up.ack")) {
+        while (!answer.name.equals("up.ack")) {
             answer = read(lines);
         }
-        assertEquals("q", answer.data().get("id"));
+        assertEquals("q", answer.data.get("id"));
 
         link.close();
         Socket again = accept(general);
         give(airborne, mounting, 30);
         BufferedReader fresh = reader(again);
         GeneralMessage battery = read(fresh);
-        while (!battery.name().equals("android.battery")) {
+        while (!battery.name.equals("android.battery")) {
             battery = read(fresh);
         }
         running.call(new Callable<Void>() {
@@ -119,7 +119,7 @@ public final class AirborneOnLoopbackTest {
         running.await("the link for Commands", new Callable<Boolean>() {
             @Override
             public Boolean call() {
-                if (!airborne.status().isConnected()) {
+                if (!airborne.status().isConnected) {
                     return false;
                 }
                 sensors.gps.give(AirborneBench.HERE);

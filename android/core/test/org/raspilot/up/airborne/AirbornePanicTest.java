@@ -88,7 +88,7 @@ public final class AirbornePanicTest {
         bench.frames();
         bench.fly(10, 400);
         assertEquals(20, bench.frames(), 1);
-        assertEquals(0, bench.airborne.status().panicDelayMs());
+        assertEquals(0, bench.airborne.status().panicDelayMs);
         assertTrue(bench.events.toString(),
                 bench.events.toString().endsWith("panic 1000, panic 0, lost: gone]"));
     }
@@ -110,6 +110,6 @@ public final class AirbornePanicTest {
     private void panic(boolean isOn, int delayMs) {
         bench.hear("{\"name\": \"up.panic\", \"data\": {\"panic\": " + isOn
                 + ", \"delay_ms\": " + delayMs + "}}");
-        assertEquals(isOn ? delayMs : 0, bench.airborne.status().panicDelayMs());
+        assertEquals(isOn ? delayMs : 0, bench.airborne.status().panicDelayMs);
     }
 }

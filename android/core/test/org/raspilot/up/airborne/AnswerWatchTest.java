@@ -22,9 +22,9 @@ public final class AnswerWatchTest {
         bench.connected(AirborneBench.fixed().build());
         answerTheId();
         bench.fly(20, 2500);
-        assertTrue(bench.airborne.status().isConnected());
+        assertTrue(bench.airborne.status().isConnected);
         bench.fly(20, 1500);
-        assertFalse(bench.airborne.status().isConnected());
+        assertFalse(bench.airborne.status().isConnected);
         assertTrue(bench.events.contains("lost: the Raspberry Pi does not answer any more"));
     }
 
@@ -35,7 +35,7 @@ public final class AnswerWatchTest {
             answerTheId();
             bench.fly(20, 1200);
         }
-        assertTrue(bench.airborne.status().isConnected());
+        assertTrue(bench.airborne.status().isConnected);
         assertEquals(1, bench.airborne.status().connections());
     }
 
@@ -52,14 +52,14 @@ public final class AnswerWatchTest {
             bench.hear("{\"name\": \"up.telemetry.update\", \"data\": {}}");
         }
         assertEquals(0, asked);
-        assertTrue(bench.airborne.status().isConnected());
+        assertTrue(bench.airborne.status().isConnected);
     }
 
     @Test
     public void anOldPeerThatNeverAnswersIsKept() {
         bench.connected(AirborneBench.fixed().build());
         bench.fly(20, 60000);
-        assertTrue(bench.airborne.status().isConnected());
+        assertTrue(bench.airborne.status().isConnected);
     }
 
     @Test
@@ -68,11 +68,11 @@ public final class AnswerWatchTest {
         answerTheId();
         bench.loop.advance(60000);
         // The battery's level is repeated each ten seconds, with an id.
-        assertFalse(bench.airborne.status().isConnected());
+        assertFalse(bench.airborne.status().isConnected);
         AirborneBench quiet = new AirborneBench();
         quiet.connected(AirborneBench.fixed().build());
         quiet.loop.advance(60000);
-        assertTrue(quiet.airborne.status().isConnected());
+        assertTrue(quiet.airborne.status().isConnected);
     }
 
     @Test
@@ -85,7 +85,7 @@ public final class AnswerWatchTest {
         assertTrue(bench.events.toString(),
                 bench.events.contains("the Raspberry Pi refuses what was sent: no sensor"));
         bench.fly(20, 4000);
-        assertFalse(bench.airborne.status().isConnected());
+        assertFalse(bench.airborne.status().isConnected);
     }
 
     @Test

@@ -12,10 +12,10 @@ final class Answers implements AnswerSink {
     public void answer(GeneralMessage answer) {
         BaseCommand command = CommandRegistry.builtin().read(answer);
         if (command instanceof AckCommand) {
-            heard.add("ack " + ((AckCommand) command).commandId());
+            heard.add("ack " + ((AckCommand) command).commandId);
         } else {
             NackCommand nack = (NackCommand) command;
-            heard.add("nack " + nack.commandId() + " " + nack.code() + " " + nack.reason());
+            heard.add("nack " + nack.commandId + " " + nack.code + " " + nack.reason);
         }
     }
 

@@ -37,7 +37,7 @@ public final class CommandReceiverTest {
     @Test
     public void aCommandWithAnIdIsCarriedOutAndAcknowledged() {
         receive(speak("7", "hello"));
-        assertEquals("hello", ((SpeakCommand) speaker.commands.get(0)).text());
+        assertEquals("hello", ((SpeakCommand) speaker.commands.get(0)).text);
         assertEquals(Arrays.asList("ack 7"), answers.heard());
     }
 
@@ -164,7 +164,7 @@ public final class CommandReceiverTest {
                 + " \"data\": {\"panic\": false, \"delay_ms\": 0.5}}");
         assertEquals(Arrays.asList("ack 1"), answers.heard());
         assertEquals("up.panic", panic.commands.get(0).name());
-        assertEquals(1, ((PanicCommand) panic.commands.get(0)).delayMs());
+        assertEquals(1, ((PanicCommand) panic.commands.get(0)).delayMs);
     }
 
     @Test

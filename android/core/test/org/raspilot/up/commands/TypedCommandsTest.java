@@ -124,10 +124,10 @@ public final class TypedCommandsTest {
         PidTuningsCommand sent = new PidTuningsCommand(set);
         PidTuningsCommand read = (PidTuningsCommand) CommandRegistry.builtin().read(
                 sent.toMessage("7", null));
-        assertEquals(set.toData(), read.gains().toData());
-        assertEquals(1e-9, read.gains().rate().elevator().d(), 0);
-        assertEquals(4, read.gains().stabilize().rudder().d(), 0);
-        assertNull(read.gains().navigation().rudder());
+        assertEquals(set.toData(), read.gains.toData());
+        assertEquals(1e-9, read.gains.rate.elevator.d, 0);
+        assertEquals(4, read.gains.stabilize.rudder.d, 0);
+        assertNull(read.gains.navigation.rudder);
         assertEquals("7", read.id());
     }
 
@@ -135,10 +135,10 @@ public final class TypedCommandsTest {
     public void theSameCommandGoesUnderAnotherIdAndBeacon() {
         ArmCommand arm = new ArmCommand();
         GeneralMessage message = arm.toMessage("7", 4711L);
-        assertEquals("7", message.id());
-        assertEquals(Long.valueOf(4711), message.beacon());
+        assertEquals("7", message.id);
+        assertEquals(Long.valueOf(4711), message.beacon);
         assertNull(arm.id());
-        assertSame(arm.data(), message.data());
+        assertSame(arm.data(), message.data);
     }
 
     @Test

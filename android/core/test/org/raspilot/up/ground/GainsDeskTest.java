@@ -41,10 +41,10 @@ public final class GainsDeskTest {
 
     private void answerRequest(GainSet flying) {
         final GeneralMessage asked = bench.sent(PidTuningsCommand.NAME);
-        assertEquals(true, asked.data().get("request"));
+        assertEquals(true, asked.data.get("request"));
         bench.say(new String(new GeneralMessage("arduino.pids.values", flying.toData()).toLine(),
                 ScriptedNetwork.UTF_8).trim());
-        bench.ack(asked.id());
+        bench.ack(asked.id);
     }
 
     private GeneralMessage setGains(GainSet gains) {
@@ -53,7 +53,7 @@ public final class GainsDeskTest {
     }
 
     private Double flyingP() {
-        return GainKey.ALL.get(0).of(bench.ground.gains().snapshot().flying());
+        return GainKey.ALL.get(0).of(bench.ground.gains().snapshot().flying);
     }
 
     @Test
@@ -67,7 +67,7 @@ public final class GainsDeskTest {
         answerRequest(set(3));
         assertEquals(3, flyingP(), 0);
         assertEquals(Long.valueOf(bench.loop.nowMs()),
-                bench.ground.gains().snapshot().toldMs());
+                bench.ground.gains().snapshot().toldMs);
         bench.fly(5, 20);
         assertTrue("asked once", bench.sent().isEmpty());
     }
@@ -79,7 +79,7 @@ public final class GainsDeskTest {
         answerRequest(set(4));
         final Answer answer = bench.answer();
         assertTrue(answer.isAck());
-        assertNotNull(answer.data().get("ratePIDs"));
+        assertNotNull(answer.data.get("ratePIDs"));
         assertEquals(4, flyingP(), 0);
     }
 
@@ -88,15 +88,15 @@ public final class GainsDeskTest {
         flyWith(set(3));
         final long version = bench.ground.gains().version();
         final GeneralMessage sent = setGains(set(2.5));
-        assertEquals(Long.valueOf(1), sent.beacon());
+        assertEquals(Long.valueOf(1), sent.beacon);
         assertEquals(Json.write(Collections.singletonMap("pids", set(2.5).toData())),
-                Json.write(sent.data()));
-        bench.ack(sent.id());
+                Json.write(sent.data));
+        bench.ack(sent.id);
         assertTrue(bench.answer().isAck());
         final GainsDesk.Snapshot now = bench.ground.gains().snapshot();
-        assertTrue(now.version() > version);
-        assertEquals(1, now.history().size());
-        assertEquals("[rate roll P 3 to 2.5]", now.history().get(0).changes().toString());
+        assertTrue(now.version > version);
+        assertEquals(1, now.history.size());
+        assertEquals("[rate roll P 3 to 2.5]", now.history.get(0).changes().toString());
         assertTrue(bench.events().contains("gains: rate roll P 3 to 2.5: carried out"));
         bench.fly(2, 1);
         answerRequest(set(2.5));
@@ -106,32 +106,32 @@ public final class GainsDeskTest {
     @Test
     public void undoSetsWhatFlewBeforeStepByStep() {
         flyWith(set(3));
-        bench.ack(setGains(set(2)).id());
+        bench.ack(setGains(set(2)).id);
         bench.fly(2, 1);
         answerRequest(set(2));
-        bench.ack(setGains(set(1)).id());
+        bench.ack(setGains(set(1)).id);
         bench.fly(3, 1);
         answerRequest(set(1));
         bench.answers.clear();
         bench.ground.gains().undo(1L, bench.keeping());
         final GeneralMessage first = bench.sent(PidTuningsCommand.NAME);
-        assertEquals(Json.write(set(2).toData()), Json.write(first.data().get("pids")));
-        bench.nack(first.id(), "forbidden", "armed");
+        assertEquals(Json.write(set(2).toData()), Json.write(first.data.get("pids")));
+        bench.nack(first.id, "forbidden", "armed");
         bench.answer();
         bench.ground.gains().undo(1L, bench.keeping());
         final GeneralMessage again = bench.sent(PidTuningsCommand.NAME);
-        assertEquals("refused, it is still to be undone", first.data(), again.data());
-        bench.ack(again.id());
+        assertEquals("refused, it is still to be undone", first.data, again.data);
+        bench.ack(again.id);
         bench.answer();
         bench.ground.gains().undo(1L, bench.keeping());
         final GeneralMessage second = bench.sent(PidTuningsCommand.NAME);
-        assertEquals(Json.write(set(3).toData()), Json.write(second.data().get("pids")));
-        bench.ack(second.id());
+        assertEquals(Json.write(set(3).toData()), Json.write(second.data.get("pids")));
+        bench.ack(second.id);
         bench.answer();
-        assertNull(bench.ground.gains().snapshot().undo());
+        assertNull(bench.ground.gains().snapshot().undo);
         bench.ground.gains().undo(1L, bench.keeping());
-        assertEquals("invalid", bench.answer().code());
-        assertEquals(5, bench.ground.gains().snapshot().history().size());
+        assertEquals("invalid", bench.answer().code);
+        assertEquals(5, bench.ground.gains().snapshot().history.size());
     }
 
     @Test
@@ -139,10 +139,10 @@ public final class GainsDeskTest {
         flyWith(set(3));
         setGains(set(9));
         bench.loop.advance(3000);
-        assertEquals(Answer.Outcome.TIMEOUT, bench.answer().outcome());
+        assertEquals(Answer.Outcome.TIMEOUT, bench.answer().outcome);
         assertEquals(3, flyingP(), 0);
         assertNull("nobody knows whether there is something to undo",
-                bench.ground.gains().snapshot().undo());
+                bench.ground.gains().snapshot().undo);
         bench.fly(2, 1);
         answerRequest(set(9));
         assertEquals(9, flyingP(), 0);
@@ -155,9 +155,9 @@ public final class GainsDeskTest {
         refused(set(-0.1), "rate roll P must be 0 to 50, not -0.1");
         refused(set(Double.NaN), "rate roll P must be 0 to 50, not NaN");
         refused(set(Double.POSITIVE_INFINITY), "rate roll P must be 0 to 50, not Infinity");
-        final LoopGains whole = set(3).rate();
-        final LoopGains noRudder = new LoopGains(whole.ailerons(), whole.elevator(), null);
-        final LoopGains noPitch = new LoopGains(whole.ailerons(), null, whole.rudder());
+        final LoopGains whole = set(3).rate;
+        final LoopGains noRudder = new LoopGains(whole.ailerons, whole.elevator, null);
+        final LoopGains noPitch = new LoopGains(whole.ailerons, null, whole.rudder);
         refused(new GainSet(whole, null, null),
                 "the set is not whole: the stabilize loop is missing");
         refused(new GainSet(whole, noRudder, null), "the set is not whole: yaw must be in the rate"
@@ -166,16 +166,16 @@ public final class GainsDeskTest {
                 "the set is not whole: rate pitch P is missing");
         refused(new GainSet(whole, whole, noPitch),
                 "the set is not whole: navigation pitch P is missing");
-        assertTrue(bench.ground.gains().snapshot().history().isEmpty());
+        assertTrue(bench.ground.gains().snapshot().history.isEmpty());
         setGains(new GainSet(noRudder, noRudder, noRudder));
     }
 
     private void refused(GainSet gains, String reason) {
         bench.ground.gains().set(gains, 1L, bench.keeping());
         final Answer answer = bench.answer();
-        assertEquals(Answer.Outcome.REFUSED, answer.outcome());
-        assertEquals("invalid", answer.code());
-        assertEquals(reason, answer.reason());
+        assertEquals(Answer.Outcome.REFUSED, answer.outcome);
+        assertEquals("invalid", answer.code);
+        assertEquals(reason, answer.reason);
         assertTrue(bench.sent().isEmpty());
     }
 
@@ -187,14 +187,14 @@ public final class GainsDeskTest {
         for (Object each : new Object[] {pids, "all", null}) {
             bench.ground.send(new BaseCommand(PidTuningsCommand.NAME,
                     Collections.singletonMap("pids", each)), 1L, bench.keeping());
-            assertEquals("invalid", bench.answer().code());
+            assertEquals("invalid", bench.answer().code);
         }
         assertTrue(bench.sent().isEmpty());
         bench.ground.send(new PidTuningsCommand(set(2)), 1L, bench.keeping());
-        bench.ack(bench.sent(PidTuningsCommand.NAME).id());
+        bench.ack(bench.sent(PidTuningsCommand.NAME).id);
         bench.answer();
         assertEquals("it can be undone", 3,
-                GainKey.ALL.get(0).of(bench.ground.gains().snapshot().undo()), 0);
+                GainKey.ALL.get(0).of(bench.ground.gains().snapshot().undo), 0);
     }
 
     @Test
@@ -202,9 +202,9 @@ public final class GainsDeskTest {
         bench.open(Seat.LISTEN);
         bench.fly(1, 1);
         bench.ground.gains().set(set(3), 1L, bench.keeping());
-        assertEquals("no_seat", bench.answer().code());
+        assertEquals("no_seat", bench.answer().code);
         bench.ground.gains().ask(bench.keeping());
-        assertEquals("no_seat", bench.answer().code());
+        assertEquals("no_seat", bench.answer().code);
         assertTrue(bench.sent().isEmpty());
     }
 

@@ -36,8 +36,8 @@ public final class GainsFormTest {
         cells.put("ratePIDs.ailerons.p", " 2,5 ");
         cells.put("stabPIDs.rudder.d", "50");
         final GainSet set = GainsForm.read(cells);
-        assertEquals(2.5, set.rate().ailerons().p(), 0);
-        assertEquals(50, set.stabilize().rudder().d(), 0);
+        assertEquals(2.5, set.rate.ailerons.p, 0);
+        assertEquals(50, set.stabilize.rudder.d, 0);
     }
 
     @Test
@@ -71,7 +71,7 @@ public final class GainsFormTest {
         for (String term : GainKey.TERMS) {
             cells.put("ratePIDs.rudder." + term, "");
         }
-        assertNull(GainsForm.read(cells).rate().rudder());
+        assertNull(GainsForm.read(cells).rate.rudder);
         refused("navPIDs.elevator.p", "1",
                 "the set is not whole: navigation roll P is missing");
     }

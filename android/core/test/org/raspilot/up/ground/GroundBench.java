@@ -123,7 +123,7 @@ final class GroundBench extends ExternalResource implements GroundListener {
     GeneralMessage sent(String name) {
         GeneralMessage found = null;
         for (GeneralMessage each : sent()) {
-            if (each.name().equals(name)) {
+            if (each.name.equals(name)) {
                 if (found != null) {
                     throw new AssertionError(name + " was sent twice");
                 }
@@ -139,8 +139,8 @@ final class GroundBench extends ExternalResource implements GroundListener {
     /** The aircraft refuses the ground's automatic request for its gains. */
     void skipGains() {
         for (GeneralMessage each : sent()) {
-            if (each.name().equals("arduino.pids.tunings")) {
-                nack(each.id(), "unavailable", "no board");
+            if (each.name.equals("arduino.pids.tunings")) {
+                nack(each.id, "unavailable", "no board");
             }
         }
     }
@@ -175,8 +175,8 @@ final class GroundBench extends ExternalResource implements GroundListener {
     /** Returns the texts of the events. */
     List<String> events() {
         final List<String> texts = new ArrayList<String>();
-        for (Event each : ground.events().snapshot().events()) {
-            texts.add(each.text());
+        for (Event each : ground.events().snapshot().events) {
+            texts.add(each.text);
         }
         return texts;
     }

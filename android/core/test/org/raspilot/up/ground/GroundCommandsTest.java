@@ -33,8 +33,8 @@ public final class GroundCommandsTest {
 
     private void mustBeRefused(String code) {
         final Answer answer = bench.answer();
-        assertEquals(Answer.Outcome.REFUSED, answer.outcome());
-        assertEquals(code, answer.code());
+        assertEquals(Answer.Outcome.REFUSED, answer.outcome);
+        assertEquals(code, answer.code);
         assertTrue(answer.sentence(), answer.sentence().contains(" was not sent: "));
         assertTrue("something was sent", bench.sent().isEmpty());
     }
@@ -47,13 +47,13 @@ public final class GroundCommandsTest {
         bench.frame(43, "{}");
         send(new FlightModeCommand("FBW"));
         final GeneralMessage sent = bench.sent(FlightModeCommand.NAME);
-        assertEquals("drawn was 42", Long.valueOf(42), sent.beacon());
-        assertEquals("FBW", sent.data().get("mode"));
+        assertEquals("drawn was 42", Long.valueOf(42), sent.beacon);
+        assertEquals("FBW", sent.data.get("mode"));
         bench.loop.advance(120);
-        bench.ack(sent.id());
+        bench.ack(sent.id);
         final Answer answer = bench.answer();
-        assertEquals(Answer.Outcome.ACK, answer.outcome());
-        assertEquals(Long.valueOf(120), answer.roundTripMs());
+        assertEquals(Answer.Outcome.ACK, answer.outcome);
+        assertEquals(Long.valueOf(120), answer.roundTripMs);
         assertEquals("up.flight_mode.set carried out after 120 ms", answer.sentence());
         assertTrue(bench.events().contains("flight mode FBW: carried out"));
         bench.loop.advance(5000);
@@ -68,7 +68,7 @@ public final class GroundCommandsTest {
             bench.open(Seat.COMMAND);
             flySeen(1, 1);
             send(new DisarmCommand());
-            final String id = bench.sent(DisarmCommand.NAME).id();
+            final String id = bench.sent(DisarmCommand.NAME).id;
             assertTrue(id, id.matches("[0-9a-f]{16}-[0-9]+"));
         } finally {
             Locale.setDefault(before);
@@ -82,7 +82,7 @@ public final class GroundCommandsTest {
         bench.fly(2, 20);
         send(new DisarmCommand());
         assertEquals("2 s are no too long", Long.valueOf(1),
-                bench.sent(DisarmCommand.NAME).beacon());
+                bench.sent(DisarmCommand.NAME).beacon);
         bench.fly(22, 1);
         send(new DisarmCommand());
         mustBeRefused("stale");
@@ -95,7 +95,7 @@ public final class GroundCommandsTest {
         bench.ground.seen(1L);
         bench.loop.advance(10999);
         send(new DisarmCommand());
-        assertEquals(Long.valueOf(1), bench.sent(DisarmCommand.NAME).beacon());
+        assertEquals(Long.valueOf(1), bench.sent(DisarmCommand.NAME).beacon);
         bench.loop.advance(2);
         send(new DisarmCommand());
         mustBeRefused("stale");
@@ -110,7 +110,7 @@ public final class GroundCommandsTest {
         bench.ground.seen(2L);
         bench.loop.advance(499);
         send(new DisarmCommand());
-        assertEquals(Long.valueOf(2), bench.sent(DisarmCommand.NAME).beacon());
+        assertEquals(Long.valueOf(2), bench.sent(DisarmCommand.NAME).beacon);
         bench.loop.advance(3);
         send(new DisarmCommand());
         mustBeRefused("stale");
@@ -130,7 +130,7 @@ public final class GroundCommandsTest {
         bench.ground.send(new DisarmCommand(), 78L, bench.keeping());
         mustBeRefused("stale");
         bench.ground.send(new DisarmCommand(), 2L, bench.keeping());
-        assertEquals(Long.valueOf(2), bench.sent(DisarmCommand.NAME).beacon());
+        assertEquals(Long.valueOf(2), bench.sent(DisarmCommand.NAME).beacon);
     }
 
     @Test
@@ -140,7 +140,7 @@ public final class GroundCommandsTest {
         bench.ground.seen(5L);
         bench.ground.seen(3L);
         send(new DisarmCommand());
-        assertEquals(Long.valueOf(5), bench.sent(DisarmCommand.NAME).beacon());
+        assertEquals(Long.valueOf(5), bench.sent(DisarmCommand.NAME).beacon);
     }
 
     @Test
@@ -161,7 +161,7 @@ public final class GroundCommandsTest {
     public void withoutALinkOrAnAircraftNothingIsSentNorKeptForLater() {
         bench.start(GroundBench.settings(Seat.COMMAND, false));
         send(new DisarmCommand());
-        assertEquals("no_link", bench.answer().code());
+        assertEquals("no_link", bench.answer().code);
         bench.accept(Seat.COMMAND);
         bench.say("UP1 aircraft offline");
         flySeen(1, 3);
@@ -169,7 +169,7 @@ public final class GroundCommandsTest {
         mustBeRefused("no_aircraft");
         bench.peer().end("gone");
         send(new DisarmCommand());
-        assertEquals("there is no link: gone", bench.answer().reason());
+        assertEquals("there is no link: gone", bench.answer().reason);
         bench.loop.advance(700);
         bench.accept(Seat.COMMAND);
         flySeen(4, 3);
@@ -193,7 +193,7 @@ public final class GroundCommandsTest {
         bench.say("{\"name\": \"up.telemetry.update\", \"data\": {}}");
         send(new FlightModeCommand("FBW"));
         assertNull("a thesis aircraft tells no beacons",
-                bench.sent(FlightModeCommand.NAME).beacon());
+                bench.sent(FlightModeCommand.NAME).beacon);
         for (BaseCommand command : new BaseCommand[] {new ArmCommand(), new DisarmCommand()}) {
             send(command);
             mustBeRefused("no_beacon");
@@ -205,15 +205,15 @@ public final class GroundCommandsTest {
         bench.open(Seat.COMMAND);
         flySeen(1, 3);
         send(new DisarmCommand());
-        final String id = bench.sent(DisarmCommand.NAME).id();
+        final String id = bench.sent(DisarmCommand.NAME).id;
         bench.ack("another");
         bench.say("{\"name\": \"up.ack\", \"data\": {\"id\": 5}}");
         bench.say("{\"name\": \"up.ack\", \"data\": {}}");
         assertTrue(bench.answers.isEmpty());
-        assertEquals(3, bench.ground.status().counters().strangeAnswers());
+        assertEquals(3, bench.ground.status().counters.strangeAnswers);
         bench.nack(id, "refused", "armed by the transmitter\\u0007");
         final Answer answer = bench.answer();
-        assertEquals(Answer.Outcome.NACK, answer.outcome());
+        assertEquals(Answer.Outcome.NACK, answer.outcome);
         assertEquals("the aircraft refused up.disarm: armed by the transmitter",
                 answer.sentence());
         bench.ack(id);
@@ -225,14 +225,14 @@ public final class GroundCommandsTest {
         bench.open(Seat.COMMAND);
         flySeen(1, 3);
         send(new DisarmCommand());
-        final String first = bench.sent(DisarmCommand.NAME).id();
+        final String first = bench.sent(DisarmCommand.NAME).id;
         send(new FlightModeCommand("RATE"));
-        final String second = bench.sent(FlightModeCommand.NAME).id();
+        final String second = bench.sent(FlightModeCommand.NAME).id;
         assertNotEquals(first, second);
         bench.ack(second);
-        assertEquals(FlightModeCommand.NAME, bench.answer().name());
+        assertEquals(FlightModeCommand.NAME, bench.answer().name);
         bench.ack(first);
-        assertEquals(DisarmCommand.NAME, bench.answer().name());
+        assertEquals(DisarmCommand.NAME, bench.answer().name);
     }
 
     @Test
@@ -240,12 +240,12 @@ public final class GroundCommandsTest {
         bench.open(Seat.COMMAND);
         flySeen(1, 3);
         send(new DisarmCommand());
-        final String id = bench.sent(DisarmCommand.NAME).id();
+        final String id = bench.sent(DisarmCommand.NAME).id;
         bench.loop.advance(2999);
         assertTrue(bench.answers.isEmpty());
         bench.loop.advance(1);
         final Answer answer = bench.answer();
-        assertEquals(Answer.Outcome.TIMEOUT, answer.outcome());
+        assertEquals(Answer.Outcome.TIMEOUT, answer.outcome);
         assertEquals("up.disarm: no answer within 3 s; it is not known whether it was carried out",
                 answer.sentence());
         bench.ack(id);
@@ -259,7 +259,7 @@ public final class GroundCommandsTest {
         flySeen(1, 3);
         send(new DisarmCommand());
         bench.peer().end("lost");
-        assertEquals(Answer.Outcome.LOST, bench.answer().outcome());
+        assertEquals(Answer.Outcome.LOST, bench.answer().outcome);
         bench.loop.advance(700);
         bench.accept(Seat.COMMAND);
         bench.loop.advance(5000);
@@ -273,7 +273,7 @@ public final class GroundCommandsTest {
         flySeen(1, 3);
         send(new DisarmCommand());
         bench.ground.stop();
-        assertEquals(Answer.Outcome.LOST, bench.answer().outcome());
+        assertEquals(Answer.Outcome.LOST, bench.answer().outcome);
     }
 
     @Test
@@ -305,7 +305,7 @@ public final class GroundCommandsTest {
         bench.open(Seat.COMMAND);
         flySeen(1, 3);
         send(new BaseCommand("new.cog.command", Collections.singletonMap("v", 5L)));
-        assertEquals(5L, bench.sent("new.cog.command").data().get("v"));
+        assertEquals(5L, bench.sent("new.cog.command").data.get("v"));
     }
 
     @Test
@@ -314,10 +314,10 @@ public final class GroundCommandsTest {
         bench.fly(1, 1);
         bench.sent();
         send(new BaseCommand("arduino.profile.request", null));
-        final String id = bench.sent("arduino.profile.request").id();
+        final String id = bench.sent("arduino.profile.request").id;
         bench.ack(id);
         assertTrue("the profile has yet to come", bench.answers.isEmpty());
         bench.say("{\"name\": \"arduino.profile.values\", \"data\": {\"mix\": \"elevon\"}}");
-        assertEquals("elevon", bench.answer().data().get("mix"));
+        assertEquals("elevon", bench.answer().data.get("mix"));
     }
 }

@@ -23,11 +23,11 @@ public final class GroundLinkTest {
         bench.peer().accept();
         bench.loop.advance(0);
         assertEquals("UP1 aircraft=glider seat=listen\n", bench.peer().written());
-        assertEquals(LinkState.CONNECTING, bench.ground.status().link());
+        assertEquals(LinkState.CONNECTING, bench.ground.status().link);
         bench.say("UP1 ok aircraft=glider seat=listen token=" + GroundBench.TOKEN);
-        assertEquals(LinkState.OPEN, bench.status.link());
-        assertEquals(Seat.LISTEN, bench.status.seat());
-        assertEquals(SeatStanding.LATER, bench.status.standing());
+        assertEquals(LinkState.OPEN, bench.status.link);
+        assertEquals(Seat.LISTEN, bench.status.seat);
+        assertEquals(SeatStanding.LATER, bench.status.standing);
         assertEquals("connected, no telemetry yet", bench.status.linkSentence());
         assertNull("a listener's token is worth nothing",
                 bench.tokens.load(bench.settings.tokenKey()));
@@ -54,7 +54,7 @@ public final class GroundLinkTest {
         bench.open(Seat.COMMAND);
         bench.say("UP1 seat listen");
         bench.say("UP1 seat holder=4");
-        assertEquals(SeatStanding.HELD, bench.status.standing());
+        assertEquals(SeatStanding.HELD, bench.status.standing);
         assertEquals("ground 4 commands", bench.status.seatSentence());
         assertNull(bench.tokens.load(bench.settings.tokenKey()));
         bench.peer().end("lost");
@@ -67,32 +67,32 @@ public final class GroundLinkTest {
     public void theSeatIsAskedForGivenAndReleased() {
         bench.open(Seat.LISTEN);
         bench.peer().written();
-        assertEquals(SeatStanding.FREE, bench.status.standing());
+        assertEquals(SeatStanding.FREE, bench.status.standing);
         assertFalse(bench.ground.giveSeat(2));
         assertFalse(bench.ground.releaseSeat());
         assertTrue(bench.ground.requestSeat());
         assertEquals("UP1 seat request\n", bench.peer().written());
         bench.say("UP1 seat command token=" + GroundBench.OTHER_TOKEN);
         bench.say("UP1 seat holder=2");
-        assertEquals(SeatStanding.OURS, bench.status.standing());
+        assertEquals(SeatStanding.OURS, bench.status.standing);
         assertEquals(GroundBench.OTHER_TOKEN, bench.tokens.load(bench.settings.tokenKey()));
         bench.say("UP1 seat asked by=5");
-        assertEquals(Integer.valueOf(5), bench.status.askedBy());
+        assertEquals(Integer.valueOf(5), bench.status.askedBy);
         assertEquals("you command, ground 5 asks for it", bench.status.seatSentence());
         bench.ground.dismissSeatAsk();
-        assertNull(bench.status.askedBy());
+        assertNull(bench.status.askedBy);
         assertTrue(bench.ground.giveSeat(5));
         assertEquals("UP1 seat give to=5\n", bench.peer().written());
-        assertEquals("the heir may have gone", SeatStanding.OURS, bench.status.standing());
+        assertEquals("the heir may have gone", SeatStanding.OURS, bench.status.standing);
         assertTrue(bench.ground.releaseSeat());
         assertEquals("UP1 seat release\n", bench.peer().written());
         assertEquals("what is sent now is dropped", SeatStanding.LATER,
-                bench.status.standing());
+                bench.status.standing);
         bench.ground.send(new DisarmCommand(), bench.keeping());
-        assertEquals("no_seat", bench.answer().code());
+        assertEquals("no_seat", bench.answer().code);
         bench.say("UP1 seat listen");
         bench.say("UP1 seat holder=none");
-        assertEquals(SeatStanding.FREE, bench.status.standing());
+        assertEquals(SeatStanding.FREE, bench.status.standing);
     }
 
     @Test
@@ -112,7 +112,7 @@ public final class GroundLinkTest {
         bench.start(GroundBench.settings(Seat.LISTEN, false));
         bench.peer().accept();
         bench.say("{\"name\": \"up.telemetry.update\", \"data\": {}}");
-        assertEquals(LinkState.WAITING, bench.status.link());
+        assertEquals(LinkState.WAITING, bench.status.link);
         assertTrue(bench.status.linkSentence(),
                 bench.status.linkSentence().startsWith("no link: the other side does not answer"));
         assertTrue("its telemetry is not shown", bench.frames.isEmpty());
@@ -122,9 +122,9 @@ public final class GroundLinkTest {
         assertFalse(bench.peer().isClosed);
         bench.loop.advance(1);
         assertTrue(bench.peer().isClosed);
-        assertTrue(bench.status.reason(),
-                bench.status.reason().startsWith("no answer to the hello within 5 s"));
-        assertEquals(2, bench.status.failures());
+        assertTrue(bench.status.reason,
+                bench.status.reason.startsWith("no answer to the hello within 5 s"));
+        assertEquals(2, bench.status.failures);
     }
 
     @Test
@@ -132,15 +132,15 @@ public final class GroundLinkTest {
         bench.start(GroundBench.settings(Seat.LISTEN, false));
         bench.peer().accept();
         bench.say("UP1 error code=full reason=\"no room for another ground\"");
-        assertEquals("full", bench.status.rejection());
+        assertEquals("full", bench.status.rejection);
         assertEquals("the proxy refuses: no room for another ground (full)",
-                bench.status.reason());
+                bench.status.reason);
         assertTrue(bench.peer().isClosed);
         bench.loop.advance(700);
         bench.accept(Seat.LISTEN);
         bench.loop.advance(0);
-        assertEquals("", bench.status.rejection());
-        assertEquals(0, bench.status.failures());
+        assertEquals("", bench.status.rejection);
+        assertEquals(0, bench.status.failures);
     }
 
     @Test
@@ -148,9 +148,9 @@ public final class GroundLinkTest {
         bench.start(GroundBench.settings(Seat.LISTEN, false));
         bench.peer().end("cannot reach 192.0.2.9:3004: connection refused");
         bench.loop.advance(0);
-        assertEquals(LinkState.WAITING, bench.status.link());
+        assertEquals(LinkState.WAITING, bench.status.link);
         assertTrue(bench.status.linkSentence().contains("connection refused"));
-        assertEquals(1, bench.status.failures());
+        assertEquals(1, bench.status.failures);
     }
 
     @Test
@@ -167,12 +167,12 @@ public final class GroundLinkTest {
         bench.peer().accept();
         bench.loop.advance(5000);
         assertEquals("", bench.peer().written());
-        assertEquals(LinkState.OPEN, bench.status.link());
-        assertEquals(SeatStanding.OURS, bench.status.standing());
+        assertEquals(LinkState.OPEN, bench.status.link);
+        assertEquals(SeatStanding.OURS, bench.status.standing);
         bench.say("UP1 seat listen");
-        assertEquals(SeatStanding.OURS, bench.status.standing());
+        assertEquals(SeatStanding.OURS, bench.status.standing);
         bench.loop.advance(1000);
-        assertEquals(1, bench.status.counters().strangeControl());
+        assertEquals(1, bench.status.counters.strangeControl);
         assertFalse(bench.ground.requestSeat());
     }
 
@@ -187,7 +187,7 @@ public final class GroundLinkTest {
         bench.frame(1, "{\"altitude\": 7}");
         assertEquals(1, bench.frames.size());
         assertEquals(7.0, bench.frames.get(0).number("altitude"), 0);
-        assertEquals(1, bench.ground.status().counters().malformed());
+        assertEquals(1, bench.ground.status().counters.malformed);
     }
 
     @Test
@@ -203,12 +203,12 @@ public final class GroundLinkTest {
             tooLong.append("aaaaaaaaaa");
         }
         bench.say(tooLong.toString());
-        final GroundCounters counters = bench.ground.status().counters();
-        assertEquals(3, counters.strangeControl());
-        assertEquals(2, counters.malformed());
-        assertEquals(1, counters.tooLong());
+        final GroundCounters counters = bench.ground.status().counters;
+        assertEquals(3, counters.strangeControl);
+        assertEquals(2, counters.malformed);
+        assertEquals(1, counters.tooLong);
         assertEquals(6, counters.dropped());
-        assertEquals("no seat came of it", Seat.LISTEN, bench.ground.status().seat());
+        assertEquals("no seat came of it", Seat.LISTEN, bench.ground.status().seat);
     }
 
     @Test
@@ -219,7 +219,7 @@ public final class GroundLinkTest {
         assertFalse(bench.peer().isClosed);
         bench.loop.advance(1);
         assertTrue(bench.peer().isClosed);
-        assertEquals("nothing came for 4 s", bench.status.reason());
+        assertEquals("nothing came for 4 s", bench.status.reason);
     }
 
     @Test
@@ -231,7 +231,7 @@ public final class GroundLinkTest {
         }
         assertEquals(1, bench.network.connections.size());
         bench.loop.advance(12000);
-        assertEquals("nothing came for 12 s", bench.status.reason());
+        assertEquals("nothing came for 12 s", bench.status.reason);
     }
 
     @Test

@@ -113,7 +113,7 @@ public final class GroundSideSocketTest implements GroundListener {
         running.await(state + "", new Callable<Boolean>() {
             @Override
             public Boolean call() {
-                return status != null && status.link() == state;
+                return status != null && status.link == state;
             }
         });
     }
@@ -146,9 +146,9 @@ public final class GroundSideSocketTest implements GroundListener {
         });
         final byte[] sent = line().getBytes(UTF_8);
         final GeneralMessage command = GeneralMessage.read(sent, sent.length);
-        assertEquals("FBW", command.data().get("mode"));
-        assertEquals(Long.valueOf(10), command.beacon());
-        say("{\"name\": \"up.ack\", \"data\": {\"id\": \"" + command.id() + "\"}}\n");
+        assertEquals("FBW", command.data.get("mode"));
+        assertEquals(Long.valueOf(10), command.beacon);
+        say("{\"name\": \"up.ack\", \"data\": {\"id\": \"" + command.id + "\"}}\n");
         running.await("the answer", new Callable<Boolean>() {
             @Override
             public Boolean call() {
@@ -169,10 +169,10 @@ public final class GroundSideSocketTest implements GroundListener {
         running.call(new Callable<Void>() {
             @Override
             public Void call() {
-                assertTrue(frames.get(1).age().isLinkLost());
+                assertTrue(frames.get(1).age.isLinkLost);
                 assertEquals(13.5, frames.get(2).number("altitude"), 0);
-                assertEquals(0, ground.status().counters().malformed());
-                assertEquals(SeatStanding.OURS, ground.status().standing());
+                assertEquals(0, ground.status().counters.malformed);
+                assertEquals(SeatStanding.OURS, ground.status().standing);
                 return null;
             }
         });
@@ -186,7 +186,7 @@ public final class GroundSideSocketTest implements GroundListener {
         running.await("silence", new Callable<Boolean>() {
             @Override
             public Boolean call() {
-                return status.isOpen() && status.isSilent() && status.counters().frames() == 1;
+                return status.isOpen() && status.isSilent && status.counters.frames == 1;
             }
         });
         running.call(new Callable<Void>() {

@@ -36,9 +36,9 @@ public final class GroundTelemetryTest {
         assertEquals(430, held.readingAgeMs("orientation", bench.loop.nowMs()), 1);
         bench.loop.advance(300);
         assertEquals(730, held.readingAgeMs("orientation", bench.loop.nowMs()), 1);
-        assertFalse(bench.status.isSilent());
+        assertFalse(bench.status.isSilent);
         bench.loop.advance(300);
-        assertTrue("900 ms after it was made", bench.status.isSilent());
+        assertTrue("900 ms after it was made", bench.status.isSilent);
     }
 
     @Test
@@ -48,7 +48,7 @@ public final class GroundTelemetryTest {
         bench.peer().accept();
         bench.loop.advance(60);
         bench.say("UP1 ok aircraft=glider seat=listen token=" + GroundBench.TOKEN);
-        assertEquals(60, bench.status.roundTripMs(), 0);
+        assertEquals(60, bench.status.roundTripMs, 0);
         assertEquals(Long.valueOf(30), stamped(1, 5000).ageMs(bench.loop.nowMs()));
         bench.loop.advance(150);
         assertEquals(Long.valueOf(80), stamped(2, 5100).ageMs(bench.loop.nowMs()));
@@ -62,13 +62,13 @@ public final class GroundTelemetryTest {
             bench.loop.advance(100);
             stamped(1 + each, each * 50);
         }
-        assertTrue(bench.status.isSilent());
-        assertTrue(bench.status.isLate());
+        assertTrue(bench.status.isSilent);
+        assertTrue(bench.status.isLate);
         assertEquals("telemetry comes too late", bench.status.linkSentence());
         assertEquals(Freshness.STALE, bench.ground.telemetry()
                 .freshness("orientation.roll", bench.loop.nowMs()));
         assertEquals("telemetry comes too late",
-                bench.ground.alarms().snapshot().active().get(0).text());
+                bench.ground.alarms().snapshot().active.get(0).text);
     }
 
     @Test
@@ -81,23 +81,23 @@ public final class GroundTelemetryTest {
         bench.loop.advance(100);
         assertEquals("its beacons are others", Long.valueOf(0),
                 stamped(5000000, 150).ageMs(bench.loop.nowMs()));
-        assertEquals(0, bench.ground.status().counters().lostFrames());
+        assertEquals(0, bench.ground.status().counters.lostFrames);
     }
 
     @Test
     public void silenceIsToldWithinASecondAndItsEndAtOnce() {
         bench.open(Seat.LISTEN);
         bench.fly(1, 5);
-        assertFalse(bench.status.isSilent());
+        assertFalse(bench.status.isSilent);
         bench.loop.advance(900);
-        assertFalse(bench.status.isSilent());
+        assertFalse(bench.status.isSilent);
         bench.loop.advance(1);
-        assertTrue(bench.status.isSilent());
+        assertTrue(bench.status.isSilent);
         assertEquals("the aircraft is silent", bench.status.linkSentence());
         assertTrue(bench.ground.alarms().snapshot().has(Alarm.Kind.SILENT));
         assertTrue(bench.events().contains("no telemetry any more"));
         bench.frame(6, "{}");
-        assertFalse(bench.status.isSilent());
+        assertFalse(bench.status.isSilent);
     }
 
     @Test
@@ -106,13 +106,13 @@ public final class GroundTelemetryTest {
         bench.frame(1, "{\"altitude\": 5}");
         bench.peer().end("lost");
         assertEquals(2, bench.frames.size());
-        assertTrue(bench.frames.get(1).age().isLinkLost());
+        assertTrue(bench.frames.get(1).age.isLinkLost);
         assertEquals(Freshness.STALE,
                 bench.ground.telemetry().freshness("altitude", bench.loop.nowMs()));
         assertEquals(5, bench.ground.telemetry().number("altitude"), 0);
         bench.loop.advance(700);
         bench.accept(Seat.LISTEN);
-        assertTrue("an open link alone makes nothing live", bench.ground.status().isSilent());
+        assertTrue("an open link alone makes nothing live", bench.ground.status().isSilent);
         bench.frame(2, "{\"altitude\": 6}");
         assertEquals(Freshness.LIVE,
                 bench.ground.telemetry().freshness("altitude", bench.loop.nowMs()));
@@ -121,15 +121,15 @@ public final class GroundTelemetryTest {
     @Test
     public void framesThatTheBeaconsSayAreMissingAreCountedAndSoIsTheRate() {
         bench.open(Seat.LISTEN);
-        assertNull(bench.ground.status().rateHz());
+        assertNull(bench.ground.status().rateHz);
         bench.fly(1, 20);
         bench.fly(25, 5);
         final GroundStatus now = bench.ground.status();
-        assertEquals(4, now.counters().lostFrames());
-        assertEquals(25, now.counters().frames());
-        assertEquals(10, now.rateHz(), 0.01);
+        assertEquals(4, now.counters.lostFrames);
+        assertEquals(25, now.counters.frames);
+        assertEquals(10, now.rateHz, 0.01);
         bench.loop.advance(10001);
-        assertNull(bench.ground.status().rateHz());
+        assertNull(bench.ground.status().rateHz);
     }
 
     @Test
@@ -138,7 +138,7 @@ public final class GroundTelemetryTest {
         bench.frame(Long.MAX_VALUE, "{}");
         bench.frame(Long.MIN_VALUE, "{}");
         bench.frame(Long.MAX_VALUE, "{}");
-        assertEquals(0, bench.ground.status().counters().lostFrames());
+        assertEquals(0, bench.ground.status().counters.lostFrames);
     }
 
     @Test
@@ -191,9 +191,9 @@ public final class GroundTelemetryTest {
                 + " \"location\": {\"latitude\": 49.0, \"longitude\": 15.0},"
                 + " \"home\": {\"distance\": 1111.95, \"bearing\": 180.0}}");
         final GroundStatus now = bench.ground.status();
-        assertEquals("operator", now.role());
-        assertEquals(true, now.tuneInFlight());
-        assertEquals(48.99, now.home().latitudeDeg(), 1e-5);
-        assertEquals(15.0, now.home().longitudeDeg(), 1e-9);
+        assertEquals("operator", now.role);
+        assertEquals(true, now.tuneInFlight);
+        assertEquals(48.99, now.home.latitudeDeg, 1e-5);
+        assertEquals(15.0, now.home.longitudeDeg, 1e-9);
     }
 }

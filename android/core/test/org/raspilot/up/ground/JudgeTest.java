@@ -47,10 +47,10 @@ public final class JudgeTest {
                 "failsafe: the board flies without a receiver",
                 "Raspberry Pi busy (99 %): telemetry every 150 ms",
                 "against arming again: a; b"), newEvents(before));
-        final List<Event> events = bench.ground.events().snapshot().events();
-        assertEquals(EventLevel.ALARM, events.get(before + 2).level());
-        assertEquals("failsafe", events.get(before + 2).kind());
-        assertEquals(before + 3, events.get(before + 2).number());
+        final List<Event> events = bench.ground.events().snapshot().events;
+        assertEquals(EventLevel.ALARM, events.get(before + 2).level);
+        assertEquals("failsafe", events.get(before + 2).kind);
+        assertEquals(before + 3, events.get(before + 2).number);
     }
 
     @Test
@@ -98,7 +98,7 @@ public final class JudgeTest {
         assertTrue(bench.events().contains("the board is not here yet"));
         assertTrue(bench.events().contains("the phone is not here yet"));
         assertEquals("[WARNING the board is not here yet]",
-                bench.ground.alarms().snapshot().active().toString());
+                bench.ground.alarms().snapshot().active.toString());
         frame("{\"arduino\": {\"connected\": true}, \"android\": {\"connected\": true}}");
         frames(50, "{\"arduino\": {\"connected\": true}, \"android\": {\"connected\": true}}");
         assertTrue(bench.events().contains("the board is here"));
@@ -114,10 +114,10 @@ public final class JudgeTest {
         frame("{\"arduino\": {\"failsafe\": true}}");
         assertTrue(bench.ground.alarms().snapshot().has(Alarm.Kind.FAILSAFE));
         assertTrue(bench.ground.alarms().snapshot().isLoud());
-        final long version = bench.ground.alarms().snapshot().version();
+        final long version = bench.ground.alarms().snapshot().version;
         frames(19, "{\"arduino\": {\"failsafe\": false}}");
         assertTrue(bench.ground.alarms().snapshot().has(Alarm.Kind.FAILSAFE));
-        assertEquals(version, bench.ground.alarms().snapshot().version());
+        assertEquals(version, bench.ground.alarms().snapshot().version);
         frame("{\"arduino\": {\"failsafe\": false}}");
         assertFalse(bench.ground.alarms().snapshot().has(Alarm.Kind.FAILSAFE));
     }
@@ -126,18 +126,18 @@ public final class JudgeTest {
     public void whatMustBeHeardIsLoud() {
         bench.open(Seat.LISTEN);
         frame("{\"load\": {\"panic\": true}}");
-        assertEquals("[]", bench.ground.alarms().snapshot().active().toString());
+        assertEquals("[]", bench.ground.alarms().snapshot().active.toString());
         assertFalse(bench.ground.alarms().snapshot().isLoud());
         frame("{\"android\": {\"batteryLevel\": 19}}");
         assertTrue(bench.ground.alarms().snapshot().isLoud());
         frames(25, "{}");
         frame("{\"arduino\": {\"receiver_valid\": false}, \"armed\": false}");
         assertEquals("[WARNING the receiver is lost]",
-                bench.ground.alarms().snapshot().active().toString());
+                bench.ground.alarms().snapshot().active.toString());
         assertFalse("on the ground it may be off", bench.ground.alarms().snapshot().isLoud());
         bench.loop.advance(901);
         assertEquals("[ALARM the aircraft is silent, WARNING the receiver is lost]",
-                bench.ground.alarms().snapshot().active().toString());
+                bench.ground.alarms().snapshot().active.toString());
         assertTrue(bench.ground.alarms().snapshot().isLoud());
     }
 
@@ -149,7 +149,7 @@ public final class JudgeTest {
         assertTrue(bench.ground.alarms().snapshot().has(Alarm.Kind.BATTERY));
         frame("{\"android\": {\"batteryLevel\": 9}}");
         assertEquals("[ALARM the phone's battery is nearly empty]",
-                bench.ground.alarms().snapshot().active().toString());
+                bench.ground.alarms().snapshot().active.toString());
         frames(40, "{\"android\": {\"batteryLevel\": 24}}");
         assertFalse(bench.ground.alarms().snapshot().has(Alarm.Kind.BATTERY));
         assertTrue(bench.events().contains("the phone's battery is charged"));
@@ -159,18 +159,18 @@ public final class JudgeTest {
     public void aSilenceBeforeTheFirstFrameOrAfterTheStopIsNoAlarm() {
         bench.start(GroundBench.settings(Seat.LISTEN, false));
         bench.loop.advance(20000);
-        assertTrue(bench.ground.alarms().snapshot().active().isEmpty());
+        assertTrue(bench.ground.alarms().snapshot().active.isEmpty());
         bench.ground.reconnectNow();
         bench.accept(Seat.LISTEN);
         bench.fly(1, 3);
         bench.peer().end("gone");
         bench.loop.advance(1);
-        assertEquals("[ALARM no link]", bench.ground.alarms().snapshot().active().toString());
+        assertEquals("[ALARM no link]", bench.ground.alarms().snapshot().active.toString());
         bench.ground.stop();
-        assertTrue(bench.ground.alarms().snapshot().active().isEmpty());
+        assertTrue(bench.ground.alarms().snapshot().active.isEmpty());
         bench.ground.start();
         bench.loop.advance(5000);
-        assertTrue(bench.ground.alarms().snapshot().active().isEmpty());
+        assertTrue(bench.ground.alarms().snapshot().active.isEmpty());
     }
 
     @Test
@@ -179,9 +179,9 @@ public final class JudgeTest {
         for (int each = 0; each < 500; each++) {
             log.note(each, EventLevel.INFO, "mode", "e" + each + "\u0007\u202e");
         }
-        final List<Event> kept = log.snapshot().events();
+        final List<Event> kept = log.snapshot().events;
         assertEquals(EventLog.KEPT, kept.size());
-        assertEquals("e499", kept.get(kept.size() - 1).text());
+        assertEquals("e499", kept.get(kept.size() - 1).text);
         assertEquals(500, log.version());
     }
 

@@ -35,7 +35,7 @@ public final class TelemetryTest {
         assertEquals("FBW", frame.text("flight_mode"));
         assertEquals(Arrays.asList("no receiver", "a b"), frame.texts("vetoes"));
         assertEquals(4, frame.list("vetoes").size());
-        assertEquals(Long.valueOf(7), frame.beacon());
+        assertEquals(Long.valueOf(7), frame.beacon);
         assertEquals(1, frame.object("location").size());
     }
 
@@ -108,7 +108,7 @@ public final class TelemetryTest {
         final Telemetry lost = frame.ofLostLink();
         assertEquals(Freshness.STALE, lost.freshness("altitude", 10000));
         assertTrue(lost.isSilent(10000));
-        assertTrue(lost.age().isLinkLost());
+        assertTrue(lost.age.isLinkLost);
         assertEquals("it is shown all the same", 12, lost.number("altitude"), 0);
     }
 
@@ -116,8 +116,8 @@ public final class TelemetryTest {
     public void aFrameThatWasLongOnItsWayIsLate() {
         final Telemetry late = Telemetry.of(GroundBench.json(FRAME), 7L, 10000, 3000);
         assertTrue(late.isSilent(10000));
-        assertTrue(late.age().isLate(10000));
-        assertFalse(frame.age().isLate(10000));
+        assertTrue(late.age.isLate(10000));
+        assertFalse(frame.age.isLate(10000));
     }
 
     @Test

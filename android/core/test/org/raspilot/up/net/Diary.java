@@ -26,6 +26,6 @@ class Diary implements UpSocketListener {
 
     @Override
     public void onStatus(UpSocket socket) {
-        states.add(socket.status().state());
+        states.add(socket.status().state);
     }
 }

@@ -52,8 +52,8 @@ public final class UpSocketOnLoopbackTest {
         awaitConnects(socket, 7);
         peer.say(" a line\n");
         awaitTold("<  a line");
-        assertEquals(6, counters(socket).lost());
-        assertEquals(7, counters(socket).received());
+        assertEquals(6, counters(socket).lost);
+        assertEquals(7, counters(socket).received);
     }
 
     @Test
@@ -68,9 +68,9 @@ public final class UpSocketOnLoopbackTest {
         }
         assertTrue("held " + mostWaiting, mostWaiting <= 2 * FRAME);
         final UpSocketCounters stalled = counters(socket);
-        final int held = (int) (stalled.bytesOut() / FRAME);
+        final int held = (int) (stalled.bytesOut / FRAME);
         assertTrue("the system held " + held + " frames", held < 10000);
-        assertTrue("replaced " + stalled.replaced(), stalled.replaced() > frames - 10000 - 2);
+        assertTrue("replaced " + stalled.replaced, stalled.replaced > frames - 10000 - 2);
         long last = -1;
         int read = 0;
         while (last != frames - 1) {
@@ -82,7 +82,7 @@ public final class UpSocketOnLoopbackTest {
             read++;
         }
         assertTrue("read " + read, read <= held + 3);
-        assertEquals(1, counters(socket).connects());
+        assertEquals(1, counters(socket).connects);
     }
 
     @Test
@@ -132,7 +132,7 @@ public final class UpSocketOnLoopbackTest {
         awaitConnects(socket, 2);
         send(socket, "whole");
         assertEquals("whole", peer.readLine());
-        assertTrue(counters(socket).dropped() >= 4);
+        assertTrue(counters(socket).dropped >= 4);
     }
 
     @Test
@@ -143,7 +143,7 @@ public final class UpSocketOnLoopbackTest {
         running.await("attempts", new Callable<Boolean>() {
             @Override
             public Boolean call() {
-                return socket.counters().failedAttempts() >= 3;
+                return socket.counters().failedAttempts >= 3;
             }
         });
         final String sentence = running.call(new Callable<String>() {
@@ -154,7 +154,7 @@ public final class UpSocketOnLoopbackTest {
             }
         });
         assertTrue(sentence, sentence.contains("WAITING"));
-        final ServerSocket again = new ServerSocket(place.generalPort(), 5,
+        final ServerSocket again = new ServerSocket(place.generalPort, 5,
                 InetAddress.getByName("127.0.0.1"));
         again.setSoTimeout(20000);
         running.call(start(socket));
@@ -177,7 +177,7 @@ public final class UpSocketOnLoopbackTest {
         running.call(start(socket));
         peer.accept();
         awaitConnects(socket, 1);
-        assertEquals(1, counters(socket).failedAttempts());
+        assertEquals(1, counters(socket).failedAttempts);
         hole.close();
     }
 
@@ -189,13 +189,13 @@ public final class UpSocketOnLoopbackTest {
         running.call(new Callable<Void>() {
             @Override
             public Void call() {
-                assertEquals(UpSocketStatus.State.CONNECTING, socket.status().state());
+                assertEquals(UpSocketStatus.State.CONNECTING, socket.status().state);
                 socket.stop();
                 return null;
             }
         });
         running.pass(150);
-        assertEquals(0, counters(socket).failedAttempts());
+        assertEquals(0, counters(socket).failedAttempts);
         assertEquals("[]", diary.told.toString());
         hole.close();
     }
@@ -205,7 +205,7 @@ public final class UpSocketOnLoopbackTest {
         final UpSocket socket = start(peer.place(), quick().withSilenceLimitMs(100));
         peer.accept();
         awaitConnects(socket, 1);
-        awaitTold("lost: 127.0.0.1:" + peer.place().generalPort() + " said nothing for 100 ms");
+        awaitTold("lost: 127.0.0.1:" + peer.place().generalPort + " said nothing for 100 ms");
         assertEquals("it hung up", -1, peer.read());
         peer.accept();
         awaitConnects(socket, 2);
@@ -277,7 +277,7 @@ public final class UpSocketOnLoopbackTest {
         running.await("connection " + count, new Callable<Boolean>() {
             @Override
             public Boolean call() {
-                return socket.isConnected() && socket.counters().connects() == count;
+                return socket.isConnected() && socket.counters().connects == count;
             }
         });
     }

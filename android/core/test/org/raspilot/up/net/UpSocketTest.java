@@ -40,9 +40,9 @@ public final class UpSocketTest {
         assertEquals("CONNECTING: connecting to 192.0.2.7:50001", socket.status().toString());
         network.newest().accept();
         assertEquals("CONNECTED: connected to 192.0.2.7:50001", socket.status().toString());
-        assertEquals(PLACE, socket.status().place());
+        assertEquals(PLACE, socket.status().place);
         assertEquals(Arrays.asList("connected"), diary.told);
-        assertEquals(1, socket.counters().connects());
+        assertEquals(1, socket.counters().connects);
     }
 
     @Test
@@ -62,8 +62,8 @@ public final class UpSocketTest {
             assertTrue(i + ": " + gotMs[i], Math.abs(gotMs[i] - wantedMs[i]) <= wantedMs[i] / 5);
         }
         assertTrue("no jitter", gotMs[2] != gotMs[3] || gotMs[3] != gotMs[4]);
-        assertEquals(5, socket.counters().failedAttempts());
-        assertEquals(0, socket.counters().lost());
+        assertEquals(5, socket.counters().failedAttempts);
+        assertEquals(0, socket.counters().lost);
         assertTrue(diary.told.isEmpty());
     }
 
@@ -106,7 +106,7 @@ public final class UpSocketTest {
             final long waitMs = msToNextAttempt("broke");
             assertTrue("waited " + waitMs, waitMs >= 400 && waitMs <= 600);
         }
-        assertEquals(4, socket.counters().lost());
+        assertEquals(4, socket.counters().lost);
         assertEquals(Arrays.asList("connected", "lost: broke"), diary.told.subList(0, 2));
     }
 
@@ -190,7 +190,7 @@ public final class UpSocketTest {
         assertEquals("STOPPED: stopped", socket.status().toString());
         assertEquals("waiting", 3, network.connections.size());
         assertEquals(0, loop.pendingTimers());
-        assertEquals(0, socket.counters().lost());
+        assertEquals(0, socket.counters().lost);
     }
 
     @Test
@@ -215,7 +215,7 @@ public final class UpSocketTest {
         lost.start();
         finder.listener.onNotFound("no answer from Discovery");
         assertEquals("WAITING: no answer from Discovery; trying again", lost.status().toString());
-        assertNull(lost.status().place());
+        assertNull(lost.status().place);
         loop.advance(600);
         assertEquals(2, finder.asked);
         lost.stop();
@@ -272,7 +272,7 @@ public final class UpSocketTest {
         network.newest().accept();
         network.newest().end("broke");
         loop.advance(60000);
-        assertEquals(UpSocketStatus.State.STOPPED, shy[0].status().state());
+        assertEquals(UpSocketStatus.State.STOPPED, shy[0].status().state);
         assertEquals(2, network.connections.size());
     }
 

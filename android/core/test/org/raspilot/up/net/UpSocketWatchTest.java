@@ -40,8 +40,8 @@ public final class UpSocketWatchTest {
         assertEquals("\n", network.newest().written());
         loop.advance(3000);
         assertEquals("\n\n\n", network.newest().written());
-        assertEquals("heartbeats are no lines", 1, socket.counters().sent());
-        assertEquals(7, socket.counters().bytesOut());
+        assertEquals("heartbeats are no lines", 1, socket.counters().sent);
+        assertEquals(7, socket.counters().bytesOut);
     }
 
     @Test
@@ -97,7 +97,7 @@ public final class UpSocketWatchTest {
         loop.advance(3000);
         assertTrue(socket.isConnected());
         loop.advance(3000);
-        assertEquals(1, socket.counters().lost());
+        assertEquals(1, socket.counters().lost);
     }
 
     @Test

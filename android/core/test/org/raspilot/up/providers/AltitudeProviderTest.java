@@ -93,7 +93,7 @@ public final class AltitudeProviderTest {
         bench.run(provider);
         for (double bad : new double[] {0, -3, Double.NaN, Double.POSITIVE_INFINITY, 1e-9}) {
             barometer.give(new Pressure(bad));
-            assertTrue("" + bad, bench.status().problem().startsWith("its reading cannot be used"));
+            assertTrue("" + bad, bench.status().problem.startsWith("its reading cannot be used"));
         }
         assertEquals(0, bench.outlet.commands.size());
     }

@@ -65,7 +65,7 @@ public final class BatteryProviderTest {
         bench.run(provider);
         for (double bad : new double[] {-1, 100.6, Double.NaN}) {
             battery.give(new BatteryLevel(bad));
-            assertTrue(bench.status().problem(), bench.status().problem().contains("percent"));
+            assertTrue(bench.status().problem, bench.status().problem.contains("percent"));
         }
         assertEquals(0, bench.outlet.commands.size());
     }

@@ -44,7 +44,7 @@ public final class LocationProviderTest {
         assertTrue(bench.told.get(0), bench.told.get(0).startsWith(
                 "location: its reading cannot be used: latitude must be a number between -90"));
         gps.give(new Fix(1, 2, null, null, null, null));
-        assertEquals("", bench.status().problem());
+        assertEquals("", bench.status().problem);
         assertEquals(1, bench.outlet.commands.size());
     }
 
@@ -63,7 +63,7 @@ public final class LocationProviderTest {
         gps.give(new Fix(1, 2, null, 50.0, null, null));
         assertEquals("up.location.update {latitude=1.0, longitude=2.0, accuracy=50.0}",
                 bench.outlet.last());
-        assertEquals("", bench.status().problem());
+        assertEquals("", bench.status().problem);
     }
 
     @Test
@@ -75,10 +75,10 @@ public final class LocationProviderTest {
         assertEquals("asking may take the system long", asked, gps.namesAsked);
         gps.name = "GPS, the permission is missing";
         bench.controller.restart("location");
-        assertEquals("GPS, the permission is missing", bench.status().sensor());
+        assertEquals("GPS, the permission is missing", bench.status().sensor);
         gps.name = null;
         bench.controller.restart("location");
-        assertEquals("one that has no name", "", bench.status().sensor());
+        assertEquals("one that has no name", "", bench.status().sensor);
     }
 
     @Test
@@ -126,22 +126,22 @@ public final class LocationProviderTest {
         bench.run(provider);
         bench.feed(gps, new Fix(1, 2, null, null, null, null), 500, 5000);
         ProviderStatus status = bench.status();
-        assertEquals(ProviderState.SENDING, status.state());
-        assertEquals(2, status.rateHz(), 0);
-        assertEquals(0, status.ageMs());
-        assertEquals(10, status.sent());
-        assertEquals("GPS", status.sensor());
-        assertEquals("latitude 1.0, longitude 2.0", status.lastText());
+        assertEquals(ProviderState.SENDING, status.state);
+        assertEquals(2, status.rateHz, 0);
+        assertEquals(0, status.ageMs);
+        assertEquals(10, status.sent);
+        assertEquals("GPS", status.sensor);
+        assertEquals("latitude 1.0, longitude 2.0", status.lastText);
         bench.loop.advance(700);
-        assertEquals(700, bench.status().ageMs());
-        assertEquals(1, bench.status().rateHz(), 0);
+        assertEquals(700, bench.status().ageMs);
+        assertEquals(1, bench.status().rateHz, 0);
     }
 
     @Test
     public void aGpsThatSaysNothingForTenSecondsIsSilent() {
         bench.run(provider);
         assertEquals(ProviderState.WAITING, provider.state());
-        assertEquals(-1, bench.status().ageMs());
+        assertEquals(-1, bench.status().ageMs);
         bench.loop.advance(10000);
         assertEquals(ProviderState.WAITING, provider.state());
         bench.loop.advance(1);

@@ -16,16 +16,16 @@ public final class OrientationProviderTest {
     @Test
     public void aFrameHasTheAircraftsAttitudeAndRates() {
         bench.run(new OrientationProvider(rotation, gyroscope, mounting, 50));
-        double[] nose = mounting.bodyToDevice().turn(1, 0, 0);
+        double[] nose = mounting.bodyToDevice.turn(1, 0, 0);
         gyroscope.give(new RotationRate(nose[0], nose[1], nose[2], 0));
         rotation.give(mounting.rotation(new Attitude(20, -5, 300), 0));
         OrientationFrame frame = bench.outlet.frames.get(0);
-        assertEquals(20, frame.rollDeg(), 1e-4);
-        assertEquals(-5, frame.pitchDeg(), 1e-4);
-        assertEquals(300, frame.yawDeg(), 1e-4);
-        assertEquals(57.29578, frame.rollRateDegS(), 1e-4);
-        assertEquals(0, frame.pitchRateDegS(), 1e-4);
-        assertEquals(0, frame.yawRateDegS(), 1e-4);
+        assertEquals(20, frame.rollDeg, 1e-4);
+        assertEquals(-5, frame.pitchDeg, 1e-4);
+        assertEquals(300, frame.yawDeg, 1e-4);
+        assertEquals(57.29578, frame.rollRateDegS, 1e-4);
+        assertEquals(0, frame.pitchRateDegS, 1e-4);
+        assertEquals(0, frame.yawRateDegS, 1e-4);
     }
 
     @Test
@@ -45,26 +45,26 @@ public final class OrientationProviderTest {
     public void theScreenIsToldTheRateOfTheLastSecond() {
         bench.run(new OrientationProvider(rotation, gyroscope, mounting, 200));
         bench.feed(rotation, mounting.rotation(new Attitude(1, 2, 3), 0), 5, 3000);
-        assertEquals(200, bench.status().rateHz(), 1);
-        assertEquals("roll 1.0, pitch 2.0, yaw 3.0", bench.status().lastText());
-        assertEquals("rotation vector and gyroscope", bench.status().sensor());
+        assertEquals(200, bench.status().rateHz, 1);
+        assertEquals("roll 1.0, pitch 2.0, yaw 3.0", bench.status().lastText);
+        assertEquals("rotation vector and gyroscope", bench.status().sensor);
         bench.loop.advance(501);
-        assertEquals(ProviderState.SILENT, bench.status().state());
+        assertEquals(ProviderState.SILENT, bench.status().state);
         bench.loop.advance(500);
-        assertEquals(0, bench.status().rateHz(), 0);
+        assertEquals(0, bench.status().rateHz, 0);
     }
 
     @Test
     public void withoutAGyroscopeTheRatesAreThoseOfTheAttitude() {
         gyroscope.isPresent = false;
         bench.run(new OrientationProvider(rotation, gyroscope, mounting, 50));
-        assertEquals("rotation vector and no gyroscope", bench.status().sensor());
+        assertEquals("rotation vector and no gyroscope", bench.status().sensor);
         assertEquals(0, gyroscope.periodsMs.size());
         for (int at = 0; at < 20; at++) {
             bench.loop.advance(20);
             rotation.give(mounting.rotation(new Attitude(3 * at, 0, 0), bench.loop.nowMs()));
         }
-        assertEquals(150, bench.outlet.frames.get(19).rollRateDegS(), 0.01);
+        assertEquals(150, bench.outlet.frames.get(19).rollRateDegS, 0.01);
     }
 
     @Test
@@ -75,8 +75,8 @@ public final class OrientationProviderTest {
             bench.loop.advance(20);
             rotation.give(mounting.rotation(new Attitude(0, 0, 0), bench.loop.nowMs()));
         }
-        assertTrue(bench.outlet.frames.get(0).rollRateDegS() != 0);
-        assertEquals(0, bench.outlet.frames.get(19).rollRateDegS(), 1e-6);
+        assertTrue(bench.outlet.frames.get(0).rollRateDegS != 0);
+        assertEquals(0, bench.outlet.frames.get(19).rollRateDegS, 1e-6);
     }
 
     @Test
@@ -86,7 +86,7 @@ public final class OrientationProviderTest {
             gyroscope.give(new RotationRate(bad, 0, 0, bench.loop.nowMs()));
             rotation.give(new Rotation(1, 0, 0, 0, bench.loop.nowMs()));
             assertEquals(0, bench.outlet.frames.size());
-            assertTrue(bench.status().problem(), bench.status().problem().contains("rate"));
+            assertTrue(bench.status().problem, bench.status().problem.contains("rate"));
             bench.loop.advance(20);
         }
     }
@@ -98,7 +98,7 @@ public final class OrientationProviderTest {
         provider.setDeclinationDeg(5);
         bench.run(provider);
         rotation.give(new Rotation(1, 0, 0, 0, 0));
-        assertEquals(5, bench.outlet.frames.get(0).yawDeg(), 1e-4);
+        assertEquals(5, bench.outlet.frames.get(0).yawDeg, 1e-4);
     }
 
     @Test

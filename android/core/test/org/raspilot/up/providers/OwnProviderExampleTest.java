@@ -49,6 +49,6 @@ public final class OwnProviderExampleTest {
         sensor.give(new Light(740));
         assertEquals("black_box.record {topic=phone.light, content={lux=740.0}}",
                 bench.outlet.last());
-        assertEquals(ProviderState.SENDING, bench.status().state());
+        assertEquals(ProviderState.SENDING, bench.status().state);
     }
 }

@@ -52,11 +52,11 @@ public final class ProvidersControllerTest {
         absent.isPresent = false;
         bench.run(new LocationProvider(absent, 500));
         assertEquals("[location: this phone has no GPS]", bench.told.toString());
-        assertEquals(ProviderState.ABSENT, bench.status().state());
-        assertEquals("", bench.status().problem());
+        assertEquals(ProviderState.ABSENT, bench.status().state);
+        assertEquals("", bench.status().problem);
         assertEquals(0, absent.periodsMs.size());
         bench.loop.advance(60000);
-        assertEquals(ProviderState.ABSENT, bench.status().state());
+        assertEquals(ProviderState.ABSENT, bench.status().state);
         assertEquals(1, bench.told.size());
         bench.controller.stop();
         bench.faults.mustBeNone();
@@ -66,8 +66,8 @@ public final class ProvidersControllerTest {
     public void aSourceThatIsNotThereNeverReads() {
         SensorSource<Fix> absent = new AbsentSource<Fix>("no GPS");
         bench.run(new LocationProvider(absent, 500));
-        assertEquals(ProviderState.ABSENT, bench.status().state());
-        assertEquals("no GPS", bench.status().sensor());
+        assertEquals(ProviderState.ABSENT, bench.status().state);
+        assertEquals("no GPS", bench.status().sensor);
     }
 
     @Test
@@ -80,13 +80,13 @@ public final class ProvidersControllerTest {
         bench.controller.start(bench.outlet);
         barometer.give(new Pressure(1000));
         assertEquals(1, bench.outlet.commands.size());
-        assertEquals(ProviderState.STOPPED, bench.status().state());
-        assertEquals("the sensor cannot be read: no permission", bench.status().problem());
+        assertEquals(ProviderState.STOPPED, bench.status().state);
+        assertEquals("the sensor cannot be read: no permission", bench.status().problem);
         gps.fault = null;
         assertTrue(bench.controller.restart("location"));
         gps.give(new Fix(1, 2, null, null, null, null));
         assertEquals(2, bench.outlet.commands.size());
-        assertEquals("", bench.status().problem());
+        assertEquals("", bench.status().problem);
     }
 
     @Test
@@ -128,7 +128,7 @@ public final class ProvidersControllerTest {
         late.onReading(new BatteryLevel(40));
         bench.loop.advance(60000);
         assertEquals(1, bench.outlet.commands.size());
-        assertEquals(ProviderState.STOPPED, bench.status().state());
+        assertEquals(ProviderState.STOPPED, bench.status().state);
         assertEquals(0, bench.loop.pendingTimers());
     }
 

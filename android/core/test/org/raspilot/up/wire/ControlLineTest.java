@@ -75,9 +75,9 @@ public final class ControlLineTest {
 
     private static void assertReads(String line, ControlLine wanted) {
         ControlLine read = read(line);
-        assertEquals(wanted.kind(), read.kind());
-        assertEquals(wanted.number(), read.number());
-        assertEquals(wanted.token(), read.token());
+        assertEquals(wanted.kind, read.kind);
+        assertEquals(wanted.number, read.number);
+        assertEquals(wanted.token, read.token);
     }
 
     private static ControlLine read(String line) {

@@ -40,7 +40,7 @@ public final class JsonEcho {
             answer.put("invalid", complaint(message, registry));
         } catch (MalformedException fault) {
             answer.put("malformed", fault.reason());
-            answer.put("id", fault.id());
+            answer.put("id", fault.id);
         }
         return answer;
     }

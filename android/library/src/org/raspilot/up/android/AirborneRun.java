@@ -78,7 +78,7 @@ final class AirborneRun {
                 }));
         speaker = new AndroidSpeaker(context, texts, problems);
         locks = new AwakeLocks(context);
-        way = new WifiWay(new ProcessWifi(context), isOnWifi, settings.host());
+        way = new WifiWay(new ProcessWifi(context), isOnWifi, settings.host);
         network = new NetworkWatch(context, new Runnable() {
             @Override
             public void run() {
@@ -221,7 +221,7 @@ final class AirborneRun {
 
     /** Returns whether the network path has changed. */
     private boolean lookAtWay(AirborneStatus status) {
-        return way.look(loop.nowMs(), status.isConnected() ? status.place().host() : null);
+        return way.look(loop.nowMs(), status.isConnected ? status.place.host : null);
     }
 
     private void tellStatus() {
@@ -272,7 +272,7 @@ final class AirborneRun {
         @Override
         public void onConnected(Place place) {
             tellStatus();
-            tellEvent(airborne.status().linkText());
+            tellEvent(airborne.status().linkText);
         }
 
         @Override

@@ -27,14 +27,14 @@ final class Declination implements FixListener {
             return;
         }
         told = fix;
-        float altitudeM = fix.altitudeM() == null ? 0 : fix.altitudeM().floatValue();
-        GeomagneticField field = new GeomagneticField((float) fix.latitudeDeg(),
-                (float) fix.longitudeDeg(), altitudeM, System.currentTimeMillis());
+        float altitudeM = fix.altitudeM == null ? 0 : fix.altitudeM.floatValue();
+        GeomagneticField field = new GeomagneticField((float) fix.latitudeDeg,
+                (float) fix.longitudeDeg, altitudeM, System.currentTimeMillis());
         listener.onDeclination(field.getDeclination());
     }
 
     private static boolean isNear(Fix fix, Fix other) {
-        return Math.abs(fix.latitudeDeg() - other.latitudeDeg()) < NEAR_DEG
-                && Math.abs(fix.longitudeDeg() - other.longitudeDeg()) < NEAR_DEG;
+        return Math.abs(fix.latitudeDeg - other.latitudeDeg) < NEAR_DEG
+                && Math.abs(fix.longitudeDeg - other.longitudeDeg) < NEAR_DEG;
     }
 }

@@ -60,8 +60,8 @@ final class GroundRun implements GroundListener, HandlerFaultListener {
         up = new Up(loop, this);
         side = new GroundSide(loop, settings, new PreferencesTokenStore(context),
                 up.commandExecutor(), this, new Random());
-        way = new WifiWay(new ProcessWifi(context), isOnWifi, settings.host());
-        host = settings.host();
+        way = new WifiWay(new ProcessWifi(context), isOnWifi, settings.host);
+        host = settings.host;
         network = new NetworkWatch(context, new Runnable() {
             @Override
             public void run() {
@@ -169,7 +169,7 @@ final class GroundRun implements GroundListener, HandlerFaultListener {
 
     /** Returns whether the network path has changed. */
     private boolean lookAtWay(GroundStatus status) {
-        return way.look(loop.nowMs(), status.link() == LinkState.OPEN ? host : null);
+        return way.look(loop.nowMs(), status.link == LinkState.OPEN ? host : null);
     }
 
     private void comeBack() {

@@ -69,9 +69,9 @@ final class SpawnRequest {
     }
 
     private static SpawnResult result(RunnerAnswer answer, Place place) {
-        String sentence = answer.error() == null ? answer.message()
-                : answer.message() + ": " + answer.error();
-        return SpawnResult.running(answer.isSpawned(), sentence, place.toString(),
-                answer.proxyHost(), answer.proxyGroundPort());
+        String sentence = answer.error == null ? answer.message
+                : answer.message + ": " + answer.error;
+        return SpawnResult.running(answer.isSpawned, sentence, place.toString(),
+                answer.proxyHost, answer.proxyGroundPort);
     }
 }

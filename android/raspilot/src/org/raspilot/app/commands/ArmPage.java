@@ -81,8 +81,8 @@ final class ArmPage implements Page, HoldButton.HoldListener {
             return;
         }
         Context context = desk.context();
-        String title = CommandWords.title(context.getResources(), form.name());
-        desk.confirm(context.getString(R.string.arm_question, title), form.text(), title,
+        String title = CommandWords.title(context.getResources(), form.name);
+        desk.confirm(context.getString(R.string.arm_question, title), form.text, title,
                 new Runnable() {
                     @Override
                     public void run() {
@@ -99,8 +99,8 @@ final class ArmPage implements Page, HoldButton.HoldListener {
     private void carryOut(CommandForm form) {
         // Between the press and now the seat or the link may be gone.
         if (form != null && desk.objection(form, NOTHING) == Objection.NONE) {
-            desk.send(new BaseCommand(form.name(), NOTHING),
-                    CommandWords.title(desk.context().getResources(), form.name()));
+            desk.send(new BaseCommand(form.name, NOTHING),
+                    CommandWords.title(desk.context().getResources(), form.name));
         }
     }
 

@@ -34,7 +34,7 @@ final class ChoicePage implements Page {
             return false;
         }
         CommandField field = form.fields().get(0);
-        return field.isRequired() && field.choices() != null && field.choices().size() <= MOST;
+        return field.isRequired() && field.choices != null && field.choices.size() <= MOST;
     }
 
     /** Creates the page. */
@@ -45,18 +45,18 @@ final class ChoicePage implements Page {
         element = inflater.inflate(R.layout.page_form, null);
         Resources words = desk.context().getResources();
         ((TextView) element.findViewById(R.id.page_title))
-                .setText(CommandWords.title(words, form.name()));
-        ((TextView) element.findViewById(R.id.page_name)).setText(form.name());
-        ((TextView) element.findViewById(R.id.page_text)).setText(form.text());
+                .setText(CommandWords.title(words, form.name));
+        ((TextView) element.findViewById(R.id.page_name)).setText(form.name);
+        ((TextView) element.findViewById(R.id.page_text)).setText(form.text);
         why = (TextView) element.findViewById(R.id.page_why);
         now = (TextView) element.findViewById(R.id.page_now);
         element.findViewById(R.id.page_send).setVisibility(View.GONE);
         ViewGroup list = (ViewGroup) element.findViewById(R.id.page_fields);
         CommandField field = form.fields().get(0);
-        for (Object choice : field.choices()) {
+        for (Object choice : field.choices) {
             Button button = (Button) inflater.inflate(R.layout.button_choice, list, false);
             button.setText(String.valueOf(choice).replace('_', ' '));
-            button.setOnClickListener(new Choose(Collections.singletonMap(field.name(), choice)));
+            button.setOnClickListener(new Choose(Collections.singletonMap(field.name, choice)));
             list.addView(button);
             buttons.add(button);
         }
@@ -72,7 +72,7 @@ final class ChoicePage implements Page {
     public void update() {
         String objection = desk.objectionText(form, Collections.<String, Object>emptyMap());
         Texts.showOrHide(why, objection);
-        Texts.showOrHide(now, CommandWords.now(desk.context().getResources(), form.name(),
+        Texts.showOrHide(now, CommandWords.now(desk.context().getResources(), form.name,
                 desk.picture()));
         for (Button button : buttons) {
             button.setEnabled(objection.isEmpty());
@@ -84,8 +84,8 @@ final class ChoicePage implements Page {
         private final String words;
 
         private Choose(Map<String, ?> data) {
-            command = new BaseCommand(form.name(), data);
-            words = CommandWords.asked(desk.context().getResources(), form.name(), data);
+            command = new BaseCommand(form.name, data);
+            words = CommandWords.asked(desk.context().getResources(), form.name, data);
         }
 
         @Override

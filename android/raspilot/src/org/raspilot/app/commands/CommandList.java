@@ -45,7 +45,7 @@ final class CommandList extends BaseAdapter {
         for (CommandGroup group : CommandGroup.values()) {
             boolean isBegun = false;
             for (CommandForm form : forms) {
-                if (CommandGroup.of(form.name()) == group && matches(form, wanted)) {
+                if (CommandGroup.of(form.name) == group && matches(form, wanted)) {
                     if (!isBegun) {
                         lines.add(group);
                         isBegun = true;
@@ -122,8 +122,8 @@ final class CommandList extends BaseAdapter {
         }
         View row = used == null ? inflater.inflate(R.layout.row_command, list, false) : used;
         TextView title = (TextView) row.findViewById(R.id.command_title);
-        title.setText(CommandWords.title(words, form.name()));
-        ((TextView) row.findViewById(R.id.command_name)).setText(form.name());
+        title.setText(CommandWords.title(words, form.name));
+        ((TextView) row.findViewById(R.id.command_name)).setText(form.name);
         // It opens nevertheless: its page states why it is not offered.
         Texts.colour(title, isOffered(form) ? inks.ink : inks.dim);
         return row;
@@ -135,10 +135,10 @@ final class CommandList extends BaseAdapter {
 
     private boolean matches(CommandForm form, String wanted) {
         StringBuilder aliases = new StringBuilder();
-        for (String alias : form.aliases()) {
+        for (String alias : form.aliases) {
             aliases.append(alias).append(' ');
         }
-        return CommandGroup.matches(wanted, form.name(), form.text(), aliases.toString(),
-                CommandWords.title(words, form.name()));
+        return CommandGroup.matches(wanted, form.name, form.text, aliases.toString(),
+                CommandWords.title(words, form.name));
     }
 }

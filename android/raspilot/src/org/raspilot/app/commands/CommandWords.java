@@ -59,7 +59,7 @@ final class CommandWords {
             case LISTENING:
                 return words.getString(R.string.why_listening);
             case ROLE:
-                String role = picture.status == null ? "" : picture.status.role();
+                String role = picture.status == null ? "" : picture.status.role;
                 return words.getString(R.string.why_role, role);
             case SILENT:
                 return words.getString(R.string.why_silent);
@@ -78,8 +78,8 @@ final class CommandWords {
             return words.getString(R.string.commands_now, mode(words, picture));
         }
         if (name.equals("up.telemetry.frequency") && picture.status != null
-                && picture.status.rateHz() != null) {
-            double rateHz = picture.status.rateHz();
+                && picture.status.rateHz != null) {
+            double rateHz = picture.status.rateHz;
             return words.getString(R.string.commands_period_now, Math.round(1000 / rateHz),
                     rateHz);
         }

@@ -130,8 +130,8 @@ public final class CommandsMemory extends Fragment {
         return new AnswerListener() {
             @Override
             public void onAnswer(Answer answer) {
-                String why = answer.reason().isEmpty() ? answer.code() : answer.reason();
-                history.answered(number, outcome(answer), why, answer.roundTripMs());
+                String why = answer.reason.isEmpty() ? answer.code : answer.reason;
+                history.answered(number, outcome(answer), why, answer.roundTripMs);
                 tell();
             }
         };
@@ -164,7 +164,7 @@ public final class CommandsMemory extends Fragment {
     }
 
     private static CommandHistory.Outcome outcome(Answer answer) {
-        switch (answer.outcome()) {
+        switch (answer.outcome) {
             case ACK:
                 return CommandHistory.Outcome.GOOD;
             case NACK:

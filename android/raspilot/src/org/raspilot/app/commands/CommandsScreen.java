@@ -119,7 +119,7 @@ final class CommandsScreen
     public void onItemClick(AdapterView<?> parent, View row, int place, long id) {
         CommandForm form = list.form(place);
         if (form != null) {
-            open(form.name());
+            open(form.name);
         }
     }
 
@@ -165,7 +165,7 @@ final class CommandsScreen
     @Override
     public Objection objection(CommandForm form, Map<String, ?> data) {
         Picture picture = picture();
-        return Permission.objection(form.name(), form.role(), data, picture.status,
+        return Permission.objection(form.name, form.role, data, picture.status,
                 picture.telemetry, picture.nowMs);
     }
 
@@ -235,10 +235,10 @@ final class CommandsScreen
     }
 
     private Page pageOf(CommandForm form) {
-        if (form.name().equals("up.arm") || form.name().equals("up.disarm")) {
+        if (form.name.equals("up.arm") || form.name.equals("up.disarm")) {
             return new ArmPage(formOf("up.arm"), formOf("up.disarm"), this);
         }
-        if (form.name().equals("arduino.pids.tunings")) {
+        if (form.name.equals("arduino.pids.tunings")) {
             return new GainsPage(form, this);
         }
         return ChoicePage.fits(form) ? new ChoicePage(form, this) : new FormPage(form, this);
@@ -246,7 +246,7 @@ final class CommandsScreen
 
     private CommandForm formOf(String name) {
         for (CommandForm form : forms) {
-            if (form.name().equals(name)) {
+            if (form.name.equals(name)) {
                 return form;
             }
         }

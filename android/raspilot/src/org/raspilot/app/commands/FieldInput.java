@@ -33,8 +33,8 @@ abstract class FieldInput {
 
     /** Returns the input that a field needs. */
     static FieldInput of(Context context, CommandField field, ChangeListener listener) {
-        List<Object> choices = field.choices();
-        if (choices == null && field.type() == FieldType.BOOLEAN) {
+        List<Object> choices = field.choices;
+        if (choices == null && field.type == FieldType.BOOLEAN) {
             if (field.isRequired()) {
                 return new SwitchInput(context, listener);
             }
@@ -61,7 +61,7 @@ abstract class FieldInput {
             this.listener = listener;
             view = new EditText(context);
             view.setInputType(inputType(field));
-            if (field.type() == FieldType.NUMBER) {
+            if (field.type == FieldType.NUMBER) {
                 // Some phones' keyboards for numbers have a comma only, which is refused otherwise.
                 view.setKeyListener(DigitsKeyListener.getInstance(DIGITS));
                 view.setRawInputType(inputType(field));
@@ -101,9 +101,9 @@ abstract class FieldInput {
         }
 
         private static int inputType(CommandField field) {
-            boolean isSigned = field.minimum() == null || field.minimum() < 0;
+            boolean isSigned = field.minimum == null || field.minimum < 0;
             int sign = isSigned ? InputType.TYPE_NUMBER_FLAG_SIGNED : 0;
-            switch (field.type()) {
+            switch (field.type) {
                 case INTEGER:
                     return InputType.TYPE_CLASS_NUMBER | sign;
                 case NUMBER:

@@ -36,14 +36,14 @@ final class FieldView implements FieldInput.ChangeListener {
         view.setContentDescription(label(context.getResources()));
         ((ViewGroup) element.findViewById(R.id.field_input)).addView(view);
         ((TextView) element.findViewById(R.id.field_label)).setText(label(context.getResources()));
-        ((TextView) element.findViewById(R.id.field_hint)).setText(field.text());
-        String kept = draft.get(field.name());
+        ((TextView) element.findViewById(R.id.field_hint)).setText(field.text);
+        String kept = draft.get(field.name);
         if (kept != null) {
             input.setText(kept);
         }
         if (!input.text().isEmpty()) {
             // A switch has a value from the start.
-            draft.put(field.name(), input.text());
+            draft.put(field.name, input.text());
         }
         isReady = true;
     }
@@ -73,7 +73,7 @@ final class FieldView implements FieldInput.ChangeListener {
     @Override
     public void onChange() {
         String text = input.text();
-        draft.put(field.name(), text);
+        draft.put(field.name, text);
         if (isReady) {
             // An empty, untouched field shows no error.
             show(text.trim().isEmpty() ? "" : sentence(text));
@@ -98,9 +98,9 @@ final class FieldView implements FieldInput.ChangeListener {
     }
 
     private String label(Resources words) {
-        String name = field.unit().isEmpty() ? field.name()
-                : words.getString(R.string.field_unit, field.name(), field.unit());
-        boolean isSwitch = field.type() == FieldType.BOOLEAN && field.isRequired();
+        String name = field.unit.isEmpty() ? field.name
+                : words.getString(R.string.field_unit, field.name, field.unit);
+        boolean isSwitch = field.type == FieldType.BOOLEAN && field.isRequired();
         return field.isRequired() || isSwitch ? name
                 : words.getString(R.string.field_optional, name);
     }

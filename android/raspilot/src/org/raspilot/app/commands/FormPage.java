@@ -37,14 +37,14 @@ final class FormPage implements Page, View.OnClickListener {
     FormPage(CommandForm form, Desk desk) {
         this.form = form;
         this.desk = desk;
-        draft = desk.memory().draft(form.name());
+        draft = desk.memory().draft(form.name);
         LayoutInflater inflater = LayoutInflater.from(desk.context());
         element = inflater.inflate(R.layout.page_form, null);
         Resources words = desk.context().getResources();
         ((TextView) element.findViewById(R.id.page_title))
-                .setText(CommandWords.title(words, form.name()));
-        ((TextView) element.findViewById(R.id.page_name)).setText(form.name());
-        ((TextView) element.findViewById(R.id.page_text)).setText(form.text());
+                .setText(CommandWords.title(words, form.name));
+        ((TextView) element.findViewById(R.id.page_name)).setText(form.name);
+        ((TextView) element.findViewById(R.id.page_text)).setText(form.text);
         why = (TextView) element.findViewById(R.id.page_why);
         now = (TextView) element.findViewById(R.id.page_now);
         problem = (TextView) element.findViewById(R.id.page_problem);
@@ -54,7 +54,7 @@ final class FormPage implements Page, View.OnClickListener {
         for (CommandField field : form.fields()) {
             fields.add(new FieldView(list, field, draft));
         }
-        if (form.name().equals("up.telemetry.frequency") && fields.size() == 1) {
+        if (form.name.equals("up.telemetry.frequency") && fields.size() == 1) {
             addPresets((ViewGroup) element.findViewById(R.id.page_presets));
         }
         update();
@@ -70,7 +70,7 @@ final class FormPage implements Page, View.OnClickListener {
         Resources words = desk.context().getResources();
         String objection = desk.objectionText(form, Collections.<String, String>emptyMap());
         Texts.showOrHide(why, objection);
-        Texts.showOrHide(now, CommandWords.now(words, form.name(), desk.picture()));
+        Texts.showOrHide(now, CommandWords.now(words, form.name, desk.picture()));
         boolean isOffered = objection.isEmpty();
         send.setEnabled(isOffered);
         for (View preset : presets) {
@@ -102,9 +102,9 @@ final class FormPage implements Page, View.OnClickListener {
             Texts.showOrHide(problem, wrong.getMessage());
             return;
         }
-        final String words = CommandWords.asked(desk.context().getResources(), form.name(),
+        final String words = CommandWords.asked(desk.context().getResources(), form.name,
                 command.data());
-        if (!Caution.isConfirmed(form.name(), command.data())) {
+        if (!Caution.isConfirmed(form.name, command.data())) {
             desk.send(command, words);
             return;
         }

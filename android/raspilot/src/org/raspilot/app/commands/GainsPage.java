@@ -83,7 +83,7 @@ final class GainsPage implements Page, View.OnClickListener, GainsTable.ChangeLi
         ask.setEnabled(desk.objectionText(form, REQUEST).isEmpty());
         send.setEnabled(isOffered && editor.hasEdits() && wrong.isEmpty());
         discard.setEnabled(editor.hasEdits());
-        undo.setEnabled(isOffered && shown != null && shown.undo() != null);
+        undo.setEnabled(isOffered && shown != null && shown.undo != null);
         Texts.showOrHide(past, pastText());
     }
 
@@ -111,7 +111,7 @@ final class GainsPage implements Page, View.OnClickListener, GainsTable.ChangeLi
         GainsDesk.Snapshot newest = desk.gains();
         if (newest != shown) {
             shown = newest;
-            editor.takeFlying(newest == null ? null : newest.flying());
+            editor.takeFlying(newest == null ? null : newest.flying);
             if (table != null) {
                 table.refill();
             }
@@ -139,11 +139,11 @@ final class GainsPage implements Page, View.OnClickListener, GainsTable.ChangeLi
     }
 
     private void askUndo() {
-        if (shown == null || shown.undo() == null) {
+        if (shown == null || shown.undo == null) {
             return;
         }
         Context context = desk.context();
-        String changes = lines(GainsDesk.difference(shown.flying(), shown.undo()));
+        String changes = lines(GainsDesk.difference(shown.flying, shown.undo));
         desk.confirm(context.getString(R.string.gains_undo_question), joined(changes, warning()),
                 context.getString(R.string.gains_undo), new Runnable() {
                     @Override
@@ -155,10 +155,10 @@ final class GainsPage implements Page, View.OnClickListener, GainsTable.ChangeLi
 
     private String stateText() {
         Context context = desk.context();
-        if (shown == null || shown.flying() == null || shown.toldMs() == null) {
+        if (shown == null || shown.flying == null || shown.toldMs == null) {
             return context.getString(R.string.gains_unknown);
         }
-        long agoMs = Math.max(0, desk.picture().nowMs - shown.toldMs()) / 1000 * 1000;
+        long agoMs = Math.max(0, desk.picture().nowMs - shown.toldMs) / 1000 * 1000;
         return context.getString(R.string.gains_told,
                 agoMs < 100000 ? agoMs / 1000 + " s" : Age.text(agoMs));
     }
@@ -194,12 +194,12 @@ final class GainsPage implements Page, View.OnClickListener, GainsTable.ChangeLi
             return "";
         }
         StringBuilder all = new StringBuilder();
-        List<GainsEntry> history = shown.history();
+        List<GainsEntry> history = shown.history;
         for (int each = history.size() - 1; each >= 0; each--) {
             GainsEntry entry = history.get(each);
             all.append(all.length() == 0 ? "" : "\n");
-            all.append(desk.context().getString(R.string.gains_entry, entry.number(),
-                    entry.answer().sentence(), lines(entry.changes()).replace("\n", "; ")));
+            all.append(desk.context().getString(R.string.gains_entry, entry.number,
+                    entry.answer.sentence(), lines(entry.changes()).replace("\n", "; ")));
         }
         return all.toString();
     }

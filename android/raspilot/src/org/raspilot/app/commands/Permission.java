@@ -66,10 +66,10 @@ final class Permission {
         if (ofLink != Objection.NONE) {
             return ofLink;
         }
-        if (!allows(status.role(), neededRole(name, told, data))) {
+        if (!allows(status.role, neededRole(name, told, data))) {
             return Objection.ROLE;
         }
-        return ofAircraft(name, data, status.tuneInFlight(), telemetry, nowMs);
+        return ofAircraft(name, data, status.tuneInFlight, telemetry, nowMs);
     }
 
     /** Returns the objection from the aircraft's telemetry, or from its silence. */
@@ -93,10 +93,10 @@ final class Permission {
         if (status == null || !status.isOpen()) {
             return Objection.NO_LINK;
         }
-        if (Boolean.FALSE.equals(status.isAircraftOnline())) {
+        if (Boolean.FALSE.equals(status.isAircraftOnline)) {
             return Objection.NO_AIRCRAFT;
         }
-        switch (status.standing()) {
+        switch (status.standing) {
             case OURS:
                 return Objection.NONE;
             case FREE:

@@ -35,7 +35,7 @@ final class AlarmPanel implements View.OnClickListener {
     /** Shows the current state, and sounds the due alarms. */
     void update(Picture picture) {
         List<Alarm> active = picture.alarms == null
-                ? java.util.Collections.<Alarm>emptyList() : picture.alarms.active();
+                ? java.util.Collections.<Alarm>emptyList() : picture.alarms.active;
         if (picture.alarms != null) {
             // While the alarms are unknown, silenced ones stay silenced.
             bell.take(loud(active));
@@ -60,8 +60,8 @@ final class AlarmPanel implements View.OnClickListener {
         Map<String, AlarmBell.Ring> loud = new HashMap<String, AlarmBell.Ring>();
         for (Alarm each : active) {
             if (each.isLoud()) {
-                boolean isAlarm = each.level() == EventLevel.ALARM;
-                loud.put(each.kind().name(),
+                boolean isAlarm = each.level == EventLevel.ALARM;
+                loud.put(each.kind.name(),
                         isAlarm ? AlarmBell.Ring.ALARM : AlarmBell.Ring.WARNING);
             }
         }
@@ -70,7 +70,7 @@ final class AlarmPanel implements View.OnClickListener {
 
     private static boolean hasAlarm(List<Alarm> active) {
         for (Alarm each : active) {
-            if (each.level() == EventLevel.ALARM) {
+            if (each.level == EventLevel.ALARM) {
                 return true;
             }
         }
@@ -80,7 +80,7 @@ final class AlarmPanel implements View.OnClickListener {
     private static String words(List<Alarm> active) {
         StringBuilder all = new StringBuilder();
         for (Alarm each : active) {
-            all.append(all.length() == 0 ? "" : " ").append(SeatPanel.sentence(each.text()));
+            all.append(all.length() == 0 ? "" : " ").append(SeatPanel.sentence(each.text));
         }
         return all.toString();
     }

@@ -26,14 +26,14 @@ final class EventPanel {
         }
         StringBuilder all = new StringBuilder();
         if (picture.events != null) {
-            List<Event> events = picture.events.events();
+            List<Event> events = picture.events.events;
             int oldest = Math.max(0, events.size() - MOST);
             for (int each = events.size() - 1; each >= oldest; each--) {
                 Event event = events.get(each);
-                long agoMs = Math.max(0, picture.nowMs - event.atMs()) / 1000 * 1000;
+                long agoMs = Math.max(0, picture.nowMs - event.atMs) / 1000 * 1000;
                 all.append(all.length() == 0 ? "" : "\n");
                 all.append(view.getResources().getString(R.string.ground_event,
-                        SeatPanel.sentence(event.text()), ago(agoMs)));
+                        SeatPanel.sentence(event.text), ago(agoMs)));
             }
         }
         String text = all.length() == 0

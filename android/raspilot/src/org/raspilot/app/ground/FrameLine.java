@@ -55,13 +55,13 @@ public final class FrameLine implements FrameText.DrawnListener {
         if (ageMs == null) {
             show(words.getString(R.string.frame_none), inks.dim, null);
         } else if (telemetry.isSilent(picture.nowMs)) {
-            int text = telemetry.age().isLate(picture.nowMs)
+            int text = telemetry.age.isLate(picture.nowMs)
                     ? R.string.frame_late : R.string.frame_silent;
-            show(words.getString(text, Age.text(ageMs)), inks.alarm, telemetry.beacon());
+            show(words.getString(text, Age.text(ageMs)), inks.alarm, telemetry.beacon);
         } else {
             String text = words.getString(R.string.frame_live, mode(picture, words),
                     armed(picture, words), Age.text(ageMs));
-            show(text, inks.ink, telemetry.beacon());
+            show(text, inks.ink, telemetry.beacon);
         }
     }
 

@@ -47,11 +47,11 @@ public final class SeatPanel implements View.OnClickListener {
         }
         Texts.show(link, linkText(status));
         Texts.show(seat, sentence(status.seatSentence()));
-        SeatStanding standing = status.standing();
+        SeatStanding standing = status.standing;
         isOurs = standing == SeatStanding.OURS;
-        asker = isOurs ? status.askedBy() : null;
+        asker = isOurs ? status.askedBy : null;
         take.setEnabled(standing != SeatStanding.UNKNOWN && ground != null);
-        take.setVisibility(status.isDirect() ? View.GONE : View.VISIBLE);
+        take.setVisibility(status.isDirect ? View.GONE : View.VISIBLE);
         String text = take.getResources().getString(
                 isOurs ? R.string.seat_release : R.string.seat_request);
         Texts.show(take, text);
@@ -79,12 +79,12 @@ public final class SeatPanel implements View.OnClickListener {
 
     private String linkText(GroundStatus status) {
         String text = sentence(status.linkSentence());
-        if (!status.isOpen() || status.isSilent() || status.rateHz() == null) {
+        if (!status.isOpen() || status.isSilent || status.rateHz == null) {
             return text;
         }
-        Double wayMs = status.roundTripMs();
-        String rate = link.getResources().getString(R.string.seat_rate, status.rateHz(),
-                status.counters().lostFrames());
+        Double wayMs = status.roundTripMs;
+        String rate = link.getResources().getString(R.string.seat_rate, status.rateHz,
+                status.counters.lostFrames);
         return text + " " + (wayMs == null ? rate : rate + " "
                 + link.getResources().getString(R.string.seat_way, Math.round(wayMs)));
     }

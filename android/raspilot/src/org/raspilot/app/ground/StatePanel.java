@@ -143,7 +143,7 @@ final class StatePanel {
         StringBuilder all = new StringBuilder();
         for (String reading : READINGS) {
             if (telemetry.readingAgeMs(reading, picture.nowMs) != null
-                    && telemetry.age().isStale(reading, picture.nowMs)) {
+                    && telemetry.age.isStale(reading, picture.nowMs)) {
                 all.append(all.length() == 0 ? "" : ", ").append(reading);
             }
         }

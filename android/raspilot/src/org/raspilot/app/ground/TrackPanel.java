@@ -47,13 +47,13 @@ final class TrackPanel implements View.OnClickListener {
         }
         shown = track;
         Telemetry telemetry = picture.telemetry;
-        TrackPoint newest = track == null ? null : track.newest();
+        TrackPoint newest = track == null ? null : track.newest;
         boolean hasTrack = newest != null;
         boolean isThere = telemetry.number("location.latitude") != null;
         boolean isHeadingLive = telemetry.freshness("heading.actual", picture.nowMs)
                 == Freshness.LIVE;
-        view.setAircraft(newest == null ? null : newest.northM(),
-                newest == null ? null : newest.eastM(),
+        view.setAircraft(newest == null ? null : newest.northM,
+                newest == null ? null : newest.eastM,
                 isHeadingLive ? telemetry.number("heading.actual") : null);
         Freshness freshness = telemetry.freshness("location.latitude", picture.nowMs);
         if (!hasTrack) {
@@ -83,23 +83,23 @@ final class TrackPanel implements View.OnClickListener {
 
     private boolean isNew(Track.Snapshot track) {
         return track == null || shown == null ? track != shown
-                : track.points() != shown.points()
-                || track.isOriginHome() != shown.isOriginHome();
+                : track.points != shown.points
+                || track.isOriginHome != shown.isOriginHome;
     }
 
     private void showTrack(Track.Snapshot track) {
         List<TrackPoint> points = track == null
-                ? java.util.Collections.<TrackPoint>emptyList() : track.points();
+                ? java.util.Collections.<TrackPoint>emptyList() : track.points;
         float[] north = new float[points.size()];
         float[] east = new float[north.length];
         boolean[] hasGapBefore = new boolean[north.length];
         for (int each = 0; each < north.length; each++) {
             TrackPoint point = points.get(each);
-            north[each] = (float) point.northM();
-            east[each] = (float) point.eastM();
-            hasGapBefore[each] = point.isAfterSilence();
+            north[each] = (float) point.northM;
+            east[each] = (float) point.eastM;
+            hasGapBefore[each] = point.isAfterSilence;
         }
-        view.setTrack(north, east, hasGapBefore, track != null && track.isOriginHome());
+        view.setTrack(north, east, hasGapBefore, track != null && track.isOriginHome);
     }
 
     private void showPlace(Picture picture, String age) {

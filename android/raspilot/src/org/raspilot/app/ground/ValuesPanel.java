@@ -72,7 +72,7 @@ final class ValuesPanel extends BaseAdapter implements TextWatcher {
         List<TelemetryRow> found = new ArrayList<TelemetryRow>();
         String[] each = words.trim().toLowerCase(Locale.ROOT).split("\\s+");
         for (TelemetryRow row : all) {
-            String path = row.path().toLowerCase(Locale.ROOT);
+            String path = row.path.toLowerCase(Locale.ROOT);
             boolean isChosen = true;
             for (String word : each) {
                 isChosen &= path.contains(word);
@@ -118,10 +118,10 @@ final class ValuesPanel extends BaseAdapter implements TextWatcher {
         }
         TelemetryRow row = rows.get(position);
         Row view = (Row) element.getTag();
-        view.label(row.path());
-        String value = row.unit().isEmpty() ? row.value() : row.value() + " " + row.unit();
-        view.show(value, picture.telemetry.freshness(row.path(), picture.nowMs),
-                InstrumentPanel.ageText(picture, row.path()), Row.Look.PLAIN);
+        view.label(row.path);
+        String value = row.unit.isEmpty() ? row.value : row.value + " " + row.unit;
+        view.show(value, picture.telemetry.freshness(row.path, picture.nowMs),
+                InstrumentPanel.ageText(picture, row.path), Row.Look.PLAIN);
         return element;
     }
 

@@ -32,10 +32,10 @@ public final class GainsEditorTest {
         editor.takeFlying(set(3));
         editor.write(RATE_ROLL_P, "2.4");
         GainSet wanted = editor.wanted();
-        assertEquals(2.4, wanted.rate().ailerons().p(), 0);
-        assertEquals(SINGLE, wanted.rate().elevator().i(), 0);
-        assertEquals(null, wanted.rate().rudder());
-        assertEquals(null, wanted.navigation());
+        assertEquals(2.4, wanted.rate.ailerons.p, 0);
+        assertEquals(SINGLE, wanted.rate.elevator.i, 0);
+        assertEquals(null, wanted.rate.rudder);
+        assertEquals(null, wanted.navigation);
     }
 
     @Test
@@ -106,14 +106,14 @@ public final class GainsEditorTest {
         editor.takeFlying(set(3));
         editor.write(RATE_ROLL_P, "2,4");
         assertFalse(editor.isWrong(RATE_ROLL_P));
-        assertEquals(2.4, editor.wanted().rate().ailerons().p(), 0);
+        assertEquals(2.4, editor.wanted().rate.ailerons.p, 0);
     }
 
     @Test
     public void aVerySmallGainIsKept() {
         editor.takeFlying(set(1e-5));
         editor.write(RATE_PITCH_I, "1");
-        assertEquals(1e-5, editor.wanted().rate().ailerons().p(), 0);
+        assertEquals(1e-5, editor.wanted().rate.ailerons.p, 0);
     }
 
     @Test
@@ -121,8 +121,8 @@ public final class GainsEditorTest {
         editor.takeFlying(set(3));
         editor.write(RATE_ROLL_P, "2.4");
         assertEquals(1, editor.changes().size());
-        assertEquals(RATE_ROLL_P, editor.changes().get(0).key());
-        assertEquals(2.4, editor.changes().get(0).after(), 0);
+        assertEquals(RATE_ROLL_P, editor.changes().get(0).key);
+        assertEquals(2.4, editor.changes().get(0).after, 0);
     }
 
     @Test

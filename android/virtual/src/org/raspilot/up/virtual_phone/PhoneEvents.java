@@ -18,9 +18,9 @@ final class PhoneEvents implements AirborneListener, Speaker, FaultListener {
 
     @Override
     public void onConnected(Place place) {
-        Map<String, Object> event = Words.event("connected", "host", place.host());
-        event.put("general", (long) place.generalPort());
-        event.put("orientation", (long) place.orientationPort());
+        Map<String, Object> event = Words.event("connected", "host", place.host);
+        event.put("general", (long) place.generalPort);
+        event.put("orientation", (long) place.orientationPort);
         words.say(event);
     }
 

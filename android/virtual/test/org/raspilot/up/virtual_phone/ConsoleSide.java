@@ -63,30 +63,30 @@ final class ConsoleSide implements LoopProgram.Part, GroundListener, HandlerFaul
 
     @Override
     public void onTelemetry(Telemetry telemetry) {
-        if (telemetry.beacon() != null) {
-            ground.seen(telemetry.beacon());
+        if (telemetry.beacon != null) {
+            ground.seen(telemetry.beacon);
         }
     }
 
     @Override
     public void onStatus(GroundStatus status) {
-        Map<String, Object> event = Words.event("status", "link", status.link().name());
+        Map<String, Object> event = Words.event("status", "link", status.link.name());
         event.put("sentence", status.linkSentence() + "; " + status.seatSentence());
-        event.put("seat", status.seat() == null ? null : status.seat().word());
-        event.put("standing", status.standing().name());
-        event.put("holder", number(status.holder()));
-        event.put("asked_by", number(status.askedBy()));
-        event.put("online", status.isAircraftOnline());
-        event.put("role", status.role());
-        event.put("tune_in_flight", status.tuneInFlight());
-        event.put("reason", status.reason());
-        event.put("rejection", status.rejection());
+        event.put("seat", status.seat == null ? null : status.seat.word());
+        event.put("standing", status.standing.name());
+        event.put("holder", number(status.holder));
+        event.put("asked_by", number(status.askedBy));
+        event.put("online", status.isAircraftOnline);
+        event.put("role", status.role);
+        event.put("tune_in_flight", status.tuneInFlight);
+        event.put("reason", status.reason);
+        event.put("rejection", status.rejection);
         words.say(event);
     }
 
     @Override
     public void onChanged() {
-        GainSet flying = ground.gains().snapshot().flying();
+        GainSet flying = ground.gains().snapshot().flying;
         if (flying != told) {
             told = flying;
             Object data = flying == null ? null : flying.toData();
@@ -112,7 +112,7 @@ final class ConsoleSide implements LoopProgram.Part, GroundListener, HandlerFaul
     }
 
     private void gains(Object wanted, Answers answers) throws OptionException {
-        Long beacon = ground.telemetry().beacon();
+        Long beacon = ground.telemetry().beacon;
         if ("ask".equals(wanted)) {
             ground.gains().ask(answers);
         } else if ("undo".equals(wanted)) {
@@ -167,12 +167,12 @@ final class ConsoleSide implements LoopProgram.Part, GroundListener, HandlerFaul
         @Override
         public void onAnswer(Answer answer) {
             Map<String, Object> event = Words.event("answer", "tag", tag);
-            event.put("name", answer.name());
-            event.put("outcome", answer.outcome().name());
-            event.put("code", answer.code());
-            event.put("reason", answer.reason());
-            event.put("round_trip_ms", answer.roundTripMs());
-            event.put("data", answer.data());
+            event.put("name", answer.name);
+            event.put("outcome", answer.outcome.name());
+            event.put("code", answer.code);
+            event.put("reason", answer.reason);
+            event.put("round_trip_ms", answer.roundTripMs);
+            event.put("data", answer.data);
             words.say(event);
         }
     }

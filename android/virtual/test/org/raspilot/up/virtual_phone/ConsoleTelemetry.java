@@ -38,8 +38,8 @@ final class ConsoleTelemetry extends BaseTelemetryHandler<Map<String, Object>> {
     protected void onTelemetry(Map<String, Object> values, Age age) {
         long nowMs = loop.nowMs();
         Map<String, Object> event =
-                Words.event("telemetry", "beacon", ground.telemetry().beacon());
-        event.put("way_ms", age.wayMs());
+                Words.event("telemetry", "beacon", ground.telemetry().beacon);
+        event.put("way_ms", age.wayMs);
         event.put("age_ms", age.frameMs(nowMs));
         event.put("is_stale", age.isSilent(nowMs));
         event.put("values", values);
