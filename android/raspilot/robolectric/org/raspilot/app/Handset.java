@@ -160,7 +160,6 @@ final class Handset {
         return all;
     }
 
-    /** Closes everything. */
     void close() {
         if (window != null) {
             window.pause().stop().destroy();

@@ -25,7 +25,6 @@ class Peer implements Closeable {
 
     /** A step of a thread that ends with the connection. */
     interface Work {
-        /** Does it. */
         void work() throws IOException;
     }
 

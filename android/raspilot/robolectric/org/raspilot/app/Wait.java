@@ -13,9 +13,7 @@ final class Wait {
     private Wait() {
     }
 
-    /** The awaited condition. */
     interface Condition {
-        /** Returns whether it is true. */
         boolean holds() throws Exception;
     }
 

@@ -61,7 +61,6 @@ final class AirborneLink {
         }
     }
 
-    /** Stops it. */
     void end() {
         if (airside != null) {
             airside.remove(statuses);
@@ -85,7 +84,6 @@ final class AirborneLink {
         }
     }
 
-    /** Returns whether the service runs. */
     boolean isRunning() {
         return airside != null;
     }

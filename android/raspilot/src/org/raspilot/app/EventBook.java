@@ -6,10 +6,8 @@ import java.util.List;
 
 /** The events since the application started, the newest last, bounded. On the main thread. */
 public final class EventBook {
-    /** Maximum number of lines. */
     public static final int KEPT = 500;
 
-    /** Receives new lines. */
     public interface Watcher {
         /** Called when the book has changed. */
         void onEvents();
@@ -19,9 +17,7 @@ public final class EventBook {
     public static final class Entry {
         /** When it happened last, ms since 1970. */
         public final long timeMs;
-        /** What happened. */
         public final String text;
-        /** How often in a row. */
         public final int times;
 
         Entry(long timeMs, String text, int times) {
@@ -48,7 +44,6 @@ public final class EventBook {
         tell();
     }
 
-    /** Empties the book. */
     public void clear() {
         entries.clear();
         tell();
@@ -64,14 +59,12 @@ public final class EventBook {
         return entries.isEmpty() ? null : entries.get(entries.size() - 1);
     }
 
-    /** Adds a watcher. */
     public void watch(Watcher watcher) {
         if (!watchers.contains(watcher)) {
             watchers.add(watcher);
         }
     }
 
-    /** Takes a watcher away. */
     public void unwatch(Watcher watcher) {
         watchers.remove(watcher);
     }

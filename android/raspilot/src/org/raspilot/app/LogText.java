@@ -27,7 +27,6 @@ final class LogText {
         return format.format(new Date(entry.timeMs)) + "  " + text;
     }
 
-    /** Returns all lines. */
     String all(List<EventBook.Entry> entries) {
         StringBuilder text = new StringBuilder();
         for (EventBook.Entry entry : entries) {

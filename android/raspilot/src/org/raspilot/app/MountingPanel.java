@@ -57,12 +57,10 @@ final class MountingPanel implements SensorListener<Rotation> {
         nose.setOnItemSelectedListener(new NoseListener());
     }
 
-    /** Starts to read. */
     void begin() {
         feed.begin(PERIOD_MS, this);
     }
 
-    /** Stops reading. */
     void end() {
         feed.end();
         newest = null;

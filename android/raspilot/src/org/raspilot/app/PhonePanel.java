@@ -58,7 +58,6 @@ final class PhonePanel {
         });
     }
 
-    /** Shows what is missing now. */
     void show() {
         location.setVisibility(isLocationPermitted() ? View.GONE : View.VISIBLE);
         boolean isSpared = Build.VERSION.SDK_INT < 23 || Asking.isSpared(activity);

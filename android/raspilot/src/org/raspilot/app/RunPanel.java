@@ -32,7 +32,6 @@ final class RunPanel {
         onOff.setOnClickListener(pressed);
     }
 
-    /** Shows the configuration. */
     void showSettings(AirborneSettings settings) {
         mode.setText(settings.mode == AirborneMode.BLACK_BOX
                 ? R.string.mode_name_black_box : R.string.mode_name_flight_controller);

@@ -9,7 +9,6 @@ import org.raspilot.up.android.BaseUpService;
 
 /** Shows a confirmation before an aeroplane in the air loses its phone. */
 public final class StopQuestion extends DialogFragment {
-    /** Its tag. */
     static final String TAG = "stop question";
 
     @Override

@@ -97,7 +97,6 @@ public final class Airborne {
         return link;
     }
 
-    /** Returns what the screen shows. */
     public AirborneStatus status() {
         return new AirborneStatus(isRunning, link.isOpen(), link.status().sentence,
                 link.status().place, settings.mode, settings.orientationTransport(),
@@ -106,7 +105,6 @@ public final class Airborne {
                         handlers.telemetry(), answers));
     }
 
-    /** Replaces the mounting immediately. */
     public void setMounting(Mounting mounting) {
         basics.setMounting(mounting);
     }

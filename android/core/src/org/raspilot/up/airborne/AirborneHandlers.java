@@ -21,7 +21,6 @@ final class AirborneHandlers {
 
     /** Handles the answers to messages sent with an id. */
     interface Answers {
-        /** Takes an ack. */
         void onAck(String id);
 
         /** Takes a nack with its reason. */
@@ -34,7 +33,6 @@ final class AirborneHandlers {
         this.answers = answers;
     }
 
-    /** Registers all of them. */
     void register(CommandExecutor executor) {
         executor.registerCommand(SpeakCommand.NAME, new BaseCommandHandler() {
             @Override

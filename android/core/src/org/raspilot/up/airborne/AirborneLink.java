@@ -32,7 +32,6 @@ final class AirborneLink implements Outlet, AnswerSink, UpSocketListener {
         /** Called when the link is open. */
         void onOpened(Place place);
 
-        /** Gives a line that came. */
         void onLine(byte[] line, int length);
 
         /** Called when the link is lost, with the reason. */
@@ -61,7 +60,6 @@ final class AirborneLink implements Outlet, AnswerSink, UpSocketListener {
         });
     }
 
-    /** Starts to connect. */
     void start() {
         told = "";
         wasLost = false;
@@ -71,7 +69,6 @@ final class AirborneLink implements Outlet, AnswerSink, UpSocketListener {
         }
     }
 
-    /** Closes both. */
     void stop() {
         if (orientation != null) {
             orientation.stop();
@@ -97,7 +94,6 @@ final class AirborneLink implements Outlet, AnswerSink, UpSocketListener {
         return socket.status();
     }
 
-    /** Returns how often it came. */
     long connections() {
         return socket.counters().connects;
     }

@@ -12,7 +12,6 @@ import org.raspilot.up.providers.Mounting;
  * discovery.yml} and {@code runner.yml}.
  */
 public final class AirborneSettings {
-    /** Who it speaks to. */
     public final AirborneMode mode;
     /** The Raspberry Pi's host; empty: Discovery, in Black Box Mode the runner. */
     public final String host;
@@ -20,19 +19,16 @@ public final class AirborneSettings {
     public final int generalPort;
     /** The Raspberry Pi's port for orientation. */
     public final int orientationPort;
-    /** The port of Discovery. */
     public final int discoveryPort;
     /** Discovery's targets; empty: 255.255.255.255 and every interface's own. */
     public final List<String> discoveryHosts;
     /** The runner's host, Black Box Mode only; empty: the host runs already. */
     public final String runnerHost;
-    /** The runner's port. */
     public final int runnerPort;
     /** The aircraft's name for the runner; empty: none. */
     public final String aircraft;
     /** The runner's ready-made configuration; empty: none. */
     public final String profile;
-    /** How orientation leaves. */
     public final OrientationTransport orientation;
     private final boolean redundantOrientation;
     /** How often orientation leaves, Hz, 50 to 200. */
@@ -109,7 +105,6 @@ public final class AirborneSettings {
         private double declinationDeg;
         private Mounting mounting = Mounting.FLAT;
 
-        /** Sets who it speaks to. */
         public Builder mode(AirborneMode value) {
             mode = value;
             return this;
@@ -133,7 +128,6 @@ public final class AirborneSettings {
             return this;
         }
 
-        /** Sets the port of Discovery. */
         public Builder discoveryPort(int value) {
             discoveryPort = value;
             return this;
@@ -151,7 +145,6 @@ public final class AirborneSettings {
             return this;
         }
 
-        /** Sets the runner's port. */
         public Builder runnerPort(int value) {
             runnerPort = value;
             return this;
@@ -169,7 +162,6 @@ public final class AirborneSettings {
             return this;
         }
 
-        /** Sets how orientation leaves. */
         public Builder orientation(OrientationTransport value) {
             orientation = value;
             return this;

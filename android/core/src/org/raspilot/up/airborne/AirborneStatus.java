@@ -7,7 +7,6 @@ import org.raspilot.up.providers.ProviderStatus;
 
 /** What the airborne screen shows: a snapshot that never changes, for any thread. */
 public final class AirborneStatus {
-    /** Whether it was started. */
     public final boolean isRunning;
     /** Whether the link for Commands is connected. */
     public final boolean isConnected;
@@ -15,9 +14,7 @@ public final class AirborneStatus {
     public final String linkText;
     /** The current or last place of the connection or attempt; null: none so far. */
     public final Place place;
-    /** Who it speaks to. */
     public final AirborneMode mode;
-    /** How orientation leaves. */
     public final OrientationTransport orientation;
     /** Orientation's destination, or why it is not sent (a sentence); {@code off}. */
     public final String orientationText;

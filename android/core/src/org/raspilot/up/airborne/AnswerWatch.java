@@ -47,19 +47,16 @@ final class AnswerWatch {
         heardMs = loop.nowMs();
     }
 
-    /** Notes that it is closed. */
     void closed() {
         isOpen = false;
         settle();
     }
 
-    /** Notes a received line. */
     void heard() {
         heardMs = loop.nowMs();
         settle();
     }
 
-    /** Notes a received answer. */
     void answered(String id) {
         isAnswering |= isOpen && id.startsWith(prefix);
     }

@@ -13,7 +13,6 @@ final class SettingsRules {
 
     private SettingsRules() {}
 
-    /** Judges all of them. */
     static void judge(AirborneSettings settings) {
         present("the mode", settings.mode);
         present("the way of orientation", settings.orientation);

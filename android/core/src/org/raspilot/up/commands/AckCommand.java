@@ -6,7 +6,6 @@ import org.raspilot.up.wire.GeneralMessage;
 
 /** The Command of an id was carried out. Source: docs/protocols.md 4. */
 public final class AckCommand extends BaseCommand {
-    /** The name on the wire. */
     public static final String NAME = "up.ack";
     /** Reads the Command from a message. */
     public static final CommandReader READER = new CommandReader() {

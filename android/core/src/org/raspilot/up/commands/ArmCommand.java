@@ -8,7 +8,6 @@ import org.raspilot.up.wire.GeneralMessage;
  * docs/protocols.md 5.
  */
 public final class ArmCommand extends BaseCommand {
-    /** The name on the wire. */
     public static final String NAME = "up.arm";
     /** Reads the Command from a message. */
     public static final CommandReader READER = new CommandReader() {
@@ -18,7 +17,6 @@ public final class ArmCommand extends BaseCommand {
         }
     };
 
-    /** Creates the Command. */
     public ArmCommand() {
         this(new GeneralMessage(NAME, Collections.<String, Object>emptyMap()));
     }

@@ -48,7 +48,6 @@ public class BaseCommand {
         return message.beacon;
     }
 
-    /** Returns the message to send. */
     public final GeneralMessage toMessage() {
         return message;
     }

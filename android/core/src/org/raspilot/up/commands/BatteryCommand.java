@@ -6,7 +6,6 @@ import org.raspilot.up.wire.GeneralMessage;
 
 /** The level of the phone's battery. Source: docs/protocols.md 5. */
 public final class BatteryCommand extends BaseCommand {
-    /** The name on the wire. */
     public static final String NAME = "android.battery";
     /** Reads the Command from a message. */
     public static final CommandReader READER = new CommandReader() {
@@ -16,7 +15,6 @@ public final class BatteryCommand extends BaseCommand {
         }
     };
 
-    /** The level in percent. */
     public final double levelPercent;
 
     /**

@@ -8,9 +8,7 @@ import org.raspilot.up.wire.MalformedException;
 
 /** One field of a Command as the catalogue describes it. */
 public final class CommandField {
-    /** The name on the wire. */
     public final String name;
-    /** The type of its value. */
     public final FieldType type;
     /** The unit, or an empty text. */
     public final String unit;
@@ -57,7 +55,6 @@ public final class CommandField {
         return nullable;
     }
 
-    /** Returns whether the field is required. */
     public boolean isRequired() {
         return required;
     }

@@ -10,7 +10,6 @@ import org.raspilot.up.wire.MalformedException;
 
 /** A Command as a person fills it in: its name, what it is for, its fields. */
 public final class CommandForm {
-    /** The name on the wire. */
     public final String name;
     /** Older names of the Command; unmodifiable. */
     public final List<String> aliases;

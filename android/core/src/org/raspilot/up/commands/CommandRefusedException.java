@@ -8,7 +8,6 @@ package org.raspilot.up.commands;
 public final class CommandRefusedException extends Exception {
     private static final long serialVersionUID = 1L;
 
-    /** The code of the answer. */
     public final NackCode code;
 
     /** Refuses with the code {@code refused}. */
@@ -22,7 +21,6 @@ public final class CommandRefusedException extends Exception {
         this.code = code;
     }
 
-    /** Returns why, for the asker. */
     public String reason() {
         return getMessage();
     }

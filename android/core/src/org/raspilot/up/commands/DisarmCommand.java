@@ -7,7 +7,6 @@ import org.raspilot.up.wire.GeneralMessage;
  * Disarms the motor; refused unless the throttle has been low for 2 s. Source: docs/protocols.md 5.
  */
 public final class DisarmCommand extends BaseCommand {
-    /** The name on the wire. */
     public static final String NAME = "up.disarm";
     /** Reads the Command from a message. */
     public static final CommandReader READER = new CommandReader() {
@@ -17,7 +16,6 @@ public final class DisarmCommand extends BaseCommand {
         }
     };
 
-    /** Creates the Command. */
     public DisarmCommand() {
         this(new GeneralMessage(NAME, Collections.<String, Object>emptyMap()));
     }

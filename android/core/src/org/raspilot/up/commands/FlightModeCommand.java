@@ -12,7 +12,6 @@ import org.raspilot.up.wire.GeneralMessage;
  * docs/protocols.md 5.
  */
 public final class FlightModeCommand extends BaseCommand {
-    /** The name on the wire. */
     public static final String NAME = "up.flight_mode.set";
     /** The modes that may be requested. */
     public static final List<String> MODES =
@@ -25,7 +24,6 @@ public final class FlightModeCommand extends BaseCommand {
         }
     };
 
-    /** The mode. */
     public final String mode;
 
     /**

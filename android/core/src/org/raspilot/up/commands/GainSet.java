@@ -14,9 +14,7 @@ import java.util.Map;
 public final class GainSet {
     private static final List<String> NOTHING = Collections.emptyList();
 
-    /** The gains of the rate loop. */
     public final LoopGains rate;
-    /** The gains of the stabilize loop. */
     public final LoopGains stabilize;
     /** The gains of navigation, or null. */
     public final LoopGains navigation;

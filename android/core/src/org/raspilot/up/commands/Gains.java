@@ -2,14 +2,10 @@ package org.raspilot.up.commands;
 
 /** The three gains of one PID controller, each 0 to 50 (docs/protocols.md 5). */
 public final class Gains {
-    /** The greatest gain. */
     public static final double GREATEST = 50;
 
-    /** The proportional gain. */
     public final double p;
-    /** The integral gain. */
     public final double i;
-    /** The derivative gain. */
     public final double d;
 
     /** Creates the gains of one controller; {@link PidTuningsCommand} checks them. */

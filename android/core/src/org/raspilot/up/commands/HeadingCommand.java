@@ -9,9 +9,7 @@ import org.raspilot.up.wire.GeneralMessage;
 
 /** A heading clockwise from north, measured or requested. Source: docs/protocols.md 5. */
 public final class HeadingCommand extends BaseCommand {
-    /** The name on the wire. */
     public static final String NAME = "up.heading.change";
-    /** The range of requested values. */
     public static final List<String> MODES =
             Collections.unmodifiableList(Arrays.asList("actual", "required"));
     /** Reads the Command from a message. */
@@ -22,9 +20,8 @@ public final class HeadingCommand extends BaseCommand {
         }
     };
 
-    /** The heading in deg. */
     public final double headingDeg;
-    /** Returns {@code actual} for a measured value, {@code required} for a requested one. */
+    /** {@code actual} for a measured value, {@code required} for a requested one. */
     public final String mode;
 
     /**

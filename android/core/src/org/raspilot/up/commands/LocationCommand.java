@@ -6,7 +6,6 @@ import org.raspilot.up.wire.GeneralMessage;
 
 /** The aircraft's position from a satellite receiver, WGS 84. Source: docs/protocols.md 5. */
 public final class LocationCommand extends BaseCommand {
-    /** The name on the wire. */
     public static final String NAME = "up.location.update";
     /** An older name of this Command. */
     public static final String ALIAS = "up.location.change";
@@ -18,9 +17,7 @@ public final class LocationCommand extends BaseCommand {
         }
     };
 
-    /** The latitude in deg. */
     public final double latitudeDeg;
-    /** The longitude in deg. */
     public final double longitudeDeg;
     /** The altitude in m, or null. */
     public final Double altitudeM;

@@ -2,9 +2,7 @@ package org.raspilot.up.commands;
 
 /** The gains of one loop on every axis; without a rudder the set is the two-axis form. */
 public final class LoopGains {
-    /** The gains of the ailerons. */
     public final Gains ailerons;
-    /** The gains of the elevator. */
     public final Gains elevator;
     /** The gains of the rudder, or null. */
     public final Gains rudder;

@@ -6,7 +6,6 @@ import org.raspilot.up.wire.GeneralMessage;
 
 /** A mark in the flight log, with a text from its sender. Source: docs/protocols.md 5. */
 public final class MarkCommand extends BaseCommand {
-    /** The name on the wire. */
     public static final String NAME = "black_box.mark";
     /** Reads the Command from a message. */
     public static final CommandReader READER = new CommandReader() {

@@ -6,7 +6,6 @@ import org.raspilot.up.wire.GeneralMessage;
 
 /** The Command of an id was not carried out, and why. Source: docs/protocols.md 4. */
 public final class NackCommand extends BaseCommand {
-    /** The name on the wire. */
     public static final String NAME = "up.nack";
     /** Reads the Command from a message. */
     public static final CommandReader READER = new CommandReader() {
@@ -20,7 +19,6 @@ public final class NackCommand extends BaseCommand {
     public final String commandId;
     /** The code's word; see {@link NackCode#ofWord} for the current ones. */
     public final String code;
-    /** Why, a sentence. */
     public final String reason;
 
     /**

@@ -9,7 +9,6 @@ import org.raspilot.up.wire.GeneralMessage;
  * docs/protocols.md 5.
  */
 public final class PanicCommand extends BaseCommand {
-    /** The name on the wire. */
     public static final String NAME = "up.panic";
     /** An older name of this Command. */
     public static final String ALIAS = "load_guard.panic";
@@ -21,7 +20,6 @@ public final class PanicCommand extends BaseCommand {
         }
     };
 
-    /** Whether Panic Mode is active. */
     public final boolean panic;
     /** The shortest period in ms, 0 to 10000. */
     public final long delayMs;

@@ -7,7 +7,6 @@ import org.raspilot.up.wire.GeneralMessage;
 
 /** Requests the gains, or sets all of them (thesis 4.2.4, docs/protocols.md 5). */
 public final class PidTuningsCommand extends BaseCommand {
-    /** The name on the wire. */
     public static final String NAME = "arduino.pids.tunings";
     /** Reads the Command from a message. */
     public static final CommandReader READER = new CommandReader() {

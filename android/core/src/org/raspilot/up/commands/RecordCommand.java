@@ -6,7 +6,6 @@ import org.raspilot.up.wire.GeneralMessage;
 
 /** An object for the flight log, under its own topic. Source: docs/protocols.md 5. */
 public final class RecordCommand extends BaseCommand {
-    /** The name on the wire. */
     public static final String NAME = "black_box.record";
     /** Reads the Command from a message. */
     public static final CommandReader READER = new CommandReader() {

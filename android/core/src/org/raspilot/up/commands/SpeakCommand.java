@@ -6,7 +6,6 @@ import org.raspilot.up.wire.GeneralMessage;
 
 /** A text for the airborne phone to speak. Source: docs/protocols.md 5. */
 public final class SpeakCommand extends BaseCommand {
-    /** The name on the wire. */
     public static final String NAME = "android.speak";
     /** Reads the Command from a message. */
     public static final CommandReader READER = new CommandReader() {

@@ -5,7 +5,6 @@ import org.raspilot.up.wire.GeneralMessage;
 
 /** One frame of telemetry; its beacon travels beside its content (docs/protocols.md 6). */
 public final class TelemetryCommand extends BaseCommand {
-    /** The name on the wire. */
     public static final String NAME = "up.telemetry.update";
     /** Reads the Command from a message. */
     public static final CommandReader READER = new CommandReader() {

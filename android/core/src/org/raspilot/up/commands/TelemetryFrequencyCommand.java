@@ -9,7 +9,6 @@ import org.raspilot.up.wire.GeneralMessage;
  * docs/protocols.md 5.
  */
 public final class TelemetryFrequencyCommand extends BaseCommand {
-    /** The name on the wire. */
     public static final String NAME = "up.telemetry.frequency";
     /** Reads the Command from a message. */
     public static final CommandReader READER = new CommandReader() {
@@ -19,7 +18,6 @@ public final class TelemetryFrequencyCommand extends BaseCommand {
         }
     };
 
-    /** The period in ms. */
     public final double periodMs;
 
     /**

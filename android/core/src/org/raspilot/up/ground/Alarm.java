@@ -20,9 +20,7 @@ public final class Alarm {
         BATTERY
     }
 
-    /** The kind of fault. */
     public final Kind kind;
-    /** WARNING or ALARM. */
     public final EventLevel level;
     /** A description of the fault, safe to display. */
     public final String text;

@@ -61,7 +61,6 @@ public final class Alarms {
     Alarms() {
     }
 
-    /** Returns the active alarms. */
     public Snapshot snapshot() {
         return snapshot;
     }

@@ -5,7 +5,6 @@ import java.util.Map;
 
 /** The outcome of a Command. Immutable; each sent Command has exactly one. */
 public final class Answer {
-    /** The kind of outcome. */
     public enum Outcome {
         /** The aircraft carried it out. */
         ACK,
@@ -19,9 +18,7 @@ public final class Answer {
         REFUSED
     }
 
-    /** The kind of outcome. */
     public final Outcome outcome;
-    /** Which Command it was. */
     public final String name;
     /**
      * The aircraft's code of a NACK (docs/protocols.md 4), for REFUSED one of {@code

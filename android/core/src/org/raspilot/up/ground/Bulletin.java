@@ -14,7 +14,6 @@ final class Bulletin {
         this.listener = listener;
     }
 
-    /** Reports a status. */
     void tell(GroundStatus status, long nowMs) {
         toldMs = nowMs;
         wasSilent = status.isSilent;

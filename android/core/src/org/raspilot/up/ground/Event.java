@@ -6,7 +6,6 @@ public final class Event {
     public final long number;
     /** When it happened by the loop's clock, ms. */
     public final long atMs;
-    /** How much it matters. */
     public final EventLevel level;
     /**
      * Its kind: {@code mode armed failsafe panic link source veto battery command gains}.

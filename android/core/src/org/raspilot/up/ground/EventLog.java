@@ -8,7 +8,6 @@ import org.raspilot.up.wire.SafeText;
 
 /** The newest events, the oldest of them going when there are too many. Only on the loop. */
 public final class EventLog {
-    /** Maximum number of events kept. */
     public static final int KEPT = 200;
 
     private static final int LONGEST_TEXT = 400;
@@ -44,7 +43,6 @@ public final class EventLog {
         return number;
     }
 
-    /** Returns the current events. */
     public Snapshot snapshot() {
         if (snapshot.version != number) {
             snapshot = new Snapshot(number,

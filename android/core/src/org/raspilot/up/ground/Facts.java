@@ -7,7 +7,6 @@ import java.util.List;
 
 /** The values of a frame whose changes are events. */
 final class Facts {
-    /** All of them. */
     static final List<Fact> ALL = Collections.unmodifiableList(Arrays.asList(
             new Named("flight mode", "mode", "flight_mode", "flight mode", EventLevel.INFO),
             new Named("mode", "mode", "mode", "mode", EventLevel.INFO),
@@ -165,7 +164,6 @@ final class Facts {
         }
     }
 
-    /** Whether the motor can run. */
     private static final class Armed extends Fact {
         Armed() {
             super("armed", "armed");

@@ -4,11 +4,9 @@ import java.math.BigDecimal;
 
 /** One gain that differs between two sets. Immutable. */
 public final class GainChange {
-    /** Which gain. */
     public final GainKey key;
     /** Its value before; null: not known. */
     public final Double before;
-    /** Its value after. */
     public final double after;
 
     GainChange(GainKey key, Double before, double after) {

@@ -14,7 +14,6 @@ public final class GainKey {
     public static final List<String> LOOPS = list("ratePIDs", "stabPIDs", "navPIDs");
     /** The axes under their names on the wire. */
     public static final List<String> AXES = list("ailerons", "elevator", "rudder");
-    /** The terms. */
     public static final List<String> TERMS = list("p", "i", "d");
     /** All 27 gains: loops, in them axes, in them terms. */
     public static final List<GainKey> ALL = all();

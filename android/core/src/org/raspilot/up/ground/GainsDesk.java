@@ -71,7 +71,6 @@ public final class GainsDesk {
         return version;
     }
 
-    /** Returns the current gains. */
     public Snapshot snapshot() {
         if (snapshot == null || snapshot.version != version) {
             snapshot = new Snapshot(version, flying, toldMs, undoable.peekLast(),

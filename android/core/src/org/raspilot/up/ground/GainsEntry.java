@@ -11,9 +11,7 @@ public final class GainsEntry {
     public final long atMs;
     /** What flew before; null: not known. */
     public final GainSet before;
-    /** The set that was sent. */
     public final GainSet after;
-    /** The outcome. */
     public final Answer answer;
 
     GainsEntry(int number, long atMs, GainSet before, GainSet after, Answer answer) {

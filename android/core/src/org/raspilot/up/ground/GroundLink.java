@@ -22,7 +22,6 @@ import org.raspilot.up.wire.Seat;
  * <p>Source: docs/protocols.md 9.
  */
 final class GroundLink implements UpSocketListener {
-    /** Timeout of the hello, ms. */
     static final long HELLO_TIMEOUT_MS = 5000;
     /** By then, ms, a proxy has reported who commands; an aircraft's own listener never does. */
     static final long HOLDER_TOLD_MS = 1000;

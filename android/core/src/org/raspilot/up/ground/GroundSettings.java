@@ -17,13 +17,10 @@ public final class GroundSettings {
 
     /** The name or address of the other side. */
     public final String host;
-    /** Its TCP port. */
     public final int port;
-    /** Which of the proxy's aircraft. */
     public final String aircraft;
     /** The seat that is requested first, COMMAND or LISTEN. */
     public final Seat seat;
-    /** Whether the hello is omitted. */
     public final boolean isDirect;
 
     /**

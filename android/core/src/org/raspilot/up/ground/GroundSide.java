@@ -97,7 +97,6 @@ public final class GroundSide implements TelemetrySource {
         link.reconnectNow();
     }
 
-    /** Returns the current status. */
     public GroundStatus status() {
         final long nowMs = loop.nowMs();
         final Telemetry newest = stream.newest();
@@ -126,17 +125,14 @@ public final class GroundSide implements TelemetrySource {
         return track;
     }
 
-    /** Returns what happened. */
     public EventLog events() {
         return events;
     }
 
-    /** Returns the active alarms. */
     public Alarms alarms() {
         return alarms;
     }
 
-    /** Returns the gains. */
     public GainsDesk gains() {
         return gains;
     }

@@ -17,7 +17,6 @@ public final class GroundStatus {
         GroundCounters counters = new GroundCounters(0, 0, 0, 0, 0, 0, 0);
     }
 
-    /** How far the link is. */
     public final LinkState link;
     /** Since when the link is so, by the loop's clock, ms. */
     public final long sinceMs;
@@ -31,7 +30,6 @@ public final class GroundStatus {
     public final Seat seat;
     /** The number of the ground that commands, or null if none or unknown. */
     public final Integer holder;
-    /** The state of the seat. */
     public final SeatStanding standing;
     /** The listener that requests the seat held here; null: none. */
     public final Integer askedBy;
@@ -53,7 +51,6 @@ public final class GroundStatus {
     public final Boolean tuneInFlight;
     /** The aircraft's home; null: not known. */
     public final Home home;
-    /** The counters. */
     public final GroundCounters counters;
 
     GroundStatus(Draft draft) {

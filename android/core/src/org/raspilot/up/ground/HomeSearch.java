@@ -15,7 +15,6 @@ final class HomeSearch {
         return home;
     }
 
-    /** Takes a frame. */
     void take(Telemetry telemetry) {
         final Double latitude = telemetry.number("location.latitude");
         final Double longitude = telemetry.number("location.longitude");

@@ -19,7 +19,6 @@ final class Judge {
         alarms.clear();
     }
 
-    /** Evaluates a new frame. */
     void onFrame(Telemetry telemetry, GroundStatus status, final long nowMs) {
         for (final Fact fact : Facts.ALL) {
             final Object value = fact.read(telemetry);
@@ -38,7 +37,6 @@ final class Judge {
         onMoment(telemetry, status, nowMs);
     }
 
-    /** Evaluates the link. */
     void onLink(final GroundStatus status, final long nowMs) {
         final Object state = Arrays.<Object>asList(status.isOpen(), status.isAircraftOnline);
         settled.take("link", state, nowMs, new Settled.Teller() {

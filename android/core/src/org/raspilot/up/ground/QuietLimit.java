@@ -27,7 +27,6 @@ final class QuietLimit {
         heardMs = null;
     }
 
-    /** Called when a message arrives. */
     void heard(long nowMs) {
         if (heardMs != null) {
             gapsMs[count % GAPS] = nowMs - heardMs;

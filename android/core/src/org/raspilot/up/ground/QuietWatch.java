@@ -11,7 +11,6 @@ final class QuietWatch {
     private long heardMs;
     private Cancellable timer;
 
-    /** The owner of the connection. */
     interface Owner {
         /** Returns whether the aircraft is connected, or null if unknown. */
         Boolean isAircraftOnline();
@@ -25,21 +24,18 @@ final class QuietWatch {
         this.owner = owner;
     }
 
-    /** Starts with a new connection. */
     void start() {
         heardMs = loop.nowMs();
         limit.forget();
         look();
     }
 
-    /** Stops. */
     void stop() {
         if (timer != null) {
             timer.cancel();
         }
     }
 
-    /** Called when a line arrives. */
     void heard() {
         heardMs = loop.nowMs();
     }

@@ -15,7 +15,6 @@ final class Settled {
     private static final long LONGEST_HOLD_MS = 30000;
     private static final long QUIET_MS = 60000;
 
-    /** Reports a change. */
     interface Teller {
         /** Called with the last reported value, null for the first, and the current one. */
         void tell(Object before, Object now);
@@ -49,7 +48,6 @@ final class Settled {
         tellIfDue(known, nowMs);
     }
 
-    /** Reports the delayed changes. */
     void onMoment(long nowMs) {
         for (Value each : new ArrayList<Value>(values.values())) {
             tellIfDue(each, nowMs);

@@ -23,7 +23,6 @@ final class SilenceTimer {
         }
     }
 
-    /** Waits for nothing. */
     void cancel() {
         if (timer != null) {
             timer.cancel();

@@ -14,7 +14,6 @@ import org.raspilot.up.wire.SafeText;
  * are those of docs/protocols.md 6. Source: thesis 4.1.5.
  */
 public final class Telemetry {
-    /** The Command that brings it. */
     public static final String NAME = "up.telemetry.update";
     /** The state before the first frame: empty, and everything stale. */
     public static final Telemetry NOTHING = new Telemetry(
@@ -31,7 +30,6 @@ public final class Telemetry {
     public final Long beacon;
     /** The loop's clock when it came, ms. */
     public final long receivedMs;
-    /** How old it is. */
     public final Age age;
 
     private Telemetry(Map<String, Object> tree, Long beacon, long receivedMs, Age age) {

@@ -9,7 +9,6 @@ import java.util.List;
  * when there are too many, every second one is dropped. Only on the loop.
  */
 public final class Track {
-    /** Maximum number of points. */
     public static final int MOST_POINTS = 4000;
     /** Points are not nearer to each other, m. */
     public static final double NEAREST_M = 2;
@@ -74,7 +73,6 @@ public final class Track {
         return version;
     }
 
-    /** Returns the current track. */
     public Snapshot snapshot() {
         if (snapshot.version != version) {
             final Home origin = home == null ? firstPlace : home;
@@ -88,7 +86,6 @@ public final class Track {
         return snapshot;
     }
 
-    /** Clears the track. */
     public void clear() {
         spots.clear();
         pointsOrigin = null;

@@ -64,12 +64,10 @@ public final class ManualLoop implements Loop {
         return first == null ? -1 : first.time();
     }
 
-    /** Returns how many calls threw. */
     public long faults() {
         return guard.faults();
     }
 
-    /** Returns how many timers wait. */
     public int pendingTimers() {
         return timers.size();
     }

@@ -142,13 +142,11 @@ final class NameLookup {
 
     /** Looks up, on the calling thread. */
     interface Resolver {
-        /** Returns at least one address. */
         InetAddress[] resolve(String host) throws UnknownHostException;
     }
 
     /** Receives the outcome, on the loop, once. */
     interface Asker {
-        /** Takes at least one address. */
         void onAddresses(InetAddress[] addresses);
 
         /** Called when the lookup fails, with the reason. */

@@ -10,6 +10,5 @@ interface Ready {
     /** Takes the key that replaces its own: the selector was replaced. */
     void onMoved(SelectionKey key);
 
-    /** Closes without telling anybody. */
     void close();
 }

@@ -18,7 +18,6 @@ class SocketSelector {
     private volatile Selector selector;
     private int emptyRounds;
 
-    /** Opens it. */
     void open() throws IOException {
         selector = openSelector();
     }

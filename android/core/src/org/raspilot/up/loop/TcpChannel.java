@@ -41,7 +41,6 @@ final class TcpChannel implements TcpConnection, Ready, NameLookup.Asker {
         endMs = loop.nowMs() + timeoutMs;
     }
 
-    /** Starts. */
     void open(NameLookup names, String host) {
         if (port < 1 || port > 65535) {
             onUnknown("no port: " + port);
@@ -179,7 +178,6 @@ final class TcpChannel implements TcpConnection, Ready, NameLookup.Asker {
         listener.onConnected();
     }
 
-    /** Returns whether something was read. */
     private boolean read() {
         final byte[] bytes = loop.bytes();
         final int length;

@@ -38,12 +38,10 @@ final class TimerQueue {
         return timers.peek();
     }
 
-    /** Returns how many wait. */
     int size() {
         return timers.size();
     }
 
-    /** One timer. */
     final class Timer implements Cancellable {
         private final long time;
         private final long order;
@@ -56,12 +54,10 @@ final class TimerQueue {
             this.call = call;
         }
 
-        /** Returns when it falls due. */
         long time() {
             return time;
         }
 
-        /** Returns the timer's callback. */
         Runnable call() {
             return call;
         }

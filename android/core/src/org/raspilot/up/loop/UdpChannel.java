@@ -133,7 +133,6 @@ final class UdpChannel implements UdpPort, Ready {
         }
     }
 
-    /** The state of one name. */
     private final class Name implements NameLookup.Asker {
         private InetAddress address;
         private long nextLookMs;

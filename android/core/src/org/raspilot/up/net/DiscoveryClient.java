@@ -10,7 +10,6 @@ import org.raspilot.up.loop.UdpPort;
 
 /** Finds the Raspberry Pi on the local network by Discovery (protocols 7). Only on the loop. */
 public final class DiscoveryClient implements PlaceFinder {
-    /** The UDP port of Discovery. */
     public static final int PORT = 3001;
     /** How long an answer is waited for, ms. */
     public static final int ANSWER_MS = 1500;
@@ -61,7 +60,6 @@ public final class DiscoveryClient implements PlaceFinder {
         return foreignAnswers;
     }
 
-    /** One search. */
     private final class Question implements Cancellable, UdpListener {
         private final FindListener listener;
         private boolean isPending = true;

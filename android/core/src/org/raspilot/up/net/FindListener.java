@@ -2,7 +2,6 @@ package org.raspilot.up.net;
 
 /** Receives the result of a search for a peer. Called on the loop, one of the two, once. */
 public interface FindListener {
-    /** Takes the place. */
     void onFound(Place place);
 
     /**

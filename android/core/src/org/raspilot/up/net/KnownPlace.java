@@ -20,7 +20,6 @@ public final class KnownPlace implements PlaceFinder {
         return place;
     }
 
-    /** Clears the place. */
     public void forget() {
         place = null;
     }

@@ -14,7 +14,6 @@ final class LineDelivery {
     private final LineSplitter splitter = new LineSplitter();
     private Object connection;
 
-    /** Takes the lines. */
     interface Receiver {
         /** Takes one without its line end. */
         void onLine(byte[] line);
@@ -36,7 +35,6 @@ final class LineDelivery {
         connection = null;
     }
 
-    /** Takes data of the connection. */
     void feed(byte[] bytes, int length) {
         deliver(connection, splitter.feed(bytes, length).iterator());
     }

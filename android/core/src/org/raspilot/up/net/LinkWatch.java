@@ -23,14 +23,12 @@ final class LinkWatch {
         stall = givingUp(loop, settings.stallLimitMs, "took nothing", owner);
     }
 
-    /** Starts with a new connection. */
     void start() {
         stop();
         beat.start();
         silence.start();
     }
 
-    /** Stops with the connection. */
     void stop() {
         beat.stop();
         silence.stop();
@@ -68,7 +66,6 @@ final class LinkWatch {
 
     /** Who does what the watch decides. */
     interface Owner {
-        /** Sends a heartbeat. */
         void onBeat();
 
         /** Closes the connection; {@code what} the peer did, without its name. */

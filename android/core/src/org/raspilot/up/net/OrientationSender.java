@@ -12,10 +12,8 @@ import org.raspilot.up.loop.UdpPort;
  * loop.
  */
 public final class OrientationSender {
-    /** Bytes of a frame. */
     public static final int FRAME_BYTES = 24;
 
-    /** How frames travel. */
     public enum Transport {
         /** A connection that is kept. */
         TCP,
@@ -197,7 +195,6 @@ public final class OrientationSender {
         }
     }
 
-    /** This link has no answers. */
     private static final class Deaf implements UdpListener {
         @Override
         public void onDatagram(byte[] bytes, int length, String host, int port) {

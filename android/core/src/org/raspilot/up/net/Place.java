@@ -2,9 +2,7 @@ package org.raspilot.up.net;
 
 /** The address of a peer: a host, its General Message port and its orientation port. */
 public final class Place {
-    /** The name or address. */
     public final String host;
-    /** The General Message port. */
     public final int generalPort;
     /** The orientation port; 0: absent. */
     public final int orientationPort;

@@ -13,11 +13,9 @@ public final class RunnerAnswer {
     public final String message;
     /** A warning about the running instance, or null. */
     public final String error;
-    /** Whether this request started it. */
     public final boolean isSpawned;
     /** The instance's name; null: absent. */
     public final String instance;
-    /** The address of the instance. */
     public final Place place;
     /** The proxy's host for grounds of this aircraft; null: absent. */
     public final String proxyHost;

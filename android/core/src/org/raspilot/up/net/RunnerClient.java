@@ -49,7 +49,6 @@ public final class RunnerClient implements PlaceFinder {
         return lastAnswer;
     }
 
-    /** One request and its answer. */
     private final class Request implements Cancellable, TcpListener {
         private final FindListener listener;
         private final byte[] line = request.toLine();

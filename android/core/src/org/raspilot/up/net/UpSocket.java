@@ -162,12 +162,10 @@ public final class UpSocket {
         return queue.waitingBytes();
     }
 
-    /** Returns the socket's state. */
     public UpSocketStatus status() {
         return status;
     }
 
-    /** Returns the counters. */
     public UpSocketCounters counters() {
         return new UpSocketCounters(connects, failedAttempts, lost, queue.sent(), dropped,
                 queue.replaced(), received, lines.tooLong(), bytesIn, queue.bytesOut());

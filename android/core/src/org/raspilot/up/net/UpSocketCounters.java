@@ -2,11 +2,9 @@ package org.raspilot.up.net;
 
 /** What an {@link UpSocket} counted since it was made. */
 public final class UpSocketCounters {
-    /** How many connections were made. */
     public final long connects;
     /** How many attempts found no place or made no connection. */
     public final long failedAttempts;
-    /** How many connections were lost. */
     public final long lost;
     /** How many lines or frames the system took whole, heartbeats not counted. */
     public final long sent;

@@ -7,7 +7,6 @@ public final class UpSocketSettings {
 
     /** Whether raw frames go to the orientation port, instead of lines to the other. */
     public final boolean isRaw;
-    /** The time-out of an attempt. */
     public final int connectTimeoutMs;
     /** The period of the heartbeat; 0: none. */
     public final int heartbeatMs;
@@ -17,7 +16,6 @@ public final class UpSocketSettings {
     public final int stallLimitMs;
     /** The wait after the first failure. */
     public final int firstRetryMs;
-    /** The longest wait. */
     public final int lastRetryMs;
 
     private UpSocketSettings(boolean isRaw, int connectTimeoutMs, int heartbeatMs,

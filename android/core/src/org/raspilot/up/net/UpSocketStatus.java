@@ -2,7 +2,6 @@ package org.raspilot.up.net;
 
 /** The state of an {@link UpSocket}: its activity, its place, why it is not connected. */
 public final class UpSocketStatus {
-    /** What a socket does. */
     public enum State {
         /** It was not started, or it was stopped. */
         STOPPED,
@@ -16,7 +15,6 @@ public final class UpSocketStatus {
         WAITING
     }
 
-    /** What it does. */
     public final State state;
     /** The last place found; null: none so far. */
     public final Place place;
@@ -29,7 +27,6 @@ public final class UpSocketStatus {
         this.sentence = sentence;
     }
 
-    /** Returns whether it is connected. */
     public boolean isConnected() {
         return state == State.CONNECTED;
     }

@@ -14,7 +14,6 @@ public final class BatteryProvider extends SensorProvider<BatteryLevel> {
     private static final long REPEAT_MS = 10000;
     private static final long SILENCE_MS = 10000;
 
-    /** Takes the battery. */
     public BatteryProvider(SensorSource<BatteryLevel> source) {
         super(NAME, source, Cadence.level(LEAST_MS, REPEAT_MS, SILENCE_MS));
     }

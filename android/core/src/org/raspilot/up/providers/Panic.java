@@ -41,7 +41,6 @@ public final class Panic {
         become(0);
     }
 
-    /** Returns whether it is active. */
     public boolean isOn() {
         return delayMs > 0;
     }
@@ -61,7 +60,6 @@ public final class Panic {
         listeners.add(listener);
     }
 
-    /** Removes a listener. */
     public void removeListener(Listener listener) {
         listeners.remove(listener);
     }

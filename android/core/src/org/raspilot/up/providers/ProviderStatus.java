@@ -2,11 +2,8 @@ package org.raspilot.up.providers;
 
 /** What the screen shows of one provider: a snapshot that never changes. */
 public final class ProviderStatus {
-    /** The provider's name. */
     public final String name;
-    /** What the sensor calls itself. */
     public final String sensor;
-    /** What it does now. */
     public final ProviderState state;
     /** How many of its messages left in the last second, Hz. */
     public final double rateHz;
@@ -19,7 +16,6 @@ public final class ProviderStatus {
     /** How many messages left since it was registered. */
     public final long sent;
 
-    /** Stores the values. */
     public ProviderStatus(
             String name,
             String sensor,

@@ -78,7 +78,6 @@ public final class ProvidersController {
         }
     }
 
-    /** Stops all in reverse order. */
     public void stop() {
         outlet = null;
         List<UpProvider> reversed = all();

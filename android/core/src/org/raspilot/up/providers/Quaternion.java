@@ -2,7 +2,6 @@ package org.raspilot.up.providers;
 
 /** A quaternion w + xi + yj + zk, Hamilton's; of length one it is a rotation. */
 public final class Quaternion {
-    /** No rotation at all. */
     public static final Quaternion NONE = new Quaternion(1, 0, 0, 0);
 
     private static final double SHORTEST = 1e-6;
@@ -16,7 +15,6 @@ public final class Quaternion {
     /** The third axis times the sine of half the angle. */
     public final double z;
 
-    /** Stores the four parts unchanged. */
     public Quaternion(double w, double x, double y, double z) {
         this.w = w;
         this.x = x;

@@ -11,7 +11,6 @@ public final class RotationRate {
     /** When it was measured, ms of the same clock as the {@link Rotation}'s. */
     public final long timeMs;
 
-    /** Stores the values unchanged. */
     public RotationRate(double xRadS, double yRadS, double zRadS, long timeMs) {
         this.xRadS = xRadS;
         this.yRadS = yRadS;

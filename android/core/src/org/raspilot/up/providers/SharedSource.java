@@ -21,7 +21,6 @@ public final class SharedSource<R> {
     };
     private long periodMs;
 
-    /** Takes the sensor. */
     public SharedSource(SensorSource<R> source) {
         this.source = source;
     }

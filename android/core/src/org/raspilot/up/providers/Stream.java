@@ -48,7 +48,6 @@ final class Stream implements Panic.Listener {
         this.sender = sender;
     }
 
-    /** Starts without a reading. */
     void begin() {
         isRunning = true;
         isFirst = true;
@@ -88,7 +87,6 @@ final class Stream implements Panic.Listener {
         return newestMs;
     }
 
-    /** Returns how many left. */
     long sent() {
         return sent;
     }

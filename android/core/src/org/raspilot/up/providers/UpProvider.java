@@ -36,7 +36,6 @@ public abstract class UpProvider {
     /** Starts to read the sensor with the period of periodMs; each reading leads to offer. */
     protected abstract void subscribe(long periodMs);
 
-    /** Ends the subscription. */
     protected abstract void unsubscribe();
 
     /** Sends the newest reading; returns whether the link took it. */
@@ -63,7 +62,6 @@ public abstract class UpProvider {
         trouble(sentence);
     }
 
-    /** Returns the name. */
     public final String name() {
         return name;
     }
@@ -112,7 +110,6 @@ public abstract class UpProvider {
         }
     }
 
-    /** Stops. */
     final void stop() {
         if (!isStarted) {
             return;
@@ -127,14 +124,12 @@ public abstract class UpProvider {
         }
     }
 
-    /** Notes a new link. */
     final void linkOpened() {
         if (isStarted) {
             stream.reopen();
         }
     }
 
-    /** Returns what it does now. */
     public final ProviderState state() {
         if (!isThere) {
             return ProviderState.ABSENT;

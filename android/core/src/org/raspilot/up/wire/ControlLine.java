@@ -7,7 +7,6 @@ package org.raspilot.up.wire;
  * <p>Source: docs/protocols.md 9.
  */
 public final class ControlLine {
-    /** The kinds of control lines. */
     public enum Kind {
         /** Ground to proxy: requests the seat that commands. */
         SEAT_REQUEST,
@@ -29,7 +28,6 @@ public final class ControlLine {
         AIRCRAFT_OFFLINE
     }
 
-    /** Its kind. */
     public final Kind kind;
     /** The number of a ground, or null. */
     public final Integer number;

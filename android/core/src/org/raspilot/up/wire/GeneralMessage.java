@@ -10,9 +10,7 @@ import java.util.Map;
  * <p>Source: docs/protocols.md 4, thesis 3.1.4.
  */
 public final class GeneralMessage {
-    /** Characters of the longest name. */
     public static final int LONGEST_NAME = 128;
-    /** Characters of the longest id. */
     public static final int LONGEST_ID = 64;
 
     /** The name of the Command, 1 to 128 characters. */

@@ -18,7 +18,7 @@ public final class HelloAnswer {
     public final Seat seat;
     /** The token that resumes the seat, or null when refused. */
     public final String token;
-    /** Returns {@code malformed taken full address token}, or null when accepted. */
+    /** {@code malformed taken full address token}, or null when accepted. */
     public final String code;
     /** Why it was refused, or null when accepted. */
     public final String reason;

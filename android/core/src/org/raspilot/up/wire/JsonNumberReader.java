@@ -17,7 +17,6 @@ final class JsonNumberReader {
         at = start;
     }
 
-    /** Returns the end of the number. */
     int end() {
         return at;
     }

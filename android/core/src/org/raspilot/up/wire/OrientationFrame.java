@@ -11,22 +11,14 @@ import java.nio.ByteBuffer;
 public final class OrientationFrame {
     /** Bytes of a frame. */
     public static final int SIZE = 24;
-    /** Greatest magnitude of an angle. */
     public static final float LARGEST_ANGLE_DEG = 360f;
-    /** Greatest magnitude of a rate. */
     public static final float LARGEST_RATE_DEG_S = 4000f;
 
-    /** The roll in deg. */
     public final float rollDeg;
-    /** The pitch in deg. */
     public final float pitchDeg;
-    /** The yaw in deg. */
     public final float yawDeg;
-    /** The roll rate in deg/s. */
     public final float rollRateDegS;
-    /** The pitch rate in deg/s. */
     public final float pitchRateDegS;
-    /** The yaw rate in deg/s. */
     public final float yawRateDegS;
 
     /** Creates a frame of any values; see {@link #isInRange}. */

@@ -81,7 +81,6 @@ final class GroundBench extends ExternalResource implements GroundListener {
         return network.newest();
     }
 
-    /** The peer sends a line. */
     void say(String line) {
         peer().say(line + "\n");
         loop.advance(0);
@@ -154,7 +153,6 @@ final class GroundBench extends ExternalResource implements GroundListener {
                 + "\", \"reason\": \"" + reason + "\"}}");
     }
 
-    /** Records answers. */
     AnswerListener keeping() {
         return new AnswerListener() {
             @Override

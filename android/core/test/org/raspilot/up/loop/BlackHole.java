@@ -24,7 +24,6 @@ public final class BlackHole implements Closeable {
         }
     }
 
-    /** Returns the port. */
     public int port() {
         return server.getLocalPort();
     }

@@ -13,7 +13,6 @@ public final class Faults implements FaultListener {
         all.add(fault);
     }
 
-    /** Returns those until now. */
     public List<Throwable> all() {
         return new ArrayList<Throwable>(all);
     }

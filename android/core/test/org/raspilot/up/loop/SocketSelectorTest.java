@@ -211,7 +211,6 @@ public final class SocketSelectorTest {
         }
     }
 
-    /** A key of it. */
     private static final class Key extends AbstractSelectionKey {
         private final Selector selector;
         private final SelectableChannel channel;

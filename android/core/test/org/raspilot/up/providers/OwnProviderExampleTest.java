@@ -29,7 +29,6 @@ public final class OwnProviderExampleTest {
         }
     }
 
-    /** What the sensor reads. */
     static final class Light {
         final double lux;
 

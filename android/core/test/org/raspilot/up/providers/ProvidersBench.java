@@ -22,7 +22,6 @@ final class ProvidersBench {
         });
     }
 
-    /** Registers a provider and starts. */
     void run(UpProvider provider) {
         controller.register(provider);
         controller.start(outlet);

@@ -21,7 +21,6 @@ public final class JsonEcho {
     private JsonEcho() {
     }
 
-    /** Answers until stdin ends. */
     public static void main(String[] arguments) throws IOException {
         CommandRegistry registry = CommandRegistry.builtin();
         BufferedReader in = new BufferedReader(new InputStreamReader(System.in, "US-ASCII"));

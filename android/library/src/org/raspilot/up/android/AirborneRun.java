@@ -27,7 +27,6 @@ final class AirborneRun {
         /** Registers handlers and providers; on the loop, before the start. */
         void onUp(Up up);
 
-        /** Takes the current status. */
         void onStatus(AirborneStatus status);
 
         /** Takes a line of the log. */
@@ -151,7 +150,6 @@ final class AirborneRun {
         });
     }
 
-    /** Takes another mounting. */
     void setMounting(final Mounting mounting) {
         loop.post(new Runnable() {
             @Override

@@ -26,7 +26,6 @@ import org.raspilot.up.providers.Mounting;
  * without creating it.
  */
 public abstract class BaseUpService extends Service {
-    /** Stops the service. */
     public static final String ACTION_STOP = "org.raspilot.up.android.STOP";
 
     private final List<UpWatcher> watchers = new ArrayList<UpWatcher>();
@@ -191,7 +190,6 @@ public abstract class BaseUpService extends Service {
             }
         }
 
-        /** Takes a watcher away. */
         public void remove(UpWatcher watcher) {
             watchers.remove(watcher);
         }

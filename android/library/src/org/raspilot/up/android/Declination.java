@@ -5,7 +5,6 @@ import org.raspilot.up.providers.Fix;
 
 /** Reports the magnetic declination along the flight, by Android's model. */
 final class Declination implements FixListener {
-    /** Takes the angle. */
     interface Listener {
         /** Takes degrees from magnetic to true north, east positive; on any thread. */
         void onDeclination(double deg);

@@ -27,7 +27,6 @@ import org.raspilot.up.loop.SelectorLoop;
  * delivered.
  */
 final class GroundRun implements GroundListener, HandlerFaultListener {
-    /** Registers an application's own handlers. */
     interface Setup {
         /** Takes the registry for handlers; on the loop, before the start. */
         void onUp(Up up, TelemetrySource telemetry);
@@ -35,7 +34,6 @@ final class GroundRun implements GroundListener, HandlerFaultListener {
 
     /** Something to do with the ground side on its loop. */
     interface Call {
-        /** Does it. */
         void with(GroundSide side);
     }
 

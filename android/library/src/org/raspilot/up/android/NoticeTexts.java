@@ -16,7 +16,6 @@ public interface NoticeTexts {
     /** Returns what the user reads as the channel's name. */
     String channelName();
 
-    /** Returns the headline. */
     String title();
 
     /** Returns the label of the stop button. */

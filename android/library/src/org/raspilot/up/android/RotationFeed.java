@@ -44,7 +44,6 @@ public final class RotationFeed {
         }
     }
 
-    /** Stops it. */
     public void end() {
         source.unsubscribe();
     }

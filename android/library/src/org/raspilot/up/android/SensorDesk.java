@@ -40,7 +40,6 @@ final class SensorDesk {
         return sensors.registerListener(listener, sensor, periodUs, handler);
     }
 
-    /** Stops listening, to all sensors. */
     void forget(SensorEventListener listener) {
         if (sensors != null) {
             sensors.unregisterListener(listener);

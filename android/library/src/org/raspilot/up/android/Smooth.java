@@ -26,7 +26,6 @@ final class Smooth {
         timeMs = nowMs;
     }
 
-    /** Returns whether there are values. */
     boolean isKnown() {
         return isKnown;
     }

@@ -23,7 +23,6 @@ public final class SpawnService extends IntentService {
     private static final String PROFILE = "profile";
     private static final String ANSWER = "answer";
 
-    /** Made by the system. */
     public SpawnService() {
         super("up spawn");
         // A request that the system interrupted is not repeated behind the user's back.

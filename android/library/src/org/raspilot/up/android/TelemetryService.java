@@ -165,7 +165,6 @@ public abstract class TelemetryService extends Service {
             });
         }
 
-        /** Requests the active gains. */
         public void askGains(AnswerListener listener) {
             ask(PidTuningsCommand.NAME, listener, new Asking() {
                 @Override
@@ -175,7 +174,6 @@ public abstract class TelemetryService extends Service {
             });
         }
 
-        /** Sets the gains. */
         public void setGains(final GainSet gains, final Long shownBeacon,
                 AnswerListener listener) {
             ask(PidTuningsCommand.NAME, listener, new Asking() {
@@ -196,7 +194,6 @@ public abstract class TelemetryService extends Service {
             });
         }
 
-        /** Requests the seat that commands. */
         public void requestSeat() {
             post(new GroundRun.Call() {
                 @Override
@@ -226,7 +223,6 @@ public abstract class TelemetryService extends Service {
             });
         }
 
-        /** Leaves the seat free. */
         public void releaseSeat() {
             post(new GroundRun.Call() {
                 @Override
@@ -259,7 +255,6 @@ public abstract class TelemetryService extends Service {
 
     /** A request to the aircraft, on the loop. */
     private interface Asking {
-        /** Sends it. */
         void ask(GroundSide side, AnswerListener answers);
     }
 }

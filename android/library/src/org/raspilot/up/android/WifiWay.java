@@ -18,7 +18,6 @@ final class WifiWay {
     private static final Pattern NUMBERS =
             Pattern.compile("[0-9]{1,3}(\\.[0-9]{1,3}){3}|[0-9A-Fa-f:.%]*:[0-9A-Fa-f:.%]*");
 
-    /** The system's part. */
     interface Wifi {
         /**
          * Binds future sockets to the Wi-Fi whose network contains an address; null: to any.

@@ -37,7 +37,6 @@ final class ChoicePage implements Page {
         return field.isRequired() && field.choices != null && field.choices.size() <= MOST;
     }
 
-    /** Creates the page. */
     ChoicePage(CommandForm form, Desk desk) {
         this.form = form;
         this.desk = desk;

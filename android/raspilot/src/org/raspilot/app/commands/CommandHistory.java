@@ -7,10 +7,8 @@ import java.util.List;
 
 /** The sent Commands with their outcomes, newest first. Main thread only. */
 final class CommandHistory {
-    /** Maximum number of entries. */
     static final int KEPT = 50;
 
-    /** The outcome of a Command. */
     enum Outcome {
         /** The answer is waited for. */
         WAITING,
@@ -28,11 +26,9 @@ final class CommandHistory {
     static final class Entry {
         /** Counts up from 1. */
         final int number;
-        /** The request in words. */
         final String words;
         /** When, by a monotonic clock, ms. */
         final long atMs;
-        /** The outcome. */
         final Outcome outcome;
         /** The reason, without a full stop, or an empty text. */
         final String reason;

@@ -24,7 +24,6 @@ public final class CommandsMemory extends Fragment {
 
     /** Called when an answer arrives; main thread. */
     interface Listener {
-        /** Refreshes the history. */
         void onHistory();
     }
 
@@ -84,7 +83,6 @@ public final class CommandsMemory extends Fragment {
         return draft;
     }
 
-    /** Returns the sent Commands. */
     CommandHistory history() {
         return history;
     }

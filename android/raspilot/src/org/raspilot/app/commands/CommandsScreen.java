@@ -81,12 +81,10 @@ final class CommandsScreen
         }
     }
 
-    /** Shows what each frame changes. */
     void showFrame() {
         frame.update(picture());
     }
 
-    /** Shows the current state. */
     void show() {
         showFrame();
         if (seat != null) {
@@ -101,12 +99,10 @@ final class CommandsScreen
         history.update();
     }
 
-    /** Closes an open confirmation. */
     void dismiss() {
         confirmation.dismiss();
     }
 
-    /** Releases the views. */
     void close() {
         dismiss();
         setGround(null);

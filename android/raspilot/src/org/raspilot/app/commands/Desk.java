@@ -13,7 +13,6 @@ interface Desk {
     /** Returns the source of views and texts. */
     Context context();
 
-    /** Returns the current state. */
     Picture picture();
 
     /** Returns the gains that are known now; null: none. */
@@ -34,7 +33,6 @@ interface Desk {
     /** Requests the active gains from the aircraft. */
     void askGains();
 
-    /** Sends a set of gains. */
     void setGains(GainSet set);
 
     /** Sends the set of gains before. */

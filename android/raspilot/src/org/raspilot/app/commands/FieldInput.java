@@ -27,7 +27,6 @@ abstract class FieldInput {
 
     /** Called when text was typed or a choice made. */
     interface ChangeListener {
-        /** Validates the text again. */
         void onChange();
     }
 
@@ -44,7 +43,6 @@ abstract class FieldInput {
                 : new ChoiceInput(context, choices, listener);
     }
 
-    /** Returns the view. */
     abstract View view();
 
     /** Returns the typed or chosen value, or an empty text. */

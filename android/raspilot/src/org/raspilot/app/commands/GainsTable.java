@@ -28,7 +28,6 @@ final class GainsTable {
 
     /** Called when a cell was edited. */
     interface ChangeListener {
-        /** Refreshes from the editor. */
         void onWritten();
     }
 

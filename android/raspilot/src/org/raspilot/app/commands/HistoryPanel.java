@@ -17,7 +17,6 @@ final class HistoryPanel implements View.OnClickListener {
     private final TextView all;
     private final Inks inks;
 
-    /** Finds its views. */
     HistoryPanel(View root, CommandHistory history) {
         this.history = history;
         inks = Inks.of(root.getContext());
@@ -32,7 +31,6 @@ final class HistoryPanel implements View.OnClickListener {
         return box.getVisibility() == View.VISIBLE;
     }
 
-    /** Opens all, or closes it. */
     void setOpen(boolean isOpen) {
         box.setVisibility(isOpen ? View.VISIBLE : View.GONE);
         update();
@@ -43,7 +41,6 @@ final class HistoryPanel implements View.OnClickListener {
         setOpen(!isOpen());
     }
 
-    /** Shows the current state. */
     void update() {
         Resources words = newest.getResources();
         CommandHistory.Entry entry = history.newest();

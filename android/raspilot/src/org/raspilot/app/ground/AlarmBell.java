@@ -13,12 +13,9 @@ import java.util.Set;
  * when it returns or escalates from a warning to an alarm.
  */
 final class AlarmBell {
-    /** Repetition period of an alarm. */
     static final long ALARM_EACH_MS = 2000;
-    /** Repetition period of a warning. */
     static final long WARNING_EACH_MS = 10000;
 
-    /** The sound to play. */
     enum Ring {
         /** Nothing. */
         NONE,
@@ -42,7 +39,6 @@ final class AlarmBell {
         heard.retainAll(words);
     }
 
-    /** Silences the current alarms. */
     void silence() {
         silenced.addAll(words());
     }

@@ -14,12 +14,10 @@ final class EventPanel {
 
     private final TextView view;
 
-    /** Finds its view. */
     EventPanel(View root) {
         view = (TextView) root.findViewById(R.id.ground_events);
     }
 
-    /** Shows the current state. */
     void update(Picture picture) {
         if (!view.isShown()) {
             return;

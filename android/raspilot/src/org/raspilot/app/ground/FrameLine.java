@@ -47,7 +47,6 @@ public final class FrameLine implements FrameText.DrawnListener {
         shownBeacon = beacon;
     }
 
-    /** Shows the current state. */
     public void update(Picture picture) {
         Telemetry telemetry = picture.telemetry;
         Resources words = view.getResources();

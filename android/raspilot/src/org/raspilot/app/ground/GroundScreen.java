@@ -43,14 +43,12 @@ final class GroundScreen {
         return panels.chosen(otherwise);
     }
 
-    /** Shows what each frame changes. */
     void showNewest(Picture picture) {
         frame.update(picture);
         instruments.update(picture);
         track.update(picture);
     }
 
-    /** Shows everything. */
     void showAll(Picture picture) {
         showNewest(picture);
         alarms.update(picture);
@@ -60,7 +58,6 @@ final class GroundScreen {
         values.update(picture);
     }
 
-    /** Releases the views. */
     void close() {
         seat.setGround(null);
         frame.close();

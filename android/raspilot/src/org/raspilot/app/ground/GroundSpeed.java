@@ -51,7 +51,6 @@ final class GroundSpeed {
         count++;
     }
 
-    /** Clears all positions. */
     void clear() {
         count = 0;
     }

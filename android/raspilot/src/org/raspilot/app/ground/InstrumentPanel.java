@@ -40,7 +40,6 @@ final class InstrumentPanel {
         servos.setTitle(root.getResources().getString(R.string.ground_servos), SERVOS);
     }
 
-    /** Shows the current state. */
     void update(Picture picture) {
         Telemetry telemetry = picture.telemetry;
         Double roll = telemetry.number("orientation.roll");

@@ -52,7 +52,6 @@ final class Row {
         return row;
     }
 
-    /** Sets the value. */
     void label(String text) {
         Texts.show(label, text);
     }
@@ -79,7 +78,6 @@ final class Row {
         }
     }
 
-    /** Shows or hides the row. */
     void setVisible(boolean isVisible) {
         element.setVisibility(isVisible ? View.VISIBLE : View.GONE);
     }

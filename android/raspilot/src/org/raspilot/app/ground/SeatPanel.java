@@ -20,7 +20,6 @@ public final class SeatPanel implements View.OnClickListener {
     private Integer asker;
     private boolean isOurs;
 
-    /** Finds its views. */
     public SeatPanel(View root) {
         link = (TextView) root.findViewById(R.id.seat_link);
         seat = (TextView) root.findViewById(R.id.seat_line);
@@ -35,7 +34,6 @@ public final class SeatPanel implements View.OnClickListener {
         ground = newGround;
     }
 
-    /** Shows the current state. */
     public void update(Picture picture) {
         GroundStatus status = picture.status;
         if (status == null) {

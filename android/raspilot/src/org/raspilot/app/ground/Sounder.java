@@ -42,7 +42,6 @@ final class Sounder {
         }
     }
 
-    /** Stops what sounds. */
     void hush() {
         if (tones != null) {
             tones.stopTone();

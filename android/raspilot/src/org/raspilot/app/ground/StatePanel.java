@@ -69,7 +69,6 @@ final class StatePanel {
         blackBox = Row.in(list, R.string.state_black_box, inks);
     }
 
-    /** Shows the current state. */
     void update(Picture picture) {
         Telemetry telemetry = picture.telemetry;
         text(mode, picture, "flight_mode");

@@ -26,7 +26,6 @@ final class TrackPanel implements View.OnClickListener {
     private Double latitudeDeg;
     private Double longitudeDeg;
 
-    /** Finds its views. */
     TrackPanel(Activity activity, View root) {
         this.activity = activity;
         view = (TrackView) root.findViewById(R.id.ground_track);
@@ -38,7 +37,6 @@ final class TrackPanel implements View.OnClickListener {
         root.findViewById(R.id.ground_smaller).setOnClickListener(this);
     }
 
-    /** Shows the current state. */
     void update(Picture picture) {
         Track.Snapshot track = picture.track;
         // Most frames add no point: the track is long, and copied only when it grew.

@@ -30,7 +30,6 @@ final class ValuesPanel extends BaseAdapter implements TextWatcher {
     private Telemetry shown;
     private Picture picture = Picture.of(null);
 
-    /** Finds its views. */
     ValuesPanel(View root) {
         inflater = LayoutInflater.from(root.getContext());
         inks = Inks.of(root.getContext());

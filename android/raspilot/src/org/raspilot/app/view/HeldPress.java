@@ -12,7 +12,6 @@ public final class HeldPress {
     /** Maximum time between two checks: a screen that hung must not fire when it resumes. */
     public static final long LONGEST_LOOK_MS = 400;
 
-    /** What a press is. */
     public enum State {
         /** Nothing presses. */
         IDLE,

@@ -7,29 +7,19 @@ import org.raspilot.app.R;
 
 /** The colours of the instruments, from the theme's {@code instrumentStyle}; each an ARGB int. */
 public final class Inks {
-    /** Behind everything. */
     public final int ground;
-    /** Numbers and needles. */
     public final int ink;
-    /** What explains. */
     public final int dim;
-    /** Grids and scales. */
     public final int line;
-    /** Above the horizon. */
     public final int sky;
-    /** Below the horizon. */
     public final int earth;
     /** The ladder upon sky and earth. */
     public final int horizonInk;
-    /** Requested values. */
     public final int accent;
-    /** Normal values. */
     public final int good;
     /** Stale values, or values that need attention. */
     public final int warning;
-    /** What needs a hand now. */
     public final int alarm;
-    /** Drawn over stale values. */
     public final int hatch;
 
     private Inks(TypedArray has) {

@@ -191,7 +191,6 @@ public abstract class Instrument extends View {
         return pen;
     }
 
-    /** Makes the pen fill areas. */
     protected final Paint area(int colour) {
         pen.setStyle(Paint.Style.FILL);
         pen.setColor(colour);

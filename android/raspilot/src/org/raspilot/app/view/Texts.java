@@ -8,7 +8,6 @@ public final class Texts {
     private Texts() {
     }
 
-    /** Writes a text. */
     public static void show(TextView view, String text) {
         if (!text.contentEquals(view.getText())) {
             view.setText(text);

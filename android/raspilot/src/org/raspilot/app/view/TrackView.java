@@ -91,7 +91,6 @@ public final class TrackView extends Instrument {
         refit();
     }
 
-    /** Shows everything again. */
     public void follow() {
         geometry.follow();
         refit();
@@ -102,12 +101,10 @@ public final class TrackView extends Instrument {
         return !geometry.isAutomatic();
     }
 
-    /** Enlarges the middle. */
     public void enlarge() {
         zoomMiddle(BUTTON_FACTOR);
     }
 
-    /** Shows more around the middle. */
     public void shrink() {
         zoomMiddle(1 / BUTTON_FACTOR);
     }

@@ -7,7 +7,6 @@ import org.raspilot.up.wire.MalformedException;
 
 /** One line of input. */
 final class InputLine {
-    /** Its keys and values. */
     final Map<?, ?> fields;
 
     private InputLine(Map<?, ?> fields) {

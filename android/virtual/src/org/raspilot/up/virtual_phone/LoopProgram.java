@@ -21,7 +21,6 @@ final class LoopProgram implements FaultListener {
 
     /** What it consists of; all calls come on the loop. */
     interface Part {
-        /** Starts on this loop. */
         void start(Loop loop);
 
         /**
@@ -31,7 +30,6 @@ final class LoopProgram implements FaultListener {
          */
         void take(Map<?, ?> line) throws OptionException;
 
-        /** Stops. */
         void stop();
     }
 

@@ -49,7 +49,6 @@ final class PhoneEvents implements AirborneListener, Speaker, FaultListener {
         words.notice(Words.faultText(fault));
     }
 
-    /** Prints the last line. */
     void counters(AirborneStatus status) {
         Map<String, Object> event = Words.event("counters", "connections", status.connections());
         event.put("telemetry", status.telemetry());

@@ -41,7 +41,6 @@ final class PhoneOptions {
 
     /** How the airborne side is to be. */
     final AirborneSettings settings;
-    /** The seed of random numbers. */
     final long seed;
     /** Whether time and network are the simulator's. */
     final boolean isStepped;

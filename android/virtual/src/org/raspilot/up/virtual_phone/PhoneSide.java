@@ -15,7 +15,6 @@ final class PhoneSide implements LoopProgram.Part {
     private SimulatedSource<Map<?, ?>> record;
     private Airborne airborne;
 
-    /** Builds nothing yet. */
     PhoneSide(PhoneOptions options, Words words) {
         this.options = options;
         this.words = words;

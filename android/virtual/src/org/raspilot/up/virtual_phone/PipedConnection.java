@@ -16,9 +16,7 @@ final class PipedConnection implements TcpConnection {
     private boolean isClosed;
     private boolean isFull;
 
-    /** One event of a connection. */
     interface Event {
-        /** Runs it. */
         void happen(PipedConnection connection);
     }
 

@@ -35,7 +35,6 @@ final class PipedUdpPort implements UdpPort {
         }
     }
 
-    /** Hands a datagram on. */
     void take(byte[] datagram, String host, int port) {
         listener.onDatagram(datagram, datagram.length, host, port);
     }

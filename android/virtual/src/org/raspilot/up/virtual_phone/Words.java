@@ -59,12 +59,10 @@ final class Words {
         }
     }
 
-    /** Prints a sentence. */
     void notice(String sentence) {
         say(event("notice", "text", sentence));
     }
 
-    /** Flushes the output. */
     synchronized void flush() {
         try {
             out.flush();

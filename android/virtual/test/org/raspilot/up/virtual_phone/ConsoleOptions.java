@@ -32,7 +32,6 @@ final class ConsoleOptions {
 
     /** The peer; null with {@link #wantsHelp}. */
     final GroundSettings settings;
-    /** What to print of telemetry. */
     final List<String> values;
     /** Whether to print only the help. */
     final boolean wantsHelp;

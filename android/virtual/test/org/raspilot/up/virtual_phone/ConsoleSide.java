@@ -26,7 +26,6 @@ final class ConsoleSide implements LoopProgram.Part, GroundListener, HandlerFaul
     private GroundSide ground;
     private GainSet told;
 
-    /** Builds nothing yet. */
     ConsoleSide(ConsoleOptions options, Words words) {
         this.options = options;
         this.words = words;
