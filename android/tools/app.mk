@@ -79,7 +79,7 @@ $(JAVA7)/.done: $(COMPILED) $(BOOT) $(JARS)/.proguard $(JARS)/.level-29
 		$(foreach each,$(COMPILED),-injars $(each) -outjars $(JAVA7)/$(notdir $(each))) \
 		-libraryjars $(BOOT) -libraryjars $(FRAMEWORK_29) -target 1.7 -dontshrink -dontoptimize -dontobfuscate \
 		-dontpreverify -keepattributes '*' -dontwarn 'android.**,java.lang.invoke.**' -dontnote '**' \
-		> $@.log || { tail -9 $@.log >&2; exit 1; }
+		> $@.log || { grep -v "^Note" $@.log | head -9 >&2; exit 1; }
 	@touch $@
 $(BACKPORTED): $(JAVA7)/.done ;
 

@@ -13,8 +13,6 @@ import org.raspilot.up.commands.BaseCommandHandler;
 import org.raspilot.up.commands.CommandFields;
 import org.raspilot.up.commands.CommandReader;
 import org.raspilot.up.commands.CommandRefusedException;
-import org.raspilot.up.commands.HandlerFaultListener;
-import org.raspilot.up.loop.FaultListener;
 import org.raspilot.up.loop.ManualLoop;
 import org.raspilot.up.providers.Cadence;
 import org.raspilot.up.providers.Outlet;
@@ -35,12 +33,7 @@ public final class OwnApplicationTest {
     /** A Command: its name, its fields with their bounds. */
     static final class ReleaseCommand extends BaseCommand {
         static final String NAME = "camera.release";
-        static final CommandReader READER = new CommandReader() {
-            @Override
-            public BaseCommand read(GeneralMessage message) {
-                return new ReleaseCommand(message);
-            }
-        };
+        static final CommandReader READER = message -> new ReleaseCommand(message);
 
         final long pictures;
 
@@ -76,20 +69,13 @@ public final class OwnApplicationTest {
         }
     }
 
-    private final ManualLoop loop = new ManualLoop(null, new FaultListener() {
-        @Override
-        public void onFault(Throwable fault) {
-            throw new AssertionError(fault);
-        }
+    private final ManualLoop loop = new ManualLoop(null, fault -> {
+        throw new AssertionError(fault);
     });
-    private final Up up = new Up(loop, new HandlerFaultListener() {
-        @Override
-        public void onHandlerFailed(BaseCommandHandler handler, BaseCommand command,
-                Throwable fault) {
-            throw new AssertionError(fault);
-        }
+    private final Up up = new Up(loop, (handler, command, fault) -> {
+        throw new AssertionError(fault);
     });
-    private final List<String> lines = new ArrayList<String>();
+    private final List<String> lines = new ArrayList<>();
 
     @Test
     public void aCommandAndItsHandlerAreOneRegistrationEach() {
@@ -113,7 +99,7 @@ public final class OwnApplicationTest {
 
     @Test
     public void aHandlerAloneMakesANameKnown() {
-        final List<Object> heard = new ArrayList<Object>();
+        final List<Object> heard = new ArrayList<>();
         up.commandExecutor().registerCommand("camera.zoom", new BaseCommandHandler() {
             @Override
             public void runAction(BaseCommand command) {
@@ -145,12 +131,7 @@ public final class OwnApplicationTest {
         up.commandReceiver().receiveLine(bytes, bytes.length, answers);
     }
 
-    private final AnswerSink answers = new AnswerSink() {
-        @Override
-        public void answer(GeneralMessage answer) {
-            lines.add(Vectors.text(answer.toLine()).trim());
-        }
-    };
+    private final AnswerSink answers = answer -> lines.add(Vectors.text(answer.toLine()).trim());
 
     /** The link to the Raspberry Pi, as far as a provider sees it. */
     private final class Link implements Outlet {

@@ -11,16 +11,11 @@ import org.junit.Test;
 import org.raspilot.up.commands.ArmCommand;
 import org.raspilot.up.commands.BaseCommand;
 import org.raspilot.up.commands.BaseCommandHandler;
-import org.raspilot.up.commands.HandlerFaultListener;
-import org.raspilot.up.loop.FaultListener;
 import org.raspilot.up.loop.ManualLoop;
 
 public final class UpTest {
-    private final ManualLoop loop = new ManualLoop(null, new FaultListener() {
-        @Override
-        public void onFault(Throwable fault) {
-            throw new AssertionError(fault);
-        }
+    private final ManualLoop loop = new ManualLoop(null, fault -> {
+        throw new AssertionError(fault);
     });
 
     @After
@@ -70,12 +65,8 @@ public final class UpTest {
     }
 
     private Up newUp() {
-        return new Up(loop, new HandlerFaultListener() {
-            @Override
-            public void onHandlerFailed(BaseCommandHandler handler, BaseCommand command,
-                    Throwable fault) {
-                throw new AssertionError(fault);
-            }
+        return new Up(loop, (handler, command, fault) -> {
+            throw new AssertionError(fault);
         });
     }
 }

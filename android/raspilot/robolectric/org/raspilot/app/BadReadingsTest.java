@@ -17,7 +17,6 @@ import org.junit.After;
 import org.junit.Before;
 import org.junit.Test;
 import org.raspilot.up.Up;
-import org.raspilot.up.loop.FaultListener;
 import org.raspilot.up.loop.SelectorLoop;
 import org.robolectric.annotation.Config;
 
@@ -96,11 +95,8 @@ public final class BadReadingsTest extends AppBench {
 
     @Test
     public void theUpOfAnotherPartOfTheProcessIsASentence() throws Exception {
-        SelectorLoop loop = new SelectorLoop("another", new FaultListener() {
-            @Override
-            public void onFault(Throwable fault) {
-                throw new AssertionError(fault);
-            }
+        SelectorLoop loop = new SelectorLoop("another", fault -> {
+            throw new AssertionError(fault);
         });
         Up.setInstance(new Up(loop, (handler, command, fault) -> { }));
         assertEquals(Service.START_NOT_STICKY, start());

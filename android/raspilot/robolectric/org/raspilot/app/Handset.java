@@ -151,7 +151,7 @@ final class Handset {
     }
 
     private List<ServiceConnection> waiting() {
-        List<ServiceConnection> all = new ArrayList<ServiceConnection>();
+        List<ServiceConnection> all = new ArrayList<>();
         for (ServiceConnection each : shadow.getBoundServiceConnections()) {
             if (each.getClass().getName().startsWith(AirborneLink.class.getName())) {
                 all.add(each);

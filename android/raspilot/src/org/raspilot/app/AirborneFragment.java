@@ -8,7 +8,6 @@ import android.view.ViewGroup;
 import org.raspilot.up.airborne.AirborneSettings;
 import org.raspilot.up.airborne.AirborneStatus;
 import org.raspilot.up.android.BaseUpService;
-import org.raspilot.up.android.ProblemListener;
 
 /** The airborne screen: sent readings, rates, destination, and the phone's mounting. */
 public final class AirborneFragment extends Fragment
@@ -39,25 +38,10 @@ public final class AirborneFragment extends Fragment
     public View onCreateView(LayoutInflater inflater, ViewGroup container, Bundle saved) {
         View root = inflater.inflate(R.layout.fragment_airborne, container, false);
         AppSettings settings = new AppSettings(getActivity());
-        run = new RunPanel(root, new View.OnClickListener() {
-            @Override
-            public void onClick(View pressed) {
-                press();
-            }
-        });
-        providers = new ProvidersPanel(root, new View.OnClickListener() {
-            @Override
-            public void onClick(View pressed) {
-                zeroAltitude();
-            }
-        });
+        run = new RunPanel(root, pressed -> press());
+        providers = new ProvidersPanel(root, pressed -> zeroAltitude());
         phone = new PhonePanel(getActivity(), root, settings);
-        mounting = new MountingPanel(root, settings, new ProblemListener() {
-            @Override
-            public void onProblem(String sentence) {
-                application.note(sentence);
-            }
-        });
+        mounting = new MountingPanel(root, settings, sentence -> application.note(sentence));
         return root;
     }
 

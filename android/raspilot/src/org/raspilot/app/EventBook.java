@@ -27,8 +27,8 @@ public final class EventBook {
         }
     }
 
-    private final List<Entry> entries = new ArrayList<Entry>();
-    private final List<Watcher> watchers = new ArrayList<Watcher>();
+    private final List<Entry> entries = new ArrayList<>();
+    private final List<Watcher> watchers = new ArrayList<>();
 
     /** Writes a line; the same one again in a row is counted. */
     public void add(long timeMs, String text) {
@@ -51,7 +51,7 @@ public final class EventBook {
 
     /** Returns the lines, from the oldest to the newest. */
     public List<Entry> entries() {
-        return Collections.unmodifiableList(new ArrayList<Entry>(entries));
+        return Collections.unmodifiableList(new ArrayList<>(entries));
     }
 
     /** Returns the newest line, or null if absent. */

@@ -26,34 +26,15 @@ public final class LogFragment extends Fragment implements EventBook.Watcher {
     public View onCreateView(LayoutInflater inflater, ViewGroup container, Bundle saved) {
         View root = inflater.inflate(R.layout.fragment_log, container, false);
         final Context context = getActivity();
-        text = new LogText(new SimpleDateFormat(TIME, Locale.US), new LogText.Times() {
-            @Override
-            public String of(String line, int times) {
-                return context.getString(R.string.log_times, line, times);
-            }
-        });
-        lines = new ArrayAdapter<String>(context, R.layout.row_log);
+        text = new LogText(new SimpleDateFormat(TIME, Locale.US), (line, times) ->
+                context.getString(R.string.log_times, line, times));
+        lines = new ArrayAdapter<>(context, R.layout.row_log);
         ListView list = (ListView) root.findViewById(R.id.log_lines);
         list.setAdapter(lines);
         list.setEmptyView(root.findViewById(R.id.log_empty));
-        root.findViewById(R.id.log_share).setOnClickListener(new View.OnClickListener() {
-            @Override
-            public void onClick(View pressed) {
-                share();
-            }
-        });
-        root.findViewById(R.id.log_copy).setOnClickListener(new View.OnClickListener() {
-            @Override
-            public void onClick(View pressed) {
-                copy();
-            }
-        });
-        root.findViewById(R.id.log_clear).setOnClickListener(new View.OnClickListener() {
-            @Override
-            public void onClick(View pressed) {
-                events().clear();
-            }
-        });
+        root.findViewById(R.id.log_share).setOnClickListener(pressed -> share());
+        root.findViewById(R.id.log_copy).setOnClickListener(pressed -> copy());
+        root.findViewById(R.id.log_clear).setOnClickListener(pressed -> events().clear());
         return root;
     }
 

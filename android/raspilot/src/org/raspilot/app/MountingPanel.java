@@ -47,12 +47,7 @@ final class MountingPanel implements SensorListener<Rotation> {
         absent.setVisibility(feed.isPresent() ? View.GONE : View.VISIBLE);
         absent.setText(feed.name());
         level.setEnabled(feed.isPresent());
-        level.setOnClickListener(new View.OnClickListener() {
-            @Override
-            public void onClick(View pressed) {
-                calibrate();
-            }
-        });
+        level.setOnClickListener(pressed -> calibrate());
         nose.setSelection(settings.nose().ordinal());
         nose.setOnItemSelectedListener(new NoseListener());
     }

@@ -9,7 +9,6 @@ import android.os.Build;
 import android.provider.Settings;
 import android.view.View;
 import android.widget.CheckBox;
-import android.widget.CompoundButton;
 import java.util.ArrayList;
 import java.util.List;
 import org.raspilot.up.android.Permissions;
@@ -33,28 +32,15 @@ final class PhonePanel {
         location = root.findViewById(R.id.phone_location);
         battery = root.findViewById(R.id.phone_battery);
         root.findViewById(R.id.phone_location_permit).setOnClickListener(
-                new View.OnClickListener() {
-                    @Override
-                    public void onClick(View pressed) {
-                        permit();
-                    }
-                });
+                pressed -> permit());
         root.findViewById(R.id.phone_battery_settings).setOnClickListener(
-                new View.OnClickListener() {
-                    @Override
-                    public void onClick(View pressed) {
-                        open(new Intent(BATTERY_SCREEN));
-                    }
-                });
+                pressed -> open(new Intent(BATTERY_SCREEN)));
         CheckBox keep = (CheckBox) root.findViewById(R.id.phone_keep_screen);
         keep.setChecked(settings.isScreenKept());
         root.setKeepScreenOn(settings.isScreenKept());
-        keep.setOnCheckedChangeListener(new CompoundButton.OnCheckedChangeListener() {
-            @Override
-            public void onCheckedChanged(CompoundButton box, boolean isChecked) {
-                settings.setScreenKept(isChecked);
-                root.setKeepScreenOn(isChecked);
-            }
+        keep.setOnCheckedChangeListener((box, isChecked) -> {
+            settings.setScreenKept(isChecked);
+            root.setKeepScreenOn(isChecked);
         });
     }
 
@@ -80,7 +66,7 @@ final class PhonePanel {
     }
 
     private List<String> missing() {
-        List<String> missing = new ArrayList<String>();
+        List<String> missing = new ArrayList<>();
         if (!isLocationPermitted()) {
             missing.add(Manifest.permission.ACCESS_FINE_LOCATION);
             missing.add(Manifest.permission.ACCESS_COARSE_LOCATION);

@@ -40,7 +40,7 @@ final class ProvidersPanel {
     /** Shows a status; null: nothing runs. */
     void show(AirborneStatus status) {
         List<ProviderStatus> providers = status == null
-                ? Collections.<ProviderStatus>emptyList() : status.providers;
+                ? Collections.emptyList() : status.providers;
         idle.setVisibility(providers.isEmpty() ? View.VISIBLE : View.GONE);
         while (rows.getChildCount() > providers.size()) {
             rows.removeViewAt(rows.getChildCount() - 1);

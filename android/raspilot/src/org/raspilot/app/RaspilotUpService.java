@@ -16,12 +16,7 @@ public final class RaspilotUpService extends BaseUpService {
 
     /** The system does not keep a strong reference to a listener. */
     private final SharedPreferences.OnSharedPreferenceChangeListener changes =
-            new SharedPreferences.OnSharedPreferenceChangeListener() {
-                @Override
-                public void onSharedPreferenceChanged(SharedPreferences preferences, String key) {
-                    takeChange(key);
-                }
-            };
+            (preferences, key) -> takeChange(key);
 
     @Override
     public void onCreate() {

@@ -3,7 +3,6 @@ package org.raspilot.app;
 import android.app.AlertDialog;
 import android.app.Dialog;
 import android.app.DialogFragment;
-import android.content.DialogInterface;
 import android.os.Bundle;
 import org.raspilot.up.android.BaseUpService;
 
@@ -15,12 +14,8 @@ public final class StopQuestion extends DialogFragment {
     public Dialog onCreateDialog(Bundle saved) {
         return new AlertDialog.Builder(getActivity())
                 .setMessage(R.string.stop_question)
-                .setPositiveButton(R.string.stop_big, new DialogInterface.OnClickListener() {
-                    @Override
-                    public void onClick(DialogInterface dialog, int button) {
-                        BaseUpService.stop(getActivity(), RaspilotUpService.class);
-                    }
-                })
+                .setPositiveButton(R.string.stop_big, (dialog, button) ->
+                        BaseUpService.stop(getActivity(), RaspilotUpService.class))
                 .setNegativeButton(R.string.cancel, null)
                 .create();
     }

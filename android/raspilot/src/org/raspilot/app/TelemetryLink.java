@@ -36,13 +36,8 @@ public final class TelemetryLink extends Fragment {
     private static final String TAG = "telemetry link";
 
     private final Handler main = new Handler(Looper.getMainLooper());
-    private final List<Watcher> watchers = new ArrayList<Watcher>();
-    private final Runnable unbinding = new Runnable() {
-        @Override
-        public void run() {
-            unbind();
-        }
-    };
+    private final List<Watcher> watchers = new ArrayList<>();
+    private final Runnable unbinding = () -> unbind();
     private final ServiceConnection connection = new ServiceConnection() {
         @Override
         public void onServiceConnected(ComponentName name, IBinder binder) {

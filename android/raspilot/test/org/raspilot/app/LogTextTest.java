@@ -12,12 +12,7 @@ public final class LogTextTest {
     public void aLineHasItsTimeAndHowOften() {
         SimpleDateFormat format = new SimpleDateFormat("HH:mm:ss", Locale.US);
         format.setTimeZone(TimeZone.getTimeZone("UTC"));
-        LogText text = new LogText(format, new LogText.Times() {
-            @Override
-            public String of(String line, int times) {
-                return line + " x" + times;
-            }
-        });
+        LogText text = new LogText(format, (line, times) -> line + " x" + times);
         EventBook book = new EventBook();
         book.add(3723000, "connected");
         book.add(3724000, "lost");

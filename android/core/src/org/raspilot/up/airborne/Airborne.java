@@ -9,7 +9,6 @@ import org.raspilot.up.loop.Loop;
 import org.raspilot.up.net.Place;
 import org.raspilot.up.providers.Mounting;
 import org.raspilot.up.providers.Outlet;
-import org.raspilot.up.providers.Panic;
 import org.raspilot.up.providers.ProvidersController;
 import org.raspilot.up.providers.ProvidersListener;
 import org.raspilot.up.providers.Sensors;
@@ -54,12 +53,7 @@ public final class Airborne {
         basics.register(providers());
         silence = new SilenceReport(loop, providers(), listener);
         providers().addListener(new Problems());
-        providers().panic().addListener(new Panic.Listener() {
-            @Override
-            public void onPanic(Panic panic) {
-                Airborne.this.listener.onPanic(panic.delayMs());
-            }
-        });
+        providers().panic().addListener(panic -> Airborne.this.listener.onPanic(panic.delayMs()));
     }
 
     /** Starts to read, to connect and to send. */

@@ -52,12 +52,8 @@ final class AirborneLink implements Outlet, AnswerSink, UpSocketListener {
                                 ? OrientationSender.Transport.UDP
                                 : OrientationSender.Transport.TCP,
                         random);
-        watch = new AnswerWatch(loop, Integer.toHexString(random.nextInt()) + ".", new Runnable() {
-            @Override
-            public void run() {
-                socket.drop(DEAD);
-            }
-        });
+        watch = new AnswerWatch(loop, Integer.toHexString(random.nextInt()) + ".", () ->
+                socket.drop(DEAD));
     }
 
     void start() {

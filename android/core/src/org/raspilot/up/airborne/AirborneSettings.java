@@ -53,7 +53,7 @@ public final class AirborneSettings {
         orientationPort = builder.orientationPort;
         discoveryPort = builder.discoveryPort;
         discoveryHosts =
-                Collections.unmodifiableList(new ArrayList<String>(builder.discoveryHosts));
+                Collections.unmodifiableList(new ArrayList<>(builder.discoveryHosts));
         runnerHost = builder.runnerHost;
         runnerPort = builder.runnerPort;
         aircraft = builder.aircraft;
@@ -90,7 +90,7 @@ public final class AirborneSettings {
         private int generalPort = 50001;
         private int orientationPort = 50000;
         private int discoveryPort = 3001;
-        private List<String> discoveryHosts = new ArrayList<String>();
+        private List<String> discoveryHosts = new ArrayList<>();
         private String runnerHost = "";
         private int runnerPort = 3002;
         private String aircraft = "";
@@ -135,7 +135,7 @@ public final class AirborneSettings {
 
         /** Sets Discovery's targets; empty: 255.255.255.255 and every interface's own. */
         public Builder discoveryHosts(List<String> value) {
-            discoveryHosts = new ArrayList<String>(value);
+            discoveryHosts = new ArrayList<>(value);
             return this;
         }
 

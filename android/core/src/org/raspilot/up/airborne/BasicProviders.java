@@ -24,7 +24,7 @@ final class BasicProviders {
     private final OrientationProvider orientation;
 
     BasicProviders(AirborneSettings settings, Sensors sensors) {
-        SharedSource<Rotation> rotation = new SharedSource<Rotation>(sensors.rotation());
+        SharedSource<Rotation> rotation = new SharedSource<>(sensors.rotation());
         location = new LocationProvider(sensors.location(), settings.locationPeriodMs);
         altitude = new AltitudeProvider(sensors.pressure(), settings.altitudePeriodMs);
         altitude.setReferenceHPa(settings.referencePressureHPa);

@@ -1,6 +1,5 @@
 package org.raspilot.up.airborne;
 
-import java.util.List;
 import org.raspilot.up.loop.Loop;
 import org.raspilot.up.net.BroadcastAddresses;
 import org.raspilot.up.net.DiscoveryClient;
@@ -39,11 +38,6 @@ final class Finders {
         if (settings.discoveryHosts.isEmpty()) {
             return new InterfaceBroadcasts();
         }
-        return new BroadcastAddresses() {
-            @Override
-            public List<String> current() {
-                return settings.discoveryHosts;
-            }
-        };
+        return () -> settings.discoveryHosts;
     }
 }

@@ -15,13 +15,8 @@ final class SilenceReport {
     private final Loop loop;
     private final ProvidersController providers;
     private final AirborneListener listener;
-    private final Set<String> silent = new HashSet<String>();
-    private final Runnable looking = new Runnable() {
-        @Override
-        public void run() {
-            look();
-        }
-    };
+    private final Set<String> silent = new HashSet<>();
+    private final Runnable looking = () -> look();
     private Cancellable timer;
 
     SilenceReport(Loop loop, ProvidersController providers, AirborneListener listener) {

@@ -8,12 +8,7 @@ import org.raspilot.up.wire.GeneralMessage;
 public final class AckCommand extends BaseCommand {
     public static final String NAME = "up.ack";
     /** Reads the Command from a message. */
-    public static final CommandReader READER = new CommandReader() {
-        @Override
-        public BaseCommand read(GeneralMessage message) {
-            return new AckCommand(message);
-        }
-    };
+    public static final CommandReader READER = message -> new AckCommand(message);
 
     /** The id of the Command that is answered. */
     public final String commandId;
@@ -39,7 +34,7 @@ public final class AckCommand extends BaseCommand {
     }
 
     private static Map<String, Object> data(String commandId) {
-        Map<String, Object> data = new LinkedHashMap<String, Object>();
+        Map<String, Object> data = new LinkedHashMap<>();
         data.put("id", commandId);
         return data;
     }

@@ -13,12 +13,7 @@ public final class AltitudeCommand extends BaseCommand {
     public static final List<String> MODES =
             Collections.unmodifiableList(Arrays.asList("actual", "required"));
     /** Reads the Command from a message. */
-    public static final CommandReader READER = new CommandReader() {
-        @Override
-        public BaseCommand read(GeneralMessage message) {
-            return new AltitudeCommand(message);
-        }
-    };
+    public static final CommandReader READER = message -> new AltitudeCommand(message);
 
     public final double altitudeM;
     /** {@code actual} for a measured value, {@code required} for a requested one. */
@@ -46,7 +41,7 @@ public final class AltitudeCommand extends BaseCommand {
     }
 
     private static Map<String, Object> data(double altitudeM, String mode) {
-        Map<String, Object> data = new LinkedHashMap<String, Object>();
+        Map<String, Object> data = new LinkedHashMap<>();
         data.put("altitude", altitudeM);
         data.put("mode", mode);
         return data;

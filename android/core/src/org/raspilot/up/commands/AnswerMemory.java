@@ -16,7 +16,7 @@ final class AnswerMemory {
     static final int REMEMBERED = 256;
     static final long REMEMBERED_MS = 60000;
 
-    private final Map<String, Entry> entries = new LinkedHashMap<String, Entry>();
+    private final Map<String, Entry> entries = new LinkedHashMap<>();
 
     /** Stores a message with an id; returns the known entry if the message is a repetition. */
     Entry remember(GeneralMessage message, long nowMs) {

@@ -10,15 +10,10 @@ import org.raspilot.up.wire.GeneralMessage;
 public final class ArmCommand extends BaseCommand {
     public static final String NAME = "up.arm";
     /** Reads the Command from a message. */
-    public static final CommandReader READER = new CommandReader() {
-        @Override
-        public BaseCommand read(GeneralMessage message) {
-            return new ArmCommand(message);
-        }
-    };
+    public static final CommandReader READER = message -> new ArmCommand(message);
 
     public ArmCommand() {
-        this(new GeneralMessage(NAME, Collections.<String, Object>emptyMap()));
+        this(new GeneralMessage(NAME, Collections.emptyMap()));
     }
 
     /** Reads the Command from a message; it has no fields. */

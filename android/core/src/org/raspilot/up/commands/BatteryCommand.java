@@ -8,12 +8,7 @@ import org.raspilot.up.wire.GeneralMessage;
 public final class BatteryCommand extends BaseCommand {
     public static final String NAME = "android.battery";
     /** Reads the Command from a message. */
-    public static final CommandReader READER = new CommandReader() {
-        @Override
-        public BaseCommand read(GeneralMessage message) {
-            return new BatteryCommand(message);
-        }
-    };
+    public static final CommandReader READER = message -> new BatteryCommand(message);
 
     public final double levelPercent;
 
@@ -38,7 +33,7 @@ public final class BatteryCommand extends BaseCommand {
     }
 
     private static Map<String, Object> data(double levelPercent) {
-        Map<String, Object> data = new LinkedHashMap<String, Object>();
+        Map<String, Object> data = new LinkedHashMap<>();
         data.put("level", levelPercent);
         return data;
     }

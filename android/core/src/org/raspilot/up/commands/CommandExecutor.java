@@ -14,19 +14,16 @@ import java.util.UUID;
  * current Command's handlers are done.
  */
 public final class CommandExecutor {
-    private static final CommandOutcome NOBODY_ASKS = new CommandOutcome() {
-        @Override
-        public void onDone(int handlers, Throwable fault) {
-            // A fault was reported and counted where it happened.
-        }
+    private static final CommandOutcome NOBODY_ASKS = (handlers, fault) -> {
+        // A fault was reported and counted where it happened.
     };
 
     private final CommandRegistry registry;
     private final HandlerFaultListener faults;
     /** Handlers by name; a map is replaced and never changed, so that a delivery can go on. */
     private final Map<String, Map<UUID, BaseCommandHandler>> handlers =
-            new HashMap<String, Map<UUID, BaseCommandHandler>>();
-    private final ArrayDeque<Runnable> waiting = new ArrayDeque<Runnable>();
+            new HashMap<>();
+    private final ArrayDeque<Runnable> waiting = new ArrayDeque<>();
     private boolean isDelivering;
     private long failedHandlers;
 
@@ -82,12 +79,7 @@ public final class CommandExecutor {
 
     /** Delivers a Command, immediately or after the current delivery, and reports the outcome. */
     void execute(final BaseCommand command, final CommandOutcome outcome) {
-        waiting.add(new Runnable() {
-            @Override
-            public void run() {
-                deliver(command, outcome);
-            }
-        });
+        waiting.add(() -> deliver(command, outcome));
         if (isDelivering) {
             return;
         }
@@ -127,10 +119,10 @@ public final class CommandExecutor {
 
     private Map<UUID, BaseCommandHandler> handlersOf(String name) {
         Map<UUID, BaseCommandHandler> now = handlers.get(registry.primaryName(name));
-        return now == null ? Collections.<UUID, BaseCommandHandler>emptyMap() : now;
+        return now == null ? Collections.emptyMap() : now;
     }
 
     private Map<UUID, BaseCommandHandler> copyOfHandlers(String name) {
-        return new LinkedHashMap<UUID, BaseCommandHandler>(handlersOf(name));
+        return new LinkedHashMap<>(handlersOf(name));
     }
 }

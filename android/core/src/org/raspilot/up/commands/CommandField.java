@@ -34,7 +34,7 @@ public final class CommandField {
         maximum = entry.optionalNumber("maximum");
         List<Object> listed = entry.optionalList("choices");
         choices = listed == null ? null
-                : Collections.unmodifiableList(new ArrayList<Object>(listed));
+                : Collections.unmodifiableList(new ArrayList<>(listed));
         Double length = entry.optionalNumber("max_length");
         maxLength = length == null ? null : (Integer) length.intValue();
         nullable = entry.flag("nullable");

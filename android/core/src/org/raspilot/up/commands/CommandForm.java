@@ -19,14 +19,14 @@ public final class CommandForm {
     public final String text;
     /** Whether the Command needs fresh telemetry, whose beacon it echoes. */
     public final boolean needsBeacon;
-    private final Map<String, CommandField> fields = new LinkedHashMap<String, CommandField>();
+    private final Map<String, CommandField> fields = new LinkedHashMap<>();
 
     private CommandForm(CatalogueEntry entry) throws MalformedException {
         name = entry.text("name");
         role = entry.text("role");
         text = entry.text("text");
         needsBeacon = entry.flag("needs_beacon");
-        List<String> names = new ArrayList<String>();
+        List<String> names = new ArrayList<>();
         for (Object alias : entry.list("aliases")) {
             names.add(String.valueOf(alias));
         }
@@ -44,7 +44,7 @@ public final class CommandForm {
 
     /** Returns the fields in their order; a copy. */
     public List<CommandField> fields() {
-        return new ArrayList<CommandField>(fields.values());
+        return new ArrayList<>(fields.values());
     }
 
     /** Returns the field of a name, or null. */
@@ -78,7 +78,7 @@ public final class CommandForm {
      * @throws InvalidCommandException with one sentence that names the field
      */
     public Map<String, Object> parse(Map<String, String> inputs) {
-        Map<String, Object> data = new LinkedHashMap<String, Object>();
+        Map<String, Object> data = new LinkedHashMap<>();
         for (Map.Entry<String, String> input : inputs.entrySet()) {
             String typed = input.getValue();
             if (typed != null && typed.trim().length() > 0) {

@@ -23,8 +23,8 @@ public final class CommandReceiver {
     private final CommandExecutor executor;
     private final Loop loop;
     private final Map<AnswerSink, AnswerMemory> memories =
-            new WeakHashMap<AnswerSink, AnswerMemory>();
-    private final Map<String, Long> counts = new HashMap<String, Long>();
+            new WeakHashMap<>();
+    private final Map<String, Long> counts = new HashMap<>();
 
     /** Creates a receiver for the links of one loop. */
     public CommandReceiver(CommandRegistry registry, CommandExecutor executor, Loop loop) {
@@ -71,12 +71,7 @@ public final class CommandReceiver {
             tellLoop(fault);
             return;
         }
-        executor.execute(command, new CommandOutcome() {
-            @Override
-            public void onDone(int handlers, Throwable fault) {
-                conclude(message, answers, handlers, fault);
-            }
-        });
+        executor.execute(command, (handlers, fault) -> conclude(message, answers, handlers, fault));
     }
 
     /** Counts a line that is not a General Message; rejects it if its id is readable. */
@@ -95,11 +90,8 @@ public final class CommandReceiver {
 
     /** Throw it where the loop reports it to its listener. */
     private void tellLoop(final RuntimeException fault) {
-        loop.post(new Runnable() {
-            @Override
-            public void run() {
-                throw fault;
-            }
+        loop.post(() -> {
+            throw fault;
         });
     }
 

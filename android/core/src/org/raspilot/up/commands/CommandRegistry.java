@@ -6,8 +6,8 @@ import org.raspilot.up.wire.GeneralMessage;
 
 /** Which Commands are read into which classes, by name and by alias. */
 public final class CommandRegistry {
-    private final Map<String, CommandReader> readers = new HashMap<String, CommandReader>();
-    private final Map<String, String> primaryNames = new HashMap<String, String>();
+    private final Map<String, CommandReader> readers = new HashMap<>();
+    private final Map<String, String> primaryNames = new HashMap<>();
 
     /** Creates an empty registry. */
     public CommandRegistry() {

@@ -9,15 +9,10 @@ import org.raspilot.up.wire.GeneralMessage;
 public final class DisarmCommand extends BaseCommand {
     public static final String NAME = "up.disarm";
     /** Reads the Command from a message. */
-    public static final CommandReader READER = new CommandReader() {
-        @Override
-        public BaseCommand read(GeneralMessage message) {
-            return new DisarmCommand(message);
-        }
-    };
+    public static final CommandReader READER = message -> new DisarmCommand(message);
 
     public DisarmCommand() {
-        this(new GeneralMessage(NAME, Collections.<String, Object>emptyMap()));
+        this(new GeneralMessage(NAME, Collections.emptyMap()));
     }
 
     /** Reads the Command from a message; it has no fields. */

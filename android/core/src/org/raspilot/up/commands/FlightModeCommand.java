@@ -17,12 +17,7 @@ public final class FlightModeCommand extends BaseCommand {
     public static final List<String> MODES =
             Collections.unmodifiableList(Arrays.asList("RATE", "FBW", "AUTO"));
     /** Reads the Command from a message. */
-    public static final CommandReader READER = new CommandReader() {
-        @Override
-        public BaseCommand read(GeneralMessage message) {
-            return new FlightModeCommand(message);
-        }
-    };
+    public static final CommandReader READER = message -> new FlightModeCommand(message);
 
     public final String mode;
 
@@ -47,7 +42,7 @@ public final class FlightModeCommand extends BaseCommand {
     }
 
     private static Map<String, Object> data(String mode) {
-        Map<String, Object> data = new LinkedHashMap<String, Object>();
+        Map<String, Object> data = new LinkedHashMap<>();
         data.put("mode", mode);
         return data;
     }

@@ -46,7 +46,7 @@ public final class GainSet {
 
     /** Returns the set in the form of the wire; nothing is rounded. */
     public Map<String, Object> toData() {
-        Map<String, Object> data = new LinkedHashMap<String, Object>();
+        Map<String, Object> data = new LinkedHashMap<>();
         data.put("ratePIDs", loopData(rate));
         data.put("stabPIDs", loopData(stabilize));
         if (navigation != null) {
@@ -99,7 +99,7 @@ public final class GainSet {
     }
 
     private static Map<String, Object> loopData(LoopGains loop) {
-        Map<String, Object> data = new LinkedHashMap<String, Object>();
+        Map<String, Object> data = new LinkedHashMap<>();
         data.put("ailerons", gainsData(loop.ailerons));
         data.put("elevator", gainsData(loop.elevator));
         if (loop.rudder != null) {
@@ -109,7 +109,7 @@ public final class GainSet {
     }
 
     private static Map<String, Object> gainsData(Gains gains) {
-        Map<String, Object> data = new LinkedHashMap<String, Object>();
+        Map<String, Object> data = new LinkedHashMap<>();
         data.put("p", gains.p);
         data.put("i", gains.i);
         data.put("d", gains.d);

@@ -13,12 +13,7 @@ public final class HeadingCommand extends BaseCommand {
     public static final List<String> MODES =
             Collections.unmodifiableList(Arrays.asList("actual", "required"));
     /** Reads the Command from a message. */
-    public static final CommandReader READER = new CommandReader() {
-        @Override
-        public BaseCommand read(GeneralMessage message) {
-            return new HeadingCommand(message);
-        }
-    };
+    public static final CommandReader READER = message -> new HeadingCommand(message);
 
     public final double headingDeg;
     /** {@code actual} for a measured value, {@code required} for a requested one. */
@@ -46,7 +41,7 @@ public final class HeadingCommand extends BaseCommand {
     }
 
     private static Map<String, Object> data(double headingDeg, String mode) {
-        Map<String, Object> data = new LinkedHashMap<String, Object>();
+        Map<String, Object> data = new LinkedHashMap<>();
         data.put("heading", headingDeg);
         data.put("mode", mode);
         return data;

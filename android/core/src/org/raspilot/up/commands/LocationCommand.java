@@ -10,12 +10,7 @@ public final class LocationCommand extends BaseCommand {
     /** An older name of this Command. */
     public static final String ALIAS = "up.location.change";
     /** Reads the Command from a message. */
-    public static final CommandReader READER = new CommandReader() {
-        @Override
-        public BaseCommand read(GeneralMessage message) {
-            return new LocationCommand(message);
-        }
-    };
+    public static final CommandReader READER = message -> new LocationCommand(message);
 
     public final double latitudeDeg;
     public final double longitudeDeg;
@@ -60,7 +55,7 @@ public final class LocationCommand extends BaseCommand {
 
     private static Map<String, Object> data(double latitudeDeg, double longitudeDeg, Double
             altitudeM, Double accuracyM, Double speedMS, Double bearingDeg) {
-        Map<String, Object> data = new LinkedHashMap<String, Object>();
+        Map<String, Object> data = new LinkedHashMap<>();
         data.put("latitude", latitudeDeg);
         data.put("longitude", longitudeDeg);
         if (altitudeM != null) {

@@ -8,12 +8,7 @@ import org.raspilot.up.wire.GeneralMessage;
 public final class NackCommand extends BaseCommand {
     public static final String NAME = "up.nack";
     /** Reads the Command from a message. */
-    public static final CommandReader READER = new CommandReader() {
-        @Override
-        public BaseCommand read(GeneralMessage message) {
-            return new NackCommand(message);
-        }
-    };
+    public static final CommandReader READER = message -> new NackCommand(message);
 
     /** The id of the Command that is answered. */
     public final String commandId;
@@ -44,7 +39,7 @@ public final class NackCommand extends BaseCommand {
     }
 
     private static Map<String, Object> data(String commandId, String code, String reason) {
-        Map<String, Object> data = new LinkedHashMap<String, Object>();
+        Map<String, Object> data = new LinkedHashMap<>();
         data.put("id", commandId);
         data.put("code", code);
         data.put("reason", reason);

@@ -13,12 +13,7 @@ public final class PanicCommand extends BaseCommand {
     /** An older name of this Command. */
     public static final String ALIAS = "load_guard.panic";
     /** Reads the Command from a message. */
-    public static final CommandReader READER = new CommandReader() {
-        @Override
-        public BaseCommand read(GeneralMessage message) {
-            return new PanicCommand(message);
-        }
-    };
+    public static final CommandReader READER = message -> new PanicCommand(message);
 
     public final boolean panic;
     /** The shortest period in ms, 0 to 10000. */
@@ -51,7 +46,7 @@ public final class PanicCommand extends BaseCommand {
 
     private static Map<String, Object> data(boolean panic, long delayMs, Double utilizationPercent)
             {
-        Map<String, Object> data = new LinkedHashMap<String, Object>();
+        Map<String, Object> data = new LinkedHashMap<>();
         data.put("panic", panic);
         data.put("delay_ms", delayMs);
         if (utilizationPercent != null) {

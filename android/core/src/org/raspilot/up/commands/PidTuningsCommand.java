@@ -9,12 +9,7 @@ import org.raspilot.up.wire.GeneralMessage;
 public final class PidTuningsCommand extends BaseCommand {
     public static final String NAME = "arduino.pids.tunings";
     /** Reads the Command from a message. */
-    public static final CommandReader READER = new CommandReader() {
-        @Override
-        public BaseCommand read(GeneralMessage message) {
-            return new PidTuningsCommand(message);
-        }
-    };
+    public static final CommandReader READER = message -> new PidTuningsCommand(message);
 
     /** Whether it only requests the gains. */
     public final boolean isRequest;
@@ -49,6 +44,6 @@ public final class PidTuningsCommand extends BaseCommand {
         if (!isRequest && pids == null) {
             throw new InvalidCommandException("either request or pids is needed");
         }
-        gains = isRequest ? null : GainSet.ofData(new LinkedHashMap<String, Object>(pids));
+        gains = isRequest ? null : GainSet.ofData(new LinkedHashMap<>(pids));
     }
 }

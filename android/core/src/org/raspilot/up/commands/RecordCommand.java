@@ -8,12 +8,7 @@ import org.raspilot.up.wire.GeneralMessage;
 public final class RecordCommand extends BaseCommand {
     public static final String NAME = "black_box.record";
     /** Reads the Command from a message. */
-    public static final CommandReader READER = new CommandReader() {
-        @Override
-        public BaseCommand read(GeneralMessage message) {
-            return new RecordCommand(message);
-        }
-    };
+    public static final CommandReader READER = message -> new RecordCommand(message);
 
     /** The topic, words joined by dots. */
     public final String topic;
@@ -42,7 +37,7 @@ public final class RecordCommand extends BaseCommand {
     }
 
     private static Map<String, Object> data(String topic, Map<String, Object> content) {
-        Map<String, Object> data = new LinkedHashMap<String, Object>();
+        Map<String, Object> data = new LinkedHashMap<>();
         data.put("topic", topic);
         data.put("content", content);
         return data;

@@ -8,12 +8,7 @@ import org.raspilot.up.wire.GeneralMessage;
 public final class SpeakCommand extends BaseCommand {
     public static final String NAME = "android.speak";
     /** Reads the Command from a message. */
-    public static final CommandReader READER = new CommandReader() {
-        @Override
-        public BaseCommand read(GeneralMessage message) {
-            return new SpeakCommand(message);
-        }
-    };
+    public static final CommandReader READER = message -> new SpeakCommand(message);
 
     /** The text, 1 to 200 characters. */
     public final String text;
@@ -39,7 +34,7 @@ public final class SpeakCommand extends BaseCommand {
     }
 
     private static Map<String, Object> data(String text) {
-        Map<String, Object> data = new LinkedHashMap<String, Object>();
+        Map<String, Object> data = new LinkedHashMap<>();
         data.put("text", text);
         return data;
     }

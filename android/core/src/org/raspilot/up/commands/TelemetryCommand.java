@@ -7,12 +7,7 @@ import org.raspilot.up.wire.GeneralMessage;
 public final class TelemetryCommand extends BaseCommand {
     public static final String NAME = "up.telemetry.update";
     /** Reads the Command from a message. */
-    public static final CommandReader READER = new CommandReader() {
-        @Override
-        public BaseCommand read(GeneralMessage message) {
-            return new TelemetryCommand(message);
-        }
-    };
+    public static final CommandReader READER = message -> new TelemetryCommand(message);
 
     /** Creates a frame with that content; {@code beacon} null: none. */
     public TelemetryCommand(Map<String, ?> content, Long beacon) {

@@ -11,12 +11,7 @@ import org.raspilot.up.wire.GeneralMessage;
 public final class TelemetryFrequencyCommand extends BaseCommand {
     public static final String NAME = "up.telemetry.frequency";
     /** Reads the Command from a message. */
-    public static final CommandReader READER = new CommandReader() {
-        @Override
-        public BaseCommand read(GeneralMessage message) {
-            return new TelemetryFrequencyCommand(message);
-        }
-    };
+    public static final CommandReader READER = message -> new TelemetryFrequencyCommand(message);
 
     public final double periodMs;
 
@@ -41,7 +36,7 @@ public final class TelemetryFrequencyCommand extends BaseCommand {
     }
 
     private static Map<String, Object> data(double periodMs) {
-        Map<String, Object> data = new LinkedHashMap<String, Object>();
+        Map<String, Object> data = new LinkedHashMap<>();
         data.put("frequency", periodMs);
         return data;
     }

@@ -14,7 +14,7 @@ public final class Age {
     /** A frame older than this, ms, is shown as stale, before a whole second has passed. */
     public static final long SILENT_MS = 900;
 
-    private static final Map<String, Long> STALE_MS = new HashMap<String, Long>();
+    private static final Map<String, Long> STALE_MS = new HashMap<>();
 
     static {
         // Sources with a period of a second or longer become stale later than SILENT_MS.
@@ -43,7 +43,7 @@ public final class Age {
 
     /** Returns the age for telemetry that never arrived: everything is stale. */
     static Age unknown() {
-        return new Age(false, true, 0, 0, Collections.<String, Double>emptyMap());
+        return new Age(false, true, 0, 0, Collections.emptyMap());
     }
 
     /**
@@ -52,7 +52,7 @@ public final class Age {
      * @param onBoardMs the known ages of readings when the frame was made
      */
     static Age ofFrame(long receivedMs, long wayMs, Map<String, Double> onBoardMs) {
-        final Map<String, Double> copy = new HashMap<String, Double>(onBoardMs);
+        final Map<String, Double> copy = new HashMap<>(onBoardMs);
         return new Age(true, false, receivedMs, Math.max(0, wayMs), copy);
     }
 

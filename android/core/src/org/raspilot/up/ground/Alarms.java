@@ -53,10 +53,10 @@ public final class Alarms {
         }
     }
 
-    private final Map<Alarm.Kind, Long> causeMs = new EnumMap<Alarm.Kind, Long>(Alarm.Kind.class);
-    private final Map<Alarm.Kind, Alarm> known = new EnumMap<Alarm.Kind, Alarm>(Alarm.Kind.class);
+    private final Map<Alarm.Kind, Long> causeMs = new EnumMap<>(Alarm.Kind.class);
+    private final Map<Alarm.Kind, Alarm> known = new EnumMap<>(Alarm.Kind.class);
     private boolean hadBoard;
-    private Snapshot snapshot = new Snapshot(0, Collections.<Alarm>emptyList());
+    private Snapshot snapshot = new Snapshot(0, Collections.emptyList());
 
     Alarms() {
     }
@@ -91,7 +91,7 @@ public final class Alarms {
     }
 
     private boolean publish() {
-        final List<Alarm> active = new ArrayList<Alarm>(known.values());
+        final List<Alarm> active = new ArrayList<>(known.values());
         if (active.equals(snapshot.active)) {
             return false;
         }
@@ -100,7 +100,7 @@ public final class Alarms {
     }
 
     private List<Alarm> wrong(Telemetry telemetry, GroundStatus status) {
-        final List<Alarm> found = new ArrayList<Alarm>();
+        final List<Alarm> found = new ArrayList<>();
         // Before the first frame nothing went silent.
         if (telemetry != Telemetry.NOTHING && status.isSilent) {
             found.add(new Alarm(Alarm.Kind.SILENT, EventLevel.ALARM, silence(status)));

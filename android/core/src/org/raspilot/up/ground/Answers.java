@@ -24,7 +24,7 @@ final class Answers {
 
     private static final int LONGEST_REASON = 500;
     /** The message with the requested data, by the name of the request. */
-    private static final Map<String, String> CONTENT_OF = new HashMap<String, String>();
+    private static final Map<String, String> CONTENT_OF = new HashMap<>();
 
     static {
         CONTENT_OF.put("arduino.pids.tunings", "arduino.pids.values");
@@ -57,7 +57,7 @@ final class Answers {
 
     private final Loop loop;
     private final Random random;
-    private final Map<String, Sent> sent = new LinkedHashMap<String, Sent>();
+    private final Map<String, Sent> sent = new LinkedHashMap<>();
     private long number;
     private long strange;
 

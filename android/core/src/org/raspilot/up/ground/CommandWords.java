@@ -8,8 +8,8 @@ import org.raspilot.up.commands.BaseCommand;
 /** The description of a Command and of its outcome in an event. */
 final class CommandWords {
     private static final int SHOWN_CHANGES = 4;
-    private static final Map<String, String> WORDS = new HashMap<String, String>();
-    private static final Map<String, String> FIELDS = new HashMap<String, String>();
+    private static final Map<String, String> WORDS = new HashMap<>();
+    private static final Map<String, String> FIELDS = new HashMap<>();
 
     static {
         put("up.flight_mode.set", "flight mode %s", "mode");

@@ -25,9 +25,9 @@ public final class EventLog {
         }
     }
 
-    private final ArrayDeque<Event> events = new ArrayDeque<Event>();
+    private final ArrayDeque<Event> events = new ArrayDeque<>();
     private long number;
-    private Snapshot snapshot = new Snapshot(0, Collections.<Event>emptyList());
+    private Snapshot snapshot = new Snapshot(0, Collections.emptyList());
 
     /** Adds an event; {@code kind} as in {@link Event#kind}. */
     public void note(long atMs, EventLevel level, String kind, String text) {
@@ -46,7 +46,7 @@ public final class EventLog {
     public Snapshot snapshot() {
         if (snapshot.version != number) {
             snapshot = new Snapshot(number,
-                    Collections.unmodifiableList(new ArrayList<Event>(events)));
+                    Collections.unmodifiableList(new ArrayList<>(events)));
         }
         return snapshot;
     }

@@ -201,7 +201,7 @@ final class Facts {
             if (vetoes == null) {
                 return null;
             }
-            final List<String> sorted = new ArrayList<String>(vetoes);
+            final List<String> sorted = new ArrayList<>(vetoes);
             Collections.sort(sorted);
             final boolean isArmed = Boolean.TRUE.equals(telemetry.flag("armed"));
             sorted.add(0, isArmed ? "against arming again: " : "against arming: ");

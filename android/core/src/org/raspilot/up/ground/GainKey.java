@@ -101,7 +101,7 @@ public final class GainKey {
     }
 
     private static List<GainKey> all() {
-        final List<GainKey> keys = new ArrayList<GainKey>();
+        final List<GainKey> keys = new ArrayList<>();
         for (int each = 0; each < 27; each++) {
             keys.add(new GainKey(each / 9, each / 3 % 3, each % 3));
         }
@@ -109,7 +109,7 @@ public final class GainKey {
     }
 
     private static List<String> list(String... words) {
-        final List<String> copy = new ArrayList<String>();
+        final List<String> copy = new ArrayList<>();
         Collections.addAll(copy, words);
         return Collections.unmodifiableList(copy);
     }

@@ -52,8 +52,8 @@ public final class GainsDesk {
 
     private final Loop loop;
     private final Sender sender;
-    private final ArrayDeque<GainsEntry> history = new ArrayDeque<GainsEntry>();
-    private final ArrayDeque<GainSet> undoable = new ArrayDeque<GainSet>();
+    private final ArrayDeque<GainsEntry> history = new ArrayDeque<>();
+    private final ArrayDeque<GainSet> undoable = new ArrayDeque<>();
     private GainSet flying;
     private Long toldMs;
     private int number;
@@ -74,7 +74,7 @@ public final class GainsDesk {
     public Snapshot snapshot() {
         if (snapshot == null || snapshot.version != version) {
             snapshot = new Snapshot(version, flying, toldMs, undoable.peekLast(),
-                    Collections.unmodifiableList(new ArrayList<GainsEntry>(history)));
+                    Collections.unmodifiableList(new ArrayList<>(history)));
         }
         return snapshot;
     }
@@ -107,7 +107,7 @@ public final class GainsDesk {
 
     /** Returns the gains of {@code form} that differ from those of {@code flying} (or null). */
     public static List<GainChange> difference(GainSet flying, GainSet form) {
-        final List<GainChange> changes = new ArrayList<GainChange>();
+        final List<GainChange> changes = new ArrayList<>();
         for (GainKey key : GainKey.ALL) {
             final Double before = key.of(flying);
             final Double after = key.of(form);
@@ -156,11 +156,8 @@ public final class GainsDesk {
     /** Requests the gains when due; called while Commands can be sent. */
     void onMoment() {
         if (isDue) {
-            ask(new AnswerListener() {
-                @Override
-                public void onAnswer(Answer answer) {
-                    // One automatic request. Its result is reported; the pilot can request again.
-                }
+            ask(answer -> {
+                // One automatic request. Its result is reported; the pilot can request again.
             });
         }
     }
@@ -173,14 +170,11 @@ public final class GainsDesk {
             return;
         }
         final GainSet before = flying;
-        sender.send(new PidTuningsCommand(gains), shownBeacon, new AnswerListener() {
-            @Override
-            public void onAnswer(Answer answer) {
-                if (answer.outcome != Answer.Outcome.REFUSED) {
-                    remember(before, gains, answer, isUndo);
-                }
-                listener.onAnswer(answer);
+        sender.send(new PidTuningsCommand(gains), shownBeacon, answer -> {
+            if (answer.outcome != Answer.Outcome.REFUSED) {
+                remember(before, gains, answer, isUndo);
             }
+            listener.onAnswer(answer);
         });
     }
 

@@ -27,7 +27,7 @@ public final class GainsForm {
      * @throws InvalidCommandException with one sentence that names the gain
      */
     public static GainSet read(Map<String, String> cells) {
-        final Map<GainKey, Double> values = new HashMap<GainKey, Double>();
+        final Map<GainKey, Double> values = new HashMap<>();
         for (GainKey key : GainKey.ALL) {
             final String typed = cells.get(key.path());
             if (typed != null && !typed.trim().isEmpty()) {
@@ -45,7 +45,7 @@ public final class GainsForm {
 
     /** Returns the initial texts of a form; a gain that the set lacks is empty. */
     public static Map<String, String> cells(GainSet set) {
-        final Map<String, String> cells = new HashMap<String, String>();
+        final Map<String, String> cells = new HashMap<>();
         for (GainKey key : GainKey.ALL) {
             final Double value = key.of(set);
             cells.put(key.path(), value == null ? "" : GainChange.number(value));

@@ -163,13 +163,10 @@ final class GroundLink implements UpSocketListener {
             return;
         }
         helloMs = nowMs;
-        helloTimer = loop.schedule(HELLO_TIMEOUT_MS, new Runnable() {
-            @Override
-            public void run() {
-                socket.drop("no answer to the hello within " + HELLO_TIMEOUT_MS / 1000
-                        + " s: is this the ground port of a Ground Station Proxy?"
-                        + " (a direct link says no hello)");
-            }
+        helloTimer = loop.schedule(HELLO_TIMEOUT_MS, () -> {
+            socket.drop("no answer to the hello within " + HELLO_TIMEOUT_MS / 1000
+                    + " s: is this the ground port of a Ground Station Proxy?"
+                    + " (a direct link says no hello)");
         });
         socket.send(claim.hello().toLine());
     }

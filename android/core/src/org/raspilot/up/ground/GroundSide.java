@@ -53,21 +53,12 @@ public final class GroundSide implements TelemetrySource {
         this.executor = executor;
         this.listener = listener;
         bulletin = new Bulletin(listener);
-        silence = new SilenceTimer(loop, new Runnable() {
-            @Override
-            public void run() {
-                look(true);
-            }
-        });
+        silence = new SilenceTimer(loop, () -> look(true));
         link = new GroundLink(loop, settings, tokens, new Links(), random);
         answers = new Answers(loop, random);
         desk = new CommandDesk(loop, settings, link, answers, beacons);
-        gains = new GainsDesk(loop, new GainsDesk.Sender() {
-            @Override
-            public void send(BaseCommand command, Long shownBeacon, AnswerListener answered) {
-                transmit(command, shownBeacon, answered);
-            }
-        });
+        gains = new GainsDesk(loop, (command, shownBeacon, answered) ->
+                transmit(command, shownBeacon, answered));
     }
 
     /** Starts to connect, and reconnects after each loss; no effect when started already. */
@@ -196,18 +187,15 @@ public final class GroundSide implements TelemetrySource {
         final String words = set == null ? CommandWords.of(command) : CommandWords.ofGains(
                 GainsDesk.difference(gains.snapshot().flying, set));
         final boolean isQuiet = Answers.isRequest(command);
-        desk.send(command, shownBeacon, new AnswerListener() {
-            @Override
-            public void onAnswer(Answer answer) {
-                if (answer.outcome != Answer.Outcome.REFUSED && !(isQuiet && answer.isAck())) {
-                    events.note(loop.nowMs(),
-                            answer.isAck() ? EventLevel.INFO : EventLevel.WARNING,
-                            set == null ? "command" : "gains",
-                            CommandWords.outcome(words, answer));
-                }
-                answered.onAnswer(answer);
-                tellChanged();
+        desk.send(command, shownBeacon, answer -> {
+            if (answer.outcome != Answer.Outcome.REFUSED && !(isQuiet && answer.isAck())) {
+                events.note(loop.nowMs(),
+                        answer.isAck() ? EventLevel.INFO : EventLevel.WARNING,
+                        set == null ? "command" : "gains",
+                        CommandWords.outcome(words, answer));
             }
+            answered.onAnswer(answer);
+            tellChanged();
         });
     }
 
@@ -231,12 +219,9 @@ public final class GroundSide implements TelemetrySource {
     }
 
     private void tick() {
-        tick = loop.schedule(TICK_MS, new Runnable() {
-            @Override
-            public void run() {
-                tick();
-                look(bulletin.isDue(loop.nowMs()));
-            }
+        tick = loop.schedule(TICK_MS, () -> {
+            tick();
+            look(bulletin.isDue(loop.nowMs()));
         });
     }
 

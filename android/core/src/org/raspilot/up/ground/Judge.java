@@ -23,13 +23,10 @@ final class Judge {
         for (final Fact fact : Facts.ALL) {
             final Object value = fact.read(telemetry);
             if (value != null) {
-                settled.take(fact.key, value, nowMs, new Settled.Teller() {
-                    @Override
-                    public void tell(Object before, Object now) {
-                        final String words = fact.words(before, now);
-                        if (words != null) {
-                            events.note(nowMs, fact.level(before, now), fact.kind, words);
-                        }
+                settled.take(fact.key, value, nowMs, (before, now) -> {
+                    final String words = fact.words(before, now);
+                    if (words != null) {
+                        events.note(nowMs, fact.level(before, now), fact.kind, words);
                     }
                 });
             }
@@ -39,19 +36,11 @@ final class Judge {
 
     void onLink(final GroundStatus status, final long nowMs) {
         final Object state = Arrays.<Object>asList(status.isOpen(), status.isAircraftOnline);
-        settled.take("link", state, nowMs, new Settled.Teller() {
-            @Override
-            public void tell(Object before, Object now) {
-                onLinkTold(status, before == null, nowMs);
-            }
-        });
+        settled.take("link", state, nowMs, (before, now) ->
+                onLinkTold(status, before == null, nowMs));
         if (!status.isDirect && status.isOpen() && status.standing != SeatStanding.LATER) {
-            settled.take("seat", status.seatSentence(), nowMs, new Settled.Teller() {
-                @Override
-                public void tell(Object before, Object now) {
-                    events.note(nowMs, EventLevel.INFO, "link", now.toString());
-                }
-            });
+            settled.take("seat", status.seatSentence(), nowMs, (before, now) ->
+                    events.note(nowMs, EventLevel.INFO, "link", now.toString()));
         }
     }
 
@@ -70,14 +59,11 @@ final class Judge {
     private void say(Alarm.Kind alarm, final String kind, final EventLevel level,
             final String gone, final String back, final long nowMs) {
         final boolean isOn = alarms.snapshot().has(alarm);
-        settled.take("alarm " + alarm, isOn, nowMs, new Settled.Teller() {
-            @Override
-            public void tell(Object before, Object now) {
-                if (Boolean.TRUE.equals(now)) {
-                    events.note(nowMs, level, kind, gone);
-                } else if (before != null) {
-                    events.note(nowMs, EventLevel.INFO, kind, back);
-                }
+        settled.take("alarm " + alarm, isOn, nowMs, (before, now) -> {
+            if (Boolean.TRUE.equals(now)) {
+                events.note(nowMs, level, kind, gone);
+            } else if (before != null) {
+                events.note(nowMs, EventLevel.INFO, kind, back);
             }
         });
     }

@@ -5,7 +5,7 @@ import java.util.Map;
 
 /** Stores resume tokens until the program ends. Only on the loop. */
 public final class MemoryTokenStore implements TokenStore {
-    private final Map<String, String> tokens = new HashMap<String, String>();
+    private final Map<String, String> tokens = new HashMap<>();
 
     @Override
     public String load(String key) {

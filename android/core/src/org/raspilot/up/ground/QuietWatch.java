@@ -57,11 +57,6 @@ final class QuietWatch {
             owner.onQuiet(limitMs);
             return;
         }
-        timer = loop.schedule(Math.min(restMs, QuietLimit.SHORTEST_MS), new Runnable() {
-            @Override
-            public void run() {
-                look();
-            }
-        });
+        timer = loop.schedule(Math.min(restMs, QuietLimit.SHORTEST_MS), () -> look());
     }
 }

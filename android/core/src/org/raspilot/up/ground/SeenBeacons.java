@@ -22,7 +22,7 @@ final class SeenBeacons {
         }
     }
 
-    private final ArrayDeque<Heard> heard = new ArrayDeque<Heard>();
+    private final ArrayDeque<Heard> heard = new ArrayDeque<>();
     private Heard seen;
     private boolean hasFrames;
     private boolean hasBeacons;

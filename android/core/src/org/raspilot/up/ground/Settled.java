@@ -28,7 +28,7 @@ final class Settled {
         long holdMs = FIRST_HOLD_MS;
     }
 
-    private final Map<String, Value> values = new HashMap<String, Value>();
+    private final Map<String, Value> values = new HashMap<>();
 
     /** Takes the current value, not null. */
     void take(String key, Object value, long nowMs, Teller teller) {

@@ -17,7 +17,7 @@ public final class Telemetry {
     public static final String NAME = "up.telemetry.update";
     /** The state before the first frame: empty, and everything stale. */
     public static final Telemetry NOTHING = new Telemetry(
-            Collections.<String, Object>emptyMap(), null, 0, Age.unknown());
+            Collections.emptyMap(), null, 0, Age.unknown());
 
     private static final double GREATEST = 1e12;
     private static final int SHORT_TEXT = 40;
@@ -50,7 +50,7 @@ public final class Telemetry {
     public static Telemetry of(Map<String, ?> data, Long beacon, long receivedMs, long wayMs) {
         final Map<String, Object> tree = frozen(data);
         final Telemetry bare = new Telemetry(tree, beacon, receivedMs, Age.unknown());
-        final Map<String, Double> ages = new LinkedHashMap<String, Double>();
+        final Map<String, Double> ages = new LinkedHashMap<>();
         final Map<String, Object> told = bare.object("age_ms");
         if (told != null) {
             for (Map.Entry<String, Object> each : told.entrySet()) {
@@ -144,7 +144,7 @@ public final class Telemetry {
         if (found == null) {
             return null;
         }
-        final List<String> texts = new ArrayList<String>();
+        final List<String> texts = new ArrayList<>();
         for (Object each : found) {
             if (each instanceof String && texts.size() < MOST_TEXTS) {
                 texts.add(SafeText.of((String) each, LONGEST_OF_TEXTS));
@@ -192,7 +192,7 @@ public final class Telemetry {
     }
 
     private static Map<String, Object> frozen(Map<?, ?> given) {
-        final Map<String, Object> copy = new LinkedHashMap<String, Object>();
+        final Map<String, Object> copy = new LinkedHashMap<>();
         for (Map.Entry<?, ?> each : given.entrySet()) {
             copy.put(String.valueOf(each.getKey()), frozenValue(each.getValue()));
         }
@@ -204,7 +204,7 @@ public final class Telemetry {
             return frozen((Map<?, ?>) value);
         }
         if (value instanceof List) {
-            final List<Object> copy = new ArrayList<Object>();
+            final List<Object> copy = new ArrayList<>();
             for (Object each : (List<?>) value) {
                 copy.add(frozenValue(each));
             }

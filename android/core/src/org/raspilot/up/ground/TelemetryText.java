@@ -18,7 +18,7 @@ public final class TelemetryText {
     private static final int LONGEST_PATH = 80;
     private static final int LONGEST_VALUE = 120;
     private static final int LONGEST_LISTED = 16;
-    private static final Map<String, String> UNITS = new HashMap<String, String>();
+    private static final Map<String, String> UNITS = new HashMap<>();
 
     static {
         for (String path : new String[] {"orientation", "location.latitude",
@@ -49,7 +49,7 @@ public final class TelemetryText {
 
     /** Returns the rows in the frame's order, unmodifiable. */
     public static List<TelemetryRow> rows(Telemetry telemetry) {
-        final List<TelemetryRow> rows = new ArrayList<TelemetryRow>();
+        final List<TelemetryRow> rows = new ArrayList<>();
         add(rows, "", telemetry.tree);
         return Collections.unmodifiableList(rows);
     }

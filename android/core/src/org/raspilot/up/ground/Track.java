@@ -53,17 +53,17 @@ public final class Track {
         }
     }
 
-    private List<Spot> spots = new ArrayList<Spot>();
+    private List<Spot> spots = new ArrayList<>();
     private Spot newest;
     private Home home;
     private Home firstPlace;
     private final PlaceGaps gaps = new PlaceGaps();
     private boolean isAfterSilence;
     private long version;
-    private final List<TrackPoint> points = new ArrayList<TrackPoint>();
+    private final List<TrackPoint> points = new ArrayList<>();
     private Home pointsOrigin;
     private Snapshot snapshot =
-            new Snapshot(0, null, false, Collections.<TrackPoint>emptyList(), null);
+            new Snapshot(0, null, false, Collections.emptyList(), null);
 
     Track() {
     }
@@ -130,7 +130,7 @@ public final class Track {
 
     /** Drops every second point; the information of a dropped point moves to the next one. */
     private void thin() {
-        final List<Spot> kept = new ArrayList<Spot>();
+        final List<Spot> kept = new ArrayList<>();
         boolean hasGap = false;
         for (int place = 0; place < spots.size(); place++) {
             final Spot spot = spots.get(place);
@@ -161,7 +161,7 @@ public final class Track {
         for (Spot each : spots.subList(points.size(), spots.size())) {
             points.add(point(origin, each));
         }
-        return Collections.unmodifiableList(new ArrayList<TrackPoint>(points));
+        return Collections.unmodifiableList(new ArrayList<>(points));
     }
 
     private static TrackPoint point(Home origin, Spot spot) {

@@ -6,7 +6,7 @@ import java.util.List;
 
 /** The calls that wait for a loop, in their order. On any thread. */
 final class Inbox {
-    private List<Runnable> waiting = new ArrayList<Runnable>();
+    private List<Runnable> waiting = new ArrayList<>();
     private boolean isClosed;
 
     /** Queues a call; returns whether it is the only one, for which the loop must wake. */
@@ -24,7 +24,7 @@ final class Inbox {
             return Collections.emptyList();
         }
         final List<Runnable> taken = waiting;
-        waiting = new ArrayList<Runnable>();
+        waiting = new ArrayList<>();
         return taken;
     }
 

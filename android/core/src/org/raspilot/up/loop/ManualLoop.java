@@ -13,7 +13,7 @@ public final class ManualLoop implements Loop {
     private final Network network;
     private final Guard guard;
     private final Object lock = new Object();
-    private final ArrayDeque<Runnable> posted = new ArrayDeque<Runnable>();
+    private final ArrayDeque<Runnable> posted = new ArrayDeque<>();
     private final TimerQueue timers = new TimerQueue();
     private volatile long nowMs;
     private volatile Thread thread = Thread.currentThread();

@@ -8,7 +8,6 @@ import java.util.List;
 import java.util.Map;
 import java.util.concurrent.LinkedBlockingQueue;
 import java.util.concurrent.RejectedExecutionException;
-import java.util.concurrent.ThreadFactory;
 import java.util.concurrent.ThreadPoolExecutor;
 import java.util.concurrent.TimeUnit;
 
@@ -24,20 +23,17 @@ final class NameLookup {
     private final Loop loop;
     private final Resolver resolver;
     private final ThreadPoolExecutor threads;
-    private final Map<String, List<Asker>> askers = new HashMap<String, List<Asker>>();
+    private final Map<String, List<Asker>> askers = new HashMap<>();
 
     /** Creates a look-up that answers on {@code loop}. */
     NameLookup(Loop loop, Resolver resolver, final String threadName) {
         this.loop = loop;
         this.resolver = resolver;
         threads = new ThreadPoolExecutor(MOST_THREADS, MOST_THREADS, 5, TimeUnit.SECONDS,
-                new LinkedBlockingQueue<Runnable>(), new ThreadFactory() {
-                    @Override
-                    public Thread newThread(Runnable call) {
-                        final Thread thread = new Thread(call, threadName);
-                        thread.setDaemon(true);
-                        return thread;
-                    }
+                new LinkedBlockingQueue<>(), call -> {
+                    final Thread thread = new Thread(call, threadName);
+                    thread.setDaemon(true);
+                    return thread;
                 });
         threads.allowCoreThreadTimeOut(true);
     }
@@ -54,7 +50,7 @@ final class NameLookup {
         } else if (askers.containsKey(host)) {
             askers.get(host).add(asker);
         } else {
-            final List<Asker> waiting = new ArrayList<Asker>();
+            final List<Asker> waiting = new ArrayList<>();
             waiting.add(asker);
             askers.put(host, waiting);
             lookAside(host);
@@ -92,17 +88,9 @@ final class NameLookup {
 
     private void lookAside(final String host) {
         try {
-            threads.execute(new Runnable() {
-                @Override
-                public void run() {
-                    final Answer answer = ask(host);
-                    loop.post(new Runnable() {
-                        @Override
-                        public void run() {
-                            tellAll(host, answer);
-                        }
-                    });
-                }
+            threads.execute(() -> {
+                final Answer answer = ask(host);
+                loop.post(() -> tellAll(host, answer));
             });
         } catch (RejectedExecutionException stopped) {
             tellAll(host, new Answer(null, "the loop was stopped"));
@@ -117,14 +105,11 @@ final class NameLookup {
     }
 
     private void tell(final Asker asker, final Answer answer) {
-        loop.post(new Runnable() {
-            @Override
-            public void run() {
-                if (answer.addresses == null) {
-                    asker.onUnknown(answer.reason);
-                } else {
-                    asker.onAddresses(answer.addresses);
-                }
+        loop.post(() -> {
+            if (answer.addresses == null) {
+                asker.onUnknown(answer.reason);
+            } else {
+                asker.onAddresses(answer.addresses);
             }
         });
     }

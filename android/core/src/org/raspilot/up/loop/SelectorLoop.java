@@ -4,7 +4,6 @@ import java.io.Closeable;
 import java.io.IOException;
 import java.nio.channels.SelectableChannel;
 import java.nio.channels.SelectionKey;
-import java.util.List;
 import java.util.concurrent.TimeUnit;
 import java.util.concurrent.atomic.AtomicLong;
 import java.util.concurrent.locks.LockSupport;
@@ -42,12 +41,7 @@ public final class SelectorLoop implements Loop, Network {
      * @param faults receives exceptions of calls on the loop
      */
     public SelectorLoop(String name, FaultListener faults) {
-        this(name, faults, new Clock() {
-            @Override
-            public long nowNs() {
-                return System.nanoTime();
-            }
-        });
+        this(name, faults, () -> System.nanoTime());
     }
 
     /**
@@ -82,12 +76,7 @@ public final class SelectorLoop implements Loop, Network {
                 throw new IllegalStateException("a loop is started once");
             }
             sockets.open();
-            thread = new Thread(null, new Runnable() {
-                @Override
-                public void run() {
-                    work();
-                }
-            }, name, STACK_BYTES);
+            thread = new Thread(null, () -> work(), name, STACK_BYTES);
             thread.setDaemon(true);
             thread.start();
         }
@@ -250,13 +239,10 @@ public final class SelectorLoop implements Loop, Network {
     }
 
     private void handle(final SelectionKey key) {
-        run(new Runnable() {
-            @Override
-            public void run() {
-                // A previous call may have closed it.
-                if (key.isValid()) {
-                    ((Ready) key.attachment()).onReady(key);
-                }
+        run(() -> {
+            // A previous call may have closed it.
+            if (key.isValid()) {
+                ((Ready) key.attachment()).onReady(key);
             }
         });
     }

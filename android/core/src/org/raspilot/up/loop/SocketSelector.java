@@ -58,7 +58,7 @@ class SocketSelector {
         } else {
             selector.select(waitMs < 0 ? 0 : waitMs);
         }
-        final List<SelectionKey> ready = new ArrayList<SelectionKey>(selector.selectedKeys());
+        final List<SelectionKey> ready = new ArrayList<>(selector.selectedKeys());
         selector.selectedKeys().clear();
         if (!ready.isEmpty()) {
             emptyRounds = 0;
@@ -68,7 +68,7 @@ class SocketSelector {
 
     /** Returns the owners of the keys. */
     List<Ready> registered() {
-        final List<Ready> all = new ArrayList<Ready>();
+        final List<Ready> all = new ArrayList<>();
         for (SelectionKey key : selector.keys()) {
             all.add((Ready) key.attachment());
         }

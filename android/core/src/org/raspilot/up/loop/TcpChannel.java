@@ -79,12 +79,7 @@ final class TcpChannel implements TcpConnection, Ready, NameLookup.Asker {
         } catch (IOException error) {
             state = State.BROKEN;
             final String reason = broke(error);
-            loop.post(new Runnable() {
-                @Override
-                public void run() {
-                    readTheRest(reason);
-                }
-            });
+            loop.post(() -> readTheRest(reason));
             return 0;
         }
     }
@@ -209,12 +204,7 @@ final class TcpChannel implements TcpConnection, Ready, NameLookup.Asker {
     private void failLater(final String reason) {
         cancelLimit();
         state = State.BROKEN;
-        loop.post(new Runnable() {
-            @Override
-            public void run() {
-                fail(reason);
-            }
-        });
+        loop.post(() -> fail(reason));
     }
 
     private void fail(String reason) {
@@ -226,12 +216,7 @@ final class TcpChannel implements TcpConnection, Ready, NameLookup.Asker {
 
     private void limit(long delayMs, final String reason) {
         cancelLimit();
-        limit = loop.schedule(delayMs, new Runnable() {
-            @Override
-            public void run() {
-                connectNext(reason);
-            }
-        });
+        limit = loop.schedule(delayMs, () -> connectNext(reason));
     }
 
     private void cancelLimit() {

@@ -5,7 +5,7 @@ import java.util.PriorityQueue;
 
 /** Timers in the order of their due times; those of equal time in the order of scheduling. */
 final class TimerQueue {
-    private final PriorityQueue<Timer> timers = new PriorityQueue<Timer>(16, new Sooner());
+    private final PriorityQueue<Timer> timers = new PriorityQueue<>(16, new Sooner());
     private long asked;
 
     /** Adds a timer that falls due at {@code time}, in whatever unit the caller keeps time. */

@@ -20,7 +20,7 @@ final class UdpChannel implements UdpPort, Ready {
     private final SelectorLoop loop;
     private final NameLookup names;
     private final UdpListener listener;
-    private final Map<String, Name> known = new HashMap<String, Name>();
+    private final Map<String, Name> known = new HashMap<>();
     private DatagramChannel channel;
     private boolean isClosed;
 

@@ -81,12 +81,7 @@ public final class DiscoveryClient implements PlaceFinder {
                 listener.onNotFound("no socket to ask Discovery with: " + error.getMessage());
                 return;
             }
-            limit = loop.schedule(ANSWER_MS, new Runnable() {
-                @Override
-                public void run() {
-                    giveUp();
-                }
-            });
+            limit = loop.schedule(ANSWER_MS, () -> giveUp());
             ask();
         }
 
@@ -124,12 +119,7 @@ public final class DiscoveryClient implements PlaceFinder {
         }
 
         private void ask() {
-            repeat = loop.schedule(REPEAT_MS, new Runnable() {
-                @Override
-                public void run() {
-                    ask();
-                }
-            });
+            repeat = loop.schedule(REPEAT_MS, () -> ask());
             for (String address : addresses.current()) {
                 wasSent |= udp.send(QUESTION, address, port);
             }

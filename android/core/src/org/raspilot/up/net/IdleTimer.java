@@ -13,12 +13,7 @@ final class IdleTimer {
     private final Loop loop;
     private final long limitMs;
     private final Runnable onIdle;
-    private final Runnable look = new Runnable() {
-        @Override
-        public void run() {
-            look();
-        }
-    };
+    private final Runnable look = () -> look();
     private Cancellable timer;
     private long touchedMs;
     private boolean isSecondLook;

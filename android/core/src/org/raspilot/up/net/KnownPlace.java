@@ -43,16 +43,13 @@ public final class KnownPlace implements PlaceFinder {
 
     /** Returns a finder without network traffic: it finds the stored place, or fails. */
     public PlaceFinder follower() {
-        return new PlaceFinder() {
-            @Override
-            public Cancellable find(FindListener listener) {
-                if (place == null) {
-                    listener.onNotFound("the Raspberry Pi is not found yet");
-                } else {
-                    listener.onFound(place);
-                }
-                return Search.DONE;
+        return listener -> {
+            if (place == null) {
+                listener.onNotFound("the Raspberry Pi is not found yet");
+            } else {
+                listener.onFound(place);
             }
+            return Search.DONE;
         };
     }
 }

@@ -53,12 +53,7 @@ final class LineDelivery {
             isDone = true;
         } finally {
             if (!isDone) {
-                loop.post(new Runnable() {
-                    @Override
-                    public void run() {
-                        deliver(from, lines);
-                    }
-                });
+                loop.post(() -> deliver(from, lines));
             }
         }
     }

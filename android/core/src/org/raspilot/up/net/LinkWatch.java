@@ -12,15 +12,14 @@ final class LinkWatch {
     private final IdleTimer stall;
 
     LinkWatch(Loop loop, UpSocketSettings settings, final Owner owner) {
-        beat = new IdleTimer(loop, settings.heartbeatMs, new Runnable() {
-            @Override
-            public void run() {
-                beat.start();
-                owner.onBeat();
-            }
-        });
+        beat = new IdleTimer(loop, settings.heartbeatMs, () -> beat(owner));
         silence = givingUp(loop, settings.silenceLimitMs, "said nothing", owner);
         stall = givingUp(loop, settings.stallLimitMs, "took nothing", owner);
+    }
+
+    private void beat(Owner owner) {
+        beat.start();
+        owner.onBeat();
     }
 
     void start() {
@@ -56,12 +55,8 @@ final class LinkWatch {
 
     private static IdleTimer givingUp(Loop loop, final long limitMs, final String what,
             final Owner owner) {
-        return new IdleTimer(loop, limitMs, new Runnable() {
-            @Override
-            public void run() {
-                owner.onGivenUp(what + " for " + limitMs + " ms");
-            }
-        });
+        return new IdleTimer(loop, limitMs, () ->
+                owner.onGivenUp(what + " for " + limitMs + " ms"));
     }
 
     /** Who does what the watch decides. */

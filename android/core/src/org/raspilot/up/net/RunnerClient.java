@@ -80,12 +80,8 @@ public final class RunnerClient implements PlaceFinder {
 
         @Override
         public void onConnected() {
-            limit = loop.schedule(ANSWER_MS, new Runnable() {
-                @Override
-                public void run() {
-                    fail("the runner did not answer within " + ANSWER_MS / 1000 + " s");
-                }
-            });
+            limit = loop.schedule(ANSWER_MS, () ->
+                    fail("the runner did not answer within " + ANSWER_MS / 1000 + " s"));
             onWritable();
         }
 

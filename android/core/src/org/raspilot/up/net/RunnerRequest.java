@@ -27,7 +27,7 @@ public final class RunnerRequest {
             throw new IllegalArgumentException("the aircraft's name must be 1 to 32 of A-Z a-z 0-9"
                     + " _ . - and not begin with a dot: " + aircraft);
         }
-        final Map<String, Object> request = new LinkedHashMap<String, Object>();
+        final Map<String, Object> request = new LinkedHashMap<>();
         request.put("aircraft", aircraft);
         if (profile != null) {
             request.put("profile", profile);

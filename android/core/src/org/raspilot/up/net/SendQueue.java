@@ -16,8 +16,8 @@ final class SendQueue {
     private static final byte LF = '\n';
 
     private final boolean isRaw;
-    private final ArrayDeque<byte[]> ordered = new ArrayDeque<byte[]>();
-    private final Map<Object, byte[]> newest = new LinkedHashMap<Object, byte[]>();
+    private final ArrayDeque<byte[]> ordered = new ArrayDeque<>();
+    private final Map<Object, byte[]> newest = new LinkedHashMap<>();
     private byte[] begun;
     private int done;
     private int orderedBytes;

@@ -48,12 +48,7 @@ public final class UpSocket {
         this.settings = settings;
         queue = new SendQueue(settings.isRaw);
         backOff = new BackOff(settings.firstRetryMs, settings.lastRetryMs, random);
-        lines = new LineDelivery(loop, new LineDelivery.Receiver() {
-            @Override
-            public void onLine(byte[] line) {
-                receive(line, line.length);
-            }
-        });
+        lines = new LineDelivery(loop, line -> receive(line, line.length));
         watch = new LinkWatch(loop, settings, new LinkWatch.Owner() {
             @Override
             public void onBeat() {
@@ -119,12 +114,7 @@ public final class UpSocket {
             failedAttempts++;
         }
         final boolean wasConnected = end();
-        retry = loop.schedule(backOff.nextWaitMs(tookMs), new Runnable() {
-            @Override
-            public void run() {
-                attempt();
-            }
-        });
+        retry = loop.schedule(backOff.nextWaitMs(tookMs), () -> attempt());
         become(UpSocketStatus.State.WAITING, reason + "; trying again");
         if (wasConnected) {
             listener.onLost(this, reason);
@@ -207,12 +197,7 @@ public final class UpSocket {
     private void become(UpSocketStatus.State state, String sentence) {
         status = new UpSocketStatus(state, place, sentence);
         // Posted, because a listener may throw, and may stop this in the middle of a change.
-        loop.post(new Runnable() {
-            @Override
-            public void run() {
-                listener.onStatus(UpSocket.this);
-            }
-        });
+        loop.post(() -> listener.onStatus(UpSocket.this));
     }
 
     private boolean count(boolean isTaken) {

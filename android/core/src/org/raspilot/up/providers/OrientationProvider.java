@@ -73,19 +73,9 @@ public final class OrientationProvider extends UpProvider {
         earlier = null;
         measured = null;
         if (gyroscope.isPresent()) {
-            gyroscope.subscribe(periodMs, new SensorListener<RotationRate>() {
-                @Override
-                public void onReading(RotationRate reading) {
-                    measured = reading;
-                }
-            });
+            gyroscope.subscribe(periodMs, reading -> measured = reading);
         }
-        rotations.subscribe(periodMs, new SensorListener<Rotation>() {
-            @Override
-            public void onReading(Rotation reading) {
-                take(reading);
-            }
-        });
+        rotations.subscribe(periodMs, reading -> take(reading));
     }
 
     @Override

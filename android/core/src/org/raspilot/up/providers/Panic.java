@@ -14,7 +14,7 @@ public final class Panic {
     /** The maximum delay of a request, ms. */
     public static final long LONGEST_DELAY_MS = 10000;
 
-    private final List<Listener> listeners = new ArrayList<Listener>();
+    private final List<Listener> listeners = new ArrayList<>();
     private long delayMs;
 
     /** Called when it starts, changes or ends. */

@@ -11,14 +11,11 @@ import org.raspilot.up.loop.Loop;
 public final class ProvidersController {
     private final Loop loop;
     private final Panic panic = new Panic();
-    private final Map<String, UpProvider> providers = new LinkedHashMap<String, UpProvider>();
-    private final List<ProvidersListener> listeners = new ArrayList<ProvidersListener>();
-    private final ProvidersListener telling = new ProvidersListener() {
-        @Override
-        public void onProvider(String name, String sentence) {
-            for (ProvidersListener listener : new ArrayList<ProvidersListener>(listeners)) {
-                listener.onProvider(name, sentence);
-            }
+    private final Map<String, UpProvider> providers = new LinkedHashMap<>();
+    private final List<ProvidersListener> listeners = new ArrayList<>();
+    private final ProvidersListener telling = (name, sentence) -> {
+        for (ProvidersListener listener : new ArrayList<>(listeners)) {
+            listener.onProvider(name, sentence);
         }
     };
     private Outlet outlet;
@@ -112,7 +109,7 @@ public final class ProvidersController {
 
     /** Returns what each does now, in the order of their registration. */
     public List<ProviderStatus> statuses() {
-        List<ProviderStatus> statuses = new ArrayList<ProviderStatus>();
+        List<ProviderStatus> statuses = new ArrayList<>();
         for (UpProvider provider : all()) {
             statuses.add(provider.status());
         }
@@ -120,6 +117,6 @@ public final class ProvidersController {
     }
 
     private List<UpProvider> all() {
-        return new ArrayList<UpProvider>(providers.values());
+        return new ArrayList<>(providers.values());
     }
 }

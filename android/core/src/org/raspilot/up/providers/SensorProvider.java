@@ -49,12 +49,7 @@ public abstract class SensorProvider<R> extends UpProvider {
     protected final void subscribe(long periodMs) {
         newest = null;
         waiting = null;
-        source.subscribe(periodMs, new SensorListener<R>() {
-            @Override
-            public void onReading(R reading) {
-                take(reading);
-            }
-        });
+        source.subscribe(periodMs, reading -> take(reading));
     }
 
     @Override

@@ -10,13 +10,10 @@ import java.util.List;
  */
 public final class SharedSource<R> {
     private final SensorSource<R> source;
-    private final List<Branch> subscribed = new ArrayList<Branch>();
-    private final SensorListener<R> telling = new SensorListener<R>() {
-        @Override
-        public void onReading(R reading) {
-            for (Branch branch : new ArrayList<Branch>(subscribed)) {
-                branch.listener.onReading(reading);
-            }
+    private final List<Branch> subscribed = new ArrayList<>();
+    private final SensorListener<R> telling = reading -> {
+        for (Branch branch : new ArrayList<>(subscribed)) {
+            branch.listener.onReading(reading);
         }
     };
     private long periodMs;

@@ -17,12 +17,7 @@ final class Stream implements Panic.Listener {
     private final Cadence cadence;
     private final Sender sender;
     private final RateMeter rate = new RateMeter();
-    private final Runnable pumping = new Runnable() {
-        @Override
-        public void run() {
-            pump(false);
-        }
-    };
+    private final Runnable pumping = () -> pump(false);
     private Cancellable timer;
     private boolean isRunning;
     private boolean isFirst;

@@ -14,7 +14,7 @@ final class Frozen {
 
     /** Returns a copy of an object. */
     static Map<String, Object> map(Map<String, ?> fields) {
-        Map<String, Object> copy = new LinkedHashMap<String, Object>();
+        Map<String, Object> copy = new LinkedHashMap<>();
         for (Map.Entry<String, ?> field : fields.entrySet()) {
             copy.put(field.getKey(), value(field.getValue()));
         }
@@ -27,7 +27,7 @@ final class Frozen {
             return map((Map<String, ?>) value);
         }
         if (value instanceof Collection) {
-            List<Object> copy = new ArrayList<Object>();
+            List<Object> copy = new ArrayList<>();
             for (Object item : (Collection<?>) value) {
                 copy.add(value(item));
             }

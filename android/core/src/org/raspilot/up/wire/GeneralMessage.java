@@ -32,7 +32,7 @@ public final class GeneralMessage {
      * {@code beacon} null is left out.
      */
     public GeneralMessage(String name, Map<String, ?> data, String id, Long beacon) {
-        this(data == null ? Collections.<String, Object>emptyMap() : Frozen.map(data), name, id,
+        this(data == null ? Collections.emptyMap() : Frozen.map(data), name, id,
                 beacon);
     }
 
@@ -77,7 +77,7 @@ public final class GeneralMessage {
      * @throws IllegalArgumentException for what JSON cannot hold and for more than 16 KiB
      */
     public byte[] toLine() {
-        Map<String, Object> fields = new LinkedHashMap<String, Object>();
+        Map<String, Object> fields = new LinkedHashMap<>();
         fields.put("name", name);
         fields.put("data", data);
         fields.put("id", id);

@@ -119,7 +119,7 @@ public final class Hello {
         if (!words[0].equals("UP1")) {
             throw new MalformedException("the first line must begin with UP1");
         }
-        Map<String, String> values = new LinkedHashMap<String, String>();
+        Map<String, String> values = new LinkedHashMap<>();
         for (int i = 1; i < words.length; i++) {
             int equals = words[i].indexOf('=');
             if (equals < 0 || !KEY.matcher(words[i].substring(0, equals)).matches()) {

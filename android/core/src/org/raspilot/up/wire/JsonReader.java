@@ -60,7 +60,7 @@ final class JsonReader {
 
     private Map<String, Object> readObject() throws MalformedException {
         enter();
-        Map<String, Object> fields = new LinkedHashMap<String, Object>();
+        Map<String, Object> fields = new LinkedHashMap<>();
         boolean isIdRepeated = false;
         skipSpace();
         if (peek() == '}') {
@@ -104,7 +104,7 @@ final class JsonReader {
 
     private List<Object> readList() throws MalformedException {
         enter();
-        List<Object> items = new ArrayList<Object>();
+        List<Object> items = new ArrayList<>();
         skipSpace();
         if (peek() == ']') {
             leave();

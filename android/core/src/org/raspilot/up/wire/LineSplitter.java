@@ -32,7 +32,7 @@ public final class LineSplitter {
 
     /** Returns the lines that these bytes complete, without their line ends, in order. */
     public List<byte[]> feed(byte[] bytes, int length) {
-        List<byte[]> lines = new ArrayList<byte[]>();
+        List<byte[]> lines = new ArrayList<>();
         int start = 0;
         for (int i = 0; i < length; i++) {
             if (bytes[i] == '\n') {

@@ -28,13 +28,13 @@ final class AirborneBench implements Sensors, Speaker, AirborneListener {
     final ScriptedNetwork network = new ScriptedNetwork();
     final Faults faults = new Faults();
     final ManualLoop loop = new ManualLoop(network, faults);
-    final TestSource<Fix> gps = new TestSource<Fix>("GPS");
-    final TestSource<Rotation> rotation = new TestSource<Rotation>("rotation vector");
-    final TestSource<RotationRate> gyroscope = new TestSource<RotationRate>("gyroscope");
-    final TestSource<Pressure> barometer = new TestSource<Pressure>("barometer");
-    final TestSource<BatteryLevel> battery = new TestSource<BatteryLevel>("battery");
-    final List<String> events = new ArrayList<String>();
-    final List<String> said = new ArrayList<String>();
+    final TestSource<Fix> gps = new TestSource<>("GPS");
+    final TestSource<Rotation> rotation = new TestSource<>("rotation vector");
+    final TestSource<RotationRate> gyroscope = new TestSource<>("gyroscope");
+    final TestSource<Pressure> barometer = new TestSource<>("barometer");
+    final TestSource<BatteryLevel> battery = new TestSource<>("battery");
+    final List<String> events = new ArrayList<>();
+    final List<String> said = new ArrayList<>();
     Airborne airborne;
 
     /** Returns settings with a Raspberry Pi at a fixed host. */
@@ -104,7 +104,7 @@ final class AirborneBench implements Sensors, Speaker, AirborneListener {
 
     /** Returns all datagrams that left, with their destinations. */
     List<String> datagrams() {
-        List<String> sent = new ArrayList<String>();
+        List<String> sent = new ArrayList<>();
         for (ScriptedNetwork.Port port : network.ports) {
             sent.addAll(port.sent);
         }
@@ -117,7 +117,7 @@ final class AirborneBench implements Sensors, Speaker, AirborneListener {
         if (written.isEmpty()) {
             return Collections.emptyList();
         }
-        List<String> lines = new ArrayList<String>();
+        List<String> lines = new ArrayList<>();
         for (String line : written.split("\n", -1)) {
             lines.add(line);
         }

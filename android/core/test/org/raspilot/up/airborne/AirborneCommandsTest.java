@@ -71,7 +71,7 @@ public final class AirborneCommandsTest {
 
     @Test
     public void telemetryIsCountedAndGoesToWhoRegisters() {
-        final List<BaseCommand> frames = new ArrayList<BaseCommand>();
+        final List<BaseCommand> frames = new ArrayList<>();
         airborne.up().commandExecutor().registerCommand("up.telemetry.update",
                 new BaseCommandHandler() {
                     @Override

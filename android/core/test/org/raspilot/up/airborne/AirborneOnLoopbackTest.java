@@ -11,7 +11,6 @@ import java.net.ServerSocket;
 import java.net.Socket;
 import java.nio.charset.Charset;
 import java.util.Random;
-import java.util.concurrent.Callable;
 import org.junit.After;
 import org.junit.Before;
 import org.junit.Rule;
@@ -52,16 +51,13 @@ public final class AirborneOnLoopbackTest {
     @Test
     public void sensorsLeaveCommandsAreAnsweredAndALostLinkComesBack() throws Exception {
         final Mounting mounting = Mounting.of(Side.LEFT, Side.BACK);
-        final Airborne airborne = running.call(new Callable<Airborne>() {
-            @Override
-            public Airborne call() {
-                Airborne made = new Airborne(running.loop, AirborneBench.blackBox()
-                        .host("127.0.0.1").generalPort(general.getLocalPort())
-                        .orientationPort(orientation.getLocalPort()).mounting(mounting).build(),
-                        sensors, sensors, sensors, new Random(1));
-                made.start();
-                return made;
-            }
+        final Airborne airborne = running.call(() -> {
+            Airborne made = new Airborne(running.loop, AirborneBench.blackBox()
+                    .host("127.0.0.1").generalPort(general.getLocalPort())
+                    .orientationPort(orientation.getLocalPort()).mounting(mounting).build(),
+                    sensors, sensors, sensors, new Random(1));
+            made.start();
+            return made;
         });
         Socket link = accept(general);
         give(airborne, mounting, 20);
@@ -71,12 +67,7 @@ public final class AirborneOnLoopbackTest {
         assertEquals(83L, read(lines).data.get("level"));
 
         Socket frames = accept(orientation);
-        running.await("the link for orientation", new Callable<Boolean>() {
-            @Override
-            public Boolean call() {
-                return airborne.outlet().isOrientationOpen();
-            }
-        });
+        running.await("the link for orientation", () -> airborne.outlet().isOrientationOpen());
         give(airborne, mounting, 20);
         OrientationFrame frame = frame(frames);
         assertEquals(20, frame.rollDeg, 0.01);
@@ -98,14 +89,11 @@ public final class AirborneOnLoopbackTest {
         while (!battery.name.equals("android.battery")) {
             battery = read(fresh);
         }
-        running.call(new Callable<Void>() {
-            @Override
-            public Void call() {
-                assertEquals("[ahoj]", sensors.said.toString());
-                assertEquals(2, airborne.status().connections());
-                airborne.stop();
-                return null;
-            }
+        running.call(() -> {
+            assertEquals("[ahoj]", sensors.said.toString());
+            assertEquals(2, airborne.status().connections());
+            airborne.stop();
+            return null;
         });
         while (fresh.readLine() != null) {
             // Until everything sent before the stop has arrived.
@@ -116,18 +104,15 @@ public final class AirborneOnLoopbackTest {
 
     /** Makes the sensors deliver on the loop, once there is a link for their readings. */
     private void give(final Airborne airborne, final Mounting mounting, final double rollDeg) {
-        running.await("the link for Commands", new Callable<Boolean>() {
-            @Override
-            public Boolean call() {
-                if (!airborne.status().isConnected) {
-                    return false;
-                }
-                sensors.gps.give(AirborneBench.HERE);
-                sensors.rotation.give(mounting.rotation(
-                        new Attitude(rollDeg, -5, 80), running.loop.nowMs()));
-                sensors.battery.give(new BatteryLevel(83));
-                return true;
+        running.await("the link for Commands", () -> {
+            if (!airborne.status().isConnected) {
+                return false;
             }
+            sensors.gps.give(AirborneBench.HERE);
+            sensors.rotation.give(mounting.rotation(
+                    new Attitude(rollDeg, -5, 80), running.loop.nowMs()));
+            sensors.battery.give(new BatteryLevel(83));
+            return true;
         });
     }
 

@@ -25,7 +25,7 @@ public final class AirbornePanicTest {
     public void everySenderKeepsItsDelayOrientationToo() {
         bench.connected(AirborneBench.blackBox().orientationHz(100).build());
         bench.accept(50000);
-        final TestSource<String> own = new TestSource<String>("own sensor");
+        final TestSource<String> own = new TestSource<>("own sensor");
         bench.airborne.providers().register(
                 new SensorProvider<String>("own", own, Cadence.stream(50, 1000)) {
                     @Override

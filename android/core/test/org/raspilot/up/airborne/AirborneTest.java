@@ -273,7 +273,7 @@ public final class AirborneTest {
     }
 
     private static List<String> names(AirborneStatus status) {
-        List<String> names = new ArrayList<String>();
+        List<String> names = new ArrayList<>();
         for (ProviderStatus provider : status.providers) {
             names.add(provider.name);
         }

@@ -6,7 +6,7 @@ import org.raspilot.up.wire.GeneralMessage;
 
 /** The far end of a link: keeps the answers as "ack id" and "nack id code reason". */
 final class Answers implements AnswerSink {
-    private final List<String> heard = new ArrayList<String>();
+    private final List<String> heard = new ArrayList<>();
 
     @Override
     public void answer(GeneralMessage answer) {
@@ -21,7 +21,7 @@ final class Answers implements AnswerSink {
 
     /** Returns the messages since the last call. */
     List<String> heard() {
-        List<String> all = new ArrayList<String>(heard);
+        List<String> all = new ArrayList<>(heard);
         heard.clear();
         return all;
     }

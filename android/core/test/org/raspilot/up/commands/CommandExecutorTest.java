@@ -15,7 +15,7 @@ public final class CommandExecutorTest {
     private final HandlerFaults faults = new HandlerFaults();
     private final CommandExecutor executor =
             new CommandExecutor(CommandRegistry.builtin(), faults);
-    private final List<String> order = new ArrayList<String>();
+    private final List<String> order = new ArrayList<>();
 
     @Test
     public void handlersRunInTheOrderOfTheirRegistration() {

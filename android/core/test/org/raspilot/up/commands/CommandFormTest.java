@@ -75,7 +75,7 @@ public final class CommandFormTest {
             }
             for (CommandField field : form.fields()) {
                 for (Object value : values(field)) {
-                    Map<String, Object> data = new LinkedHashMap<String, Object>();
+                    Map<String, Object> data = new LinkedHashMap<>();
                     for (CommandField other : form.fields()) {
                         data.put(other.name, other == field ? value : good(other));
                     }
@@ -183,7 +183,7 @@ public final class CommandFormTest {
     }
 
     private static Map<String, String> inputs(String... typed) {
-        Map<String, String> inputs = new LinkedHashMap<String, String>();
+        Map<String, String> inputs = new LinkedHashMap<>();
         for (int i = 0; i < typed.length; i += 2) {
             inputs.put(typed[i], typed[i + 1]);
         }
@@ -207,7 +207,7 @@ public final class CommandFormTest {
     }
 
     private static List<Object> values(CommandField field) {
-        List<Object> values = new ArrayList<Object>(Arrays.<Object>asList(null, true, 0L, 0.5,
+        List<Object> values = new ArrayList<>(Arrays.<Object>asList(null, true, 0L, 0.5,
                 "no such choice", Collections.emptyList(), Collections.emptyMap(), good(field)));
         for (Double bound : Arrays.asList(field.minimum, field.maximum)) {
             if (bound != null) {

@@ -9,20 +9,13 @@ import java.util.Arrays;
 import java.util.Collections;
 import java.util.List;
 import org.junit.Test;
-import org.raspilot.up.loop.FaultListener;
 import org.raspilot.up.loop.ManualLoop;
-import org.raspilot.up.wire.GeneralMessage;
 
 public final class CommandReceiverTest {
     private static final List<String> NOTHING = Collections.emptyList();
 
-    private final List<Throwable> loopFaults = new ArrayList<Throwable>();
-    private final ManualLoop loop = new ManualLoop(null, new FaultListener() {
-        @Override
-        public void onFault(Throwable fault) {
-            loopFaults.add(fault);
-        }
-    });
+    private final List<Throwable> loopFaults = new ArrayList<>();
+    private final ManualLoop loop = new ManualLoop(null, fault -> loopFaults.add(fault));
     private final HandlerFaults faults = new HandlerFaults();
     private final CommandRegistry registry = CommandRegistry.builtin();
     private final CommandExecutor executor = new CommandExecutor(registry, faults);
@@ -169,11 +162,8 @@ public final class CommandReceiverTest {
 
     @Test
     public void anApplicationsFaultyCommandCostsItsMessageOnly() {
-        registry.register("app.broken", new CommandReader() {
-            @Override
-            public BaseCommand read(GeneralMessage message) {
-                throw new IllegalStateException("broken");
-            }
+        registry.register("app.broken", message -> {
+            throw new IllegalStateException("broken");
         });
         receive("{\"name\": \"app.broken\", \"id\": 1}");
         receive(speak("2", "hello"));

@@ -41,7 +41,7 @@ public final class TypedCommandsTest {
                 new NackCommand("7", "stale", "late"));
         assertWritten("black_box.record", "{\"topic\": \"phone.light\", \"content\": {\"lux\": 3}}",
                 new RecordCommand("phone.light",
-                        Collections.<String, Object>singletonMap("lux", 3)));
+                        Collections.singletonMap("lux", 3)));
         assertWritten("arduino.pids.tunings", "{\"request\": true}", PidTuningsCommand.request());
         LoopGains loop = new LoopGains(GAINS, GAINS, null);
         String gains = "{\"p\": 1.0, \"i\": 0.5, \"d\": 0.0}";
@@ -62,58 +62,26 @@ public final class TypedCommandsTest {
 
     @Test
     public void valuesBeyondTheirRangeAreNotMade() {
-        assertRefused("latitude must be a number between -90 and 90, not NaN", new Runnable() {
-            @Override
-            public void run() {
-                new LocationCommand(Double.NaN, 0, null, null, null, null);
-            }
-        });
-        assertRefused("frequency must be a number between 20 and 10000, not 19.9", new Runnable() {
-            @Override
-            public void run() {
-                new TelemetryFrequencyCommand(19.9);
-            }
-        });
+        assertRefused("latitude must be a number between -90 and 90, not NaN", () ->
+                new LocationCommand(Double.NaN, 0, null, null, null, null));
+        assertRefused("frequency must be a number between 20 and 10000, not 19.9", () ->
+                new TelemetryFrequencyCommand(19.9));
         assertRefused("mode must be one of \"RATE\", \"FBW\", \"AUTO\", not \"ACRO\"",
-                new Runnable() {
-                    @Override
-                    public void run() {
-                        new FlightModeCommand("ACRO");
-                    }
-                });
-        assertRefused("text must be text of at most 200 characters, not null", new Runnable() {
-            @Override
-            public void run() {
-                new SpeakCommand((String) null);
-            }
-        });
-        assertRefused("text must not be blank", new Runnable() {
-            @Override
-            public void run() {
-                new MarkCommand(" \u00a0");
-            }
-        });
+                () -> new FlightModeCommand("ACRO"));
+        assertRefused("text must be text of at most 200 characters, not null", () ->
+                new SpeakCommand((String) null));
+        assertRefused("text must not be blank", () -> new MarkCommand(" \u00a0"));
         assertRefused("topic must be words of a to z, 0 to 9 and _, joined by dots: "
-                + "companion.airspeed", new Runnable() {
-                    @Override
-                    public void run() {
-                        new RecordCommand("alone", Collections.<String, Object>emptyMap());
-                    }
-                });
+                + "companion.airspeed", () ->
+                        new RecordCommand("alone", Collections.emptyMap()));
         assertRefused("stabPIDs.elevator.d must be a number between 0 and 50, not 50.5",
-                new Runnable() {
-                    @Override
-                    public void run() {
-                        new PidTuningsCommand(new GainSet(new LoopGains(GAINS, GAINS, null),
-                                new LoopGains(GAINS, new Gains(1, 1, 50.5), null), null));
-                    }
+                () -> {
+                    new PidTuningsCommand(new GainSet(new LoopGains(GAINS, GAINS, null),
+                            new LoopGains(GAINS, new Gains(1, 1, 50.5), null), null));
                 });
-        assertRefused("pids must have a rudder in both loops or in none", new Runnable() {
-            @Override
-            public void run() {
-                new PidTuningsCommand(new GainSet(new LoopGains(GAINS, GAINS, GAINS),
-                        new LoopGains(GAINS, GAINS, null), null));
-            }
+        assertRefused("pids must have a rudder in both loops or in none", () -> {
+            new PidTuningsCommand(new GainSet(new LoopGains(GAINS, GAINS, GAINS),
+                    new LoopGains(GAINS, GAINS, null), null));
         });
     }
 

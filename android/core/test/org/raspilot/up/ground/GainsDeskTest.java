@@ -182,7 +182,7 @@ public final class GainsDeskTest {
     @Test
     public void theGeneralWayOfSendingTakesNoPartialSetEither() {
         flyWith(set(3));
-        final Map<String, Object> pids = new LinkedHashMap<String, Object>(set(3).toData());
+        final Map<String, Object> pids = new LinkedHashMap<>(set(3).toData());
         pids.remove("stabPIDs");
         for (Object each : new Object[] {pids, "all", null}) {
             bench.ground.send(new BaseCommand(PidTuningsCommand.NAME,

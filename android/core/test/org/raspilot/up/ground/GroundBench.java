@@ -6,11 +6,8 @@ import java.util.List;
 import java.util.Map;
 import java.util.Random;
 import org.junit.rules.ExternalResource;
-import org.raspilot.up.commands.BaseCommand;
-import org.raspilot.up.commands.BaseCommandHandler;
 import org.raspilot.up.commands.CommandExecutor;
 import org.raspilot.up.commands.CommandRegistry;
-import org.raspilot.up.commands.HandlerFaultListener;
 import org.raspilot.up.loop.Faults;
 import org.raspilot.up.loop.ManualLoop;
 import org.raspilot.up.loop.ScriptedNetwork;
@@ -28,17 +25,12 @@ final class GroundBench extends ExternalResource implements GroundListener {
     final ScriptedNetwork network = new ScriptedNetwork();
     final ManualLoop loop = new ManualLoop(network, faults);
     final MemoryTokenStore tokens = new MemoryTokenStore();
-    final List<Throwable> handlerFaults = new ArrayList<Throwable>();
+    final List<Throwable> handlerFaults = new ArrayList<>();
     final CommandExecutor executor =
-            new CommandExecutor(CommandRegistry.builtin(), new HandlerFaultListener() {
-                @Override
-                public void onHandlerFailed(BaseCommandHandler handler, BaseCommand command,
-                        Throwable fault) {
-                    handlerFaults.add(fault);
-                }
-            });
-    final List<Telemetry> frames = new ArrayList<Telemetry>();
-    final List<Answer> answers = new ArrayList<Answer>();
+            new CommandExecutor(CommandRegistry.builtin(), (handler, command, fault) ->
+                    handlerFaults.add(fault));
+    final List<Telemetry> frames = new ArrayList<>();
+    final List<Answer> answers = new ArrayList<>();
     GroundStatus status;
     int changes;
     GroundSettings settings = settings(Seat.COMMAND, false);
@@ -104,7 +96,7 @@ final class GroundBench extends ExternalResource implements GroundListener {
 
     /** Returns the messages sent since the last call. */
     List<GeneralMessage> sent() {
-        final List<GeneralMessage> messages = new ArrayList<GeneralMessage>();
+        final List<GeneralMessage> messages = new ArrayList<>();
         for (String line : peer().written().split("\n")) {
             if (line.startsWith("{")) {
                 try {
@@ -154,12 +146,7 @@ final class GroundBench extends ExternalResource implements GroundListener {
     }
 
     AnswerListener keeping() {
-        return new AnswerListener() {
-            @Override
-            public void onAnswer(Answer answer) {
-                answers.add(answer);
-            }
-        };
+        return answer -> answers.add(answer);
     }
 
     /** Returns the one answer since the last call. */
@@ -172,7 +159,7 @@ final class GroundBench extends ExternalResource implements GroundListener {
 
     /** Returns the texts of the events. */
     List<String> events() {
-        final List<String> texts = new ArrayList<String>();
+        final List<String> texts = new ArrayList<>();
         for (Event each : ground.events().snapshot().events) {
             texts.add(each.text);
         }
@@ -189,7 +176,7 @@ final class GroundBench extends ExternalResource implements GroundListener {
     }
 
     static Telemetry telemetry(String data, long nowMs) {
-        return Telemetry.of(new LinkedHashMap<String, Object>(json(data)), 1L, nowMs, 0);
+        return Telemetry.of(new LinkedHashMap<>(json(data)), 1L, nowMs, 0);
     }
 
     @Override

@@ -13,7 +13,6 @@ import java.nio.charset.Charset;
 import java.util.ArrayList;
 import java.util.List;
 import java.util.Random;
-import java.util.concurrent.Callable;
 import org.junit.After;
 import org.junit.Before;
 import org.junit.Rule;
@@ -35,8 +34,8 @@ public final class GroundSideSocketTest implements GroundListener {
     @Rule
     public final RunningLoop running = new RunningLoop();
 
-    private final List<Telemetry> frames = new ArrayList<Telemetry>();
-    private final List<Answer> answers = new ArrayList<Answer>();
+    private final List<Telemetry> frames = new ArrayList<>();
+    private final List<Answer> answers = new ArrayList<>();
     private ServerSocket server;
     private Socket proxy;
     private BufferedReader lines;
@@ -51,12 +50,9 @@ public final class GroundSideSocketTest implements GroundListener {
 
     @After
     public void close() throws IOException {
-        running.call(new Callable<Void>() {
-            @Override
-            public Void call() {
-                ground.stop();
-                return null;
-            }
+        running.call(() -> {
+            ground.stop();
+            return null;
         });
         server.close();
         if (proxy != null) {
@@ -66,16 +62,13 @@ public final class GroundSideSocketTest implements GroundListener {
     }
 
     private void start(final Seat seat, final boolean isDirect) throws IOException {
-        running.call(new Callable<Void>() {
-            @Override
-            public Void call() {
-                ground = new GroundSide(running.loop, new GroundSettings("127.0.0.1",
-                        server.getLocalPort(), "glider", seat, isDirect), new MemoryTokenStore(),
-                        new CommandExecutor(CommandRegistry.builtin(), null),
-                        GroundSideSocketTest.this, new Random());
-                ground.start();
-                return null;
-            }
+        running.call(() -> {
+            ground = new GroundSide(running.loop, new GroundSettings("127.0.0.1",
+                    server.getLocalPort(), "glider", seat, isDirect), new MemoryTokenStore(),
+                    new CommandExecutor(CommandRegistry.builtin(), null),
+                    GroundSideSocketTest.this, new Random());
+            ground.start();
+            return null;
         });
         accept();
     }
@@ -101,21 +94,11 @@ public final class GroundSideSocketTest implements GroundListener {
     }
 
     private void awaitFrames(final int count) {
-        running.await(count + " frames", new Callable<Boolean>() {
-            @Override
-            public Boolean call() {
-                return frames.size() >= count;
-            }
-        });
+        running.await(count + " frames", () -> frames.size() >= count);
     }
 
     private void awaitState(final LinkState state) {
-        running.await(state + "", new Callable<Boolean>() {
-            @Override
-            public Boolean call() {
-                return status != null && status.link == state;
-            }
-        });
+        running.await(state + "", () -> status != null && status.link == state);
     }
 
     private static String frame(long beacon, String data) {
@@ -130,31 +113,18 @@ public final class GroundSideSocketTest implements GroundListener {
         say("UP1 ok aircraft=glider seat=command token=" + TOKEN + "\nUP1 seat holder=1\n"
                 + "UP1 aircraft online\n" + frame(10, "{\"altitude\": 12.5}"));
         awaitFrames(1);
-        running.call(new Callable<Void>() {
-            @Override
-            public Void call() {
-                assertEquals(12.5, frames.get(0).number("altitude"), 0);
-                ground.seen(10L);
-                ground.send(new FlightModeCommand("FBW"), new AnswerListener() {
-                    @Override
-                    public void onAnswer(Answer answer) {
-                        answers.add(answer);
-                    }
-                });
-                return null;
-            }
+        running.call(() -> {
+            assertEquals(12.5, frames.get(0).number("altitude"), 0);
+            ground.seen(10L);
+            ground.send(new FlightModeCommand("FBW"), answer -> answers.add(answer));
+            return null;
         });
         final byte[] sent = line().getBytes(UTF_8);
         final GeneralMessage command = GeneralMessage.read(sent, sent.length);
         assertEquals("FBW", command.data.get("mode"));
         assertEquals(Long.valueOf(10), command.beacon);
         say("{\"name\": \"up.ack\", \"data\": {\"id\": \"" + command.id + "\"}}\n");
-        running.await("the answer", new Callable<Boolean>() {
-            @Override
-            public Boolean call() {
-                return answers.size() == 1 && answers.get(0).isAck();
-            }
-        });
+        running.await("the answer", () -> answers.size() == 1 && answers.get(0).isAck());
 
         // Half a line, then the end: the next connection begins with its own first line.
         say("{\"name\": \"up.telemetry.update\", \"da");
@@ -166,15 +136,12 @@ public final class GroundSideSocketTest implements GroundListener {
                 + frame(11, "{\"altitude\": 13.5}"));
         // The first frame, the same with its link lost, and the new one.
         awaitFrames(3);
-        running.call(new Callable<Void>() {
-            @Override
-            public Void call() {
-                assertTrue(frames.get(1).age.isLinkLost);
-                assertEquals(13.5, frames.get(2).number("altitude"), 0);
-                assertEquals(0, ground.status().counters.malformed);
-                assertEquals(SeatStanding.OURS, ground.status().standing);
-                return null;
-            }
+        running.call(() -> {
+            assertTrue(frames.get(1).age.isLinkLost);
+            assertEquals(13.5, frames.get(2).number("altitude"), 0);
+            assertEquals(0, ground.status().counters.malformed);
+            assertEquals(SeatStanding.OURS, ground.status().standing);
+            return null;
         });
     }
 
@@ -183,18 +150,11 @@ public final class GroundSideSocketTest implements GroundListener {
         start(Seat.LISTEN, true);
         say(frame(1, "{}"));
         awaitFrames(1);
-        running.await("silence", new Callable<Boolean>() {
-            @Override
-            public Boolean call() {
-                return status.isOpen() && status.isSilent && status.counters.frames == 1;
-            }
-        });
-        running.call(new Callable<Void>() {
-            @Override
-            public Void call() {
-                assertTrue(ground.alarms().snapshot().has(Alarm.Kind.SILENT));
-                return null;
-            }
+        running.await("silence", () ->
+                status.isOpen() && status.isSilent && status.counters.frames == 1);
+        running.call(() -> {
+            assertTrue(ground.alarms().snapshot().has(Alarm.Kind.SILENT));
+            return null;
         });
     }
 

@@ -144,7 +144,7 @@ public final class GroundTelemetryTest {
     @Test
     public void aHandlerReadsWhatItsTypeSaysAndHearsItsAge() {
         bench.open(Seat.LISTEN);
-        final List<String> rolls = new ArrayList<String>();
+        final List<String> rolls = new ArrayList<>();
         bench.executor.registerCommand(Telemetry.NAME,
                 new BaseTelemetryHandler<Double>(bench.ground) {
                     @Override

@@ -131,7 +131,7 @@ public final class TelemetryTest {
     @Test
     public void aFrameDoesNotChangeWithWhatItWasMadeOf() {
         final Map<String, Object> data =
-                new LinkedHashMap<String, Object>(GroundBench.json(FRAME));
+                new LinkedHashMap<>(GroundBench.json(FRAME));
         final Telemetry made = Telemetry.of(data, 1L, 0, 0);
         data.put("altitude", 99L);
         assertEquals(12, made.number("altitude"), 0);
@@ -150,7 +150,7 @@ public final class TelemetryTest {
         final String[] paths = {"orientation.roll", "age_ms.flight", "vetoes", "location",
             "location.latitude", "armed", "a.b.c", "home.distance"};
         for (int each = 0; each < 3000; each++) {
-            final Map<String, Object> data = new LinkedHashMap<String, Object>();
+            final Map<String, Object> data = new LinkedHashMap<>();
             for (String path : paths) {
                 data.put(path.substring(0, Math.max(1, path.indexOf('.'))), value(random, 3));
             }
@@ -197,7 +197,7 @@ public final class TelemetryTest {
             case 6:
                 return Arrays.asList(value(random, depth - 1), value(random, depth - 1));
             default:
-                final Map<String, Object> fields = new LinkedHashMap<String, Object>();
+                final Map<String, Object> fields = new LinkedHashMap<>();
                 fields.put("roll", value(random, depth - 1));
                 fields.put("latitude", value(random, depth - 1));
                 fields.put("longitude", value(random, depth - 1));

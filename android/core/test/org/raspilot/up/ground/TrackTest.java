@@ -29,7 +29,7 @@ public final class TrackTest {
     /** Returns the track and the aircraft's position, if it is not in the track. */
     private List<TrackPoint> points() {
         final Track.Snapshot now = track.snapshot();
-        final List<TrackPoint> all = new ArrayList<TrackPoint>(now.points);
+        final List<TrackPoint> all = new ArrayList<>(now.points);
         if (now.newest != null && !all.contains(now.newest)) {
             all.add(now.newest);
         }

@@ -6,7 +6,7 @@ import java.util.List;
 
 /** Records the faults of a loop for a test. */
 public final class Faults implements FaultListener {
-    private final List<Throwable> all = Collections.synchronizedList(new ArrayList<Throwable>());
+    private final List<Throwable> all = Collections.synchronizedList(new ArrayList<>());
 
     @Override
     public void onFault(Throwable fault) {
@@ -14,7 +14,7 @@ public final class Faults implements FaultListener {
     }
 
     public List<Throwable> all() {
-        return new ArrayList<Throwable>(all);
+        return new ArrayList<>(all);
     }
 
     /** Returns and clears the faults so far: they were intended. */

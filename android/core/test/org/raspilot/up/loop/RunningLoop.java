@@ -18,12 +18,7 @@ public final class RunningLoop extends ExternalResource {
     public final Faults faults = new Faults();
     public final SelectorLoop loop;
     private final AtomicLong sleptNs = new AtomicLong();
-    private final Clock clock = new Clock() {
-        @Override
-        public long nowNs() {
-            return System.nanoTime() + sleptNs.get();
-        }
-    };
+    private final Clock clock = () -> System.nanoTime() + sleptNs.get();
 
     public RunningLoop() {
         loop = new SelectorLoop("test loop", faults, clock);
@@ -45,7 +40,7 @@ public final class RunningLoop extends ExternalResource {
 
     /** Runs a call on the loop and returns what it returns; throws what it throws. */
     public <T> T call(Callable<T> call) {
-        final FutureTask<T> task = new FutureTask<T>(call);
+        final FutureTask<T> task = new FutureTask<>(call);
         loop.post(task);
         try {
             return task.get(LONGEST_WAIT_S, TimeUnit.SECONDS);
@@ -91,17 +86,7 @@ public final class RunningLoop extends ExternalResource {
     /** Waits until so much of the loop's own time has passed. */
     public void pass(final int delayMs) {
         final CountDownLatch latch = new CountDownLatch(1);
-        loop.post(new Runnable() {
-            @Override
-            public void run() {
-                loop.schedule(delayMs, new Runnable() {
-                    @Override
-                    public void run() {
-                        latch.countDown();
-                    }
-                });
-            }
-        });
+        loop.post(() -> loop.schedule(delayMs, () -> latch.countDown()));
         wait(latch, "time stands still");
     }
 

@@ -9,8 +9,8 @@ import java.util.List;
 /** The network of a test: the test triggers every event of its connections. */
 public final class ScriptedNetwork implements Network {
     public static final Charset UTF_8 = Charset.forName("UTF-8");
-    public final List<Connection> connections = new ArrayList<Connection>();
-    public final List<Port> ports = new ArrayList<Port>();
+    public final List<Connection> connections = new ArrayList<>();
+    public final List<Port> ports = new ArrayList<>();
     public boolean hasNoSockets;
 
     @Override
@@ -105,7 +105,7 @@ public final class ScriptedNetwork implements Network {
 
     public static final class Port implements UdpPort {
         public final UdpListener listener;
-        public final List<String> sent = new ArrayList<String>();
+        public final List<String> sent = new ArrayList<>();
         public boolean isClosed;
         public boolean hasNoNetwork;
 

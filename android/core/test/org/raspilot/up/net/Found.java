@@ -5,7 +5,7 @@ import java.util.List;
 
 /** Records the result of a finder. */
 final class Found implements FindListener {
-    final List<String> told = new ArrayList<String>();
+    final List<String> told = new ArrayList<>();
 
     @Override
     public void onFound(Place place) {

@@ -9,7 +9,6 @@ import java.util.Arrays;
 import java.util.Random;
 import org.junit.After;
 import org.junit.Test;
-import org.raspilot.up.loop.Cancellable;
 import org.raspilot.up.loop.Faults;
 import org.raspilot.up.loop.ManualLoop;
 import org.raspilot.up.loop.ScriptedNetwork;
@@ -19,16 +18,13 @@ public final class OrientationSenderTest {
     private final ScriptedNetwork network = new ScriptedNetwork();
     private final ManualLoop loop = new ManualLoop(network, faults);
     private Place answer = new Place("192.0.2.7", 50001, 50000);
-    private final KnownPlace known = new KnownPlace(new PlaceFinder() {
-        @Override
-        public Cancellable find(FindListener listener) {
-            if (answer == null) {
-                listener.onNotFound("nowhere");
-            } else {
-                listener.onFound(answer);
-            }
-            return Search.DONE;
+    private final KnownPlace known = new KnownPlace(listener -> {
+        if (answer == null) {
+            listener.onNotFound("nowhere");
+        } else {
+            listener.onFound(answer);
         }
+        return Search.DONE;
     });
     private final OrientationSender tcp = sender(OrientationSender.Transport.TCP);
     private final OrientationSender udp = sender(OrientationSender.Transport.UDP);

@@ -167,12 +167,7 @@ public final class UpSocketSendTest {
                 }, UpSocketSettings.lines(), new Random(1));
         clumsy.start();
         network.newest().accept();
-        loop.post(new Runnable() {
-            @Override
-            public void run() {
-                network.newest().say("bad\ngood\nbad\nwell\n");
-            }
-        });
+        loop.post(() -> network.newest().say("bad\ngood\nbad\nwell\n"));
         loop.advance(0);
         assertEquals(Arrays.asList("connected", "< bad", "< good", "< bad", "< well"),
                 diary.told);

@@ -227,19 +227,11 @@ public final class UpSocketTest {
     @Test
     public void aFinderThatThrowsIsAskedAgain() {
         final int[] asked = new int[1];
-        final UpSocket unlucky = socket(new PlaceFinder() {
-            @Override
-            public Cancellable find(FindListener listener) {
-                asked[0]++;
-                throw new IllegalStateException("a finder");
-            }
+        final UpSocket unlucky = socket(listener -> {
+            asked[0]++;
+            throw new IllegalStateException("a finder");
         }, diary);
-        loop.post(new Runnable() {
-            @Override
-            public void run() {
-                unlucky.start();
-            }
-        });
+        loop.post(() -> unlucky.start());
         loop.advance(600);
         assertEquals(2, asked[0]);
         assertEquals("WAITING: the search failed; trying again", unlucky.status().toString());

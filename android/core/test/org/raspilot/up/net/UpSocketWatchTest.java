@@ -87,12 +87,9 @@ public final class UpSocketWatchTest {
     @Test
     public void whatCameWhileThePhoneSleptIsReadBeforeItsPeerIsJudged() {
         connect(UpSocketSettings.lines().withSilenceLimitMs(3000));
-        loop.schedule(3000, new Runnable() {
-            @Override
-            public void run() {
-                // The loop reads its sockets between two timers, late as they may be.
-                network.newest().say("telemetry\n");
-            }
+        loop.schedule(3000, () -> {
+            // The loop reads its sockets between two timers, late as they may be.
+            network.newest().say("telemetry\n");
         });
         loop.advance(3000);
         assertTrue(socket.isConnected());

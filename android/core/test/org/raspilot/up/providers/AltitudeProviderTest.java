@@ -9,7 +9,7 @@ import org.junit.Test;
 /** The altitude by the pressure, over the sea or over the field. */
 public final class AltitudeProviderTest {
     private final ProvidersBench bench = new ProvidersBench();
-    private final TestSource<Pressure> barometer = new TestSource<Pressure>("barometer");
+    private final TestSource<Pressure> barometer = new TestSource<>("barometer");
     private final AltitudeProvider provider = new AltitudeProvider(barometer, 200);
 
     @Test

@@ -8,7 +8,7 @@ import org.junit.Test;
 /** The battery's level: on change, and again and again. */
 public final class BatteryProviderTest {
     private final ProvidersBench bench = new ProvidersBench();
-    private final TestSource<BatteryLevel> battery = new TestSource<BatteryLevel>("battery");
+    private final TestSource<BatteryLevel> battery = new TestSource<>("battery");
     private final BatteryProvider provider = new BatteryProvider(battery);
 
     @Test

@@ -7,7 +7,7 @@ import org.junit.Test;
 /** Where the nose points, by the mounting and the declination. */
 public final class HeadingProviderTest {
     private final ProvidersBench bench = new ProvidersBench();
-    private final TestSource<Rotation> compass = new TestSource<Rotation>("rotation vector");
+    private final TestSource<Rotation> compass = new TestSource<>("rotation vector");
     private final HeadingProvider provider =
             new HeadingProvider(compass, Mounting.of(Side.RIGHT, Side.SCREEN), 200);
 

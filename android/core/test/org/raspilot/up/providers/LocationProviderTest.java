@@ -8,7 +8,7 @@ import org.junit.Test;
 /** The sent values of a fix, their times, and their display. */
 public final class LocationProviderTest {
     private final ProvidersBench bench = new ProvidersBench();
-    private final TestSource<Fix> gps = new TestSource<Fix>("GPS");
+    private final TestSource<Fix> gps = new TestSource<>("GPS");
     private final LocationProvider provider = new LocationProvider(gps, 500);
 
     @Test

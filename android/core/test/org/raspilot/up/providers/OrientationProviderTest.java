@@ -9,8 +9,8 @@ import org.raspilot.up.wire.OrientationFrame;
 /** Frames of attitude and rates: their rate, their axes, and what becomes without a gyroscope. */
 public final class OrientationProviderTest {
     private final ProvidersBench bench = new ProvidersBench();
-    private final TestSource<Rotation> rotation = new TestSource<Rotation>("rotation vector");
-    private final TestSource<RotationRate> gyroscope = new TestSource<RotationRate>("gyroscope");
+    private final TestSource<Rotation> rotation = new TestSource<>("rotation vector");
+    private final TestSource<RotationRate> gyroscope = new TestSource<>("gyroscope");
     private final Mounting mounting = Mounting.of(Side.LEFT, Side.BACK);
 
     @Test
@@ -32,7 +32,7 @@ public final class OrientationProviderTest {
     public void aQuickSensorIsThinnedToTheWantedRate() {
         for (int hz : new int[] {50, 60, 100, 150, 200}) {
             ProvidersBench other = new ProvidersBench();
-            TestSource<Rotation> quick = new TestSource<Rotation>("quick");
+            TestSource<Rotation> quick = new TestSource<>("quick");
             other.run(new OrientationProvider(quick, gyroscope, mounting, hz));
             other.feed(quick, new Rotation(1, 0, 0, 0, 0), 1, 10000);
             other.controller.stop();

@@ -25,7 +25,7 @@ public final class OwnProviderExampleTest {
         @Override
         protected BaseCommand read(Light light) {
             return new RecordCommand(
-                    "phone.light", Collections.<String, Object>singletonMap("lux", light.lux));
+                    "phone.light", Collections.singletonMap("lux", light.lux));
         }
     }
 
@@ -40,7 +40,7 @@ public final class OwnProviderExampleTest {
     @Test
     public void aProviderIsOneClassAndOneRegistration() {
         ProvidersBench bench = new ProvidersBench();
-        TestSource<Light> sensor = new TestSource<Light>("light sensor");
+        TestSource<Light> sensor = new TestSource<>("light sensor");
 
         bench.controller.register(new LightProvider(sensor));
 

@@ -14,7 +14,7 @@ public final class PanicTest {
 
     private final ProvidersBench bench = new ProvidersBench();
     private final Panic panic = bench.controller.panic();
-    private final TestSource<Fix> gps = new TestSource<Fix>("GPS");
+    private final TestSource<Fix> gps = new TestSource<>("GPS");
 
     @Test
     public void itTakesDelaysOfUpTo10SecondsAndNothingElse() {
@@ -56,8 +56,8 @@ public final class PanicTest {
 
     @Test
     public void orientationKeepsToItToo() {
-        TestSource<Rotation> rotation = new TestSource<Rotation>("rotation");
-        bench.run(new OrientationProvider(rotation, new TestSource<RotationRate>("gyroscope"),
+        TestSource<Rotation> rotation = new TestSource<>("rotation");
+        bench.run(new OrientationProvider(rotation, new TestSource<>("gyroscope"),
                 Mounting.FLAT, 100));
         panic.follow(150);
         bench.feed(rotation, LEVEL, 10, 3000);
@@ -67,7 +67,7 @@ public final class PanicTest {
 
     @Test
     public void whatIsRepeatedKeepsToItToo() {
-        TestSource<BatteryLevel> battery = new TestSource<BatteryLevel>("battery");
+        TestSource<BatteryLevel> battery = new TestSource<>("battery");
         bench.run(new BatteryProvider(battery));
         panic.follow(4000);
         battery.give(new BatteryLevel(90));

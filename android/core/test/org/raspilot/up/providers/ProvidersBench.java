@@ -11,15 +11,10 @@ final class ProvidersBench {
     final ManualLoop loop = new ManualLoop(null, faults);
     final ProvidersController controller = new ProvidersController(loop);
     final TestOutlet outlet = new TestOutlet(loop);
-    final List<String> told = new ArrayList<String>();
+    final List<String> told = new ArrayList<>();
 
     ProvidersBench() {
-        controller.addListener(new ProvidersListener() {
-            @Override
-            public void onProvider(String name, String sentence) {
-                told.add(name + ": " + sentence);
-            }
-        });
+        controller.addListener((name, sentence) -> told.add(name + ": " + sentence));
     }
 
     void run(UpProvider provider) {

@@ -13,7 +13,7 @@ import org.raspilot.up.commands.BaseCommand;
 /** Registering, starting and stopping, and the isolation of a provider's fault. */
 public final class ProvidersControllerTest {
     private final ProvidersBench bench = new ProvidersBench();
-    private final List<String> calls = new ArrayList<String>();
+    private final List<String> calls = new ArrayList<>();
 
     @Test
     public void allStartInTheirOrderAndStopInTheReverse() {
@@ -48,7 +48,7 @@ public final class ProvidersControllerTest {
 
     @Test
     public void anAbsentSensorIsToldAndIsNoError() {
-        TestSource<Fix> absent = new TestSource<Fix>("this phone has no GPS");
+        TestSource<Fix> absent = new TestSource<>("this phone has no GPS");
         absent.isPresent = false;
         bench.run(new LocationProvider(absent, 500));
         assertEquals("[location: this phone has no GPS]", bench.told.toString());
@@ -64,7 +64,7 @@ public final class ProvidersControllerTest {
 
     @Test
     public void aSourceThatIsNotThereNeverReads() {
-        SensorSource<Fix> absent = new AbsentSource<Fix>("no GPS");
+        SensorSource<Fix> absent = new AbsentSource<>("no GPS");
         bench.run(new LocationProvider(absent, 500));
         assertEquals(ProviderState.ABSENT, bench.status().state);
         assertEquals("no GPS", bench.status().sensor);
@@ -72,10 +72,10 @@ public final class ProvidersControllerTest {
 
     @Test
     public void aSensorThatRefusesHarmsNoOther() {
-        TestSource<Fix> gps = new TestSource<Fix>("GPS");
+        TestSource<Fix> gps = new TestSource<>("GPS");
         gps.fault = new SecurityException("no permission");
         bench.controller.register(new LocationProvider(gps, 500));
-        TestSource<Pressure> barometer = new TestSource<Pressure>("barometer");
+        TestSource<Pressure> barometer = new TestSource<>("barometer");
         bench.controller.register(new AltitudeProvider(barometer, 200));
         bench.controller.start(bench.outlet);
         barometer.give(new Pressure(1000));
@@ -106,7 +106,7 @@ public final class ProvidersControllerTest {
 
     @Test
     public void aProviderThatThrowsAtAReadingHarmsNobodyAndIsTold() {
-        TestSource<Fix> gps = new TestSource<Fix>("GPS");
+        TestSource<Fix> gps = new TestSource<>("GPS");
         bench.run(new SensorProvider<Fix>("broken", gps, Cadence.stream(100, 1000)) {
             @Override
             protected BaseCommand read(Fix reading) {
@@ -120,7 +120,7 @@ public final class ProvidersControllerTest {
 
     @Test
     public void afterTheStopNothingLeaves() {
-        TestSource<BatteryLevel> battery = new TestSource<BatteryLevel>("battery");
+        TestSource<BatteryLevel> battery = new TestSource<>("battery");
         bench.run(new BatteryProvider(battery));
         battery.give(new BatteryLevel(50));
         SensorListener<BatteryLevel> late = battery.listener;

@@ -32,7 +32,7 @@ public final class JsonEcho {
     }
 
     private static Map<String, Object> answer(byte[] line, CommandRegistry registry) {
-        Map<String, Object> answer = new LinkedHashMap<String, Object>();
+        Map<String, Object> answer = new LinkedHashMap<>();
         try {
             GeneralMessage message = GeneralMessage.read(line, line.length);
             answer.put("line", written(message));

@@ -62,28 +62,13 @@ final class AirborneRun {
         loop.start();
         sensorsThread = new HandlerThread("up sensors", Process.THREAD_PRIORITY_FOREGROUND);
         sensorsThread.start();
-        ProblemListener problems = new ProblemListener() {
-            @Override
-            public void onProblem(String sentence) {
-                tellEvent(sentence);
-            }
-        };
+        ProblemListener problems = sentence -> tellEvent(sentence);
         AndroidSources sensors = new AndroidSources(context, sensorsThread.getLooper(), loop,
-                texts, problems, new Declination(new Declination.Listener() {
-                    @Override
-                    public void onDeclination(double deg) {
-                        turnNorth(deg);
-                    }
-                }));
+                texts, problems, new Declination(deg -> turnNorth(deg)));
         speaker = new AndroidSpeaker(context, texts, problems);
         locks = new AwakeLocks(context);
         way = new WifiWay(new ProcessWifi(context), isOnWifi, settings.host);
-        network = new NetworkWatch(context, new Runnable() {
-            @Override
-            public void run() {
-                comeBack();
-            }
-        });
+        network = new NetworkWatch(context, () -> comeBack());
         airborne = new Airborne(loop, settings, sensors, speaker, new Listener(), new Random());
         begin();
     }
@@ -98,13 +83,10 @@ final class AirborneRun {
             throw another;
         }
         locks.acquire();
-        loop.post(new Runnable() {
-            @Override
-            public void run() {
-                setUp();
-                airborne.start();
-                tick();
-            }
+        loop.post(() -> {
+            setUp();
+            airborne.start();
+            tick();
         });
         network.begin();
     }
@@ -125,16 +107,13 @@ final class AirborneRun {
         Up.setInstance(null);
         network.end();
         speaker.end();
-        loop.post(new Runnable() {
-            @Override
-            public void run() {
-                try {
-                    airborne.stop();
-                } finally {
-                    way.end();
-                    sensorsThread.quit();
-                    loop.stop();
-                }
+        loop.post(() -> {
+            try {
+                airborne.stop();
+            } finally {
+                way.end();
+                sensorsThread.quit();
+                loop.stop();
             }
         });
         locks.release();
@@ -142,74 +121,43 @@ final class AirborneRun {
 
     /** Restarts the location, as after a permission was granted or revoked. */
     void restart(final String provider) {
-        loop.post(new Runnable() {
-            @Override
-            public void run() {
-                airborne.providers().restart(provider);
-            }
-        });
+        loop.post(() -> airborne.providers().restart(provider));
     }
 
     void setMounting(final Mounting mounting) {
-        loop.post(new Runnable() {
-            @Override
-            public void run() {
-                airborne.setMounting(mounting);
-            }
-        });
+        loop.post(() -> airborne.setMounting(mounting));
     }
 
     /** Sets the altitude at the phone's position to zero. */
     void zeroAltitudeHere() {
-        loop.post(new Runnable() {
-            @Override
-            public void run() {
-                try {
-                    tellPressure(airborne.zeroAltitudeHere());
-                } catch (IllegalStateException refusal) {
-                    tellEvent(refusal.getMessage());
-                }
+        loop.post(() -> {
+            try {
+                tellPressure(airborne.zeroAltitudeHere());
+            } catch (IllegalStateException refusal) {
+                tellEvent(refusal.getMessage());
             }
         });
     }
 
     /** Takes the pressure at altitude zero, hPa. */
     void setReferencePressureHPa(final double hPa) {
-        loop.post(new Runnable() {
-            @Override
-            public void run() {
-                airborne.setReferencePressureHPa(hPa);
-            }
-        });
+        loop.post(() -> airborne.setReferencePressureHPa(hPa));
     }
 
     private void turnNorth(final double deg) {
-        loop.post(new Runnable() {
-            @Override
-            public void run() {
-                airborne.setDeclinationDeg(deg);
-            }
-        });
+        loop.post(() -> airborne.setDeclinationDeg(deg));
     }
 
     private void comeBack() {
-        loop.post(new Runnable() {
-            @Override
-            public void run() {
-                way.networksChanged();
-                lookAtWay(airborne.status());
-                airborne.networkChanged();
-            }
+        loop.post(() -> {
+            way.networksChanged();
+            lookAtWay(airborne.status());
+            airborne.networkChanged();
         });
     }
 
     private void tick() {
-        loop.schedule(STATUS_MS, new Runnable() {
-            @Override
-            public void run() {
-                tick();
-            }
-        });
+        loop.schedule(STATUS_MS, () -> tick());
         AirborneStatus status = airborne.status();
         if (lookAtWay(status)) {
             airborne.networkChanged();
@@ -227,40 +175,22 @@ final class AirborneRun {
     }
 
     private void tellStatus(final AirborneStatus status) {
-        tell(new Runnable() {
-            @Override
-            public void run() {
-                host.onStatus(status);
-            }
-        });
+        tell(() -> host.onStatus(status));
     }
 
     private void tellEvent(final String sentence) {
-        tell(new Runnable() {
-            @Override
-            public void run() {
-                host.onEvent(sentence);
-            }
-        });
+        tell(() -> host.onEvent(sentence));
     }
 
     private void tellPressure(final double hPa) {
-        tell(new Runnable() {
-            @Override
-            public void run() {
-                host.onReferencePressure(hPa);
-            }
-        });
+        tell(() -> host.onReferencePressure(hPa));
     }
 
     /** Runs a call on the main thread, unless the run has ended by then. */
     private void tell(final Runnable call) {
-        main.post(new Runnable() {
-            @Override
-            public void run() {
-                if (!isEnded) {
-                    call.run();
-                }
+        main.post(() -> {
+            if (!isEnded) {
+                call.run();
             }
         });
     }

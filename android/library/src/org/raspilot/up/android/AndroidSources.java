@@ -34,12 +34,7 @@ public final class AndroidSources implements Sensors {
     public AndroidSources(Context context, Looper looper, final Loop loop, SourceTexts texts,
             ProblemListener problems, FixListener fixes) {
         Context lasting = context.getApplicationContext();
-        Executor posting = new Executor() {
-            @Override
-            public void execute(Runnable call) {
-                loop.post(call);
-            }
-        };
+        Executor posting = call -> loop.post(call);
         SensorDesk desk = new SensorDesk(lasting, looper);
         location = new LocationSource(lasting, looper, posting, texts, problems, fixes);
         rotation = rotation(desk, posting, texts, problems);

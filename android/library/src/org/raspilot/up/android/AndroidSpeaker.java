@@ -14,7 +14,7 @@ final class AndroidSpeaker implements Speaker, TextToSpeech.OnInitListener {
     private static final int MOST_WAITING = 5;
 
     private final Handler main = new Handler(Looper.getMainLooper());
-    private final List<String> waiting = new ArrayList<String>();
+    private final List<String> waiting = new ArrayList<>();
     private final ProblemListener problems;
     private final String absence;
     private TextToSpeech speech;
@@ -30,23 +30,13 @@ final class AndroidSpeaker implements Speaker, TextToSpeech.OnInitListener {
 
     @Override
     public void speak(final String text) {
-        main.post(new Runnable() {
-            @Override
-            public void run() {
-                say(text);
-            }
-        });
+        main.post(() -> say(text));
     }
 
     @Override
     public void onInit(final int status) {
         // Some systems call while the constructor still runs.
-        main.post(new Runnable() {
-            @Override
-            public void run() {
-                begin(status == TextToSpeech.SUCCESS);
-            }
-        });
+        main.post(() -> begin(status == TextToSpeech.SUCCESS));
     }
 
     /** Falls silent for good; on the main thread. */
@@ -80,7 +70,7 @@ final class AndroidSpeaker implements Speaker, TextToSpeech.OnInitListener {
             return;
         }
         if (isReady) {
-            speech.speak(text, TextToSpeech.QUEUE_ADD, new HashMap<String, String>());
+            speech.speak(text, TextToSpeech.QUEUE_ADD, new HashMap<>());
         } else if (waiting.size() < MOST_WAITING) {
             waiting.add(text);
         }

@@ -28,7 +28,7 @@ import org.raspilot.up.providers.Mounting;
 public abstract class BaseUpService extends Service {
     public static final String ACTION_STOP = "org.raspilot.up.android.STOP";
 
-    private final List<UpWatcher> watchers = new ArrayList<UpWatcher>();
+    private final List<UpWatcher> watchers = new ArrayList<>();
     private final Airside airside = new Airside();
     private Notice notice;
     private AirborneRun run;

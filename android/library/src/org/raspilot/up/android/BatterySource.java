@@ -24,7 +24,7 @@ final class BatterySource extends BroadcastReceiver implements SensorSource<Batt
         this.context = context;
         this.handler = handler;
         absence = texts.of(Lack.BATTERY);
-        handover = new Handover<BatteryLevel>(loop);
+        handover = new Handover<>(loop);
     }
 
     @Override

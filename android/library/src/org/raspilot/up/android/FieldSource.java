@@ -36,7 +36,7 @@ final class FieldSource implements SensorSource<Rotation>, SensorEventListener {
         magnetometer = desk.find(Sensor.TYPE_MAGNETIC_FIELD);
         absence = texts.of(Lack.ROTATION);
         refusal = texts.of(Lack.REFUSED);
-        handover = new Handover<Rotation>(loop);
+        handover = new Handover<>(loop);
         this.problems = problems;
         bad = new BadReadings(problems, refusal);
     }

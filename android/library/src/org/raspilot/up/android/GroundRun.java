@@ -10,7 +10,6 @@ import org.raspilot.up.Up;
 import org.raspilot.up.commands.BaseCommand;
 import org.raspilot.up.commands.BaseCommandHandler;
 import org.raspilot.up.commands.HandlerFaultListener;
-import org.raspilot.up.ground.Answer;
 import org.raspilot.up.ground.AnswerListener;
 import org.raspilot.up.ground.GroundListener;
 import org.raspilot.up.ground.GroundSettings;
@@ -60,20 +59,12 @@ final class GroundRun implements GroundListener, HandlerFaultListener {
                 up.commandExecutor(), this, new Random());
         way = new WifiWay(new ProcessWifi(context), isOnWifi, settings.host);
         host = settings.host;
-        network = new NetworkWatch(context, new Runnable() {
-            @Override
-            public void run() {
-                comeBack();
-            }
-        });
-        loop.post(new Runnable() {
-            @Override
-            public void run() {
-                setUp(setup);
-                side.start();
-                onStatus(side.status());
-                onChanged();
-            }
+        network = new NetworkWatch(context, () -> comeBack());
+        loop.post(() -> {
+            setUp(setup);
+            side.start();
+            onStatus(side.status());
+            onChanged();
         });
         network.begin();
     }
@@ -91,15 +82,12 @@ final class GroundRun implements GroundListener, HandlerFaultListener {
     void end() {
         isEnded = true;
         network.end();
-        loop.post(new Runnable() {
-            @Override
-            public void run() {
-                try {
-                    side.stop();
-                } finally {
-                    way.end();
-                    loop.stop();
-                }
+        loop.post(() -> {
+            try {
+                side.stop();
+            } finally {
+                way.end();
+                loop.stop();
             }
         });
     }
@@ -111,27 +99,12 @@ final class GroundRun implements GroundListener, HandlerFaultListener {
 
     /** Does something with the ground side on its loop. */
     void post(final Call call) {
-        loop.post(new Runnable() {
-            @Override
-            public void run() {
-                call.with(side);
-            }
-        });
+        loop.post(() -> call.with(side));
     }
 
     /** Returns a listener for the loop that hands the answer to one on the main thread. */
     AnswerListener onMain(final AnswerListener listener) {
-        return new AnswerListener() {
-            @Override
-            public void onAnswer(final Answer answer) {
-                main.post(new Runnable() {
-                    @Override
-                    public void run() {
-                        listener.onAnswer(answer);
-                    }
-                });
-            }
-        };
+        return answer -> main.post(() -> listener.onAnswer(answer));
     }
 
     @Override
@@ -171,13 +144,10 @@ final class GroundRun implements GroundListener, HandlerFaultListener {
     }
 
     private void comeBack() {
-        post(new Call() {
-            @Override
-            public void with(GroundSide ground) {
-                way.networksChanged();
-                lookAtWay(ground.status());
-                ground.reconnectNow();
-            }
+        post(ground -> {
+            way.networksChanged();
+            lookAtWay(ground.status());
+            ground.reconnectNow();
         });
     }
 }

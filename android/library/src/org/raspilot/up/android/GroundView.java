@@ -17,7 +17,7 @@ import org.raspilot.up.ground.Track;
  */
 final class GroundView implements Runnable {
     private final Handler main = new Handler(Looper.getMainLooper());
-    private final List<GroundWatcher> watchers = new ArrayList<GroundWatcher>();
+    private final List<GroundWatcher> watchers = new ArrayList<>();
     private final Object lock = new Object();
     private boolean isPosted;
     private boolean isTelemetryNew;

@@ -12,7 +12,7 @@ import org.raspilot.up.providers.SensorListener;
  */
 final class Handover<R> implements Runnable {
     private final Executor loop;
-    private final AtomicReference<R> waiting = new AtomicReference<R>();
+    private final AtomicReference<R> waiting = new AtomicReference<>();
     private SensorListener<R> listener;
 
     Handover(Executor loop) {

@@ -29,7 +29,7 @@ abstract class HardwareSource<R> implements SensorSource<R>, SensorEventListener
         sensor = desk.find(type);
         absence = texts.of(lack);
         refusal = texts.of(Lack.REFUSED);
-        handover = new Handover<R>(loop);
+        handover = new Handover<>(loop);
         this.problems = problems;
         bad = new BadReadings(problems, refusal);
     }

@@ -43,7 +43,7 @@ final class LocationSource implements SensorSource<Fix>, LocationListener {
         this.problems = problems;
         this.besides = besides;
         manager = (LocationManager) context.getSystemService(Context.LOCATION_SERVICE);
-        handover = new Handover<Fix>(loop);
+        handover = new Handover<>(loop);
         bad = new BadReadings(problems, texts.of(Lack.REFUSED));
     }
 

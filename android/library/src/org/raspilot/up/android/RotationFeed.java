@@ -3,7 +3,6 @@ package org.raspilot.up.android;
 import android.content.Context;
 import android.os.Handler;
 import android.os.Looper;
-import java.util.concurrent.Executor;
 import org.raspilot.up.providers.Rotation;
 import org.raspilot.up.providers.SensorListener;
 import org.raspilot.up.providers.SensorSource;
@@ -19,12 +18,7 @@ public final class RotationFeed {
         final Handler main = new Handler(Looper.getMainLooper());
         SensorDesk desk = new SensorDesk(context.getApplicationContext(),
                 Looper.getMainLooper());
-        source = AndroidSources.rotation(desk, new Executor() {
-            @Override
-            public void execute(Runnable call) {
-                main.post(call);
-            }
-        }, texts, problems);
+        source = AndroidSources.rotation(desk, call -> main.post(call), texts, problems);
     }
 
     /** Returns whether this phone has an orientation source. */

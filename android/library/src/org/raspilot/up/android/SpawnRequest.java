@@ -29,13 +29,8 @@ final class SpawnRequest {
 
     /** Sends the request on the loop and waits for the result; not on the loop's thread. */
     SpawnResult run(final Loop loop) {
-        final BlockingQueue<SpawnResult> results = new ArrayBlockingQueue<SpawnResult>(1);
-        loop.post(new Runnable() {
-            @Override
-            public void run() {
-                ask(loop, results);
-            }
-        });
+        final BlockingQueue<SpawnResult> results = new ArrayBlockingQueue<>(1);
+        loop.post(() -> ask(loop, results));
         try {
             SpawnResult result = results.poll(LONGEST_S, TimeUnit.SECONDS);
             return result == null ? SpawnResult.refused("the runner does not answer") : result;

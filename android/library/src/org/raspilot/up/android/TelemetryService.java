@@ -75,12 +75,8 @@ public abstract class TelemetryService extends Service {
     private void begin() {
         fault = "";
         try {
-            run = new GroundRun(this, readSettings(), isOnWifi(), view, new GroundRun.Setup() {
-                @Override
-                public void onUp(Up up, TelemetrySource telemetry) {
-                    TelemetryService.this.onUp(up, telemetry);
-                }
-            });
+            run = new GroundRun(this, readSettings(), isOnWifi(), view, (up, telemetry) ->
+                    TelemetryService.this.onUp(up, telemetry));
         } catch (IllegalArgumentException wrong) {
             fault = wrong.getMessage();
         } catch (IOException failure) {
@@ -157,79 +153,42 @@ public abstract class TelemetryService extends Service {
         /** Sends a Command; {@code shownBeacon} is that of the frame on the screen, or null. */
         public void send(final BaseCommand command, final Long shownBeacon,
                 AnswerListener listener) {
-            ask(command.name(), listener, new Asking() {
-                @Override
-                public void ask(GroundSide side, AnswerListener answers) {
-                    side.send(command, shownBeacon, answers);
-                }
-            });
+            ask(command.name(), listener, (side, answers) ->
+                    side.send(command, shownBeacon, answers));
         }
 
         public void askGains(AnswerListener listener) {
-            ask(PidTuningsCommand.NAME, listener, new Asking() {
-                @Override
-                public void ask(GroundSide side, AnswerListener answers) {
-                    side.gains().ask(answers);
-                }
-            });
+            ask(PidTuningsCommand.NAME, listener, (side, answers) -> side.gains().ask(answers));
         }
 
         public void setGains(final GainSet gains, final Long shownBeacon,
                 AnswerListener listener) {
-            ask(PidTuningsCommand.NAME, listener, new Asking() {
-                @Override
-                public void ask(GroundSide side, AnswerListener answers) {
-                    side.gains().set(gains, shownBeacon, answers);
-                }
-            });
+            ask(PidTuningsCommand.NAME, listener, (side, answers) ->
+                    side.gains().set(gains, shownBeacon, answers));
         }
 
         /** Sets what flew before the newest set. */
         public void undoGains(final Long shownBeacon, AnswerListener listener) {
-            ask(PidTuningsCommand.NAME, listener, new Asking() {
-                @Override
-                public void ask(GroundSide side, AnswerListener answers) {
-                    side.gains().undo(shownBeacon, answers);
-                }
-            });
+            ask(PidTuningsCommand.NAME, listener, (side, answers) ->
+                    side.gains().undo(shownBeacon, answers));
         }
 
         public void requestSeat() {
-            post(new GroundRun.Call() {
-                @Override
-                public void with(GroundSide side) {
-                    side.requestSeat();
-                }
-            });
+            post(side -> side.requestSeat());
         }
 
         /** Called when the user keeps the seat that another ground requested. */
         public void dismissSeatAsk() {
-            post(new GroundRun.Call() {
-                @Override
-                public void with(GroundSide side) {
-                    side.dismissSeatAsk();
-                }
-            });
+            post(side -> side.dismissSeatAsk());
         }
 
         /** Hands the seat to the ground of a number. */
         public void giveSeat(final int to) {
-            post(new GroundRun.Call() {
-                @Override
-                public void with(GroundSide side) {
-                    side.giveSeat(to);
-                }
-            });
+            post(side -> side.giveSeat(to));
         }
 
         public void releaseSeat() {
-            post(new GroundRun.Call() {
-                @Override
-                public void with(GroundSide side) {
-                    side.releaseSeat();
-                }
-            });
+            post(side -> side.releaseSeat());
         }
 
         private void post(GroundRun.Call call) {
@@ -244,12 +203,7 @@ public abstract class TelemetryService extends Service {
                 return;
             }
             final AnswerListener answers = run.onMain(listener);
-            run.post(new GroundRun.Call() {
-                @Override
-                public void with(GroundSide side) {
-                    asking.ask(side, answers);
-                }
-            });
+            run.post(side -> asking.ask(side, answers));
         }
     }
 

@@ -18,7 +18,7 @@ import org.raspilot.up.ground.Freshness;
 
 /** Arm and disarm, each by a press that is held: nothing happens by a slip of the hand. */
 final class ArmPage implements Page, HoldButton.HoldListener {
-    private static final Map<String, Object> NOTHING = Collections.<String, Object>emptyMap();
+    private static final Map<String, Object> NOTHING = Collections.emptyMap();
 
     private final CommandForm arm;
     private final CommandForm disarm;
@@ -83,12 +83,7 @@ final class ArmPage implements Page, HoldButton.HoldListener {
         Context context = desk.context();
         String title = CommandWords.title(context.getResources(), form.name);
         desk.confirm(context.getString(R.string.arm_question, title), form.text, title,
-                new Runnable() {
-                    @Override
-                    public void run() {
-                        carryOut(form);
-                    }
-                });
+                () -> carryOut(form));
     }
 
     @Override

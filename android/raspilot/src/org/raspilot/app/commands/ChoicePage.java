@@ -26,7 +26,7 @@ final class ChoicePage implements Page {
     private final View element;
     private final TextView why;
     private final TextView now;
-    private final List<Button> buttons = new ArrayList<Button>();
+    private final List<Button> buttons = new ArrayList<>();
 
     /** Returns whether a form is of that kind. */
     static boolean fits(CommandForm form) {
@@ -69,7 +69,7 @@ final class ChoicePage implements Page {
 
     @Override
     public void update() {
-        String objection = desk.objectionText(form, Collections.<String, Object>emptyMap());
+        String objection = desk.objectionText(form, Collections.emptyMap());
         Texts.showOrHide(why, objection);
         Texts.showOrHide(now, CommandWords.now(desk.context().getResources(), form.name,
                 desk.picture()));

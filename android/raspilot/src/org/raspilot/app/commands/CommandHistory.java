@@ -46,7 +46,7 @@ final class CommandHistory {
         }
     }
 
-    private final LinkedList<Entry> entries = new LinkedList<Entry>();
+    private final LinkedList<Entry> entries = new LinkedList<>();
     private int numbers;
 
     /** Adds a sent Command; returns the number to report its outcome with. */
@@ -72,7 +72,7 @@ final class CommandHistory {
 
     /** Returns all, the newest first; a copy. */
     List<Entry> entries() {
-        return Collections.unmodifiableList(new ArrayList<Entry>(entries));
+        return Collections.unmodifiableList(new ArrayList<>(entries));
     }
 
     /** Returns the newest; null: nothing was sent. */

@@ -26,7 +26,7 @@ final class CommandList extends BaseAdapter {
     private final Inks inks;
     private final List<CommandForm> forms;
     /** Groups and forms as they stand below each other. */
-    private final List<Object> lines = new ArrayList<Object>();
+    private final List<Object> lines = new ArrayList<>();
     private BitSet offered = new BitSet();
 
     /** Creates a list of all forms. */
@@ -130,7 +130,7 @@ final class CommandList extends BaseAdapter {
     }
 
     private boolean isOffered(CommandForm form) {
-        return desk.objection(form, Collections.<String, Object>emptyMap()) == Objection.NONE;
+        return desk.objection(form, Collections.emptyMap()) == Objection.NONE;
     }
 
     private boolean matches(CommandForm form, String wanted) {

@@ -28,7 +28,7 @@ public final class CommandsMemory extends Fragment {
     }
 
     private final Map<String, Map<String, String>> drafts =
-            new HashMap<String, Map<String, String>>();
+            new HashMap<>();
     private final CommandHistory history = new CommandHistory();
     private final GainsEditor gains = new GainsEditor();
     private Listener listener;
@@ -77,7 +77,7 @@ public final class CommandsMemory extends Fragment {
     Map<String, String> draft(String name) {
         Map<String, String> draft = drafts.get(name);
         if (draft == null) {
-            draft = new LinkedHashMap<String, String>();
+            draft = new LinkedHashMap<>();
             drafts.put(name, draft);
         }
         return draft;
@@ -125,13 +125,10 @@ public final class CommandsMemory extends Fragment {
     AnswerListener sent(String words) {
         final int number = history.sent(words, SystemClock.elapsedRealtime());
         tell();
-        return new AnswerListener() {
-            @Override
-            public void onAnswer(Answer answer) {
-                String why = answer.reason.isEmpty() ? answer.code : answer.reason;
-                history.answered(number, outcome(answer), why, answer.roundTripMs);
-                tell();
-            }
+        return answer -> {
+            String why = answer.reason.isEmpty() ? answer.code : answer.reason;
+            history.answered(number, outcome(answer), why, answer.roundTripMs);
+            tell();
         };
     }
 

@@ -2,7 +2,6 @@ package org.raspilot.app.commands;
 
 import android.app.AlertDialog;
 import android.content.Context;
-import android.content.DialogInterface;
 
 import org.raspilot.app.R;
 
@@ -23,12 +22,7 @@ final class Confirmation {
                 .setTitle(title)
                 .setMessage(text)
                 .setNegativeButton(R.string.commands_leave, null)
-                .setPositiveButton(yes, new DialogInterface.OnClickListener() {
-                    @Override
-                    public void onClick(DialogInterface asked, int which) {
-                        then.run();
-                    }
-                })
+                .setPositiveButton(yes, (asked, which) -> then.run())
                 .create();
         dialog.show();
     }

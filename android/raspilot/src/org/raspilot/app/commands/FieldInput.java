@@ -119,12 +119,12 @@ abstract class FieldInput {
     private static final class ChoiceInput extends FieldInput
             implements AdapterView.OnItemSelectedListener {
         private final Spinner view;
-        private final List<String> texts = new ArrayList<String>();
+        private final List<String> texts = new ArrayList<>();
         private final ChangeListener listener;
 
         private ChoiceInput(Context context, List<Object> choices, ChangeListener listener) {
             this.listener = listener;
-            List<String> shown = new ArrayList<String>();
+            List<String> shown = new ArrayList<>();
             shown.add(context.getString(R.string.commands_choose));
             texts.add("");
             for (Object choice : choices) {
@@ -132,7 +132,7 @@ abstract class FieldInput {
                 shown.add(String.valueOf(choice));
             }
             view = new Spinner(context);
-            ArrayAdapter<String> adapter = new ArrayAdapter<String>(context,
+            ArrayAdapter<String> adapter = new ArrayAdapter<>(context,
                     android.R.layout.simple_spinner_item, shown);
             adapter.setDropDownViewResource(android.R.layout.simple_spinner_dropdown_item);
             view.setAdapter(adapter);

@@ -26,8 +26,8 @@ final class FormPage implements Page, View.OnClickListener {
     private final Desk desk;
     private final Map<String, String> draft;
     private final View element;
-    private final List<FieldView> fields = new ArrayList<FieldView>();
-    private final List<View> presets = new ArrayList<View>();
+    private final List<FieldView> fields = new ArrayList<>();
+    private final List<View> presets = new ArrayList<>();
     private final TextView why;
     private final TextView now;
     private final TextView problem;
@@ -68,7 +68,7 @@ final class FormPage implements Page, View.OnClickListener {
     @Override
     public void update() {
         Resources words = desk.context().getResources();
-        String objection = desk.objectionText(form, Collections.<String, String>emptyMap());
+        String objection = desk.objectionText(form, Collections.emptyMap());
         Texts.showOrHide(why, objection);
         Texts.showOrHide(now, CommandWords.now(words, form.name, desk.picture()));
         boolean isOffered = objection.isEmpty();
@@ -110,12 +110,7 @@ final class FormPage implements Page, View.OnClickListener {
         }
         Context context = desk.context();
         desk.confirm(context.getString(R.string.commands_send_question), words,
-                context.getString(R.string.commands_send), new Runnable() {
-                    @Override
-                    public void run() {
-                        desk.send(command, words);
-                    }
-                });
+                context.getString(R.string.commands_send), () -> desk.send(command, words));
     }
 
     private void addPresets(ViewGroup row) {
@@ -123,12 +118,7 @@ final class FormPage implements Page, View.OnClickListener {
         for (final int periodMs : PERIODS_MS) {
             Button preset = (Button) inflater.inflate(R.layout.button_preset, row, false);
             preset.setText(desk.context().getString(R.string.commands_preset, periodMs));
-            preset.setOnClickListener(new View.OnClickListener() {
-                @Override
-                public void onClick(View button) {
-                    fields.get(0).setText(Integer.toString(periodMs));
-                }
-            });
+            preset.setOnClickListener(button -> fields.get(0).setText(Integer.toString(periodMs)));
             row.addView(preset);
             presets.add(preset);
         }

@@ -34,7 +34,7 @@ final class GainsEditor {
         }
     }
 
-    private final Map<GainKey, Edit> edits = new LinkedHashMap<GainKey, Edit>();
+    private final Map<GainKey, Edit> edits = new LinkedHashMap<>();
     private GainSet flying;
 
     /** Returns the active gains, or null if unknown. */
@@ -102,7 +102,7 @@ final class GainsEditor {
 
     /** Returns the gains that fly otherwise than their writer saw; unmodifiable. */
     List<GainKey> conflicts() {
-        List<GainKey> found = new ArrayList<GainKey>();
+        List<GainKey> found = new ArrayList<>();
         for (Map.Entry<GainKey, Edit> each : edits.entrySet()) {
             Double now = each.getKey().of(flying);
             if (flying != null && !text(now).equals(text(each.getValue().seen))) {
@@ -124,7 +124,7 @@ final class GainsEditor {
      * @throws InvalidCommandException with one sentence that names the gain
      */
     GainSet wanted() {
-        Map<String, String> cells = new LinkedHashMap<String, String>();
+        Map<String, String> cells = new LinkedHashMap<>();
         for (GainKey key : GainKey.ALL) {
             Edit edit = edits.get(key);
             Double now = key.of(flying);

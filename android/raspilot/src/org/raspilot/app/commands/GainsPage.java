@@ -26,7 +26,7 @@ import org.raspilot.up.ground.GainsEntry;
 final class GainsPage implements Page, View.OnClickListener, GainsTable.ChangeListener {
     private static final Map<String, Object> SET = Collections.emptyMap();
     private static final Map<String, Object> REQUEST =
-            Collections.<String, Object>singletonMap("request", true);
+            Collections.singletonMap("request", true);
 
     private final CommandForm form;
     private final Desk desk;
@@ -129,12 +129,9 @@ final class GainsPage implements Page, View.OnClickListener, GainsTable.ChangeLi
         Context context = desk.context();
         String text = joined(differenceText(), warning());
         desk.confirm(context.getString(R.string.gains_question), text,
-                context.getString(R.string.commands_send), new Runnable() {
-                    @Override
-                    public void run() {
-                        editor.accept();
-                        desk.setGains(wanted);
-                    }
+                context.getString(R.string.commands_send), () -> {
+                    editor.accept();
+                    desk.setGains(wanted);
                 });
     }
 
@@ -145,12 +142,7 @@ final class GainsPage implements Page, View.OnClickListener, GainsTable.ChangeLi
         Context context = desk.context();
         String changes = lines(GainsDesk.difference(shown.flying, shown.undo));
         desk.confirm(context.getString(R.string.gains_undo_question), joined(changes, warning()),
-                context.getString(R.string.gains_undo), new Runnable() {
-                    @Override
-                    public void run() {
-                        desk.undoGains();
-                    }
-                });
+                context.getString(R.string.gains_undo), () -> desk.undoGains());
     }
 
     private String stateText() {

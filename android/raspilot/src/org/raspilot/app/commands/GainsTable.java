@@ -34,7 +34,7 @@ final class GainsTable {
     private final GainsEditor editor;
     private final ChangeListener listener;
     private final Inks inks;
-    private final List<Cell> cells = new ArrayList<Cell>();
+    private final List<Cell> cells = new ArrayList<>();
     private boolean isFilling;
 
     /** Creates the cells in the list that the page has for them. */

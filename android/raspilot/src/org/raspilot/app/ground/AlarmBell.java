@@ -25,15 +25,15 @@ final class AlarmBell {
         ALARM
     }
 
-    private final Set<String> silenced = new HashSet<String>();
-    private final Set<String> heard = new HashSet<String>();
-    private Map<String, Ring> loud = new HashMap<String, Ring>();
+    private final Set<String> silenced = new HashSet<>();
+    private final Set<String> heard = new HashSet<>();
+    private Map<String, Ring> loud = new HashMap<>();
     private long rangMs;
     private boolean hasRung;
 
     /** Takes the current audible alarms, by their kind. */
     void take(Map<String, Ring> wrong) {
-        loud = new HashMap<String, Ring>(wrong);
+        loud = new HashMap<>(wrong);
         Set<String> words = words();
         silenced.retainAll(words);
         heard.retainAll(words);
@@ -96,7 +96,7 @@ final class AlarmBell {
     }
 
     private Set<String> words() {
-        Set<String> words = new HashSet<String>();
+        Set<String> words = new HashSet<>();
         for (Map.Entry<String, Ring> each : loud.entrySet()) {
             words.add(word(each));
         }

@@ -35,7 +35,7 @@ final class AlarmPanel implements View.OnClickListener {
     /** Shows the current state, and sounds the due alarms. */
     void update(Picture picture) {
         List<Alarm> active = picture.alarms == null
-                ? java.util.Collections.<Alarm>emptyList() : picture.alarms.active;
+                ? java.util.Collections.emptyList() : picture.alarms.active;
         if (picture.alarms != null) {
             // While the alarms are unknown, silenced ones stay silenced.
             bell.take(loud(active));
@@ -57,7 +57,7 @@ final class AlarmPanel implements View.OnClickListener {
     }
 
     private static Map<String, AlarmBell.Ring> loud(List<Alarm> active) {
-        Map<String, AlarmBell.Ring> loud = new HashMap<String, AlarmBell.Ring>();
+        Map<String, AlarmBell.Ring> loud = new HashMap<>();
         for (Alarm each : active) {
             if (each.isLoud()) {
                 boolean isAlarm = each.level == EventLevel.ALARM;

@@ -87,7 +87,7 @@ final class TrackPanel implements View.OnClickListener {
 
     private void showTrack(Track.Snapshot track) {
         List<TrackPoint> points = track == null
-                ? java.util.Collections.<TrackPoint>emptyList() : track.points;
+                ? java.util.Collections.emptyList() : track.points;
         float[] north = new float[points.size()];
         float[] east = new float[north.length];
         boolean[] hasGapBefore = new boolean[north.length];

@@ -68,7 +68,7 @@ final class ValuesPanel extends BaseAdapter implements TextWatcher {
 
     /** Returns the rows whose path contains each of the words, ignoring case. */
     private static List<TelemetryRow> chosen(List<TelemetryRow> all, String words) {
-        List<TelemetryRow> found = new ArrayList<TelemetryRow>();
+        List<TelemetryRow> found = new ArrayList<>();
         String[] each = words.trim().toLowerCase(Locale.ROOT).split("\\s+");
         for (TelemetryRow row : all) {
             String path = row.path.toLowerCase(Locale.ROOT);

@@ -41,12 +41,7 @@ public final class HoldButton extends Button {
     private final float density;
     private final int ringColour;
     private final int trackColour;
-    private final Runnable look = new Runnable() {
-        @Override
-        public void run() {
-            lookAtClock();
-        }
-    };
+    private final Runnable look = () -> lookAtClock();
     private HoldListener listener;
     private boolean isByKey;
     private float downX;

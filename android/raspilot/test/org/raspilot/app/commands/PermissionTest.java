@@ -13,7 +13,7 @@ import org.raspilot.up.ground.Telemetry;
 public final class PermissionTest {
     private static final Map<String, Object> NOTHING = Collections.emptyMap();
     private static final Map<String, Object> REQUEST =
-            Collections.<String, Object>singletonMap("request", true);
+            Collections.singletonMap("request", true);
 
     @Test
     public void aRoleMayWhatTheOnesBeforeMay() {
@@ -63,7 +63,7 @@ public final class PermissionTest {
 
     private static Objection ofAircraft(String name, Boolean isArmed, long flightAgeMs,
             long nowMs) {
-        Map<String, Object> data = new HashMap<String, Object>();
+        Map<String, Object> data = new HashMap<>();
         data.put("armed", isArmed);
         data.put("age_ms", Collections.singletonMap("flight", flightAgeMs));
         Telemetry frame = Telemetry.of(data, 7L, 10000, 0);
@@ -93,7 +93,7 @@ public final class PermissionTest {
         assertEquals(Objection.NONE, Permission.ofMotor(name, true, true));
         assertEquals(Objection.NONE, Permission.ofMotor(name, true, null));
         assertEquals(Objection.NONE, Permission.ofMotor(name, false, false));
-        Map<String, Object> data = new HashMap<String, Object>();
+        Map<String, Object> data = new HashMap<>();
         data.put("armed", false);
         data.put("in_flight", true);
         data.put("age_ms", Collections.singletonMap("flight", 100L));

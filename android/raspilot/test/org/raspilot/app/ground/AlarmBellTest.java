@@ -12,7 +12,7 @@ public final class AlarmBellTest {
     private final AlarmBell bell = new AlarmBell();
 
     private void wrong(Object... kindsAndRings) {
-        Map<String, AlarmBell.Ring> loud = new HashMap<String, AlarmBell.Ring>();
+        Map<String, AlarmBell.Ring> loud = new HashMap<>();
         for (int each = 0; each < kindsAndRings.length; each += 2) {
             loud.put((String) kindsAndRings[each], (AlarmBell.Ring) kindsAndRings[each + 1]);
         }
@@ -102,7 +102,7 @@ public final class AlarmBellTest {
         bell.silence();
         AlarmBell other = new AlarmBell();
         other.restore(bell.silenced());
-        Map<String, AlarmBell.Ring> loud = new HashMap<String, AlarmBell.Ring>();
+        Map<String, AlarmBell.Ring> loud = new HashMap<>();
         loud.put("SILENT", AlarmBell.Ring.ALARM);
         other.take(loud);
         assertEquals(AlarmBell.Ring.NONE, other.look(0));

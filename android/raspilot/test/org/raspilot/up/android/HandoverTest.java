@@ -6,25 +6,14 @@ import java.util.ArrayList;
 import java.util.Arrays;
 import java.util.Collections;
 import java.util.List;
-import java.util.concurrent.Executor;
 import org.junit.Test;
 import org.raspilot.up.providers.SensorListener;
 
 public final class HandoverTest {
-    private final List<Runnable> posted = new ArrayList<Runnable>();
-    private final List<String> heard = new ArrayList<String>();
-    private final Handover<String> handover = new Handover<String>(new Executor() {
-        @Override
-        public void execute(Runnable call) {
-            posted.add(call);
-        }
-    });
-    private final SensorListener<String> listener = new SensorListener<String>() {
-        @Override
-        public void onReading(String reading) {
-            heard.add(reading);
-        }
-    };
+    private final List<Runnable> posted = new ArrayList<>();
+    private final List<String> heard = new ArrayList<>();
+    private final Handover<String> handover = new Handover<>(call -> posted.add(call));
+    private final SensorListener<String> listener = reading -> heard.add(reading);
 
     @Test
     public void aReadingThatWaitsIsReplacedByTheNext() {
@@ -44,7 +33,7 @@ public final class HandoverTest {
         handover.give("late");
         handover.to(null);
         run();
-        assertEquals(Collections.<String>emptyList(), heard);
+        assertEquals(Collections.emptyList(), heard);
     }
 
     @Test
@@ -53,14 +42,14 @@ public final class HandoverTest {
         handover.give("old");
         handover.to(listener);
         run();
-        assertEquals(Collections.<String>emptyList(), heard);
+        assertEquals(Collections.emptyList(), heard);
         handover.give("new");
         run();
         assertEquals(Collections.singletonList("new"), heard);
     }
 
     private void run() {
-        List<Runnable> calls = new ArrayList<Runnable>(posted);
+        List<Runnable> calls = new ArrayList<>(posted);
         posted.clear();
         for (Runnable call : calls) {
             call.run();

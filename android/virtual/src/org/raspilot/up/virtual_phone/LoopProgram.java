@@ -42,12 +42,7 @@ final class LoopProgram implements FaultListener {
     /** Runs a part until input ends, or a hundred lines in a row are invalid. */
     void run(InputStream input, final Part part) throws IOException {
         loop.start();
-        loop.post(new Runnable() {
-            @Override
-            public void run() {
-                part.start(loop);
-            }
-        });
+        loop.post(() -> part.start(loop));
         BufferedReader lines =
                 new BufferedReader(new InputStreamReader(input, Charset.forName("UTF-8")));
         String text = lines.readLine();
@@ -72,28 +67,22 @@ final class LoopProgram implements FaultListener {
     }
 
     private void take(final Part part, final InputLine line) {
-        loop.post(new Runnable() {
-            @Override
-            public void run() {
-                try {
-                    part.take(line.fields);
-                } catch (OptionException error) {
-                    words.notice(error.getMessage());
-                }
+        loop.post(() -> {
+            try {
+                part.take(line.fields);
+            } catch (OptionException error) {
+                words.notice(error.getMessage());
             }
         });
     }
 
     private void end(final Part part) {
         final CountDownLatch isOver = new CountDownLatch(1);
-        loop.post(new Runnable() {
-            @Override
-            public void run() {
-                try {
-                    part.stop();
-                } finally {
-                    isOver.countDown();
-                }
+        loop.post(() -> {
+            try {
+                part.stop();
+            } finally {
+                isOver.countDown();
             }
         });
         try {

@@ -28,7 +28,7 @@ final class PhoneSide implements LoopProgram.Part {
         Random random = options.isStepped ? new Random(options.seed) : new Random();
         airborne = new Airborne(loop, options.settings, sensors, events, events, random);
         if (options.isRecording) {
-            record = new SimulatedSource<Map<?, ?>>("record", words);
+            record = new SimulatedSource<>("record", words);
             airborne.providers().register(new RecordProvider(record));
         }
         airborne.start();

@@ -35,40 +35,24 @@ final class PipedConnection implements TcpConnection {
      */
     static Event event(String kind, final Object detail) throws OptionException {
         if ("connected".equals(kind)) {
-            return new Event() {
-                @Override
-                public void happen(PipedConnection connection) {
-                    connection.isConnected = true;
-                    connection.listener.onConnected();
-                }
+            return connection -> {
+                connection.isConnected = true;
+                connection.listener.onConnected();
             };
         }
         if ("bytes".equals(kind)) {
             final byte[] bytes = ((String) detail).getBytes(PipedNetwork.BYTES);
-            return new Event() {
-                @Override
-                public void happen(PipedConnection connection) {
-                    connection.listener.onBytes(bytes, bytes.length);
-                }
-            };
+            return connection -> connection.listener.onBytes(bytes, bytes.length);
         }
         if ("room".equals(kind)) {
             final int count = ((Long) detail).intValue();
-            return new Event() {
-                @Override
-                public void happen(PipedConnection connection) {
-                    connection.makeRoom(count);
-                }
-            };
+            return connection -> connection.makeRoom(count);
         }
         if ("closed".equals(kind)) {
             final String reason = (String) detail;
-            return new Event() {
-                @Override
-                public void happen(PipedConnection connection) {
-                    connection.end();
-                    connection.listener.onClosed(reason);
-                }
+            return connection -> {
+                connection.end();
+                connection.listener.onClosed(reason);
             };
         }
         throw new OptionException("net: there is no event '" + kind + "'");

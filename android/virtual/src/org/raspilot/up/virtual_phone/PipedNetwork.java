@@ -18,9 +18,9 @@ final class PipedNetwork implements Network {
     /** How bytes become text: each byte one character. */
     static final Charset BYTES = Charset.forName("ISO-8859-1");
 
-    private final Map<Long, PipedConnection> connections = new HashMap<Long, PipedConnection>();
-    private final Map<Long, PipedUdpPort> ports = new HashMap<Long, PipedUdpPort>();
-    private List<Object> toDo = new ArrayList<Object>();
+    private final Map<Long, PipedConnection> connections = new HashMap<>();
+    private final Map<Long, PipedUdpPort> ports = new HashMap<>();
+    private List<Object> toDo = new ArrayList<>();
     private long lastId;
 
     @Override
@@ -53,7 +53,7 @@ final class PipedNetwork implements Network {
     /** Returns and clears the requests to the simulator. */
     List<Object> takeToDo() {
         List<Object> taken = toDo;
-        toDo = new ArrayList<Object>();
+        toDo = new ArrayList<>();
         return taken;
     }
 
@@ -82,25 +82,19 @@ final class PipedNetwork implements Network {
             final byte[] datagram = ((String) first).getBytes(BYTES);
             final String host = (String) words.get(3);
             final int port = ((Long) words.get(4)).intValue();
-            return new Runnable() {
-                @Override
-                public void run() {
-                    PipedUdpPort target = ports.get(id);
-                    if (target != null) {
-                        target.take(datagram, host, port);
-                    }
+            return () -> {
+                PipedUdpPort target = ports.get(id);
+                if (target != null) {
+                    target.take(datagram, host, port);
                 }
             };
         }
         final PipedConnection.Event event = PipedConnection.event(kind, first);
-        return new Runnable() {
-            @Override
-            public void run() {
-                PipedConnection connection = connections.get(id);
-                // Connections closed before the event are not called.
-                if (connection != null) {
-                    event.happen(connection);
-                }
+        return () -> {
+            PipedConnection connection = connections.get(id);
+            // Connections closed before the event are not called.
+            if (connection != null) {
+                event.happen(connection);
             }
         };
     }

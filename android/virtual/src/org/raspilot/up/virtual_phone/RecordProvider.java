@@ -22,7 +22,7 @@ final class RecordProvider extends SensorProvider<Map<?, ?>> {
 
     @Override
     protected BaseCommand read(Map<?, ?> reading) {
-        Map<String, Object> data = new LinkedHashMap<String, Object>();
+        Map<String, Object> data = new LinkedHashMap<>();
         data.put("topic", reading.get("topic"));
         data.put("content", reading.get("content"));
         return new BaseCommand(RecordCommand.NAME, data);

@@ -23,11 +23,11 @@ final class SimulatedSensors implements Sensors {
     /** Makes them; readings get the loop's time. */
     SimulatedSensors(Loop loop, Words words) {
         this.loop = loop;
-        location = new SimulatedSource<Fix>("fix", words);
-        rotation = new SimulatedSource<Rotation>("rotation", words);
-        rate = new SimulatedSource<RotationRate>("rate", words);
-        pressure = new SimulatedSource<Pressure>("pressure", words);
-        battery = new SimulatedSource<BatteryLevel>("battery", words);
+        location = new SimulatedSource<>("fix", words);
+        rotation = new SimulatedSource<>("rotation", words);
+        rate = new SimulatedSource<>("rate", words);
+        pressure = new SimulatedSource<>("pressure", words);
+        battery = new SimulatedSource<>("battery", words);
     }
 
     /**

@@ -8,7 +8,6 @@ import java.nio.charset.Charset;
 import java.util.LinkedHashMap;
 import java.util.List;
 import java.util.Map;
-import org.raspilot.up.loop.FaultListener;
 import org.raspilot.up.loop.ManualLoop;
 
 /** The phone in the simulator's time, with the simulator's network: one answer a line. */
@@ -23,12 +22,7 @@ final class SteppedRun {
     SteppedRun(LoopProgram.Part phone, final Words words) {
         this.phone = phone;
         this.words = words;
-        loop = new ManualLoop(network, new FaultListener() {
-            @Override
-            public void onFault(Throwable fault) {
-                words.notice(Words.faultText(fault));
-            }
-        });
+        loop = new ManualLoop(network, fault -> words.notice(Words.faultText(fault)));
     }
 
     /** Answers every line until the input ends. */
@@ -58,21 +52,13 @@ final class SteppedRun {
         loop.advance(stepMs);
         if (!isStarted) {
             isStarted = true;
-            loop.post(new Runnable() {
-                @Override
-                public void run() {
-                    phone.start(loop);
-                }
-            });
+            loop.post(() -> phone.start(loop));
         }
-        loop.post(new Runnable() {
-            @Override
-            public void run() {
-                try {
-                    phone.take(line.fields);
-                } catch (OptionException error) {
-                    words.notice(error.getMessage());
-                }
+        loop.post(() -> {
+            try {
+                phone.take(line.fields);
+            } catch (OptionException error) {
+                words.notice(error.getMessage());
             }
         });
         List<?> brought = line.network();
@@ -83,7 +69,7 @@ final class SteppedRun {
 
     private void answer() {
         long dueMs = loop.nextDueMs();
-        Map<String, Object> answer = new LinkedHashMap<String, Object>();
+        Map<String, Object> answer = new LinkedHashMap<>();
         answer.put("due", dueMs < 0 ? null : (Object) dueMs);
         answer.put("net", network.takeToDo());
         words.say(answer);

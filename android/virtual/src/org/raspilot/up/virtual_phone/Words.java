@@ -33,7 +33,7 @@ final class Words {
 
     /** Starts an event of that name; more fields may be put into it. */
     static Map<String, Object> event(String name) {
-        Map<String, Object> fields = new LinkedHashMap<String, Object>();
+        Map<String, Object> fields = new LinkedHashMap<>();
         fields.put("event", name);
         return fields;
     }

@@ -50,7 +50,7 @@ final class ConsoleOptions {
         Seat seat = Seat.COMMAND;
         boolean isDirect = false;
         boolean wantsHelp = false;
-        List<String> values = new ArrayList<String>(Arrays.asList("flight_mode"));
+        List<String> values = new ArrayList<>(Arrays.asList("flight_mode"));
         for (int at = 0; at < arguments.length; at++) {
             String name = arguments[at];
             if ("--help".equals(name) || "-h".equals(name)) {

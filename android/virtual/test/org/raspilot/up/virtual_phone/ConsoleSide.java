@@ -102,7 +102,7 @@ final class ConsoleSide implements LoopProgram.Part, GroundListener, HandlerFaul
         Object name = line.get("send");
         Object data = line.get("data");
         if (data == null) {
-            data = new LinkedHashMap<String, Object>();
+            data = new LinkedHashMap<>();
         }
         if (!(name instanceof String) || !(data instanceof Map)) {
             throw new OptionException("send is a Command's name, data an object");
@@ -144,7 +144,7 @@ final class ConsoleSide implements LoopProgram.Part, GroundListener, HandlerFaul
     }
 
     private static Map<String, Object> keyed(Object object) {
-        Map<String, Object> keyed = new LinkedHashMap<String, Object>();
+        Map<String, Object> keyed = new LinkedHashMap<>();
         for (Map.Entry<?, ?> each : ((Map<?, ?>) object).entrySet()) {
             keyed.put((String) each.getKey(), each.getValue());
         }

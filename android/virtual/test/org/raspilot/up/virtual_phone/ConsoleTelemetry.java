@@ -27,7 +27,7 @@ final class ConsoleTelemetry extends BaseTelemetryHandler<Map<String, Object>> {
 
     @Override
     protected Map<String, Object> read(Telemetry telemetry) {
-        Map<String, Object> values = new LinkedHashMap<String, Object>();
+        Map<String, Object> values = new LinkedHashMap<>();
         for (String path : paths) {
             values.put(path, value(telemetry, path));
         }

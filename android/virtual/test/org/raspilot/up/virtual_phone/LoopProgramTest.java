@@ -18,7 +18,7 @@ public final class LoopProgramTest {
     private static final int LONG_MS = 20000;
 
     private final ByteArrayOutputStream said = new ByteArrayOutputStream();
-    private final List<String> done = new ArrayList<String>();
+    private final List<String> done = new ArrayList<>();
     private final LoopProgram.Part part = new LoopProgram.Part() {
         @Override
         public void start(Loop loop) {
