@@ -100,12 +100,8 @@ public final class OwnApplicationTest {
     @Test
     public void aHandlerAloneMakesANameKnown() {
         final List<Object> heard = new ArrayList<>();
-        up.commandExecutor().registerCommand("camera.zoom", new BaseCommandHandler() {
-            @Override
-            public void runAction(BaseCommand command) {
-                heard.add(command.data().get("factor"));
-            }
-        });
+        up.commandExecutor().registerCommand("camera.zoom", command ->
+                heard.add(command.data().get("factor")));
 
         receive("{\"name\": \"camera.zoom\", \"data\": {\"factor\": 2.5}, \"id\": \"1\"}");
 

@@ -8,9 +8,8 @@ import static org.junit.Assert.fail;
 
 import org.junit.After;
 import org.junit.Test;
-import org.raspilot.up.commands.ArmCommand;
 import org.raspilot.up.commands.BaseCommand;
-import org.raspilot.up.commands.BaseCommandHandler;
+import org.raspilot.up.commands.Commands;
 import org.raspilot.up.loop.ManualLoop;
 
 public final class UpTest {
@@ -52,13 +51,9 @@ public final class UpTest {
     public void twoUpsShareNothing() {
         Up one = newUp();
         Up two = newUp();
-        one.commandExecutor().registerCommand(ArmCommand.NAME, new BaseCommandHandler() {
-            @Override
-            public void runAction(BaseCommand command) {
-                fail("delivered to the other");
-            }
-        });
-        assertEquals(0, two.commandExecutor().executeCommand(new ArmCommand()));
+        one.commandExecutor().registerCommand(Commands.ARM, command ->
+                fail("delivered to the other"));
+        assertEquals(0, two.commandExecutor().executeCommand(new BaseCommand(Commands.ARM)));
         assertNotSame(one.commandRegistry(), two.commandRegistry());
         assertNotSame(one.providersController(), two.providersController());
         assertTrue(one.loop() == loop);

@@ -70,7 +70,7 @@ public final class EventBook {
     }
 
     private void tell() {
-        for (Watcher watcher : new ArrayList<Watcher>(watchers)) {
+        for (Watcher watcher : new ArrayList<>(watchers)) {
             watcher.onEvents();
         }
     }

@@ -147,7 +147,7 @@ public final class TelemetryLink extends Fragment {
 
     private void tell(TelemetryService.Ground now) {
         ground = now;
-        for (Watcher watcher : new ArrayList<Watcher>(watchers)) {
+        for (Watcher watcher : new ArrayList<>(watchers)) {
             if (now == null) {
                 watcher.onGroundGone();
             } else {

@@ -3,7 +3,7 @@ package org.raspilot.up.airborne;
 import java.util.Random;
 import org.raspilot.up.Up;
 import org.raspilot.up.commands.BaseCommand;
-import org.raspilot.up.commands.BaseCommandHandler;
+import org.raspilot.up.commands.CommandHandler;
 import org.raspilot.up.commands.HandlerFaultListener;
 import org.raspilot.up.loop.Loop;
 import org.raspilot.up.net.Place;
@@ -193,7 +193,7 @@ public final class Airborne {
 
     private final class Faults implements HandlerFaultListener {
         @Override
-        public void onHandlerFailed(BaseCommandHandler handler, BaseCommand command,
+        public void onHandlerFailed(CommandHandler handler, BaseCommand command,
                 Throwable fault) {
             listener.onEvent("the handler of " + command.name() + " failed: " + fault);
         }

@@ -12,6 +12,11 @@ import org.raspilot.up.wire.GeneralMessage;
 public class BaseCommand {
     private final GeneralMessage message;
 
+    /** Creates a Command without fields. */
+    public BaseCommand(String name) {
+        this(new GeneralMessage(name, null));
+    }
+
     /** Creates a Command without an id or a beacon. */
     public BaseCommand(String name, Map<String, ?> data) {
         this(new GeneralMessage(name, data));

@@ -117,14 +117,14 @@ public final class CommandReceiver {
             refuse(message.id, answers, NackCode.UNAVAILABLE,
                     "nobody handles " + message.name);
         } else if (message.id != null) {
-            answer(message.id, answers, new AckCommand(message.id));
+            answer(message.id, answers, Commands.ack(message.id));
         }
     }
 
     private void refuse(String id, AnswerSink answers, NackCode code, String reason) {
         addOne(code.word());
         if (id != null) {
-            answer(id, answers, new NackCommand(id, code.word(),
+            answer(id, answers, Commands.nack(id, code.word(),
                     SafeText.of(String.valueOf(reason), LONGEST_REASON)));
         }
     }

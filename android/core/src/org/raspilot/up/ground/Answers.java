@@ -7,9 +7,8 @@ import java.util.LinkedHashMap;
 import java.util.Locale;
 import java.util.Map;
 import java.util.Random;
-import org.raspilot.up.commands.AckCommand;
 import org.raspilot.up.commands.BaseCommand;
-import org.raspilot.up.commands.NackCommand;
+import org.raspilot.up.commands.Commands;
 import org.raspilot.up.loop.Cancellable;
 import org.raspilot.up.loop.Loop;
 import org.raspilot.up.wire.GeneralMessage;
@@ -103,8 +102,8 @@ final class Answers {
 
     /** Takes a Command of the aircraft, if it is an answer. */
     void take(GeneralMessage message) {
-        final boolean isAck = message.name.equals(AckCommand.NAME);
-        if (isAck || message.name.equals(NackCommand.NAME)) {
+        final boolean isAck = message.name.equals(Commands.ACK);
+        if (isAck || message.name.equals(Commands.NACK)) {
             final Object id = message.data.get("id");
             final Sent found = id instanceof String ? sent.get(id) : null;
             if (found == null) {
@@ -114,7 +113,7 @@ final class Answers {
             }
             return;
         }
-        for (Sent each : new ArrayList<Sent>(sent.values())) {
+        for (Sent each : new ArrayList<>(sent.values())) {
             if (message.name.equals(each.awaited)) {
                 each.awaited = null;
                 each.data = Collections.unmodifiableMap(message.data);
@@ -127,7 +126,7 @@ final class Answers {
 
     /** Called when the link is lost: sent Commands may or may not have arrived. */
     void lost() {
-        for (Sent each : new ArrayList<Sent>(sent.values())) {
+        for (Sent each : new ArrayList<>(sent.values())) {
             endUnanswered(each, Answer.Outcome.LOST, "the link was lost before an answer came");
         }
     }

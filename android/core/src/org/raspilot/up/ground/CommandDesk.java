@@ -1,9 +1,7 @@
 package org.raspilot.up.ground;
 
-import org.raspilot.up.commands.ArmCommand;
 import org.raspilot.up.commands.BaseCommand;
-import org.raspilot.up.commands.DisarmCommand;
-import org.raspilot.up.commands.TelemetryFrequencyCommand;
+import org.raspilot.up.commands.Commands;
 import org.raspilot.up.loop.Loop;
 
 /** Sends what may be sent now or returns why not: nothing is queued, nothing is sent twice. */
@@ -52,7 +50,7 @@ final class CommandDesk {
             answers.withdraw(id);
             listener.onAnswer(Answer.refused(command.name(), "no_link",
                     "the link takes nothing more now"));
-        } else if (command.name().equals(TelemetryFrequencyCommand.NAME)) {
+        } else if (command.name().equals(Commands.TELEMETRY_PERIOD)) {
             link.expectAnotherPeriod();
         }
     }
@@ -89,8 +87,8 @@ final class CommandDesk {
     /** A pilot must see the aircraft's state to command: the screen may hang or show late data. */
     private Answer beaconFault(BaseCommand command, Long shown) {
         if (shown == null) {
-            if (beacons.areNoneSent() && !command.name().equals(ArmCommand.NAME)
-                    && !command.name().equals(DisarmCommand.NAME)) {
+            if (beacons.areNoneSent() && !command.name().equals(Commands.ARM)
+                    && !command.name().equals(Commands.DISARM)) {
                 // A thesis aircraft's telemetry has no beacons.
                 return null;
             }

@@ -6,9 +6,9 @@ import java.util.Collections;
 import java.util.List;
 import java.util.Map;
 import org.raspilot.up.commands.BaseCommand;
+import org.raspilot.up.commands.Commands;
 import org.raspilot.up.commands.GainSet;
 import org.raspilot.up.commands.InvalidCommandException;
-import org.raspilot.up.commands.PidTuningsCommand;
 import org.raspilot.up.loop.Loop;
 
 /** Requests, tracks, replaces and restores the active gains, as whole sets. On the loop only. */
@@ -82,7 +82,7 @@ public final class GainsDesk {
     /** Requests the active gains from the aircraft; they are the answer's data. */
     public void ask(AnswerListener listener) {
         isDue = false;
-        sender.send(PidTuningsCommand.request(), null, listener);
+        sender.send(Commands.pidsRequest(), null, listener);
     }
 
     /**
@@ -98,7 +98,7 @@ public final class GainsDesk {
     public void undo(Long shownBeacon, AnswerListener listener) {
         final GainSet before = undoable.peekLast();
         if (before == null) {
-            listener.onAnswer(Answer.refused(PidTuningsCommand.NAME, "invalid",
+            listener.onAnswer(Answer.refused(Commands.PIDS, "invalid",
                     "there is no set of gains to undo"));
         } else {
             transmit(before, shownBeacon, listener, true);
@@ -125,7 +125,7 @@ public final class GainsDesk {
      */
     static GainSet gainsOf(BaseCommand command) {
         final Object pids = command.data().get("pids");
-        if (!command.name().equals(PidTuningsCommand.NAME) || Answers.isRequest(command)) {
+        if (!command.name().equals(Commands.PIDS) || Answers.isRequest(command)) {
             return null;
         }
         if (!(pids instanceof Map)) {
@@ -166,11 +166,11 @@ public final class GainsDesk {
             final boolean isUndo) {
         final String fault = GainsForm.fault(gains);
         if (fault != null) {
-            listener.onAnswer(Answer.refused(PidTuningsCommand.NAME, "invalid", fault));
+            listener.onAnswer(Answer.refused(Commands.PIDS, "invalid", fault));
             return;
         }
         final GainSet before = flying;
-        sender.send(new PidTuningsCommand(gains), shownBeacon, answer -> {
+        sender.send(Commands.pids(gains), shownBeacon, answer -> {
             if (answer.outcome != Answer.Outcome.REFUSED) {
                 remember(before, gains, answer, isUndo);
             }

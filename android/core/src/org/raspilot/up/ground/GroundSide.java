@@ -3,9 +3,9 @@ package org.raspilot.up.ground;
 import java.util.Random;
 import org.raspilot.up.commands.BaseCommand;
 import org.raspilot.up.commands.CommandExecutor;
+import org.raspilot.up.commands.Commands;
 import org.raspilot.up.commands.GainSet;
 import org.raspilot.up.commands.InvalidCommandException;
-import org.raspilot.up.commands.TelemetryCommand;
 import org.raspilot.up.loop.Cancellable;
 import org.raspilot.up.loop.Loop;
 import org.raspilot.up.wire.GeneralMessage;
@@ -207,7 +207,7 @@ public final class GroundSide implements TelemetrySource {
         track.take(frame, home.home(), nowMs);
         silence.watch(frame, nowMs);
         judge.onFrame(frame, status(), nowMs);
-        executor.executeCommand(new TelemetryCommand(message));
+        executor.executeCommand(new BaseCommand(message));
         listener.onTelemetry(frame);
         if (bulletin.isNews(frame, nowMs)) {
             tellStatus();

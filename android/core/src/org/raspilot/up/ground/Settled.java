@@ -49,7 +49,7 @@ final class Settled {
     }
 
     void onMoment(long nowMs) {
-        for (Value each : new ArrayList<Value>(values.values())) {
+        for (Value each : new ArrayList<>(values.values())) {
             tellIfDue(each, nowMs);
         }
     }

@@ -1,9 +1,7 @@
 package org.raspilot.up.providers;
 
-import java.util.Collections;
-import org.raspilot.up.commands.AltitudeCommand;
 import org.raspilot.up.commands.BaseCommand;
-import org.raspilot.up.wire.GeneralMessage;
+import org.raspilot.up.commands.Commands;
 
 /**
  * Sends the altitude by the barometer: {@code up.altitude.change}.
@@ -70,7 +68,6 @@ public final class AltitudeProvider extends SensorProvider<Pressure> {
             throw new IllegalArgumentException("a pressure of " + pressure.hPa + " hPa");
         }
         double altitudeM = StandardAtmosphere.altitudeM(pressure.hPa, referenceHPa);
-        return new AltitudeCommand(new GeneralMessage(AltitudeCommand.NAME,
-                Collections.singletonMap("altitude", Rounded.to(2, altitudeM))));
+        return Commands.of(Commands.ALTITUDE, "altitude", Rounded.to(2, altitudeM));
     }
 }

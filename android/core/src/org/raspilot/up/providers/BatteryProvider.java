@@ -1,9 +1,7 @@
 package org.raspilot.up.providers;
 
-import java.util.Collections;
 import org.raspilot.up.commands.BaseCommand;
-import org.raspilot.up.commands.BatteryCommand;
-import org.raspilot.up.wire.GeneralMessage;
+import org.raspilot.up.commands.Commands;
 
 /** Sends the device's battery level: {@code android.battery}, on change and each ten seconds. */
 public final class BatteryProvider extends SensorProvider<BatteryLevel> {
@@ -23,7 +21,6 @@ public final class BatteryProvider extends SensorProvider<BatteryLevel> {
         if (!(level.percent >= 0 && level.percent <= 100)) {
             throw new IllegalArgumentException("a level of " + level.percent + " percent");
         }
-        return new BatteryCommand(new GeneralMessage(BatteryCommand.NAME,
-                Collections.singletonMap("level", Math.round(level.percent))));
+        return Commands.of(Commands.BATTERY, "level", Math.round(level.percent));
     }
 }

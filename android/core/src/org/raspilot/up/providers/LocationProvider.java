@@ -1,7 +1,7 @@
 package org.raspilot.up.providers;
 
 import org.raspilot.up.commands.BaseCommand;
-import org.raspilot.up.commands.LocationCommand;
+import org.raspilot.up.commands.Commands;
 
 /** Sends the GPS position of the device: {@code up.location.update}. */
 public final class LocationProvider extends SensorProvider<Fix> {
@@ -23,13 +23,13 @@ public final class LocationProvider extends SensorProvider<Fix> {
             throw new IllegalArgumentException("a fix that may be off by more than "
                     + Math.round(WORST_ACCURACY_M) + " m is none to fly by");
         }
-        return new LocationCommand(
-                Rounded.to(7, fix.latitudeDeg),
-                Rounded.to(7, fix.longitudeDeg),
-                rounded(1, fix.altitudeM),
-                rounded(1, fix.accuracyM),
-                rounded(2, fix.speedMS),
-                isKnown(fix.bearingDeg) ? Rounded.direction(fix.bearingDeg) : null);
+        return Commands.of(Commands.LOCATION,
+                "latitude", Rounded.to(7, fix.latitudeDeg),
+                "longitude", Rounded.to(7, fix.longitudeDeg),
+                "altitude", rounded(1, fix.altitudeM),
+                "accuracy", rounded(1, fix.accuracyM),
+                "speed", rounded(2, fix.speedMS),
+                "bearing", isKnown(fix.bearingDeg) ? Rounded.direction(fix.bearingDeg) : null);
     }
 
     /** A value unknown to GPS must not prevent sending the position. */

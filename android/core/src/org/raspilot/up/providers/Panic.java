@@ -69,7 +69,7 @@ public final class Panic {
             return;
         }
         delayMs = newMs;
-        for (Listener listener : new ArrayList<Listener>(listeners)) {
+        for (Listener listener : new ArrayList<>(listeners)) {
             listener.onPanic(this);
         }
     }

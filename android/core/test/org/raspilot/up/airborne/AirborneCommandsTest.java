@@ -9,7 +9,6 @@ import org.junit.After;
 import org.junit.Before;
 import org.junit.Test;
 import org.raspilot.up.commands.BaseCommand;
-import org.raspilot.up.commands.BaseCommandHandler;
 
 /** What the phone does with the Commands that come, and what it answers. */
 public final class AirborneCommandsTest {
@@ -73,12 +72,7 @@ public final class AirborneCommandsTest {
     public void telemetryIsCountedAndGoesToWhoRegisters() {
         final List<BaseCommand> frames = new ArrayList<>();
         airborne.up().commandExecutor().registerCommand("up.telemetry.update",
-                new BaseCommandHandler() {
-                    @Override
-                    public void runAction(BaseCommand command) {
-                        frames.add(command);
-                    }
-                });
+                command -> frames.add(command));
         bench.hear("{\"name\": \"up.telemetry.update\", \"data\": {\"altitude\": 5.0}, "
                 + "\"beacon\": 12}");
         assertEquals(1, airborne.status().telemetry());
@@ -88,11 +82,8 @@ public final class AirborneCommandsTest {
 
     @Test
     public void aHandlerThatFailsIsToldAndRefusesOnlyItsOwn() {
-        airborne.up().commandExecutor().registerCommand("my.own", new BaseCommandHandler() {
-            @Override
-            public void runAction(BaseCommand command) {
-                throw new IllegalStateException("a mistake");
-            }
+        airborne.up().commandExecutor().registerCommand("my.own", command -> {
+            throw new IllegalStateException("a mistake");
         });
         bench.hear("{\"name\": \"my.own\", \"data\": {}, \"id\": \"1\"}");
         bench.hear("{\"name\": \"android.speak\", \"data\": {\"text\": \"hi\"}}");

@@ -11,12 +11,9 @@ final class Answers implements AnswerSink {
     @Override
     public void answer(GeneralMessage answer) {
         BaseCommand command = CommandRegistry.builtin().read(answer);
-        if (command instanceof AckCommand) {
-            heard.add("ack " + ((AckCommand) command).commandId);
-        } else {
-            NackCommand nack = (NackCommand) command;
-            heard.add("nack " + nack.commandId + " " + nack.code + " " + nack.reason);
-        }
+        heard.add(command.name().equals(Commands.ACK) ? "ack " + command.data().get("id")
+                : "nack " + command.data().get("id") + " " + command.data().get("code") + " "
+                + command.data().get("reason"));
     }
 
     /** Returns the messages since the last call. */

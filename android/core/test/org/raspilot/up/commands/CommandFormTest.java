@@ -131,9 +131,9 @@ public final class CommandFormTest {
     @Test
     public void aCommandIsCheckedAsAWhole() {
         BaseCommand mode = installed.form("up.flight_mode.set").command(inputs("mode", "FBW"));
-        assertEquals("FBW", ((FlightModeCommand) mode).mode);
+        assertEquals("FBW", mode.data().get("mode"));
         CommandForm gains = installed.form("arduino.pids.tunings");
-        assertTrue(((PidTuningsCommand) gains.command(inputs("request", "true"))).isRequest);
+        assertEquals(true, gains.command(inputs("request", "true")).data().get("request"));
         assertCommandRefused("either request or pids is needed", gains, inputs());
         assertCommandRefused("pids.ratePIDs is missing", gains, inputs("pids", "{}"));
         assertEquals("app.all", all.command(inputs("must", "3")).name());

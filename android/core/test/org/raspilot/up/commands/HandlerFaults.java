@@ -8,7 +8,7 @@ final class HandlerFaults implements HandlerFaultListener {
     final List<Throwable> faults = new ArrayList<>();
 
     @Override
-    public void onHandlerFailed(BaseCommandHandler handler, BaseCommand command, Throwable fault) {
+    public void onHandlerFailed(CommandHandler handler, BaseCommand command, Throwable fault) {
         faults.add(fault);
     }
 }

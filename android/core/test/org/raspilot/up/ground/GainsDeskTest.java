@@ -12,10 +12,10 @@ import java.util.Map;
 import org.junit.Rule;
 import org.junit.Test;
 import org.raspilot.up.commands.BaseCommand;
+import org.raspilot.up.commands.Commands;
 import org.raspilot.up.commands.GainSet;
 import org.raspilot.up.commands.Gains;
 import org.raspilot.up.commands.LoopGains;
-import org.raspilot.up.commands.PidTuningsCommand;
 import org.raspilot.up.loop.ScriptedNetwork;
 import org.raspilot.up.wire.GeneralMessage;
 import org.raspilot.up.wire.Json;
@@ -40,7 +40,7 @@ public final class GainsDeskTest {
     }
 
     private void answerRequest(GainSet flying) {
-        final GeneralMessage asked = bench.sent(PidTuningsCommand.NAME);
+        final GeneralMessage asked = bench.sent(Commands.PIDS);
         assertEquals(true, asked.data.get("request"));
         bench.say(new String(new GeneralMessage("arduino.pids.values", flying.toData()).toLine(),
                 ScriptedNetwork.UTF_8).trim());
@@ -49,7 +49,7 @@ public final class GainsDeskTest {
 
     private GeneralMessage setGains(GainSet gains) {
         bench.ground.gains().set(gains, 1L, bench.keeping());
-        return bench.sent(PidTuningsCommand.NAME);
+        return bench.sent(Commands.PIDS);
     }
 
     private Double flyingP() {
@@ -114,17 +114,17 @@ public final class GainsDeskTest {
         answerRequest(set(1));
         bench.answers.clear();
         bench.ground.gains().undo(1L, bench.keeping());
-        final GeneralMessage first = bench.sent(PidTuningsCommand.NAME);
+        final GeneralMessage first = bench.sent(Commands.PIDS);
         assertEquals(Json.write(set(2).toData()), Json.write(first.data.get("pids")));
         bench.nack(first.id, "forbidden", "armed");
         bench.answer();
         bench.ground.gains().undo(1L, bench.keeping());
-        final GeneralMessage again = bench.sent(PidTuningsCommand.NAME);
+        final GeneralMessage again = bench.sent(Commands.PIDS);
         assertEquals("refused, it is still to be undone", first.data, again.data);
         bench.ack(again.id);
         bench.answer();
         bench.ground.gains().undo(1L, bench.keeping());
-        final GeneralMessage second = bench.sent(PidTuningsCommand.NAME);
+        final GeneralMessage second = bench.sent(Commands.PIDS);
         assertEquals(Json.write(set(3).toData()), Json.write(second.data.get("pids")));
         bench.ack(second.id);
         bench.answer();
@@ -185,13 +185,13 @@ public final class GainsDeskTest {
         final Map<String, Object> pids = new LinkedHashMap<>(set(3).toData());
         pids.remove("stabPIDs");
         for (Object each : new Object[] {pids, "all", null}) {
-            bench.ground.send(new BaseCommand(PidTuningsCommand.NAME,
+            bench.ground.send(new BaseCommand(Commands.PIDS,
                     Collections.singletonMap("pids", each)), 1L, bench.keeping());
             assertEquals("invalid", bench.answer().code);
         }
         assertTrue(bench.sent().isEmpty());
-        bench.ground.send(new PidTuningsCommand(set(2)), 1L, bench.keeping());
-        bench.ack(bench.sent(PidTuningsCommand.NAME).id);
+        bench.ground.send(Commands.pids(set(2)), 1L, bench.keeping());
+        bench.ack(bench.sent(Commands.PIDS).id);
         bench.answer();
         assertEquals("it can be undone", 3,
                 GainKey.ALL.get(0).of(bench.ground.gains().snapshot().undo), 0);

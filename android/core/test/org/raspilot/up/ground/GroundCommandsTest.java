@@ -10,10 +10,8 @@ import java.util.Collections;
 import java.util.Locale;
 import org.junit.Rule;
 import org.junit.Test;
-import org.raspilot.up.commands.ArmCommand;
 import org.raspilot.up.commands.BaseCommand;
-import org.raspilot.up.commands.DisarmCommand;
-import org.raspilot.up.commands.FlightModeCommand;
+import org.raspilot.up.commands.Commands;
 import org.raspilot.up.wire.GeneralMessage;
 import org.raspilot.up.wire.Seat;
 
@@ -45,8 +43,8 @@ public final class GroundCommandsTest {
         flySeen(40, 3);
         bench.loop.advance(100);
         bench.frame(43, "{}");
-        send(new FlightModeCommand("FBW"));
-        final GeneralMessage sent = bench.sent(FlightModeCommand.NAME);
+        send(Commands.flightMode("FBW"));
+        final GeneralMessage sent = bench.sent(Commands.FLIGHT_MODE);
         assertEquals("drawn was 42", Long.valueOf(42), sent.beacon);
         assertEquals("FBW", sent.data.get("mode"));
         bench.loop.advance(120);
@@ -67,8 +65,8 @@ public final class GroundCommandsTest {
         try {
             bench.open(Seat.COMMAND);
             flySeen(1, 1);
-            send(new DisarmCommand());
-            final String id = bench.sent(DisarmCommand.NAME).id;
+            send(new BaseCommand(Commands.DISARM));
+            final String id = bench.sent(Commands.DISARM).id;
             assertTrue(id, id.matches("[0-9a-f]{16}-[0-9]+"));
         } finally {
             Locale.setDefault(before);
@@ -80,11 +78,11 @@ public final class GroundCommandsTest {
         bench.open(Seat.COMMAND);
         flySeen(1, 1);
         bench.fly(2, 20);
-        send(new DisarmCommand());
+        send(new BaseCommand(Commands.DISARM));
         assertEquals("2 s are no too long", Long.valueOf(1),
-                bench.sent(DisarmCommand.NAME).beacon);
+                bench.sent(Commands.DISARM).beacon);
         bench.fly(22, 1);
-        send(new DisarmCommand());
+        send(new BaseCommand(Commands.DISARM));
         mustBeRefused("stale");
     }
 
@@ -94,10 +92,10 @@ public final class GroundCommandsTest {
         bench.frame(1, "{\"system\": {\"period_ms\": 10000}}");
         bench.ground.seen(1L);
         bench.loop.advance(10999);
-        send(new DisarmCommand());
-        assertEquals(Long.valueOf(1), bench.sent(DisarmCommand.NAME).beacon);
+        send(new BaseCommand(Commands.DISARM));
+        assertEquals(Long.valueOf(1), bench.sent(Commands.DISARM).beacon);
         bench.loop.advance(2);
-        send(new DisarmCommand());
+        send(new BaseCommand(Commands.DISARM));
         mustBeRefused("stale");
     }
 
@@ -109,10 +107,10 @@ public final class GroundCommandsTest {
         bench.frame(2, "{\"system\": {\"clock_ms\": 100}}");
         bench.ground.seen(2L);
         bench.loop.advance(499);
-        send(new DisarmCommand());
-        assertEquals(Long.valueOf(2), bench.sent(DisarmCommand.NAME).beacon);
+        send(new BaseCommand(Commands.DISARM));
+        assertEquals(Long.valueOf(2), bench.sent(Commands.DISARM).beacon);
         bench.loop.advance(3);
-        send(new DisarmCommand());
+        send(new BaseCommand(Commands.DISARM));
         mustBeRefused("stale");
     }
 
@@ -121,16 +119,16 @@ public final class GroundCommandsTest {
         bench.open(Seat.COMMAND);
         bench.fly(1, 3);
         bench.skipGains();
-        send(new DisarmCommand());
+        send(new BaseCommand(Commands.DISARM));
         mustBeRefused("no_beacon");
         bench.ground.seen(77L);
         bench.ground.seen(null);
-        send(new DisarmCommand());
+        send(new BaseCommand(Commands.DISARM));
         mustBeRefused("no_beacon");
-        bench.ground.send(new DisarmCommand(), 78L, bench.keeping());
+        bench.ground.send(new BaseCommand(Commands.DISARM), 78L, bench.keeping());
         mustBeRefused("stale");
-        bench.ground.send(new DisarmCommand(), 2L, bench.keeping());
-        assertEquals(Long.valueOf(2), bench.sent(DisarmCommand.NAME).beacon);
+        bench.ground.send(new BaseCommand(Commands.DISARM), 2L, bench.keeping());
+        assertEquals(Long.valueOf(2), bench.sent(Commands.DISARM).beacon);
     }
 
     @Test
@@ -139,36 +137,36 @@ public final class GroundCommandsTest {
         bench.fly(1, 5);
         bench.ground.seen(5L);
         bench.ground.seen(3L);
-        send(new DisarmCommand());
-        assertEquals(Long.valueOf(5), bench.sent(DisarmCommand.NAME).beacon);
+        send(new BaseCommand(Commands.DISARM));
+        assertEquals(Long.valueOf(5), bench.sent(Commands.DISARM).beacon);
     }
 
     @Test
     public void withoutTheSeatNothingIsSent() {
         bench.open(Seat.LISTEN);
         flySeen(1, 3);
-        send(new DisarmCommand());
+        send(new BaseCommand(Commands.DISARM));
         mustBeRefused("no_seat");
         bench.say("UP1 seat command token=" + GroundBench.TOKEN);
-        send(new DisarmCommand());
-        bench.sent(DisarmCommand.NAME);
+        send(new BaseCommand(Commands.DISARM));
+        bench.sent(Commands.DISARM);
         bench.say("UP1 seat listen");
-        send(new DisarmCommand());
+        send(new BaseCommand(Commands.DISARM));
         mustBeRefused("no_seat");
     }
 
     @Test
     public void withoutALinkOrAnAircraftNothingIsSentNorKeptForLater() {
         bench.start(GroundBench.settings(Seat.COMMAND, false));
-        send(new DisarmCommand());
+        send(new BaseCommand(Commands.DISARM));
         assertEquals("no_link", bench.answer().code);
         bench.accept(Seat.COMMAND);
         bench.say("UP1 aircraft offline");
         flySeen(1, 3);
-        send(new DisarmCommand());
+        send(new BaseCommand(Commands.DISARM));
         mustBeRefused("no_aircraft");
         bench.peer().end("gone");
-        send(new DisarmCommand());
+        send(new BaseCommand(Commands.DISARM));
         assertEquals("there is no link: gone", bench.answer().reason);
         bench.loop.advance(700);
         bench.accept(Seat.COMMAND);
@@ -183,7 +181,7 @@ public final class GroundCommandsTest {
         bench.peer().end("lost");
         bench.loop.advance(700);
         bench.accept(Seat.COMMAND);
-        send(new ArmCommand());
+        send(new BaseCommand(Commands.ARM));
         mustBeRefused("no_beacon");
     }
 
@@ -191,10 +189,10 @@ public final class GroundCommandsTest {
     public void armingNeedsABeaconEvenWhereTheAircraftHasNone() {
         bench.open(Seat.COMMAND);
         bench.say("{\"name\": \"up.telemetry.update\", \"data\": {}}");
-        send(new FlightModeCommand("FBW"));
+        send(Commands.flightMode("FBW"));
         assertNull("a thesis aircraft tells no beacons",
-                bench.sent(FlightModeCommand.NAME).beacon);
-        for (BaseCommand command : new BaseCommand[] {new ArmCommand(), new DisarmCommand()}) {
+                bench.sent(Commands.FLIGHT_MODE).beacon);
+        for (BaseCommand command : new BaseCommand[] {new BaseCommand(Commands.ARM), new BaseCommand(Commands.DISARM)}) {
             send(command);
             mustBeRefused("no_beacon");
         }
@@ -204,8 +202,8 @@ public final class GroundCommandsTest {
     public void theAnswerOfAnotherIdIsNotTaken() {
         bench.open(Seat.COMMAND);
         flySeen(1, 3);
-        send(new DisarmCommand());
-        final String id = bench.sent(DisarmCommand.NAME).id;
+        send(new BaseCommand(Commands.DISARM));
+        final String id = bench.sent(Commands.DISARM).id;
         bench.ack("another");
         bench.say("{\"name\": \"up.ack\", \"data\": {\"id\": 5}}");
         bench.say("{\"name\": \"up.ack\", \"data\": {}}");
@@ -224,23 +222,23 @@ public final class GroundCommandsTest {
     public void idsAreDifferentAndAnswersFindTheirs() {
         bench.open(Seat.COMMAND);
         flySeen(1, 3);
-        send(new DisarmCommand());
-        final String first = bench.sent(DisarmCommand.NAME).id;
-        send(new FlightModeCommand("RATE"));
-        final String second = bench.sent(FlightModeCommand.NAME).id;
+        send(new BaseCommand(Commands.DISARM));
+        final String first = bench.sent(Commands.DISARM).id;
+        send(Commands.flightMode("RATE"));
+        final String second = bench.sent(Commands.FLIGHT_MODE).id;
         assertNotEquals(first, second);
         bench.ack(second);
-        assertEquals(FlightModeCommand.NAME, bench.answer().name);
+        assertEquals(Commands.FLIGHT_MODE, bench.answer().name);
         bench.ack(first);
-        assertEquals(DisarmCommand.NAME, bench.answer().name);
+        assertEquals(Commands.DISARM, bench.answer().name);
     }
 
     @Test
     public void noAnswerForThreeSecondsIsATimeoutAndIsNotRepaired() {
         bench.open(Seat.COMMAND);
         flySeen(1, 3);
-        send(new DisarmCommand());
-        final String id = bench.sent(DisarmCommand.NAME).id;
+        send(new BaseCommand(Commands.DISARM));
+        final String id = bench.sent(Commands.DISARM).id;
         bench.loop.advance(2999);
         assertTrue(bench.answers.isEmpty());
         bench.loop.advance(1);
@@ -257,7 +255,7 @@ public final class GroundCommandsTest {
     public void aLostLinkEndsTheWaiting() {
         bench.open(Seat.COMMAND);
         flySeen(1, 3);
-        send(new DisarmCommand());
+        send(new BaseCommand(Commands.DISARM));
         bench.peer().end("lost");
         assertEquals(Answer.Outcome.LOST, bench.answer().outcome);
         bench.loop.advance(700);
@@ -271,7 +269,7 @@ public final class GroundCommandsTest {
     public void stoppingEndsTheWaitingToo() {
         bench.open(Seat.COMMAND);
         flySeen(1, 3);
-        send(new DisarmCommand());
+        send(new BaseCommand(Commands.DISARM));
         bench.ground.stop();
         assertEquals(Answer.Outcome.LOST, bench.answer().outcome);
     }
@@ -281,11 +279,11 @@ public final class GroundCommandsTest {
         bench.open(Seat.COMMAND);
         flySeen(1, 3);
         for (int each = 0; each < Answers.MOST; each++) {
-            send(new DisarmCommand());
+            send(new BaseCommand(Commands.DISARM));
         }
         assertTrue(bench.answers.isEmpty());
         bench.sent();
-        send(new DisarmCommand());
+        send(new BaseCommand(Commands.DISARM));
         mustBeRefused("busy");
     }
 

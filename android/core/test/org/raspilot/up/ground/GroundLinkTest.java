@@ -7,7 +7,8 @@ import static org.junit.Assert.assertTrue;
 
 import org.junit.Rule;
 import org.junit.Test;
-import org.raspilot.up.commands.DisarmCommand;
+import org.raspilot.up.commands.BaseCommand;
+import org.raspilot.up.commands.Commands;
 import org.raspilot.up.wire.Seat;
 
 /** Hello, seat and token, and how the link comes back (docs/protocols.md 9). */
@@ -88,7 +89,7 @@ public final class GroundLinkTest {
         assertEquals("UP1 seat release\n", bench.peer().written());
         assertEquals("what is sent now is dropped", SeatStanding.LATER,
                 bench.status.standing);
-        bench.ground.send(new DisarmCommand(), bench.keeping());
+        bench.ground.send(new BaseCommand(Commands.DISARM), bench.keeping());
         assertEquals("no_seat", bench.answer().code);
         bench.say("UP1 seat listen");
         bench.say("UP1 seat holder=none");

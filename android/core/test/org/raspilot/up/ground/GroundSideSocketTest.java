@@ -19,7 +19,7 @@ import org.junit.Rule;
 import org.junit.Test;
 import org.raspilot.up.commands.CommandExecutor;
 import org.raspilot.up.commands.CommandRegistry;
-import org.raspilot.up.commands.FlightModeCommand;
+import org.raspilot.up.commands.Commands;
 import org.raspilot.up.loop.RunningLoop;
 import org.raspilot.up.wire.GeneralMessage;
 import org.raspilot.up.wire.MalformedException;
@@ -116,7 +116,7 @@ public final class GroundSideSocketTest implements GroundListener {
         running.call(() -> {
             assertEquals(12.5, frames.get(0).number("altitude"), 0);
             ground.seen(10L);
-            ground.send(new FlightModeCommand("FBW"), answer -> answers.add(answer));
+            ground.send(Commands.flightMode("FBW"), answer -> answers.add(answer));
             return null;
         });
         final byte[] sent = line().getBytes(UTF_8);

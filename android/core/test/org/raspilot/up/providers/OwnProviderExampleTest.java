@@ -5,7 +5,7 @@ import static org.junit.Assert.assertEquals;
 import java.util.Collections;
 import org.junit.Test;
 import org.raspilot.up.commands.BaseCommand;
-import org.raspilot.up.commands.RecordCommand;
+import org.raspilot.up.commands.Commands;
 
 /**
  * How to add your own sensor: one class and one registration.
@@ -24,7 +24,7 @@ public final class OwnProviderExampleTest {
 
         @Override
         protected BaseCommand read(Light light) {
-            return new RecordCommand(
+            return Commands.record(
                     "phone.light", Collections.singletonMap("lux", light.lux));
         }
     }

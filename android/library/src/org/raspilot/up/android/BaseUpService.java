@@ -162,7 +162,7 @@ public abstract class BaseUpService extends Service {
         public void onStatus(AirborneStatus status) {
             newest = status;
             notice.show(noticeText(status));
-            for (UpWatcher watcher : new ArrayList<UpWatcher>(watchers)) {
+            for (UpWatcher watcher : new ArrayList<>(watchers)) {
                 watcher.onStatus(status);
             }
         }

@@ -8,7 +8,7 @@ import java.io.IOException;
 import java.util.Random;
 import org.raspilot.up.Up;
 import org.raspilot.up.commands.BaseCommand;
-import org.raspilot.up.commands.BaseCommandHandler;
+import org.raspilot.up.commands.CommandHandler;
 import org.raspilot.up.commands.HandlerFaultListener;
 import org.raspilot.up.ground.AnswerListener;
 import org.raspilot.up.ground.GroundListener;
@@ -133,7 +133,7 @@ final class GroundRun implements GroundListener, HandlerFaultListener {
     }
 
     @Override
-    public void onHandlerFailed(BaseCommandHandler handler, BaseCommand command,
+    public void onHandlerFailed(CommandHandler handler, BaseCommand command,
             Throwable fault) {
         Log.e(TAG, handler.getClass().getName() + " failed at " + command.name(), fault);
     }

@@ -135,7 +135,7 @@ final class GroundView implements Runnable {
             isChanged = false;
             isPosted = false;
         }
-        for (GroundWatcher watcher : new ArrayList<GroundWatcher>(watchers)) {
+        for (GroundWatcher watcher : new ArrayList<>(watchers)) {
             tell(watcher, newStatus, newTelemetry, isOtherNew);
         }
     }

@@ -8,8 +8,8 @@ import android.os.SystemClock;
 import java.io.IOException;
 import org.raspilot.up.Up;
 import org.raspilot.up.commands.BaseCommand;
+import org.raspilot.up.commands.Commands;
 import org.raspilot.up.commands.GainSet;
-import org.raspilot.up.commands.PidTuningsCommand;
 import org.raspilot.up.ground.Alarms;
 import org.raspilot.up.ground.Answer;
 import org.raspilot.up.ground.AnswerListener;
@@ -158,18 +158,18 @@ public abstract class TelemetryService extends Service {
         }
 
         public void askGains(AnswerListener listener) {
-            ask(PidTuningsCommand.NAME, listener, (side, answers) -> side.gains().ask(answers));
+            ask(Commands.PIDS, listener, (side, answers) -> side.gains().ask(answers));
         }
 
         public void setGains(final GainSet gains, final Long shownBeacon,
                 AnswerListener listener) {
-            ask(PidTuningsCommand.NAME, listener, (side, answers) ->
+            ask(Commands.PIDS, listener, (side, answers) ->
                     side.gains().set(gains, shownBeacon, answers));
         }
 
         /** Sets what flew before the newest set. */
         public void undoGains(final Long shownBeacon, AnswerListener listener) {
-            ask(PidTuningsCommand.NAME, listener, (side, answers) ->
+            ask(Commands.PIDS, listener, (side, answers) ->
                     side.gains().undo(shownBeacon, answers));
         }
 

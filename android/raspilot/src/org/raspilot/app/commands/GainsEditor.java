@@ -49,7 +49,7 @@ final class GainsEditor {
             // During a new request, edits wait for the answer.
             return;
         }
-        for (GainKey key : new ArrayList<GainKey>(edits.keySet())) {
+        for (GainKey key : new ArrayList<>(edits.keySet())) {
             if (isAsFlying(key, edits.get(key).written)) {
                 edits.remove(key);
             }

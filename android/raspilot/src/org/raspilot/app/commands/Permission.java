@@ -3,9 +3,7 @@ package org.raspilot.app.commands;
 import java.util.Arrays;
 import java.util.List;
 import java.util.Map;
-import org.raspilot.up.commands.ArmCommand;
-import org.raspilot.up.commands.DisarmCommand;
-import org.raspilot.up.commands.PidTuningsCommand;
+import org.raspilot.up.commands.Commands;
 import org.raspilot.up.ground.Freshness;
 import org.raspilot.up.ground.GroundStatus;
 import org.raspilot.up.ground.Telemetry;
@@ -28,7 +26,7 @@ final class Permission {
 
     /** Returns whether a Command with such data is only a request. */
     static boolean isOnlyRequest(String name, Map<String, ?> data) {
-        return name.equals(PROFILE) || name.equals(PidTuningsCommand.NAME)
+        return name.equals(PROFILE) || name.equals(Commands.PIDS)
                 && Boolean.TRUE.equals(data.get("request"));
     }
 
@@ -44,7 +42,7 @@ final class Permission {
         if (isOnlyRequest(name, data)) {
             return OBSERVER;
         }
-        return name.equals(PidTuningsCommand.NAME) ? PILOT : OPERATOR;
+        return name.equals(Commands.PIDS) ? PILOT : OPERATOR;
     }
 
     /** Returns whether a role includes the required one; an unknown role is no reason to object. */
@@ -82,7 +80,7 @@ final class Permission {
             return Objection.SILENT;
         }
         boolean isLive = telemetry.freshness("armed", nowMs) == Freshness.LIVE;
-        boolean isForAir = name.equals(PidTuningsCommand.NAME)
+        boolean isForAir = name.equals(Commands.PIDS)
                 && telemetry.flag("in_flight") != null;
         Boolean flag = telemetry.flag(isForAir ? "in_flight" : "armed");
         return ofMotor(name, isLive ? flag : null, tuneInFlight);
@@ -115,14 +113,14 @@ final class Permission {
         if (isArmed == null) {
             return Objection.NONE;
         }
-        if (name.equals(PidTuningsCommand.NAME)) {
+        if (name.equals(Commands.PIDS)) {
             boolean isForbidden = isArmed && Boolean.FALSE.equals(tuneInFlight);
             return isForbidden ? Objection.ARMED : Objection.NONE;
         }
-        if (name.equals(ArmCommand.NAME)) {
+        if (name.equals(Commands.ARM)) {
             return isArmed ? Objection.ARMED_ALREADY : Objection.NONE;
         }
-        if (name.equals(DisarmCommand.NAME)) {
+        if (name.equals(Commands.DISARM)) {
             return isArmed ? Objection.NONE : Objection.DISARMED_ALREADY;
         }
         return Objection.NONE;

@@ -3,7 +3,7 @@ package org.raspilot.up.virtual_phone;
 import java.util.LinkedHashMap;
 import java.util.Map;
 import org.raspilot.up.commands.BaseCommand;
-import org.raspilot.up.commands.RecordCommand;
+import org.raspilot.up.commands.Commands;
 import org.raspilot.up.providers.Cadence;
 import org.raspilot.up.providers.SensorProvider;
 import org.raspilot.up.providers.SensorSource;
@@ -25,6 +25,6 @@ final class RecordProvider extends SensorProvider<Map<?, ?>> {
         Map<String, Object> data = new LinkedHashMap<>();
         data.put("topic", reading.get("topic"));
         data.put("content", reading.get("content"));
-        return new BaseCommand(RecordCommand.NAME, data);
+        return new BaseCommand(Commands.RECORD, data);
     }
 }

@@ -4,7 +4,7 @@ import java.util.LinkedHashMap;
 import java.util.Map;
 import java.util.Random;
 import org.raspilot.up.commands.BaseCommand;
-import org.raspilot.up.commands.BaseCommandHandler;
+import org.raspilot.up.commands.CommandHandler;
 import org.raspilot.up.commands.CommandExecutor;
 import org.raspilot.up.commands.CommandRegistry;
 import org.raspilot.up.commands.GainSet;
@@ -94,7 +94,7 @@ final class ConsoleSide implements LoopProgram.Part, GroundListener, HandlerFaul
     }
 
     @Override
-    public void onHandlerFailed(BaseCommandHandler handler, BaseCommand command, Throwable fault) {
+    public void onHandlerFailed(CommandHandler handler, BaseCommand command, Throwable fault) {
         words.notice(command.name() + ": " + Words.faultText(fault));
     }
 
