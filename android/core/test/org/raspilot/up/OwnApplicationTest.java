@@ -14,8 +14,8 @@ import org.raspilot.up.commands.CommandFields;
 import org.raspilot.up.commands.CommandReader;
 import org.raspilot.up.commands.CommandRefusedException;
 import org.raspilot.up.loop.ManualLoop;
-import org.raspilot.up.providers.Cadence;
-import org.raspilot.up.providers.Outlet;
+import org.raspilot.up.providers.RatePolicy;
+import org.raspilot.up.providers.MessageSink;
 import org.raspilot.up.providers.SensorListener;
 import org.raspilot.up.providers.SensorProvider;
 import org.raspilot.up.providers.SensorSource;
@@ -60,7 +60,7 @@ public final class OwnApplicationTest {
     /** A provider: what a sensor's reading is as a Command. */
     static final class LightProvider extends SensorProvider<Double> {
         LightProvider(SensorSource<Double> sensor) {
-            super("light", sensor, Cadence.stream(200, 2000));
+            super("light", sensor, RatePolicy.stream(200, 2000));
         }
 
         @Override
@@ -130,7 +130,7 @@ public final class OwnApplicationTest {
     private final AnswerSink answers = answer -> lines.add(Vectors.text(answer.toLine()).trim());
 
     /** The link to the Raspberry Pi, as far as a provider sees it. */
-    private final class Link implements Outlet {
+    private final class Link implements MessageSink {
         @Override
         public boolean sendNewest(String key, BaseCommand command) {
             return lines.add(Vectors.text(command.toMessage().toLine()).trim());

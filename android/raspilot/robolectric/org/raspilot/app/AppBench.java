@@ -23,7 +23,7 @@ public abstract class AppBench {
     static final String LYING = "sw360dp-w640dp-h360dp-land-xhdpi";
     static final String TABLET = "sw800dp-w1280dp-h800dp-land-mdpi";
 
-    final Handset handset = new Handset();
+    final TestPhone handset = new TestPhone();
 
     @After
     public final void putAway() throws Exception {

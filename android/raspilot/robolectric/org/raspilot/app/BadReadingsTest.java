@@ -61,7 +61,7 @@ public final class BadReadingsTest extends AppBench {
         start();
         Wait.until("the heading", () -> {
             handset.sense(Sensor.TYPE_ROTATION_VECTOR, 0, 0, 0, 0);
-            handset.sense(Sensor.TYPE_ROTATION_VECTOR, Handset.BANKED);
+            handset.sense(Sensor.TYPE_ROTATION_VECTOR, TestPhone.BANKED);
             return board.hasHeard("up.heading.change");
         });
     }
@@ -106,7 +106,7 @@ public final class BadReadingsTest extends AppBench {
 
     private int count(String words) {
         int found = 0;
-        for (EventBook.Entry each : RaspilotApplication.of(handset.application).events()
+        for (AppLog.Entry each : RaspilotApplication.of(handset.application).events()
                 .entries()) {
             found += each.text.contains(words) ? each.times : 0;
         }

@@ -36,11 +36,11 @@ public final class PicturesTest {
     private static final String LYING = AppBench.LYING;
     private static final String TABLET = AppBench.TABLET;
     private static final String TABLET_UPRIGHT = "sw800dp-w800dp-h1280dp-port-mdpi";
-    private static final long MOST_BYTES = 150 * 1024;
+    private static final long MAX_BYTES = 150 * 1024;
     private static final int TRACK_FRAMES = 290;
 
     private final File folder = new File(System.getProperty("pictures"));
-    private final Handset handset = new Handset();
+    private final TestPhone handset = new TestPhone();
     private PlayedProxy proxy;
     private PlayedBoard board;
 
@@ -112,7 +112,7 @@ public final class PicturesTest {
 
     private void documented(String name) throws IOException {
         File file = draw(name);
-        assertTrue(name + " has " + file.length() + " bytes", file.length() < MOST_BYTES);
+        assertTrue(name + " has " + file.length() + " bytes", file.length() < MAX_BYTES);
     }
 
     private void turn(String qualifiers, String theme) {
@@ -190,7 +190,7 @@ public final class PicturesTest {
 
     /** Makes the sensors deliver and the newest frame visible. */
     private void live() throws Exception {
-        handset.sense(Sensor.TYPE_ROTATION_VECTOR, Handset.BANKED);
+        handset.sense(Sensor.TYPE_ROTATION_VECTOR, TestPhone.BANKED);
         handset.sense(Sensor.TYPE_GYROSCOPE, 0.01f, 0.02f, -0.01f);
         handset.sense(Sensor.TYPE_PRESSURE, 978.6f);
         handset.locate(49.74747, 13.37759, 345);

@@ -138,7 +138,7 @@ public final class UpServiceTest extends AppBench {
         handset.fitSensors();
         start();
         Wait.until("location, altitude, heading and battery", () -> {
-            handset.sense(Sensor.TYPE_ROTATION_VECTOR, Handset.BANKED);
+            handset.sense(Sensor.TYPE_ROTATION_VECTOR, TestPhone.BANKED);
             handset.sense(Sensor.TYPE_PRESSURE, 978.6f);
             handset.locate(49.74747, 13.37759, 345);
             return board.hasHeard("up.location.update") && board.hasHeard("up.altitude.change")

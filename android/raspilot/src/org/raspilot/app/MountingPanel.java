@@ -35,7 +35,7 @@ final class MountingPanel implements SensorListener<Rotation> {
     MountingPanel(View root, AppSettings settings, ProblemListener problems) {
         context = root.getContext();
         this.settings = settings;
-        feed = new RotationFeed(context, new AppSourceTexts(context), problems);
+        feed = new RotationFeed(context, new AppSensorTexts(context), problems);
         roll = (TextView) root.findViewById(R.id.mounting_roll);
         pitch = (TextView) root.findViewById(R.id.mounting_pitch);
         yaw = (TextView) root.findViewById(R.id.mounting_yaw);

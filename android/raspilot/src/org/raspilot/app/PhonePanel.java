@@ -12,7 +12,7 @@ import android.widget.CheckBox;
 import java.util.ArrayList;
 import java.util.List;
 import org.raspilot.up.android.Permissions;
-import org.raspilot.up.android.api23.Asking;
+import org.raspilot.up.android.api23.RuntimePermissions;
 
 /** The phone's settings that the app needs, links to them, and whether the screen stays on. */
 final class PhonePanel {
@@ -46,7 +46,7 @@ final class PhonePanel {
 
     void show() {
         location.setVisibility(isLocationPermitted() ? View.GONE : View.VISIBLE);
-        boolean isSpared = Build.VERSION.SDK_INT < 23 || Asking.isSpared(activity);
+        boolean isSpared = Build.VERSION.SDK_INT < 23 || RuntimePermissions.isSpared(activity);
         battery.setVisibility(isSpared ? View.GONE : View.VISIBLE);
     }
 
@@ -56,12 +56,12 @@ final class PhonePanel {
     }
 
     /** Requests the missing permissions from the user; returns false if none is missing. */
-    boolean ask() {
+    boolean requestPermissions() {
         List<String> missing = missing();
         if (Build.VERSION.SDK_INT < 23 || missing.isEmpty()) {
             return false;
         }
-        Asking.forPermissions(activity, missing.toArray(new String[0]), REQUEST);
+        RuntimePermissions.forPermissions(activity, missing.toArray(new String[0]), REQUEST);
         return true;
     }
 
@@ -81,10 +81,11 @@ final class PhonePanel {
     }
 
     /** Called when the user, or the system without a dialog, has answered. */
-    void answered() {
+    void onAnswered() {
         show();
         boolean isRefusedForGood = Build.VERSION.SDK_INT >= 23 && !isLocationPermitted()
-                && !Asking.isReasonDue(activity, Manifest.permission.ACCESS_FINE_LOCATION);
+                && !RuntimePermissions.isReasonDue(activity,
+                        Manifest.permission.ACCESS_FINE_LOCATION);
         if (isPermitting && isRefusedForGood) {
             open(new Intent(Settings.ACTION_APPLICATION_DETAILS_SETTINGS,
                     Uri.fromParts("package", activity.getPackageName(), null)));
@@ -94,14 +95,14 @@ final class PhonePanel {
 
     /** Requests them; if the system shows no dialog, opens its page of permissions. */
     private void permit() {
-        isPermitting = ask();
+        isPermitting = requestPermissions();
     }
 
     private void open(Intent screen) {
         try {
             activity.startActivity(screen);
         } catch (ActivityNotFoundException missing) {
-            RaspilotApplication.of(activity).note(activity.getString(R.string.not_openable));
+            RaspilotApplication.of(activity).log(activity.getString(R.string.not_openable));
         }
     }
 }

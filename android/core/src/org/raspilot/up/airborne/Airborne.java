@@ -6,9 +6,9 @@ import org.raspilot.up.commands.BaseCommand;
 import org.raspilot.up.commands.CommandHandler;
 import org.raspilot.up.commands.HandlerFaultListener;
 import org.raspilot.up.loop.Loop;
-import org.raspilot.up.net.Place;
+import org.raspilot.up.net.Endpoint;
 import org.raspilot.up.providers.Mounting;
-import org.raspilot.up.providers.Outlet;
+import org.raspilot.up.providers.MessageSink;
 import org.raspilot.up.providers.ProvidersController;
 import org.raspilot.up.providers.ProvidersListener;
 import org.raspilot.up.providers.Sensors;
@@ -23,7 +23,7 @@ import org.raspilot.up.wire.SafeText;
  * thesis 4.5.2, "Base Up Service".
  */
 public final class Airborne {
-    private static final int LONGEST_REASON = 300;
+    private static final int MAX_REASON_LENGTH = 300;
 
     private final AirborneSettings settings;
     private final AirborneListener listener;
@@ -31,7 +31,7 @@ public final class Airborne {
     private final BasicProviders basics;
     private final AirborneHandlers handlers;
     private final AirborneLink link;
-    private final SilenceReport silence;
+    private final SensorSilenceMonitor silence;
     private long answers;
     private boolean isRunning;
 
@@ -51,7 +51,7 @@ public final class Airborne {
         handlers.register(up.commandExecutor());
         basics = new BasicProviders(settings, sensors);
         basics.register(providers());
-        silence = new SilenceReport(loop, providers(), listener);
+        silence = new SensorSilenceMonitor(loop, providers(), listener);
         providers().addListener(new Problems());
         providers().panic().addListener(panic -> Airborne.this.listener.onPanic(panic.delayMs()));
     }
@@ -87,13 +87,13 @@ public final class Airborne {
     }
 
     /** Returns the sink for other messages: newest wins, nothing is kept without a link. */
-    public Outlet outlet() {
+    public MessageSink sink() {
         return link;
     }
 
     public AirborneStatus status() {
         return new AirborneStatus(isRunning, link.isOpen(), link.status().sentence,
-                link.status().place, settings.mode, settings.orientationTransport(),
+                link.status().endpoint, settings.mode, settings.orientationTransport(),
                 link.orientationText(), providers().panic().delayMs(), providers().statuses(),
                 new AirborneCounters(up.commandReceiver(), link.connections(),
                         handlers.telemetry(), answers));
@@ -146,7 +146,7 @@ public final class Airborne {
 
     private final class LinkOwner implements AirborneLink.Owner {
         @Override
-        public void onOpened(Place place) {
+        public void onOpened(Endpoint place) {
             listener.onConnected(place);
             providers().linkOpened();
         }
@@ -172,15 +172,15 @@ public final class Airborne {
         @Override
         public void onAck(String id) {
             answers++;
-            link.answered(id);
+            link.onAnswer(id);
         }
 
         @Override
         public void onNack(String id, String reason) {
             answers++;
-            link.answered(id);
+            link.onAnswer(id);
             listener.onEvent("the Raspberry Pi refuses what was sent: "
-                    + SafeText.of(reason, LONGEST_REASON));
+                    + SafeText.of(reason, MAX_REASON_LENGTH));
         }
     }
 

@@ -39,7 +39,8 @@ final class AirborneHandlers {
                 answers.onAck((String) command.data().get("id")));
         executor.registerCommand(Commands.NACK, command -> {
             CommandFields fields = new CommandFields(command.data());
-            answers.onNack(fields.text("id", GeneralMessage.LONGEST_ID), fields.text("reason", 500, ""));
+            answers.onNack(fields.text("id", GeneralMessage.MAX_ID_LENGTH),
+                    fields.text("reason", 500, ""));
         });
     }
 
@@ -50,11 +51,11 @@ final class AirborneHandlers {
 
     private void follow(CommandFields command) throws CommandRefusedException {
         if (!command.flag("panic")) {
-            panic.forget();
+            panic.clear();
             return;
         }
         try {
-            panic.follow(command.number("delay_ms"));
+            panic.apply(command.number("delay_ms"));
         } catch (IllegalArgumentException error) {
             throw new CommandRefusedException(NackCode.INVALID, error.getMessage());
         }

@@ -1,11 +1,11 @@
 package org.raspilot.up.airborne;
 
-import org.raspilot.up.net.Place;
+import org.raspilot.up.net.Endpoint;
 
 /** Receives the events of the airborne side, on the loop. */
 public interface AirborneListener {
     /** Called when the link for Commands is open. */
-    void onConnected(Place place);
+    void onConnected(Endpoint place);
 
     /** Called when the link is lost; the reason is a sentence without a full stop. */
     void onDisconnected(String reason);

@@ -218,7 +218,7 @@ public final class AirborneSettings {
         /** Returns the settings; raises IllegalArgumentException with a sentence for the user. */
         public AirborneSettings build() {
             AirborneSettings settings = new AirborneSettings(this);
-            SettingsRules.judge(settings);
+            SettingsRules.check(settings);
             return settings;
         }
     }

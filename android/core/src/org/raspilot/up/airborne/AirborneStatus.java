@@ -1,7 +1,7 @@
 package org.raspilot.up.airborne;
 
 import java.util.List;
-import org.raspilot.up.net.Place;
+import org.raspilot.up.net.Endpoint;
 import org.raspilot.up.providers.OrientationProvider;
 import org.raspilot.up.providers.ProviderStatus;
 
@@ -13,7 +13,7 @@ public final class AirborneStatus {
     /** The state of the link in one sentence without a full stop. */
     public final String linkText;
     /** The current or last place of the connection or attempt; null: none so far. */
-    public final Place place;
+    public final Endpoint endpoint;
     public final AirborneMode mode;
     public final OrientationTransport orientation;
     /** Orientation's destination, or why it is not sent (a sentence); {@code off}. */
@@ -24,13 +24,13 @@ public final class AirborneStatus {
     public final List<ProviderStatus> providers;
     private final AirborneCounters counters;
 
-    AirborneStatus(boolean isRunning, boolean isConnected, String linkText, Place place,
+    AirborneStatus(boolean isRunning, boolean isConnected, String linkText, Endpoint place,
             AirborneMode mode, OrientationTransport orientation, String orientationText,
             long panicDelayMs, List<ProviderStatus> providers, AirborneCounters counters) {
         this.isRunning = isRunning;
         this.isConnected = isConnected;
         this.linkText = linkText;
-        this.place = place;
+        this.endpoint = place;
         this.mode = mode;
         this.orientation = orientation;
         this.orientationText = orientationText;

@@ -15,7 +15,7 @@ import org.raspilot.up.providers.Side;
 
 /** The providers that each airborne phone has (thesis 4.5.2), by its settings. */
 final class BasicProviders {
-    private static final long CALIBRATION_WORTH_MS = 1000;
+    private static final long MAX_CALIBRATION_AGE_MS = 1000;
 
     private final LocationProvider location;
     final AltitudeProvider altitude;
@@ -63,7 +63,7 @@ final class BasicProviders {
 
     Mounting calibrate(Side nose) {
         ProviderStatus status = heading.status();
-        if (heading.newest() == null || status.ageMs > CALIBRATION_WORTH_MS) {
+        if (heading.newest() == null || status.ageMs > MAX_CALIBRATION_AGE_MS) {
             throw new IllegalStateException(
                     "the phone's rotation is not known now (" + status.sensor + ")");
         }

@@ -64,7 +64,7 @@ public final class CommandField {
         if (value == null && nullable) {
             return null;
         }
-        String complaint = rule.complaint(value);
+        String complaint = rule.error(value);
         return complaint == null ? null : name + " " + complaint;
     }
 

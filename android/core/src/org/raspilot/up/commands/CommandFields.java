@@ -112,7 +112,7 @@ public final class CommandFields {
             throw new InvalidCommandException(key + " is missing");
         }
         Object value = data.get(key);
-        String complaint = rule.complaint(value);
+        String complaint = rule.error(value);
         if (complaint != null) {
             throw new InvalidCommandException(key + " " + complaint);
         }

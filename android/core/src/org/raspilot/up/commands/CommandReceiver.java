@@ -15,14 +15,14 @@ import org.raspilot.up.wire.SafeText;
  * and not executed again (the newest 256 ids of 60 s of a link). Source: docs/protocols.md 4.
  */
 public final class CommandReceiver {
-    private static final int LONGEST_REASON = 500;
+    private static final int MAX_REASON_LENGTH = 500;
     private static final int SHOWN_NAME = 64;
     private static final String FAILED = "carrying it out failed; the log says where";
 
     private final CommandRegistry registry;
     private final CommandExecutor executor;
     private final Loop loop;
-    private final Map<AnswerSink, AnswerMemory> memories =
+    private final Map<AnswerSink, AnswerCache> memories =
             new WeakHashMap<>();
     private final Map<String, Long> counts = new HashMap<>();
 
@@ -68,7 +68,7 @@ public final class CommandReceiver {
         } catch (RuntimeException fault) {
             // A Command of an application costs this message and not the link.
             refuse(message.id, answers, NackCode.FAILED, FAILED);
-            tellLoop(fault);
+            reportFault(fault);
             return;
         }
         executor.execute(command, (handlers, fault) -> conclude(message, answers, handlers, fault));
@@ -89,7 +89,7 @@ public final class CommandReceiver {
     }
 
     /** Throw it where the loop reports it to its listener. */
-    private void tellLoop(final RuntimeException fault) {
+    private void reportFault(final RuntimeException fault) {
         loop.post(() -> {
             throw fault;
         });
@@ -99,7 +99,7 @@ public final class CommandReceiver {
         if (message.id == null) {
             return false;
         }
-        AnswerMemory.Entry known = memory(answers).remember(message, loop.nowMs());
+        AnswerCache.Entry known = memory(answers).add(message, loop.nowMs());
         if (known != null && known.answer() != null) {
             answers.answer(known.answer());
         }
@@ -125,19 +125,19 @@ public final class CommandReceiver {
         addOne(code.word());
         if (id != null) {
             answer(id, answers, Commands.nack(id, code.word(),
-                    SafeText.of(String.valueOf(reason), LONGEST_REASON)));
+                    SafeText.of(String.valueOf(reason), MAX_REASON_LENGTH)));
         }
     }
 
     private void answer(String id, AnswerSink answers, BaseCommand answer) {
-        memory(answers).keep(id, answer.toMessage());
+        memory(answers).setAnswer(id, answer.toMessage());
         answers.answer(answer.toMessage());
     }
 
-    private AnswerMemory memory(AnswerSink answers) {
-        AnswerMemory memory = memories.get(answers);
+    private AnswerCache memory(AnswerSink answers) {
+        AnswerCache memory = memories.get(answers);
         if (memory == null) {
-            memory = new AnswerMemory();
+            memory = new AnswerCache();
             memories.put(answers, memory);
         }
         return memory;

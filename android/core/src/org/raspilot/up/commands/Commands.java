@@ -42,7 +42,7 @@ public final class Commands {
 
     /** Registers all of them. */
     static void register(CommandRegistry registry) {
-        registry.register(ACK, rule(fields -> fields.text("id", GeneralMessage.LONGEST_ID)));
+        registry.register(ACK, rule(fields -> fields.text("id", GeneralMessage.MAX_ID_LENGTH)));
         registry.register(ALTITUDE, rule(fields -> {
             fields.number("altitude", -1000, 30000);
             fields.choice("mode", VALUES, "actual");
@@ -68,7 +68,7 @@ public final class Commands {
         }), LOCATION_ALIAS);
         registry.register(MARK, rule(fields -> fields.inkedText("text", 200)));
         registry.register(NACK, rule(fields -> {
-            fields.text("id", GeneralMessage.LONGEST_ID);
+            fields.text("id", GeneralMessage.MAX_ID_LENGTH);
             fields.text("code", 32);
             fields.text("reason", 500, "");
         }));

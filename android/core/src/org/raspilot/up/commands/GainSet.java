@@ -72,7 +72,7 @@ public final class GainSet {
 
     private static double gain(Map<?, ?> data, String key, String place) {
         Object value = data.get(key);
-        String complaint = FieldRule.number(0, Gains.GREATEST).complaint(value);
+        String complaint = FieldRule.number(0, Gains.MAX).error(value);
         if (complaint != null) {
             throw new InvalidCommandException(place + "." + key + " " + complaint);
         }

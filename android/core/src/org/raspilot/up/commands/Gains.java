@@ -2,7 +2,7 @@ package org.raspilot.up.commands;
 
 /** The three gains of one PID controller, each 0 to 50 (docs/protocols.md 5). */
 public final class Gains {
-    public static final double GREATEST = 50;
+    public static final double MAX = 50;
 
     public final double p;
     public final double i;

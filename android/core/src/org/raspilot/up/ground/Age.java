@@ -29,7 +29,7 @@ public final class Age {
     public final boolean isLinkLost;
     private final long receivedMs;
     /** The frame's transit time, ms, as far as it is known. */
-    public final long wayMs;
+    public final long transitMs;
     private final Map<String, Double> onBoardMs;
 
     private Age(boolean isKnown, boolean isLinkLost, long receivedMs, long wayMs,
@@ -37,7 +37,7 @@ public final class Age {
         this.isKnown = isKnown;
         this.isLinkLost = isLinkLost;
         this.receivedMs = receivedMs;
-        this.wayMs = wayMs;
+        this.transitMs = wayMs;
         this.onBoardMs = onBoardMs;
     }
 
@@ -57,18 +57,18 @@ public final class Age {
     }
 
     /** Returns this age with another transit time of the frame. */
-    Age ofWay(long anotherMs) {
+    Age withTransit(long anotherMs) {
         return new Age(isKnown, isLinkLost, receivedMs, Math.max(0, anotherMs), onBoardMs);
     }
 
     /** Returns the same age after the link was lost: everything is stale from now on. */
-    Age ofLostLink() {
-        return new Age(isKnown, true, receivedMs, wayMs, onBoardMs);
+    Age withLostLink() {
+        return new Age(isKnown, true, receivedMs, transitMs, onBoardMs);
     }
 
     /** Returns the age of the frame including transit, ms; null without a frame. */
     public Long frameMs(long nowMs) {
-        return isKnown ? Long.valueOf(Math.max(0, nowMs - receivedMs) + wayMs) : null;
+        return isKnown ? Long.valueOf(Math.max(0, nowMs - receivedMs) + transitMs) : null;
     }
 
     /**
@@ -93,7 +93,7 @@ public final class Age {
 
     /** Returns whether frames arrive, but so late that they count as silence. */
     public boolean isLate(long nowMs) {
-        return isKnown && !isLinkLost && wayMs > SILENT_MS && nowMs - receivedMs <= SILENT_MS;
+        return isKnown && !isLinkLost && transitMs > SILENT_MS && nowMs - receivedMs <= SILENT_MS;
     }
 
     /** Returns whether a reading is too old to fly by; a reading without an age has its frame's. */

@@ -74,9 +74,9 @@ public final class Alarms {
     }
 
     /** Updates the alarms; returns whether they changed. */
-    boolean take(Telemetry telemetry, GroundStatus status, long nowMs) {
-        hadBoard = hadBoard || Boolean.TRUE.equals(Fact.board(telemetry));
-        for (Alarm each : wrong(telemetry, status)) {
+    boolean update(Telemetry telemetry, GroundStatus status, long nowMs) {
+        hadBoard = hadBoard || Boolean.TRUE.equals(EventRule.board(telemetry));
+        for (Alarm each : find(telemetry, status)) {
             known.put(each.kind, each);
             causeMs.put(each.kind, nowMs);
         }
@@ -99,10 +99,10 @@ public final class Alarms {
         return true;
     }
 
-    private List<Alarm> wrong(Telemetry telemetry, GroundStatus status) {
+    private List<Alarm> find(Telemetry telemetry, GroundStatus status) {
         final List<Alarm> found = new ArrayList<>();
         // Before the first frame nothing went silent.
-        if (telemetry != Telemetry.NOTHING && status.isSilent) {
+        if (telemetry != Telemetry.EMPTY && status.isSilent) {
             found.add(new Alarm(Alarm.Kind.SILENT, EventLevel.ALARM, silence(status)));
         }
         if (isTrue(telemetry, "arduino.failsafe")) {
@@ -116,13 +116,13 @@ public final class Alarms {
             found.add(new Alarm(Alarm.Kind.IMU, EventLevel.ALARM,
                     "the IMU is invalid: nothing stabilises"));
         }
-        if (Fact.NOT_YET.equals(Fact.board(telemetry)) && !hadBoard) {
+        if (EventRule.NOT_YET.equals(EventRule.board(telemetry)) && !hadBoard) {
             found.add(new Alarm(Alarm.Kind.BOARD, EventLevel.WARNING,
                     "the board is not here yet"));
         } else if (isFalse(telemetry, "arduino.connected")) {
             found.add(new Alarm(Alarm.Kind.BOARD, EventLevel.ALARM, "the board is gone"));
         }
-        if (Boolean.FALSE.equals(Fact.phone(telemetry))) {
+        if (Boolean.FALSE.equals(EventRule.phone(telemetry))) {
             found.add(new Alarm(Alarm.Kind.PHONE, EventLevel.WARNING, "the phone is gone"));
         }
         final Double percent = telemetry.number("android.batteryLevel");

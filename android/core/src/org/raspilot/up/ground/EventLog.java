@@ -8,9 +8,9 @@ import org.raspilot.up.wire.SafeText;
 
 /** The newest events, the oldest of them going when there are too many. Only on the loop. */
 public final class EventLog {
-    public static final int KEPT = 200;
+    public static final int MAX_ENTRIES = 200;
 
-    private static final int LONGEST_TEXT = 400;
+    private static final int MAX_TEXT_LENGTH = 400;
 
     /** A snapshot of the events. Immutable. */
     public static final class Snapshot {
@@ -30,10 +30,10 @@ public final class EventLog {
     private Snapshot snapshot = new Snapshot(0, Collections.emptyList());
 
     /** Adds an event; {@code kind} as in {@link Event#kind}. */
-    public void note(long atMs, EventLevel level, String kind, String text) {
+    public void add(long atMs, EventLevel level, String kind, String text) {
         number++;
-        events.add(new Event(number, atMs, level, kind, SafeText.of(text, LONGEST_TEXT)));
-        if (events.size() > KEPT) {
+        events.add(new Event(number, atMs, level, kind, SafeText.of(text, MAX_TEXT_LENGTH)));
+        if (events.size() > MAX_ENTRIES) {
             events.remove();
         }
     }

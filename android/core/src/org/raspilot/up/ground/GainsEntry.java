@@ -24,6 +24,6 @@ public final class GainsEntry {
 
     /** Returns the gains in which the two differ. */
     public List<GainChange> changes() {
-        return GainsDesk.difference(before, after);
+        return GainsService.difference(before, after);
     }
 }

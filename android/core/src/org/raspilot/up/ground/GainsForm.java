@@ -12,7 +12,7 @@ import org.raspilot.up.wire.SafeText;
 /** Reads the gains that a person has typed, and judges sets before they are sent. */
 public final class GainsForm {
     private static final Pattern NUMBER = Pattern.compile("[0-9]{1,6}([.,][0-9]{0,12})?");
-    private static final int LONGEST_SHOWN = 20;
+    private static final int MAX_SHOWN_LENGTH = 20;
 
     private GainsForm() {
     }
@@ -70,7 +70,7 @@ public final class GainsForm {
                 if (!key.isRudder() && key.isIn(set)) {
                     return "the set is not whole: " + key.words() + " is missing";
                 }
-            } else if (!(value >= 0 && value <= Gains.GREATEST)) {
+            } else if (!(value >= 0 && value <= Gains.MAX)) {
                 // Written so that NaN is refused, too.
                 return key.words() + " must be 0 to 50, not " + GainChange.number(value);
             }
@@ -85,14 +85,14 @@ public final class GainsForm {
             return null;
         }
         final double value = Double.parseDouble(trimmed.replace(',', '.'));
-        return value <= Gains.GREATEST ? Double.valueOf(value) : null;
+        return value <= Gains.MAX ? Double.valueOf(value) : null;
     }
 
     private static double number(GainKey key, String typed) {
         final Double value = number(typed);
         if (value == null) {
             throw new InvalidCommandException(key.words() + " must be a number, 0 to 50, not "
-                    + SafeText.of(typed, LONGEST_SHOWN));
+                    + SafeText.of(typed, MAX_SHOWN_LENGTH));
         }
         return value;
     }

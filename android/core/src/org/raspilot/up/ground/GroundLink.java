@@ -3,8 +3,8 @@ package org.raspilot.up.ground;
 import java.util.Random;
 import org.raspilot.up.loop.Cancellable;
 import org.raspilot.up.loop.Loop;
-import org.raspilot.up.net.FixedPlace;
-import org.raspilot.up.net.Place;
+import org.raspilot.up.net.FixedEndpoint;
+import org.raspilot.up.net.Endpoint;
 import org.raspilot.up.net.UpSocket;
 import org.raspilot.up.net.UpSocketListener;
 import org.raspilot.up.net.UpSocketSettings;
@@ -14,7 +14,7 @@ import org.raspilot.up.wire.GeneralMessage;
 import org.raspilot.up.wire.HelloAnswer;
 import org.raspilot.up.wire.MalformedException;
 import org.raspilot.up.wire.SafeText;
-import org.raspilot.up.wire.Seat;
+import org.raspilot.up.wire.ProxyRole;
 
 /**
  * The link to the aircraft: sends the hello, keeps the seat and its token, reconnects after losses.
@@ -28,16 +28,16 @@ final class GroundLink implements UpSocketListener {
 
     private static final int CONNECT_TIMEOUT_MS = 5000;
     private static final int HEARTBEAT_MS = 1000;
-    private static final int FIRST_RETRY_MS = 500;
-    private static final int LAST_RETRY_MS = 2000;
+    private static final int INITIAL_RETRY_MS = 500;
+    private static final int MAX_RETRY_MS = 2000;
 
     private final Loop loop;
     private final GroundSettings settings;
     private final LinkListener listener;
     private final UpSocket socket;
-    private final LinkFacts facts = new LinkFacts();
-    private final SeatClaim claim;
-    private final QuietWatch quiet;
+    private final LinkStatus facts = new LinkStatus();
+    private final ControlLease claim;
+    private final SilenceWatchdog quiet;
     private boolean isGreeted;
     private long connectingMs;
     private long connectTookMs;
@@ -50,18 +50,18 @@ final class GroundLink implements UpSocketListener {
         this.loop = loop;
         this.settings = settings;
         this.listener = listener;
-        claim = new SeatClaim(settings, tokens, facts);
-        quiet = new QuietWatch(loop, new Quiet());
+        claim = new ControlLease(settings, tokens, facts);
+        quiet = new SilenceWatchdog(loop, new Quiet());
         final UpSocketSettings lines = UpSocketSettings.lines()
                 .withConnectTimeoutMs(CONNECT_TIMEOUT_MS)
-                .withRetryMs(FIRST_RETRY_MS, LAST_RETRY_MS);
+                .withRetryMs(INITIAL_RETRY_MS, MAX_RETRY_MS);
         socket = new UpSocket(loop,
-                new FixedPlace(new Place(settings.host, settings.port, 0)), this,
+                new FixedEndpoint(new Endpoint(settings.host, settings.port, 0)), this,
                 // A thesis peer does not support heartbeats.
                 settings.isDirect ? lines : lines.withHeartbeatMs(HEARTBEAT_MS), random);
     }
 
-    LinkFacts facts() {
+    LinkStatus facts() {
         return facts;
     }
 
@@ -78,10 +78,10 @@ final class GroundLink implements UpSocketListener {
         if (facts.state != LinkState.STOPPED) {
             return;
         }
-        claim.begin();
+        claim.reset();
         facts.failures = 0;
         facts.rejection = "";
-        facts.become(LinkState.CONNECTING, loop.nowMs(), "");
+        facts.enter(LinkState.CONNECTING, loop.nowMs(), "");
         socket.start();
         listener.onLink();
     }
@@ -108,48 +108,48 @@ final class GroundLink implements UpSocketListener {
         quiet.expectAnotherPeriod();
     }
 
-    boolean requestSeat() {
+    boolean requestControl() {
         if (settings.isDirect || facts.state == LinkState.STOPPED) {
             return false;
         }
-        claim.want(Seat.COMMAND);
+        claim.setWanted(ProxyRole.COMMAND);
         if (!isOpen()) {
             // Without a link the seat cannot be requested; the next hello requests it.
             return false;
         }
-        final boolean isUntold = facts.seat != Seat.COMMAND && !facts.isHolderKnown
+        final boolean isUntold = facts.role != ProxyRole.COMMAND && !facts.isOwnerKnown
                 && loop.nowMs() - facts.sinceMs >= HOLDER_TOLD_MS;
         if (isUntold) {
             // Only a new hello gives the seat of an aircraft's own listener.
-            return sayHelloAnew();
+            return reconnectWithHello();
         }
         return send(ControlLine.of(ControlLine.Kind.SEAT_REQUEST).toLine());
     }
 
-    void dismissAsk() {
-        if (facts.askedBy != null) {
-            facts.askedBy = null;
+    void dismissRequest() {
+        if (facts.requestedBy != null) {
+            facts.requestedBy = null;
             listener.onLink();
         }
     }
 
-    boolean giveSeat(int to) {
-        return holds() && to >= 0
+    boolean giveControl(int to) {
+        return ownsControl() && to >= 0
                 && send(ControlLine.of(ControlLine.Kind.SEAT_GIVE, to).toLine());
     }
 
-    boolean releaseSeat() {
-        if (!holds()) {
+    boolean releaseControl() {
+        if (!ownsControl()) {
             return false;
         }
-        claim.want(Seat.LISTEN);
-        if (!facts.isHolderKnown) {
+        claim.setWanted(ProxyRole.LISTEN);
+        if (!facts.isOwnerKnown) {
             claim.dropToken();
-            return sayHelloAnew();
+            return reconnectWithHello();
         }
-        facts.isLeft = send(ControlLine.of(ControlLine.Kind.SEAT_RELEASE).toLine());
+        facts.isReleased = send(ControlLine.of(ControlLine.Kind.SEAT_RELEASE).toLine());
         listener.onLink();
-        return facts.isLeft;
+        return facts.isReleased;
     }
 
     @Override
@@ -173,7 +173,7 @@ final class GroundLink implements UpSocketListener {
 
     @Override
     public void onReceived(UpSocket from, byte[] bytes, int length) {
-        quiet.heard();
+        quiet.onLine();
         if (ControlLine.isControlLine(bytes, length)) {
             if (settings.isDirect) {
                 facts.strangeControl++;
@@ -221,11 +221,11 @@ final class GroundLink implements UpSocketListener {
         listener.onLink();
     }
 
-    private boolean holds() {
-        return isOpen() && facts.seat == Seat.COMMAND && !facts.isLeft;
+    private boolean ownsControl() {
+        return isOpen() && facts.role == ProxyRole.COMMAND && !facts.isReleased;
     }
 
-    private boolean sayHelloAnew() {
+    private boolean reconnectWithHello() {
         socket.drop("another seat is asked for");
         socket.reconnectNow();
         return true;
@@ -238,7 +238,7 @@ final class GroundLink implements UpSocketListener {
             facts.rejection = answer.code;
             socket.drop("the proxy refuses: " + SafeText.of(answer.reason, 300) + " ("
                     + answer.code + ")");
-        } else if (answer.seat == Seat.AIR) {
+        } else if (answer.role == ProxyRole.AIR) {
             facts.strangeControl++;
         } else {
             isGreeted = true;
@@ -265,13 +265,13 @@ final class GroundLink implements UpSocketListener {
             facts.malformed++;
             return;
         }
-        quiet.heardMessage();
+        quiet.onMessage();
         listener.onMessage(message);
     }
 
     private void opened(long roundTripMs) {
         endHello();
-        facts.become(LinkState.OPEN, loop.nowMs(), "");
+        facts.enter(LinkState.OPEN, loop.nowMs(), "");
         facts.roundTripMs = settings.isDirect ? null : Double.valueOf(roundTripMs);
         facts.rejection = "";
         facts.failures = 0;
@@ -293,10 +293,10 @@ final class GroundLink implements UpSocketListener {
         quiet.stop();
         isGreeted = false;
         facts.roundTripMs = null;
-        facts.become(state, loop.nowMs(), reason);
+        facts.enter(state, loop.nowMs(), reason);
     }
 
-    private final class Quiet implements QuietWatch.Owner {
+    private final class Quiet implements SilenceWatchdog.Owner {
         @Override
         public Boolean isAircraftOnline() {
             return facts.isAircraftOnline;

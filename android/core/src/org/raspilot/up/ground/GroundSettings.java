@@ -2,7 +2,7 @@ package org.raspilot.up.ground;
 
 import org.raspilot.up.wire.Hello;
 import org.raspilot.up.wire.SafeText;
-import org.raspilot.up.wire.Seat;
+import org.raspilot.up.wire.ProxyRole;
 
 /** The peer of a ground device and the role it requests; immutable and valid. */
 public final class GroundSettings {
@@ -13,14 +13,14 @@ public final class GroundSettings {
     /** The default aircraft of a proxy. */
     public static final String DEFAULT_AIRCRAFT = "default";
 
-    private static final int LONGEST_HOST = 253;
+    private static final int MAX_HOST_LENGTH = 253;
 
     /** The name or address of the other side. */
     public final String host;
     public final int port;
     public final String aircraft;
     /** The seat that is requested first, COMMAND or LISTEN. */
-    public final Seat seat;
+    public final ProxyRole role;
     public final boolean isDirect;
 
     /**
@@ -33,18 +33,19 @@ public final class GroundSettings {
      * @param isDirect send no hello: an aircraft's listener in the same network
      * @throws IllegalArgumentException with the sentence of {@link #fault}
      */
-    public GroundSettings(String host, int port, String aircraft, Seat seat, boolean isDirect) {
+    public GroundSettings(String host, int port, String aircraft, ProxyRole seat,
+            boolean isDirect) {
         final String fault = fault(host, port, aircraft);
         if (fault != null) {
             throw new IllegalArgumentException(fault);
         }
-        if (seat != Seat.COMMAND && seat != Seat.LISTEN) {
+        if (seat != ProxyRole.COMMAND && seat != ProxyRole.LISTEN) {
             throw new IllegalArgumentException("a ground commands or listens");
         }
         this.host = host.trim();
         this.port = port;
         this.aircraft = aircraft;
-        this.seat = seat;
+        this.role = seat;
         this.isDirect = isDirect;
     }
 
@@ -54,7 +55,7 @@ public final class GroundSettings {
         if (name.isEmpty()) {
             return "the host is empty";
         }
-        if (name.length() > LONGEST_HOST || !name.matches("[A-Za-z0-9_.:%-]+")) {
+        if (name.length() > MAX_HOST_LENGTH || !name.matches("[A-Za-z0-9_.:%-]+")) {
             return "the host is neither a name nor an address: " + SafeText.of(name, 60);
         }
         if (port < 1 || port > 65535) {

@@ -1,12 +1,12 @@
 package org.raspilot.up.ground;
 
-import org.raspilot.up.wire.Seat;
+import org.raspilot.up.wire.ProxyRole;
 
 /** A snapshot of link, seat and aircraft. Immutable. */
 public final class GroundStatus {
     /** The values that a {@link GroundSide} fills in before it creates a status. */
     static final class Draft {
-        LinkFacts link = new LinkFacts();
+        LinkStatus link = new LinkStatus();
         boolean isDirect;
         Double rateHz;
         boolean isSilent = true;
@@ -27,12 +27,12 @@ public final class GroundStatus {
     /** Whether the link goes directly to an aircraft, without seats. */
     public final boolean isDirect;
     /** COMMAND or LISTEN, or null if unknown. */
-    public final Seat seat;
+    public final ProxyRole role;
     /** The number of the ground that commands, or null if none or unknown. */
-    public final Integer holder;
-    public final SeatStanding standing;
+    public final Integer owner;
+    public final ControlStatus control;
     /** The listener that requests the seat held here; null: none. */
-    public final Integer askedBy;
+    public final Integer requestedBy;
     /** Whether the aircraft is connected to the proxy, or null if unknown. */
     public final Boolean isAircraftOnline;
     /** The time to the other side and back, ms, by hello or answer; null: not known. */
@@ -46,7 +46,7 @@ public final class GroundStatus {
     /** Whether telemetry arrives, but so late that it counts as silence. */
     public final boolean isLate;
     /** The role of grounds at this aircraft, as its telemetry reports; null: unknown. */
-    public final String role;
+    public final String commandRole;
     /** Whether gains may be set in flight, or null if unknown. */
     public final Boolean tuneInFlight;
     /** The aircraft's home; null: not known. */
@@ -54,23 +54,23 @@ public final class GroundStatus {
     public final GroundCounters counters;
 
     GroundStatus(Draft draft) {
-        final LinkFacts facts = draft.link;
+        final LinkStatus facts = draft.link;
         link = facts.state;
         sinceMs = facts.sinceMs;
         reason = facts.reason;
         rejection = facts.rejection;
         isDirect = draft.isDirect;
-        seat = facts.seat;
-        holder = facts.holder;
-        standing = SeatStanding.of(facts, draft.isDirect);
-        askedBy = facts.askedBy;
+        role = facts.role;
+        owner = facts.owner;
+        control = ControlStatus.of(facts, draft.isDirect);
+        requestedBy = facts.requestedBy;
         isAircraftOnline = facts.isAircraftOnline;
         roundTripMs = facts.roundTripMs;
         failures = facts.failures;
         rateHz = draft.rateHz;
         isSilent = draft.isSilent;
         isLate = draft.isLate;
-        role = draft.role;
+        commandRole = draft.role;
         tuneInFlight = draft.tuneInFlight;
         home = draft.home;
         counters = draft.counters;
@@ -82,7 +82,7 @@ public final class GroundStatus {
     }
 
     /** Returns the state of link and aircraft for a pilot, without a full stop. */
-    public String linkSentence() {
+    public String linkText() {
         switch (link) {
             case STOPPED:
                 return "stopped";
@@ -96,18 +96,18 @@ public final class GroundStatus {
     }
 
     /** Describes for a pilot who commands, without a full stop. */
-    public String seatSentence() {
-        switch (standing) {
+    public String controlText() {
+        switch (control) {
             case OURS:
                 if (isDirect) {
                     return "a direct link: what is sent arrives";
                 }
-                return askedBy == null ? "you command"
-                        : "you command, ground " + askedBy + " asks for it";
+                return requestedBy == null ? "you command"
+                        : "you command, ground " + requestedBy + " asks for it";
             case FREE:
                 return "nobody commands";
             case HELD:
-                return "ground " + holder + " commands";
+                return "ground " + owner + " commands";
             case LATER:
                 return "you listen";
             default:

@@ -18,7 +18,7 @@ public final class MemoryTokenStore implements TokenStore {
     }
 
     @Override
-    public void forget(String key) {
+    public void remove(String key) {
         tokens.remove(key);
     }
 }

@@ -16,13 +16,13 @@ import org.raspilot.up.wire.SafeText;
 public final class Telemetry {
     public static final String NAME = "up.telemetry.update";
     /** The state before the first frame: empty, and everything stale. */
-    public static final Telemetry NOTHING = new Telemetry(
+    public static final Telemetry EMPTY = new Telemetry(
             Collections.emptyMap(), null, 0, Age.unknown());
 
-    private static final double GREATEST = 1e12;
+    private static final double MAX_NUMBER = 1e12;
     private static final int SHORT_TEXT = 40;
-    private static final int MOST_TEXTS = 32;
-    private static final int LONGEST_OF_TEXTS = 80;
+    private static final int MAX_TEXTS = 32;
+    private static final int MAX_LISTED_TEXT_LENGTH = 80;
 
     /** All fields as JSON values, unmodifiable at each depth. */
     public final Map<String, Object> tree;
@@ -64,13 +64,13 @@ public final class Telemetry {
     }
 
     /** Returns the same frame with another transit time. */
-    Telemetry ofWay(long wayMs) {
-        return new Telemetry(tree, beacon, receivedMs, age.ofWay(wayMs));
+    Telemetry withTransit(long wayMs) {
+        return new Telemetry(tree, beacon, receivedMs, age.withTransit(wayMs));
     }
 
     /** Returns the same frame after its link was lost: everything in it is stale. */
-    Telemetry ofLostLink() {
-        return new Telemetry(tree, beacon, receivedMs, age.ofLostLink());
+    Telemetry withLostLink() {
+        return new Telemetry(tree, beacon, receivedMs, age.withLostLink());
     }
 
     /** Returns the age of the frame including transit, ms; null without a frame. */
@@ -146,8 +146,8 @@ public final class Telemetry {
         }
         final List<String> texts = new ArrayList<>();
         for (Object each : found) {
-            if (each instanceof String && texts.size() < MOST_TEXTS) {
-                texts.add(SafeText.of((String) each, LONGEST_OF_TEXTS));
+            if (each instanceof String && texts.size() < MAX_TEXTS) {
+                texts.add(SafeText.of((String) each, MAX_LISTED_TEXT_LENGTH));
             }
         }
         return Collections.unmodifiableList(texts);
@@ -188,7 +188,7 @@ public final class Telemetry {
         }
         final double value = ((Number) found).doubleValue();
         // Written so that NaN is refused, too.
-        return Math.abs(value) < GREATEST ? Double.valueOf(value) : null;
+        return Math.abs(value) < MAX_NUMBER ? Double.valueOf(value) : null;
     }
 
     private static Map<String, Object> frozen(Map<?, ?> given) {

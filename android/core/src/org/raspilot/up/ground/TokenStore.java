@@ -12,5 +12,5 @@ public interface TokenStore {
     void save(String key, String token);
 
     /** Drops a token: the seat was given up. */
-    void forget(String key);
+    void remove(String key);
 }

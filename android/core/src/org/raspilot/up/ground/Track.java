@@ -5,13 +5,13 @@ import java.util.Collections;
 import java.util.List;
 
 /**
- * The track of the aircraft, in metres from its home: points at least {@link #NEAREST_M} apart;
+ * The track of the aircraft, in metres from its home: points at least
  * when there are too many, every second one is dropped. Only on the loop.
  */
 public final class Track {
-    public static final int MOST_POINTS = 4000;
+    public static final int MAX_POINTS = 4000;
     /** Points are not nearer to each other, m. */
-    public static final double NEAREST_M = 2;
+    public static final double MIN_DISTANCE_M = 2;
 
     /** A snapshot of the track. Immutable. */
     public static final class Snapshot {
@@ -57,7 +57,7 @@ public final class Track {
     private Spot newest;
     private Home home;
     private Home firstPlace;
-    private final PlaceGaps gaps = new PlaceGaps();
+    private final PositionGaps gaps = new PositionGaps();
     private boolean isAfterSilence;
     private long version;
     private final List<TrackPoint> points = new ArrayList<>();
@@ -96,7 +96,7 @@ public final class Track {
     }
 
     /** Takes the position of a frame, if it has a valid one; time only increases. */
-    void take(Telemetry telemetry, Home known, long nowMs) {
+    void update(Telemetry telemetry, Home known, long nowMs) {
         if (known != null && known != home) {
             home = known;
             version++;
@@ -112,17 +112,17 @@ public final class Track {
             altitude = telemetry.number("altitude");
         }
         if (!telemetry.age.isStale("location", nowMs)) {
-            isAfterSilence |= gaps.take(nowMs);
+            isAfterSilence |= gaps.update(nowMs);
         }
         if (firstPlace == null) {
             firstPlace = new Home(latitude, longitude);
         }
         newest = new Spot(latitude, longitude, altitude, isAfterSilence && !spots.isEmpty());
         version++;
-        if (spots.isEmpty() || distanceM(lastSpot(), newest) >= NEAREST_M) {
+        if (spots.isEmpty() || distanceM(lastSpot(), newest) >= MIN_DISTANCE_M) {
             isAfterSilence = false;
             spots.add(newest);
-            if (spots.size() >= MOST_POINTS) {
+            if (spots.size() >= MAX_POINTS) {
                 thin();
             }
         }

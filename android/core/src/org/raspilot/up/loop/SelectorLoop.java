@@ -29,7 +29,7 @@ public final class SelectorLoop implements Loop, Network {
     private final byte[] bytes = new byte[BYTES];
     private final TimerQueue timers = new TimerQueue();
     private final Object lock = new Object();
-    private final Inbox posted = new Inbox();
+    private final CallQueue posted = new CallQueue();
     private volatile Thread thread;
     private volatile boolean isStopped;
     private final AtomicLong rounds = new AtomicLong();
@@ -166,14 +166,14 @@ public final class SelectorLoop implements Loop, Network {
         return bytes;
     }
 
-    SelectionKey register(SelectableChannel channel, int operations, Ready ready)
+    SelectionKey register(SelectableChannel channel, int operations, SelectorHandler ready)
             throws IOException {
         return sockets.register(channel, operations, ready);
     }
 
     /** Counts and reports a fault that belongs to no call. */
-    void tell(Throwable fault) {
-        guard.tell(fault);
+    void report(Throwable fault) {
+        guard.report(fault);
     }
 
     /** Closes; a socket that cannot be closed is reported as a fault. */
@@ -181,7 +181,7 @@ public final class SelectorLoop implements Loop, Network {
         try {
             channel.close();
         } catch (IOException error) {
-            tell(error);
+            report(error);
         }
     }
 
@@ -207,7 +207,7 @@ public final class SelectorLoop implements Loop, Network {
     }
 
     private void runPosted() {
-        for (Runnable call : posted.take()) {
+        for (Runnable call : posted.drain()) {
             sockets.hadReason();
             run(call);
         }
@@ -232,7 +232,7 @@ public final class SelectorLoop implements Loop, Network {
         } catch (IOException | RuntimeException error) {
             // Android's older selectors throw both (a key cancelled during the select). The thread
             // must survive that in flight.
-            tell(error);
+            report(error);
             // Whatever the system's fault is, an immediate retry would only heat the phone.
             LockSupport.parkNanos(TimeUnit.MILLISECONDS.toNanos(10));
         }
@@ -242,7 +242,7 @@ public final class SelectorLoop implements Loop, Network {
         run(() -> {
             // A previous call may have closed it.
             if (key.isValid()) {
-                ((Ready) key.attachment()).onReady(key);
+                ((SelectorHandler) key.attachment()).onReady(key);
             }
         });
     }
@@ -261,13 +261,13 @@ public final class SelectorLoop implements Loop, Network {
     }
 
     private void closeAll() {
-        for (Ready ready : sockets.registered()) {
+        for (SelectorHandler ready : sockets.registered()) {
             ready.close();
         }
         try {
             sockets.close();
         } catch (IOException error) {
-            tell(error);
+            report(error);
         }
     }
 

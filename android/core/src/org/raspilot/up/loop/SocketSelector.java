@@ -13,7 +13,7 @@ import java.util.List;
  * than the loop's thread.
  */
 class SocketSelector {
-    private static final int MOST_EMPTY_ROUNDS = 256;
+    private static final int MAX_EMPTY_ROUNDS = 256;
 
     private volatile Selector selector;
     private int emptyRounds;
@@ -30,7 +30,7 @@ class SocketSelector {
         }
     }
 
-    SelectionKey register(SelectableChannel channel, int operations, Ready ready)
+    SelectionKey register(SelectableChannel channel, int operations, SelectorHandler ready)
             throws IOException {
         return channel.register(selector, operations, ready);
     }
@@ -46,7 +46,7 @@ class SocketSelector {
      * @param waitMs the maximum wait; 0: none, -1: no limit
      */
     List<SelectionKey> await(long waitMs) throws IOException {
-        final boolean isReplaced = emptyRounds > MOST_EMPTY_ROUNDS;
+        final boolean isReplaced = emptyRounds > MAX_EMPTY_ROUNDS;
         if (isReplaced) {
             replace();
         }
@@ -67,10 +67,10 @@ class SocketSelector {
     }
 
     /** Returns the owners of the keys. */
-    List<Ready> registered() {
-        final List<Ready> all = new ArrayList<>();
+    List<SelectorHandler> registered() {
+        final List<SelectorHandler> all = new ArrayList<>();
         for (SelectionKey key : selector.keys()) {
-            all.add((Ready) key.attachment());
+            all.add((SelectorHandler) key.attachment());
         }
         return all;
     }
@@ -92,7 +92,7 @@ class SocketSelector {
         try {
             for (SelectionKey key : old.keys()) {
                 if (key.isValid()) {
-                    final Ready ready = (Ready) key.attachment();
+                    final SelectorHandler ready = (SelectorHandler) key.attachment();
                     final int operations = key.interestOps();
                     key.cancel();
                     ready.onMoved(key.channel().register(fresh, operations, ready));

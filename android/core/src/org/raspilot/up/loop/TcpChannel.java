@@ -9,13 +9,13 @@ import java.nio.channels.SelectionKey;
 import java.nio.channels.SocketChannel;
 
 /** One TCP connection of a {@link SelectorLoop}: looks up, connects, reads, writes. */
-final class TcpChannel implements TcpConnection, Ready, NameLookup.Asker {
+final class TcpChannel implements TcpConnection, SelectorHandler, NameLookup.Asker {
     /**
      * Small, so that a stalled link holds little old data when it recovers. Linux doubles it and
      * counts its own overhead against it.
      */
     static final int SEND_BUFFER_BYTES = 8192;
-    private static final int LAST_READS = 8;
+    private static final int MAX_FINAL_READS = 8;
 
     private enum State { CONNECTING, OPEN, BROKEN, CLOSED }
 
@@ -47,7 +47,7 @@ final class TcpChannel implements TcpConnection, Ready, NameLookup.Asker {
             return;
         }
         limit(timeoutMs, "the name " + host + " was not found within " + timeoutMs + " ms");
-        names.look(host, this);
+        names.resolve(host, this);
     }
 
     @Override
@@ -193,7 +193,7 @@ final class TcpChannel implements TcpConnection, Ready, NameLookup.Asker {
     /** Data that the peer sent before it hung up arrived before the write failed: deliver it. */
     private void readTheRest(String reason) {
         int reads = 0;
-        while (state == State.BROKEN && reads < LAST_READS && read()) {
+        while (state == State.BROKEN && reads < MAX_FINAL_READS && read()) {
             reads++;
         }
         if (state == State.BROKEN) {

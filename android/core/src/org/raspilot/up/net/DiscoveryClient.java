@@ -9,7 +9,7 @@ import org.raspilot.up.loop.UdpListener;
 import org.raspilot.up.loop.UdpPort;
 
 /** Finds the Raspberry Pi on the local network by Discovery (protocols 7). Only on the loop. */
-public final class DiscoveryClient implements PlaceFinder {
+public final class DiscoveryClient implements EndpointDiscovery {
     public static final int PORT = 3001;
     /** How long an answer is waited for, ms. */
     public static final int ANSWER_MS = 1500;
@@ -44,7 +44,7 @@ public final class DiscoveryClient implements PlaceFinder {
     }
 
     @Override
-    public Cancellable find(FindListener listener) {
+    public Cancellable find(DiscoveryListener listener) {
         final Question question = new Question(listener);
         question.begin();
         return question;
@@ -61,7 +61,7 @@ public final class DiscoveryClient implements PlaceFinder {
     }
 
     private final class Question implements Cancellable, UdpListener {
-        private final FindListener listener;
+        private final DiscoveryListener listener;
         private boolean isPending = true;
         private boolean wasSent;
         private UdpPort udp;
@@ -69,7 +69,7 @@ public final class DiscoveryClient implements PlaceFinder {
         private Cancellable limit;
         private String refused = "";
 
-        Question(FindListener listener) {
+        Question(DiscoveryListener listener) {
             this.listener = listener;
         }
 
@@ -115,7 +115,7 @@ public final class DiscoveryClient implements PlaceFinder {
                 return;
             }
             cancel();
-            listener.onFound(new Place(found, generalPort, orientationPort));
+            listener.onFound(new Endpoint(found, generalPort, orientationPort));
         }
 
         private void ask() {

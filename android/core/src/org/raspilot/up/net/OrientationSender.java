@@ -22,10 +22,10 @@ public final class OrientationSender {
     }
 
     private final Loop loop;
-    private final KnownPlace known;
+    private final LastEndpoint known;
     private final UpSocket socket;
     private UdpPort udp;
-    private Place followed;
+    private Endpoint followed;
     private boolean isStarted;
     private String problem = "";
     private long udpSent;
@@ -37,7 +37,7 @@ public final class OrientationSender {
      * @param known the place of the General Message link; frames go to its orientation port
      * @param random seeded: the waits between attempts vary by it
      */
-    public OrientationSender(Loop loop, KnownPlace known, Transport transport, Random random) {
+    public OrientationSender(Loop loop, LastEndpoint known, Transport transport, Random random) {
         this.loop = loop;
         this.known = known;
         socket = transport == Transport.UDP ? null : new UpSocket(loop, known.follower(),
@@ -48,7 +48,7 @@ public final class OrientationSender {
     public void start() {
         if (!isStarted) {
             isStarted = true;
-            followed = known.place();
+            followed = known.endpoint();
             if (socket != null) {
                 socket.start();
             } else {
@@ -125,7 +125,7 @@ public final class OrientationSender {
         if (!problem.isEmpty()) {
             return problem;
         }
-        final Place place = known.place();
+        final Endpoint place = known.endpoint();
         if (place == null) {
             return "the Raspberry Pi is not found yet";
         }
@@ -151,7 +151,7 @@ public final class OrientationSender {
         if (udp == null) {
             openUdp();
         }
-        final Place place = known.place();
+        final Endpoint place = known.endpoint();
         final boolean isSent = udp != null && hasPort()
                 && udp.send(frame, place.host, place.orientationPort);
         if (isSent) {
@@ -163,7 +163,7 @@ public final class OrientationSender {
     }
 
     private boolean hasPort() {
-        return known.place() != null && known.place().orientationPort != 0;
+        return known.endpoint() != null && known.endpoint().orientationPort != 0;
     }
 
     private void openUdp() {
@@ -184,10 +184,10 @@ public final class OrientationSender {
 
     /** A connection to the Raspberry Pi's old address is useless, and so is waiting to retry it. */
     private void follow() {
-        final Place place = known.place();
+        final Endpoint place = known.endpoint();
         if (socket != null && place != null && !place.equals(followed)) {
             followed = place;
-            if (place.equals(socket.status().place)) {
+            if (place.equals(socket.status().endpoint)) {
                 reconnectNow();
             } else {
                 replaceConnection("the Raspberry Pi is now at " + place.host);

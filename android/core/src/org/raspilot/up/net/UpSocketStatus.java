@@ -17,13 +17,13 @@ public final class UpSocketStatus {
 
     public final State state;
     /** The last place found; null: none so far. */
-    public final Place place;
+    public final Endpoint endpoint;
     /** A sentence without a full stop: the peer's address, or why it is not connected. */
     public final String sentence;
 
-    UpSocketStatus(State state, Place place, String sentence) {
+    UpSocketStatus(State state, Endpoint place, String sentence) {
         this.state = state;
-        this.place = place;
+        this.endpoint = place;
         this.sentence = sentence;
     }
 

@@ -13,9 +13,9 @@ public final class AltitudeProvider extends SensorProvider<Pressure> {
     /** The name under which it is registered. */
     public static final String NAME = "altitude";
     /** The lowest reference pressure, hPa: a field at 9 km. */
-    public static final double LEAST_REFERENCE_HPA = 300;
+    public static final double MIN_REFERENCE_HPA = 300;
     /** The highest reference pressure, hPa. */
-    public static final double MOST_REFERENCE_HPA = 1100;
+    public static final double MAX_REFERENCE_HPA = 1100;
 
     private static final long SILENCE_MS = 3000;
 
@@ -23,7 +23,7 @@ public final class AltitudeProvider extends SensorProvider<Pressure> {
 
     /** Takes the barometer, and how often an altitude leaves at most, ms. */
     public AltitudeProvider(SensorSource<Pressure> source, int periodMs) {
-        super(NAME, source, Cadence.stream(periodMs, SILENCE_MS));
+        super(NAME, source, RatePolicy.stream(periodMs, SILENCE_MS));
     }
 
     /**
@@ -59,7 +59,7 @@ public final class AltitudeProvider extends SensorProvider<Pressure> {
 
     /** Returns whether a reference pressure can be used. */
     public static boolean isReference(double hPa) {
-        return hPa >= LEAST_REFERENCE_HPA && hPa <= MOST_REFERENCE_HPA;
+        return hPa >= MIN_REFERENCE_HPA && hPa <= MAX_REFERENCE_HPA;
     }
 
     @Override

@@ -8,12 +8,12 @@ public final class BatteryProvider extends SensorProvider<BatteryLevel> {
     /** The name under which it is registered. */
     public static final String NAME = "battery";
 
-    private static final long LEAST_MS = 1000;
+    private static final long MIN_MS = 1000;
     private static final long REPEAT_MS = 10000;
     private static final long SILENCE_MS = 10000;
 
     public BatteryProvider(SensorSource<BatteryLevel> source) {
-        super(NAME, source, Cadence.level(LEAST_MS, REPEAT_MS, SILENCE_MS));
+        super(NAME, source, RatePolicy.level(MIN_MS, REPEAT_MS, SILENCE_MS));
     }
 
     @Override

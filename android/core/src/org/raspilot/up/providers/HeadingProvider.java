@@ -15,7 +15,7 @@ public final class HeadingProvider extends SensorProvider<Rotation> {
 
     /** Takes the rotation sensor, how it is mounted, and how often a heading leaves at most, ms. */
     public HeadingProvider(SensorSource<Rotation> source, Mounting mounting, int periodMs) {
-        super(NAME, source, Cadence.stream(periodMs, SILENCE_MS));
+        super(NAME, source, RatePolicy.stream(periodMs, SILENCE_MS));
         this.mounting = mounting;
     }
 

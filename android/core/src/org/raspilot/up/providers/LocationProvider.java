@@ -10,18 +10,18 @@ public final class LocationProvider extends SensorProvider<Fix> {
 
     private static final long SILENCE_MS = 10000;
     /** A fix of the mobile network, or an approximate one: home and the way back would be wrong. */
-    private static final double WORST_ACCURACY_M = 50;
+    private static final double MAX_ACCURACY_M = 50;
 
     /** Takes the GPS, and how often a fix leaves at most, ms. */
     public LocationProvider(SensorSource<Fix> source, int periodMs) {
-        super(NAME, source, Cadence.stream(periodMs, SILENCE_MS));
+        super(NAME, source, RatePolicy.stream(periodMs, SILENCE_MS));
     }
 
     @Override
     protected BaseCommand read(Fix fix) {
-        if (fix.accuracyM != null && fix.accuracyM > WORST_ACCURACY_M) {
+        if (fix.accuracyM != null && fix.accuracyM > MAX_ACCURACY_M) {
             throw new IllegalArgumentException("a fix that may be off by more than "
-                    + Math.round(WORST_ACCURACY_M) + " m is none to fly by");
+                    + Math.round(MAX_ACCURACY_M) + " m is none to fly by");
         }
         return Commands.of(Commands.LOCATION,
                 "latitude", Rounded.to(7, fix.latitudeDeg),

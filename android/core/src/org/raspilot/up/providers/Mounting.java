@@ -7,7 +7,7 @@ import org.raspilot.up.wire.SafeText;
  * to device axes (right edge, top edge, out of the screen). Any orientation is allowed.
  */
 public final class Mounting {
-    private static final int LONGEST_SHOWN = 80;
+    private static final int MAX_SHOWN_LENGTH = 80;
 
     /** The screen up and the top edge to the nose. */
     public static final Mounting FLAT = of(Side.TOP, Side.SCREEN);
@@ -16,7 +16,7 @@ public final class Mounting {
     private static final Quaternion SWAP_NED_ENU = Quaternion.about(Math.PI, 1, 1, 0);
 
     /** When calibrated, the side at the nose may point up or down by at most 60 degrees. */
-    private static final double LEAST_LEVEL = 0.5;
+    private static final double MIN_LEVEL = 0.5;
 
     /** The rotation from aircraft axes to device axes. */
     public final Quaternion bodyToDevice;
@@ -50,7 +50,7 @@ public final class Mounting {
     public static Mounting level(Rotation rotation, Side nose) {
         Quaternion deviceToNed = SWAP_NED_ENU.times(rotation.deviceToWorld);
         double[] ahead = deviceToNed.turn(nose.x(), nose.y(), nose.z());
-        if (Math.hypot(ahead[0], ahead[1]) < LEAST_LEVEL) {
+        if (Math.hypot(ahead[0], ahead[1]) < MIN_LEVEL) {
             throw new IllegalArgumentException("the side that is to be at the nose points "
                     + (ahead[2] < 0 ? "up" : "down") + ": hold the aeroplane level");
         }
@@ -102,7 +102,8 @@ public final class Mounting {
         String[] parts = text.trim().split("\\s+");
         if (parts.length != 4) {
             throw new IllegalArgumentException(
-                    "the mounting is four numbers, not '" + SafeText.of(text, LONGEST_SHOWN) + "'");
+                    "the mounting is four numbers, not '" + SafeText.of(text, MAX_SHOWN_LENGTH)
+                            + "'");
         }
         try {
             return new Mounting(new Quaternion(
@@ -112,7 +113,8 @@ public final class Mounting {
                     Double.parseDouble(parts[3])));
         } catch (IllegalArgumentException error) {
             throw new IllegalArgumentException(
-                    "the mounting '" + SafeText.of(text, LONGEST_SHOWN) + "' is no rotation", error);
+                    "the mounting '" + SafeText.of(text, MAX_SHOWN_LENGTH) + "' is no rotation",
+                            error);
         }
     }
 

@@ -12,7 +12,7 @@ import java.util.List;
  */
 public final class Panic {
     /** The maximum delay of a request, ms. */
-    public static final long LONGEST_DELAY_MS = 10000;
+    public static final long MAX_DELAY_MS = 10000;
 
     private final List<Listener> listeners = new ArrayList<>();
     private long delayMs;
@@ -29,16 +29,16 @@ public final class Panic {
      * @param wantedMs 0 to 10000; a fraction is rounded up
      * @throws IllegalArgumentException when it is out of range (a sentence)
      */
-    public void follow(double wantedMs) {
-        if (!(wantedMs >= 0 && wantedMs <= LONGEST_DELAY_MS)) {
-            throw new IllegalArgumentException("delay_ms: 0 to " + LONGEST_DELAY_MS);
+    public void apply(double wantedMs) {
+        if (!(wantedMs >= 0 && wantedMs <= MAX_DELAY_MS)) {
+            throw new IllegalArgumentException("delay_ms: 0 to " + MAX_DELAY_MS);
         }
-        become((long) Math.ceil(wantedMs));
+        setDelayMs((long) Math.ceil(wantedMs));
     }
 
     /** Ends: by {@code panic: false}, or because the link that requested it is lost. */
-    public void forget() {
-        become(0);
+    public void clear() {
+        setDelayMs(0);
     }
 
     public boolean isOn() {
@@ -64,7 +64,7 @@ public final class Panic {
         listeners.remove(listener);
     }
 
-    private void become(long newMs) {
+    private void setDelayMs(long newMs) {
         if (newMs == delayMs) {
             return;
         }

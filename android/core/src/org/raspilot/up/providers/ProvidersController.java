@@ -13,12 +13,12 @@ public final class ProvidersController {
     private final Panic panic = new Panic();
     private final Map<String, UpProvider> providers = new LinkedHashMap<>();
     private final List<ProvidersListener> listeners = new ArrayList<>();
-    private final ProvidersListener telling = (name, sentence) -> {
+    private final ProvidersListener notifier = (name, sentence) -> {
         for (ProvidersListener listener : new ArrayList<>(listeners)) {
             listener.onProvider(name, sentence);
         }
     };
-    private Outlet outlet;
+    private MessageSink sink;
 
     /** Takes the loop on which everything happens. */
     public ProvidersController(Loop loop) {
@@ -46,10 +46,10 @@ public final class ProvidersController {
             throw new IllegalArgumentException(
                     "a provider '" + provider.name() + "' is registered already");
         }
-        provider.attach(loop, panic, telling);
+        provider.attach(loop, panic, notifier);
         providers.put(provider.name(), provider);
-        if (outlet != null) {
-            provider.start(outlet);
+        if (sink != null) {
+            provider.start(sink);
         }
     }
 
@@ -68,15 +68,15 @@ public final class ProvidersController {
     }
 
     /** Starts all in the order of their registration; they send into the outlet. */
-    public void start(Outlet to) {
-        outlet = to;
+    public void start(MessageSink to) {
+        sink = to;
         for (UpProvider provider : all()) {
             provider.start(to);
         }
     }
 
     public void stop() {
-        outlet = null;
+        sink = null;
         List<UpProvider> reversed = all();
         Collections.reverse(reversed);
         for (UpProvider provider : reversed) {
@@ -87,11 +87,11 @@ public final class ProvidersController {
     /** Restarts one, as after a permission was granted; returns whether it is running. */
     public boolean restart(String name) {
         UpProvider provider = providers.get(name);
-        if (provider == null || outlet == null) {
+        if (provider == null || sink == null) {
             return false;
         }
         provider.stop();
-        provider.start(outlet);
+        provider.start(sink);
         return true;
     }
 
@@ -104,7 +104,7 @@ public final class ProvidersController {
 
     /** Notes that the link is lost: its requests are discarded. */
     public void linkClosed() {
-        panic.forget();
+        panic.clear();
     }
 
     /** Returns what each does now, in the order of their registration. */

@@ -4,7 +4,7 @@ package org.raspilot.up.providers;
 public final class Quaternion {
     public static final Quaternion NONE = new Quaternion(1, 0, 0, 0);
 
-    private static final double SHORTEST = 1e-6;
+    private static final double MIN_LENGTH = 1e-6;
 
     /** The real part: of a rotation the cosine of half its angle. */
     public final double w;
@@ -74,7 +74,7 @@ public final class Quaternion {
     /** Returns it at length one; raises IllegalArgumentException when it is 0 or not finite. */
     public Quaternion unit() {
         double length = Math.sqrt(w * w + x * x + y * y + z * z);
-        if (!(length > SHORTEST) || Double.isInfinite(length)) {
+        if (!(length > MIN_LENGTH) || Double.isInfinite(length)) {
             throw new IllegalArgumentException("no rotation: a quaternion of length " + length);
         }
         return new Quaternion(w / length, x / length, y / length, z / length);

@@ -11,7 +11,7 @@ import java.util.List;
 public final class SharedSource<R> {
     private final SensorSource<R> source;
     private final List<Branch> subscribed = new ArrayList<>();
-    private final SensorListener<R> telling = reading -> {
+    private final SensorListener<R> distributor = reading -> {
         for (Branch branch : new ArrayList<>(subscribed)) {
             branch.listener.onReading(reading);
         }
@@ -41,7 +41,7 @@ public final class SharedSource<R> {
             source.unsubscribe();
         }
         if (wantedMs != 0) {
-            source.subscribe(wantedMs, telling);
+            source.subscribe(wantedMs, distributor);
             periodMs = wantedMs;
         }
     }

@@ -88,7 +88,7 @@ public final class ControlLine {
         if (text == null) {
             return null;
         }
-        ProxyWords words = new ProxyWords(text);
+        ProxyLine words = new ProxyLine(text);
         if (words.word(1).equals("aircraft")) {
             if (words.word(2).equals("online")) {
                 return of(Kind.AIRCRAFT_ONLINE);
@@ -98,7 +98,7 @@ public final class ControlLine {
         return words.word(1).equals("seat") ? seatLine(words) : null;
     }
 
-    private static ControlLine seatLine(ProxyWords words) {
+    private static ControlLine seatLine(ProxyLine words) {
         String verb = words.word(2);
         if (verb.equals("request")) {
             return of(Kind.SEAT_REQUEST);
@@ -131,10 +131,10 @@ public final class ControlLine {
 
     /** Returns the line with its LF. */
     public byte[] toLine() {
-        return Utf8.encode("UP1 " + said() + "\n");
+        return Utf8.encode("UP1 " + text() + "\n");
     }
 
-    private String said() {
+    private String text() {
         switch (kind) {
             case SEAT_REQUEST:
                 return "seat request";

@@ -11,8 +11,8 @@ import java.nio.ByteBuffer;
 public final class OrientationFrame {
     /** Bytes of a frame. */
     public static final int SIZE = 24;
-    public static final float LARGEST_ANGLE_DEG = 360f;
-    public static final float LARGEST_RATE_DEG_S = 4000f;
+    public static final float MAX_ANGLE_DEG = 360f;
+    public static final float MAX_RATE_DEG_S = 4000f;
 
     public final float rollDeg;
     public final float pitchDeg;
@@ -34,12 +34,12 @@ public final class OrientationFrame {
 
     /** Returns whether a receiver accepts it: all six finite and within their limits. */
     public boolean isInRange() {
-        return isWithin(rollDeg, LARGEST_ANGLE_DEG)
-                && isWithin(pitchDeg, LARGEST_ANGLE_DEG)
-                && isWithin(yawDeg, LARGEST_ANGLE_DEG)
-                && isWithin(rollRateDegS, LARGEST_RATE_DEG_S)
-                && isWithin(pitchRateDegS, LARGEST_RATE_DEG_S)
-                && isWithin(yawRateDegS, LARGEST_RATE_DEG_S);
+        return isWithin(rollDeg, MAX_ANGLE_DEG)
+                && isWithin(pitchDeg, MAX_ANGLE_DEG)
+                && isWithin(yawDeg, MAX_ANGLE_DEG)
+                && isWithin(rollRateDegS, MAX_RATE_DEG_S)
+                && isWithin(pitchRateDegS, MAX_RATE_DEG_S)
+                && isWithin(yawRateDegS, MAX_RATE_DEG_S);
     }
 
     /** Returns the 24 bytes. */

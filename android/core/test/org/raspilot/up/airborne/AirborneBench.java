@@ -7,7 +7,7 @@ import java.util.Random;
 import org.raspilot.up.loop.Faults;
 import org.raspilot.up.loop.ManualLoop;
 import org.raspilot.up.loop.ScriptedNetwork;
-import org.raspilot.up.net.Place;
+import org.raspilot.up.net.Endpoint;
 import org.raspilot.up.providers.BatteryLevel;
 import org.raspilot.up.providers.Fix;
 import org.raspilot.up.providers.Pressure;
@@ -149,7 +149,7 @@ final class AirborneBench implements Sensors, Speaker, AirborneListener {
     }
 
     @Override
-    public void onConnected(Place place) {
+    public void onConnected(Endpoint place) {
         events.add("connected " + place);
     }
 

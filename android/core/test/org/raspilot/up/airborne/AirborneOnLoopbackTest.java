@@ -25,7 +25,7 @@ import org.raspilot.up.wire.OrientationFrame;
 
 /** The airborne side on its real loop and real sockets, against a server of a few lines. */
 public final class AirborneOnLoopbackTest {
-    private static final int LONGEST_WAIT_MS = 20000;
+    private static final int MAX_WAIT_MS = 20000;
     private static final Charset UTF_8 = Charset.forName("UTF-8");
 
     @Rule
@@ -67,7 +67,7 @@ public final class AirborneOnLoopbackTest {
         assertEquals(83L, read(lines).data.get("level"));
 
         Socket frames = accept(orientation);
-        running.await("the link for orientation", () -> airborne.outlet().isOrientationOpen());
+        running.await("the link for orientation", () -> airborne.sink().isOrientationOpen());
         give(airborne, mounting, 20);
         OrientationFrame frame = frame(frames);
         assertEquals(20, frame.rollDeg, 0.01);
@@ -118,13 +118,13 @@ public final class AirborneOnLoopbackTest {
 
     private static ServerSocket server() throws IOException {
         ServerSocket server = new ServerSocket(0, 5, InetAddress.getByName("127.0.0.1"));
-        server.setSoTimeout(LONGEST_WAIT_MS);
+        server.setSoTimeout(MAX_WAIT_MS);
         return server;
     }
 
     private static Socket accept(ServerSocket server) throws IOException {
         Socket socket = server.accept();
-        socket.setSoTimeout(LONGEST_WAIT_MS);
+        socket.setSoTimeout(MAX_WAIT_MS);
         return socket;
     }
 

@@ -8,7 +8,7 @@ import java.util.List;
 import org.junit.After;
 import org.junit.Test;
 import org.raspilot.up.commands.BaseCommand;
-import org.raspilot.up.providers.Cadence;
+import org.raspilot.up.providers.RatePolicy;
 import org.raspilot.up.providers.SensorProvider;
 import org.raspilot.up.providers.TestSource;
 
@@ -27,7 +27,7 @@ public final class AirbornePanicTest {
         bench.accept(50000);
         final TestSource<String> own = new TestSource<>("own sensor");
         bench.airborne.providers().register(
-                new SensorProvider<String>("own", own, Cadence.stream(50, 1000)) {
+                new SensorProvider<String>("own", own, RatePolicy.stream(50, 1000)) {
                     @Override
                     protected BaseCommand read(String reading) {
                         return new BaseCommand(

@@ -148,7 +148,7 @@ public final class AirborneTest {
         assertTrue(status.isRunning);
         assertTrue(status.isConnected);
         assertEquals("connected to 10.0.0.1:50001", status.linkText);
-        assertEquals("10.0.0.1:50001:50000", status.place.toString());
+        assertEquals("10.0.0.1:50001:50000", status.endpoint.toString());
         assertEquals(AirborneMode.FLIGHT_CONTROLLER, status.mode);
         assertEquals(OrientationTransport.OFF, status.orientation);
         assertEquals("off", status.orientationText);

@@ -24,7 +24,8 @@ public final class TypedCommandsTest {
                 () -> Commands.flightMode("ACRO"));
         assertRefused("text is missing", () ->
                 Commands.of(Commands.SPEAK, "text", null));
-        assertRefused("text must not be blank", () -> Commands.of(Commands.MARK, "text", " \u00a0"));
+        assertRefused("text must not be blank",
+                () -> Commands.of(Commands.MARK, "text", " \u00a0"));
         assertRefused("topic must be words of a to z, 0 to 9 and _, joined by dots: "
                 + "companion.airspeed", () ->
                         Commands.record("alone", Collections.emptyMap()));

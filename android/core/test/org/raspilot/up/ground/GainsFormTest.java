@@ -11,7 +11,7 @@ import org.raspilot.up.commands.InvalidCommandException;
 
 /** Gains as a person types them. */
 public final class GainsFormTest {
-    private final Map<String, String> cells = GainsForm.cells(GainsDeskTest.set(3));
+    private final Map<String, String> cells = GainsForm.cells(GainsServiceTest.set(3));
 
     private void refused(String path, String typed, String sentence) {
         cells.put(path, typed);
@@ -25,7 +25,7 @@ public final class GainsFormTest {
 
     @Test
     public void aFormThatNobodyTouchedIsTheSetItself() {
-        assertEquals(GainsDeskTest.set(3).toData(), GainsForm.read(cells).toData());
+        assertEquals(GainsServiceTest.set(3).toData(), GainsForm.read(cells).toData());
         assertEquals(27, cells.size());
         assertEquals("0.25", cells.get("ratePIDs.ailerons.d"));
         assertEquals("", cells.get("navPIDs.ailerons.p"));

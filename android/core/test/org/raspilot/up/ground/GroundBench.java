@@ -14,7 +14,7 @@ import org.raspilot.up.loop.ScriptedNetwork;
 import org.raspilot.up.wire.GeneralMessage;
 import org.raspilot.up.wire.Json;
 import org.raspilot.up.wire.MalformedException;
-import org.raspilot.up.wire.Seat;
+import org.raspilot.up.wire.ProxyRole;
 
 /** A ground on a stopped clock whose proxy is the test; records all its reports. */
 final class GroundBench extends ExternalResource implements GroundListener {
@@ -33,10 +33,10 @@ final class GroundBench extends ExternalResource implements GroundListener {
     final List<Answer> answers = new ArrayList<>();
     GroundStatus status;
     int changes;
-    GroundSettings settings = settings(Seat.COMMAND, false);
+    GroundSettings settings = settings(ProxyRole.COMMAND, false);
     GroundSide ground;
 
-    static GroundSettings settings(Seat seat, boolean isDirect) {
+    static GroundSettings settings(ProxyRole seat, boolean isDirect) {
         return new GroundSettings("192.0.2.9", 3004, "glider", seat, isDirect);
     }
 
@@ -55,16 +55,16 @@ final class GroundBench extends ExternalResource implements GroundListener {
     }
 
     /** Starts, accepts as the proxy, and grants that seat. */
-    GroundBench open(Seat seat) {
+    GroundBench open(ProxyRole seat) {
         start(settings(seat, false));
         accept(seat);
-        say("UP1 seat holder=" + (seat == Seat.COMMAND ? "1" : "none"));
+        say("UP1 seat holder=" + (seat == ProxyRole.COMMAND ? "1" : "none"));
         say("UP1 aircraft online");
         return this;
     }
 
     /** Accepts the newest connection as the proxy and answers the hello. */
-    void accept(Seat seat) {
+    void accept(ProxyRole seat) {
         peer().accept();
         say("UP1 ok aircraft=glider seat=" + seat.word() + " token=" + TOKEN);
     }

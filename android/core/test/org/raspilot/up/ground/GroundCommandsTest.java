@@ -13,7 +13,7 @@ import org.junit.Test;
 import org.raspilot.up.commands.BaseCommand;
 import org.raspilot.up.commands.Commands;
 import org.raspilot.up.wire.GeneralMessage;
-import org.raspilot.up.wire.Seat;
+import org.raspilot.up.wire.ProxyRole;
 
 /** When a Command is sent, with which beacon, and what its answer is. */
 public final class GroundCommandsTest {
@@ -25,7 +25,7 @@ public final class GroundCommandsTest {
     }
 
     private void flySeen(long firstBeacon, int count) {
-        bench.ground.seen(bench.fly(firstBeacon, count));
+        bench.ground.onShown(bench.fly(firstBeacon, count));
         bench.skipGains();
     }
 
@@ -39,7 +39,7 @@ public final class GroundCommandsTest {
 
     @Test
     public void itGoesOutOnceWithAnIdAndTheBeaconThatThePilotHasSeen() {
-        bench.open(Seat.COMMAND);
+        bench.open(ProxyRole.COMMAND);
         flySeen(40, 3);
         bench.loop.advance(100);
         bench.frame(43, "{}");
@@ -63,7 +63,7 @@ public final class GroundCommandsTest {
         final Locale before = Locale.getDefault();
         Locale.setDefault(new Locale("ar", "EG"));
         try {
-            bench.open(Seat.COMMAND);
+            bench.open(ProxyRole.COMMAND);
             flySeen(1, 1);
             send(new BaseCommand(Commands.DISARM));
             final String id = bench.sent(Commands.DISARM).id;
@@ -75,7 +75,7 @@ public final class GroundCommandsTest {
 
     @Test
     public void aBeaconThatWasSeenTooLongAgoIsNotEchoed() {
-        bench.open(Seat.COMMAND);
+        bench.open(ProxyRole.COMMAND);
         flySeen(1, 1);
         bench.fly(2, 20);
         send(new BaseCommand(Commands.DISARM));
@@ -88,9 +88,9 @@ public final class GroundCommandsTest {
 
     @Test
     public void aBeaconStaysFreshForASlowPeriod() {
-        bench.open(Seat.COMMAND);
+        bench.open(ProxyRole.COMMAND);
         bench.frame(1, "{\"system\": {\"period_ms\": 10000}}");
-        bench.ground.seen(1L);
+        bench.ground.onShown(1L);
         bench.loop.advance(10999);
         send(new BaseCommand(Commands.DISARM));
         assertEquals(Long.valueOf(1), bench.sent(Commands.DISARM).beacon);
@@ -101,11 +101,11 @@ public final class GroundCommandsTest {
 
     @Test
     public void theHoldUpOnTheWayCountsForTheBeaconToo() {
-        bench.open(Seat.COMMAND);
+        bench.open(ProxyRole.COMMAND);
         bench.frame(1, "{\"system\": {\"clock_ms\": 0}}");
         bench.loop.advance(1600);
         bench.frame(2, "{\"system\": {\"clock_ms\": 100}}");
-        bench.ground.seen(2L);
+        bench.ground.onShown(2L);
         bench.loop.advance(499);
         send(new BaseCommand(Commands.DISARM));
         assertEquals(Long.valueOf(2), bench.sent(Commands.DISARM).beacon);
@@ -116,13 +116,13 @@ public final class GroundCommandsTest {
 
     @Test
     public void nobodyCommandsWhatTheyHaveNotSeen() {
-        bench.open(Seat.COMMAND);
+        bench.open(ProxyRole.COMMAND);
         bench.fly(1, 3);
         bench.skipGains();
         send(new BaseCommand(Commands.DISARM));
         mustBeRefused("no_beacon");
-        bench.ground.seen(77L);
-        bench.ground.seen(null);
+        bench.ground.onShown(77L);
+        bench.ground.onShown(null);
         send(new BaseCommand(Commands.DISARM));
         mustBeRefused("no_beacon");
         bench.ground.send(new BaseCommand(Commands.DISARM), 78L, bench.keeping());
@@ -133,17 +133,17 @@ public final class GroundCommandsTest {
 
     @Test
     public void anOlderFrameDrawnLaterChangesNothing() {
-        bench.open(Seat.COMMAND);
+        bench.open(ProxyRole.COMMAND);
         bench.fly(1, 5);
-        bench.ground.seen(5L);
-        bench.ground.seen(3L);
+        bench.ground.onShown(5L);
+        bench.ground.onShown(3L);
         send(new BaseCommand(Commands.DISARM));
         assertEquals(Long.valueOf(5), bench.sent(Commands.DISARM).beacon);
     }
 
     @Test
     public void withoutTheSeatNothingIsSent() {
-        bench.open(Seat.LISTEN);
+        bench.open(ProxyRole.LISTEN);
         flySeen(1, 3);
         send(new BaseCommand(Commands.DISARM));
         mustBeRefused("no_seat");
@@ -157,10 +157,10 @@ public final class GroundCommandsTest {
 
     @Test
     public void withoutALinkOrAnAircraftNothingIsSentNorKeptForLater() {
-        bench.start(GroundBench.settings(Seat.COMMAND, false));
+        bench.start(GroundBench.settings(ProxyRole.COMMAND, false));
         send(new BaseCommand(Commands.DISARM));
         assertEquals("no_link", bench.answer().code);
-        bench.accept(Seat.COMMAND);
+        bench.accept(ProxyRole.COMMAND);
         bench.say("UP1 aircraft offline");
         flySeen(1, 3);
         send(new BaseCommand(Commands.DISARM));
@@ -169,30 +169,31 @@ public final class GroundCommandsTest {
         send(new BaseCommand(Commands.DISARM));
         assertEquals("there is no link: gone", bench.answer().reason);
         bench.loop.advance(700);
-        bench.accept(Seat.COMMAND);
+        bench.accept(ProxyRole.COMMAND);
         flySeen(4, 3);
         assertFalse(bench.peer().written().contains("disarm"));
     }
 
     @Test
     public void whatWasSeenOnTheLastConnectionCountsForNothing() {
-        bench.open(Seat.COMMAND);
+        bench.open(ProxyRole.COMMAND);
         flySeen(1, 3);
         bench.peer().end("lost");
         bench.loop.advance(700);
-        bench.accept(Seat.COMMAND);
+        bench.accept(ProxyRole.COMMAND);
         send(new BaseCommand(Commands.ARM));
         mustBeRefused("no_beacon");
     }
 
     @Test
     public void armingNeedsABeaconEvenWhereTheAircraftHasNone() {
-        bench.open(Seat.COMMAND);
+        bench.open(ProxyRole.COMMAND);
         bench.say("{\"name\": \"up.telemetry.update\", \"data\": {}}");
         send(Commands.flightMode("FBW"));
         assertNull("a thesis aircraft tells no beacons",
                 bench.sent(Commands.FLIGHT_MODE).beacon);
-        for (BaseCommand command : new BaseCommand[] {new BaseCommand(Commands.ARM), new BaseCommand(Commands.DISARM)}) {
+        for (BaseCommand command : new BaseCommand[] {new BaseCommand(Commands.ARM),
+                new BaseCommand(Commands.DISARM)}) {
             send(command);
             mustBeRefused("no_beacon");
         }
@@ -200,7 +201,7 @@ public final class GroundCommandsTest {
 
     @Test
     public void theAnswerOfAnotherIdIsNotTaken() {
-        bench.open(Seat.COMMAND);
+        bench.open(ProxyRole.COMMAND);
         flySeen(1, 3);
         send(new BaseCommand(Commands.DISARM));
         final String id = bench.sent(Commands.DISARM).id;
@@ -220,7 +221,7 @@ public final class GroundCommandsTest {
 
     @Test
     public void idsAreDifferentAndAnswersFindTheirs() {
-        bench.open(Seat.COMMAND);
+        bench.open(ProxyRole.COMMAND);
         flySeen(1, 3);
         send(new BaseCommand(Commands.DISARM));
         final String first = bench.sent(Commands.DISARM).id;
@@ -235,7 +236,7 @@ public final class GroundCommandsTest {
 
     @Test
     public void noAnswerForThreeSecondsIsATimeoutAndIsNotRepaired() {
-        bench.open(Seat.COMMAND);
+        bench.open(ProxyRole.COMMAND);
         flySeen(1, 3);
         send(new BaseCommand(Commands.DISARM));
         final String id = bench.sent(Commands.DISARM).id;
@@ -253,13 +254,13 @@ public final class GroundCommandsTest {
 
     @Test
     public void aLostLinkEndsTheWaiting() {
-        bench.open(Seat.COMMAND);
+        bench.open(ProxyRole.COMMAND);
         flySeen(1, 3);
         send(new BaseCommand(Commands.DISARM));
         bench.peer().end("lost");
         assertEquals(Answer.Outcome.LOST, bench.answer().outcome);
         bench.loop.advance(700);
-        bench.accept(Seat.COMMAND);
+        bench.accept(ProxyRole.COMMAND);
         bench.loop.advance(5000);
         assertTrue(bench.sent().isEmpty());
         assertTrue(bench.answers.isEmpty());
@@ -267,7 +268,7 @@ public final class GroundCommandsTest {
 
     @Test
     public void stoppingEndsTheWaitingToo() {
-        bench.open(Seat.COMMAND);
+        bench.open(ProxyRole.COMMAND);
         flySeen(1, 3);
         send(new BaseCommand(Commands.DISARM));
         bench.ground.stop();
@@ -276,9 +277,9 @@ public final class GroundCommandsTest {
 
     @Test
     public void tooManyThatWaitAreRefused() {
-        bench.open(Seat.COMMAND);
+        bench.open(ProxyRole.COMMAND);
         flySeen(1, 3);
-        for (int each = 0; each < Answers.MOST; each++) {
+        for (int each = 0; each < PendingCommands.MAX_WAITING; each++) {
             send(new BaseCommand(Commands.DISARM));
         }
         assertTrue(bench.answers.isEmpty());
@@ -289,7 +290,7 @@ public final class GroundCommandsTest {
 
     @Test
     public void whatNoLineCanHoldIsRefused() {
-        bench.open(Seat.COMMAND);
+        bench.open(ProxyRole.COMMAND);
         flySeen(1, 3);
         send(new BaseCommand("x.y", Collections.singletonMap("v", Double.NaN)));
         mustBeRefused("invalid");
@@ -300,7 +301,7 @@ public final class GroundCommandsTest {
 
     @Test
     public void anyCommandOfTheCatalogueCanBeSentByItsName() {
-        bench.open(Seat.COMMAND);
+        bench.open(ProxyRole.COMMAND);
         flySeen(1, 3);
         send(new BaseCommand("new.cog.command", Collections.singletonMap("v", 5L)));
         assertEquals(5L, bench.sent("new.cog.command").data.get("v"));
@@ -308,7 +309,7 @@ public final class GroundCommandsTest {
 
     @Test
     public void whatTheProfileRequestAsksForIsItsAnswersData() {
-        bench.open(Seat.COMMAND);
+        bench.open(ProxyRole.COMMAND);
         bench.fly(1, 1);
         bench.sent();
         send(new BaseCommand("arduino.profile.request", null));

@@ -23,13 +23,13 @@ import org.raspilot.up.commands.Commands;
 import org.raspilot.up.loop.RunningLoop;
 import org.raspilot.up.wire.GeneralMessage;
 import org.raspilot.up.wire.MalformedException;
-import org.raspilot.up.wire.Seat;
+import org.raspilot.up.wire.ProxyRole;
 
 /** A ground over real sockets on a real loop, with a proxy that the test plays line by line. */
 public final class GroundSideSocketTest implements GroundListener {
     private static final Charset UTF_8 = Charset.forName("UTF-8");
     private static final String TOKEN = "0123456789abcdef0123456789abcdef";
-    private static final int LONGEST_WAIT_MS = 20000;
+    private static final int MAX_WAIT_MS = 20000;
 
     @Rule
     public final RunningLoop running = new RunningLoop();
@@ -45,7 +45,7 @@ public final class GroundSideSocketTest implements GroundListener {
     @Before
     public void listen() throws IOException {
         server = new ServerSocket(0, 5, InetAddress.getByName("127.0.0.1"));
-        server.setSoTimeout(LONGEST_WAIT_MS);
+        server.setSoTimeout(MAX_WAIT_MS);
     }
 
     @After
@@ -61,7 +61,7 @@ public final class GroundSideSocketTest implements GroundListener {
         running.faults.mustBeNone();
     }
 
-    private void start(final Seat seat, final boolean isDirect) throws IOException {
+    private void start(final ProxyRole seat, final boolean isDirect) throws IOException {
         running.call(() -> {
             ground = new GroundSide(running.loop, new GroundSettings("127.0.0.1",
                     server.getLocalPort(), "glider", seat, isDirect), new MemoryTokenStore(),
@@ -75,7 +75,7 @@ public final class GroundSideSocketTest implements GroundListener {
 
     private void accept() throws IOException {
         proxy = server.accept();
-        proxy.setSoTimeout(LONGEST_WAIT_MS);
+        proxy.setSoTimeout(MAX_WAIT_MS);
         lines = new BufferedReader(new InputStreamReader(proxy.getInputStream(), UTF_8));
     }
 
@@ -108,14 +108,14 @@ public final class GroundSideSocketTest implements GroundListener {
 
     @Test
     public void aFlightWithALossInItsMiddle() throws IOException, MalformedException {
-        start(Seat.COMMAND, false);
+        start(ProxyRole.COMMAND, false);
         assertEquals("UP1 aircraft=glider seat=command", line());
         say("UP1 ok aircraft=glider seat=command token=" + TOKEN + "\nUP1 seat holder=1\n"
                 + "UP1 aircraft online\n" + frame(10, "{\"altitude\": 12.5}"));
         awaitFrames(1);
         running.call(() -> {
             assertEquals(12.5, frames.get(0).number("altitude"), 0);
-            ground.seen(10L);
+            ground.onShown(10L);
             ground.send(Commands.flightMode("FBW"), answer -> answers.add(answer));
             return null;
         });
@@ -140,14 +140,14 @@ public final class GroundSideSocketTest implements GroundListener {
             assertTrue(frames.get(1).age.isLinkLost);
             assertEquals(13.5, frames.get(2).number("altitude"), 0);
             assertEquals(0, ground.status().counters.malformed);
-            assertEquals(SeatStanding.OURS, ground.status().standing);
+            assertEquals(ControlStatus.OURS, ground.status().control);
             return null;
         });
     }
 
     @Test
     public void silenceIsSeenWithoutAnythingHappening() throws IOException {
-        start(Seat.LISTEN, true);
+        start(ProxyRole.LISTEN, true);
         say(frame(1, "{}"));
         awaitFrames(1);
         running.await("silence", () ->

@@ -105,7 +105,7 @@ public final class TelemetryTest {
 
     @Test
     public void aLostLinkMakesEverythingStaleAtOnce() {
-        final Telemetry lost = frame.ofLostLink();
+        final Telemetry lost = frame.withLostLink();
         assertEquals(Freshness.STALE, lost.freshness("altitude", 10000));
         assertTrue(lost.isSilent(10000));
         assertTrue(lost.age.isLinkLost);
@@ -122,10 +122,10 @@ public final class TelemetryTest {
 
     @Test
     public void beforeTheFirstFrameThereIsNothing() {
-        assertNull(Telemetry.NOTHING.ageMs(5));
-        assertNull(Telemetry.NOTHING.number("altitude"));
-        assertTrue(Telemetry.NOTHING.isSilent(5));
-        assertEquals(Freshness.NONE, Telemetry.NOTHING.freshness("altitude", 5));
+        assertNull(Telemetry.EMPTY.ageMs(5));
+        assertNull(Telemetry.EMPTY.number("altitude"));
+        assertTrue(Telemetry.EMPTY.isSilent(5));
+        assertEquals(Freshness.NONE, Telemetry.EMPTY.freshness("altitude", 5));
     }
 
     @Test
@@ -164,10 +164,10 @@ public final class TelemetryTest {
                     hostile.freshness(path, random.nextInt(2000));
                 }
                 final List<TelemetryRow> rows = TelemetryText.rows(hostile);
-                assertTrue(rows.size() <= TelemetryText.MOST_ROWS);
-                new Track().take(hostile, null, 0);
-                new HomeSearch().take(hostile);
-                for (Fact fact : Facts.ALL) {
+                assertTrue(rows.size() <= TelemetryText.MAX_ROWS);
+                new Track().update(hostile, null, 0);
+                new HomeEstimator().update(hostile);
+                for (EventRule fact : EventRules.ALL) {
                     final Object found = fact.read(hostile);
                     if (found != null) {
                         fact.words(null, found);

@@ -54,7 +54,7 @@ public final class TelemetryTextTest {
         for (int each = 0; each < 2000; each++) {
             many.put("k" + each, (long) each);
         }
-        assertEquals(TelemetryText.MOST_ROWS,
+        assertEquals(TelemetryText.MAX_ROWS,
                 TelemetryText.rows(Telemetry.of(many, null, 0, 0)).size());
         final StringBuilder list = new StringBuilder("{\"list\": [0");
         for (int each = 1; each < 300; each++) {

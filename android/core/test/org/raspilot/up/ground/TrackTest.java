@@ -21,7 +21,7 @@ public final class TrackTest {
 
     private void fly(double northM, double eastM, Home home) {
         nowMs += 100;
-        track.take(GroundBench.telemetry("{\"location\": {\"latitude\": "
+        track.update(GroundBench.telemetry("{\"location\": {\"latitude\": "
                 + (60 + northM / DEGREE_M) + ", \"longitude\": "
                 + (15 + eastM / DEGREE_M / 0.5) + ", \"altitude\": 30}}", nowMs), home, nowMs);
     }
@@ -108,8 +108,8 @@ public final class TrackTest {
             fly(each * 3, 0, null);
         }
         final List<TrackPoint> points = points();
-        assertTrue("" + points.size(), points.size() <= Track.MOST_POINTS + 1);
-        assertTrue("" + points.size(), points.size() >= Track.MOST_POINTS / 2 - 1);
+        assertTrue("" + points.size(), points.size() <= Track.MAX_POINTS + 1);
+        assertTrue("" + points.size(), points.size() >= Track.MAX_POINTS / 2 - 1);
         assertEquals("the oldest is kept", 0, points.get(0).northM, 0.01);
         assertEquals(19999 * 3, points.get(points.size() - 1).northM, 0.1);
         int silences = 0;
@@ -126,16 +126,16 @@ public final class TrackTest {
             "{\"location\": {\"latitude\": 0, \"longitude\": 181}}",
             "{\"location\": {\"latitude\": \"49\", \"longitude\": 15}}",
             "{\"location\": {\"latitude\": 49}}"}) {
-            track.take(GroundBench.telemetry(place, nowMs), null, nowMs);
+            track.update(GroundBench.telemetry(place, nowMs), null, nowMs);
         }
         assertTrue(points().isEmpty());
     }
 
     @Test
     public void overTheDateLineItIsNotAroundTheWorld() {
-        track.take(GroundBench.telemetry(
+        track.update(GroundBench.telemetry(
                 "{\"location\": {\"latitude\": 0, \"longitude\": 179.9999}}", 1), null, 1);
-        track.take(GroundBench.telemetry(
+        track.update(GroundBench.telemetry(
                 "{\"location\": {\"latitude\": 0, \"longitude\": -179.9999}}", 2), null, 2);
         assertEquals(0.0002 * DEGREE_M, points().get(1).eastM, 0.01);
     }
@@ -168,20 +168,20 @@ public final class TrackTest {
                     random.nextDouble() * 358 - 179);
             final double bearing = random.nextDouble() * 360;
             final double distance = random.nextDouble() * 5000;
-            final Home found = HomeSearch.destination(home.latitudeDeg, home.longitudeDeg,
+            final Home found = HomeEstimator.destination(home.latitudeDeg, home.longitudeDeg,
                     bearing, distance);
-            assertEquals("seed " + seed, distance, HomeSearch.distanceM(home, found), 0.01);
+            assertEquals("seed " + seed, distance, HomeEstimator.distanceM(home, found), 0.01);
         }
-        final HomeSearch search = new HomeSearch();
-        search.take(home(100));
+        final HomeEstimator search = new HomeEstimator();
+        search.update(home(100));
         final Home first = search.home();
-        search.take(home(110));
+        search.update(home(110));
         assertEquals(first, search.home());
-        search.take(home(150));
-        assertEquals(50, HomeSearch.distanceM(first, search.home()), 0.1);
-        search.take(home(-5));
-        search.take(home(1e9));
-        assertEquals(50, HomeSearch.distanceM(first, search.home()), 0.1);
+        search.update(home(150));
+        assertEquals(50, HomeEstimator.distanceM(first, search.home()), 0.1);
+        search.update(home(-5));
+        search.update(home(1e9));
+        assertEquals(50, HomeEstimator.distanceM(first, search.home()), 0.1);
     }
 
     private static Telemetry home(double distance) {

@@ -12,7 +12,7 @@ import org.junit.rules.ExternalResource;
 
 /** A started {@link SelectorLoop} of one test: runs calls on it, and waits for what must come. */
 public final class RunningLoop extends ExternalResource {
-    private static final int LONGEST_WAIT_S = 20;
+    private static final int MAX_WAIT_S = 20;
     private static final int LOOK_MS = 2;
 
     public final Faults faults = new Faults();
@@ -43,7 +43,7 @@ public final class RunningLoop extends ExternalResource {
         final FutureTask<T> task = new FutureTask<>(call);
         loop.post(task);
         try {
-            return task.get(LONGEST_WAIT_S, TimeUnit.SECONDS);
+            return task.get(MAX_WAIT_S, TimeUnit.SECONDS);
         } catch (ExecutionException error) {
             throw new AssertionError(error.getCause());
         } catch (InterruptedException error) {
@@ -92,7 +92,7 @@ public final class RunningLoop extends ExternalResource {
 
     private static void wait(CountDownLatch latch, String complaint) {
         try {
-            if (!latch.await(LONGEST_WAIT_S, TimeUnit.SECONDS)) {
+            if (!latch.await(MAX_WAIT_S, TimeUnit.SECONDS)) {
                 throw new AssertionError(complaint);
             }
         } catch (InterruptedException error) {

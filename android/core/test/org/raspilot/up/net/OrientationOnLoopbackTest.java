@@ -37,7 +37,7 @@ public final class OrientationOnLoopbackTest {
     public void overUdpEachFrameIsADatagram() throws Exception {
         final DatagramSocket server = new DatagramSocket(0, InetAddress.getByName("127.0.0.1"));
         server.setSoTimeout(20000);
-        final OrientationSender sender = start(new Place("127.0.0.1", 1, server.getLocalPort()),
+        final OrientationSender sender = start(new Endpoint("127.0.0.1", 1, server.getLocalPort()),
                 OrientationSender.Transport.UDP);
         for (int i = 0; i < 3; i++) {
             send(sender, i);
@@ -50,8 +50,8 @@ public final class OrientationOnLoopbackTest {
         running.faults.mustBeNone();
     }
 
-    private OrientationSender start(final Place place, OrientationSender.Transport transport) {
-        final KnownPlace known = new KnownPlace(new FixedPlace(place));
+    private OrientationSender start(final Endpoint place, OrientationSender.Transport transport) {
+        final LastEndpoint known = new LastEndpoint(new FixedEndpoint(place));
         final OrientationSender sender =
                 new OrientationSender(running.loop, known, transport, new Random(6));
         return running.call(() -> {

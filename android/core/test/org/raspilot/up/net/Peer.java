@@ -38,8 +38,8 @@ final class Peer extends ExternalResource {
         }
     }
 
-    Place place() {
-        return new Place("127.0.0.1", server.getLocalPort(), server.getLocalPort());
+    Endpoint place() {
+        return new Endpoint("127.0.0.1", server.getLocalPort(), server.getLocalPort());
     }
 
     void accept() throws IOException {

@@ -21,7 +21,7 @@ public final class RunnerAnswerTest {
     @Test
     public void theAnswerOfTheProtocolIsUnderstood() throws Exception {
         final RunnerAnswer answer = RunnerAnswer.read(ANSWER, "runner.example");
-        assertEquals(new Place("runner.example", 50001, 50000), answer.place);
+        assertEquals(new Endpoint("runner.example", 50001, 50000), answer.endpoint);
         assertEquals("Raspilot spawned", answer.message);
         assertNull(answer.error);
         assertTrue(answer.isSpawned);
@@ -109,7 +109,7 @@ public final class RunnerAnswerTest {
                 }
             }
             try {
-                final Place place = RunnerAnswer.read(line.toString(), "h").place;
+                final Endpoint place = RunnerAnswer.read(line.toString(), "h").endpoint;
                 assertTrue(place.generalPort >= 1 && place.orientationPort >= 1);
             } catch (RunnerAnswer.RefusedException expected) {
                 assertFalse("seed " + seed, expected.getMessage().isEmpty());

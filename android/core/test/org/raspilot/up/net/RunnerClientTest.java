@@ -62,7 +62,7 @@ public final class RunnerClientTest {
         assertEquals(Arrays.asList("runner:50001:50000"), found.told);
         assertTrue(runner.isClosed);
         assertFalse(search.isPending());
-        assertEquals(50001, client.lastAnswer().place.generalPort);
+        assertEquals(50001, client.lastAnswer().endpoint.generalPort);
     }
 
     @Test

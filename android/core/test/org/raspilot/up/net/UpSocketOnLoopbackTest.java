@@ -96,7 +96,7 @@ public final class UpSocketOnLoopbackTest {
             while (socket.send(bytes(count + " " + new String(letters)))) {
                 count++;
             }
-            assertTrue(socket.waitingBytes() <= UpSocketSettings.LONGEST_QUEUE_BYTES + 1100);
+            assertTrue(socket.waitingBytes() <= UpSocketSettings.MAX_QUEUE_BYTES + 1100);
             return count;
         });
         for (int i = 0; i < taken; i++) {
@@ -125,7 +125,7 @@ public final class UpSocketOnLoopbackTest {
 
     @Test
     public void aRefusalIsRetriedUntilSomebodyListens() throws Exception {
-        final Place place = peer.place();
+        final Endpoint place = peer.place();
         peer.refuse();
         final UpSocket socket = start(place, quick());
         running.await("attempts", () -> socket.counters().failedAttempts >= 3);
@@ -147,7 +147,7 @@ public final class UpSocketOnLoopbackTest {
         final BlackHole hole = new BlackHole();
         final int[] asked = new int[1];
         final UpSocket socket = make(listener -> {
-            listener.onFound(asked[0]++ == 0 ? new Place("127.0.0.1", hole.port(), 0)
+            listener.onFound(asked[0]++ == 0 ? new Endpoint("127.0.0.1", hole.port(), 0)
                     : peer.place());
             return Search.DONE;
         }, quick().withConnectTimeoutMs(100));
@@ -161,7 +161,7 @@ public final class UpSocketOnLoopbackTest {
     @Test
     public void stopDuringAnAttemptEndsIt() throws Exception {
         final BlackHole hole = new BlackHole();
-        final UpSocket socket = start(new Place("127.0.0.1", hole.port(), 0),
+        final UpSocket socket = start(new Endpoint("127.0.0.1", hole.port(), 0),
                 quick().withConnectTimeoutMs(50));
         running.call(() -> {
             assertEquals(UpSocketStatus.State.CONNECTING, socket.status().state);
@@ -194,12 +194,12 @@ public final class UpSocketOnLoopbackTest {
         return UpSocketSettings.raw().withConnectTimeoutMs(20000).withStallLimitMs(0);
     }
 
-    private UpSocket make(PlaceFinder finder, UpSocketSettings settings) {
-        return new UpSocket(running.loop, finder, diary, settings, new Random(6));
+    private UpSocket make(EndpointDiscovery discovery, UpSocketSettings settings) {
+        return new UpSocket(running.loop, discovery, diary, settings, new Random(6));
     }
 
-    private UpSocket start(Place place, UpSocketSettings settings) {
-        final UpSocket socket = make(new FixedPlace(place), settings);
+    private UpSocket start(Endpoint place, UpSocketSettings settings) {
+        final UpSocket socket = make(new FixedEndpoint(place), settings);
         running.call(start(socket));
         return socket;
     }

@@ -139,7 +139,7 @@ public final class UpSocketSendTest {
 
     @Test
     public void whatItsListenerSendsWhenConnectedGoesFirst() {
-        final UpSocket polite = new UpSocket(loop, new FixedPlace(new Place("a", 1, 2)),
+        final UpSocket polite = new UpSocket(loop, new FixedEndpoint(new Endpoint("a", 1, 2)),
                 new Diary() {
                     @Override
                     public void onConnected(UpSocket made) {
@@ -155,7 +155,7 @@ public final class UpSocketSendTest {
 
     @Test
     public void aLineAtWhichTheListenerThrowsKeepsNoOtherBack() {
-        final UpSocket clumsy = new UpSocket(loop, new FixedPlace(new Place("a", 1, 2)),
+        final UpSocket clumsy = new UpSocket(loop, new FixedEndpoint(new Endpoint("a", 1, 2)),
                 new Diary() {
                     @Override
                     public void onReceived(UpSocket from, byte[] line, int length) {
@@ -200,7 +200,7 @@ public final class UpSocketSendTest {
     }
 
     private UpSocket socket(UpSocketSettings settings) {
-        return new UpSocket(loop, new FixedPlace(new Place("192.0.2.7", 50001, 50000)), diary,
+        return new UpSocket(loop, new FixedEndpoint(new Endpoint("192.0.2.7", 50001, 50000)), diary,
                 settings, new Random(6));
     }
 

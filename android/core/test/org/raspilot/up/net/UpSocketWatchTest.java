@@ -158,7 +158,8 @@ public final class UpSocketWatchTest {
     }
 
     private void connect(UpSocketSettings settings) {
-        socket = new UpSocket(loop, new FixedPlace(new Place("192.0.2.7", 50001, 50000)), diary,
+        socket = new UpSocket(loop, new FixedEndpoint(new Endpoint("192.0.2.7", 50001, 50000)),
+                diary,
                 settings, new Random(6));
         socket.start();
         network.newest().accept();

@@ -19,7 +19,7 @@ public final class OrientationProviderTest {
         double[] nose = mounting.bodyToDevice.turn(1, 0, 0);
         gyroscope.give(new RotationRate(nose[0], nose[1], nose[2], 0));
         rotation.give(mounting.rotation(new Attitude(20, -5, 300), 0));
-        OrientationFrame frame = bench.outlet.frames.get(0);
+        OrientationFrame frame = bench.sink.frames.get(0);
         assertEquals(20, frame.rollDeg, 1e-4);
         assertEquals(-5, frame.pitchDeg, 1e-4);
         assertEquals(300, frame.yawDeg, 1e-4);
@@ -37,7 +37,7 @@ public final class OrientationProviderTest {
             other.feed(quick, new Rotation(1, 0, 0, 0, 0), 1, 10000);
             other.controller.stop();
             gyroscope.unsubscribe();
-            assertEquals(10.0 * hz, other.outlet.frames.size(), 1);
+            assertEquals(10.0 * hz, other.sink.frames.size(), 1);
         }
     }
 
@@ -64,7 +64,7 @@ public final class OrientationProviderTest {
             bench.loop.advance(20);
             rotation.give(mounting.rotation(new Attitude(3 * at, 0, 0), bench.loop.nowMs()));
         }
-        assertEquals(150, bench.outlet.frames.get(19).rollRateDegS, 0.01);
+        assertEquals(150, bench.sink.frames.get(19).rollRateDegS, 0.01);
     }
 
     @Test
@@ -75,8 +75,8 @@ public final class OrientationProviderTest {
             bench.loop.advance(20);
             rotation.give(mounting.rotation(new Attitude(0, 0, 0), bench.loop.nowMs()));
         }
-        assertTrue(bench.outlet.frames.get(0).rollRateDegS != 0);
-        assertEquals(0, bench.outlet.frames.get(19).rollRateDegS, 1e-6);
+        assertTrue(bench.sink.frames.get(0).rollRateDegS != 0);
+        assertEquals(0, bench.sink.frames.get(19).rollRateDegS, 1e-6);
     }
 
     @Test
@@ -85,7 +85,7 @@ public final class OrientationProviderTest {
         for (double bad : new double[] {Double.NaN, 1e9}) {
             gyroscope.give(new RotationRate(bad, 0, 0, bench.loop.nowMs()));
             rotation.give(new Rotation(1, 0, 0, 0, bench.loop.nowMs()));
-            assertEquals(0, bench.outlet.frames.size());
+            assertEquals(0, bench.sink.frames.size());
             assertTrue(bench.status().problem, bench.status().problem.contains("rate"));
             bench.loop.advance(20);
         }
@@ -98,7 +98,7 @@ public final class OrientationProviderTest {
         provider.setDeclinationDeg(5);
         bench.run(provider);
         rotation.give(new Rotation(1, 0, 0, 0, 0));
-        assertEquals(5, bench.outlet.frames.get(0).yawDeg, 1e-4);
+        assertEquals(5, bench.sink.frames.get(0).yawDeg, 1e-4);
     }
 
     @Test

@@ -19,7 +19,7 @@ public final class OwnProviderExampleTest {
     /** Sends how bright it is on board, once a second, into the flight log. */
     static final class LightProvider extends SensorProvider<Light> {
         LightProvider(SensorSource<Light> source) {
-            super("light", source, Cadence.stream(1000, 5000));
+            super("light", source, RatePolicy.stream(1000, 5000));
         }
 
         @Override
@@ -44,10 +44,10 @@ public final class OwnProviderExampleTest {
 
         bench.controller.register(new LightProvider(sensor));
 
-        bench.controller.start(bench.outlet);
+        bench.controller.start(bench.sink);
         sensor.give(new Light(740));
         assertEquals("black_box.record {topic=phone.light, content={lux=740.0}}",
-                bench.outlet.last());
+                bench.sink.last());
         assertEquals(ProviderState.SENDING, bench.status().state);
     }
 }

@@ -20,14 +20,14 @@ public final class ProvidersControllerTest {
         for (String name : new String[] {"one", "two", "three"}) {
             bench.controller.register(new Named(name, new Noted(name)));
         }
-        bench.controller.start(bench.outlet);
+        bench.controller.start(bench.sink);
         bench.controller.stop();
         assertEquals("[+one, +two, +three, -three, -two, -one]", calls.toString());
     }
 
     @Test
     public void oneThatIsRegisteredLaterStartsAtOnceAndOneUnregisteredStops() {
-        bench.controller.start(bench.outlet);
+        bench.controller.start(bench.sink);
         bench.controller.register(new Named("late", new Noted("late")));
         assertTrue(bench.controller.unregister("late"));
         assertFalse(bench.controller.unregister("late"));
@@ -77,15 +77,15 @@ public final class ProvidersControllerTest {
         bench.controller.register(new LocationProvider(gps, 500));
         TestSource<Pressure> barometer = new TestSource<>("barometer");
         bench.controller.register(new AltitudeProvider(barometer, 200));
-        bench.controller.start(bench.outlet);
+        bench.controller.start(bench.sink);
         barometer.give(new Pressure(1000));
-        assertEquals(1, bench.outlet.commands.size());
+        assertEquals(1, bench.sink.commands.size());
         assertEquals(ProviderState.STOPPED, bench.status().state);
         assertEquals("the sensor cannot be read: no permission", bench.status().problem);
         gps.fault = null;
         assertTrue(bench.controller.restart("location"));
         gps.give(new Fix(1, 2, null, null, null, null));
-        assertEquals(2, bench.outlet.commands.size());
+        assertEquals(2, bench.sink.commands.size());
         assertEquals("", bench.status().problem);
     }
 
@@ -98,7 +98,7 @@ public final class ProvidersControllerTest {
                 throw new IllegalStateException("stuck");
             }
         }));
-        bench.controller.start(bench.outlet);
+        bench.controller.start(bench.sink);
         bench.controller.stop();
         assertEquals("[+first, +bad, -first]", calls.toString());
         assertEquals("[bad: the sensor cannot be left: stuck]", bench.told.toString());
@@ -107,7 +107,7 @@ public final class ProvidersControllerTest {
     @Test
     public void aProviderThatThrowsAtAReadingHarmsNobodyAndIsTold() {
         TestSource<Fix> gps = new TestSource<>("GPS");
-        bench.run(new SensorProvider<Fix>("broken", gps, Cadence.stream(100, 1000)) {
+        bench.run(new SensorProvider<Fix>("broken", gps, RatePolicy.stream(100, 1000)) {
             @Override
             protected BaseCommand read(Fix reading) {
                 throw new IllegalStateException("a mistake");
@@ -127,14 +127,14 @@ public final class ProvidersControllerTest {
         bench.controller.stop();
         late.onReading(new BatteryLevel(40));
         bench.loop.advance(60000);
-        assertEquals(1, bench.outlet.commands.size());
+        assertEquals(1, bench.sink.commands.size());
         assertEquals(ProviderState.STOPPED, bench.status().state);
         assertEquals(0, bench.loop.pendingTimers());
     }
 
     private final class Named extends SensorProvider<String> {
         Named(String name, SensorSource<String> source) {
-            super(name, source, Cadence.stream(100, 1000));
+            super(name, source, RatePolicy.stream(100, 1000));
         }
 
         @Override

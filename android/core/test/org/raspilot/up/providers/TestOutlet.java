@@ -7,7 +7,7 @@ import org.raspilot.up.loop.Loop;
 import org.raspilot.up.wire.OrientationFrame;
 
 /** A link that records messages with their times. */
-public final class TestOutlet implements Outlet {
+public final class TestOutlet implements MessageSink {
     public final List<BaseCommand> commands = new ArrayList<>();
     public final List<OrientationFrame> frames = new ArrayList<>();
     public final List<Long> timesMs = new ArrayList<>();

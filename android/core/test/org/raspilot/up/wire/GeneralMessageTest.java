@@ -90,13 +90,13 @@ public final class GeneralMessageTest {
     public void aLineHasAtMostSixteenKibibytes() throws Exception {
         int frame = new GeneralMessage("a", Collections.singletonMap("x", "")).toLine().length;
         GeneralMessage longest = new GeneralMessage("a",
-                Collections.singletonMap("x", repeated("y", LineSplitter.LONGEST_LINE - frame)));
+                Collections.singletonMap("x", repeated("y", LineSplitter.MAX_LINE_BYTES - frame)));
         byte[] line = longest.toLine();
-        assertEquals(LineSplitter.LONGEST_LINE, line.length);
+        assertEquals(LineSplitter.MAX_LINE_BYTES, line.length);
         assertEquals(longest.data, GeneralMessage.read(line, line.length).data);
         try {
             new GeneralMessage("a", Collections.singletonMap("x",
-                    repeated("y", LineSplitter.LONGEST_LINE - frame + 1))).toLine();
+                    repeated("y", LineSplitter.MAX_LINE_BYTES - frame + 1))).toLine();
             fail("written");
         } catch (IllegalArgumentException fault) {
             assertEquals("a: a line of 16385 bytes, at most 16384", fault.getMessage());

@@ -30,7 +30,7 @@ public abstract class BaseUpService extends Service {
 
     private final List<UpWatcher> watchers = new ArrayList<>();
     private final Airside airside = new Airside();
-    private Notice notice;
+    private ForegroundNotification notice;
     private AirborneRun run;
     private AirborneStatus newest;
 
@@ -64,10 +64,10 @@ public abstract class BaseUpService extends Service {
     protected abstract boolean isOnWifi();
 
     /** Returns the texts for missing parts of the phone. */
-    protected abstract SourceTexts sourceTexts();
+    protected abstract SensorTexts sourceTexts();
 
     /** Returns the texts and icons of the notification. */
-    protected abstract NoticeTexts noticeTexts();
+    protected abstract NotificationTexts noticeTexts();
 
     /** Returns the notification's line for a status; null: nothing is known yet. */
     protected abstract String noticeText(AirborneStatus status);
@@ -99,7 +99,7 @@ public abstract class BaseUpService extends Service {
     @Override
     public void onCreate() {
         super.onCreate();
-        notice = new Notice(this, noticeTexts());
+        notice = new ForegroundNotification(this, noticeTexts());
     }
 
     @Override

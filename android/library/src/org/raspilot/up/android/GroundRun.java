@@ -42,7 +42,7 @@ final class GroundRun implements GroundListener, HandlerFaultListener {
     private final SelectorLoop loop;
     private final GroundSide side;
     private final NetworkWatch network;
-    private final WifiWay way;
+    private final WifiBinding way;
     private final String host;
     private final GroundView view;
     private final Up up;
@@ -57,9 +57,9 @@ final class GroundRun implements GroundListener, HandlerFaultListener {
         up = new Up(loop, this);
         side = new GroundSide(loop, settings, new PreferencesTokenStore(context),
                 up.commandExecutor(), this, new Random());
-        way = new WifiWay(new ProcessWifi(context), isOnWifi, settings.host);
+        way = new WifiBinding(new ProcessWifi(context), isOnWifi, settings.host);
         host = settings.host;
-        network = new NetworkWatch(context, () -> comeBack());
+        network = new NetworkWatch(context, () -> onNetworkChanged());
         loop.post(() -> {
             setUp(setup);
             side.start();
@@ -110,16 +110,16 @@ final class GroundRun implements GroundListener, HandlerFaultListener {
     @Override
     public void onTelemetry(Telemetry telemetry) {
         if (!isEnded) {
-            view.take(telemetry);
+            view.update(telemetry);
         }
     }
 
     @Override
     public void onStatus(GroundStatus status) {
         if (!isEnded) {
-            view.take(status);
-            if (lookAtWay(status)) {
-                comeBack();
+            view.update(status);
+            if (checkBinding(status)) {
+                onNetworkChanged();
             }
         }
     }
@@ -127,7 +127,7 @@ final class GroundRun implements GroundListener, HandlerFaultListener {
     @Override
     public void onChanged() {
         if (!isEnded) {
-            view.take(side.track().snapshot(), side.events().snapshot(),
+            view.update(side.track().snapshot(), side.events().snapshot(),
                     side.alarms().snapshot(), side.gains().snapshot());
         }
     }
@@ -139,14 +139,14 @@ final class GroundRun implements GroundListener, HandlerFaultListener {
     }
 
     /** Returns whether the network path has changed. */
-    private boolean lookAtWay(GroundStatus status) {
-        return way.look(loop.nowMs(), status.link == LinkState.OPEN ? host : null);
+    private boolean checkBinding(GroundStatus status) {
+        return way.check(loop.nowMs(), status.link == LinkState.OPEN ? host : null);
     }
 
-    private void comeBack() {
+    private void onNetworkChanged() {
         post(ground -> {
             way.networksChanged();
-            lookAtWay(ground.status());
+            checkBinding(ground.status());
             ground.reconnectNow();
         });
     }

@@ -14,9 +14,9 @@ public final class RotationFeed {
     private final SensorSource<Rotation> source;
 
     /** Finds the available source of orientation. */
-    public RotationFeed(Context context, SourceTexts texts, ProblemListener problems) {
+    public RotationFeed(Context context, SensorTexts texts, ProblemListener problems) {
         final Handler main = new Handler(Looper.getMainLooper());
-        SensorDesk desk = new SensorDesk(context.getApplicationContext(),
+        SensorAccess desk = new SensorAccess(context.getApplicationContext(),
                 Looper.getMainLooper());
         source = AndroidSources.rotation(desk, call -> main.post(call), texts, problems);
     }

@@ -14,7 +14,7 @@ import org.raspilot.up.ground.Alarms;
 import org.raspilot.up.ground.Answer;
 import org.raspilot.up.ground.AnswerListener;
 import org.raspilot.up.ground.EventLog;
-import org.raspilot.up.ground.GainsDesk;
+import org.raspilot.up.ground.GainsService;
 import org.raspilot.up.ground.GroundSettings;
 import org.raspilot.up.ground.GroundSide;
 import org.raspilot.up.ground.GroundStatus;
@@ -111,7 +111,7 @@ public abstract class TelemetryService extends Service {
         /** Closes the link and restarts it with the current settings. */
         public void reload() {
             end();
-            view.forget();
+            view.clear();
             begin();
         }
 
@@ -120,7 +120,7 @@ public abstract class TelemetryService extends Service {
             return run == null ? SystemClock.elapsedRealtime() : run.nowMs();
         }
 
-        /** Returns the newest frame; {@link Telemetry#NOTHING} before the first. */
+        /** Returns the newest frame; {@link Telemetry#EMPTY} before the first. */
         public Telemetry telemetry() {
             return view.telemetry();
         }
@@ -146,49 +146,49 @@ public abstract class TelemetryService extends Service {
         }
 
         /** Returns the gains; null: nothing is known yet. */
-        public GainsDesk.Snapshot gains() {
+        public GainsService.Snapshot gains() {
             return view.gains();
         }
 
         /** Sends a Command; {@code shownBeacon} is that of the frame on the screen, or null. */
         public void send(final BaseCommand command, final Long shownBeacon,
                 AnswerListener listener) {
-            ask(command.name(), listener, (side, answers) ->
+            request(command.name(), listener, (side, answers) ->
                     side.send(command, shownBeacon, answers));
         }
 
-        public void askGains(AnswerListener listener) {
-            ask(Commands.PIDS, listener, (side, answers) -> side.gains().ask(answers));
+        public void requestGains(AnswerListener listener) {
+            request(Commands.PIDS, listener, (side, answers) -> side.gains().request(answers));
         }
 
         public void setGains(final GainSet gains, final Long shownBeacon,
                 AnswerListener listener) {
-            ask(Commands.PIDS, listener, (side, answers) ->
+            request(Commands.PIDS, listener, (side, answers) ->
                     side.gains().set(gains, shownBeacon, answers));
         }
 
         /** Sets what flew before the newest set. */
         public void undoGains(final Long shownBeacon, AnswerListener listener) {
-            ask(Commands.PIDS, listener, (side, answers) ->
+            request(Commands.PIDS, listener, (side, answers) ->
                     side.gains().undo(shownBeacon, answers));
         }
 
-        public void requestSeat() {
-            post(side -> side.requestSeat());
+        public void requestControl() {
+            post(side -> side.requestControl());
         }
 
         /** Called when the user keeps the seat that another ground requested. */
-        public void dismissSeatAsk() {
-            post(side -> side.dismissSeatAsk());
+        public void dismissControlRequest() {
+            post(side -> side.dismissControlRequest());
         }
 
         /** Hands the seat to the ground of a number. */
-        public void giveSeat(final int to) {
-            post(side -> side.giveSeat(to));
+        public void giveControl(final int to) {
+            post(side -> side.giveControl(to));
         }
 
-        public void releaseSeat() {
-            post(side -> side.releaseSeat());
+        public void releaseControl() {
+            post(side -> side.releaseControl());
         }
 
         private void post(GroundRun.Call call) {
@@ -197,7 +197,7 @@ public abstract class TelemetryService extends Service {
             }
         }
 
-        private void ask(String name, AnswerListener listener, final Asking asking) {
+        private void request(String name, AnswerListener listener, final Asking asking) {
             if (run == null) {
                 listener.onAnswer(Answer.refused(name, "no_link", fault));
                 return;

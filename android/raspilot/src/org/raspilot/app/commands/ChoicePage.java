@@ -12,17 +12,17 @@ import java.util.Collections;
 import java.util.List;
 import java.util.Map;
 import org.raspilot.app.R;
-import org.raspilot.app.view.Texts;
+import org.raspilot.app.view.TextViews;
 import org.raspilot.up.commands.BaseCommand;
 import org.raspilot.up.commands.CommandField;
 import org.raspilot.up.commands.CommandForm;
 
 /** A Command whose one field is a choice of few values: a button for each, with a confirmation. */
 final class ChoicePage implements Page {
-    private static final int MOST = 6;
+    private static final int MAX_CHOICES = 6;
 
     private final CommandForm form;
-    private final Desk desk;
+    private final CommandContext desk;
     private final View element;
     private final TextView why;
     private final TextView now;
@@ -34,17 +34,17 @@ final class ChoicePage implements Page {
             return false;
         }
         CommandField field = form.fields().get(0);
-        return field.isRequired() && field.choices != null && field.choices.size() <= MOST;
+        return field.isRequired() && field.choices != null && field.choices.size() <= MAX_CHOICES;
     }
 
-    ChoicePage(CommandForm form, Desk desk) {
+    ChoicePage(CommandForm form, CommandContext desk) {
         this.form = form;
         this.desk = desk;
         LayoutInflater inflater = LayoutInflater.from(desk.context());
         element = inflater.inflate(R.layout.page_form, null);
         Resources words = desk.context().getResources();
         ((TextView) element.findViewById(R.id.page_title))
-                .setText(CommandWords.title(words, form.name));
+                .setText(CommandTexts.title(words, form.name));
         ((TextView) element.findViewById(R.id.page_name)).setText(form.name);
         ((TextView) element.findViewById(R.id.page_text)).setText(form.text);
         why = (TextView) element.findViewById(R.id.page_why);
@@ -70,8 +70,8 @@ final class ChoicePage implements Page {
     @Override
     public void update() {
         String objection = desk.objectionText(form, Collections.emptyMap());
-        Texts.showOrHide(why, objection);
-        Texts.showOrHide(now, CommandWords.now(desk.context().getResources(), form.name,
+        TextViews.showOrHide(why, objection);
+        TextViews.showOrHide(now, CommandTexts.now(desk.context().getResources(), form.name,
                 desk.picture()));
         for (Button button : buttons) {
             button.setEnabled(objection.isEmpty());
@@ -84,7 +84,7 @@ final class ChoicePage implements Page {
 
         private Choose(Map<String, ?> data) {
             command = new BaseCommand(form.name, data);
-            words = CommandWords.asked(desk.context().getResources(), form.name, data);
+            words = CommandTexts.asked(desk.context().getResources(), form.name, data);
         }
 
         @Override

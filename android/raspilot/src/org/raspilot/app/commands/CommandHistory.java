@@ -7,7 +7,7 @@ import java.util.List;
 
 /** The sent Commands with their outcomes, newest first. Main thread only. */
 final class CommandHistory {
-    static final int KEPT = 50;
+    static final int MAX_ENTRIES = 50;
 
     enum Outcome {
         /** The answer is waited for. */
@@ -53,7 +53,7 @@ final class CommandHistory {
     int sent(String words, long nowMs) {
         numbers++;
         entries.addFirst(new Entry(numbers, words, nowMs, Outcome.WAITING, "", null));
-        if (entries.size() > KEPT) {
+        if (entries.size() > MAX_ENTRIES) {
             entries.removeLast();
         }
         return numbers;

@@ -16,7 +16,7 @@ final class Confirmation {
     }
 
     /** Shows the dialog; {@code then} runs only when the user confirms. */
-    void ask(String title, String text, String yes, final Runnable then) {
+    void show(String title, String text, String yes, final Runnable then) {
         dismiss();
         dialog = new AlertDialog.Builder(context)
                 .setTitle(title)

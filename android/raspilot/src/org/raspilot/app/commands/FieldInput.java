@@ -22,7 +22,7 @@ import org.raspilot.up.commands.FieldType;
 
 /** The input of a field's value: a text, a choice or a switch. */
 abstract class FieldInput {
-    private static final int LONGEST = 4096;
+    private static final int MAX_LENGTH = 4096;
     private static final String DIGITS = "0123456789.,-";
 
     /** Called when text was typed or a choice made. */
@@ -65,7 +65,7 @@ abstract class FieldInput {
                 view.setRawInputType(inputType(field));
             }
             // The aircraft counts characters, this counts UTF-16 units: never split a pair.
-            view.setFilters(new InputFilter[] {new InputFilter.LengthFilter(LONGEST)});
+            view.setFilters(new InputFilter[] {new InputFilter.LengthFilter(MAX_LENGTH)});
             view.addTextChangedListener(this);
         }
 

@@ -8,7 +8,7 @@ import android.view.ViewGroup;
 import android.widget.TextView;
 import java.util.Map;
 import org.raspilot.app.R;
-import org.raspilot.app.view.Texts;
+import org.raspilot.app.view.TextViews;
 import org.raspilot.up.commands.CommandField;
 import org.raspilot.up.commands.FieldType;
 import org.raspilot.up.commands.InvalidCommandException;
@@ -59,7 +59,7 @@ final class FieldView implements FieldInput.ChangeListener {
     }
 
     /** Shows the error of the value; returns whether it is valid. */
-    boolean judge() {
+    boolean validate() {
         String sentence = sentence(input.text());
         show(sentence);
         return sentence.isEmpty();
@@ -94,7 +94,7 @@ final class FieldView implements FieldInput.ChangeListener {
     }
 
     private void show(String sentence) {
-        Texts.showOrHide(problem, sentence);
+        TextViews.showOrHide(problem, sentence);
     }
 
     private String label(Resources words) {

@@ -12,7 +12,7 @@ import java.util.Collections;
 import java.util.List;
 import java.util.Map;
 import org.raspilot.app.R;
-import org.raspilot.app.view.Texts;
+import org.raspilot.app.view.TextViews;
 import org.raspilot.up.commands.BaseCommand;
 import org.raspilot.up.commands.CommandField;
 import org.raspilot.up.commands.CommandForm;
@@ -23,7 +23,7 @@ final class FormPage implements Page, View.OnClickListener {
     private static final int[] PERIODS_MS = {50, 100, 200, 500, 1000, 2000};
 
     private final CommandForm form;
-    private final Desk desk;
+    private final CommandContext desk;
     private final Map<String, String> draft;
     private final View element;
     private final List<FieldView> fields = new ArrayList<>();
@@ -34,7 +34,7 @@ final class FormPage implements Page, View.OnClickListener {
     private final Button send;
 
     /** Creates the form and restores its typed text. */
-    FormPage(CommandForm form, Desk desk) {
+    FormPage(CommandForm form, CommandContext desk) {
         this.form = form;
         this.desk = desk;
         draft = desk.memory().draft(form.name);
@@ -42,7 +42,7 @@ final class FormPage implements Page, View.OnClickListener {
         element = inflater.inflate(R.layout.page_form, null);
         Resources words = desk.context().getResources();
         ((TextView) element.findViewById(R.id.page_title))
-                .setText(CommandWords.title(words, form.name));
+                .setText(CommandTexts.title(words, form.name));
         ((TextView) element.findViewById(R.id.page_name)).setText(form.name);
         ((TextView) element.findViewById(R.id.page_text)).setText(form.text);
         why = (TextView) element.findViewById(R.id.page_why);
@@ -69,8 +69,8 @@ final class FormPage implements Page, View.OnClickListener {
     public void update() {
         Resources words = desk.context().getResources();
         String objection = desk.objectionText(form, Collections.emptyMap());
-        Texts.showOrHide(why, objection);
-        Texts.showOrHide(now, CommandWords.now(words, form.name, desk.picture()));
+        TextViews.showOrHide(why, objection);
+        TextViews.showOrHide(now, CommandTexts.now(words, form.name, desk.picture()));
         boolean isOffered = objection.isEmpty();
         send.setEnabled(isOffered);
         for (View preset : presets) {
@@ -80,10 +80,10 @@ final class FormPage implements Page, View.OnClickListener {
 
     @Override
     public void onClick(View button) {
-        Texts.showOrHide(problem, "");
+        TextViews.showOrHide(problem, "");
         boolean isRight = true;
         for (FieldView field : fields) {
-            boolean isFieldRight = field.judge();
+            boolean isFieldRight = field.validate();
             if (isRight && !isFieldRight) {
                 field.focus();
             }
@@ -99,12 +99,12 @@ final class FormPage implements Page, View.OnClickListener {
         try {
             command = form.command(draft);
         } catch (InvalidCommandException wrong) {
-            Texts.showOrHide(problem, wrong.getMessage());
+            TextViews.showOrHide(problem, wrong.getMessage());
             return;
         }
-        final String words = CommandWords.asked(desk.context().getResources(), form.name,
+        final String words = CommandTexts.asked(desk.context().getResources(), form.name,
                 command.data());
-        if (!Caution.isConfirmed(form.name, command.data())) {
+        if (!ConfirmationPolicy.isConfirmed(form.name, command.data())) {
             desk.send(command, words);
             return;
         }

@@ -14,7 +14,7 @@ import org.raspilot.up.commands.InvalidCommandException;
 import org.raspilot.up.commands.LoopGains;
 import org.raspilot.up.ground.GainChange;
 import org.raspilot.up.ground.GainKey;
-import org.raspilot.up.ground.GainsDesk;
+import org.raspilot.up.ground.GainsService;
 import org.raspilot.up.ground.GainsForm;
 
 /**
@@ -43,7 +43,7 @@ final class GainsEditor {
     }
 
     /** Takes the active gains; an edit that equals its active value is dropped. */
-    void takeFlying(GainSet set) {
+    void setActive(GainSet set) {
         flying = set;
         if (set == null) {
             // During a new request, edits wait for the answer.
@@ -97,7 +97,8 @@ final class GainsEditor {
     /** Returns whether the edit of a cell is not a valid gain. */
     boolean isWrong(GainKey key) {
         Edit edit = edits.get(key);
-        return edit != null && !edit.written.trim().isEmpty() && GainsForm.number(edit.written) == null;
+        return edit != null && !edit.written.trim().isEmpty()
+                && GainsForm.number(edit.written) == null;
     }
 
     /** Returns the gains that fly otherwise than their writer saw; unmodifiable. */
@@ -152,7 +153,7 @@ final class GainsEditor {
     /** Returns what sending would change; empty while a cell has no valid gain. */
     List<GainChange> changes() {
         try {
-            return GainsDesk.difference(flying, wanted());
+            return GainsService.difference(flying, wanted());
         } catch (InvalidCommandException notYet) {
             // The sentence stands beside the form already.
             return Collections.emptyList();

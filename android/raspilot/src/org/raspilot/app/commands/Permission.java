@@ -58,26 +58,26 @@ final class Permission {
      * @param data as far as it is known already
      * @param status null: there is no service yet
      */
-    static Objection objection(String name, String told, Map<String, ?> data,
+    static DisabledReason objection(String name, String told, Map<String, ?> data,
             GroundStatus status, Telemetry telemetry, long nowMs) {
-        Objection ofLink = ofLink(status);
-        if (ofLink != Objection.NONE) {
+        DisabledReason ofLink = ofLink(status);
+        if (ofLink != DisabledReason.NONE) {
             return ofLink;
         }
-        if (!allows(status.role, neededRole(name, told, data))) {
-            return Objection.ROLE;
+        if (!allows(status.commandRole, neededRole(name, told, data))) {
+            return DisabledReason.ROLE;
         }
         return ofAircraft(name, data, status.tuneInFlight, telemetry, nowMs);
     }
 
     /** Returns the objection from the aircraft's telemetry, or from its silence. */
-    static Objection ofAircraft(String name, Map<String, ?> data, Boolean tuneInFlight,
+    static DisabledReason ofAircraft(String name, Map<String, ?> data, Boolean tuneInFlight,
             Telemetry telemetry, long nowMs) {
         if (isOnlyRequest(name, data)) {
-            return Objection.NONE;
+            return DisabledReason.NONE;
         }
         if (telemetry.isSilent(nowMs)) {
-            return Objection.SILENT;
+            return DisabledReason.SILENT;
         }
         boolean isLive = telemetry.freshness("armed", nowMs) == Freshness.LIVE;
         boolean isForAir = name.equals(Commands.PIDS)
@@ -87,42 +87,42 @@ final class Permission {
     }
 
     /** Returns why nothing can be sent at all. */
-    static Objection ofLink(GroundStatus status) {
+    static DisabledReason ofLink(GroundStatus status) {
         if (status == null || !status.isOpen()) {
-            return Objection.NO_LINK;
+            return DisabledReason.NO_LINK;
         }
         if (Boolean.FALSE.equals(status.isAircraftOnline)) {
-            return Objection.NO_AIRCRAFT;
+            return DisabledReason.NO_AIRCRAFT;
         }
-        switch (status.standing) {
+        switch (status.control) {
             case OURS:
-                return Objection.NONE;
+                return DisabledReason.NONE;
             case FREE:
-                return Objection.SEAT_FREE;
+                return DisabledReason.SEAT_FREE;
             case HELD:
-                return Objection.SEAT_HELD;
+                return DisabledReason.SEAT_HELD;
             case LATER:
-                return Objection.LISTENING;
+                return DisabledReason.LISTENING;
             default:
-                return Objection.NO_LINK;
+                return DisabledReason.NO_LINK;
         }
     }
 
     /** Returns the objection while armed (for gains: in flight); {@code isArmed} null: unknown. */
-    static Objection ofMotor(String name, Boolean isArmed, Boolean tuneInFlight) {
+    static DisabledReason ofMotor(String name, Boolean isArmed, Boolean tuneInFlight) {
         if (isArmed == null) {
-            return Objection.NONE;
+            return DisabledReason.NONE;
         }
         if (name.equals(Commands.PIDS)) {
             boolean isForbidden = isArmed && Boolean.FALSE.equals(tuneInFlight);
-            return isForbidden ? Objection.ARMED : Objection.NONE;
+            return isForbidden ? DisabledReason.ARMED : DisabledReason.NONE;
         }
         if (name.equals(Commands.ARM)) {
-            return isArmed ? Objection.ARMED_ALREADY : Objection.NONE;
+            return isArmed ? DisabledReason.ARMED_ALREADY : DisabledReason.NONE;
         }
         if (name.equals(Commands.DISARM)) {
-            return isArmed ? Objection.NONE : Objection.DISARMED_ALREADY;
+            return isArmed ? DisabledReason.NONE : DisabledReason.DISARMED_ALREADY;
         }
-        return Objection.NONE;
+        return DisabledReason.NONE;
     }
 }

@@ -32,7 +32,7 @@ final class AlarmBell {
     private boolean hasRung;
 
     /** Takes the current audible alarms, by their kind. */
-    void take(Map<String, Ring> wrong) {
+    void update(Map<String, Ring> wrong) {
         loud = new HashMap<>(wrong);
         Set<String> words = words();
         silenced.retainAll(words);
@@ -64,7 +64,7 @@ final class AlarmBell {
     }
 
     /** Returns the sound to play at this moment. */
-    Ring look(long nowMs) {
+    Ring ringAt(long nowMs) {
         Ring worst = worst();
         if (worst == Ring.NONE) {
             return Ring.NONE;

@@ -42,7 +42,7 @@ final class Sounder {
         }
     }
 
-    void hush() {
+    void stop() {
         if (tones != null) {
             tones.stopTone();
         }
@@ -55,7 +55,7 @@ final class Sounder {
     /** Stops the sound and releases its resources. */
     void release() {
         if (tones != null) {
-            hush();
+            stop();
             tones.release();
             tones = null;
         }

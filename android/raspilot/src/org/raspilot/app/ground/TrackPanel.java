@@ -9,7 +9,7 @@ import android.widget.TextView;
 import android.widget.Toast;
 import java.util.List;
 import org.raspilot.app.R;
-import org.raspilot.app.view.Texts;
+import org.raspilot.app.view.TextViews;
 import org.raspilot.app.view.TrackView;
 import org.raspilot.up.ground.Freshness;
 import org.raspilot.up.ground.Telemetry;
@@ -37,7 +37,7 @@ final class TrackPanel implements View.OnClickListener {
         root.findViewById(R.id.ground_smaller).setOnClickListener(this);
     }
 
-    void update(Picture picture) {
+    void update(GroundSnapshot picture) {
         Track.Snapshot track = picture.track;
         // Most frames add no point: the track is long, and copied only when it grew.
         if (isNew(track)) {
@@ -100,7 +100,7 @@ final class TrackPanel implements View.OnClickListener {
         view.setTrack(north, east, hasGapBefore, track != null && track.isOriginHome);
     }
 
-    private void showPlace(Picture picture, String age) {
+    private void showPlace(GroundSnapshot picture, String age) {
         Telemetry telemetry = picture.telemetry;
         Double latitude = telemetry.number("location.latitude");
         Double longitude = telemetry.number("location.longitude");
@@ -110,13 +110,13 @@ final class TrackPanel implements View.OnClickListener {
         }
         map.setEnabled(latitudeDeg != null);
         if (latitudeDeg == null) {
-            Texts.show(place, activity.getString(R.string.ground_place_unknown));
+            TextViews.show(place, activity.getString(R.string.ground_place_unknown));
             return;
         }
         boolean isLive = telemetry.freshness("location.latitude", picture.nowMs)
                 == Freshness.LIVE;
         int text = isLive ? R.string.ground_place : R.string.ground_place_old;
-        Texts.show(place, activity.getString(text, latitudeDeg, longitudeDeg, age));
+        TextViews.show(place, activity.getString(text, latitudeDeg, longitudeDeg, age));
     }
 
     private void openMap() {

@@ -14,9 +14,9 @@ import org.raspilot.up.loop.SelectorLoop;
 /** A program in real time with its own sockets: it runs until its standard input ends. */
 final class LoopProgram implements FaultListener {
     /** A process that closes standard input may give the JVM some other file in its place. */
-    private static final int MOST_WRONG = 100;
+    private static final int MAX_WRONG = 100;
 
-    private final Words words;
+    private final EventWriter words;
     private final SelectorLoop loop;
 
     /** What it consists of; all calls come on the loop. */
@@ -28,13 +28,13 @@ final class LoopProgram implements FaultListener {
          *
          * @throws OptionException when it is invalid (a sentence, which is printed)
          */
-        void take(Map<?, ?> line) throws OptionException;
+        void onLine(Map<?, ?> line) throws OptionException;
 
         void stop();
     }
 
     /** Creates a loop of that name. */
-    LoopProgram(String name, Words words) {
+    LoopProgram(String name, EventWriter words) {
         this.words = words;
         loop = new SelectorLoop(name, this);
     }
@@ -46,9 +46,9 @@ final class LoopProgram implements FaultListener {
         BufferedReader lines =
                 new BufferedReader(new InputStreamReader(input, Charset.forName("UTF-8")));
         String text = lines.readLine();
-        for (int wrong = 0; text != null && wrong < MOST_WRONG; text = lines.readLine()) {
+        for (int wrong = 0; text != null && wrong < MAX_WRONG; text = lines.readLine()) {
             try {
-                take(part, InputLine.read(text));
+                handle(part, InputLine.read(text));
                 wrong = 0;
             } catch (OptionException error) {
                 words.notice(error.getMessage());
@@ -56,20 +56,20 @@ final class LoopProgram implements FaultListener {
             }
         }
         if (text != null) {
-            words.notice(MOST_WRONG + " lines in a row are no JSON objects: this is no input");
+            words.notice(MAX_WRONG + " lines in a row are no JSON objects: this is no input");
         }
         end(part);
     }
 
     @Override
     public void onFault(Throwable fault) {
-        words.notice(Words.faultText(fault));
+        words.notice(EventWriter.faultText(fault));
     }
 
-    private void take(final Part part, final InputLine line) {
+    private void handle(final Part part, final InputLine line) {
         loop.post(() -> {
             try {
-                part.take(line.fields);
+                part.onLine(line.fields);
             } catch (OptionException error) {
                 words.notice(error.getMessage());
             }

@@ -9,13 +9,13 @@ import org.raspilot.up.providers.Side;
 /** The phone itself with its simulated sensors, on whatever loop. */
 final class PhoneSide implements LoopProgram.Part {
     private final PhoneOptions options;
-    private final Words words;
+    private final EventWriter words;
     private final PhoneEvents events;
     private SimulatedSensors sensors;
     private SimulatedSource<Map<?, ?>> record;
     private Airborne airborne;
 
-    PhoneSide(PhoneOptions options, Words words) {
+    PhoneSide(PhoneOptions options, EventWriter words) {
         this.options = options;
         this.words = words;
         events = new PhoneEvents(words);
@@ -41,13 +41,13 @@ final class PhoneSide implements LoopProgram.Part {
     }
 
     @Override
-    public void take(Map<?, ?> fields) throws OptionException {
-        sensors.take(fields);
+    public void onLine(Map<?, ?> fields) throws OptionException {
+        sensors.update(fields);
         Object content = fields.get("record");
         if (content != null && record == null) {
             throw new OptionException("record: only with --record");
         } else if (content instanceof Map) {
-            record.take((Map<?, ?>) content);
+            record.deliver((Map<?, ?>) content);
         } else if (content != null) {
             throw new OptionException("record is no object");
         }

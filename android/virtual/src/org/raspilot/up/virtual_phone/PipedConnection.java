@@ -17,7 +17,7 @@ final class PipedConnection implements TcpConnection {
     private boolean isFull;
 
     interface Event {
-        void happen(PipedConnection connection);
+        void apply(PipedConnection connection);
     }
 
     /** Takes its number on the pipe. */
@@ -33,7 +33,7 @@ final class PipedConnection implements TcpConnection {
      * @param detail the third element of its line
      * @throws OptionException for an unknown kind (a sentence)
      */
-    static Event event(String kind, final Object detail) throws OptionException {
+    static Event parse(String kind, final Object detail) throws OptionException {
         if ("connected".equals(kind)) {
             return connection -> {
                 connection.isConnected = true;
@@ -66,11 +66,11 @@ final class PipedConnection implements TcpConnection {
         int taken = Math.min(length, room);
         if (taken > 0) {
             room -= taken;
-            network.ask("write", id, new String(bytes, offset, taken, PipedNetwork.BYTES));
+            network.request("write", id, new String(bytes, offset, taken, PipedNetwork.BYTES));
         }
         if (taken < length && !isFull) {
             isFull = true;
-            network.ask("full", id);
+            network.request("full", id);
         }
         return taken;
     }
@@ -79,7 +79,7 @@ final class PipedConnection implements TcpConnection {
     public void close() {
         if (!isClosed) {
             end();
-            network.ask("close", id);
+            network.request("close", id);
         }
     }
 
@@ -93,6 +93,6 @@ final class PipedConnection implements TcpConnection {
 
     private void end() {
         isClosed = true;
-        network.forget(id);
+        network.remove(id);
     }
 }

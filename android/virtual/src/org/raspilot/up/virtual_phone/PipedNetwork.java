@@ -27,7 +27,7 @@ final class PipedNetwork implements Network {
     public TcpConnection connectTcp(String host, int port, int timeoutMs, TcpListener listener) {
         PipedConnection connection = new PipedConnection(this, ++lastId, listener);
         connections.put(lastId, connection);
-        ask("connect", lastId, host, (long) port, (long) timeoutMs);
+        request("connect", lastId, host, (long) port, (long) timeoutMs);
         return connection;
     }
 
@@ -35,23 +35,23 @@ final class PipedNetwork implements Network {
     public UdpPort openUdp(UdpListener listener) {
         PipedUdpPort port = new PipedUdpPort(this, ++lastId, listener);
         ports.put(lastId, port);
-        ask("open", lastId);
+        request("open", lastId);
         return port;
     }
 
     /** Sends a request to the simulator. */
-    void ask(Object... words) {
+    void request(Object... words) {
         toDo.add(Arrays.asList(words));
     }
 
     /** Discards a connection or a socket. */
-    void forget(long id) {
+    void remove(long id) {
         connections.remove(id);
         ports.remove(id);
     }
 
     /** Returns and clears the requests to the simulator. */
-    List<Object> takeToDo() {
+    List<Object> takeRequests() {
         List<Object> taken = toDo;
         toDo = new ArrayList<>();
         return taken;
@@ -85,16 +85,16 @@ final class PipedNetwork implements Network {
             return () -> {
                 PipedUdpPort target = ports.get(id);
                 if (target != null) {
-                    target.take(datagram, host, port);
+                    target.deliver(datagram, host, port);
                 }
             };
         }
-        final PipedConnection.Event event = PipedConnection.event(kind, first);
+        final PipedConnection.Event event = PipedConnection.parse(kind, first);
         return () -> {
             PipedConnection connection = connections.get(id);
             // Connections closed before the event are not called.
             if (connection != null) {
-                event.happen(connection);
+                event.apply(connection);
             }
         };
     }

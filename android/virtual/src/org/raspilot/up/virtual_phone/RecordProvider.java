@@ -4,7 +4,7 @@ import java.util.LinkedHashMap;
 import java.util.Map;
 import org.raspilot.up.commands.BaseCommand;
 import org.raspilot.up.commands.Commands;
-import org.raspilot.up.providers.Cadence;
+import org.raspilot.up.providers.RatePolicy;
 import org.raspilot.up.providers.SensorProvider;
 import org.raspilot.up.providers.SensorSource;
 
@@ -17,7 +17,7 @@ final class RecordProvider extends SensorProvider<Map<?, ?>> {
 
     /** Takes the {@code "record"} of an input line: topic and content. */
     RecordProvider(SensorSource<Map<?, ?>> source) {
-        super("record", source, Cadence.stream(PERIOD_MS, SILENCE_MS));
+        super("record", source, RatePolicy.stream(PERIOD_MS, SILENCE_MS));
     }
 
     @Override

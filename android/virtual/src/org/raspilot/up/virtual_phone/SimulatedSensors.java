@@ -21,7 +21,7 @@ final class SimulatedSensors implements Sensors {
     private final SimulatedSource<BatteryLevel> battery;
 
     /** Makes them; readings get the loop's time. */
-    SimulatedSensors(Loop loop, Words words) {
+    SimulatedSensors(Loop loop, EventWriter words) {
         this.loop = loop;
         location = new SimulatedSource<>("fix", words);
         rotation = new SimulatedSource<>("rotation", words);
@@ -36,29 +36,29 @@ final class SimulatedSensors implements Sensors {
      *
      * @throws OptionException when one is not a reading (a sentence)
      */
-    void take(Map<?, ?> line) throws OptionException {
+    void update(Map<?, ?> line) throws OptionException {
         long nowMs = loop.nowMs();
         Object each = line.get("fix");
         if (each != null) {
-            location.take(fix(each));
+            location.deliver(fix(each));
         }
         each = line.get("pressure");
         if (each != null) {
-            pressure.take(new Pressure(number("pressure", each)));
+            pressure.deliver(new Pressure(number("pressure", each)));
         }
         each = line.get("rate");
         if (each != null) {
             double[] values = numbers("rate", each, 3);
-            rate.take(new RotationRate(values[0], values[1], values[2], nowMs));
+            rate.deliver(new RotationRate(values[0], values[1], values[2], nowMs));
         }
         each = line.get("rotation");
         if (each != null) {
             double[] values = numbers("rotation", each, 4);
-            rotation.take(turned(values, nowMs));
+            rotation.deliver(turned(values, nowMs));
         }
         each = line.get("battery");
         if (each != null) {
-            battery.take(new BatteryLevel(number("battery", each)));
+            battery.deliver(new BatteryLevel(number("battery", each)));
         }
     }
 

@@ -13,16 +13,16 @@ import org.raspilot.up.loop.ManualLoop;
 /** The phone in the simulator's time, with the simulator's network: one answer a line. */
 final class SteppedRun {
     private final LoopProgram.Part phone;
-    private final Words words;
+    private final EventWriter words;
     private final PipedNetwork network = new PipedNetwork();
     private final ManualLoop loop;
     private boolean isStarted;
 
     /** Takes the phone; the first line starts it. */
-    SteppedRun(LoopProgram.Part phone, final Words words) {
+    SteppedRun(LoopProgram.Part phone, final EventWriter words) {
         this.phone = phone;
         this.words = words;
-        loop = new ManualLoop(network, fault -> words.notice(Words.faultText(fault)));
+        loop = new ManualLoop(network, fault -> words.notice(EventWriter.faultText(fault)));
     }
 
     /** Answers every line until the input ends. */
@@ -56,7 +56,7 @@ final class SteppedRun {
         }
         loop.post(() -> {
             try {
-                phone.take(line.fields);
+                phone.onLine(line.fields);
             } catch (OptionException error) {
                 words.notice(error.getMessage());
             }
@@ -71,8 +71,8 @@ final class SteppedRun {
         long dueMs = loop.nextDueMs();
         Map<String, Object> answer = new LinkedHashMap<>();
         answer.put("due", dueMs < 0 ? null : (Object) dueMs);
-        answer.put("net", network.takeToDo());
-        words.say(answer);
+        answer.put("net", network.takeRequests());
+        words.write(answer);
         words.flush();
     }
 }

@@ -72,7 +72,7 @@ public final class VirtualPhone {
             System.out.print(PhoneOptions.HELP);
             return;
         }
-        Words words = new Words(System.out, !options.isStepped);
+        EventWriter words = new EventWriter(System.out, !options.isStepped);
         PhoneSide phone = new PhoneSide(options, words);
         if (options.isStepped) {
             new SteppedRun(phone, words).run(System.in);

@@ -47,7 +47,7 @@ public final class GroundConsole {
             System.out.print(ConsoleOptions.HELP);
             return;
         }
-        Words words = new Words(System.out, true);
+        EventWriter words = new EventWriter(System.out, true);
         new LoopProgram("ground console", words).run(System.in, new ConsoleSide(options, words));
     }
 }

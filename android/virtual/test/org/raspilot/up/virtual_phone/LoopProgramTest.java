@@ -26,7 +26,7 @@ public final class LoopProgramTest {
         }
 
         @Override
-        public void take(Map<?, ?> line) {
+        public void onLine(Map<?, ?> line) {
             done.add(line.toString());
         }
 
@@ -60,6 +60,6 @@ public final class LoopProgramTest {
     }
 
     private void run(InputStream input) throws IOException {
-        new LoopProgram("test program", new Words(said, false)).run(input, part);
+        new LoopProgram("test program", new EventWriter(said, false)).run(input, part);
     }
 }
