@@ -199,7 +199,7 @@ def test_ages_are_honest_behind_a_slow_link(system, console):
             far.until(lambda: len(far.frames) > begun + 40, "frames of the slower link")
             slow = compare(near, far, 15)
             assert all(frame["way_ms"] >= 1000 * WAY_S for frame in far.frames)
-            assert far.ask("up.disarm")["code"] == "no_seat"
+            assert far.ask("up.disarm")["code"] == "no_control"
     assert quick[0] >= 1000 * WAY_S and slow[0] >= 500
     for true_ms, told_ms in (quick, slow):
         assert told_ms == pytest.approx(true_ms, abs=120), (quick, slow)
@@ -228,7 +228,7 @@ def test_gains_over_a_link_of_300_ms(system, console):
         console.say(seat={"give": console.status["asked_by"]})
         far.holds()
         console.until(lambda: console.status["seat"] == "listen", "that it listens now")
-        assert console.ask("up.disarm")["code"] == "no_seat"
+        assert console.ask("up.disarm")["code"] == "no_control"
         far.until(lambda: far.all("gains"), "the gains by themselves")
         flying = far.all("gains")[-1]["flying"]
         rate = {axis: {**pid, "d": 0.25} for axis, pid in flying["ratePIDs"].items()}

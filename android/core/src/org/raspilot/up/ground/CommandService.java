@@ -68,8 +68,8 @@ final class CommandService {
                     + settings.aircraft + " is not connected to the proxy");
         }
         if (standing() != ControlStatus.OURS) {
-            return Answer.refused(command.name(), "no_seat",
-                    "this ground only listens: ask for the seat first");
+            return Answer.refused(command.name(), "no_control",
+                    "this ground only listens: request control first");
         }
         if (answers.waiting() >= PendingCommands.MAX_WAITING) {
             return Answer.refused(command.name(), "busy",

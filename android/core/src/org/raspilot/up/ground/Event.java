@@ -7,18 +7,16 @@ public final class Event {
     /** When it happened by the loop's clock, ms. */
     public final long atMs;
     public final EventLevel level;
-    /**
-     * Its kind: {@code mode armed failsafe panic link source veto battery command gains}.
-     */
-    public final String kind;
+    /** What happened, as a stable word: {@code armed link_lost receiver_lost ...}. */
+    public final String code;
     /** What happened, safe to show, without a full stop. */
     public final String text;
 
-    Event(long number, long atMs, EventLevel level, String kind, String text) {
+    Event(long number, long atMs, EventLevel level, String code, String text) {
         this.number = number;
         this.atMs = atMs;
         this.level = level;
-        this.kind = kind;
+        this.code = code;
         this.text = text;
     }
 

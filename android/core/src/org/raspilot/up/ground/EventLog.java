@@ -29,10 +29,10 @@ public final class EventLog {
     private long number;
     private Snapshot snapshot = new Snapshot(0, Collections.emptyList());
 
-    /** Adds an event; {@code kind} as in {@link Event#kind}. */
-    public void add(long atMs, EventLevel level, String kind, String text) {
+    /** Adds an event; {@code code} as in {@link Event#code}. */
+    public void add(long atMs, EventLevel level, String code, String text) {
         number++;
-        events.add(new Event(number, atMs, level, kind, SafeText.of(text, MAX_TEXT_LENGTH)));
+        events.add(new Event(number, atMs, level, code, SafeText.of(text, MAX_TEXT_LENGTH)));
         if (events.size() > MAX_ENTRIES) {
             events.remove();
         }

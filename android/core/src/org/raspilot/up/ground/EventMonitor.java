@@ -6,7 +6,7 @@ import java.util.Arrays;
 final class EventMonitor {
     private final EventLog events;
     private final Alarms alarms;
-    private Debouncer settled = new Debouncer();
+    private Debouncer debouncer = new Debouncer();
 
     EventMonitor(EventLog events, Alarms alarms) {
         this.events = events;
@@ -15,18 +15,18 @@ final class EventMonitor {
 
     /** Resets the state at another start of the link. */
     void reset() {
-        settled = new Debouncer();
+        debouncer = new Debouncer();
         alarms.clear();
     }
 
-    void onFrame(Telemetry telemetry, GroundStatus status, final long nowMs) {
-        for (final EventRule fact : EventRules.ALL) {
-            final Object value = fact.read(telemetry);
+    void onFrame(Telemetry telemetry, GroundStatus status, long nowMs) {
+        for (EventRule rule : EventRule.ALL) {
+            final Object value = rule.reader.read(telemetry);
             if (value != null) {
-                settled.update(fact.key, value, nowMs, (before, now) -> {
-                    final String words = fact.words(before, now);
-                    if (words != null) {
-                        events.add(nowMs, fact.level(before, now), fact.kind, words);
+                debouncer.update(rule.key, value, nowMs, (before, now) -> {
+                    final EventRule.Change change = rule.describer.describe(before, now);
+                    if (change != null) {
+                        events.add(nowMs, change.level, change.code, change.text);
                     }
                 });
             }
@@ -34,36 +34,37 @@ final class EventMonitor {
         onTick(telemetry, status, nowMs);
     }
 
-    void onLink(final GroundStatus status, final long nowMs) {
+    void onLink(GroundStatus status, long nowMs) {
         final Object state = Arrays.<Object>asList(status.isOpen(), status.isAircraftOnline);
-        settled.update("link", state, nowMs, (before, now) ->
+        debouncer.update("link", state, nowMs, (before, now) ->
                 noteLink(status, before == null, nowMs));
         if (!status.isDirect && status.isOpen() && status.control != ControlStatus.LATER) {
-            settled.update("seat", status.controlText(), nowMs, (before, now) ->
-                    events.add(nowMs, EventLevel.INFO, "link", now.toString()));
+            debouncer.update("control", status.controlText(), nowMs, (before, now) ->
+                    events.add(nowMs, EventLevel.INFO, "control_changed", now.toString()));
         }
     }
 
     /** Evaluates changes due to time alone. */
     void onTick(Telemetry telemetry, GroundStatus status, long nowMs) {
-        settled.onTick(nowMs);
+        debouncer.onTick(nowMs);
         if (alarms.update(telemetry, status, nowMs)) {
-            updateAlarm(Alarm.Kind.SILENT, "link", EventLevel.ALARM, status.isLate
-                    ? "telemetry comes too late" : "no telemetry any more",
-                    "telemetry comes again", nowMs);
-            updateAlarm(Alarm.Kind.BATTERY, "battery", EventLevel.WARNING,
-                    "the phone's battery is low", "the phone's battery is charged", nowMs);
+            updateAlarm(Alarm.Kind.SILENT, EventLevel.ALARM,
+                    status.isLate ? "telemetry_late" : "telemetry_lost",
+                    status.isLate ? "telemetry comes too late" : "telemetry lost",
+                    "telemetry_received", "telemetry is received again", nowMs);
+            updateAlarm(Alarm.Kind.BATTERY, EventLevel.WARNING,
+                    "phone_battery_low", "the phone's battery is low",
+                    "phone_battery_charged", "the phone's battery is charged", nowMs);
         }
     }
 
-    private void updateAlarm(Alarm.Kind alarm, final String kind, final EventLevel level,
-            final String gone, final String back, final long nowMs) {
-        final boolean isOn = alarms.snapshot().has(alarm);
-        settled.update("alarm " + alarm, isOn, nowMs, (before, now) -> {
+    private void updateAlarm(Alarm.Kind alarm, EventLevel level, String onCode, String onText,
+            String offCode, String offText, long nowMs) {
+        debouncer.update("alarm " + alarm, alarms.snapshot().has(alarm), nowMs, (before, now) -> {
             if (Boolean.TRUE.equals(now)) {
-                events.add(nowMs, level, kind, gone);
+                events.add(nowMs, level, onCode, onText);
             } else if (before != null) {
-                events.add(nowMs, EventLevel.INFO, kind, back);
+                events.add(nowMs, EventLevel.INFO, offCode, offText);
             }
         });
     }
@@ -71,15 +72,16 @@ final class EventMonitor {
     private void noteLink(GroundStatus status, boolean isFirst, long nowMs) {
         if (!status.isOpen()) {
             if (!isFirst) {
-                events.add(nowMs, EventLevel.WARNING, "link",
-                        "the link is gone: " + status.reason);
+                events.add(nowMs, EventLevel.WARNING, "link_lost",
+                        "link lost: " + status.reason);
             }
         } else if (Boolean.FALSE.equals(status.isAircraftOnline)) {
-            events.add(nowMs, EventLevel.WARNING, "link",
+            events.add(nowMs, EventLevel.WARNING, "aircraft_offline",
                     "the aircraft is not connected to the proxy");
         } else {
-            events.add(nowMs, EventLevel.INFO, "link", status.isAircraftOnline == null
-                    ? "the link is there" : "the aircraft is connected");
+            final boolean isKnown = status.isAircraftOnline != null;
+            events.add(nowMs, EventLevel.INFO, isKnown ? "aircraft_online" : "link_open",
+                    isKnown ? "the aircraft is connected" : "link open");
         }
     }
 }

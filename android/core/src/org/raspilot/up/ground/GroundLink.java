@@ -226,7 +226,7 @@ final class GroundLink implements UpSocketListener {
     }
 
     private boolean reconnectWithHello() {
-        socket.drop("another seat is asked for");
+        socket.drop("another role is requested");
         socket.reconnectNow();
         return true;
     }

@@ -1,5 +1,6 @@
 package org.raspilot.up.ground;
 
+import java.util.Locale;
 import java.util.Random;
 import org.raspilot.up.commands.BaseCommand;
 import org.raspilot.up.commands.CommandExecutor;
@@ -191,7 +192,8 @@ public final class GroundSide implements TelemetrySource {
             if (answer.outcome != Answer.Outcome.REFUSED && !(isQuiet && answer.isAck())) {
                 events.add(loop.nowMs(),
                         answer.isAck() ? EventLevel.INFO : EventLevel.WARNING,
-                        set == null ? "command" : "gains",
+                        (set == null ? "command_" : "gains_")
+                                + answer.outcome.name().toLowerCase(Locale.ROOT),
                         CommandTexts.outcome(words, answer));
             }
             answered.onAnswer(answer);
@@ -251,8 +253,8 @@ public final class GroundSide implements TelemetrySource {
                 return;
             }
             if (message.name.equals(GainsService.VALUES) && !gains.receive(message.data)) {
-                events.add(loop.nowMs(), EventLevel.WARNING, "gains",
-                        "the aircraft told gains that are no whole set");
+                events.add(loop.nowMs(), EventLevel.WARNING, "gains_invalid",
+                        "the aircraft sent an incomplete set of gains");
             }
             answers.receive(message);
             executor.executeCommand(new BaseCommand(message));

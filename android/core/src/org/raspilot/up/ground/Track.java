@@ -6,7 +6,8 @@ import java.util.List;
 
 /**
  * The track of the aircraft, in metres from its home: points at least
- * when there are too many, every second one is dropped. Only on the loop.
+ * {@link #MIN_DISTANCE_M} apart; when there are too many, every second one is dropped. Only on the
+ * loop.
  */
 public final class Track {
     public static final int MAX_POINTS = 4000;

@@ -4,6 +4,7 @@ import static org.junit.Assert.assertEquals;
 import static org.junit.Assert.assertFalse;
 import static org.junit.Assert.assertTrue;
 
+import java.util.ArrayList;
 import java.util.Arrays;
 import java.util.List;
 import org.junit.Rule;
@@ -33,6 +34,14 @@ public final class EventMonitorTest {
         return all.subList(from, all.size());
     }
 
+    private void assertAlarms(String wanted) {
+        final List<String> active = new ArrayList<>();
+        for (Alarm each : bench.ground.alarms().snapshot().active) {
+            active.add(each.level + " " + each.kind);
+        }
+        assertEquals(wanted.isEmpty() ? "[]" : "[" + wanted + "]", active.toString());
+    }
+
     @Test
     public void eachChangeIsSaidOnceWithBothValues() {
         bench.open(ProxyRole.LISTEN);
@@ -43,13 +52,14 @@ public final class EventMonitorTest {
                     + " \"load\": {\"panic\": true, \"cpu\": 99.4, \"delay_ms\": 150},"
                     + " \"vetoes\": [\"b\", \"a\"]}");
         }
-        assertEquals(Arrays.asList("flight mode FBW (was RATE)", "armed",
-                "failsafe: the board flies without a receiver",
-                "Raspberry Pi busy (99 %): telemetry every 150 ms",
-                "against arming again: a; b"), newEvents(before));
+        assertEquals(Arrays.asList("flight_mode_changed", "armed", "failsafe_started",
+                "panic_started", "vetoes_changed"), newEvents(before));
         final List<Event> events = bench.ground.events().snapshot().events;
         assertEquals(EventLevel.ALARM, events.get(before + 2).level);
-        assertEquals("failsafe", events.get(before + 2).kind);
+        assertEquals("flight mode FBW (was RATE)", events.get(before).text);
+        assertEquals("Raspberry Pi busy (99 %): telemetry every 150 ms",
+                events.get(before + 3).text);
+        assertEquals("against arming again: a; b", events.get(before + 4).text);
         assertEquals(before + 3, events.get(before + 2).number);
     }
 
@@ -81,13 +91,12 @@ public final class EventMonitorTest {
     @Test
     public void theLinkIsToldToo() {
         bench.open(ProxyRole.LISTEN);
-        assertEquals(Arrays.asList("the link is there", "nobody commands"), bench.events());
+        assertEquals(Arrays.asList("link_open", "control_changed"), bench.events());
         bench.fly(1, 40);
-        assertTrue(bench.events().contains("the aircraft is connected"));
+        assertTrue(bench.events().contains("aircraft_online"));
         bench.peer().end("the network is gone");
         bench.loop.advance(30000);
-        assertTrue(bench.events().toString(),
-                bench.events().contains("the link is gone: the network is gone"));
+        assertTrue(bench.events().contains("link_lost"));
     }
 
     @Test
@@ -95,16 +104,15 @@ public final class EventMonitorTest {
         bench.open(ProxyRole.LISTEN);
         frame("{\"arduino\": {\"connected\": false}, \"android\": {\"connected\": false},"
                 + " \"age_ms\": {\"flight\": null, \"battery\": null}}");
-        assertTrue(bench.events().contains("the board is not here yet"));
-        assertTrue(bench.events().contains("the phone is not here yet"));
-        assertEquals("[WARNING the board is not here yet]",
-                bench.ground.alarms().snapshot().active.toString());
+        assertTrue(bench.events().contains("board_missing"));
+        assertTrue(bench.events().contains("phone_missing"));
+        assertAlarms("WARNING BOARD");
         frame("{\"arduino\": {\"connected\": true}, \"android\": {\"connected\": true}}");
         frames(50, "{\"arduino\": {\"connected\": true}, \"android\": {\"connected\": true}}");
-        assertTrue(bench.events().contains("the board is here"));
+        assertTrue(bench.events().contains("board_connected"));
         frames(100, "{\"arduino\": {\"connected\": false}, \"android\": {\"connected\": false},"
                 + " \"age_ms\": {\"flight\": 100, \"battery\": 100}}");
-        assertTrue(bench.events().contains("the board is gone"));
+        assertTrue(bench.events().contains("board_lost"));
         assertTrue(bench.ground.alarms().snapshot().has(Alarm.Kind.PHONE));
     }
 
@@ -126,18 +134,16 @@ public final class EventMonitorTest {
     public void whatMustBeHeardIsLoud() {
         bench.open(ProxyRole.LISTEN);
         frame("{\"load\": {\"panic\": true}}");
-        assertEquals("[]", bench.ground.alarms().snapshot().active.toString());
+        assertAlarms("");
         assertFalse(bench.ground.alarms().snapshot().isLoud());
         frame("{\"android\": {\"batteryLevel\": 19}}");
         assertTrue(bench.ground.alarms().snapshot().isLoud());
         frames(25, "{}");
         frame("{\"arduino\": {\"receiver_valid\": false}, \"armed\": false}");
-        assertEquals("[WARNING the receiver is lost]",
-                bench.ground.alarms().snapshot().active.toString());
+        assertAlarms("WARNING RECEIVER");
         assertFalse("on the ground it may be off", bench.ground.alarms().snapshot().isLoud());
         bench.loop.advance(901);
-        assertEquals("[ALARM the aircraft is silent, WARNING the receiver is lost]",
-                bench.ground.alarms().snapshot().active.toString());
+        assertAlarms("ALARM SILENT, WARNING RECEIVER");
         assertTrue(bench.ground.alarms().snapshot().isLoud());
     }
 
@@ -148,29 +154,28 @@ public final class EventMonitorTest {
         frames(40, "{\"android\": {\"batteryLevel\": 22}}");
         assertTrue(bench.ground.alarms().snapshot().has(Alarm.Kind.BATTERY));
         frame("{\"android\": {\"batteryLevel\": 9}}");
-        assertEquals("[ALARM the phone's battery is nearly empty]",
-                bench.ground.alarms().snapshot().active.toString());
+        assertAlarms("ALARM BATTERY");
         frames(40, "{\"android\": {\"batteryLevel\": 24}}");
         assertFalse(bench.ground.alarms().snapshot().has(Alarm.Kind.BATTERY));
-        assertTrue(bench.events().contains("the phone's battery is charged"));
+        assertTrue(bench.events().contains("phone_battery_charged"));
     }
 
     @Test
     public void aSilenceBeforeTheFirstFrameOrAfterTheStopIsNoAlarm() {
         bench.start(GroundBench.settings(ProxyRole.LISTEN, false));
         bench.loop.advance(20000);
-        assertTrue(bench.ground.alarms().snapshot().active.isEmpty());
+        assertAlarms("");
         bench.ground.reconnectNow();
         bench.accept(ProxyRole.LISTEN);
         bench.fly(1, 3);
         bench.peer().end("gone");
         bench.loop.advance(1);
-        assertEquals("[ALARM no link]", bench.ground.alarms().snapshot().active.toString());
+        assertAlarms("ALARM SILENT");
         bench.ground.stop();
-        assertTrue(bench.ground.alarms().snapshot().active.isEmpty());
+        assertAlarms("");
         bench.ground.start();
         bench.loop.advance(5000);
-        assertTrue(bench.ground.alarms().snapshot().active.isEmpty());
+        assertAlarms("");
     }
 
     @Test

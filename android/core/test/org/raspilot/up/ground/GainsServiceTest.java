@@ -97,7 +97,7 @@ public final class GainsServiceTest {
         assertTrue(now.version > version);
         assertEquals(1, now.history.size());
         assertEquals("[rate roll P 3 to 2.5]", now.history.get(0).changes().toString());
-        assertTrue(bench.events().contains("gains: rate roll P 3 to 2.5: carried out"));
+        assertTrue(bench.events().contains("gains_ack"));
         bench.fly(2, 1);
         answerRequest(set(2.5));
         assertEquals("what flies is what the aircraft says", 2.5, flyingP(), 0);
@@ -202,9 +202,9 @@ public final class GainsServiceTest {
         bench.open(ProxyRole.LISTEN);
         bench.fly(1, 1);
         bench.ground.gains().set(set(3), 1L, bench.keeping());
-        assertEquals("no_seat", bench.answer().code);
+        assertEquals("no_control", bench.answer().code);
         bench.ground.gains().request(bench.keeping());
-        assertEquals("no_seat", bench.answer().code);
+        assertEquals("no_control", bench.answer().code);
         assertTrue(bench.sent().isEmpty());
     }
 
@@ -214,7 +214,7 @@ public final class GainsServiceTest {
         bench.say("{\"name\": \"arduino.pids.values\", \"data\": {\"ratePIDs\": 5}}");
         bench.say("{\"name\": \"arduino.pids.values\", \"data\": {}}");
         assertEquals(3, flyingP(), 0);
-        assertTrue(bench.events().contains("the aircraft told gains that are no whole set"));
+        assertTrue(bench.events().contains("gains_invalid"));
     }
 
     @Test

@@ -157,13 +157,13 @@ final class GroundBench extends ExternalResource implements GroundListener {
         return answers.remove(0);
     }
 
-    /** Returns the texts of the events. */
+    /** Returns the codes of the events. */
     List<String> events() {
-        final List<String> texts = new ArrayList<>();
+        final List<String> codes = new ArrayList<>();
         for (Event each : ground.events().snapshot().events) {
-            texts.add(each.text);
+            codes.add(each.code);
         }
-        return texts;
+        return codes;
     }
 
     @SuppressWarnings("unchecked")

@@ -90,7 +90,7 @@ public final class GroundLinkTest {
         assertEquals("what is sent now is dropped", ControlStatus.LATER,
                 bench.status.control);
         bench.ground.send(new BaseCommand(Commands.DISARM), bench.keeping());
-        assertEquals("no_seat", bench.answer().code);
+        assertEquals("no_control", bench.answer().code);
         bench.say("UP1 seat listen");
         bench.say("UP1 seat holder=none");
         assertEquals(ControlStatus.FREE, bench.status.control);

@@ -95,7 +95,7 @@ public final class GroundTelemetryTest {
         assertTrue(bench.status.isSilent);
         assertEquals("the aircraft is silent", bench.status.linkText());
         assertTrue(bench.ground.alarms().snapshot().has(Alarm.Kind.SILENT));
-        assertTrue(bench.events().contains("no telemetry any more"));
+        assertTrue(bench.events().contains("telemetry_lost"));
         bench.frame(6, "{}");
         assertFalse(bench.status.isSilent);
     }

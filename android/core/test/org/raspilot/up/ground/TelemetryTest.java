@@ -167,11 +167,10 @@ public final class TelemetryTest {
                 assertTrue(rows.size() <= TelemetryText.MAX_ROWS);
                 new Track().update(hostile, null, 0);
                 new HomeEstimator().update(hostile);
-                for (EventRule fact : EventRules.ALL) {
-                    final Object found = fact.read(hostile);
+                for (EventRule rule : EventRule.ALL) {
+                    final Object found = rule.reader.read(hostile);
                     if (found != null) {
-                        fact.words(null, found);
-                        fact.level(null, found);
+                        rule.describer.describe(null, found);
                     }
                 }
             } catch (RuntimeException fault) {

@@ -52,10 +52,10 @@ final class CommandTexts {
                 return words.getString(R.string.why_no_link);
             case NO_AIRCRAFT:
                 return words.getString(R.string.why_no_aircraft);
-            case SEAT_FREE:
-                return words.getString(R.string.why_seat_free);
-            case SEAT_HELD:
-                return words.getString(R.string.why_seat_held);
+            case CONTROL_FREE:
+                return words.getString(R.string.why_control_free);
+            case CONTROL_TAKEN:
+                return words.getString(R.string.why_control_held);
             case LISTENING:
                 return words.getString(R.string.why_listening);
             case ROLE:

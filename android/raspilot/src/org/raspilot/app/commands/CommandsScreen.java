@@ -51,7 +51,7 @@ final class CommandsScreen
         this.forms = forms;
         frame = new FrameLine((FrameText) root.findViewById(R.id.ground_frame));
         // If the ground screen is visible beside this one, the seat is there.
-        seat = root.findViewById(R.id.seat_line) == null ? null : new ControlPanel(root);
+        seat = root.findViewById(R.id.control_line) == null ? null : new ControlPanel(root);
         history = new HistoryPanel(root, memory.history());
         confirmation = new Confirmation(activity);
         TextViews.showOrHide((TextView) root.findViewById(R.id.commands_fault), fault);

@@ -9,9 +9,9 @@ enum DisabledReason {
     /** The proxy does not have the aircraft. */
     NO_AIRCRAFT,
     /** No ground commands: control must be requested. */
-    SEAT_FREE,
+    CONTROL_FREE,
     /** Another ground commands. */
-    SEAT_HELD,
+    CONTROL_TAKEN,
     /** This ground listens, and it is unknown who commands. */
     LISTENING,
     /** The aircraft's link does not allow it to a ground. */

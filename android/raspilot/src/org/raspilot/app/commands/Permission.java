@@ -98,9 +98,9 @@ final class Permission {
             case OURS:
                 return DisabledReason.NONE;
             case FREE:
-                return DisabledReason.SEAT_FREE;
+                return DisabledReason.CONTROL_FREE;
             case HELD:
-                return DisabledReason.SEAT_HELD;
+                return DisabledReason.CONTROL_TAKEN;
             case LATER:
                 return DisabledReason.LISTENING;
             default:

@@ -21,10 +21,10 @@ public final class ControlPanel implements View.OnClickListener {
     private boolean isOurs;
 
     public ControlPanel(View root) {
-        link = (TextView) root.findViewById(R.id.seat_link);
-        seat = (TextView) root.findViewById(R.id.seat_line);
-        take = (Button) root.findViewById(R.id.seat_take);
-        give = (Button) root.findViewById(R.id.seat_give);
+        link = (TextView) root.findViewById(R.id.control_link);
+        seat = (TextView) root.findViewById(R.id.control_line);
+        take = (Button) root.findViewById(R.id.control_take);
+        give = (Button) root.findViewById(R.id.control_give);
         take.setOnClickListener(this);
         give.setOnClickListener(this);
     }
@@ -37,7 +37,7 @@ public final class ControlPanel implements View.OnClickListener {
     public void update(GroundSnapshot picture) {
         GroundStatus status = picture.status;
         if (status == null) {
-            TextViews.show(link, link.getResources().getString(R.string.seat_no_service));
+            TextViews.show(link, link.getResources().getString(R.string.control_no_service));
             TextViews.show(seat, "");
             take.setEnabled(false);
             give.setVisibility(View.GONE);
@@ -51,11 +51,11 @@ public final class ControlPanel implements View.OnClickListener {
         take.setEnabled(standing != ControlStatus.UNKNOWN && ground != null);
         take.setVisibility(status.isDirect ? View.GONE : View.VISIBLE);
         String text = take.getResources().getString(
-                isOurs ? R.string.seat_release : R.string.seat_request);
+                isOurs ? R.string.control_release : R.string.control_request);
         TextViews.show(take, text);
         give.setVisibility(asker == null ? View.GONE : View.VISIBLE);
         if (asker != null) {
-            TextViews.show(give, give.getResources().getString(R.string.seat_give, asker));
+            TextViews.show(give, give.getResources().getString(R.string.control_give, asker));
         }
     }
 
@@ -64,7 +64,7 @@ public final class ControlPanel implements View.OnClickListener {
         if (ground == null) {
             return;
         }
-        if (button.getId() == R.id.seat_give) {
+        if (button.getId() == R.id.control_give) {
             if (asker != null) {
                 ground.giveControl(asker);
             }
@@ -81,10 +81,10 @@ public final class ControlPanel implements View.OnClickListener {
             return text;
         }
         Double wayMs = status.roundTripMs;
-        String rate = link.getResources().getString(R.string.seat_rate, status.rateHz,
+        String rate = link.getResources().getString(R.string.control_rate, status.rateHz,
                 status.counters.lostFrames);
         return text + " " + (wayMs == null ? rate : rate + " "
-                + link.getResources().getString(R.string.seat_way, Math.round(wayMs)));
+                + link.getResources().getString(R.string.control_way, Math.round(wayMs)));
     }
 
     /** Converts a text to a sentence: with a capital and a full stop. */
