@@ -164,7 +164,7 @@ public final class Airborne {
 
         @Override
         public void onTrouble(String sentence) {
-            listener.onEvent(sentence);
+            listener.onEvent("link_waiting", sentence);
         }
     }
 
@@ -179,7 +179,7 @@ public final class Airborne {
         public void onNack(String id, String reason) {
             answers++;
             link.onAnswer(id);
-            listener.onEvent("the Raspberry Pi refuses what was sent: "
+            listener.onEvent("nack_received", "the Raspberry Pi refused a message: "
                     + SafeText.of(reason, MAX_REASON_LENGTH));
         }
     }
@@ -187,7 +187,7 @@ public final class Airborne {
     private final class Problems implements ProvidersListener {
         @Override
         public void onProvider(String name, String sentence) {
-            listener.onEvent(name + ": " + sentence);
+            listener.onEvent("provider_problem", name + ": " + sentence);
         }
     }
 
@@ -195,7 +195,8 @@ public final class Airborne {
         @Override
         public void onHandlerFailed(CommandHandler handler, BaseCommand command,
                 Throwable fault) {
-            listener.onEvent("the handler of " + command.name() + " failed: " + fault);
+            listener.onEvent("handler_failed",
+                    "the handler of " + command.name() + " failed: " + fault);
         }
     }
 }

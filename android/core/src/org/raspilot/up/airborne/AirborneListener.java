@@ -13,6 +13,11 @@ public interface AirborneListener {
     /** Called when Panic Mode starts, changes or ends (0). */
     void onPanic(long delayMs);
 
-    /** Called for anything else worth logging: why there is no link, which sensor is silent. */
-    void onEvent(String sentence);
+    /**
+     * Called for anything else worth logging.
+     *
+     * @param code {@code link_waiting nack_received provider_problem handler_failed sensor_silent
+     *     sensor_recovered}
+     */
+    void onEvent(String code, String sentence);
 }

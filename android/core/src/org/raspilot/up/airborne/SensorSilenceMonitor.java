@@ -40,10 +40,10 @@ final class SensorSilenceMonitor {
             String who = status.name + ": " + status.sensor;
             if (status.state == ProviderState.SILENT) {
                 if (silent.add(status.name)) {
-                    listener.onEvent(who + " says nothing");
+                    listener.onEvent("sensor_silent", who + " sends no readings");
                 }
             } else if (silent.remove(status.name)) {
-                listener.onEvent(who + " speaks again");
+                listener.onEvent("sensor_recovered", who + " sends readings again");
             }
         }
     }

@@ -34,6 +34,7 @@ final class AirborneBench implements Sensors, Speaker, AirborneListener {
     final TestSource<Pressure> barometer = new TestSource<>("barometer");
     final TestSource<BatteryLevel> battery = new TestSource<>("battery");
     final List<String> events = new ArrayList<>();
+    final List<String> sentences = new ArrayList<>();
     final List<String> said = new ArrayList<>();
     Airborne airborne;
 
@@ -164,8 +165,9 @@ final class AirborneBench implements Sensors, Speaker, AirborneListener {
     }
 
     @Override
-    public void onEvent(String sentence) {
-        events.add(sentence);
+    public void onEvent(String code, String sentence) {
+        events.add(code);
+        sentences.add(sentence);
     }
 
     @Override

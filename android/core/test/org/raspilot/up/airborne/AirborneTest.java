@@ -169,8 +169,8 @@ public final class AirborneTest {
         bench.rotation.isPresent = false;
         Airborne airborne = bench.connected(AirborneBench.blackBox().build());
         bench.fly(20, 20);
-        assertEquals("[altitude: barometer, heading: rotation vector, "
-                + "orientation: rotation vector and gyroscope, connected 10.0.0.1:50001:50000]",
+        assertEquals("[provider_problem, provider_problem, provider_problem,"
+                + " connected 10.0.0.1:50001:50000]",
                 bench.events.toString());
         assertEquals(2, bench.lines().size());
         assertEquals(ProviderState.ABSENT, airborne.status().providers.get(1).state);
@@ -193,9 +193,9 @@ public final class AirborneTest {
             bench.gps.give(AirborneBench.HERE);
             bench.rotation.give(AirborneBench.LEVEL);
         }
-        assertEquals("[altitude: barometer says nothing]", bench.events.toString());
+        assertEquals("[sensor_silent]", bench.events.toString());
         bench.fly(20, 1000);
-        assertEquals("[altitude: barometer says nothing, altitude: barometer speaks again]",
+        assertEquals("[sensor_silent, sensor_recovered]",
                 bench.events.toString());
     }
 
@@ -206,7 +206,7 @@ public final class AirborneTest {
             bench.general().end("10.0.0.1 refuses the connection");
             bench.loop.advance(10000);
         }
-        assertEquals(1, count("10.0.0.1 refuses the connection; trying again"));
+        assertEquals(1, count("link_waiting"));
     }
 
     @Test

@@ -215,7 +215,7 @@ final class AirborneRun {
         }
 
         @Override
-        public void onEvent(String sentence) {
+        public void onEvent(String code, String sentence) {
             reportEvent(sentence);
         }
     }

@@ -25,12 +25,6 @@ final class EventWriter {
         this.isPrompt = isPrompt;
     }
 
-    /** Returns the text for an unexpected exception. */
-    static String faultText(Throwable fault) {
-        StackTraceElement[] trace = fault.getStackTrace();
-        return "a fault: " + fault + (trace.length > 0 ? " at " + trace[0] : "");
-    }
-
     /** Starts an event of that name; more fields may be put into it. */
     static Map<String, Object> event(String name) {
         Map<String, Object> fields = new LinkedHashMap<>();
@@ -59,8 +53,16 @@ final class EventWriter {
         }
     }
 
-    void notice(String sentence) {
-        write(event("notice", "text", sentence));
+    void notice(String code, String sentence) {
+        final Map<String, Object> event = event("notice", "code", code);
+        event.put("text", sentence);
+        write(event);
+    }
+
+    /** Prints an unexpected exception. */
+    void fault(Throwable fault) {
+        StackTraceElement[] trace = fault.getStackTrace();
+        notice("fault", "a fault: " + fault + (trace.length > 0 ? " at " + trace[0] : ""));
     }
 
     synchronized void flush() {

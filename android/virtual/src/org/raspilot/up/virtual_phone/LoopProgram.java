@@ -51,19 +51,20 @@ final class LoopProgram implements FaultListener {
                 handle(part, InputLine.read(text));
                 wrong = 0;
             } catch (OptionException error) {
-                words.notice(error.getMessage());
+                words.notice("invalid_input", error.getMessage());
                 wrong++;
             }
         }
         if (text != null) {
-            words.notice(MAX_WRONG + " lines in a row are no JSON objects: this is no input");
+            words.notice("input_ended",
+                    MAX_WRONG + " lines in a row are not JSON objects: giving up");
         }
         end(part);
     }
 
     @Override
     public void onFault(Throwable fault) {
-        words.notice(EventWriter.faultText(fault));
+        words.fault(fault);
     }
 
     private void handle(final Part part, final InputLine line) {
@@ -71,7 +72,7 @@ final class LoopProgram implements FaultListener {
             try {
                 part.onLine(line.fields);
             } catch (OptionException error) {
-                words.notice(error.getMessage());
+                words.notice("invalid_input", error.getMessage());
             }
         });
     }

@@ -44,7 +44,7 @@ final class OptionParser {
     /** Returns the exception for an unknown option, or one without a value. */
     static OptionException unknown(String name, boolean isLast) {
         String why = isLast ? ": no such option, or its value is missing" : ": no such option";
-        return new OptionException(name + why + "; --help tells them");
+        return new OptionException(name + why + "; see --help");
     }
 
     private static OptionException outOfRange(String what, String value, long least, long most) {

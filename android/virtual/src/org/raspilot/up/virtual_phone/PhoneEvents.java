@@ -35,8 +35,8 @@ final class PhoneEvents implements AirborneListener, Speaker, FaultListener {
     }
 
     @Override
-    public void onEvent(String sentence) {
-        words.notice(sentence);
+    public void onEvent(String code, String sentence) {
+        words.notice(code, sentence);
     }
 
     @Override
@@ -46,7 +46,7 @@ final class PhoneEvents implements AirborneListener, Speaker, FaultListener {
 
     @Override
     public void onFault(Throwable fault) {
-        words.notice(EventWriter.faultText(fault));
+        words.fault(fault);
     }
 
     void counters(AirborneStatus status) {

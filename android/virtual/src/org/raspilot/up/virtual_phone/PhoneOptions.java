@@ -142,8 +142,7 @@ final class PhoneOptions {
 
         private void choose(String name) throws OptionException {
             if (!way.isEmpty() && !way.equals(name)) {
-                throw new OptionException(way + " and " + name + " are two ways of finding the"
-                        + " same: choose one");
+                throw new OptionException(way + " and " + name + " exclude each other");
             }
             way = name;
         }

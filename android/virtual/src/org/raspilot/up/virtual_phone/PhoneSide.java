@@ -49,7 +49,7 @@ final class PhoneSide implements LoopProgram.Part {
         } else if (content instanceof Map) {
             record.deliver((Map<?, ?>) content);
         } else if (content != null) {
-            throw new OptionException("record is no object");
+            throw new OptionException("record must be an object");
         }
         Object level = fields.get("level");
         if (level != null) {
@@ -59,7 +59,7 @@ final class PhoneSide implements LoopProgram.Part {
 
     private void calibrate(String nose) throws OptionException {
         try {
-            words.notice("mounting: " + airborne.calibrate(Side.valueOf(nose)).toText());
+            words.notice("mounting", "mounting: " + airborne.calibrate(Side.valueOf(nose)).toText());
         } catch (IllegalArgumentException error) {
             throw new OptionException("not calibrated: " + error.getMessage());
         } catch (IllegalStateException error) {

@@ -55,7 +55,7 @@ final class PipedConnection implements TcpConnection {
                 connection.listener.onClosed(reason);
             };
         }
-        throw new OptionException("net: there is no event '" + kind + "'");
+        throw new OptionException("net: unknown event '" + kind + "'");
     }
 
     @Override

@@ -67,7 +67,7 @@ final class PipedNetwork implements Network {
             try {
                 loop.post(happening((List<?>) each));
             } catch (ClassCastException error) {
-                throw new OptionException("net: an event is not understood: " + each);
+                throw new OptionException("net: invalid event: " + each);
             } catch (IndexOutOfBoundsException error) {
                 throw new OptionException("net: an event is too short: " + each);
             }

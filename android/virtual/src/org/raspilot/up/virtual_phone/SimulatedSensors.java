@@ -97,7 +97,7 @@ final class SimulatedSensors implements Sensors {
 
     private static Fix fix(Object value) throws OptionException {
         if (!(value instanceof Map)) {
-            throw new OptionException("fix is no object");
+            throw new OptionException("fix must be an object");
         }
         Map<?, ?> fields = (Map<?, ?>) value;
         return new Fix(
@@ -111,7 +111,7 @@ final class SimulatedSensors implements Sensors {
 
     private static double[] numbers(String name, Object value, int count) throws OptionException {
         if (!(value instanceof List) || ((List<?>) value).size() != count) {
-            throw new OptionException(name + " is no list of " + count + " numbers");
+            throw new OptionException(name + " must be a list of " + count + " numbers");
         }
         double[] found = new double[count];
         for (int at = 0; at < count; at++) {
@@ -126,7 +126,7 @@ final class SimulatedSensors implements Sensors {
 
     private static double number(String name, Object value) throws OptionException {
         if (!(value instanceof Number)) {
-            throw new OptionException(name + " is no number");
+            throw new OptionException(name + " must be a number");
         }
         return ((Number) value).doubleValue();
     }

@@ -22,7 +22,7 @@ final class SteppedRun {
     SteppedRun(LoopProgram.Part phone, final EventWriter words) {
         this.phone = phone;
         this.words = words;
-        loop = new ManualLoop(network, fault -> words.notice(EventWriter.faultText(fault)));
+        loop = new ManualLoop(network, fault -> words.fault(fault));
     }
 
     /** Answers every line until the input ends. */
@@ -33,7 +33,7 @@ final class SteppedRun {
             try {
                 step(InputLine.read(text));
             } catch (OptionException error) {
-                words.notice(error.getMessage());
+                words.notice("invalid_input", error.getMessage());
             }
             loop.advance(0);
             answer();
@@ -58,7 +58,7 @@ final class SteppedRun {
             try {
                 phone.onLine(line.fields);
             } catch (OptionException error) {
-                words.notice(error.getMessage());
+                words.notice("invalid_input", error.getMessage());
             }
         });
         List<?> brought = line.network();

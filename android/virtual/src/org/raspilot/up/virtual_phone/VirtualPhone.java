@@ -31,7 +31,7 @@ import java.io.IOException;
  * {"event": "lost", "reason"}                    the link for Commands is lost, or failed
  * {"event": "says", "text"}                      android.speak
  * {"event": "panic", "delay_ms"}                 0: it is over
- * {"event": "notice", "text"}                    anything else to report, in a sentence
+ * {"event": "notice", "code", "text"}            anything else to report, in a sentence
  * {"event": "counters", "connections", ...}      the last line
  * </pre>
  *

@@ -95,7 +95,7 @@ final class ConsoleSide implements LoopProgram.Part, GroundListener, HandlerFaul
 
     @Override
     public void onHandlerFailed(CommandHandler handler, BaseCommand command, Throwable fault) {
-        words.notice(command.name() + ": " + EventWriter.faultText(fault));
+        words.fault(fault);
     }
 
     private void send(Map<?, ?> line, Answers answers) throws OptionException {
@@ -139,7 +139,7 @@ final class ConsoleSide implements LoopProgram.Part, GroundListener, HandlerFaul
             throw new OptionException("seat: 'request', 'release' or {\"give\": number}");
         }
         if (!isDone) {
-            words.notice("the seat is not for us to ask for or to give now");
+            words.notice("no_control", "control cannot be requested or given now");
         }
     }
 

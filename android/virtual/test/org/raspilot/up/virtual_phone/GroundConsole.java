@@ -25,7 +25,7 @@ import java.io.IOException;
  *  "role", "tune_in_flight", "reason", "rejection"}      whenever it changed
  * {"event": "answer", "tag", "name", "outcome", "code", "reason", "round_trip_ms", "data"}
  * {"event": "gains", "flying": {...} or null}            whenever they changed
- * {"event": "notice", "text"}
+ * {"event": "notice", "code", "text"}
  * </pre>
  */
 public final class GroundConsole {
