@@ -14,16 +14,16 @@ from up.fields import printable
 from up.protocols.general_message import encode
 from up_ground.arguments import parse_arguments, settings_of
 from up_ground.catalogue import Catalogue, describe, fault_of
-from up_ground.errand import (
+from up_ground.field_values import FieldError, parse_fields
+from up_ground.one_shot_task import (
     EXIT_DONE,
     EXIT_INTERRUPTED,
     EXIT_USAGE,
     Errand,
     complain,
+    run,
     say,
 )
-from up_ground.field_values import FieldError, parse_fields
-from up_ground.run_errand import run
 from up_ground.seat import LeaveSeat, RequestSeat
 from up_ground.send import Send
 from up_ground.settings import Seat

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import textwrap
 
-from up_ground.canvas import Style
-from up_ground.pen import Pen
-from up_ground.wording import UNKNOWN, busy_text, flag_text, number_text
+from up_ground.screen_buffer import Pen, Style
+from up_ground.status_text import UNKNOWN, busy_text, flag_text, number_text
 
 PANEL_COLUMNS = 38
 _CHANNELS = ("ailerons", "elevator", "throttle", "rudder", "aux1", "aux2")

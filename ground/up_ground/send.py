@@ -8,11 +8,10 @@ from typing import Any
 
 from up.commands.telemetry_commands import SLOWEST_MS
 from up.protocols.general_message import GeneralMessage, encode
-from up_ground.errand import EXIT_DONE, EXIT_NO_ANSWER, EXIT_REFUSED, Errand, Say
 from up_ground.ground_link import GroundLink
-from up_ground.link_status import LinkState
-from up_ground.safe_text import safe_text
-from up_ground.seat_wait import ASK_INTERVAL_S, KEPT_S, Standing, standing
+from up_ground.link_status import ASK_INTERVAL_S, KEPT_S, LinkState, Standing, standing
+from up_ground.one_shot_task import EXIT_DONE, EXIT_NO_ANSWER, EXIT_REFUSED, Errand, Say
+from up_ground.sanitize_text import safe_text
 from up_ground.settings import Settings
 from up_ground.telemetry import NAME as TELEMETRY
 from up_ground.telemetry import Telemetry

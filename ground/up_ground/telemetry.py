@@ -7,8 +7,8 @@ from collections import deque
 from typing import Any
 
 from up.protocols.general_message import GeneralMessage
-from up_ground.delay import Delay
-from up_ground.safe_text import safe_text
+from up_ground.one_way_delay import Delay
+from up_ground.sanitize_text import safe_text
 
 NAME = "up.telemetry.update"
 SILENT_S = 0.9

@@ -6,13 +6,13 @@ import os
 from typing import Any
 
 from up.protocols.general_message import GeneralMessage, encode
-from up_ground.errand import EXIT_DONE, EXIT_NO_ANSWER, Errand, Say
 from up_ground.ground_link import GroundLink
 from up_ground.link_status import LinkState
-from up_ground.plain_line import plain_line
-from up_ground.safe_text import safe_text
+from up_ground.one_shot_task import EXIT_DONE, EXIT_NO_ANSWER, Errand, Say
+from up_ground.sanitize_text import safe_text
 from up_ground.screen import State, draw, render
 from up_ground.settings import Settings
+from up_ground.status_text import plain_line
 from up_ground.telemetry import NAME, Telemetry
 from up_ground.terminal import Terminal
 from up_ground.token_store import TokenStore

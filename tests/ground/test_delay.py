@@ -4,7 +4,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from up_ground.delay import DRIFT, NEW_CLOCK_S, Delay
+from up_ground.one_way_delay import DRIFT, NEW_CLOCK_S, Delay
 
 ROUNDING_S = 0.001
 PPM_S = 1e-6

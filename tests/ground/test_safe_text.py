@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from up_ground.safe_text import safe_text
+from up_ground.sanitize_text import safe_text
 
 
 @pytest.mark.parametrize(

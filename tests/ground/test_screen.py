@@ -8,15 +8,13 @@ from hypothesis import strategies as st
 
 from tests.ground.aircraft import frame
 from up.protocols.general_message import GeneralMessage
-from up_ground.canvas import MOST_COLUMNS, MOST_ROWS, Canvas, Style
-from up_ground.horizon import draw_horizon
 from up_ground.link_status import LinkState, LinkStatus
 from up_ground.panels import bar
-from up_ground.plain_line import plain_line
-from up_ground.screen import State, draw, render
+from up_ground.screen import State, draw, draw_horizon, render
+from up_ground.screen_buffer import MOST_COLUMNS, MOST_ROWS, Canvas, Style
 from up_ground.settings import Seat, Settings
+from up_ground.status_text import age_text, number_text, plain_line
 from up_ground.telemetry import NAME, Telemetry
-from up_ground.wording import age_text, number_text
 
 SGR = re.compile(r"\x1b\[[0-9;]*m")
 OURS = {f"\x1b[0;{style.value}m" for style in Style} | {"\x1b[0m"}

@@ -14,11 +14,11 @@ from up.flight_log.flight_options import PLACE
 from up.flight_log.flights import find_flight_of
 from up.flight_log.flights_folder import folder_of
 from up.flight_log.mcap_format import FlightLogError
-from up_ground.errand import EXIT_USAGE, complain, say
+from up_ground.one_shot_task import EXIT_USAGE, complain, say
+from up_ground.one_shot_task import run as run_errand
 from up_ground.replay.replayed_aircraft import ReplayedAircraft
-from up_ground.replay.story import Story
-from up_ground.run_errand import run as run_errand
-from up_ground.safe_text import safe_text
+from up_ground.replay.timeline import Story
+from up_ground.sanitize_text import safe_text
 from up_ground.web.serve import PageOptions, ServeError
 
 

@@ -11,12 +11,11 @@ from up.flight_log.mcap_format import FlightLogError
 from up.flight_log.telemetry_frames import Frame, frames
 from up.system.clock import Clock, Timer
 from up_ground.replay.player import Player
-from up_ground.replay.story import Story, past
+from up_ground.replay.timeline import Story, past
+from up_ground.web.aircraft_source import Audience
+from up_ground.web.client_session import Page
 from up_ground.web.gains_history import GainsHistory
-from up_ground.web.messages import FrameMessage, message_bytes
-from up_ground.web.page import Page
-from up_ground.web.page_message import PageFault, Reader
-from up_ground.web.watched import Audience
+from up_ground.web.messages import FrameMessage, PageFault, Reader, message_bytes
 
 REPLAY = "this is a replay"
 TELL_S = 0.25

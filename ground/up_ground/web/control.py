@@ -6,9 +6,9 @@ from collections.abc import Callable
 from typing import Any, Protocol
 
 from up.system.clock import Clock, Timer
-from up_ground.seat_wait import ASK_INTERVAL_S, Standing
-from up_ground.web.page import Page
-from up_ground.web.page_message import PageFault
+from up_ground.link_status import ASK_INTERVAL_S, Standing
+from up_ground.web.client_session import Page
+from up_ground.web.messages import PageFault
 
 ASK_LIMIT_S = 30.0
 """A request for control lasts this long."""

@@ -16,11 +16,11 @@ from up_ground.catalogue import Catalogue
 from up_ground.settings import Seat, Settings
 from up_ground.token_store import TokenStore, state_folder
 from up_ground.web.access import Access, machine_names
-from up_ground.web.commands import Checks
+from up_ground.web.aircraft_session import Station
+from up_ground.web.aircraft_source import Audience, WatchedAircraft
+from up_ground.web.command_checks import Checks
 from up_ground.web.listen_address import ListenAddress, parse_listen
-from up_ground.web.station import Station
 from up_ground.web.tile_cache import TileCache, cache_folder
-from up_ground.web.watched import Audience, WatchedAircraft
 
 if TYPE_CHECKING:
     from up_ground.web.site import Tiles

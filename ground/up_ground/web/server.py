@@ -8,17 +8,16 @@ from typing import Any
 
 from twisted.internet.error import CannotListenError
 
-from up_ground.catalogue import Catalogue
-from up_ground.errand import EXIT_DONE, EXIT_NO_ANSWER, Errand, Say
+from up_ground.catalogue import Catalogue, catalogue_message
+from up_ground.one_shot_task import EXIT_DONE, EXIT_NO_ANSWER, Errand, Say
 from up_ground.web.access import Access
-from up_ground.web.catalogue_message import catalogue_message
+from up_ground.web.aircraft_source import Audience, WatchedAircraft
+from up_ground.web.client_hub import Pages
 from up_ground.web.connections import Connections
 from up_ground.web.listen_address import ListenAddress, authority
 from up_ground.web.page_link import link_resource
-from up_ground.web.pages import Pages
 from up_ground.web.site import GroundResource, Tiles, make_site
 from up_ground.web.static_files import StaticFiles
-from up_ground.web.watched import Audience, WatchedAircraft
 
 STATIC = Path(__file__).with_name("static")
 

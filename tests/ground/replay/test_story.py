@@ -5,8 +5,7 @@ import pytest
 from tests.ground.replay.flight import LENGTH_S, data_at, write_flight
 from tests.up.flight_log.logs import LogMaker
 from up.flight_log.flight_log import FlightLog
-from up_ground.replay.settings import Told
-from up_ground.replay.story import Story
+from up_ground.replay.timeline import Story, Told
 
 
 @pytest.fixture(scope="module")

@@ -11,10 +11,9 @@ from tests.ground.web.test_pages import Link
 from up.commands.builtin import BUILTIN_COMMANDS
 from up.commands.command import BaseCommand, value
 from up.commands.roles import Role
-from up_ground.catalogue import Catalogue
+from up_ground.catalogue import BYTES_LIMIT, Catalogue, catalogue_message
 from up_ground.web.access import Access
-from up_ground.web.catalogue_message import BYTES_LIMIT, catalogue_message
-from up_ground.web.pages import Pages
+from up_ground.web.client_hub import Pages
 
 
 @dataclass(frozen=True, slots=True)

@@ -2,8 +2,7 @@
 
 import pytest
 
-from up_ground.web.answers import Answer
-from up_ground.web.command_words import in_words
+from up_ground.web.answers import Answer, in_words
 
 ACK = Answer("ack", "", "")
 NACK = Answer("nack", "forbidden", "not in flight")

@@ -3,10 +3,10 @@
 import pytest
 from twisted.internet.task import Clock
 
-from up_ground.seat_wait import Standing
+from up_ground.link_status import Standing
+from up_ground.web.client_session import Page
 from up_ground.web.control import ASK_LIMIT_S, Control
-from up_ground.web.page import Page
-from up_ground.web.page_message import PageFault
+from up_ground.web.messages import PageFault
 
 
 class Seat:

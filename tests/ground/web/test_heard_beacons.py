@@ -5,7 +5,7 @@ from twisted.internet.task import Clock
 
 from up.protocols.general_message import GeneralMessage
 from up_ground.telemetry import Telemetry
-from up_ground.web.heard_beacons import KEPT, HeardBeacons
+from up_ground.web.command_checks import KEPT, HeardBeacons
 
 NAME = "up.flight_mode.set"
 

@@ -7,8 +7,8 @@ import pytest
 from tests.ground.aircraft import frame
 from up.protocols.general_message import GeneralMessage
 from up_ground.telemetry import NAME, Telemetry
-from up_ground.web.alarms import LinkFacts
-from up_ground.web.judge import EVENTS_KEPT, Judge
+from up_ground.web.event_monitor import EVENTS_KEPT, Judge
+from up_ground.web.event_rules import LinkFacts
 
 QUIET = LinkFacts(True, "", True, True, False)
 

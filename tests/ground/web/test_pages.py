@@ -7,16 +7,16 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from twisted.internet.task import Clock
 
-from up_ground.web.access import Access
-from up_ground.web.key_attempts import (
+from up_ground.web.access import (
     ADDRESSES_KEPT,
     ATTEMPTS_MOST,
     ATTEMPTS_RATE_HZ,
+    Access,
     KeyAttempts,
 )
-from up_ground.web.page_message import PageFault, read_message
-from up_ground.web.pages import FAULTS_LIMIT, GREETING_LIMIT, HELLO_S, KEPT_S, Pages
-from up_ground.web.places import PAGES_LIMIT, WATCHERS_LIMIT
+from up_ground.web.client_hub import FAULTS_LIMIT, GREETING_LIMIT, HELLO_S, KEPT_S, Pages
+from up_ground.web.client_session import PAGES_LIMIT, WATCHERS_LIMIT
+from up_ground.web.messages import PageFault, read_message
 
 
 class Output:

@@ -4,10 +4,9 @@ from types import SimpleNamespace
 
 import pytest
 
-from up_ground.link_status import LinkState, LinkStatus
-from up_ground.seat_wait import Standing
+from up_ground.link_status import LinkState, LinkStatus, Standing
 from up_ground.settings import Seat
-from up_ground.web.seat_at_proxy import SeatAtProxy
+from up_ground.web.proxy_lease import SeatAtProxy
 
 
 @pytest.fixture

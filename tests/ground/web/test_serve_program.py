@@ -7,7 +7,7 @@ import pytest
 from tests.ground.aircraft import ground
 from tests.ground.web.page import FBW, MODE, Page, Serve, with_pages
 from tests.support.reactor import until as soon
-from up_ground.web.places import WATCHERS_LIMIT
+from up_ground.web.client_session import WATCHERS_LIMIT
 
 
 @pytest.mark.parametrize("arguments", [("--listen", "0.0.0.0:0"), ("--key", "a-good-key")])

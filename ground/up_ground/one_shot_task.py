@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import signal
 import sys
 from collections.abc import Callable
 from typing import Any
 
 from twisted.internet.defer import Deferred
 
+from up.system.clock import use_monotonic_time
+from up.system.pid_file import service
 from up_ground.ground_link import GroundLink
 
 EXIT_DONE = 0
@@ -80,3 +83,37 @@ def complain(text: str) -> None:
     """Write a line to stderr."""
     sys.stderr.write(f"up-ground: {text}\n")
     sys.stderr.flush()
+
+
+MakeErrand = Callable[[Any], Any]
+
+
+@service()
+def run(make: MakeErrand) -> int:
+    """Do an errand on the real reactor until it is finished or interrupted."""
+    from twisted.internet import reactor
+
+    loop: Any = reactor
+    use_monotonic_time(loop)
+    errand = make(loop)
+    status = [EXIT_INTERRUPTED]
+
+    async def do() -> None:
+        errand.start()
+        status[0] = await errand.finished
+        await errand.stop()
+        loop.stop()
+
+    def begin() -> None:
+        for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+            signal.signal(number, lambda *_: loop.callFromThread(errand.finish, EXIT_INTERRUPTED))
+        Deferred.fromCoroutine(do()).addErrback(_crash)
+
+    def _crash(failure: Any) -> None:
+        complain(f"a mistake in the program: {failure.getErrorMessage()}")
+        status[0] = EXIT_REFUSED
+        loop.stop()
+
+    loop.callWhenRunning(begin)
+    loop.run(installSignalHandlers=False)
+    return status[0]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from up_ground.ground_link import GroundLink
-from up_ground.seat_wait import Standing, standing
+from up_ground.link_status import Standing, standing
 from up_ground.settings import Seat
 
 HELLO_AFTER = 5

@@ -6,9 +6,8 @@ from collections.abc import Iterable
 from typing import Any, Protocol
 
 from up.protocols.link_output import Make
-from up_ground.web.messages import FrameMessage
-from up_ground.web.page import Page
-from up_ground.web.page_message import Reader
+from up_ground.web.client_session import Page
+from up_ground.web.messages import FrameMessage, Reader
 
 
 class WatchedAircraft(Protocol):

@@ -9,17 +9,15 @@ from typing import Any
 from up.protocols.general_message import GeneralMessage, encode
 from up.system.clock import Clock
 from up_ground.ground_link import GroundLink
-from up_ground.seat_wait import Standing
+from up_ground.link_status import Standing
 from up_ground.telemetry import Telemetry
-from up_ground.web.answers import Answer, Answers
-from up_ground.web.command_words import GAINS, in_words
-from up_ground.web.commands import Checked, Checks
+from up_ground.web.answers import GAINS, Answer, Answers, in_words
+from up_ground.web.client_session import Ask, Page
+from up_ground.web.command_checks import Checked, Checks, HeardBeacons
 from up_ground.web.control import Control
 from up_ground.web.gains_history import GainsHistory
-from up_ground.web.heard_beacons import HeardBeacons
-from up_ground.web.page import Ask, Page
-from up_ground.web.page_message import PageFault, Reader
-from up_ground.web.seat_at_proxy import SeatAtProxy
+from up_ground.web.messages import PageFault, Reader
+from up_ground.web.proxy_lease import SeatAtProxy
 
 ASKS_KEPT = 256
 UNANSWERED_LIMIT = 32

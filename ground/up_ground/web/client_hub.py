@@ -13,14 +13,18 @@ from up.protocols.link_output import Make
 from up.system.clock import Clock, Timer
 from up.system.token_bucket import TokenBucket
 from up.version import VERSION
-from up_ground.safe_text import safe_text
-from up_ground.web.access import Access
-from up_ground.web.key_attempts import KeyAttempts
-from up_ground.web.messages import message_bytes
-from up_ground.web.page import Page, PageConnection
-from up_ground.web.page_message import PageFault, Reader, read_message
-from up_ground.web.places import PAGES_LIMIT, WATCHERS_LIMIT, NoPlaceError, make_place
-from up_ground.web.watched import WatchedAircraft
+from up_ground.sanitize_text import safe_text
+from up_ground.web.access import Access, KeyAttempts
+from up_ground.web.aircraft_source import WatchedAircraft
+from up_ground.web.client_session import (
+    PAGES_LIMIT,
+    WATCHERS_LIMIT,
+    NoPlaceError,
+    Page,
+    PageConnection,
+    make_place,
+)
+from up_ground.web.messages import PageFault, Reader, message_bytes, read_message
 
 GREETING_LIMIT = 16
 """Maximum number of links without a hello; beyond it the oldest is closed."""

@@ -4,20 +4,61 @@ from __future__ import annotations
 
 from array import array
 from bisect import bisect_right
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
 from typing import Any
 
 from up.flight_log.flight_log import FlightLog
 from up.flight_log.telemetry_frames import Frame, frames
 from up.protocols.general_message import GeneralMessage
-from up_ground.replay.settings import Told, gains_of, profile_of, told_at
-from up_ground.safe_text import safe_text
+from up_ground.sanitize_text import safe_text
 from up_ground.telemetry import NAME, SILENT_S, Telemetry
-from up_ground.web.alarms import LinkFacts
-from up_ground.web.facts import INFO
-from up_ground.web.home import Home
-from up_ground.web.judge import Judge
-from up_ground.web.track import Track, track_message
+from up_ground.web.event_monitor import Judge
+from up_ground.web.event_rules import INFO, LinkFacts
+from up_ground.web.track import Home, Track, track_message
+
+GAINS = "arduino.pids.values"
+GAINS_WANTED = "arduino.pids.tunings"
+PROFILE = "arduino.profile.values"
+
+
+@dataclass(frozen=True, slots=True)
+class Told:
+    """Values from a moment of the flight on, s."""
+
+    time_s: float
+    values: dict[str, Any]
+
+
+def told_at(told: Sequence[Told], time_s: float) -> Told | None:
+    """Return the last reported value before a time; None without a report."""
+    place = bisect_right(told, time_s, key=lambda each: each.time_s)
+    return told[place - 1] if place else None
+
+
+def gains_of(log: FlightLog) -> list[Told]:
+    """Return the gains that the board reported; without a report, those requested from it.
+
+    Raises FlightLogError when a file becomes unreadable.
+    """
+    told = _told(log, GAINS)
+    if told:
+        return told
+    wanted = ((each.time_s, each.values.get("pids")) for each in _told(log, GAINS_WANTED))
+    return [Told(time_s, gains) for time_s, gains in wanted if isinstance(gains, dict)]
+
+
+def profile_of(log: FlightLog) -> list[Told]:
+    """Return the reported profiles of the airframe; raises FlightLogError likewise."""
+    return _told(log, PROFILE)
+
+
+def _told(log: FlightLog, topic: str) -> list[Told]:
+    return [
+        Told(each.time_s, {key: value for key, value in each.data.items() if key[:1] != "_"})
+        for each in log.messages(topic)
+    ]
+
 
 MARK = "black_box.mark"
 _LOOK_S = 0.25

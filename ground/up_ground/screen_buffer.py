@@ -1,8 +1,12 @@
-"""A grid of styled characters; drawing outside the grid is clipped."""
+"""A grid of styled characters, and readings written on it."""
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from enum import Enum
+
+from up_ground.status_text import age_text
+from up_ground.telemetry import Telemetry
 
 MOST_COLUMNS = 300
 MOST_ROWS = 100
@@ -69,3 +73,43 @@ def _ansi_row(characters: list[str], styles: list[Style]) -> str:
         out.append("\x1b[0m")
         return "".join(out)
     return "".join(out).rstrip()
+
+
+@dataclass(frozen=True, slots=True)
+class Pen:
+    """Canvas, telemetry and time for the drawing functions.
+
+    A reading has its own age in telemetry; ``""`` stands for a value as old as its frame.
+    """
+
+    canvas: Canvas
+    telemetry: Telemetry
+    now_s: float
+
+    def is_old(self, reading: str = "") -> bool:
+        """Return whether a reading must be marked stale."""
+        if reading:
+            return self.telemetry.is_stale(reading, self.now_s)
+        return self.telemetry.is_silent(self.now_s)
+
+    def value(
+        self, row: int, column: int, text: str, reading: str = "", style: Style = Style.PLAIN
+    ) -> int:
+        """Write a value, dim when it is old; return the column after it."""
+        return self.canvas.put(row, column, text, Style.DIM if self.is_old(reading) else style)
+
+    def title(self, row: int, column: int, text: str, reading: str = "") -> None:
+        """Write a heading with the source and the age of its reading."""
+        column = self.canvas.put(row, column, text, Style.BOLD)
+        if reading:
+            self.canvas.put(row, column + 1, self.age(reading), self._age_style(reading))
+
+    def age(self, reading: str) -> str:
+        """Return the source and the age of a reading."""
+        source = self.telemetry.text("source", reading, limit=12)
+        age = age_text(self.telemetry.reading_age_s(reading, self.now_s))
+        return f"{source} {age}" if source else age
+
+    def _age_style(self, reading: str) -> Style:
+        known = self.telemetry.reading_age_s(reading, self.now_s) is not None
+        return Style.BAD if known and self.is_old(reading) else Style.DIM

@@ -10,23 +10,20 @@ from up.system.clock import Timer
 from up.system.token_bucket import TokenBucket
 from up_ground.ground_link import GroundLink
 from up_ground.link_status import LinkState
-from up_ground.safe_text import safe_text
+from up_ground.sanitize_text import safe_text
 from up_ground.settings import Settings
 from up_ground.telemetry import NAME, Telemetry
 from up_ground.token_store import TokenStore
-from up_ground.web.alarms import LinkFacts
-from up_ground.web.command_desk import CommandDesk
-from up_ground.web.commands import Checks
+from up_ground.web.aircraft_source import Audience
+from up_ground.web.client_session import Page
+from up_ground.web.command_checks import Checks
+from up_ground.web.command_service import CommandDesk
 from up_ground.web.control import Control
-from up_ground.web.facts import INFO, WARNING
-from up_ground.web.home import Home
-from up_ground.web.judge import Judge
-from up_ground.web.messages import FrameMessage
-from up_ground.web.page import Page
-from up_ground.web.page_message import PageFault, Reader
-from up_ground.web.seat_at_proxy import SeatAtProxy
-from up_ground.web.track import Track, track_message
-from up_ground.web.watched import Audience
+from up_ground.web.event_monitor import Judge
+from up_ground.web.event_rules import INFO, WARNING, LinkFacts
+from up_ground.web.messages import FrameMessage, PageFault, Reader
+from up_ground.web.proxy_lease import SeatAtProxy
+from up_ground.web.track import Home, Track, track_message
 
 TICK_S = 0.25
 """Period of the checks for changes by time alone."""
