@@ -12,7 +12,7 @@ from up_ground.page_options import add_page_options
 from up_ground.replay.verb import EPILOG, add_arguments
 from up_ground.settings import DEFAULT_AIRCRAFT, DEFAULT_HOST, DEFAULT_PORT, Seat, Settings
 
-_LONGEST_S = 1e7
+_MAX_S = 1e7
 
 _EPILOG = """\
 examples
@@ -112,7 +112,9 @@ def _add_connection(
     now = "" if host is argparse.SUPPRESS else " (now %(default)s)"
     group = parser.add_argument_group("whom to talk to")
     group.add_argument(
-        "--host", default=host, help=f"the Ground Station Proxy, or the aircraft itself{now}"
+        "--host",
+        default=host,
+        help=f"the Ground Station Proxy, or the aircraft itself{now}",
     )
     group.add_argument(
         "--port",
@@ -133,7 +135,7 @@ def _add_connection(
         "--direct",
         action="store_true",
         default=direct,
-        help="say no hello: for a proxy of the thesis and for an old aircraft on the same LAN",
+        help="send no hello: for a proxy of the thesis and for an old aircraft on the same LAN",
     )
 
 
@@ -263,6 +265,6 @@ def _seconds(text: str) -> float:
         seconds = float(text)
     except ValueError:
         seconds = math.nan
-    if not 0 < seconds <= _LONGEST_S:
+    if not 0 < seconds <= _MAX_S:
         raise argparse.ArgumentTypeError(f"must be a number of seconds above 0, not {text!r}")
     return seconds

@@ -149,7 +149,7 @@ def _command_modules(cog: str, problems: list[str]) -> Iterator[Any]:
 
 BYTES_LIMIT = 1 << 18
 """A page for which more waits is cut off; this must never do that."""
-LONGEST_TEXT = 400
+MAX_TEXT = 400
 _TYPES = {
     bool: "boolean",
     int: "integer",
@@ -180,7 +180,7 @@ def _command(cls: type[BaseCommand]) -> dict[str, Any]:
         "aliases": list(cls.ALIASES),
         # "depends": a field decides who may send it, checked by the aircraft and the server.
         "role": role_of(cls),
-        "text": about(cls)[:LONGEST_TEXT],
+        "text": about(cls)[:MAX_TEXT],
         "needs_beacon": cls.NEEDS_BEACON,
         "fields": [_field(each, hints) for each in dataclasses.fields(cls)],
     }
@@ -200,5 +200,5 @@ def _field(field: dataclasses.Field[Any], hints: dict[str, Any]) -> dict[str, An
         "max_length": constraint.max_length,
         "nullable": constraint.nullable,
         "required": field.default is missing and field.default_factory is missing,
-        "text": constraint.describe()[:LONGEST_TEXT],
+        "text": constraint.describe()[:MAX_TEXT],
     }

@@ -74,7 +74,7 @@ KEPT_S = 4.0
 """Longer than a proxy reserves the seat of a ground that has disconnected (3 s)."""
 
 
-class Standing(Enum):
+class ControlStatus(Enum):
     """State of the seat as seen by this ground."""
 
     UNKNOWN = "unknown"
@@ -84,15 +84,15 @@ class Standing(Enum):
     LATER = "later"
 
 
-def standing(status: LinkStatus, is_direct: bool) -> Standing:
+def control_status(status: LinkStatus, is_direct: bool) -> ControlStatus:
     """Return who owns the seat; a direct link has no seats, so every peer may send there.
 
     FREE: the proxy reports no owner; it may still reserve the seat for a token.
     """
     if not status.is_open:
-        return Standing.UNKNOWN
+        return ControlStatus.UNKNOWN
     if is_direct or status.seat is Seat.COMMAND:
-        return Standing.OURS
+        return ControlStatus.OURS
     if not status.is_holder_known:
-        return Standing.LATER
-    return Standing.FREE if status.holder is None else Standing.HELD
+        return ControlStatus.LATER
+    return ControlStatus.FREE if status.holder is None else ControlStatus.HELD

@@ -19,18 +19,18 @@ from up_ground.one_shot_task import (
     EXIT_DONE,
     EXIT_INTERRUPTED,
     EXIT_USAGE,
-    Errand,
-    complain,
+    OneShotTask,
+    echo,
+    print_error,
     run,
-    say,
 )
-from up_ground.seat import LeaveSeat, RequestSeat
+from up_ground.seat import LeaveControl, RequestControl
 from up_ground.send import Send
 from up_ground.settings import Seat
 from up_ground.terminal import Terminal
 from up_ground.token_store import TokenStore, state_folder
 from up_ground.watch import JSONWatch, OnceWatch, PlainWatch, ScreenWatch, Watch, is_terminal
-from up_ground.web.serve import PageOptions, ServeError, fleet_of, make_stations
+from up_ground.web.serve import PageOptions, ServeError, fleet_of, make_sessions
 
 
 def watch(options: argparse.Namespace) -> int:
@@ -38,8 +38,8 @@ def watch(options: argparse.Namespace) -> int:
     settings = settings_of(options, Seat(options.seat))
     tokens = TokenStore(state_folder(os.environ), settings)
     more: dict[str, Any] = {
-        "say": say,
-        "complain": complain,
+        "echo": echo,
+        "print_error": print_error,
         "for_s": options.for_s,
         "count": options.count,
     }
@@ -82,8 +82,8 @@ def send(options: argparse.Namespace) -> int:
             options.name,
             data,
             needs_beacon=cls is not None and cls.NEEDS_BEACON,
-            say=say,
-            complain=complain,
+            echo=echo,
+            print_error=print_error,
         )
     )
 
@@ -95,13 +95,13 @@ def seat(options: argparse.Namespace) -> int:
     settings = settings_of(options, Seat.COMMAND)
     tokens = TokenStore(state_folder(os.environ), settings)
 
-    def make(reactor: Any) -> Errand:
+    def make(reactor: Any) -> OneShotTask:
         if options.action == "request":
-            return RequestSeat(
-                reactor, settings, tokens, say=say, complain=complain, wait_s=options.wait
+            return RequestControl(
+                reactor, settings, tokens, echo=echo, print_error=print_error, wait_s=options.wait
             )
         to = options.to if options.action == "give" else None
-        return LeaveSeat(reactor, settings, tokens, say=say, complain=complain, to=to)
+        return LeaveControl(reactor, settings, tokens, echo=echo, print_error=print_error, to=to)
 
     return run(make)
 
@@ -117,11 +117,11 @@ def commands(options: argparse.Namespace) -> int:
         chosen = [cls]
     for place, cls in enumerate(chosen):
         if place:
-            say("")
+            echo("")
         for line in describe(cls):
-            say(line)
+            echo(line)
     for problem in catalogue.problems:
-        complain(printable(problem))
+        print_error(printable(problem))
     return EXIT_DONE
 
 
@@ -135,10 +135,10 @@ def serve(options: argparse.Namespace) -> int:
     return run(
         lambda reactor: page.server(
             reactor,
-            lambda audience: make_stations(reactor, chosen, os.environ, audience, catalogue),
+            lambda subscribers: make_sessions(reactor, chosen, os.environ, subscribers, catalogue),
             catalogue=catalogue,
-            say=say,
-            complain=complain,
+            echo=echo,
+            print_error=print_error,
         )
     )
 
@@ -150,7 +150,7 @@ def replay(options: argparse.Namespace) -> int:
     try:
         return play(options)
     except CliError as error:
-        complain(str(error))
+        print_error(str(error))
         return error.status
 
 
@@ -175,7 +175,7 @@ def _mistake(cls: Any, data: dict[str, Any]) -> list[str]:
 
 def _usage(lines: Iterable[str]) -> int:
     first, *rest = lines
-    complain(first)
+    print_error(first)
     for line in rest:
         sys.stderr.write(f"{line}\n")
     return EXIT_USAGE
@@ -183,7 +183,7 @@ def _usage(lines: Iterable[str]) -> int:
 
 def _refuse_closed() -> int:
     if sys.stderr is not None:
-        complain("stdout is closed, so there is nowhere to write: send it to /dev/null instead")
+        print_error("stdout is closed, so there is nowhere to write: send it to /dev/null instead")
     return EXIT_USAGE
 
 

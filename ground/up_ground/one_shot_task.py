@@ -19,21 +19,21 @@ EXIT_USAGE = 2
 EXIT_NO_ANSWER = 3
 EXIT_INTERRUPTED = 130
 
-Say = Callable[[str], object]
+Echo = Callable[[str], object]
 
 
-class Errand:
+class OneShotTask:
     """A one-shot task over a link; ``finished`` fires with the exit status.
 
-    ``say`` takes lines for the user, ``complain`` lines for stderr.
+    ``echo`` takes lines for the user, ``print_error`` lines for stderr.
     """
 
     link: GroundLink
 
-    def __init__(self, say: Say, complain: Say) -> None:
+    def __init__(self, echo: Echo, print_error: Echo) -> None:
         self.finished: Deferred[int] = Deferred()
-        self.complain = complain
-        self._say = say
+        self.print_error = print_error
+        self._say = echo
         self._timers: dict[str, Any] = {}
 
     def finish(self, status: int) -> None:
@@ -48,7 +48,7 @@ class Errand:
         """Close all that was opened; returns when it is closed."""
         await self.link.stop()
 
-    def say(self, text: str) -> None:
+    def echo(self, text: str) -> None:
         """Print a line for the user; a closed output ends the task."""
         try:
             self._say(text)
@@ -62,55 +62,55 @@ class Errand:
 
     def after(self, reactor: Any, name: str, delay_s: float, call: Callable[[], object]) -> None:
         """Call later, unless the task ends or another call of that name replaces it."""
-        self.forget(name)
+        self.cancel_timer(name)
         if not self.is_finished:
             self._timers[name] = reactor.callLater(delay_s, call)
 
-    def forget(self, name: str) -> None:
+    def cancel_timer(self, name: str) -> None:
         """Take a call back."""
         timer = self._timers.pop(name, None)
         if timer is not None and timer.active():
             timer.cancel()
 
 
-def say(text: str) -> None:
+def echo(text: str) -> None:
     """Write a line for the user."""
     sys.stdout.write(text + "\n")
     sys.stdout.flush()
 
 
-def complain(text: str) -> None:
+def print_error(text: str) -> None:
     """Write a line to stderr."""
     sys.stderr.write(f"up-ground: {text}\n")
     sys.stderr.flush()
 
 
-MakeErrand = Callable[[Any], Any]
+MakeTask = Callable[[Any], Any]
 
 
 @service()
-def run(make: MakeErrand) -> int:
-    """Do an errand on the real reactor until it is finished or interrupted."""
+def run(make: MakeTask) -> int:
+    """Run a task on the real reactor until it is finished or interrupted."""
     from twisted.internet import reactor
 
     loop: Any = reactor
     use_monotonic_time(loop)
-    errand = make(loop)
+    task = make(loop)
     status = [EXIT_INTERRUPTED]
 
     async def do() -> None:
-        errand.start()
-        status[0] = await errand.finished
-        await errand.stop()
+        task.start()
+        status[0] = await task.finished
+        await task.stop()
         loop.stop()
 
     def begin() -> None:
         for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
-            signal.signal(number, lambda *_: loop.callFromThread(errand.finish, EXIT_INTERRUPTED))
+            signal.signal(number, lambda *_: loop.callFromThread(task.finish, EXIT_INTERRUPTED))
         Deferred.fromCoroutine(do()).addErrback(_crash)
 
     def _crash(failure: Any) -> None:
-        complain(f"a mistake in the program: {failure.getErrorMessage()}")
+        print_error(f"a mistake in the program: {failure.getErrorMessage()}")
         status[0] = EXIT_REFUSED
         loop.stop()
 

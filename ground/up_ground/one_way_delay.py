@@ -8,7 +8,7 @@ NEW_CLOCK_S = 30.0
 """No message is held up by so much more than the one before: links are given up sooner."""
 
 
-class Delay:
+class OneWayDelayEstimator:
     """Estimates how much longer a message was under way than the quickest one.
 
     The two clocks need no common zero: the delay of the quickest message is excluded from every
@@ -26,11 +26,11 @@ class Delay:
         self._stamp_s = 0.0
         self._now_s = 0.0
 
-    def forget(self) -> None:
+    def reset(self) -> None:
         """Reset, for another clock or another path."""
         self._least_s = None
 
-    def take(self, stamp_ms: float | None, now_s: float) -> float | None:
+    def update(self, stamp_ms: float | None, now_s: float) -> float | None:
         """Take a message that arrives now; return its delay in seconds.
 
         ``stamp_ms`` is the sender's clock at departure; without it the result is None.

@@ -7,7 +7,7 @@ import unicodedata
 _WIDE = ("W", "F")
 
 
-def safe_text(text: object, limit: int = 200) -> str:
+def sanitize_text(text: object, limit: int = 200) -> str:
     """Return a value as text of at most ``limit`` characters, each one column wide.
 
     Control characters, escape sequences, marks that combine, letters that change the direction of

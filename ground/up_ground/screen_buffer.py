@@ -8,8 +8,8 @@ from enum import Enum
 from up_ground.status_text import age_text
 from up_ground.telemetry import Telemetry
 
-MOST_COLUMNS = 300
-MOST_ROWS = 100
+MAX_COLUMNS = 300
+MAX_ROWS = 100
 
 
 class Style(Enum):
@@ -26,15 +26,15 @@ class Style(Enum):
     EARTH = "30;43"
 
 
-class Canvas:
+class ScreenBuffer:
     """Text is written with `put`; rows are read as plain text or with ANSI sequences.
 
-    Only printable ASCII and letters that `safe_text` passed may be put.
+    Only printable ASCII and letters that `sanitize_text` passed may be put.
     """
 
     def __init__(self, columns: int, rows: int) -> None:
-        self.columns = max(1, min(columns, MOST_COLUMNS))
-        self.rows = max(1, min(rows, MOST_ROWS))
+        self.columns = max(1, min(columns, MAX_COLUMNS))
+        self.rows = max(1, min(rows, MAX_ROWS))
         self._text = [[" "] * self.columns for _ in range(self.rows)]
         self._style = [[Style.PLAIN] * self.columns for _ in range(self.rows)]
 
@@ -76,13 +76,13 @@ def _ansi_row(characters: list[str], styles: list[Style]) -> str:
 
 
 @dataclass(frozen=True, slots=True)
-class Pen:
-    """Canvas, telemetry and time for the drawing functions.
+class PanelWriter:
+    """ScreenBuffer, telemetry and time for the drawing functions.
 
     A reading has its own age in telemetry; ``""`` stands for a value as old as its frame.
     """
 
-    canvas: Canvas
+    screen: ScreenBuffer
     telemetry: Telemetry
     now_s: float
 
@@ -96,13 +96,13 @@ class Pen:
         self, row: int, column: int, text: str, reading: str = "", style: Style = Style.PLAIN
     ) -> int:
         """Write a value, dim when it is old; return the column after it."""
-        return self.canvas.put(row, column, text, Style.DIM if self.is_old(reading) else style)
+        return self.screen.put(row, column, text, Style.DIM if self.is_old(reading) else style)
 
     def title(self, row: int, column: int, text: str, reading: str = "") -> None:
         """Write a heading with the source and the age of its reading."""
-        column = self.canvas.put(row, column, text, Style.BOLD)
+        column = self.screen.put(row, column, text, Style.BOLD)
         if reading:
-            self.canvas.put(row, column + 1, self.age(reading), self._age_style(reading))
+            self.screen.put(row, column + 1, self.age(reading), self._age_style(reading))
 
     def age(self, reading: str) -> str:
         """Return the source and the age of a reading."""

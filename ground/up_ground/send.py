@@ -9,9 +9,9 @@ from typing import Any
 from up.commands.telemetry_commands import SLOWEST_MS
 from up.protocols.general_message import GeneralMessage, encode
 from up_ground.ground_link import GroundLink
-from up_ground.link_status import ASK_INTERVAL_S, KEPT_S, LinkState, Standing, standing
-from up_ground.one_shot_task import EXIT_DONE, EXIT_NO_ANSWER, EXIT_REFUSED, Errand, Say
-from up_ground.sanitize_text import safe_text
+from up_ground.link_status import ASK_INTERVAL_S, KEPT_S, ControlStatus, LinkState, control_status
+from up_ground.one_shot_task import EXIT_DONE, EXIT_NO_ANSWER, EXIT_REFUSED, Echo, OneShotTask
+from up_ground.sanitize_text import sanitize_text
 from up_ground.settings import Settings
 from up_ground.telemetry import NAME as TELEMETRY
 from up_ground.telemetry import Telemetry
@@ -32,7 +32,7 @@ _MAY_SET = ("arduino.pids.tunings",)
 _QUIET = (TELEMETRY, "up.system.state")
 
 
-class Send(Errand):
+class Send(OneShotTask):
     """Waits for the seat and for one telemetry frame, sends, waits for the answer.
 
     Nothing is sent twice, and nothing without the beacon of a frame; an aircraft whose frames have
@@ -48,10 +48,10 @@ class Send(Errand):
         data: dict[str, Any],
         *,
         needs_beacon: bool,
-        say: Say,
-        complain: Say,
+        echo: Echo,
+        print_error: Echo,
     ) -> None:
-        super().__init__(say, complain)
+        super().__init__(echo, print_error)
         self.link = GroundLink(reactor, settings, self, tokens)
         self._reactor = reactor
         self._settings = settings
@@ -74,7 +74,7 @@ class Send(Errand):
         """Take telemetry for its beacon, and the answers to us."""
         if self.is_finished:
             return
-        if self._telemetry.take(message, self._reactor.seconds()):
+        if self._telemetry.update(message, self._reactor.seconds()):
             self._try_to_send()
         elif self._sent_s is not None:
             self._on_answer(message, self._sent_s)
@@ -87,20 +87,20 @@ class Send(Errand):
         if status.state is LinkState.WAITING:
             self._fail(status.reason, EXIT_REFUSED if status.rejection else EXIT_NO_ANSWER)
             return
-        seat = standing(status, self._settings.direct)
-        if seat is Standing.HELD:
+        seat = control_status(status, self._settings.direct)
+        if seat is ControlStatus.HELD:
             self._fail(
                 f"ground {status.holder} commands this aircraft; 'up-ground seat request' asks it"
                 " for the seat",
                 EXIT_REFUSED,
             )
-        elif seat is Standing.FREE:
+        elif seat is ControlStatus.FREE:
             # Reserved for a token for a moment; then the first request gets it.
             self.after(self._reactor, "connect", KEPT_S, self._on_no_seat)
             self._ask()
-        elif seat is Standing.OURS:
-            self.forget("connect")
-            self.forget("ask")
+        elif seat is ControlStatus.OURS:
+            self.cancel_timer("connect")
+            self.cancel_timer("ask")
             if self._sent_s is None and not self._telemetry.frames:
                 is_offline = status.is_aircraft_online is False
                 limit_s = OFFLINE_LIMIT_S if is_offline else TELEMETRY_LIMIT_S
@@ -114,9 +114,9 @@ class Send(Errand):
     def _try_to_send(self) -> None:
         if self._sent_s is not None or not self._telemetry.frames:
             return
-        if standing(self.link.status, self._settings.direct) is not Standing.OURS:
+        if control_status(self.link.status, self._settings.direct) is not ControlStatus.OURS:
             return
-        self.forget("telemetry")
+        self.cancel_timer("telemetry")
         if self._needs_beacon and self._telemetry.beacon is None:
             self._fail(
                 f"{self._name} is only taken with a beacon, and this aircraft's telemetry has none",
@@ -130,18 +130,18 @@ class Send(Errand):
     def _on_answer(self, message: GeneralMessage, sent_s: float) -> None:
         data = message.data
         if message.name == "up.ack" and data.get("id") == self._id:
-            self.say(f"ack after {(self._reactor.seconds() - sent_s) * 1000:.0f} ms")
+            self.echo(f"ack after {(self._reactor.seconds() - sent_s) * 1000:.0f} ms")
             self._is_acked = True
-            self.forget("answer")
+            self.cancel_timer("answer")
             if not self._awaited:
                 self.finish(EXIT_DONE)
                 return
             self.after(self._reactor, "content", CONTENT_LIMIT_S, self._on_no_content)
         elif message.name == "up.nack" and data.get("id") == self._id:
-            reason = safe_text(data.get("reason") or "no reason given", 500)
-            self._fail(f"refused: {reason} ({safe_text(data.get('code'), 32)})", EXIT_REFUSED)
+            reason = sanitize_text(data.get("reason") or "no reason given", 500)
+            self._fail(f"refused: {reason} ({sanitize_text(data.get('code'), 32)})", EXIT_REFUSED)
         elif message.name not in (*_QUIET, "up.ack", "up.nack"):
-            self.say(f"{safe_text(message.name, 128)} {_shown(data)}")
+            self.echo(f"{sanitize_text(message.name, 128)} {_shown(data)}")
             if message.name == self._awaited:
                 self._awaited = ""
                 if self._is_acked:
@@ -174,7 +174,7 @@ class Send(Errand):
         self._fail(f"no {self._awaited} within {CONTENT_LIMIT_S:g} s", EXIT_NO_ANSWER)
 
     def _fail(self, sentence: str, status: int) -> None:
-        self.complain(safe_text(sentence, 600))
+        self.print_error(sanitize_text(sentence, 600))
         self.finish(status)
 
 

@@ -8,8 +8,8 @@ from typing import Any
 from up.protocols.general_message import GeneralMessage, encode
 from up_ground.ground_link import GroundLink
 from up_ground.link_status import LinkState
-from up_ground.one_shot_task import EXIT_DONE, EXIT_NO_ANSWER, Errand, Say
-from up_ground.sanitize_text import safe_text
+from up_ground.one_shot_task import EXIT_DONE, EXIT_NO_ANSWER, Echo, OneShotTask
+from up_ground.sanitize_text import sanitize_text
 from up_ground.screen import State, draw, render
 from up_ground.settings import Settings
 from up_ground.status_text import plain_line
@@ -25,7 +25,7 @@ PRINTED_SIZE = (80, 24)
 KEYS = "q quit  c ask for the seat  g give it  r release it"
 
 
-class Watch(Errand):
+class Watch(OneShotTask):
     """Follows one aircraft until the user ends it; subclasses show it.
 
     Painted by the clock, not by telemetry, so that ages advance without new frames.
@@ -39,12 +39,12 @@ class Watch(Errand):
         settings: Settings,
         tokens: TokenStore,
         *,
-        say: Say,
-        complain: Say,
+        echo: Echo,
+        print_error: Echo,
         for_s: float | None = None,
         count: int | None = None,
     ) -> None:
-        super().__init__(say, complain)
+        super().__init__(echo, print_error)
         self.link = GroundLink(reactor, settings, self, tokens)
         self.state = State(settings, self.link.status, Telemetry())
         self._reactor = reactor
@@ -64,10 +64,12 @@ class Watch(Errand):
         if self.is_finished:
             return
         if message.name == NAME:
-            if self.state.telemetry.take(message, self._reactor.seconds()):
+            if self.state.telemetry.update(message, self._reactor.seconds()):
                 self.on_frame(message)
         elif message.name != "up.system.state":
-            self.state.notice = f"{safe_text(message.name, 40)} {safe_text(message.data, 120)}"
+            self.state.notice = (
+                f"{sanitize_text(message.name, 40)} {sanitize_text(message.data, 120)}"
+            )
 
     def on_link(self) -> None:
         """Handle a change of the link."""
@@ -111,7 +113,7 @@ class PlainWatch(Watch):
 
     def on_tick(self, now_s: float) -> None:
         """Print a line."""
-        self.say(plain_line(self.state.status, self.state.telemetry, now_s))
+        self.echo(plain_line(self.state.status, self.state.telemetry, now_s))
         self.shown_one()
 
 
@@ -123,7 +125,7 @@ class JSONWatch(Watch):
     def on_frame(self, message: GeneralMessage) -> None:
         """Print the message in the form in which it travels, harmless for a terminal."""
         line = encode(NAME, message.data, message.id, message.beacon).decode("ascii")
-        self.say(line.rstrip("\n").replace("\x7f", "\\u007f"))
+        self.echo(line.rstrip("\n").replace("\x7f", "\\u007f"))
         self.shown_one()
 
     def on_link(self) -> None:
@@ -131,7 +133,7 @@ class JSONWatch(Watch):
         status = self.link.status
         if status.state is LinkState.WAITING and status.reason != self._told:
             self._told = status.reason
-            self.complain(safe_text(status.reason))
+            self.print_error(sanitize_text(status.reason))
         elif status.is_open:
             self._told = ""
 
@@ -148,7 +150,7 @@ class OnceWatch(Watch):
     def on_frame(self, message: GeneralMessage) -> None:
         """Print the picture."""
         self.link.measure()
-        self.say(draw(self.state, self._reactor.seconds(), PRINTED_SIZE).plain())
+        self.echo(draw(self.state, self._reactor.seconds(), PRINTED_SIZE).plain())
         self.finish(EXIT_DONE)
 
     def on_time_over(self) -> None:
@@ -157,7 +159,7 @@ class OnceWatch(Watch):
         reason = status.reason
         if status.is_aircraft_online is False:
             reason = f"the aircraft {self.state.settings.aircraft} is not connected to the proxy"
-        self.complain(safe_text(reason or "no telemetry came"))
+        self.print_error(sanitize_text(reason or "no telemetry came"))
         self.finish(EXIT_NO_ANSWER)
 
 

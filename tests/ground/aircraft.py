@@ -56,7 +56,7 @@ class Aircraft:
         self._ended = threading.Event()
         self._lock = threading.Lock()
         self._socket = socket.create_connection(("127.0.0.1", port), timeout=DEADLINE_S)
-        self.say(hello)
+        self.send(hello)
         self._threads = [
             threading.Thread(target=each, daemon=True) for each in (self._read, self._tell)
         ]
@@ -74,17 +74,17 @@ class Aircraft:
             thread.join(DEADLINE_S)
         self._socket.close()
 
-    def say(self, line):
+    def send(self, line):
         with self._lock, contextlib.suppress(OSError):
             self._socket.sendall(line)
 
     def tell(self, name, data, **more):
-        self.say((json.dumps({"name": name, "data": data, **more}) + "\n").encode())
+        self.send((json.dumps({"name": name, "data": data, **more}) + "\n").encode())
 
     def _tell(self):
         while not self._ended.wait(0.03):
             if self.is_quiet:
-                self.say(b"\n")
+                self.send(b"\n")
             else:
                 self.beacon += 1
                 self.tell("up.telemetry.update", self.data, beacon=self.beacon)
@@ -139,11 +139,11 @@ def ground(folder, port, *arguments, **more):
 
 
 class Ground:
-    """A running up-ground; `said` and `complained` grow while it runs."""
+    """A running up-ground; `said` and `stderr` grow while it runs."""
 
     def __init__(self, folder, port, *arguments):
         self.said = ""
-        self.complained = ""
+        self.stderr = ""
         self.process = subprocess.Popen(
             [str(UP_GROUND), *arguments],
             env=environment(folder, port),
@@ -154,7 +154,7 @@ class Ground:
         )
         self._threads = [
             threading.Thread(target=self._read, args=pair, daemon=True)
-            for pair in ((self.process.stdout, "said"), (self.process.stderr, "complained"))
+            for pair in ((self.process.stdout, "said"), (self.process.stderr, "stderr"))
         ]
         for thread in self._threads:
             thread.start()
@@ -174,12 +174,12 @@ class Ground:
             thread.join(DEADLINE_S)
         self.process.stdout.close()
         self.process.stderr.close()
-        assert "Traceback" not in self.complained, self.complained
+        assert "Traceback" not in self.stderr, self.stderr
         return status
 
     def expect(self, text):
         """Wait until it prints a text."""
-        until(lambda: text in self.said, f"{text!r} in {self.said!r} {self.complained!r}")
+        until(lambda: text in self.said, f"{text!r} in {self.said!r} {self.stderr!r}")
 
     def _read(self, pipe, name):
         for line in pipe:

@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from up_ground.sanitize_text import safe_text
+from up_ground.sanitize_text import sanitize_text
 
 
 @pytest.mark.parametrize(
@@ -25,12 +25,12 @@ from up_ground.sanitize_text import safe_text
     ],
 )
 def test_what_is_shown(given_text, shown):
-    assert safe_text(given_text) == shown
+    assert sanitize_text(given_text) == shown
 
 
 @given(st.text(), st.integers(1, 60))
 def test_every_text_becomes_as_many_columns_as_letters(text, limit):
-    shown = safe_text(text, limit)
+    shown = sanitize_text(text, limit)
     assert len(shown) <= limit
     assert shown.isprintable() or shown == ""
     for letter in shown:

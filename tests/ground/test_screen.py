@@ -11,7 +11,7 @@ from up.protocols.general_message import GeneralMessage
 from up_ground.link_status import LinkState, LinkStatus
 from up_ground.panels import bar
 from up_ground.screen import State, draw, draw_horizon, render
-from up_ground.screen_buffer import MOST_COLUMNS, MOST_ROWS, Canvas, Style
+from up_ground.screen_buffer import MAX_COLUMNS, MAX_ROWS, ScreenBuffer, Style
 from up_ground.settings import Seat, Settings
 from up_ground.status_text import age_text, number_text, plain_line
 from up_ground.telemetry import NAME, Telemetry
@@ -24,7 +24,7 @@ def state(data=None, now_s=100.0, **status):
     known = LinkStatus(LinkState.OPEN, now_s, is_aircraft_online=True, **status)
     telemetry = Telemetry()
     if data is not None:
-        telemetry.take(GeneralMessage(NAME, data, None, 1), now_s)
+        telemetry.update(GeneralMessage(NAME, data, None, 1), now_s)
     return State(Settings(), known, telemetry)
 
 
@@ -161,8 +161,8 @@ def test_the_seat_and_who_asks_for_it():
 )
 def test_every_size_is_kept(size):
     rows = text_of(state(frame()), size=size).split("\n")
-    assert len(rows) == max(1, min(size[1], MOST_ROWS))
-    assert max(map(len, rows)) <= max(1, min(size[0], MOST_COLUMNS))
+    assert len(rows) == max(1, min(size[1], MAX_ROWS))
+    assert max(map(len, rows)) <= max(1, min(size[0], MAX_COLUMNS))
 
 
 HOSTILE = st.recursive(
@@ -203,9 +203,9 @@ def test_nothing_from_the_air_reaches_the_terminal_raw(data, size, notice):
 
 
 def horizon(roll_deg, pitch_deg):
-    canvas = Canvas(37, 9)
-    draw_horizon(canvas, 0, 0, (37, 9), (roll_deg, pitch_deg), False)
-    return canvas.plain().split("\n")
+    screen = ScreenBuffer(37, 9)
+    draw_horizon(screen, 0, 0, (37, 9), (roll_deg, pitch_deg), False)
+    return screen.plain().split("\n")
 
 
 def earth(rows, columns):

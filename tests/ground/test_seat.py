@@ -23,11 +23,9 @@ def test_the_holder_is_asked_and_gives(proxy, tmp_path):
 def test_a_holder_that_does_not_give_is_named(proxy, tmp_path):
     with Client(proxy.ground_port, "UP1 aircraft=default seat=command\n") as holder:
         holder.expect("seat=command")
-        status, _, complained = ground(
-            tmp_path, proxy.ground_port, "seat", "request", "--wait", "1"
-        )
+        status, _, stderr = ground(tmp_path, proxy.ground_port, "seat", "request", "--wait", "1")
     assert status == 3
-    assert complained == "up-ground: no seat within 1 s: ground 1 has not given it\n"
+    assert stderr == "up-ground: no seat within 1 s: ground 1 has not given it\n"
 
 
 def test_it_is_handed_to_a_listener(proxy, tmp_path):
@@ -36,8 +34,8 @@ def test_it_is_handed_to_a_listener(proxy, tmp_path):
         Client(proxy.ground_port, "UP1 aircraft=default seat=listen\n") as heir,
     ):
         heir.expect("seat=listen")
-        status, said, complained = ground(tmp_path, proxy.ground_port, "seat", "give", "1")
-        assert (status, said) == (0, "the seat is ground 1's now\n"), complained
+        status, said, stderr = ground(tmp_path, proxy.ground_port, "seat", "give", "1")
+        assert (status, said) == (0, "the seat is ground 1's now\n"), stderr
         heir.expect("UP1 seat command token=")
         heir.say('{"name": "up.disarm", "id": "x"}\n')
         heir.expect('{"name": "up.ack", "data": {"id": "x"}}')
@@ -45,9 +43,9 @@ def test_it_is_handed_to_a_listener(proxy, tmp_path):
 
 
 def test_it_cannot_be_handed_to_nobody(proxy, tmp_path):
-    status, _, complained = ground(tmp_path, proxy.ground_port, "seat", "give", "99")
+    status, _, stderr = ground(tmp_path, proxy.ground_port, "seat", "give", "99")
     assert status == 1
-    assert complained == "up-ground: no ground 99 listens to this aircraft\n"
+    assert stderr == "up-ground: no ground 99 listens to this aircraft\n"
 
 
 def test_it_is_left_free_and_its_token_forgotten(proxy, tmp_path):
@@ -62,11 +60,11 @@ def test_it_is_left_free_and_its_token_forgotten(proxy, tmp_path):
 def test_who_has_no_seat_cannot_leave_it(proxy, tmp_path):
     with Client(proxy.ground_port, "UP1 aircraft=default seat=command\n") as holder:
         holder.expect("seat=command")
-        status, _, complained = ground(tmp_path, proxy.ground_port, "seat", "release")
+        status, _, stderr = ground(tmp_path, proxy.ground_port, "seat", "release")
     assert status == 1
-    assert complained == "up-ground: this ground has no seat to leave: ground 1 commands\n"
+    assert stderr == "up-ground: this ground has no seat to leave: ground 1 commands\n"
 
 
 def test_a_direct_link_has_none(tmp_path):
-    status, _, complained = ground(tmp_path, 1, "--direct", "seat", "request")
-    assert (status, complained) == (2, "up-ground: a direct link has no seats\n")
+    status, _, stderr = ground(tmp_path, 1, "--direct", "seat", "request")
+    assert (status, stderr) == (2, "up-ground: a direct link has no seats\n")

@@ -12,10 +12,10 @@ from tests.proxy.program import Client
 
 def test_an_ack_is_shown_with_its_time(proxy, tmp_path):
     with Aircraft(proxy.airborne_port) as aircraft:
-        status, said, complained = ground(
+        status, said, stderr = ground(
             tmp_path, proxy.ground_port, "send", "up.flight_mode.set", "mode=FBW"
         )
-    assert (status, complained) == (0, "")
+    assert (status, stderr) == (0, "")
     assert re.fullmatch(r"ack after \d+ ms\n", said)
     (message,) = aircraft.received
     assert message["name"] == "up.flight_mode.set"
@@ -30,16 +30,16 @@ def test_a_nack_is_shown_with_its_reason_and_cannot_paint_the_terminal(proxy, tm
         return [("up.nack", data)]
 
     with Aircraft(proxy.airborne_port, {"up.arm": refuse}):
-        status, said, complained = ground(tmp_path, proxy.ground_port, "send", "up.arm")
+        status, said, stderr = ground(tmp_path, proxy.ground_port, "send", "up.arm")
     assert (status, said) == (1, "")
-    assert complained == "up-ground: refused: throttle \\x1b[31mis not low\\x07 (refused)\n"
+    assert stderr == "up-ground: refused: throttle \\x1b[31mis not low\\x07 (refused)\n"
 
 
 def test_no_answer_says_that_nothing_is_known(proxy, tmp_path):
     with Aircraft(proxy.airborne_port, {"up.disarm": lambda message: []}) as aircraft:
-        status, said, complained = ground(tmp_path, proxy.ground_port, "send", "up.disarm")
+        status, said, stderr = ground(tmp_path, proxy.ground_port, "send", "up.disarm")
     assert (status, said) == (3, "")
-    assert "no answer within 3 s" in complained
+    assert "no answer within 3 s" in stderr
     assert len(aircraft.received) == 1
 
 
@@ -113,9 +113,9 @@ def test_mistakes_send_nothing(proxy, tmp_path):
             (["up.flightmode.set"], "did you mean up.flight_mode.set"),
             (["up.telemetry.frequency", "frequency=1e999"], "data.frequency is inf"),
         ):
-            status, said, complained = ground(tmp_path, proxy.ground_port, "send", *words)
-            assert (status, said) == (2, ""), complained
-            assert sentence in complained
+            status, said, stderr = ground(tmp_path, proxy.ground_port, "send", *words)
+            assert (status, said) == (2, ""), stderr
+            assert sentence in stderr
     assert aircraft.received == []
 
 
@@ -125,20 +125,20 @@ def test_an_unknown_name_is_sent_when_forced(proxy, tmp_path):
         return [("up.nack", data)]
 
     with Aircraft(proxy.airborne_port, {"my.new.thing": unknown}) as aircraft:
-        status, _, complained = ground(
+        status, _, stderr = ground(
             tmp_path, proxy.ground_port, "send", "--force", "my.new.thing", "a.b=1"
         )
     assert status == 1
-    assert complained == "up-ground: refused: no such Command (unknown)\n"
+    assert stderr == "up-ground: refused: no such Command (unknown)\n"
     assert aircraft.received[0]["data"] == {"a": {"b": 1}}
 
 
 def test_an_absent_aircraft_is_named(proxy, tmp_path):
-    status, _, complained = ground(
+    status, _, stderr = ground(
         tmp_path, proxy.ground_port, "--aircraft", "glider", "send", "up.disarm"
     )
     assert status == 3
-    assert complained == "up-ground: the aircraft glider is not connected to the proxy\n"
+    assert stderr == "up-ground: the aircraft glider is not connected to the proxy\n"
 
 
 @pytest.mark.slow
@@ -154,18 +154,18 @@ def test_nothing_is_sent_without_a_beacon(proxy, tmp_path, name):
 
 
 def test_a_closed_port_is_one_sentence(tmp_path):
-    status, said, complained = ground(tmp_path, 1, "send", "up.disarm")
+    status, said, stderr = ground(tmp_path, 1, "send", "up.disarm")
     assert (status, said) == (3, "")
-    assert complained == "up-ground: cannot reach 127.0.0.1:1: connection refused\n"
+    assert stderr == "up-ground: cannot reach 127.0.0.1:1: connection refused\n"
 
 
 def test_who_commands_is_named_when_the_seat_is_taken(proxy, tmp_path):
     hello = "UP1 aircraft=default seat=command\n"
     with Aircraft(proxy.airborne_port) as aircraft, Client(proxy.ground_port, hello) as other:
         other.expect("seat=command")
-        status, _, complained = ground(tmp_path, proxy.ground_port, "send", "up.disarm")
+        status, _, stderr = ground(tmp_path, proxy.ground_port, "send", "up.disarm")
     assert status == 1
-    assert "ground 1 commands this aircraft" in complained
+    assert "ground 1 commands this aircraft" in stderr
     assert aircraft.received == []
 
 
@@ -173,8 +173,8 @@ def test_a_seat_that_is_kept_for_somebody_is_waited_for(proxy, tmp_path):
     with Aircraft(proxy.airborne_port) as aircraft:
         with Client(proxy.ground_port, "UP1 aircraft=default seat=command\n") as other:
             other.expect("seat=command")
-        status, said, complained = ground(tmp_path, proxy.ground_port, "send", "up.disarm")
-    assert status == 0, complained
+        status, said, stderr = ground(tmp_path, proxy.ground_port, "send", "up.disarm")
+    assert status == 0, stderr
     assert "ack after" in said
     assert len(aircraft.received) == 1
 
@@ -194,9 +194,9 @@ def test_two_programs_of_one_user_do_not_take_the_seat_from_each_other(proxy, tm
         Ground(tmp_path, proxy.ground_port, "watch", "--seat", "command") as watching,
     ):
         watching.expect("seat command")
-        status, _, complained = ground(tmp_path, proxy.ground_port, "send", "up.disarm")
+        status, _, stderr = ground(tmp_path, proxy.ground_port, "send", "up.disarm")
         assert status == 1
-        assert "ground 1 commands this aircraft" in complained
+        assert "ground 1 commands this aircraft" in stderr
         lines = watching.said.count("\n")
         until(lambda: watching.said.count("\n") > lines + 1, "more lines")
         assert "link down" not in watching.said
@@ -205,18 +205,16 @@ def test_two_programs_of_one_user_do_not_take_the_seat_from_each_other(proxy, tm
 
 def test_a_thesis_proxy_is_spoken_to_without_a_hello(proxy, tmp_path):
     with Aircraft(proxy.airborne_port, hello=b"") as aircraft:
-        status, said, complained = ground(
-            tmp_path, proxy.ground_port, "--direct", "send", "up.disarm"
-        )
-    assert status == 0, complained
+        status, said, stderr = ground(tmp_path, proxy.ground_port, "--direct", "send", "up.disarm")
+    assert status == 0, stderr
     assert "ack after" in said
     assert aircraft.received[0]["name"] == "up.disarm"
 
 
 def test_garbage_from_the_aircraft_does_not_keep_the_answer_away(proxy, tmp_path):
     def garbage(message):
-        aircraft.say(b'{"name": "up.telemetry.update", "data": {"altitude": NaN}}\n')
-        aircraft.say(b"\xff\xfe not json\n" + b"x" * 20000 + b"\n[1, 2]\n")
+        aircraft.send(b'{"name": "up.telemetry.update", "data": {"altitude": NaN}}\n')
+        aircraft.send(b"\xff\xfe not json\n" + b"x" * 20000 + b"\n[1, 2]\n")
         return [("up.ack", {"id": message["id"]})]
 
     with Aircraft(proxy.airborne_port, {"up.disarm": garbage}, frame()) as aircraft:
@@ -233,8 +231,8 @@ def test_who_answers_no_hello_is_told_apart_from_a_proxy(tmp_path):
             with peer:
                 peer.sendall(b'{"name": "up.telemetry.update", "data": {}}\n')
                 assert sending.wait() == 3
-    assert "does not answer a hello" in sending.complained
-    assert "--direct" in sending.complained
+    assert "does not answer a hello" in sending.stderr
+    assert "--direct" in sending.stderr
 
 
 def test_a_refusal_of_the_proxy_is_shown(tmp_path):
@@ -246,10 +244,10 @@ def test_a_refusal_of_the_proxy_is_shown(tmp_path):
         with peer:
             peer.sendall(b'UP1 error code=full reason="as many grounds as it may"\n')
             assert sending.wait() == 1
-    assert sending.complained == "up-ground: the proxy refuses: as many grounds as it may (full)\n"
+    assert sending.stderr == "up-ground: the proxy refuses: as many grounds as it may (full)\n"
 
 
 def test_only_the_name_is_required(tmp_path):
-    status, said, complained = ground(tmp_path, 1, "send")
+    status, said, stderr = ground(tmp_path, 1, "send")
     assert (status, said) == (2, "")
-    assert complained.endswith("the following arguments are required: NAME\n")
+    assert stderr.endswith("the following arguments are required: NAME\n")

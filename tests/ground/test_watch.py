@@ -12,8 +12,8 @@ from up.version import VERSION
 
 def test_one_picture(proxy, tmp_path):
     with Aircraft(proxy.airborne_port):
-        status, said, complained = ground(tmp_path, proxy.ground_port, "watch", "--once")
-    assert (status, complained) == (0, "")
+        status, said, stderr = ground(tmp_path, proxy.ground_port, "watch", "--once")
+    assert (status, stderr) == (0, "")
     for text in ("roll    +12.5 deg", "flight mode FBW", "50.075500", "battery 83 %", "disarmed"):
         assert text in said
     assert "\x1b" not in said
@@ -47,9 +47,9 @@ def test_it_ends_when_the_time_is_over(proxy, tmp_path):
 
 
 def test_nothing_to_picture_is_told(proxy, tmp_path):
-    status, said, complained = ground(tmp_path, proxy.ground_port, "watch", "--once", "--for", "1")
+    status, said, stderr = ground(tmp_path, proxy.ground_port, "watch", "--once", "--for", "1")
     assert (status, said) == (3, "")
-    assert complained == "up-ground: the aircraft default is not connected to the proxy\n"
+    assert stderr == "up-ground: the aircraft default is not connected to the proxy\n"
 
 
 def test_a_restarted_proxy_is_found_again_and_the_seat_with_it(tmp_path):
@@ -73,7 +73,7 @@ def test_an_interrupt_ends_it_without_a_word(proxy, tmp_path):
         watching.expect("link connected")
         watching.process.terminate()
         assert watching.wait() == 130
-        assert watching.complained == ""
+        assert watching.stderr == ""
 
 
 def test_a_reader_that_has_seen_enough_ends_it(proxy, tmp_path):
@@ -110,9 +110,9 @@ def test_mistakes_in_the_command_line_are_one_sentence(tmp_path):
         (["watch", "--for", "nan"], {}),
         (["watch"], {"UP_GROUND_PORT": "many"}),
     ):
-        status, said, complained = ground(tmp_path, 1, *arguments, **environ)
+        status, said, stderr = ground(tmp_path, 1, *arguments, **environ)
         assert (status, said) == (2, "")
-        assert "error:" in complained
+        assert "error:" in stderr
 
 
 def test_help_teaches(tmp_path):

@@ -11,10 +11,10 @@ from typing import Any
 from up.flight_log.flight_log import FlightLog
 from up.flight_log.telemetry_frames import Frame, frames
 from up.protocols.general_message import GeneralMessage
-from up_ground.sanitize_text import safe_text
+from up_ground.sanitize_text import sanitize_text
 from up_ground.telemetry import NAME, SILENT_S, Telemetry
-from up_ground.web.event_monitor import Judge
-from up_ground.web.event_rules import INFO, LinkFacts
+from up_ground.web.event_monitor import EventMonitor
+from up_ground.web.event_rules import INFO, LinkSnapshot
 from up_ground.web.track import Home, Track, track_message
 
 GAINS = "arduino.pids.values"
@@ -23,49 +23,49 @@ PROFILE = "arduino.profile.values"
 
 
 @dataclass(frozen=True, slots=True)
-class Told:
+class Reported:
     """Values from a moment of the flight on, s."""
 
     time_s: float
     values: dict[str, Any]
 
 
-def told_at(told: Sequence[Told], time_s: float) -> Told | None:
+def last_before(told: Sequence[Reported], time_s: float) -> Reported | None:
     """Return the last reported value before a time; None without a report."""
     place = bisect_right(told, time_s, key=lambda each: each.time_s)
     return told[place - 1] if place else None
 
 
-def gains_of(log: FlightLog) -> list[Told]:
+def gains_of(log: FlightLog) -> list[Reported]:
     """Return the gains that the board reported; without a report, those requested from it.
 
     Raises FlightLogError when a file becomes unreadable.
     """
-    told = _told(log, GAINS)
+    told = _reports(log, GAINS)
     if told:
         return told
-    wanted = ((each.time_s, each.values.get("pids")) for each in _told(log, GAINS_WANTED))
-    return [Told(time_s, gains) for time_s, gains in wanted if isinstance(gains, dict)]
+    wanted = ((each.time_s, each.values.get("pids")) for each in _reports(log, GAINS_WANTED))
+    return [Reported(time_s, gains) for time_s, gains in wanted if isinstance(gains, dict)]
 
 
-def profile_of(log: FlightLog) -> list[Told]:
+def profile_of(log: FlightLog) -> list[Reported]:
     """Return the reported profiles of the airframe; raises FlightLogError likewise."""
-    return _told(log, PROFILE)
+    return _reports(log, PROFILE)
 
 
-def _told(log: FlightLog, topic: str) -> list[Told]:
+def _reports(log: FlightLog, topic: str) -> list[Reported]:
     return [
-        Told(each.time_s, {key: value for key, value in each.data.items() if key[:1] != "_"})
+        Reported(each.time_s, {key: value for key, value in each.data.items() if key[:1] != "_"})
         for each in log.messages(topic)
     ]
 
 
 MARK = "black_box.mark"
-_LOOK_S = 0.25
-_LONGEST_LOOK_S = 5.0
+_STEP_S = 0.25
+_MAX_STEP_S = 5.0
 
 
-class Story:
+class ReplayTimeline:
     """Every event, alarm and place of a flight with its time; times are the log's seconds."""
 
     def __init__(self, log: FlightLog, aircraft: str) -> None:
@@ -82,13 +82,13 @@ class Story:
         self._profiles = profile_of(log)
         self._now_s = 0.0
         # A user who stops at a moment wants to see the alarms of that moment.
-        self._judge = Judge(aircraft, self._take, over_s=0.0)
+        self._monitor = EventMonitor(aircraft, self._record, hold_s=0.0)
         self._read(log)
 
     @property
     def home(self) -> dict[str, float] | None:
         """Return the home's place."""
-        return self._home.told()
+        return self._home.position()
 
     def events_until(self, time_s: float) -> list[dict[str, Any]]:
         """Return the newest events up to a moment, with their ages at that moment."""
@@ -119,13 +119,13 @@ class Story:
         place = bisect_right(self._frame_times_s, time_s)
         return self._frame_times_s[place - 1] if place else None
 
-    def gains_at(self, time_s: float) -> Told | None:
+    def gains_at(self, time_s: float) -> Reported | None:
         """Return the last reported gains; None if there was no report."""
-        return told_at(self._gains, time_s)
+        return last_before(self._gains, time_s)
 
-    def profile_at(self, time_s: float) -> Told | None:
+    def profile_at(self, time_s: float) -> Reported | None:
         """Return the last reported profile of the airframe; None without a report."""
-        return told_at(self._profiles, time_s)
+        return last_before(self._profiles, time_s)
 
     def track_until(self, time_s: float) -> dict[str, Any]:
         """Return the way up to a moment."""
@@ -134,55 +134,55 @@ class Story:
     def _read(self, log: FlightLog) -> None:
         telemetry = Telemetry()
         marks = [
-            (each.time_s, safe_text(each.data.get("text") or "", 200))
+            (each.time_s, sanitize_text(each.data.get("text") or "", 200))
             for each in log.messages(MARK)
         ]
         marks.reverse()
         for frame in frames(log):
             self._wait(telemetry, frame.time_s, marks)
-            self._note_marks(marks, frame.time_s)
-            self._look_at(telemetry, frame)
+            self._report_marks(marks, frame.time_s)
+            self._process(telemetry, frame)
         self._wait(telemetry, log.length_s, marks)
-        self._note_marks(marks, log.length_s)
+        self._report_marks(marks, log.length_s)
         self._now_s = log.length_s
         is_silent = bool(self._frame_times_s) and log.length_s - self._frame_times_s[-1] > SILENT_S
-        self._judge.on_moment(telemetry, _link(is_silent), log.length_s)
+        self._monitor.on_moment(telemetry, _link(is_silent), log.length_s)
 
-    def _look_at(self, telemetry: Telemetry, frame: Frame) -> None:
+    def _process(self, telemetry: Telemetry, frame: Frame) -> None:
         self._now_s = frame.time_s
         self._frame_times_s.append(frame.time_s)
-        telemetry.take(GeneralMessage(NAME, frame.data, None, frame.beacon), frame.time_s)
-        self._track.take(telemetry, frame.time_s)
-        self._home.take(telemetry)
-        self._judge.on_frame(telemetry, _link(False), frame.time_s)
+        telemetry.update(GeneralMessage(NAME, frame.data, None, frame.beacon), frame.time_s)
+        self._track.update(telemetry, frame.time_s)
+        self._home.update(telemetry)
+        self._monitor.on_frame(telemetry, _link(False), frame.time_s)
 
     def _wait(self, telemetry: Telemetry, until_s: float, marks: list[tuple[float, str]]) -> None:
         """Advance the time between two frames to the events that it contains."""
         if not telemetry.frames:
             return
         begin_s = self._now_s
-        while self._now_s + _LOOK_S < min(until_s, begin_s + _LONGEST_LOOK_S):
-            next_s = self._now_s + _LOOK_S
-            self._note_marks(marks, next_s)
+        while self._now_s + _STEP_S < min(until_s, begin_s + _MAX_STEP_S):
+            next_s = self._now_s + _STEP_S
+            self._report_marks(marks, next_s)
             self._now_s = next_s
             link = _link(self._now_s - begin_s > SILENT_S)
-            self._judge.on_moment(telemetry, link, self._now_s)
+            self._monitor.on_moment(telemetry, link, self._now_s)
 
-    def _note_marks(self, marks: list[tuple[float, str]], until_s: float) -> None:
+    def _report_marks(self, marks: list[tuple[float, str]], until_s: float) -> None:
         while marks and marks[-1][0] <= until_s:
             time_s, text = marks.pop()
             self._now_s = max(self._now_s, time_s)
-            self._judge.note("mark", INFO, f"mark: {text}", self._now_s)
+            self._monitor.report("mark", INFO, f"mark: {text}", self._now_s)
 
-    def _take(self, message: dict[str, Any]) -> None:
+    def _record(self, message: dict[str, Any]) -> None:
         is_event = message["type"] == "event"
         times_s = self._event_times_s if is_event else self._alarm_times_s
         times_s.append(self._now_s)
         (self.events if is_event else self._alarms).append(message)
 
 
-def _link(is_silent: bool) -> LinkFacts:
-    return LinkFacts(True, "", None, True, is_silent)
+def _link(is_silent: bool) -> LinkSnapshot:
+    return LinkSnapshot(True, "", None, True, is_silent)
 
 
 def past(events: Iterable[dict[str, Any]]) -> Iterable[dict[str, Any]]:

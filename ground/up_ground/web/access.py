@@ -62,7 +62,7 @@ def machine_names(more: Iterable[str] = ()) -> frozenset[str]:
     return frozenset(name for name in found if name and name != ".local")
 
 
-ATTEMPTS_MOST = 10
+MAX_ATTEMPTS = 10
 ATTEMPTS_RATE_HZ = 0.1
 ADDRESSES_KEPT = 1024
 
@@ -81,7 +81,7 @@ class KeyAttempts:
     def permits(self, host: str, is_right: bool) -> bool:
         """Count a key and return whether it is judged; False after too many wrong ones."""
         now_s, peer = self._clock.seconds(), neighbourhood(host)
-        fresh = TokenBucket(self._clock, ATTEMPTS_RATE_HZ, ATTEMPTS_MOST), now_s
+        fresh = TokenBucket(self._clock, ATTEMPTS_RATE_HZ, MAX_ATTEMPTS), now_s
         bucket, closed_until_s = self._known.pop(peer, fresh)
         is_permitted = now_s >= closed_until_s if is_right else bucket.take()
         if not is_permitted and not is_right:

@@ -10,26 +10,26 @@ from up.system.clock import Timer
 from up.system.token_bucket import TokenBucket
 from up_ground.ground_link import GroundLink
 from up_ground.link_status import LinkState
-from up_ground.sanitize_text import safe_text
+from up_ground.sanitize_text import sanitize_text
 from up_ground.settings import Settings
 from up_ground.telemetry import NAME, Telemetry
 from up_ground.token_store import TokenStore
-from up_ground.web.aircraft_source import Audience
-from up_ground.web.client_session import Page
+from up_ground.web.aircraft_source import Subscribers
+from up_ground.web.client_session import ClientSession
 from up_ground.web.command_checks import Checks
-from up_ground.web.command_service import CommandDesk
+from up_ground.web.command_service import CommandService
 from up_ground.web.control import Control
-from up_ground.web.event_monitor import Judge
-from up_ground.web.event_rules import INFO, WARNING, LinkFacts
+from up_ground.web.event_monitor import EventMonitor
+from up_ground.web.event_rules import INFO, WARNING, LinkSnapshot
 from up_ground.web.messages import FrameMessage, PageFault, Reader
-from up_ground.web.proxy_lease import SeatAtProxy
+from up_ground.web.proxy_lease import ProxyLease
 from up_ground.web.track import Home, Track, track_message
 
 TICK_S = 0.25
 """Period of the checks for changes by time alone."""
 
 
-class Station:
+class AircraftSession:
     """Forwards telemetry without delay, and keeps the state that a page needs when it joins."""
 
     def __init__(
@@ -39,29 +39,29 @@ class Station:
         settings: Settings,
         tokens: TokenStore,
         checks: Checks,
-        audience: Audience,
+        subscribers: Subscribers,
     ) -> None:
         self.name = name
         self.link = GroundLink(reactor, settings, self, tokens)
         self.telemetry = Telemetry()
         self._reactor = reactor
         self._settings = settings
-        self._audience = audience
+        self._subscribers = subscribers
         self._frame: FrameMessage | None = None
-        self._seat = SeatAtProxy(self.link, settings.direct)
-        self.control = Control(reactor, self._seat, self._on_control_news, self._show_status)
-        self.desk = CommandDesk(
+        self._lease = ProxyLease(self.link, settings.direct)
+        self.control = Control(reactor, self._lease, self._on_control_news, self._send_status)
+        self.commands = CommandService(
             reactor,
             name,
             self.link,
-            self._seat,
+            self._lease,
             self.control,
             self.telemetry,
             checks,
-            lambda message: audience.tell(name, message),
+            lambda message: subscribers.notify(name, message),
             self._on_outcome,
         )
-        self.judge = Judge(name, lambda message: audience.tell(name, message))
+        self.monitor = EventMonitor(name, lambda message: subscribers.notify(name, message))
         self._track = Track()
         self._home = Home()
         # Actions of pages are events, but at a limited rate.
@@ -87,13 +87,13 @@ class Station:
         if self._tick is not None:
             self._tick.cancel()
         self.control.stop()
-        self.desk.stop()
+        self.commands.stop()
         await self.link.stop()
 
     def on_message(self, message: GeneralMessage) -> None:
         """Handle a message of the aircraft."""
         came_s = self._reactor.seconds()
-        if self.telemetry.take(message, came_s):
+        if self.telemetry.update(message, came_s):
             made_s = came_s - self.telemetry.way_s
             frame = FrameMessage(
                 self.name,
@@ -103,37 +103,37 @@ class Station:
                 self._reactor.seconds,
             )
             self._frame = frame
-            self._audience.show(self.name, "frame", frame)
-            self._look_at(came_s)
+            self._subscribers.send_latest(self.name, "frame", frame)
+            self._process(came_s)
         elif message.name != NAME:
-            self.desk.on_message(message)
+            self.commands.on_message(message)
 
-    def _look_at(self, now_s: float) -> None:
+    def _process(self, now_s: float) -> None:
         """Evaluate a frame, after it has been sent to the pages."""
         telemetry = self.telemetry
-        self._track.take(telemetry, now_s)
-        self._home.take(telemetry)
-        self.judge.on_frame(telemetry, self._facts(now_s), now_s)
+        self._track.update(telemetry, now_s)
+        self._home.update(telemetry)
+        self.monitor.on_frame(telemetry, self._snapshot(now_s), now_s)
         has_board = telemetry.flag("arduino", "connected")
         if has_board and self._has_board is False:
-            self.desk.want_gains()
+            self.commands.want_gains()
         self._has_board = has_board
-        self.desk.on_moment()
+        self.commands.on_moment()
 
     def on_link(self) -> None:
         """Handle a change of the link."""
         status = self.link.status
         if self._was_open and not status.is_open:
-            self.desk.on_lost()
+            self.commands.on_lost()
         if status.is_aircraft_online and not self._was_online:
-            self.desk.want_gains()
+            self.commands.want_gains()
         self._was_open, self._was_online = status.is_open, status.is_aircraft_online
         now_s = self._reactor.seconds()
         if status.state is not LinkState.CONNECTING and (status.is_open or status.connections):
-            self.judge.on_link(self._facts(now_s), now_s)
-        self.control.on_seat()
-        self.desk.on_moment()
-        self._show_status()
+            self.monitor.on_link(self._snapshot(now_s), now_s)
+        self.control.on_lease()
+        self.commands.on_moment()
+        self._send_status()
 
     def frame(self) -> FrameMessage | None:
         """Return the newest frame."""
@@ -142,17 +142,17 @@ class Station:
     def past(self) -> Iterable[dict[str, Any]]:
         """Return the messages for a page that starts to watch."""
         yield track_message(self.name, self._track.points())
-        yield from self.judge.past(self._reactor.seconds())
-        yield self.desk.gains_message()
-        if self.desk.profile is not None:
-            yield self.desk.profile_message()
+        yield from self.monitor.past(self._reactor.seconds())
+        yield self.commands.gains_message()
+        if self.commands.profile is not None:
+            yield self.commands.profile_message()
 
     def on_second(self) -> None:
         """Measure the link."""
         self.link.measure()
         self.telemetry.on_round_trip(self.link.status.round_trip_ms)
 
-    def status(self, page: Page) -> dict[str, Any]:
+    def status(self, page: ClientSession) -> dict[str, Any]:
         """Return the status as this page sees it."""
         now_s, status, telemetry = self._reactor.seconds(), self.link.status, self.telemetry
         age_s, rate_hz = telemetry.age_s(now_s), telemetry.rate_hz(now_s)
@@ -176,18 +176,18 @@ class Station:
             "control": {
                 **self.control.describe(page),
                 "pages": [
-                    {"page": each.number, "name": each.name} for each in self._audience.all()
+                    {"page": each.number, "name": each.name} for each in self._subscribers.all()
                 ],
             },
             "role": role if role in ("observer", "operator", "pilot") else None,
             "tune_in_flight": telemetry.flag("ground", "tune_in_flight"),
-            "home": self._home.told(),
+            "home": self._home.position(),
         }
 
-    def on_control(self, page: Page, action: str, to: int | None) -> None:
+    def on_control(self, page: ClientSession, action: str, to: int | None) -> None:
         """Let a page request, give, deny or release control."""
         if action == "give":
-            taker = None if to is None else self._audience.get(to)
+            taker = None if to is None else self._subscribers.get(to)
             if to is not None and taker is None:
                 raise PageFault(f"there is no page {to}")
             self.control.give(page, taker)
@@ -198,33 +198,33 @@ class Station:
                 "release": self.control.release,
             }[action](page)
 
-    def on_command(self, page: Page, message: Reader) -> None:
+    def on_command(self, page: ClientSession, message: Reader) -> None:
         """Send a page's Command."""
-        self.desk.on_command(page, message)
+        self.commands.on_command(page, message)
 
-    def on_replay(self, page: Page, action: str, message: Reader) -> None:
+    def on_replay(self, page: ClientSession, action: str, message: Reader) -> None:
         """Refuse: the aircraft is live, not a replay."""
         raise PageFault("this is no replay")
 
-    def on_away(self, page: Page) -> None:
+    def on_away(self, page: ClientSession) -> None:
         """Handle the loss of a page's link; the page may return."""
         self.control.on_away(page)
 
-    def on_back(self, page: Page) -> None:
+    def on_back(self, page: ClientSession) -> None:
         """Handle a new page."""
 
-    def on_gone(self, page: Page) -> None:
+    def on_gone(self, page: ClientSession) -> None:
         """Handle the final loss of a page."""
         self.control.on_gone(page)
 
     def _on_tick(self) -> None:
         self._tick = self._reactor.callLater(TICK_S, self._on_tick)
         now_s = self._reactor.seconds()
-        self.judge.on_moment(self.telemetry, self._facts(now_s), now_s)
+        self.monitor.on_moment(self.telemetry, self._snapshot(now_s), now_s)
 
-    def _facts(self, now_s: float) -> LinkFacts:
+    def _snapshot(self, now_s: float) -> LinkSnapshot:
         status = self.link.status
-        return LinkFacts(
+        return LinkSnapshot(
             status.is_open,
             status.reason,
             status.is_aircraft_online,
@@ -235,12 +235,12 @@ class Station:
 
     def _on_control_news(self, text: str) -> None:
         if self._notes.take():
-            self.judge.note("command", INFO, safe_text(text, 300), self._reactor.seconds())
+            self.monitor.report("command", INFO, sanitize_text(text, 300), self._reactor.seconds())
 
     def _on_outcome(self, kind: str, text: str, is_good: bool) -> None:
         if self._notes.take():
             level = INFO if is_good else WARNING
-            self.judge.note(kind, level, safe_text(text, 400), self._reactor.seconds())
+            self.monitor.report(kind, level, sanitize_text(text, 400), self._reactor.seconds())
 
-    def _show_status(self) -> None:
-        self._audience.show_status(self.name)
+    def _send_status(self) -> None:
+        self._subscribers.send_status(self.name)

@@ -33,12 +33,12 @@ class Answer:
     data: dict[str, Any] | None = None
 
 
-Tell = Callable[[Answer], object]
+Notify = Callable[[Answer], object]
 
 
 @dataclass(slots=True)
 class _Sent:
-    tell: Tell
+    notify: Notify
     sent_s: float
     timer: Timer
     awaited: str
@@ -57,16 +57,16 @@ class Answers:
         """Return how many Commands wait for their answer."""
         return len(self._sent)
 
-    def expect(self, name: str, data: dict[str, Any], tell: Tell) -> str:
-        """Return the id with which to send a Command; ``tell`` gets its outcome."""
+    def expect(self, name: str, data: dict[str, Any], notify: Notify) -> str:
+        """Return the id with which to send a Command; ``notify`` gets its outcome."""
         id_ = secrets.token_hex(8)
         is_asking = name != "arduino.pids.tunings" or data.get("request") is True
         awaited = CONTENT_OF.get(name, "") if is_asking else ""
         timer = self._clock.callLater(ANSWER_LIMIT_S, self._on_time_over, id_)
-        self._sent[id_] = _Sent(tell, self._clock.seconds(), timer, awaited)
+        self._sent[id_] = _Sent(notify, self._clock.seconds(), timer, awaited)
         return id_
 
-    def take(self, message: GeneralMessage) -> None:
+    def on_message(self, message: GeneralMessage) -> None:
         """Take a message of the aircraft, if it is an answer."""
         if message.name in ("up.ack", "up.nack"):
             id_ = message.data.get("id")
@@ -80,7 +80,7 @@ class Answers:
                 if sent.acked_ms is not None:
                     self.end(id_, Answer("ack", round_trip_ms=sent.acked_ms, data=sent.data))
 
-    def lost(self) -> None:
+    def on_link_lost(self) -> None:
         """Handle the loss of the link: Commands in flight may or may not have arrived."""
         for id_, sent in list(self._sent.items()):
             self.end(id_, _timed_out(sent, "the link was lost before an answer came"))
@@ -110,7 +110,7 @@ class Answers:
         sent = self._sent.pop(id_)
         if sent.timer.active():
             sent.timer.cancel()
-        sent.tell(answer)
+        sent.notify(answer)
 
 
 def _timed_out(sent: _Sent, why: str) -> Answer:
@@ -136,7 +136,7 @@ _WORDS = {
     "up.arm": ("Arm", ""),
     "up.disarm": ("Disarm", ""),
     "up.telemetry.frequency": ("Telemetry every {} ms", "frequency"),
-    "android.speak": ('Say "{}"', "text"),
+    "android.speak": ('Echo "{}"', "text"),
     "arduino.profile.request": ("Ask for the profile", ""),
     CALIBRATE: ("Calibrate {}", "what"),
 }

@@ -13,16 +13,16 @@ from up.protocols.link_output import Make
 from up.system.clock import Clock, Timer
 from up.system.token_bucket import TokenBucket
 from up.version import VERSION
-from up_ground.sanitize_text import safe_text
+from up_ground.sanitize_text import sanitize_text
 from up_ground.web.access import Access, KeyAttempts
-from up_ground.web.aircraft_source import WatchedAircraft
+from up_ground.web.aircraft_source import AircraftSource
 from up_ground.web.client_session import (
     PAGES_LIMIT,
     WATCHERS_LIMIT,
-    NoPlaceError,
-    Page,
-    PageConnection,
-    make_place,
+    AdmissionError,
+    ClientConnection,
+    ClientSession,
+    admit_page,
 )
 from up_ground.web.messages import PageFault, Reader, message_bytes, read_message
 
@@ -38,18 +38,18 @@ VIOLATION = 4008
 LATER = 4013
 
 
-class _Visit:
+class _Connection:
     """One connection: whose it is, and how well it behaves."""
 
     def __init__(self, clock: Clock, timer: Timer) -> None:
-        self.page: Page | None = None
+        self.page: ClientSession | None = None
         self.timer = timer
         self.is_greeting = False
         self.faults = 0
         self.bucket = TokenBucket(clock, rate_hz=100.0, burst=300.0)
 
 
-class Pages:
+class ClientHub:
     """Knows the connected pages, sends each the data it watches and dispatches its messages."""
 
     def __init__(
@@ -61,14 +61,14 @@ class Pages:
         catalogue: Mapping[str, Any] | None = None,
         is_replay: bool = False,
     ) -> None:
-        self.fleet: dict[str, WatchedAircraft] = {}
+        self.fleet: dict[str, AircraftSource] = {}
         self._clock = clock
         self._access = access
         self._tiles = tiles
         self._catalogue = None if catalogue is None else message_bytes(catalogue)
         self._is_replay = is_replay
-        self._visits: dict[PageConnection, _Visit] = {}
-        self._pages: dict[int, Page] = {}
+        self._connections: dict[ClientConnection, _Connection] = {}
+        self._pages: dict[int, ClientSession] = {}
         self._timers: dict[int, Timer] = {}
         self._number = 0
         self._attempts = KeyAttempts(clock)
@@ -85,95 +85,99 @@ class Pages:
         for timer in timers:
             if timer is not None and timer.active():
                 timer.cancel()
-        if self._visits:
+        if self._connections:
             self._all_closed = Deferred()
-            for link in list(self._visits):
+            for link in list(self._connections):
                 link.close(GOING_AWAY, "the server ends")
             await self._all_closed
 
     # Called by an aircraft.
 
-    def all(self) -> list[Page]:
+    def all(self) -> list[ClientSession]:
         """Return the pages that are here."""
         return [page for page in self._pages.values() if page.link is not None]
 
-    def get(self, number: int) -> Page | None:
+    def get(self, number: int) -> ClientSession | None:
         """Return the page with that number that is here."""
         page = self._pages.get(number)
         return None if page is None or page.link is None else page
 
-    def show(self, aircraft: str, kind: str, make: Make) -> None:
+    def send_latest(self, aircraft: str, kind: str, make: Make) -> None:
         """Send the pages that watch the aircraft a message that the next of its kind replaces."""
         for page in self._pages.values():
             if page.watched == aircraft:
-                page.news(kind, make)
+                page.send_latest(kind, make)
 
-    def tell(self, aircraft: str, message: dict[str, Any]) -> None:
+    def notify(self, aircraft: str, message: dict[str, Any]) -> None:
         """Send a message to the pages that watch the aircraft."""
         encoded = b""
         for page in self._pages.values():
             if page.watched == aircraft:
                 encoded = encoded or message_bytes(message)
-                page.tell_bytes(encoded)
+                page.send_bytes(encoded)
 
-    def show_status(self, aircraft: str) -> None:
+    def send_status(self, aircraft: str) -> None:
         """Give the aircraft's status to every page."""
         for page in self._pages.values():
-            self._show_status(page, self.fleet[aircraft])
+            self._send_status(page, self.fleet[aircraft])
 
     # Called by a page's link.
 
-    def on_opened(self, link: PageConnection) -> None:
+    def on_opened(self, link: ClientConnection) -> None:
         """Wait for the page's hello, which shows whether it has a reserved place."""
-        greeting = [each for each, visit in self._visits.items() if visit.page is None]
+        greeting = [
+            each for each, connection in self._connections.items() if connection.page is None
+        ]
         if len(greeting) >= GREETING_LIMIT:
-            silent = (each for each in greeting if not self._visits[each].is_greeting)
-            self._turn_away(next(silent, greeting[0]), "too many pages say no hello")
+            silent = (each for each in greeting if not self._connections[each].is_greeting)
+            self._reject(next(silent, greeting[0]), "too many pages send no hello")
         timer = self._clock.callLater(HELLO_S, link.close, VIOLATION, "no hello")
-        self._visits[link] = _Visit(self._clock, timer)
+        self._connections[link] = _Connection(self._clock, timer)
 
-    def on_said(self, link: PageConnection, payload: bytes) -> None:
+    def on_message(self, link: ClientConnection, payload: bytes) -> None:
         """Handle a message of a page; bad ones get an error, and too many close the link."""
-        visit = self._visits.get(link)
-        if visit is None or self._all_closed is not None:
+        connection = self._connections.get(link)
+        if connection is None or self._all_closed is not None:
             return
-        if not visit.bucket.take():
+        if not connection.bucket.take():
             link.close(VIOLATION, "too many messages")
             return
         try:
             kind, message = read_message(payload)
-            self._obey(link, visit, kind, message)
+            self._dispatch(link, connection, kind, message)
         except PageFault as fault:
-            visit.faults += 1
-            text = safe_text(str(fault), 300)
+            connection.faults += 1
+            text = sanitize_text(str(fault), 300)
             link.output.send(message_bytes({"type": "fault", "text": text}))
-            if visit.faults >= FAULTS_LIMIT:
+            if connection.faults >= FAULTS_LIMIT:
                 link.close(VIOLATION, "too many faults")
 
-    def on_closed(self, link: PageConnection) -> None:
+    def on_closed(self, link: ClientConnection) -> None:
         """Keep a page's place for a moment."""
-        visit = self._visits.pop(link, None)
-        if visit is None:
+        connection = self._connections.pop(link, None)
+        if connection is None:
             return
-        if visit.timer.active():
-            visit.timer.cancel()
+        if connection.timer.active():
+            connection.timer.cancel()
         if self._all_closed is not None:
-            if not self._visits:
+            if not self._connections:
                 self._all_closed.callback(None)
             return
-        page = visit.page
+        page = connection.page
         if page is not None and page.link is link:
             page.link = None
-            self._timers[page.number] = self._clock.callLater(KEPT_S, self._forget, page)
+            self._timers[page.number] = self._clock.callLater(KEPT_S, self._drop, page)
             for aircraft in self.fleet.values():
                 aircraft.on_away(page)
 
-    def _obey(self, link: PageConnection, visit: _Visit, kind: str, message: Reader) -> None:
-        page = visit.page
+    def _dispatch(
+        self, link: ClientConnection, connection: _Connection, kind: str, message: Reader
+    ) -> None:
+        page = connection.page
         if kind == "hello":
-            if page is not None or visit.is_greeting:
+            if page is not None or connection.is_greeting:
                 raise PageFault("hello was said already")
-            self._on_hello(link, visit, message)
+            self._on_hello(link, connection, message)
         elif kind == "ping":
             ping = message.fields.get("ping")
             if isinstance(ping, str | dict | list):
@@ -197,18 +201,18 @@ class Pages:
         else:
             raise PageFault(f"no message is called {kind}")
 
-    def _aircraft(self, message: Reader) -> WatchedAircraft:
+    def _aircraft(self, message: Reader) -> AircraftSource:
         found = self.fleet.get(message.text("aircraft", 64))
         if found is None:
             raise PageFault("there is no such aircraft")
         return found
 
-    def _on_hello(self, link: PageConnection, visit: _Visit, message: Reader) -> None:
-        name = " ".join(safe_text(message.optional_text("name") or "", 40).split())
+    def _on_hello(self, link: ClientConnection, connection: _Connection, message: Reader) -> None:
+        name = " ".join(sanitize_text(message.optional_text("name") or "", 40).split())
         key = message.optional_text("key", 200)
         token = message.optional_text("token", 64) or ""
-        visit.timer.cancel()
-        visit.is_greeting = True
+        connection.timer.cancel()
+        connection.is_greeting = True
         former = self._with_token(token)
         why_not = self._why_not(link, key, former)
         if former is None:
@@ -220,20 +224,22 @@ class Pages:
             old = former.link
 
             def decide(is_alive: bool) -> None:
-                if link not in self._visits:
+                if link not in self._connections:
                     return
                 if is_alive or former.number not in self._pages:
                     self._welcome_new(link, name, why_not)
                     return
                 if former.link is old:
-                    self._visits.pop(old, None)
+                    self._connections.pop(old, None)
                     former.link = None
                     old.close(GOING_AWAY, "this page has another link")
                 self._welcome_back(link, former, name, why_not)
 
             old.is_alive(ALIVE_S, decide)
 
-    def _why_not(self, link: PageConnection, key: str | None, former: Page | None) -> str:
+    def _why_not(
+        self, link: ClientConnection, key: str | None, former: ClientSession | None
+    ) -> str:
         why_not = self._access.why_not(key)
         # A page that may control has shown before that it knows the key.
         is_known = former is not None and former.may_control
@@ -243,7 +249,7 @@ class Pages:
             return why_not
         return "too many wrong keys came from this address: load the page again in a minute"
 
-    def _with_token(self, token: str) -> Page | None:
+    def _with_token(self, token: str) -> ClientSession | None:
         given = token.encode("utf-8", "replace")
         found = None
         for page in self._pages.values():
@@ -251,40 +257,42 @@ class Pages:
                 found = page
         return found
 
-    def _welcome_new(self, link: PageConnection, name: str, why_not: str) -> None:
+    def _welcome_new(self, link: ClientConnection, name: str, why_not: str) -> None:
         limit = PAGES_LIMIT if self._access.is_watch_only else WATCHERS_LIMIT
         try:
-            leaving = make_place(self._pages.values(), not why_not, limit)
-        except NoPlaceError as error:
-            self._turn_away(link, str(error))
+            leaving = admit_page(self._pages.values(), not why_not, limit)
+        except AdmissionError as error:
+            self._reject(link, str(error))
             return
         if leaving is not None:
-            self._push_out(leaving)
+            self._evict(leaving)
         self._number += 1
         number = self._number
-        page = Page(number, name or f"page {number}", secrets.token_hex(16), why_not)
+        page = ClientSession(number, name or f"page {number}", secrets.token_hex(16), why_not)
         self._pages[number] = page
         self._welcome(link, page)
 
-    def _push_out(self, page: Page) -> None:
+    def _evict(self, page: ClientSession) -> None:
         link, page.link = page.link, None
         timer = self._timers.get(page.number)
         if timer is not None and timer.active():
             timer.cancel()
         if link is not None:
-            self._turn_away(link, "a page that may control needs the place")
+            self._reject(link, "a page that may control needs the place")
             for aircraft in self.fleet.values():
                 aircraft.on_away(page)
-        self._forget(page)
+        self._drop(page)
 
-    def _turn_away(self, link: PageConnection, reason: str) -> None:
+    def _reject(self, link: ClientConnection, reason: str) -> None:
         """Close a link without a page."""
-        visit = self._visits.pop(link)
-        if visit.timer.active():
-            visit.timer.cancel()
+        connection = self._connections.pop(link)
+        if connection.timer.active():
+            connection.timer.cancel()
         link.close(LATER, reason)
 
-    def _welcome_back(self, link: PageConnection, page: Page, name: str, why_not: str) -> None:
+    def _welcome_back(
+        self, link: ClientConnection, page: ClientSession, name: str, why_not: str
+    ) -> None:
         timer = self._timers.pop(page.number, None)
         if timer is not None and timer.active():
             timer.cancel()
@@ -293,13 +301,13 @@ class Pages:
         page.watched = ""
         self._welcome(link, page)
 
-    def _welcome(self, link: PageConnection, page: Page) -> None:
+    def _welcome(self, link: ClientConnection, page: ClientSession) -> None:
         link.admit()
         page.link = link
         # A reloaded page restarts its numbers at one; its old numbers are void.
         page.asks = {}
-        self._visits[link].page = page
-        page.tell(
+        self._connections[link].page = page
+        page.send(
             {
                 "type": "welcome",
                 "page": page.number,
@@ -315,30 +323,30 @@ class Pages:
             }
         )
         if self._catalogue is not None:
-            page.tell_bytes(self._catalogue)
+            page.send_bytes(self._catalogue)
         for aircraft in self.fleet.values():
             aircraft.on_back(page)
-            self.show_status(aircraft.name)
+            self.send_status(aircraft.name)
 
-    def _on_watch(self, page: Page, aircraft: WatchedAircraft) -> None:
+    def _on_watch(self, page: ClientSession, aircraft: AircraftSource) -> None:
         page.watched = aircraft.name
         if page.link is not None:
-            page.link.output.forget("frame")
+            page.link.output.discard("frame")
         for message in aircraft.past():
-            page.tell(message)
+            page.send(message)
         frame = aircraft.frame()
         if frame is not None:
-            page.news("frame", frame)
-        self._show_status(page, aircraft)
+            page.send_latest("frame", frame)
+        self._send_status(page, aircraft)
 
-    def _show_status(self, page: Page, aircraft: WatchedAircraft) -> None:
-        page.news(f"status {aircraft.name}", lambda: message_bytes(aircraft.status(page)))
+    def _send_status(self, page: ClientSession, aircraft: AircraftSource) -> None:
+        page.send_latest(f"status {aircraft.name}", lambda: message_bytes(aircraft.status(page)))
 
     def _now_ms(self) -> float:
         """Return the clock by which pages report the transit time from here."""
         return round(self._clock.seconds() * 1000, 1)
 
-    def _forget(self, page: Page) -> None:
+    def _drop(self, page: ClientSession) -> None:
         self._timers.pop(page.number, None)
         self._pages.pop(page.number, None)
         for aircraft in self.fleet.values():
@@ -348,4 +356,4 @@ class Pages:
         self._beat = self._clock.callLater(1.0, self._on_second)
         for aircraft in self.fleet.values():
             aircraft.on_second()
-            self.show_status(aircraft.name)
+            self.send_status(aircraft.name)

@@ -80,7 +80,7 @@ KEPT = 512
 """No aircraft sends more frames than this while a beacon is fresh."""
 
 
-class HeardBeacons:
+class RecentBeacons:
     """Judges the beacon that a page echoes, before the aircraft does."""
 
     def __init__(self, clock: Clock, telemetry: Telemetry) -> None:
@@ -88,9 +88,9 @@ class HeardBeacons:
         self._telemetry = telemetry
         self._frames = 0
         self._has_beacons = False
-        self._heard: deque[tuple[float, int]] = deque(maxlen=KEPT)
+        self._recent: deque[tuple[float, int]] = deque(maxlen=KEPT)
 
-    def look(self) -> None:
+    def poll(self) -> None:
         """Remember the newest frame's; called after each frame."""
         telemetry = self._telemetry
         if telemetry.frames == self._frames:
@@ -98,7 +98,7 @@ class HeardBeacons:
         self._frames = telemetry.frames
         if telemetry.beacon is not None:
             self._has_beacons = True
-            self._heard.append((self._clock.seconds(), telemetry.beacon))
+            self._recent.append((self._clock.seconds(), telemetry.beacon))
 
     def fault(self, name: str, beacon: int | None) -> tuple[str, str] | None:
         """Return why a Command is not sent with this beacon: the code and a sentence.
@@ -110,11 +110,11 @@ class HeardBeacons:
                 return None
             reason = f"not sent: {name} is only sent with the beacon of telemetry that was seen"
             return "no_beacon", reason
-        newest = max((each for _, each in self._heard), default=beacon)
+        newest = max((each for _, each in self._recent), default=beacon)
         if beacon > newest:
             return "unknown_beacon", "not sent: the aircraft has not sent the echoed beacon yet"
         limit_s = fresh_s(self._telemetry.number("system", "period_ms") or 0.0)
         oldest_s = self._clock.seconds() - limit_s
-        if any(heard_s >= oldest_s for heard_s, each in self._heard if each == beacon):
+        if any(heard_s >= oldest_s for heard_s, each in self._recent if each == beacon):
             return None
         return "stale", f"not sent: the telemetry that this page shows is older than {limit_s:g} s"

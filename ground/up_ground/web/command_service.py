@@ -9,15 +9,15 @@ from typing import Any
 from up.protocols.general_message import GeneralMessage, encode
 from up.system.clock import Clock
 from up_ground.ground_link import GroundLink
-from up_ground.link_status import Standing
+from up_ground.link_status import ControlStatus
 from up_ground.telemetry import Telemetry
 from up_ground.web.answers import GAINS, Answer, Answers, in_words
-from up_ground.web.client_session import Ask, Page
-from up_ground.web.command_checks import Checked, Checks, HeardBeacons
+from up_ground.web.client_session import Ask, ClientSession
+from up_ground.web.command_checks import Checked, Checks, RecentBeacons
 from up_ground.web.control import Control
 from up_ground.web.gains_history import GainsHistory
 from up_ground.web.messages import PageFault, Reader
-from up_ground.web.proxy_lease import SeatAtProxy
+from up_ground.web.proxy_lease import ProxyLease
 
 ASKS_KEPT = 256
 UNANSWERED_LIMIT = 32
@@ -25,10 +25,10 @@ _VALUES = "arduino.pids.values"
 _PROFILE = "arduino.profile.values"
 
 
-class CommandDesk:
+class CommandService:
     """Sends a Command now or refuses it with a reason; nothing is queued.
 
-    ``tell_all`` sends a message to the pages that watch the aircraft; ``report`` receives every
+    ``notify_all`` sends a message to the pages that watch the aircraft; ``report`` receives every
     outcome: its kind, its text, and whether the Command succeeded.
     """
 
@@ -37,11 +37,11 @@ class CommandDesk:
         clock: Clock,
         name: str,
         link: GroundLink,
-        seat: SeatAtProxy,
+        lease: ProxyLease,
         control: Control,
         telemetry: Telemetry,
         checks: Checks,
-        tell_all: Callable[[dict[str, Any]], object],
+        notify_all: Callable[[dict[str, Any]], object],
         report: Callable[[str, str, bool], object],
     ) -> None:
         self.gains = GainsHistory()
@@ -49,22 +49,22 @@ class CommandDesk:
         self._clock = clock
         self._name = name
         self._link = link
-        self._seat = seat
+        self._lease = lease
         self._control = control
         self._telemetry = telemetry
         self._checks = checks
-        self._tell_all = tell_all
+        self._notify_all = notify_all
         self._report = report
         self._answers = Answers(clock)
-        self._beacons = HeardBeacons(clock, telemetry)
+        self._beacons = RecentBeacons(clock, telemetry)
         self._are_gains_due = True
-        self._gains_holder: Page | None = None
+        self._gains_holder: ClientSession | None = None
 
     def stop(self) -> None:
         """Stop waiting for all answers."""
         self._answers.stop()
 
-    def on_command(self, page: Page, message: Reader) -> None:
+    def on_command(self, page: ClientSession, message: Reader) -> None:
         """Answer a page's Command, immediately or after the aircraft's answer."""
         number = message.whole("ask")
         name = message.text("name", 128)
@@ -77,14 +77,14 @@ class CommandDesk:
             if known.content != content:
                 raise PageFault(f"ask {number} was another Command")
             if known.answer is not None:
-                page.tell(known.answer)
+                page.send(known.answer)
             return
         ask = page.asks[number] = Ask(content)
         while len(page.asks) > ASKS_KEPT:
             del page.asks[next(iter(page.asks))]
         asks = page.asks
 
-        def tell(answer: Answer) -> None:
+        def notify(answer: Answer) -> None:
             ask.answer = {
                 "type": "answer",
                 "ask": number,
@@ -96,23 +96,23 @@ class CommandDesk:
             }
             # A page that was reloaded since then uses the same numbers for other Commands.
             if page.asks is asks:
-                page.tell(ask.answer)
+                page.send(ask.answer)
 
-        self._carry_out(page, name, data, beacon, is_forced, tell)
+        self._execute(page, name, data, beacon, is_forced, notify)
 
     def on_message(self, message: GeneralMessage) -> None:
         """Take a message of the aircraft that is not telemetry."""
-        self._answers.take(message)
+        self._answers.on_message(message)
         if message.name == _VALUES:
-            self.gains.told(message.data, self._clock.seconds())
-            self._show_gains()
+            self.gains.on_values(message.data, self._clock.seconds())
+            self._send_gains()
         elif message.name == _PROFILE:
             self.profile = message.data
-            self._tell_all(self.profile_message())
+            self._notify_all(self.profile_message())
 
     def on_lost(self) -> None:
         """Handle the loss of the link."""
-        self._answers.lost()
+        self._answers.on_link_lost()
 
     def want_gains(self) -> None:
         """Request the gains as soon as possible."""
@@ -121,7 +121,7 @@ class CommandDesk:
 
     def on_moment(self) -> None:
         """Take a frame; request the gains when they are due and a page here has control."""
-        self._beacons.look()
+        self._beacons.poll()
         holder = self._control.holder
         if holder is not self._gains_holder:
             # Another ground may have changed them since.
@@ -142,14 +142,14 @@ class CommandDesk:
         """Return the profile message for pages."""
         return {"type": "profile", "aircraft": self._name, "profile": self.profile}
 
-    def _carry_out(
+    def _execute(
         self,
-        page: Page,
+        page: ClientSession,
         name: str,
         data: dict[str, Any],
         beacon: int | None,
         is_forced: bool,
-        tell: Callable[[Answer], object],
+        notify: Callable[[Answer], object],
     ) -> None:
         role = self._telemetry.text("ground", "role")
         checked = self._checks.check(name, data, beacon, role, is_forced)
@@ -157,7 +157,7 @@ class CommandDesk:
             checked if isinstance(checked, Answer) else self._refusal(page, checked, name, beacon)
         )
         if refused is not None:
-            tell(refused)
+            notify(refused)
             return
         before = self.gains.flying
 
@@ -166,12 +166,12 @@ class CommandDesk:
                 self._on_gains_answer(page, before, data.get("pids") or {}, answer)
             kind, text = in_words(page.name, name, data, before, answer)
             self._report(kind, text, answer.outcome == "ack")
-            tell(answer)
+            notify(answer)
 
         self._send(name, data, beacon, on_answer)
 
     def _refusal(
-        self, page: Page, checked: Checked, name: str, beacon: int | None
+        self, page: ClientSession, checked: Checked, name: str, beacon: int | None
     ) -> Answer | None:
         if checked.needs_control and page is not self._control.holder:
             reason = "this page has no control: ask for it first"
@@ -196,7 +196,7 @@ class CommandDesk:
         if status.is_aircraft_online is False:
             reason = f"not sent: the aircraft {self._name} is not connected to the proxy"
             return Answer("unsent", "no_aircraft", reason)
-        if self._seat.standing is not Standing.OURS:
+        if self._lease.status is not ControlStatus.OURS:
             reason = "not sent: this ground only listens, a page must ask for control first"
             return Answer("unsent", "no_seat", reason)
         return None
@@ -206,9 +206,9 @@ class CommandDesk:
         name: str,
         data: dict[str, Any],
         beacon: int | None,
-        tell: Callable[[Answer], object],
+        notify: Callable[[Answer], object],
     ) -> None:
-        id_ = self._answers.expect(name, data, tell)
+        id_ = self._answers.expect(name, data, notify)
         try:
             line = encode(name, data, id_, beacon)
         except ValueError as error:
@@ -218,15 +218,19 @@ class CommandDesk:
             self._answers.end(id_, Answer("unsent", "no_link", "not sent: there is no link"))
 
     def _on_gains_answer(
-        self, page: Page, before: dict[str, Any] | None, after: dict[str, Any], answer: Answer
+        self,
+        page: ClientSession,
+        before: dict[str, Any] | None,
+        after: dict[str, Any],
+        answer: Answer,
     ) -> None:
         now_s = self._clock.seconds()
         reason = answer.reason
-        self.gains.changed(page.name, before, after, answer.outcome, reason, now_s)
-        self._show_gains()
+        self.gains.record(page.name, before, after, answer.outcome, reason, now_s)
+        self._send_gains()
         # After a timeout the active gains are unknown until the aircraft reports them.
         if answer.outcome in ("ack", "timeout"):
             self.want_gains()
 
-    def _show_gains(self) -> None:
-        self._tell_all(self.gains_message())
+    def _send_gains(self) -> None:
+        self._notify_all(self.gains_message())

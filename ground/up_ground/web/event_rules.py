@@ -17,7 +17,7 @@ Words = Callable[[Any, Any], tuple[str, str] | None]
 
 
 @dataclass(frozen=True, slots=True)
-class Fact:
+class EventRule:
     """A value of the frame: ``read`` returns it or None (unknown, does not count as a change).
 
     ``words(before, now)`` returns level and text of the change, or None for no event; ``before``
@@ -31,8 +31,8 @@ class Fact:
 
 
 def _flag(key: str, kind: str, path: str, bad: bool, said_bad: str, said_good: str,
-          level: str = WARNING) -> Fact:  # fmt: skip
-    """Return a fact that is reported when it becomes bad, and when it is good again."""
+          level: str = WARNING) -> EventRule:  # fmt: skip
+    """Return a rule that is reported when it becomes bad, and when it is good again."""
     steps = path.split(".")
 
     def words(before: Any, now: Any) -> tuple[str, str] | None:
@@ -40,7 +40,7 @@ def _flag(key: str, kind: str, path: str, bad: bool, said_bad: str, said_good: s
             return level, said_bad
         return None if before is None else (INFO, said_good)
 
-    return Fact(key, kind, lambda telemetry: telemetry.flag(*steps), words)
+    return EventRule(key, kind, lambda telemetry: telemetry.flag(*steps), words)
 
 
 def board_state(telemetry: Telemetry) -> bool | str | None:
@@ -59,8 +59,8 @@ def _state(telemetry: Telemetry, link: str, readings: tuple[str, ...]) -> bool |
     return NOT_YET if is_there is False and not was_there else is_there
 
 
-def _part(key: str, read: Callable[[Telemetry], Any], back: str, level: str) -> Fact:
-    """Return a fact of a part that may connect after the program, and disconnect."""
+def _part(key: str, read: Callable[[Telemetry], Any], back: str, level: str) -> EventRule:
+    """Return a rule of a part that may connect after the program, and disconnect."""
 
     def words(before: Any, now: Any) -> tuple[str, str] | None:
         if now is False or (now is NOT_YET and before is True):
@@ -71,7 +71,7 @@ def _part(key: str, read: Callable[[Telemetry], Any], back: str, level: str) -> 
             return None
         return INFO, f"the {key} is {'here' if before is NOT_YET else back}"
 
-    return Fact(key, "link", read, words)
+    return EventRule(key, "link", read, words)
 
 
 def _armed(before: Any, now: Any) -> tuple[str, str] | None:
@@ -128,11 +128,11 @@ def _busy(before: Any, now: Any) -> tuple[str, str] | None:
     return None if before is None else (INFO, "Raspberry Pi not busy any more")
 
 
-def _source(reading: str) -> Fact:
+def _source(reading: str) -> EventRule:
     def words(before: Any, now: Any) -> tuple[str, str] | None:
         return None if before is None else (WARNING, f"{reading} comes from {now} (was {before})")
 
-    return Fact(
+    return EventRule(
         f"source {reading}",
         "source",
         lambda telemetry: telemetry.text("source", reading),
@@ -144,30 +144,30 @@ def _role(before: Any, now: Any) -> tuple[str, str] | None:
     return None if before is None else (WARNING, f"the ground is {now} now (was {before})")
 
 
-FACTS: tuple[Fact, ...] = (
-    Fact("flight mode", "mode", lambda t: t.text("flight_mode"), _named("flight mode")),
-    Fact("mode", "mode", lambda t: t.text("mode"), _named("mode")),
-    Fact("switch", "mode", lambda t: t.text("arduino", "switch"), _named("the switch stands at")),
-    Fact("armed", "armed", lambda t: t.flag("armed"), _armed),
+EVENT_RULES: tuple[EventRule, ...] = (
+    EventRule("flight mode", "mode", lambda t: t.text("flight_mode"), _named("flight mode")),
+    EventRule("mode", "mode", lambda t: t.text("mode"), _named("mode")),
+    EventRule("switch", "mode", lambda t: t.text("arduino", "switch"), _named("switch position")),
+    EventRule("armed", "armed", lambda t: t.flag("armed"), _armed),
     _flag("failsafe", "failsafe", "arduino.failsafe", True,
           "failsafe: the board flies without a receiver", "the failsafe is over", ALARM),
     _flag("receiver", "failsafe", "arduino.receiver_valid", False,
           "the receiver is lost", "the receiver is back"),
     _flag("imu", "source", "arduino.imu_valid", False,
           "the IMU is invalid: nothing stabilises", "the IMU is valid", ALARM),
-    Fact("restored", "source", lambda t: t.flag("arduino", "restored"), _restored),
+    EventRule("restored", "source", lambda t: t.flag("arduino", "restored"), _restored),
     _part("board", board_state, "back", ALARM),
     _part("phone", phone_state, "here again", WARNING),
-    Fact("competitor", "source", lambda t: t.text("android", "competitor"),
+    EventRule("competitor", "source", lambda t: t.text("android", "competitor"),
          lambda _, now: (WARNING, f"another phone, {now}, is refused: one is connected")),
-    Fact("panic", "panic", _read_busy, _busy),
-    Fact("vetoes", "veto", _read_vetoes, _vetoes),
-    Fact("role", "link", lambda t: t.text("ground", "role", limit=12), _role),
+    EventRule("panic", "panic", _read_busy, _busy),
+    EventRule("vetoes", "veto", _read_vetoes, _vetoes),
+    EventRule("role", "link", lambda t: t.text("ground", "role", limit=12), _role),
     *(_source(each) for each in ("orientation", "location", "altitude", "heading", "battery")),
 )  # fmt: skip
 
 
-OVER_S = 2.0
+ALARM_HOLD_S = 2.0
 """An alarm ends when its cause has been away for this time."""
 BATTERY_LOW = 20.0
 BATTERY_EMPTY = 10.0
@@ -184,7 +184,7 @@ class Alarm:
 
 
 @dataclass(frozen=True, slots=True)
-class LinkFacts:
+class LinkSnapshot:
     """State of the link at a moment; None: not known."""
 
     is_open: bool
@@ -197,16 +197,16 @@ class LinkFacts:
 
 
 class Alarms:
-    """The active alarms. One begins immediately and ends ``over_s`` after its cause."""
+    """The active alarms. One begins immediately and ends ``hold_s`` after its cause."""
 
-    def __init__(self, over_s: float = OVER_S) -> None:
-        self._over_s = over_s
+    def __init__(self, hold_s: float = ALARM_HOLD_S) -> None:
+        self._over_s = hold_s
         self._had_board = False
         self.active: tuple[Alarm, ...] = ()
         self._seen_s: dict[str, float] = {}
         self._known: dict[str, Alarm] = {}
 
-    def take(self, telemetry: Telemetry, link: LinkFacts, now_s: float) -> bool:
+    def update(self, telemetry: Telemetry, link: LinkSnapshot, now_s: float) -> bool:
         """Update to this moment; return whether the alarms changed."""
         self._had_board = self._had_board or board_state(telemetry) is True
         wrong = _wrong(telemetry, link, "battery" in self._known, self._had_board)
@@ -232,7 +232,7 @@ class Alarms:
         }
 
 
-def _wrong(telemetry: Telemetry, link: LinkFacts, was_low: bool, had_board: bool) -> list[Alarm]:
+def _wrong(telemetry: Telemetry, link: LinkSnapshot, was_low: bool, had_board: bool) -> list[Alarm]:
     found: list[Alarm] = []
     if link.was_heard and link.is_silent:
         found.append(Alarm("silent", ALARM, _silence(link)))
@@ -260,7 +260,7 @@ def _wrong(telemetry: Telemetry, link: LinkFacts, was_low: bool, had_board: bool
     return found
 
 
-def _silence(link: LinkFacts) -> str:
+def _silence(link: LinkSnapshot) -> str:
     if not link.is_open:
         return f"no link: {link.reason}"[:300] if link.reason else "no link"
     if link.is_aircraft_online is False:

@@ -70,8 +70,8 @@ class FrameMessage:
         return text_frame(b'%b%.1f,"sent_ms":%.1f}' % (self._body, age_ms, sent_ms))
 
 
-LONGEST_MESSAGE = 65536
-_LARGEST = 2**53
+MAX_MESSAGE_BYTES = 65536
+_MAX_WHOLE = 2**53
 
 
 class PageFault(ValueError):  # noqa: N818 - what the page did, the protocol's word
@@ -112,7 +112,7 @@ class Reader:
             return None
         if type(found) is float and found.is_integer():
             found = int(found)
-        if type(found) is not int or not -_LARGEST < found < _LARGEST:
+        if type(found) is not int or not -_MAX_WHOLE < found < _MAX_WHOLE:
             raise PageFault(f"{key} is no whole number")
         return found
 
@@ -143,7 +143,7 @@ class Reader:
 def read_message(payload: bytes) -> tuple[str, Reader]:
     """Return a message's type and its fields; raises PageFault."""
     try:
-        fields = decode_object(payload, LONGEST_MESSAGE)
+        fields = decode_object(payload, MAX_MESSAGE_BYTES)
     except MalformedMessage as error:
         raise PageFault(error.reason) from None
     reader = Reader(fields)

@@ -16,8 +16,8 @@ from up_ground.catalogue import Catalogue
 from up_ground.settings import Seat, Settings
 from up_ground.token_store import TokenStore, state_folder
 from up_ground.web.access import Access, machine_names
-from up_ground.web.aircraft_session import Station
-from up_ground.web.aircraft_source import Audience, WatchedAircraft
+from up_ground.web.aircraft_session import AircraftSession
+from up_ground.web.aircraft_source import AircraftSource, Subscribers
 from up_ground.web.command_checks import Checks
 from up_ground.web.listen_address import ListenAddress, parse_listen
 from up_ground.web.tile_cache import TileCache, cache_folder
@@ -102,7 +102,7 @@ class PageOptions:
         access = Access(machine_names(options.name or ()), key, options.watch_only)
         return cls(listen, access, _tiles_of(options.tiles, environ), options.attribution)
 
-    def server(self, reactor: Any, make_fleet: Any, **more: Any) -> Any:
+    def server(self, reactor: Any, make_sources: Any, **more: Any) -> Any:
         """Return the server."""
         server = importlib.import_module("up_ground.web.server")
         tiles = None if self.make_tiles is None else self.make_tiles(reactor)
@@ -110,7 +110,7 @@ class PageOptions:
             reactor,
             self.listen,
             self.access,
-            make_fleet,
+            make_sources,
             tiles=tiles,
             attribution=self.attribution,
             **more,
@@ -132,15 +132,15 @@ def _tiles_of(source: str, environ: Mapping[str, str]) -> MakeTiles | None:
     return lambda reactor: TileSource(reactor, source, cache)
 
 
-def make_stations(
+def make_sessions(
     reactor: Any,
     chosen: Iterable[Settings],
     environ: Mapping[str, str],
-    audience: Audience,
+    subscribers: Subscribers,
     catalogue: Catalogue,
-) -> Iterable[WatchedAircraft]:
+) -> Iterable[AircraftSource]:
     """Yield an aircraft for each of the settings."""
     checks = Checks(catalogue)
     for settings in chosen:
         tokens = TokenStore(state_folder(environ), settings)
-        yield Station(reactor, settings.aircraft, settings, tokens, checks, audience)
+        yield AircraftSession(reactor, settings.aircraft, settings, tokens, checks, subscribers)

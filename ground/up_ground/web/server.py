@@ -9,10 +9,10 @@ from typing import Any
 from twisted.internet.error import CannotListenError
 
 from up_ground.catalogue import Catalogue, catalogue_message
-from up_ground.one_shot_task import EXIT_DONE, EXIT_NO_ANSWER, Errand, Say
+from up_ground.one_shot_task import EXIT_DONE, EXIT_NO_ANSWER, Echo, OneShotTask
 from up_ground.web.access import Access
-from up_ground.web.aircraft_source import Audience, WatchedAircraft
-from up_ground.web.client_hub import Pages
+from up_ground.web.aircraft_source import AircraftSource, Subscribers
+from up_ground.web.client_hub import ClientHub
 from up_ground.web.connections import Connections
 from up_ground.web.listen_address import ListenAddress, authority
 from up_ground.web.page_link import link_resource
@@ -21,10 +21,10 @@ from up_ground.web.static_files import StaticFiles
 
 STATIC = Path(__file__).with_name("static")
 
-MakeFleet = Callable[[Audience], Iterable[WatchedAircraft]]
+MakeSources = Callable[[Subscribers], Iterable[AircraftSource]]
 
 
-class Server(Errand):
+class Server(OneShotTask):
     """Serves until it is interrupted; an aircraft or a proxy that is not there is waited for."""
 
     def __init__(
@@ -32,24 +32,24 @@ class Server(Errand):
         reactor: Any,
         listen: ListenAddress,
         access: Access,
-        make_fleet: MakeFleet,
+        make_sources: MakeSources,
         *,
-        say: Say,
-        complain: Say,
+        echo: Echo,
+        print_error: Echo,
         tiles: Tiles | None = None,
         attribution: str = "",
         catalogue: Catalogue | None = None,
         is_replay: bool = False,
         folder: Path = STATIC,
     ) -> None:
-        super().__init__(say, complain)
+        super().__init__(echo, print_error)
         told = None
         if tiles is not None:
             told = {"url": "/tiles/{z}/{x}/{y}", "attribution": attribution}
         # Without Commands there is nothing to offer.
         offered = None if catalogue is None else catalogue_message(catalogue)
-        self.pages = Pages(reactor, access, tiles=told, catalogue=offered, is_replay=is_replay)
-        for aircraft in make_fleet(self.pages):
+        self.pages = ClientHub(reactor, access, tiles=told, catalogue=offered, is_replay=is_replay)
+        for aircraft in make_sources(self.pages):
             self.pages.fleet[aircraft.name] = aircraft
         self._reactor = reactor
         self._listen = listen
@@ -68,14 +68,14 @@ class Server(Errand):
             self._port = self._reactor.listenTCP(listen.port, self._factory, interface=listen.host)
         except CannotListenError as error:
             reason = getattr(error.socketError, "strerror", None) or error.socketError
-            self.complain(
+            self.print_error(
                 f"{authority(listen.host or '0.0.0.0', listen.port)} cannot be opened: {reason}"
                 " (--listen ADDRESS:PORT names another)"
             )
             self.finish(EXIT_NO_ANSWER)
             return
         for line in self._words(self._port.getHost().port):
-            self.say(line)
+            self.echo(line)
         self.pages.start()
         for aircraft in self.pages.fleet.values():
             aircraft.start()

@@ -28,7 +28,7 @@ class _Client(WebSocketClientProtocol):
 
 
 class Page:
-    """Keeps its received messages; `say` sends, the coroutines wait."""
+    """Keeps its received messages; `send` sends, the coroutines wait."""
 
     def __init__(self, port, origin=None, host="127.0.0.1"):
         self.port, self.told = port, []
@@ -51,16 +51,16 @@ class Page:
     async def hello(self, name="test", watch="default", **more):
         """Open the link, send the hello and watch; return the welcome."""
         await self.open()
-        self.say("hello", name=name, **more)
+        self.send("hello", name=name, **more)
         welcome = await self.next("welcome")
         if watch:
-            self.say("watch", aircraft=watch)
+            self.send("watch", aircraft=watch)
         return welcome
 
     def take(self, payload):
         self.told.append(json.loads(payload))
 
-    def say(self, kind, **fields):
+    def send(self, kind, **fields):
         self.raw(json.dumps({"type": kind, **fields}))
 
     def raw(self, text):
@@ -96,7 +96,7 @@ class Page:
             more["beacon"] = await self.beacon()
         self.asks += 1
         ask = self.asks
-        self.say("command", ask=ask, aircraft=aircraft, name=name, data=data or {}, **more)
+        self.send("command", ask=ask, aircraft=aircraft, name=name, data=data or {}, **more)
         return await self.next("answer", lambda each: each["ask"] == ask)
 
     async def beacon(self):
@@ -109,7 +109,7 @@ class Page:
         return self.newest("frame")["beacon"]
 
     async def control(self):
-        self.say("control", aircraft="default", action="request")
+        self.send("control", aircraft="default", action="request")
         return await self.status(lambda each: each["control"]["holder"] == "you")
 
     async def leave(self):

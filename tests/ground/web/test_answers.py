@@ -16,10 +16,10 @@ class Bench:
         return self.answers.expect(name, data or {}, self.heard.append)
 
     def ack(self, id_):
-        self.answers.take(GeneralMessage("up.ack", {"id": id_}))
+        self.answers.on_message(GeneralMessage("up.ack", {"id": id_}))
 
     def nack(self, id_, **more):
-        self.answers.take(GeneralMessage("up.nack", {"id": id_, **more}))
+        self.answers.on_message(GeneralMessage("up.nack", {"id": id_, **more}))
 
 
 @pytest.fixture
@@ -64,7 +64,7 @@ def test_answers_to_others_are_none(bench, id_):
     bench.expect()
     bench.ack(id_)
     bench.nack(id_)
-    bench.answers.take(GeneralMessage("up.ack", {}))
+    bench.answers.on_message(GeneralMessage("up.ack", {}))
     assert bench.heard == []
 
 
@@ -78,13 +78,13 @@ def test_what_was_asked_for_comes_with_the_answer(bench, order):
     id_ = bench.expect("arduino.pids.tunings", {"request": True})
     values = GeneralMessage("arduino.pids.values", {"ratePIDs": {}})
     if order == "values first":
-        bench.answers.take(values)
+        bench.answers.on_message(values)
         assert bench.heard == []
         bench.ack(id_)
     else:
         bench.ack(id_)
         assert bench.heard == []
-        bench.answers.take(values)
+        bench.answers.on_message(values)
     assert bench.heard[0].data == {"ratePIDs": {}}
 
 
@@ -102,7 +102,7 @@ def test_a_set_of_gains_waits_for_no_values(bench):
 
 def test_a_lost_link_leaves_it_unknown(bench):
     bench.expect()
-    bench.answers.lost()
+    bench.answers.on_link_lost()
     assert bench.heard[0].outcome == "timeout"
     assert "link was lost" in bench.heard[0].reason
     assert len(bench.answers) == 0

@@ -30,7 +30,7 @@ AFTER = {"ratePIDs": {"ailerons": {"p": 2.4, "i": 0.0, "d": 0.0}}}
             "command",
             "page 2: Telemetry every 100 ms carried out",
         ),
-        ("android.speak", {"text": "{0.x}_"}, ACK, "command", 'page 2: Say "{0.x}_" carried out'),
+        ("android.speak", {"text": "{0.x}_"}, ACK, "command", 'page 2: Echo "{0.x}_" carried out'),
         ("a.cog", {"text": 1}, ACK, "command", "page 2: a.cog carried out"),
         (
             "arduino.pids.tunings",

@@ -5,7 +5,7 @@ from twisted.internet.task import Clock
 
 from up.protocols.general_message import GeneralMessage
 from up_ground.telemetry import Telemetry
-from up_ground.web.command_checks import KEPT, HeardBeacons
+from up_ground.web.command_checks import KEPT, RecentBeacons
 
 NAME = "up.flight_mode.set"
 
@@ -13,15 +13,15 @@ NAME = "up.flight_mode.set"
 class Desk:
     def __init__(self):
         self.clock, self.telemetry = Clock(), Telemetry()
-        self.heard = HeardBeacons(self.clock, self.telemetry)
+        self.recent = RecentBeacons(self.clock, self.telemetry)
 
     def frame(self, beacon, **system):
         message = GeneralMessage("up.telemetry.update", {"system": system}, None, beacon)
-        self.telemetry.take(message, self.clock.seconds())
-        self.heard.look()
+        self.telemetry.update(message, self.clock.seconds())
+        self.recent.poll()
 
     def code(self, beacon):
-        fault = self.heard.fault(NAME, beacon)
+        fault = self.recent.fault(NAME, beacon)
         return fault and fault[0]
 
 
@@ -41,7 +41,7 @@ def test_a_beacon_counts_for_two_seconds(desk):
     desk.frame(101)
     for _ in range(50):
         # Time passes without a frame: a second look is not a new frame.
-        desk.heard.look()
+        desk.recent.poll()
     codes = [desk.code(each) for each in (99, 100, 101, 102)]
     assert codes == ["stale", None, None, "unknown_beacon"]
     desk.clock.advance(1.0)

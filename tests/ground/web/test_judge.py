@@ -7,16 +7,16 @@ import pytest
 from tests.ground.aircraft import frame
 from up.protocols.general_message import GeneralMessage
 from up_ground.telemetry import NAME, Telemetry
-from up_ground.web.event_monitor import EVENTS_KEPT, Judge
-from up_ground.web.event_rules import LinkFacts
+from up_ground.web.event_monitor import EVENTS_KEPT, EventMonitor
+from up_ground.web.event_rules import LinkSnapshot
 
-QUIET = LinkFacts(True, "", True, True, False)
+QUIET = LinkSnapshot(True, "", True, True, False)
 
 
 class Bench:
     def __init__(self):
         self.told, self.now_s, self.telemetry = [], 100.0, Telemetry()
-        self.judge = Judge("kite", self.told.append)
+        self.monitor = EventMonitor("kite", self.told.append)
         self.data = frame()
         self.data["arduino"] |= {"receiver_valid": True, "imu_valid": True}
 
@@ -29,14 +29,14 @@ class Bench:
                 place = place[step]
             place[steps[-1]] = value
         message = GeneralMessage(NAME, copy.deepcopy(self.data))
-        self.telemetry.take(message, self.now_s)
-        self.judge.on_frame(self.telemetry, QUIET, self.now_s)
+        self.telemetry.update(message, self.now_s)
+        self.monitor.on_frame(self.telemetry, QUIET, self.now_s)
         return self
 
     def wait(self, for_s, link=QUIET):
         for _ in range(round(for_s / 0.25)):
             self.now_s += 0.25
-            self.judge.on_moment(self.telemetry, link, self.now_s)
+            self.monitor.on_moment(self.telemetry, link, self.now_s)
         return self
 
     @property
@@ -140,7 +140,7 @@ def test_a_battery_that_wavers_is_one_alarm(bench):
 
 
 def test_silence_is_an_alarm_and_news_end_it(bench):
-    silent = LinkFacts(True, "", True, True, True)
+    silent = LinkSnapshot(True, "", True, True, True)
     bench.wait(0.25, silent)
     assert bench.alarms == [["silent"]]
     bench.wait(60, silent)
@@ -152,7 +152,7 @@ def test_silence_is_an_alarm_and_news_end_it(bench):
 
 def test_nothing_was_ever_heard_is_no_silence():
     bench = Bench()
-    bench.wait(5, LinkFacts(True, "", False, False, True))
+    bench.wait(5, LinkSnapshot(True, "", False, False, True))
     assert bench.told == []
 
 
@@ -168,9 +168,9 @@ def test_a_link_that_flaps_is_no_flood(bench):
     for number in range(3000):
         is_open = number % 2 == 0
         bench.now_s += 0.3
-        link = LinkFacts(is_open, "reset", True if is_open else None, True, not is_open)
-        bench.judge.on_link(link, bench.now_s)
-        bench.judge.on_moment(bench.telemetry, link, bench.now_s)
+        link = LinkSnapshot(is_open, "reset", True if is_open else None, True, not is_open)
+        bench.monitor.on_link(link, bench.now_s)
+        bench.monitor.on_moment(bench.telemetry, link, bench.now_s)
     assert 2 <= len(bench.texts) <= 60
     assert len(bench.alarms) <= 4
 
@@ -185,7 +185,7 @@ def test_a_flap_ends_with_what_is_true(bench):
 def test_who_comes_later_hears_what_was_and_how_long_ago(bench):
     bench.see(armed=True)
     bench.wait(10)
-    event, alarms = bench.judge.past(bench.now_s)
+    event, alarms = bench.monitor.past(bench.now_s)
     assert event["is_past"] is True
     assert event["age_ms"] == 10_000
     assert alarms["active"] == []
@@ -193,14 +193,14 @@ def test_who_comes_later_hears_what_was_and_how_long_ago(bench):
 
 def test_the_past_is_bounded(bench):
     for number in range(1000):
-        bench.judge.note("mark", "info", f"{number}", bench.now_s)
-    past = list(bench.judge.past(bench.now_s))
+        bench.monitor.report("mark", "info", f"{number}", bench.now_s)
+    past = list(bench.monitor.past(bench.now_s))
     assert len(past) == EVENTS_KEPT + 1
     assert past[-2]["number"] == 1000
 
 
 def test_telemetry_that_comes_too_late_is_an_alarm(bench):
-    late = LinkFacts(True, "", True, True, True, is_late=True)
+    late = LinkSnapshot(True, "", True, True, True, is_late=True)
     bench.wait(0.25, late)
     assert bench.texts == ["telemetry comes too late"]
     (alarm,) = [each["active"] for each in bench.told if each["type"] == "alarms"][-1]

@@ -1,6 +1,6 @@
 """What waits for a page: never an old frame, never without bound."""
 
-from up_ground.web.page_link import PENDING_LIMIT, PageOutput
+from up_ground.web.page_link import PENDING_LIMIT, PageSendBuffer
 
 
 class Transport:
@@ -26,7 +26,7 @@ class Transport:
 class Bench:
     def __init__(self):
         self.transport, self.overruns = Transport(), 0
-        self.output = PageOutput(self.on_overrun)
+        self.output = PageSendBuffer(self.on_overrun)
         self.output.start(self.transport)
         self.transport.drain()
 

@@ -9,12 +9,12 @@ from twisted.internet.task import Clock
 
 from up_ground.web.access import (
     ADDRESSES_KEPT,
-    ATTEMPTS_MOST,
     ATTEMPTS_RATE_HZ,
+    MAX_ATTEMPTS,
     Access,
     KeyAttempts,
 )
-from up_ground.web.client_hub import FAULTS_LIMIT, GREETING_LIMIT, HELLO_S, KEPT_S, Pages
+from up_ground.web.client_hub import FAULTS_LIMIT, GREETING_LIMIT, HELLO_S, KEPT_S, ClientHub
 from up_ground.web.client_session import PAGES_LIMIT, WATCHERS_LIMIT
 from up_ground.web.messages import PageFault, read_message
 
@@ -29,7 +29,7 @@ class Output:
     def send_newest(self, kind, make):
         self.sent.append(make())
 
-    def forget(self, kind):
+    def discard(self, kind):
         pass
 
 
@@ -46,8 +46,8 @@ class Link:
     def close(self, code, reason):
         self.closed = (code, reason)
 
-    def is_alive(self, within_s, tell):
-        tell(self.alive)
+    def is_alive(self, within_s, notify):
+        notify(self.alive)
 
     @property
     def told(self):
@@ -102,7 +102,7 @@ class Kite:
 class Bench:
     def __init__(self, **access):
         self.clock = Clock()
-        self.pages = Pages(self.clock, Access(**access))
+        self.pages = ClientHub(self.clock, Access(**access))
         self.kite = Kite()
         self.pages.fleet["kite"] = self.kite
 
@@ -110,11 +110,11 @@ class Bench:
         link = Link(host)
         self.pages.on_opened(link)
         if hello:
-            self.say(link, type="hello", name="Ann", **more)
+            self.send(link, type="hello", name="Ann", **more)
         return link
 
-    def say(self, link, **fields):
-        self.pages.on_said(link, json.dumps(fields).encode())
+    def send(self, link, **fields):
+        self.pages.on_message(link, json.dumps(fields).encode())
 
 
 @pytest.fixture
@@ -124,18 +124,18 @@ def bench():
 
 def test_hello_comes_first(bench):
     link = bench.open(hello=False)
-    bench.say(link, type="watch", aircraft="kite")
+    bench.send(link, type="watch", aircraft="kite")
     assert link.told[0]["type"] == "fault"
     assert bench.kite.heard == []
-    bench.say(link, type="hello", name="Ann")
+    bench.send(link, type="hello", name="Ann")
     assert link.kinds()[1:] == ["welcome", "status"]
-    bench.say(link, type="hello", name="Ann")
+    bench.send(link, type="hello", name="Ann")
     assert link.told[-1]["text"] == "hello was said already"
 
 
 def test_who_says_no_hello_is_closed(bench):
     link = bench.open(hello=False)
-    bench.say(link, type="ping", ping=1)
+    bench.send(link, type="ping", ping=1)
     bench.clock.advance(HELLO_S)
     assert link.closed[1] == "no hello"
 
@@ -178,7 +178,7 @@ def test_who_says_no_hello_is_closed(bench):
 def test_nonsense_is_a_fault_and_nothing_else(bench, payload):
     link = bench.open()
     before = len(link.told)
-    bench.pages.on_said(link, payload)
+    bench.pages.on_message(link, payload)
     (fault,) = link.told[before:]
     assert fault["type"] == "fault"
     assert 3 < len(fault["text"]) <= 300
@@ -189,19 +189,19 @@ def test_too_much_nonsense_ends_it(bench):
     link = bench.open()
     for _ in range(FAULTS_LIMIT):
         assert link.closed is None
-        bench.pages.on_said(link, b"nonsense")
+        bench.pages.on_message(link, b"nonsense")
     assert link.closed == (4008, "too many faults")
 
 
 def test_a_flood_ends_it(bench):
     link = bench.open()
     for _ in range(1000):
-        bench.say(link, type="ping", ping=1)
+        bench.send(link, type="ping", ping=1)
     assert link.closed == (4008, "too many messages")
     other = bench.open()
     for _ in range(3000):
         bench.clock.advance(0.02)
-        bench.say(other, type="ping", ping=1)
+        bench.send(other, type="ping", ping=1)
     assert other.closed is None
 
 
@@ -225,7 +225,7 @@ def test_whatever_a_page_says_is_answered_or_done(said):
     bench = Bench(key="the-right-key")
     link = bench.open()
     for kind, fields in said:
-        bench.pages.on_said(link, json.dumps({**fields, "type": kind}).encode())
+        bench.pages.on_message(link, json.dumps({**fields, "type": kind}).encode())
     assert link.closed is None
     for message in link.told:
         json.dumps(message, allow_nan=False)
@@ -277,7 +277,7 @@ def test_a_wrong_token_is_a_new_page(bench):
 
 def test_names_are_made_harmless(bench):
     link = bench.open(hello=False)
-    bench.say(link, type="hello", name=" <b>\u202e\n\x00" + "x" * 150)
+    bench.send(link, type="hello", name=" <b>\u202e\n\x00" + "x" * 150)
     name = link.told[0]["name"]
     assert name.isprintable()
     assert len(name) <= 40
@@ -341,7 +341,7 @@ def test_wrong_keys_are_limited_by_address():
         return link.told[0]["why_not"]
 
     pilot = bench.open(key="the-right-key", host="2001:db8::1")
-    for number in range(ATTEMPTS_MOST):
+    for number in range(MAX_ATTEMPTS):
         # One network of IPv6 is one address.
         assert "wrong" in why_not(f"guess-{number}", f"2001:db8::{number + 1:x}")
     assert why_not("guess", "2001:db8::99") == limited
@@ -358,7 +358,7 @@ def test_wrong_keys_are_limited_by_address():
 
 def test_right_keys_of_one_address_use_nothing_up():
     bench = Bench(key="the-right-key")
-    for _ in range(3 * ATTEMPTS_MOST):
+    for _ in range(3 * MAX_ATTEMPTS):
         link = bench.open(key="the-right-key")
         assert link.told[0]["may_control"]
         bench.pages.on_closed(link)
@@ -368,7 +368,7 @@ def test_right_keys_of_one_address_use_nothing_up():
 def test_a_wrong_key_by_the_token_of_a_watcher_is_an_attempt_too():
     bench = Bench(key="the-right-key")
     link = bench.open()
-    for _ in range(ATTEMPTS_MOST + 1):
+    for _ in range(MAX_ATTEMPTS + 1):
         bench.pages.on_closed(link)
         link = bench.open(key="guess", token=link.told[0]["token"])
     assert "too many wrong keys" in link.told[0]["why_not"]
@@ -384,7 +384,7 @@ def test_addresses_without_end_take_no_memory_without_end():
 def test_links_that_say_nothing_keep_nobody_out(bench):
     silent = [bench.open(hello=False) for _ in range(GREETING_LIMIT)]
     assert bench.open().kinds()[0] == "welcome"
-    assert silent[0].closed == (4013, "too many pages say no hello")
+    assert silent[0].closed == (4013, "too many pages send no hello")
     assert silent[1].closed is None
     bench.pages.on_closed(silent[0])
     for link in silent[1:]:

@@ -8,11 +8,11 @@ from tests.support.reactor import until as soon
 def test_a_page_asks_another_for_control(aircraft, server):
     async def fly(first, second):
         await first.control()
-        second.say("control", aircraft="default", action="request")
+        second.send("control", aircraft="default", action="request")
         status = await first.status(lambda each: each["control"]["asks_you"])
         assert status["control"]["asked_by"]["name"] == "second"
         assert [each["name"] for each in status["control"]["pages"]] == ["first", "second"]
-        first.say("control", aircraft="default", action="give")
+        first.send("control", aircraft="default", action="give")
         await second.status(lambda each: each["control"]["holder"] == "you")
         status = await first.status(lambda each: each["control"]["holder"] == "page")
         assert status["control"]["holder_name"] == "second"
@@ -26,7 +26,7 @@ def test_a_page_that_vanishes_keeps_control_for_a_moment(aircraft, server):
         await page.control()
         token = page.newest("welcome")["token"]
         await page.leave()
-        other.say("control", aircraft="default", action="request")
+        other.send("control", aircraft="default", action="request")
         again = Page(server.port)
         welcome = await again.hello("pilot", token=token)
         assert welcome["page"] == page.newest("welcome")["page"]
@@ -56,7 +56,7 @@ def test_a_doubled_tab_is_another_page(aircraft, server):
 def test_the_seat_is_free_when_no_page_wants_it(aircraft, server, proxy, tmp_path):
     async def fly(page):
         await page.control()
-        page.say("control", aircraft="default", action="release")
+        page.send("control", aircraft="default", action="release")
         await page.status(lambda each: each["control"]["holder"] == "nobody")
 
     assert ground(tmp_path / "a", proxy.ground_port, "send", MODE, "mode=FBW")[0] == 0
@@ -67,7 +67,7 @@ def test_the_seat_is_free_when_no_page_wants_it(aircraft, server, proxy, tmp_pat
 
 def test_two_grounds_ask_each_other(aircraft, server, proxy, tmp_path):
     async def fly(page):
-        page.say("control", aircraft="default", action="request")
+        page.send("control", aircraft="default", action="request")
         status = await page.status(lambda each: each["control"]["asked_by"])
         assert status["control"]["asked_by"]["name"] == "pilot"
         assert status["control"]["holder"] == "ground"
@@ -81,7 +81,7 @@ def test_two_grounds_ask_each_other(aircraft, server, proxy, tmp_path):
         with Ground(tmp_path / "c", proxy.ground_port, "seat", "request") as asking:
             status = await page.status(lambda each: each["control"]["asks_you"])
             assert status["control"]["asked_by"]["page"] is None
-            page.say("control", aircraft="default", action="give")
+            page.send("control", aircraft="default", action="give")
             await soon(lambda: "commands now" in asking.said)
 
     with Ground(tmp_path / "b", proxy.ground_port, "watch", "--seat", "command") as other:

@@ -19,7 +19,7 @@ def test_who_has_no_key_only_watches(aircraft, proxy, tmp_path, arguments):
             assert page.newest("welcome")["may_control"] is False
             assert "key" in page.newest("welcome")["why_not"]
             await page.next("frame")
-            page.say("control", aircraft="default", action="request")
+            page.send("control", aircraft="default", action="request")
             assert "only watch" in (await page.next("fault"))["text"]
             answer = await page.command(MODE, FBW)
             assert answer["code"] == "no_control"
@@ -40,7 +40,7 @@ def test_who_has_the_key_gets_in_where_watchers_have_filled_the_house(proxy, tmp
 
         async def look(*watchers):
             late = await Page(server.port).open()
-            late.say("hello", name="late")
+            late.send("hello", name="late")
             await soon(lambda: late.is_closed, what="the end of a page too many")
             assert (late.code, late.why) == (4013, "too many pages are open")
             pilot = Page(server.port)
@@ -56,7 +56,7 @@ def test_watch_only_is_for_everybody(aircraft, proxy, tmp_path):
 
         async def look(page):
             assert page.newest("welcome")["may_control"] is False
-            page.say("control", aircraft="default", action="request")
+            page.send("control", aircraft="default", action="request")
             assert "--watch-only" in (await page.next("fault"))["text"]
 
         with_pages(server, look, "guest")
@@ -74,7 +74,7 @@ def test_an_interrupt_ends_it_without_a_word(aircraft, proxy, tmp_path, number):
 
         with_pages(server, look, "pilot")
         assert server.wait() == 0
-        assert server.complained == ""
+        assert server.stderr == ""
     # The seat was left: no page waits for it.
     assert ground(tmp_path / "b", proxy.ground_port, "send", MODE, "mode=FBW")[0] == 0
 
@@ -96,17 +96,17 @@ def test_an_interrupt_ends_it_without_a_word(aircraft, proxy, tmp_path, number):
     ],
 )
 def test_mistakes_in_the_command_line_are_one_sentence(tmp_path, arguments, sentence):
-    status, said, complained = ground(tmp_path, 1, "serve", *arguments)
+    status, said, stderr = ground(tmp_path, 1, "serve", *arguments)
     assert status in (2, 3)
     assert said == ""
-    assert sentence in complained
+    assert sentence in stderr
 
 
 def test_a_port_that_is_taken_is_a_sentence(server, tmp_path):
     listen = f"127.0.0.1:{server.port}"
-    status, _, complained = ground(tmp_path, 1, "serve", "--listen", listen)
+    status, _, stderr = ground(tmp_path, 1, "serve", "--listen", listen)
     assert status == 3
-    assert complained == (
+    assert stderr == (
         f"up-ground: {listen} cannot be opened: Address already in use"
         " (--listen ADDRESS:PORT names another)\n"
     )
