@@ -19,6 +19,8 @@ from up.commands.roles import Role
 
 # An aircraft answers with them; a ground has nothing to answer.
 _ANSWERS = ("up.ack", "up.nack")
+GAINS = "arduino.pids.tunings"
+_CONTENT_OF = {GAINS: "arduino.pids.values", "arduino.profile.request": "arduino.profile.values"}
 _GROUND_ROLES = (Role.OBSERVER, Role.OPERATOR, Role.PILOT, Role.ADMIN)
 
 
@@ -96,6 +98,12 @@ def about(cls: type[BaseCommand]) -> str:
 def wire_name(field: dataclasses.Field[Any]) -> str:
     """Return a field's name on the wire."""
     return str(field.metadata.get("key") or field.name)
+
+
+def requested_content(name: str, data: Mapping[str, Any]) -> str:
+    """Return the message that a Command requests besides its ack; empty: none."""
+    is_request = name != GAINS or data.get("request") is True
+    return _CONTENT_OF.get(name, "") if is_request else ""
 
 
 def fault_of(cls: type[BaseCommand], data: Mapping[str, Any]) -> str:

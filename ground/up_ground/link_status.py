@@ -29,6 +29,8 @@ class LinkStatus:
     since_s: float = 0.0
     reason: str = ""
     """Why the link is down, one sentence."""
+    code: str = ""
+    """The code of ``reason``: unreachable, no_proxy, no_hello_answer, rejected, lost, ..."""
     rejection: str = ""
     """The code with which the proxy refused the hello."""
     seat: Seat | None = None
@@ -58,11 +60,14 @@ class LinkStatus:
         """Return how many lines were dropped."""
         return self.malformed + self.too_long + self.strange_control
 
-    def disconnected(self, state: LinkState, now_s: float, reason: str = "") -> None:
+    def disconnected(
+        self, state: LinkState, now_s: float, reason: str = "", code: str = ""
+    ) -> None:
         """Reset the fields that only a connection can fill."""
         self.state = state
         self.since_s = now_s
         self.reason = reason
+        self.code = code
         self.seat = self.holder = self.asked_by = self.is_aircraft_online = None
         self.is_holder_known = False
         self.round_trip_ms = None

@@ -16,7 +16,7 @@ from up_ground.panels import (
 from up_ground.sanitize_text import sanitize_text
 from up_ground.screen_buffer import PanelWriter, ScreenBuffer, Style
 from up_ground.settings import Seat, Settings
-from up_ground.status_text import age_text, flag_text, link_text, number_text, seat_text
+from up_ground.status_text import age_text, control_text, flag_text, link_text, number_text
 from up_ground.telemetry import Telemetry
 
 PITCH_RANGE_DEG = 60.0
@@ -108,7 +108,7 @@ def _draw_header(screen: ScreenBuffer, state: State, now_s: float) -> None:
     words = f" {settings.aircraft} at {settings.address}  {link_text(status, now_s)}"
     column = screen.put(0, 0, sanitize_text(words), Style.HEADER)
     if status.is_open and not settings.direct:
-        screen.put(0, column, f"  seat {seat_text(status)}", Style.HEADER)
+        screen.put(0, column, f"  control {control_text(status)}", Style.HEADER)
     online = flag_text(status.is_aircraft_online, "online", "offline")
     is_silent = telemetry.is_silent(now_s)
     style = Style.PLAIN
@@ -183,7 +183,7 @@ def _draw_footer(screen: ScreenBuffer, state: State) -> None:
         screen.put(row, 1, sanitize_text(status.reason), Style.BAD)
         return
     if status.seat is Seat.COMMAND and status.asked_by is not None:
-        text = f"ground {status.asked_by} asks for the seat: press g to hand it over"
+        text = f"ground {status.asked_by} requests control: press g to hand it over"
         screen.put(row, 1, text, Style.WARNING)
         return
     column = screen.put(row, 1, sanitize_text(state.keys), Style.DIM)

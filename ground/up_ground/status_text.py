@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from up_ground.link_status import LinkState, LinkStatus
+from up_ground.settings import Seat
 from up_ground.telemetry import Telemetry
 
 UNKNOWN = "--"
@@ -43,14 +44,15 @@ def busy_text(telemetry: Telemetry) -> str:
     return f"Raspberry Pi busy ({percent} %): telemetry every {number_text(period_ms, 0)} ms"
 
 
-def seat_text(status: LinkStatus) -> str:
-    """Return this ground's seat and the number of the ground that commands."""
+def control_text(status: LinkStatus) -> str:
+    """Return the owner of control: ours, free, or the number of a ground."""
     if status.seat is None:
         return UNKNOWN
-    if status.seat.value == "command" or not status.is_holder_known:
-        return status.seat.value
-    holder = "nobody commands" if status.holder is None else f"ground {status.holder} commands"
-    return f"listen ({holder})"
+    if status.seat is Seat.COMMAND:
+        return "ours"
+    if not status.is_holder_known:
+        return "not ours"
+    return "free" if status.holder is None else f"ground {status.holder}"
 
 
 def link_text(status: LinkStatus, now_s: float) -> str:
@@ -67,7 +69,7 @@ def plain_line(status: LinkStatus, telemetry: Telemetry, now_s: float) -> str:
         return f"{link}: {status.reason}"
     online = flag_text(status.is_aircraft_online, "online", "offline")
     age = age_text(telemetry.age_s(now_s))
-    parts = [link, f"seat {seat_text(status)}", f"aircraft {online}", f"age {age}"]
+    parts = [link, f"control {control_text(status)}", f"aircraft {online}", f"age {age}"]
     if telemetry.is_silent(now_s):
         return " | ".join([*parts, "silent"])
     orientation = [_fresh(telemetry, now_s, "orientation", name) for name in _AXES]

@@ -35,7 +35,7 @@ def run(options: argparse.Namespace) -> int:
     if not log.topics:
         raise CliError(f"{printable(paths[0].name)} holds no message", EXIT_USAGE)
     for problem in log.problems[:5]:
-        print_error(printable(problem))
+        print_error(printable(problem), "log_damaged")
     title = sanitize_text(paths[0].name.removesuffix(".mcap"), 100)
 
     def make(reactor: Any) -> Any:
@@ -43,8 +43,6 @@ def run(options: argparse.Namespace) -> int:
             reactor,
             lambda subscribers: [ReplayedAircraft(reactor, log, timeline, title, subscribers)],
             is_replay=True,
-            echo=echo,
-            print_error=print_error,
         )
 
     return run_task(make)

@@ -91,6 +91,7 @@ class ReplayedAircraft:
             "link": {
                 "state": "connected",
                 "reason": "",
+                "code": "",
                 "since_s": round(self._player.time_s, 3),
                 "aircraft_online": True,
                 "round_trip_ms": None,
@@ -116,11 +117,11 @@ class ReplayedAircraft:
     def on_replay(self, page: ClientSession, action: str, message: Reader) -> None:
         """Play, pause, go to a moment (value: seconds), set the speed (value: a factor)."""
         if not page.may_control:
-            raise PageFault(f"this page may only watch: {page.why_not}")
+            raise PageFault(f"this page may only watch: {page.denial}", "watch_only")
         if action in ("seek", "speed"):
             value = message.number("value")
             if not math.isfinite(value) or value < 0:
-                raise PageFault("value is no number of at least 0")
+                raise PageFault("value is not a number of at least 0")
             if action == "seek":
                 self._seek(value)
             else:
@@ -134,7 +135,7 @@ class ReplayedAircraft:
 
     def on_control(self, page: ClientSession, action: str, to: int | None) -> None:
         """Refuse: a recorded flight cannot be controlled."""
-        raise PageFault(REPLAY)
+        raise PageFault(REPLAY, "replay")
 
     def on_command(self, page: ClientSession, message: Reader) -> None:
         """Refuse: a recorded flight takes no Commands."""

@@ -14,7 +14,7 @@ from up.protocols.general_message import GeneralMessage
 from up_ground.sanitize_text import sanitize_text
 from up_ground.telemetry import NAME, SILENT_S, Telemetry
 from up_ground.web.event_monitor import EventMonitor
-from up_ground.web.event_rules import INFO, LinkSnapshot
+from up_ground.web.event_rules import INFO, LinkSnapshot, Report
 from up_ground.web.track import Home, Track, track_message
 
 GAINS = "arduino.pids.values"
@@ -172,7 +172,8 @@ class ReplayTimeline:
         while marks and marks[-1][0] <= until_s:
             time_s, text = marks.pop()
             self._now_s = max(self._now_s, time_s)
-            self._monitor.report("mark", INFO, f"mark: {text}", self._now_s)
+            report = Report(INFO, "mark", f"mark: {text}", {"text": text})
+            self._monitor.report("mark", report, self._now_s)
 
     def _record(self, message: dict[str, Any]) -> None:
         is_event = message["type"] == "event"

@@ -17,6 +17,17 @@ _ORIGIN = re.compile(r"https?://([^/?#@\\]{1,300})", re.IGNORECASE)
 
 
 @dataclass(frozen=True, slots=True)
+class Denial:
+    """Why a page may not control."""
+
+    code: str
+    text: str
+
+    def __str__(self) -> str:
+        return self.text
+
+
+@dataclass(frozen=True, slots=True)
 class Access:
     """The rules of one server.
 
@@ -42,16 +53,18 @@ class Access:
         match = _ORIGIN.fullmatch(origin)
         return match is not None and host is not None and match[1].casefold() == host.casefold()
 
-    def why_not(self, key: object) -> str:
-        """Return why a page with ``key`` may not control; empty if it may."""
+    def denial(self, key: object) -> Denial | None:
+        """Return why a page with ``key`` may not control; None if it may."""
         if self.is_watch_only:
-            return "this server was started with --watch-only"
+            return Denial("watch_only", "this server was started with --watch-only")
         if self.key is None:
-            return ""
+            return None
         if not isinstance(key, str):
-            return "this page was opened without the key, which is part of the address"
-        given, due = key.encode("utf-8", "replace"), self.key.encode()
-        return "" if hmac.compare_digest(given, due) else "the key in the address is a wrong one"
+            text = "this page was opened without the key, which is part of the address"
+            return Denial("no_key", text)
+        if hmac.compare_digest(key.encode("utf-8", "replace"), self.key.encode()):
+            return None
+        return Denial("wrong_key", "the key in the address is wrong")
 
 
 def machine_names(more: Iterable[str] = ()) -> frozenset[str]:

@@ -10,7 +10,6 @@ from up.system.clock import Timer
 from up.system.token_bucket import TokenBucket
 from up_ground.ground_link import GroundLink
 from up_ground.link_status import LinkState
-from up_ground.sanitize_text import sanitize_text
 from up_ground.settings import Settings
 from up_ground.telemetry import NAME, Telemetry
 from up_ground.token_store import TokenStore
@@ -20,7 +19,7 @@ from up_ground.web.command_checks import Checks
 from up_ground.web.command_service import CommandService
 from up_ground.web.control import Control
 from up_ground.web.event_monitor import EventMonitor
-from up_ground.web.event_rules import INFO, WARNING, LinkSnapshot
+from up_ground.web.event_rules import LinkSnapshot, Report
 from up_ground.web.messages import FrameMessage, PageFault, Reader
 from up_ground.web.proxy_lease import ProxyLease
 from up_ground.web.track import Home, Track, track_message
@@ -49,7 +48,7 @@ class AircraftSession:
         self._subscribers = subscribers
         self._frame: FrameMessage | None = None
         self._lease = ProxyLease(self.link, settings.direct)
-        self.control = Control(reactor, self._lease, self._on_control_news, self._send_status)
+        self.control = Control(reactor, self._lease, self._report, self._send_status)
         self.commands = CommandService(
             reactor,
             name,
@@ -59,7 +58,7 @@ class AircraftSession:
             self.telemetry,
             checks,
             lambda message: subscribers.notify(name, message),
-            self._on_outcome,
+            self._report,
         )
         self.monitor = EventMonitor(name, lambda message: subscribers.notify(name, message))
         self._track = Track()
@@ -163,6 +162,7 @@ class AircraftSession:
             "link": {
                 "state": status.state.value,
                 "reason": status.reason,
+                "code": status.code,
                 "since_s": round(now_s - status.since_s, 3),
                 "aircraft_online": status.is_aircraft_online,
                 "round_trip_ms": status.round_trip_ms,
@@ -189,7 +189,7 @@ class AircraftSession:
         if action == "give":
             taker = None if to is None else self._subscribers.get(to)
             if to is not None and taker is None:
-                raise PageFault(f"there is no page {to}")
+                raise PageFault(f"there is no page {to}", "unknown_page")
             self.control.give(page, taker)
         else:
             {
@@ -204,7 +204,7 @@ class AircraftSession:
 
     def on_replay(self, page: ClientSession, action: str, message: Reader) -> None:
         """Refuse: the aircraft is live, not a replay."""
-        raise PageFault("this is no replay")
+        raise PageFault("this is not a replay", "not_a_replay")
 
     def on_away(self, page: ClientSession) -> None:
         """Handle the loss of a page's link; the page may return."""
@@ -233,14 +233,9 @@ class AircraftSession:
             self.telemetry.is_late(now_s),
         )
 
-    def _on_control_news(self, text: str) -> None:
+    def _report(self, kind: str, report: Report) -> None:
         if self._notes.take():
-            self.monitor.report("command", INFO, sanitize_text(text, 300), self._reactor.seconds())
-
-    def _on_outcome(self, kind: str, text: str, is_good: bool) -> None:
-        if self._notes.take():
-            level = INFO if is_good else WARNING
-            self.monitor.report(kind, level, sanitize_text(text, 400), self._reactor.seconds())
+            self.monitor.report(kind, report, self._reactor.seconds())
 
     def _send_status(self) -> None:
         self._subscribers.send_status(self.name)

@@ -10,13 +10,11 @@ from typing import Any
 from up.flight_log.gain_changes import changes_text
 from up.protocols.general_message import GeneralMessage
 from up.system.clock import Clock, Timer
+from up_ground.catalogue import GAINS, requested_content
+from up_ground.sanitize_text import sanitize_text
+from up_ground.web.event_rules import INFO, WARNING, Report
 
 ANSWER_LIMIT_S = 5.0
-CONTENT_OF = {
-    "arduino.pids.tunings": "arduino.pids.values",
-    "arduino.profile.request": "arduino.profile.values",
-}
-"""Data besides the ack, for a Command that requests something."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -60,8 +58,7 @@ class Answers:
     def expect(self, name: str, data: dict[str, Any], notify: Notify) -> str:
         """Return the id with which to send a Command; ``notify`` gets its outcome."""
         id_ = secrets.token_hex(8)
-        is_asking = name != "arduino.pids.tunings" or data.get("request") is True
-        awaited = CONTENT_OF.get(name, "") if is_asking else ""
+        awaited = requested_content(name, data)
         timer = self._clock.callLater(ANSWER_LIMIT_S, self._on_time_over, id_)
         self._sent[id_] = _Sent(notify, self._clock.seconds(), timer, awaited)
         return id_
@@ -83,7 +80,7 @@ class Answers:
     def on_link_lost(self) -> None:
         """Handle the loss of the link: Commands in flight may or may not have arrived."""
         for id_, sent in list(self._sent.items()):
-            self.end(id_, _timed_out(sent, "the link was lost before an answer came"))
+            self.end(id_, _timed_out(sent, "link_lost", "the link was lost before the answer"))
 
     def stop(self) -> None:
         """Stop waiting for all answers."""
@@ -103,7 +100,7 @@ class Answers:
 
     def _on_time_over(self, id_: str) -> None:
         sent = self._sent[id_]
-        self.end(id_, _timed_out(sent, f"no answer within {ANSWER_LIMIT_S:g} s"))
+        self.end(id_, _timed_out(sent, "no_answer", f"no answer within {ANSWER_LIMIT_S:g} s"))
 
     def end(self, id_: str, answer: Answer) -> None:
         """End waiting with that answer."""
@@ -113,11 +110,11 @@ class Answers:
         sent.notify(answer)
 
 
-def _timed_out(sent: _Sent, why: str) -> Answer:
+def _timed_out(sent: _Sent, code: str, why: str) -> Answer:
     if sent.acked_ms is not None:
-        reason = "carried out, but what was asked for did not come"
-        return Answer("ack", reason=reason, round_trip_ms=sent.acked_ms)
-    return Answer("timeout", reason=f"{why}; it is not known whether it was carried out")
+        reason = "carried out, but the requested data did not arrive"
+        return Answer("ack", "no_content", reason, sent.acked_ms)
+    return Answer("timeout", code, why)
 
 
 def _text(data: dict[str, Any], key: str) -> str:
@@ -125,58 +122,40 @@ def _text(data: dict[str, Any], key: str) -> str:
     return found[:500] if isinstance(found, str) else ""
 
 
-GAINS = "arduino.pids.tunings"
 MARK = "black_box.mark"
-CALIBRATE = "arduino.calibrate"
 _SHOWN = 4
-_OF_BOARD = "the Arduino refused: "
-# The same names as in static/js/panels/words.js; the braces stand for the field.
-_WORDS = {
+# The same names as in static/js/panels/messages.js; the braces stand for the field.
+_TEXTS = {
     "up.flight_mode.set": ("Flight mode {}", "mode"),
     "up.arm": ("Arm", ""),
     "up.disarm": ("Disarm", ""),
     "up.telemetry.frequency": ("Telemetry every {} ms", "frequency"),
-    "android.speak": ('Echo "{}"', "text"),
-    "arduino.profile.request": ("Ask for the profile", ""),
-    CALIBRATE: ("Calibrate {}", "what"),
+    "android.speak": ('Say "{}"', "text"),
+    "arduino.profile.request": ("Request the profile", ""),
+    "arduino.calibrate": ("Calibrate {}", "what"),
+    GAINS: ("Request the gains", ""),
 }
 
 
-def in_words(
+def outcome_event(
     who: str, name: str, data: Mapping[str, Any], before: Any, answer: Answer
-) -> tuple[str, str]:
-    """Return kind and text; ``before`` are the gains that flew before, None: not known."""
-    words = _words(name, data)
-    kind, what, done = "command", words, f"{words} carried out"
+) -> tuple[str, Report]:
+    """Return kind and report; ``before`` are the gains that flew before, None: not known."""
+    text, field = _TEXTS.get(name, ("{}", ""))
+    what = text.format(str(data.get(field)).replace("_", " ") if field else name)
+    kind, done = "command", f": {what} carried out"
     if name == GAINS and data.get("request") is not True:
-        after = data.get("pids")
-        changes = changes_text(before, after, _SHOWN) or "nothing differs"
-        kind, what, done = "gains", f"gains ({changes})", f"changed gains: {changes}"
+        changes = changes_text(before, data.get("pids"), _SHOWN) or "nothing differs"
+        kind, what, done = "gains", f"gains ({changes})", f" changed gains: {changes}"
     elif name == MARK:
-        kind, what, done = "mark", f"the mark {data.get('text')}", f"marks: {data.get('text')}"
-    if answer.outcome == "ack":
-        return kind, f"{who}: {done}" if kind == "command" else f"{who} {done}"
-    if answer.outcome == "nack":
-        by, reason = _refusal(answer)
-        return kind, f"{who}: {what} refused by {by}: {reason}"
-    return kind, f"{who}: {what}: {answer.reason}"
+        kind, what, done = "mark", f"mark {data.get('text')}", f" marks: {data.get('text')}"
+    if answer.outcome != "ack":
+        outcome = _OUTCOMES.get(answer.outcome, answer.outcome)
+        reason = answer.reason.rstrip(". ") or answer.code
+        done = f": {what} {outcome}" + (f": {reason}" if reason else "")
+    fields = {"name": name, "outcome": answer.outcome, "code": answer.code, "by": who}
+    level = INFO if answer.outcome == "ack" else WARNING
+    return kind, Report(level, f"{kind}_{answer.outcome}", sanitize_text(who + done, 400), fields)
 
 
-def _words(name: str, data: Mapping[str, Any]) -> str:
-    """Return a Command as the page calls it; one that the page does not know by its name."""
-    if name == GAINS:
-        return "Ask for the gains"
-    words = _WORDS.get(name)
-    if words is None:
-        return name
-    text, field = words
-    shown = str(data.get(field)).replace("_", " ") if name == CALIBRATE else data.get(field)
-    return text.format(shown)
-
-
-def _refusal(answer: Answer) -> tuple[str, str]:
-    """Return who refused and why: the board's own refusal includes its name."""
-    reason = answer.reason.rstrip(". ")
-    if reason.startswith(_OF_BOARD) and reason != _OF_BOARD:
-        return "the Arduino", reason.removeprefix(_OF_BOARD)
-    return "the aircraft", reason or answer.code or "no reason given"
+_OUTCOMES = {"nack": "refused", "timeout": "outcome unknown", "unsent": "not sent"}

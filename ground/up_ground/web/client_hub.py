@@ -14,7 +14,7 @@ from up.system.clock import Clock, Timer
 from up.system.token_bucket import TokenBucket
 from up.version import VERSION
 from up_ground.sanitize_text import sanitize_text
-from up_ground.web.access import Access, KeyAttempts
+from up_ground.web.access import Access, Denial, KeyAttempts
 from up_ground.web.aircraft_source import AircraftSource
 from up_ground.web.client_session import (
     PAGES_LIMIT,
@@ -148,7 +148,7 @@ class ClientHub:
         except PageFault as fault:
             connection.faults += 1
             text = sanitize_text(str(fault), 300)
-            link.output.send(message_bytes({"type": "fault", "text": text}))
+            link.output.send(message_bytes({"type": "fault", "code": fault.code, "text": text}))
             if connection.faults >= FAULTS_LIMIT:
                 link.close(VIOLATION, "too many faults")
 
@@ -176,17 +176,17 @@ class ClientHub:
         page = connection.page
         if kind == "hello":
             if page is not None or connection.is_greeting:
-                raise PageFault("hello was said already")
+                raise PageFault("hello was sent already", "hello_repeated")
             self._on_hello(link, connection, message)
         elif kind == "ping":
             ping = message.fields.get("ping")
             if isinstance(ping, str | dict | list):
-                raise PageFault("ping is no number")
+                raise PageFault("ping is not a number")
             link.output.send(
                 message_bytes({"type": "pong", "ping": ping, "sent_ms": self._now_ms()})
             )
         elif page is None:
-            raise PageFault("the first message must be hello")
+            raise PageFault("the first message must be hello", "hello_missing")
         elif kind == "watch":
             self._on_watch(page, self._aircraft(message))
         elif kind == "control":
@@ -199,12 +199,12 @@ class ClientHub:
             for aircraft in self.fleet.values():
                 aircraft.on_replay(page, action, message)
         else:
-            raise PageFault(f"no message is called {kind}")
+            raise PageFault(f"unknown message type {kind}", "unknown_type")
 
     def _aircraft(self, message: Reader) -> AircraftSource:
         found = self.fleet.get(message.text("aircraft", 64))
         if found is None:
-            raise PageFault("there is no such aircraft")
+            raise PageFault("unknown aircraft", "unknown_aircraft")
         return found
 
     def _on_hello(self, link: ClientConnection, connection: _Connection, message: Reader) -> None:
@@ -214,11 +214,11 @@ class ClientHub:
         connection.timer.cancel()
         connection.is_greeting = True
         former = self._with_token(token)
-        why_not = self._why_not(link, key, former)
+        denial = self._denial(link, key, former)
         if former is None:
-            self._welcome_new(link, name, why_not)
+            self._welcome_new(link, name, denial)
         elif former.link is None:
-            self._welcome_back(link, former, name, why_not)
+            self._welcome_back(link, former, name, denial)
         else:
             # A duplicated tab has its original's token; so has a page whose old link hangs.
             old = former.link
@@ -227,27 +227,28 @@ class ClientHub:
                 if link not in self._connections:
                     return
                 if is_alive or former.number not in self._pages:
-                    self._welcome_new(link, name, why_not)
+                    self._welcome_new(link, name, denial)
                     return
                 if former.link is old:
                     self._connections.pop(old, None)
                     former.link = None
                     old.close(GOING_AWAY, "this page has another link")
-                self._welcome_back(link, former, name, why_not)
+                self._welcome_back(link, former, name, denial)
 
             old.is_alive(ALIVE_S, decide)
 
-    def _why_not(
+    def _denial(
         self, link: ClientConnection, key: str | None, former: ClientSession | None
-    ) -> str:
-        why_not = self._access.why_not(key)
+    ) -> Denial | None:
+        denial = self._access.denial(key)
         # A page that may control has shown before that it knows the key.
         is_known = former is not None and former.may_control
         if key is None or self._access.is_watch_only or is_known:
-            return why_not
-        if self._attempts.permits(link.host, not why_not):
-            return why_not
-        return "too many wrong keys came from this address: load the page again in a minute"
+            return denial
+        if self._attempts.permits(link.host, denial is None):
+            return denial
+        text = "too many wrong keys from this address: load the page again in a minute"
+        return Denial("too_many_keys", text)
 
     def _with_token(self, token: str) -> ClientSession | None:
         given = token.encode("utf-8", "replace")
@@ -257,10 +258,10 @@ class ClientHub:
                 found = page
         return found
 
-    def _welcome_new(self, link: ClientConnection, name: str, why_not: str) -> None:
+    def _welcome_new(self, link: ClientConnection, name: str, denial: Denial | None) -> None:
         limit = PAGES_LIMIT if self._access.is_watch_only else WATCHERS_LIMIT
         try:
-            leaving = admit_page(self._pages.values(), not why_not, limit)
+            leaving = admit_page(self._pages.values(), denial is None, limit)
         except AdmissionError as error:
             self._reject(link, str(error))
             return
@@ -268,7 +269,7 @@ class ClientHub:
             self._evict(leaving)
         self._number += 1
         number = self._number
-        page = ClientSession(number, name or f"page {number}", secrets.token_hex(16), why_not)
+        page = ClientSession(number, name or f"page {number}", secrets.token_hex(16), denial)
         self._pages[number] = page
         self._welcome(link, page)
 
@@ -291,13 +292,13 @@ class ClientHub:
         link.close(LATER, reason)
 
     def _welcome_back(
-        self, link: ClientConnection, page: ClientSession, name: str, why_not: str
+        self, link: ClientConnection, page: ClientSession, name: str, denial: Denial | None
     ) -> None:
         timer = self._timers.pop(page.number, None)
         if timer is not None and timer.active():
             timer.cancel()
         page.name = name or page.name
-        page.why_not = why_not
+        page.denial = denial
         page.watched = ""
         self._welcome(link, page)
 
@@ -307,6 +308,7 @@ class ClientHub:
         # A reloaded page restarts its numbers at one; its old numbers are void.
         page.asks = {}
         self._connections[link].page = page
+        denial = Denial("replay", "this is a replay") if self._is_replay else page.denial
         page.send(
             {
                 "type": "welcome",
@@ -315,8 +317,8 @@ class ClientHub:
                 "token": page.token,
                 "version": VERSION,
                 "aircraft": list(self.fleet),
-                "may_control": page.may_control and not self._is_replay,
-                "why_not": "this is a replay" if self._is_replay else page.why_not,
+                "may_control": denial is None,
+                "denial": None if denial is None else {"code": denial.code, "text": denial.text},
                 "tiles": self._tiles,
                 "is_replay": self._is_replay,
                 "sent_ms": self._now_ms(),

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 from typing import Protocol as Interface
 
+from up_ground.web.access import Denial
 from up_ground.web.messages import message_bytes
 from up_ground.web.page_link import PageSendBuffer
 
@@ -42,11 +43,11 @@ class ClientSession:
     ``asks`` holds the Commands of its present link by the page's numbers.
     """
 
-    def __init__(self, number: int, name: str, token: str, why_not: str) -> None:
+    def __init__(self, number: int, name: str, token: str, denial: Denial | None) -> None:
         self.number = number
         self.name = name
         self.token = token
-        self.why_not = why_not
+        self.denial = denial
         self.watched = ""
         self.link: ClientConnection | None = None
         self.asks: dict[int, Ask] = {}
@@ -54,7 +55,7 @@ class ClientSession:
     @property
     def may_control(self) -> bool:
         """Return whether it may request control."""
-        return not self.why_not
+        return self.denial is None
 
     def send(self, message: dict[str, Any]) -> None:
         """Send a message in order; lost while the page is disconnected."""
@@ -70,9 +71,9 @@ class ClientSession:
         if self.link is not None:
             self.link.output.send_newest(kind, make)
 
-    def fault(self, text: str) -> None:
+    def fault(self, text: str, code: str) -> None:
         """Report an error of the page to it."""
-        self.send({"type": "fault", "text": text})
+        self.send({"type": "fault", "code": code, "text": text})
 
 
 PAGES_LIMIT = 16

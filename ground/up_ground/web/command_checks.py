@@ -61,7 +61,7 @@ class Checks:
         if fault:
             return Answer("refused", "invalid", fault[:500])
         if cls.NEEDS_BEACON and beacon is None:
-            reason = f"{name} is only taken with a fresh beacon, and no telemetry was seen"
+            reason = f"{name} needs a fresh beacon, and no telemetry was received"
             return Answer("refused", "no_beacon", reason)
         roles = _roles(cls, data)
         given = _ROLES.get(role or "")
@@ -108,13 +108,13 @@ class RecentBeacons:
         if beacon is None:
             if self._frames and not self._has_beacons:
                 return None
-            reason = f"not sent: {name} is only sent with the beacon of telemetry that was seen"
+            reason = f"{name} needs the beacon of telemetry that was shown"
             return "no_beacon", reason
         newest = max((each for _, each in self._recent), default=beacon)
         if beacon > newest:
-            return "unknown_beacon", "not sent: the aircraft has not sent the echoed beacon yet"
+            return "unknown_beacon", "the aircraft has not sent the echoed beacon yet"
         limit_s = fresh_s(self._telemetry.number("system", "period_ms") or 0.0)
         oldest_s = self._clock.seconds() - limit_s
         if any(heard_s >= oldest_s for heard_s, each in self._recent if each == beacon):
             return None
-        return "stale", f"not sent: the telemetry that this page shows is older than {limit_s:g} s"
+        return "stale", f"the telemetry that this page shows is older than {limit_s:g} s"

@@ -8,13 +8,15 @@ from typing import Any
 
 from up.protocols.general_message import GeneralMessage, encode
 from up.system.clock import Clock
+from up_ground.catalogue import GAINS
 from up_ground.ground_link import GroundLink
 from up_ground.link_status import ControlStatus
 from up_ground.telemetry import Telemetry
-from up_ground.web.answers import GAINS, Answer, Answers, in_words
+from up_ground.web.answers import Answer, Answers, outcome_event
 from up_ground.web.client_session import Ask, ClientSession
 from up_ground.web.command_checks import Checked, Checks, RecentBeacons
 from up_ground.web.control import Control
+from up_ground.web.event_rules import Report
 from up_ground.web.gains_history import GainsHistory
 from up_ground.web.messages import PageFault, Reader
 from up_ground.web.proxy_lease import ProxyLease
@@ -29,7 +31,7 @@ class CommandService:
     """Sends a Command now or refuses it with a reason; nothing is queued.
 
     ``notify_all`` sends a message to the pages that watch the aircraft; ``report`` receives every
-    outcome: its kind, its text, and whether the Command succeeded.
+    outcome: its kind and its report.
     """
 
     def __init__(
@@ -42,7 +44,7 @@ class CommandService:
         telemetry: Telemetry,
         checks: Checks,
         notify_all: Callable[[dict[str, Any]], object],
-        report: Callable[[str, str, bool], object],
+        report: Callable[[str, Report], object],
     ) -> None:
         self.gains = GainsHistory()
         self.profile: dict[str, Any] | None = None
@@ -75,7 +77,7 @@ class CommandService:
         known = page.asks.get(number)
         if known is not None:
             if known.content != content:
-                raise PageFault(f"ask {number} was another Command")
+                raise PageFault(f"ask {number} was another Command", "ask_repeated")
             if known.answer is not None:
                 page.send(known.answer)
             return
@@ -164,8 +166,7 @@ class CommandService:
         def on_answer(answer: Answer) -> None:
             if name == GAINS and data.get("request") is not True:
                 self._on_gains_answer(page, before, data.get("pids") or {}, answer)
-            kind, text = in_words(page.name, name, data, before, answer)
-            self._report(kind, text, answer.outcome == "ack")
+            self._report(*outcome_event(page.name, name, data, before, answer))
             notify(answer)
 
         self._send(name, data, beacon, on_answer)
@@ -174,9 +175,9 @@ class CommandService:
         self, page: ClientSession, checked: Checked, name: str, beacon: int | None
     ) -> Answer | None:
         if checked.needs_control and page is not self._control.holder:
-            reason = "this page has no control: ask for it first"
+            reason = "this page has no control: request it first"
             if not page.may_control:
-                reason = f"this page may only watch: {page.why_not}"
+                reason = f"this page may only watch: {page.denial}"
             return Answer("refused", "no_control", reason)
         if len(self._answers) >= UNANSWERED_LIMIT:
             return Answer("refused", "busy", "too many Commands wait for their answer")
@@ -192,12 +193,12 @@ class CommandService:
         status = self._link.status
         if not status.is_open:
             reason = status.reason or "there is no link"
-            return Answer("unsent", "no_link", f"not sent: {reason}")
+            return Answer("unsent", "no_link", reason)
         if status.is_aircraft_online is False:
-            reason = f"not sent: the aircraft {self._name} is not connected to the proxy"
+            reason = f"the aircraft {self._name} is not connected to the proxy"
             return Answer("unsent", "no_aircraft", reason)
         if self._lease.status is not ControlStatus.OURS:
-            reason = "not sent: this ground only listens, a page must ask for control first"
+            reason = "this ground only listens: request control first"
             return Answer("unsent", "no_seat", reason)
         return None
 
@@ -215,7 +216,7 @@ class CommandService:
             self._answers.end(id_, Answer("refused", "invalid", str(error)[:500]))
             return
         if not self._link.send(line):
-            self._answers.end(id_, Answer("unsent", "no_link", "not sent: there is no link"))
+            self._answers.end(id_, Answer("unsent", "no_link", "there is no link"))
 
     def _on_gains_answer(
         self,

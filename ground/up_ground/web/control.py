@@ -7,7 +7,9 @@ from typing import Any, Protocol
 
 from up.system.clock import Clock, Timer
 from up_ground.link_status import ASK_INTERVAL_S, ControlStatus
+from up_ground.sanitize_text import sanitize_text
 from up_ground.web.client_session import ClientSession
+from up_ground.web.event_rules import INFO, Report
 from up_ground.web.messages import PageFault
 
 ASK_LIMIT_S = 30.0
@@ -43,20 +45,20 @@ class Lease(Protocol):
 class Control:
     """At most one page has control, and the seat is only held while a page wants it.
 
-    ``notify`` gets each change in words, ``on_change`` is called at each change.
+    ``report`` gets each change, ``on_change`` is called at each change.
     """
 
     def __init__(
         self,
         clock: Clock,
         lease: Lease,
-        notify: Callable[[str], object],
+        report: Callable[[str, Report], object],
         on_change: Callable[[], object],
     ) -> None:
         self.holder: ClientSession | None = None
         self._clock = clock
         self._lease = lease
-        self._notify = notify
+        self._report = report
         self._on_change = on_change
         self._wanting: ClientSession | None = None
         self._want_until_s = 0.0
@@ -78,7 +80,7 @@ class Control:
     def request(self, page: ClientSession) -> None:
         """Give a page control, or request it from the present owner."""
         if not page.may_control:
-            raise PageFault(f"this page may only watch: {page.why_not}")
+            raise PageFault(f"this page may only watch: {page.denial}", "watch_only")
         if page in (self.holder, self._wanting):
             return
         if self.holder is None and self._wanting is None:
@@ -95,13 +97,13 @@ class Control:
         self._must_hold(page)
         if to is None and not self._askers:
             if self._ground is None:
-                raise PageFault("nobody asks for control")
+                raise PageFault("control is not requested", "not_requested")
             self._give_to_ground()
             return
         if to is None:
             to = next(iter(self._askers))
         if not to.may_control:
-            raise PageFault(f"{to.name} may only watch: {to.why_not}")
+            raise PageFault(f"{to.name} may only watch: {to.denial}", "watch_only")
         if to is not page:
             self._grant(to)
 
@@ -111,12 +113,12 @@ class Control:
         if self._askers:
             asker = next(iter(self._askers))
             _cancel(self._askers.pop(asker))
-            asker.fault(f"{page.name} keeps control")
+            asker.fault(f"{page.name} keeps control", "denied")
         elif self._ground is not None:
             self._denied[self._ground] = self._clock.seconds()
             self._clear_ground_request()
         else:
-            raise PageFault("nobody asks for control")
+            raise PageFault("control is not requested", "not_requested")
         self._on_change()
 
     def release(self, page: ClientSession) -> None:
@@ -128,7 +130,7 @@ class Control:
         elif page in self._askers:
             _cancel(self._askers.pop(page))
         else:
-            raise PageFault("this page has no control to release")
+            raise PageFault("this page has no control to release", "no_control")
         self._on_change()
 
     def on_away(self, page: ClientSession) -> None:
@@ -153,7 +155,8 @@ class Control:
             self._lease.release()
         elif self.holder is not None and status is ControlStatus.HELD:
             self._notify(
-                f"ground {self._lease.holder} commands, {self.holder.name} has lost control"
+                "control_lost",
+                f"ground {self._lease.holder} commands, {self.holder.name} has lost control",
             )
             self.holder = None
             self._clear_ground_request()
@@ -195,7 +198,7 @@ class Control:
         if self._wanting is not None and self._clock.seconds() >= self._want_until_s:
             page = self._wanting
             self._stop_wanting()
-            page.fault(f"{self._who(status)} within {ASK_LIMIT_S:g} s")
+            page.fault(f"{self._who(status)} within {ASK_LIMIT_S:g} s", "request_timeout")
             self._on_change()
             return
         if self._wanting is None and self.holder is None:
@@ -217,7 +220,7 @@ class Control:
         _cancel(self._askers.pop(page, None))
         self._wanting = None
         self.holder = page
-        self._notify(f"{page.name} has control")
+        self._notify("control_granted", f"{page.name} has control")
         self._on_change()
 
     def _free(self) -> None:
@@ -230,7 +233,7 @@ class Control:
         else:
             self._lease.release()
             if holder is not None:
-                self._notify(f"{holder.name} has left control, nobody has it")
+                self._notify("control_released", f"{holder.name} has released control")
 
     def _give_to_ground(self) -> None:
         ground = self._ground
@@ -238,7 +241,7 @@ class Control:
         self._clear_ground_request()
         if ground is not None:
             self._lease.give(ground)
-            self._notify(f"control was given to ground {ground}")
+            self._notify("control_given", f"control was given to ground {ground}")
         self._on_change()
 
     def _stop_wanting(self) -> None:
@@ -257,7 +260,7 @@ class Control:
 
     def _withdraw(self, page: ClientSession) -> None:
         self._askers.pop(page, None)
-        page.fault(f"control was not given within {ASK_LIMIT_S:g} s")
+        page.fault(f"control was not given within {ASK_LIMIT_S:g} s", "request_timeout")
         self._on_change()
 
     def _poll_ground_request(self) -> None:
@@ -278,9 +281,12 @@ class Control:
         _cancel(self._ground_timer)
         self._on_change()
 
+    def _notify(self, code: str, text: str) -> None:
+        self._report("command", Report(INFO, code, sanitize_text(text, 300)))
+
     def _must_hold(self, page: ClientSession) -> None:
         if page is not self.holder:
-            raise PageFault("this page has no control to give")
+            raise PageFault("this page has no control to give", "no_control")
 
 
 def _cancel(timer: Timer | None) -> None:

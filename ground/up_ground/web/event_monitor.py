@@ -15,23 +15,27 @@ from up_ground.web.event_rules import (
     EVENT_RULES,
     INFO,
     WARNING,
-    Alarms,
+    Alarm,
     EventRule,
     LinkSnapshot,
+    Report,
+    board_state,
+    faults,
 )
 
 INITIAL_HOLD_S = 3.0
 MAX_HOLD_S = 30.0
 QUIET_S = 60.0
+EVENTS_KEPT = 200
 
-Reported = Callable[[Any, Any], object]
+OnChange = Callable[[Any, Any], object]
 
 
 @dataclass(slots=True)
 class _Value:
     reported: Any
     newest: Any
-    notify: Reported
+    notify: OnChange
     reported_s: float
     hold_s: float = INITIAL_HOLD_S
 
@@ -46,7 +50,7 @@ class Debouncer:
     def __init__(self) -> None:
         self._values: dict[str, _Value] = {}
 
-    def update(self, key: str, value: Any, now_s: float, notify: Reported) -> None:
+    def update(self, key: str, value: Any, now_s: float, notify: OnChange) -> None:
         """Take the present value; ``notify(before, now)`` is called when it is reported."""
         known = self._values.get(key)
         if known is None:
@@ -72,7 +76,36 @@ class Debouncer:
         known.notify(before, known.reported)
 
 
-EVENTS_KEPT = 200
+class Alarms:
+    """The active alarms. One begins immediately and ends ``hold_s`` after its cause."""
+
+    def __init__(self, hold_s: float = ALARM_HOLD_S) -> None:
+        self._hold_s = hold_s
+        self._had_board = False
+        self.active: tuple[Alarm, ...] = ()
+        self._seen_s: dict[str, float] = {}
+        self._known: dict[str, Alarm] = {}
+
+    def update(self, telemetry: Telemetry, link: LinkSnapshot, now_s: float) -> bool:
+        """Update to this moment; return whether the alarms changed."""
+        self._had_board = self._had_board or board_state(telemetry) is True
+        present = faults(telemetry, link, "battery" in self._known, self._had_board)
+        found = {each.kind: each for each in present}
+        self._known.update(found)
+        self._seen_s.update(dict.fromkeys(found, now_s))
+        for kind, seen_s in list(self._seen_s.items()):
+            if kind not in found and now_s - seen_s >= self._hold_s:
+                del self._seen_s[kind], self._known[kind]
+        before, self.active = self.active, tuple(self._known[kind] for kind in sorted(self._known))
+        return self.active != before
+
+    def message(self, aircraft: str) -> dict[str, Any]:
+        """Return the message for the pages."""
+        active = [
+            {"kind": each.kind, "code": each.code, "level": each.level, "text": each.text}
+            for each in self.active
+        ]
+        return {"type": "alarms", "aircraft": aircraft, "active": active}
 
 
 @dataclass(frozen=True, slots=True)
@@ -81,24 +114,23 @@ class Event:
 
     number: int
     at_s: float
-    level: str
     kind: str
-    text: str
+    report: Report
 
     def message(self, aircraft: str, now_s: float, is_past: bool) -> dict[str, Any]:
         """Return the message for the pages."""
-        fields: dict[str, Any] = {
+        return {
             "type": "event",
             "aircraft": aircraft,
             "number": self.number,
             "age_ms": round(max(0.0, now_s - self.at_s) * 1000),
-            "level": self.level,
+            "level": self.report.level,
             "kind": self.kind,
-            "text": self.text,
+            "code": self.report.code,
+            "fields": self.report.fields,
+            "text": self.report.text,
+            **({"is_past": True} if is_past else {}),
         }
-        if is_past:
-            fields["is_past"] = True
-        return fields
 
 
 class EventMonitor:
@@ -120,12 +152,13 @@ class EventMonitor:
         self._alarms = Alarms(hold_s)
         self._number = 0
 
-    def report(self, kind: str, level: str, text: str, now_s: float, late_s: float = 0.0) -> None:
-        """Report an event of ``late_s`` ago."""
-        self._number += 1
-        event = Event(self._number, now_s - late_s, level, kind, text)
-        self._events.append(event)
-        self._notify(event.message(self._aircraft, now_s, is_past=False))
+    def report(self, kind: str, report: Report | None, now_s: float) -> None:
+        """Report an event; None: no event."""
+        if report is not None:
+            self._number += 1
+            event = Event(self._number, now_s, kind, report)
+            self._events.append(event)
+            self._notify(event.message(self._aircraft, now_s, is_past=False))
 
     def on_frame(self, telemetry: Telemetry, link: LinkSnapshot, now_s: float) -> None:
         """Process a new frame."""
@@ -140,9 +173,7 @@ class EventMonitor:
         state: tuple[bool, bool | None] = (link.is_open, link.is_aircraft_online)
 
         def on_change(before: Any, now: Any) -> None:
-            level, text = _link_words(link, before, now)
-            if text:
-                self.report("link", level, text, now_s)
+            self.report("link", _link_report(link, before, now), now_s)
 
         self._debouncer.update("link", state, now_s, on_change)
 
@@ -151,12 +182,11 @@ class EventMonitor:
         self._debouncer.on_moment(now_s)
         if self._alarms.update(telemetry, link, now_s):
             kinds = {each.kind for each in self._alarms.active}
-            silence = "telemetry comes too late" if link.is_late else "no telemetry any more"
-            for kind, gone, back in (
-                ("silent", silence, "telemetry comes again"),
-                ("battery", "the phone's battery is low", "the phone's battery is charged"),
-            ):
-                self._report_alarm(kind, kind in kinds, gone, back, now_s)
+            silent = Report(ALARM, "silent", "no telemetry")
+            if link.is_late:
+                silent = Report(ALARM, "late", "telemetry arrives too late")
+            self._on_alarm("silent", "link", kinds, silent, _HEARD, now_s)
+            self._on_alarm("battery", "battery", kinds, _BATTERY_LOW, _BATTERY_CHARGED, now_s)
             self._notify(self._alarms.message(self._aircraft))
 
     def past(self, now_s: float) -> Iterator[dict[str, Any]]:
@@ -166,31 +196,30 @@ class EventMonitor:
         yield self._alarms.message(self._aircraft)
 
     def _apply(self, rule: EventRule, now_s: float, before: Any, now: Any) -> None:
-        said = rule.words(before, now)
-        if said is not None:
-            self.report(rule.kind, said[0], said[1], now_s)
+        self.report(rule.kind, rule.describe(before, now), now_s)
 
-    def _report_alarm(self, kind: str, is_on: bool, gone: str, back: str, now_s: float) -> None:
+    def _on_alarm(
+        self, alarm: str, kind: str, active: set[str], begin: Report, end: Report, now_s: float
+    ) -> None:
         def on_change(before: Any, now: Any) -> None:
-            if now:
-                self.report(_KINDS[kind], ALARM if kind == "silent" else WARNING, gone, now_s)
-            elif before is not None:
-                self.report(_KINDS[kind], INFO, back, now_s)
+            self.report(kind, begin if now else None if before is None else end, now_s)
 
-        self._debouncer.update(f"alarm {kind}", is_on, now_s, on_change)
+        self._debouncer.update(f"alarm {alarm}", alarm in active, now_s, on_change)
 
 
-_KINDS = {"silent": "link", "battery": "battery"}
+_HEARD = Report(INFO, "heard", "telemetry arrives again")
+_BATTERY_LOW = Report(WARNING, "battery_low", "the phone's battery is low")
+_BATTERY_CHARGED = Report(INFO, "battery_charged", "the phone's battery is charged")
 
 
-def _link_words(link: LinkSnapshot, before: Any, now: Any) -> tuple[str, str]:
+def _link_report(link: LinkSnapshot, before: Any, now: tuple[bool, bool | None]) -> Report | None:
     is_open, is_online = now
     if not is_open:
-        if before is None:
-            return INFO, ""
-        return WARNING, f"the link to the proxy is gone: {link.reason}"[:300]
+        text = f"the link to the proxy is lost: {link.reason}"[:300]
+        return None if before is None else Report(WARNING, "link_lost", text)
     if is_online is False:
-        return WARNING, "the aircraft is not connected to the proxy"
+        text = "the aircraft is not connected to the proxy"
+        return Report(WARNING, "aircraft_offline", text)
     if is_online:
-        return INFO, "the aircraft is connected"
-    return INFO, "the link is there"
+        return Report(INFO, "aircraft_online", "the aircraft is connected")
+    return Report(INFO, "link_open", "the link is open")

@@ -1,8 +1,8 @@
-"""The rules for events and alarms: which values of a frame, which text."""
+"""The rules for events and alarms: which values of a frame, which code and text."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -12,39 +12,55 @@ from up_ground.telemetry import Telemetry
 INFO, WARNING, ALARM = "info", "warning", "alarm"
 NOT_YET = "not yet"
 """A part that was never connected and never reported anything does not count as lost."""
+ALARM_HOLD_S = 2.0
+"""An alarm ends when its cause has been away for this time."""
+BATTERY_LOW = 20.0
+BATTERY_EMPTY = 10.0
+_BATTERY_BACK = 3.0
 
-Words = Callable[[Any, Any], tuple[str, str] | None]
+
+@dataclass(frozen=True, slots=True)
+class Report:
+    """Level, code and text of an event; ``fields`` are its values."""
+
+    level: str
+    code: str
+    text: str
+    fields: Mapping[str, Any] = field(default_factory=dict)
+
+
+Describe = Callable[[Any, Any], Report | None]
 
 
 @dataclass(frozen=True, slots=True)
 class EventRule:
     """A value of the frame: ``read`` returns it or None (unknown, does not count as a change).
 
-    ``words(before, now)`` returns level and text of the change, or None for no event; ``before``
-    is None for the first value.
+    ``describe(before, now)`` returns the report of the change, or None for no event; ``before`` is
+    None for the first value.
     """
 
     key: str
     kind: str
     read: Callable[[Telemetry], Any]
-    words: Words
+    describe: Describe
 
 
-def _flag(key: str, kind: str, path: str, bad: bool, said_bad: str, said_good: str,
-          level: str = WARNING) -> EventRule:  # fmt: skip
-    """Return a rule that is reported when it becomes bad, and when it is good again."""
+def _flag(key: str, kind: str, path: str, bad: bool, codes: tuple[str, str], text_bad: str,
+          text_good: str, level: str = WARNING) -> EventRule:  # fmt: skip
+    """Return a rule that reports when a flag becomes ``bad``, and when it is good again."""
     steps = path.split(".")
 
-    def words(before: Any, now: Any) -> tuple[str, str] | None:
+    def describe(before: Any, now: Any) -> Report | None:
         if now is bad:
-            return level, said_bad
-        return None if before is None else (INFO, said_good)
+            return Report(level, codes[0], text_bad)
+        return None if before is None else Report(INFO, codes[1], text_good)
 
-    return EventRule(key, kind, lambda telemetry: telemetry.flag(*steps), words)
+    return EventRule(key, kind, lambda telemetry: telemetry.flag(*steps), describe)
 
 
 def board_state(telemetry: Telemetry) -> bool | str | None:
-    """Return whether the board is connected, or ``NOT_YET``; None if not reported."""
+    """Return whether the Arduino is connected, or ``NOT_YET``; None if not reported."""
     return _state(telemetry, "arduino", ("flight", "rx", "servo"))
 
 
@@ -59,44 +75,48 @@ def _state(telemetry: Telemetry, link: str, readings: tuple[str, ...]) -> bool |
     return NOT_YET if is_there is False and not was_there else is_there
 
 
-def _part(key: str, read: Callable[[Telemetry], Any], back: str, level: str) -> EventRule:
+def _part(key: str, name: str, read: Callable[[Telemetry], Any], level: str) -> EventRule:
     """Return a rule of a part that may connect after the program, and disconnect."""
 
-    def words(before: Any, now: Any) -> tuple[str, str] | None:
+    def describe(before: Any, now: Any) -> Report | None:
         if now is False or (now is NOT_YET and before is True):
-            return level, f"the {key} is gone"
+            return Report(level, f"{key}_lost", f"the {name} is disconnected")
         if now is NOT_YET:
-            return (INFO, f"the {key} is not here yet") if before is None else None
+            text = f"the {name} is not connected yet"
+            return Report(INFO, f"{key}_awaited", text) if before is None else None
         if before is None:
             return None
-        return INFO, f"the {key} is {'here' if before is NOT_YET else back}"
+        again = "" if before is NOT_YET else " again"
+        return Report(INFO, f"{key}_connected", f"the {name} is connected{again}")
 
-    return EventRule(key, "link", read, words)
+    return EventRule(key, "link", read, describe)
 
 
-def _armed(before: Any, now: Any) -> tuple[str, str] | None:
+def _armed(before: Any, now: Any) -> Report | None:
     if before is None:
-        return (WARNING, "the aircraft is armed") if now else None
-    return (WARNING, "armed") if now else (INFO, "disarmed")
+        return Report(WARNING, "armed", "the aircraft is armed") if now else None
+    return Report(WARNING, "armed", "armed") if now else Report(INFO, "disarmed", "disarmed")
 
 
-def _named(what: str) -> Words:
-    def words(before: Any, now: Any) -> tuple[str, str] | None:
-        return None if before is None else (INFO, f"{what} {now} (was {before})")
+def _changed(code: str, text: str, level: str = INFO) -> Describe:
+    def describe(before: Any, now: Any) -> Report | None:
+        if before is None:
+            return None
+        return Report(level, code, f"{text} {now} (was {before})", {"value": now, "before": before})
 
-    return words
+    return describe
 
 
-def _vetoes(before: Any, now: Any) -> tuple[str, str] | None:
+def _vetoes(before: Any, now: Any) -> Report | None:
     is_armed, vetoes = now
     if before is None and not vetoes:
         return None
     if before is not None and before[1] == vetoes:
         return None
     if not vetoes:
-        return INFO, "nothing speaks against arming any more"
-    against = "against arming again" if is_armed else "against arming"
-    return INFO, f"{against}: {'; '.join(vetoes)}"[:400]
+        return Report(INFO, "vetoes_cleared", "no veto against arming")
+    text = "vetoes against arming again" if is_armed else "vetoes against arming"
+    return Report(INFO, "vetoes", f"{text}: {'; '.join(vetoes)}"[:400], {"value": list(vetoes)})
 
 
 def _read_vetoes(telemetry: Telemetry) -> Any:
@@ -104,17 +124,16 @@ def _read_vetoes(telemetry: Telemetry) -> Any:
     return None if vetoes is None else (bool(telemetry.flag("armed")), tuple(sorted(vetoes)))
 
 
-def _restored(before: Any, now: Any) -> tuple[str, str] | None:
-    if not now:
-        return None
-    return ALARM, "the board was reset in flight and went on as before"
+def _restored(before: Any, now: Any) -> Report | None:
+    text = "the Arduino was reset in flight and restored its state"
+    return Report(ALARM, "board_reset", text) if now else None
 
 
 @dataclass(frozen=True, slots=True)
 class _Busy:
     """The Raspberry Pi is busy: all instances are equal, so a new load figure is not a change."""
 
-    words: str = field(compare=False)
+    text: str = field(compare=False)
 
 
 def _read_busy(telemetry: Telemetry) -> Any:
@@ -122,65 +141,55 @@ def _read_busy(telemetry: Telemetry) -> Any:
     return _Busy(busy_text(telemetry)) if is_busy else is_busy
 
 
-def _busy(before: Any, now: Any) -> tuple[str, str] | None:
+def _busy(before: Any, now: Any) -> Report | None:
     if now:
-        return INFO, now.words
-    return None if before is None else (INFO, "Raspberry Pi not busy any more")
+        return Report(INFO, "busy", now.text)
+    return None if before is None else Report(INFO, "not_busy", "Raspberry Pi no longer busy")
 
 
 def _source(reading: str) -> EventRule:
-    def words(before: Any, now: Any) -> tuple[str, str] | None:
-        return None if before is None else (WARNING, f"{reading} comes from {now} (was {before})")
-
-    return EventRule(
-        f"source {reading}",
-        "source",
-        lambda telemetry: telemetry.text("source", reading),
-        words,
-    )
+    describe = _changed("source_changed", f"{reading} comes from", WARNING)
+    return EventRule(f"source {reading}", "source", lambda t: t.text("source", reading), describe)
 
 
-def _role(before: Any, now: Any) -> tuple[str, str] | None:
-    return None if before is None else (WARNING, f"the ground is {now} now (was {before})")
+def _competitor(before: Any, now: Any) -> Report | None:
+    text = f"another phone, {now}, is refused: one is connected"
+    return Report(WARNING, "phone_refused", text, {"value": now})
 
 
 EVENT_RULES: tuple[EventRule, ...] = (
-    EventRule("flight mode", "mode", lambda t: t.text("flight_mode"), _named("flight mode")),
-    EventRule("mode", "mode", lambda t: t.text("mode"), _named("mode")),
-    EventRule("switch", "mode", lambda t: t.text("arduino", "switch"), _named("switch position")),
+    EventRule("flight mode", "mode", lambda t: t.text("flight_mode"),
+              _changed("flight_mode", "flight mode")),
+    EventRule("mode", "mode", lambda t: t.text("mode"), _changed("mode", "mode")),
+    EventRule("switch", "mode", lambda t: t.text("arduino", "switch"),
+              _changed("switch", "switch position")),
     EventRule("armed", "armed", lambda t: t.flag("armed"), _armed),
-    _flag("failsafe", "failsafe", "arduino.failsafe", True,
-          "failsafe: the board flies without a receiver", "the failsafe is over", ALARM),
+    _flag("failsafe", "failsafe", "arduino.failsafe", True, ("failsafe", "failsafe_over"),
+          "failsafe: the Arduino flies without a receiver", "the failsafe is over", ALARM),
     _flag("receiver", "failsafe", "arduino.receiver_valid", False,
-          "the receiver is lost", "the receiver is back"),
-    _flag("imu", "source", "arduino.imu_valid", False,
-          "the IMU is invalid: nothing stabilises", "the IMU is valid", ALARM),
+          ("receiver_lost", "receiver_back"), "the receiver is lost", "the receiver is back"),
+    _flag("imu", "source", "arduino.imu_valid", False, ("imu_invalid", "imu_valid"),
+          "the IMU is invalid: no stabilisation", "the IMU is valid", ALARM),
     EventRule("restored", "source", lambda t: t.flag("arduino", "restored"), _restored),
-    _part("board", board_state, "back", ALARM),
-    _part("phone", phone_state, "here again", WARNING),
-    EventRule("competitor", "source", lambda t: t.text("android", "competitor"),
-         lambda _, now: (WARNING, f"another phone, {now}, is refused: one is connected")),
+    _part("board", "Arduino", board_state, ALARM),
+    _part("phone", "phone", phone_state, WARNING),
+    EventRule("competitor", "source", lambda t: t.text("android", "competitor"), _competitor),
     EventRule("panic", "panic", _read_busy, _busy),
     EventRule("vetoes", "veto", _read_vetoes, _vetoes),
-    EventRule("role", "link", lambda t: t.text("ground", "role", limit=12), _role),
+    EventRule("role", "link", lambda t: t.text("ground", "role", limit=12),
+              _changed("role", "the ground's role is", WARNING)),
     *(_source(each) for each in ("orientation", "location", "altitude", "heading", "battery")),
 )  # fmt: skip
 
 
-ALARM_HOLD_S = 2.0
-"""An alarm ends when its cause has been away for this time."""
-BATTERY_LOW = 20.0
-BATTERY_EMPTY = 10.0
-_BATTERY_BACK = 3.0
-
-
 @dataclass(frozen=True, slots=True)
 class Alarm:
-    """Something that is wrong; ``kind`` is one word, one alarm of each kind at most."""
+    """A fault; one alarm of each ``kind`` at most, ``code`` is its cause."""
 
     kind: str
     level: str
     text: str
+    code: str = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -196,73 +205,42 @@ class LinkSnapshot:
     """Telemetry arrives, but is as old as if the link were silent."""
 
 
-class Alarms:
-    """The active alarms. One begins immediately and ends ``hold_s`` after its cause."""
-
-    def __init__(self, hold_s: float = ALARM_HOLD_S) -> None:
-        self._over_s = hold_s
-        self._had_board = False
-        self.active: tuple[Alarm, ...] = ()
-        self._seen_s: dict[str, float] = {}
-        self._known: dict[str, Alarm] = {}
-
-    def update(self, telemetry: Telemetry, link: LinkSnapshot, now_s: float) -> bool:
-        """Update to this moment; return whether the alarms changed."""
-        self._had_board = self._had_board or board_state(telemetry) is True
-        wrong = _wrong(telemetry, link, "battery" in self._known, self._had_board)
-        found = {each.kind: each for each in wrong}
-        self._known.update(found)
-        self._seen_s.update(dict.fromkeys(found, now_s))
-        for kind, seen_s in list(self._seen_s.items()):
-            if kind not in found and now_s - seen_s >= self._over_s:
-                del self._seen_s[kind], self._known[kind]
-        active = tuple(self._known[kind] for kind in sorted(self._known))
-        has_changed = active != self.active
-        self.active = active
-        return has_changed
-
-    def message(self, aircraft: str) -> dict[str, Any]:
-        """Return the message for the pages."""
-        return {
-            "type": "alarms",
-            "aircraft": aircraft,
-            "active": [
-                {"kind": each.kind, "level": each.level, "text": each.text} for each in self.active
-            ],
-        }
-
-
-def _wrong(telemetry: Telemetry, link: LinkSnapshot, was_low: bool, had_board: bool) -> list[Alarm]:
+def faults(telemetry: Telemetry, link: LinkSnapshot, was_low: bool, had_board: bool) -> list[Alarm]:
+    """Return the present faults; ``was_low``: the battery's alarm is active."""
     found: list[Alarm] = []
     if link.was_heard and link.is_silent:
-        found.append(Alarm("silent", ALARM, _silence(link)))
+        found.append(_silence(link))
     flag = telemetry.flag
     if flag("arduino", "failsafe"):
-        found.append(Alarm("failsafe", ALARM, "failsafe: the board flies without a receiver"))
+        found.append(Alarm("failsafe", ALARM, "failsafe: the Arduino flies without a receiver"))
     elif flag("arduino", "receiver_valid") is False:
         level = ALARM if flag("armed") else WARNING
         found.append(Alarm("receiver", level, "the receiver is lost"))
     if flag("arduino", "imu_valid") is False:
-        found.append(Alarm("imu", ALARM, "the IMU is invalid: nothing stabilises"))
+        found.append(Alarm("imu", ALARM, "the IMU is invalid: no stabilisation"))
     if board_state(telemetry) is NOT_YET and not had_board:
-        found.append(Alarm("board", WARNING, "the board is not here yet"))
+        found.append(Alarm("board", WARNING, "the Arduino is not connected yet", "board_awaited"))
     elif flag("arduino", "connected") is False:
-        found.append(Alarm("board", ALARM, "the board is gone"))
+        found.append(Alarm("board", ALARM, "the Arduino is disconnected", "board_lost"))
     if phone_state(telemetry) is False:
-        found.append(Alarm("phone", WARNING, "the phone is gone"))
+        found.append(Alarm("phone", WARNING, "the phone is disconnected"))
     level_percent = telemetry.number("android", "batteryLevel")
     if level_percent is not None:
         bound = BATTERY_LOW + (_BATTERY_BACK if was_low else 0.0)
         if level_percent < bound:
-            level = ALARM if level_percent < BATTERY_EMPTY else WARNING
-            word = "nearly empty" if level == ALARM else "low"
-            found.append(Alarm("battery", level, f"the phone's battery is {word}"))
+            is_empty = level_percent < BATTERY_EMPTY
+            text = f"the phone's battery is {'nearly empty' if is_empty else 'low'}"
+            found.append(Alarm("battery", ALARM if is_empty else WARNING, text))
     return found
 
 
-def _silence(link: LinkSnapshot) -> str:
+def _silence(link: LinkSnapshot) -> Alarm:
     if not link.is_open:
-        return f"no link: {link.reason}"[:300] if link.reason else "no link"
+        text = f"no link: {link.reason}"[:300] if link.reason else "no link"
+        return Alarm("silent", ALARM, text, "no_link")
     if link.is_aircraft_online is False:
-        return "the aircraft is not connected to the proxy"
-    return "telemetry comes too late" if link.is_late else "the aircraft is silent"
+        text = "the aircraft is not connected to the proxy"
+        return Alarm("silent", ALARM, text, "aircraft_offline")
+    if link.is_late:
+        return Alarm("silent", ALARM, "telemetry arrives too late", "late")
+    return Alarm("silent", ALARM, "the aircraft is silent", "silent")

@@ -75,7 +75,11 @@ _MAX_WHOLE = 2**53
 
 
 class PageFault(ValueError):  # noqa: N818 - what the page did, the protocol's word
-    """An unknown message; the text is one sentence."""
+    """A message that cannot be accepted; the text is one sentence."""
+
+    def __init__(self, text: str, code: str = "invalid") -> None:
+        super().__init__(text)
+        self.code = code
 
 
 @dataclass(frozen=True, slots=True)
@@ -95,7 +99,7 @@ class Reader:
         """Return a text; None: absent or null."""
         found = self.fields.get(key)
         if found is not None and (not isinstance(found, str) or len(found) > longest):
-            raise PageFault(f"{key} is no text of at most {longest} characters")
+            raise PageFault(f"{key} is not a text of at most {longest} characters")
         return found
 
     def whole(self, key: str) -> int:
@@ -113,14 +117,14 @@ class Reader:
         if type(found) is float and found.is_integer():
             found = int(found)
         if type(found) is not int or not -_MAX_WHOLE < found < _MAX_WHOLE:
-            raise PageFault(f"{key} is no whole number")
+            raise PageFault(f"{key} is not a whole number")
         return found
 
     def number(self, key: str) -> float:
         """Return a number."""
         found = self.fields.get(key)
         if isinstance(found, bool) or not isinstance(found, int | float):
-            raise PageFault(f"{key} is no number")
+            raise PageFault(f"{key} is not a number")
         return float(found)
 
     def object(self, key: str) -> dict[str, Any]:
@@ -129,14 +133,14 @@ class Reader:
         if found is None:
             return {}
         if not isinstance(found, dict):
-            raise PageFault(f"{key} is no object")
+            raise PageFault(f"{key} is not an object")
         return found
 
     def choice(self, key: str, *words: str) -> str:
         """Return one of ``words``."""
         found = self.text(key)
         if found not in words:
-            raise PageFault(f"{key} is none of {', '.join(words)}")
+            raise PageFault(f"{key} is not one of {', '.join(words)}")
         return found
 
 

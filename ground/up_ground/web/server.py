@@ -9,7 +9,7 @@ from typing import Any
 from twisted.internet.error import CannotListenError
 
 from up_ground.catalogue import Catalogue, catalogue_message
-from up_ground.one_shot_task import EXIT_DONE, EXIT_NO_ANSWER, Echo, OneShotTask
+from up_ground.one_shot_task import EXIT_DONE, EXIT_NO_ANSWER, OneShotTask
 from up_ground.web.access import Access
 from up_ground.web.aircraft_source import AircraftSource, Subscribers
 from up_ground.web.client_hub import ClientHub
@@ -34,15 +34,13 @@ class Server(OneShotTask):
         access: Access,
         make_sources: MakeSources,
         *,
-        echo: Echo,
-        print_error: Echo,
         tiles: Tiles | None = None,
         attribution: str = "",
         catalogue: Catalogue | None = None,
         is_replay: bool = False,
         folder: Path = STATIC,
     ) -> None:
-        super().__init__(echo, print_error)
+        super().__init__()
         told = None
         if tiles is not None:
             told = {"url": "/tiles/{z}/{x}/{y}", "attribution": attribution}
@@ -68,14 +66,11 @@ class Server(OneShotTask):
             self._port = self._reactor.listenTCP(listen.port, self._factory, interface=listen.host)
         except CannotListenError as error:
             reason = getattr(error.socketError, "strerror", None) or error.socketError
-            self.print_error(
-                f"{authority(listen.host or '0.0.0.0', listen.port)} cannot be opened: {reason}"
-                " (--listen ADDRESS:PORT names another)"
-            )
-            self.finish(EXIT_NO_ANSWER)
+            address = authority(listen.host or "0.0.0.0", listen.port)
+            text = f"cannot open {address}: {reason} (--listen ADDRESS:PORT selects another)"
+            self.fail(text, "listen_failed", EXIT_NO_ANSWER, address=address)
             return
-        for line in self._words(self._port.getHost().port):
-            self.echo(line)
+        self._print_addresses(self._port.getHost().port)
         self.pages.start()
         for aircraft in self.pages.fleet.values():
             aircraft.start()
@@ -96,13 +91,14 @@ class Server(OneShotTask):
             await aircraft.stop()
         await port.stopListening()
 
-    def _words(self, port: int) -> Iterable[str]:
+    def _print_addresses(self, port: int) -> None:
         for aircraft in self.pages.fleet.values():
-            yield f"  {aircraft.summary}"
+            self.echo(f"  {aircraft.summary}", "aircraft", name=aircraft.name)
         key = None if self._access.is_watch_only else self._access.key
         urls = self._listen.urls(port, key)
-        yield f"open {urls[0]}"
-        yield from (f"  or {url}" for url in urls[1:])
+        self.echo(f"open {urls[0]}", "page_open", url=urls[0])
+        for url in urls[1:]:
+            self.echo(f"  or {url}", "page_address", url=url)
         if key:
-            yield "the part after # lets a page control; without it a page only watches"
-        yield "Ctrl-C ends it"
+            self.echo("the part after # lets a page control; without it a page only watches")
+        self.echo("Ctrl-C ends it", "ready")

@@ -34,7 +34,7 @@ _KINDS = ((b"\x89PNG\r\n\x1a\n", b"image/png"), (b"\xff\xd8\xff", b"image/jpeg")
 def source_fault(source: str) -> str:
     """Return why an address is not a tile source; empty if it is one."""
     if not _SOURCE.fullmatch(source) or not source.isascii():
-        return f"{source!r} is no address that begins with http:// or https://"
+        return f"{source!r} is not an address that begins with http:// or https://"
     missing = [each for each in ("{z}", "{x}", "{y}") if each not in source]
     if missing:
         return f"{source!r} has no {' and no '.join(missing)}: write .../{{z}}/{{x}}/{{y}}.png"
