@@ -196,8 +196,6 @@ def in_a_page(proxy, folder, act):
             Access(frozenset(), None, False),
             lambda pages: make_sessions(reactor, [settings], environ, pages, catalogue),
             catalogue=catalogue,
-            echo=lambda text: None,
-            print_error=pytest.fail,
         )
         server.start()
         try:

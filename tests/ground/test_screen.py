@@ -150,10 +150,10 @@ def test_a_broken_link_says_why_and_since_when():
 
 def test_the_seat_and_who_asks_for_it():
     holder = state(frame(), seat=Seat.COMMAND, holder=1, is_holder_known=True, asked_by=3)
-    assert "seat command" in text_of(holder)
-    assert "ground 3 asks for the seat: press g" in text_of(holder)
+    assert "control ours" in text_of(holder)
+    assert "ground 3 requests control: press g" in text_of(holder)
     listener = state(frame(), seat=Seat.LISTEN, holder=2, is_holder_known=True)
-    assert "seat listen (ground 2 commands)" in text_of(listener)
+    assert "control ground 2" in text_of(listener)
 
 
 @pytest.mark.parametrize(

@@ -4,6 +4,7 @@ import pytest
 from twisted.internet.task import Clock
 
 from up_ground.link_status import ControlStatus
+from up_ground.web.access import Denial
 from up_ground.web.client_session import ClientSession
 from up_ground.web.control import ASK_LIMIT_S, Control
 from up_ground.web.messages import PageFault
@@ -35,14 +36,21 @@ class Seat:
 class Bench:
     def __init__(self):
         self.clock, self.seat, self.told, self.changes = Clock(), Seat(), [], 0
-        self.control = Control(self.clock, self.seat, self.told.append, self.on_change)
+        self.control = Control(self.clock, self.seat, self.report, self.on_change)
         self.ann, self.bob, self.guest = (
             ClientSession(number, name, "", why)
-            for number, name, why in ((1, "Ann", ""), (2, "Bob", ""), (3, "Guest", "no key"))
+            for number, name, why in (
+                (1, "Ann", None),
+                (2, "Bob", None),
+                (3, "Guest", Denial("no_key", "")),
+            )
         )
         for page in (self.ann, self.bob, self.guest):
             page.faults = []
-            page.fault = page.faults.append
+            page.fault = lambda text, code, faults=page.faults: faults.append(code)
+
+    def report(self, kind, report):
+        self.told.append(report.code)
 
     def on_change(self):
         self.changes += 1
@@ -83,11 +91,12 @@ def test_the_seat_is_only_taken_when_a_page_wants_control(bench):
 
 
 def test_a_page_that_may_only_watch_gets_nothing(bench):
-    with pytest.raises(PageFault, match="no key"):
+    with pytest.raises(PageFault) as fault:
         bench.control.request(bench.guest)
     bench.has_control(bench.ann)
-    with pytest.raises(PageFault, match="no key"):
+    with pytest.raises(PageFault) as given:
         bench.control.give(bench.ann, bench.guest)
+    assert (fault.value.code, given.value.code) == ("watch_only", "watch_only")
     assert bench.control.holder is bench.ann
 
 
@@ -109,9 +118,10 @@ def test_the_holder_denies(bench):
     bench.control.request(bench.bob)
     bench.control.deny(bench.ann)
     assert bench.control.holder is bench.ann
-    assert bench.bob.faults == ["Ann keeps control"]
-    with pytest.raises(PageFault, match="nobody asks"):
+    assert bench.bob.faults == ["denied"]
+    with pytest.raises(PageFault) as fault:
         bench.control.deny(bench.ann)
+    assert fault.value.code == "not_requested"
 
 
 @pytest.mark.parametrize("action", ["give", "deny", "release"])
@@ -167,7 +177,7 @@ def test_it_is_not_asked_for_ever(bench):
     bench.seat_is(ControlStatus.HELD, 4)
     bench.control.request(bench.ann)
     bench.clock.pump([1.1] * 40)
-    assert bench.ann.faults == ["ground 4 has not given the seat within 30 s"]
+    assert bench.ann.faults == ["request_timeout"]
     asked = len(bench.seat.done)
     bench.clock.advance(30)
     assert len(bench.seat.done) == asked
@@ -213,7 +223,7 @@ def test_control_outlives_a_lost_link_and_ends_when_another_ground_took_over(ben
     assert bench.control.holder is bench.ann
     bench.seat_is(ControlStatus.HELD, 9)
     assert bench.control.holder is None
-    assert bench.told[-1] == "ground 9 commands, Ann has lost control"
+    assert bench.told[-1] == "control_lost"
 
 
 def test_the_end_leaves_nothing(bench):

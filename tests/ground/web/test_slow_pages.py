@@ -33,7 +33,7 @@ class SlowPage:
         while self.file.readline() != b"\r\n":
             pass
         self.send(type="hello", name="slow")
-        self.send(type="watch", aircraft="default")
+        self.send(type="watch")
 
     def __enter__(self):
         return self

@@ -14,7 +14,15 @@ from up_ground.web.access import (
     Access,
     KeyAttempts,
 )
-from up_ground.web.client_hub import FAULTS_LIMIT, GREETING_LIMIT, HELLO_S, KEPT_S, ClientHub
+from up_ground.web.client_hub import (
+    FAULTS_LIMIT,
+    GREETING_LIMIT,
+    HELLO_S,
+    KEPT_S,
+    LATER,
+    VIOLATION,
+    ClientHub,
+)
 from up_ground.web.client_session import PAGES_LIMIT, WATCHERS_LIMIT
 from up_ground.web.messages import PageFault, read_message
 
@@ -130,14 +138,14 @@ def test_hello_comes_first(bench):
     bench.send(link, type="hello", name="Ann")
     assert link.kinds()[1:] == ["welcome", "status"]
     bench.send(link, type="hello", name="Ann")
-    assert link.told[-1]["text"] == "hello was said already"
+    assert link.told[-1]["code"] == "hello_repeated"
 
 
 def test_who_says_no_hello_is_closed(bench):
     link = bench.open(hello=False)
     bench.send(link, type="ping", ping=1)
     bench.clock.advance(HELLO_S)
-    assert link.closed[1] == "no hello"
+    assert link.closed[0] == VIOLATION
 
 
 @pytest.mark.parametrize(
@@ -190,14 +198,14 @@ def test_too_much_nonsense_ends_it(bench):
     for _ in range(FAULTS_LIMIT):
         assert link.closed is None
         bench.pages.on_message(link, b"nonsense")
-    assert link.closed == (4008, "too many faults")
+    assert link.closed[0] == VIOLATION
 
 
 def test_a_flood_ends_it(bench):
     link = bench.open()
     for _ in range(1000):
         bench.send(link, type="ping", ping=1)
-    assert link.closed == (4008, "too many messages")
+    assert link.closed[0] == VIOLATION
     other = bench.open()
     for _ in range(3000):
         bench.clock.advance(0.02)
@@ -285,7 +293,7 @@ def test_names_are_made_harmless(bench):
 
 def test_there_are_so_many_pages_and_no_more(bench):
     links = [bench.open() for _ in range(PAGES_LIMIT)]
-    assert bench.open().closed == (4013, "too many pages are open")
+    assert bench.open().closed[0] == LATER
     assert all(link.closed is None for link in links)
     bench.pages.on_closed(links[0])
     # Its place is kept while it may come back; then it is anybody's.
@@ -308,19 +316,19 @@ def test_the_page_that_comes_back_finds_its_place_in_a_full_house(bench):
 def test_watchers_leave_places_for_those_who_may_control():
     bench = Bench(key="the-right-key")
     watchers = [bench.open() for _ in range(WATCHERS_LIMIT)]
-    assert bench.open().closed == (4013, "too many pages are open")
+    assert bench.open().closed[0] == LATER
     pilots = [bench.open(key="the-right-key") for _ in range(PAGES_LIMIT - WATCHERS_LIMIT)]
     assert all(link.closed is None for link in (*watchers, *pilots))
     # A full house: the youngest watcher goes, and does not come back by its token.
     assert bench.open(key="the-right-key").told[0]["may_control"] is True
-    assert watchers[-1].closed == (4013, "a page that may control needs the place")
+    assert watchers[-1].closed[0] == LATER
     assert all(link.closed is None for link in watchers[:-1])
     assert ("gone", WATCHERS_LIMIT) in bench.kite.heard
     bench.pages.on_closed(watchers[-1])
     assert bench.open(token=watchers[-1].told[0]["token"]).closed is not None
     for _ in range(WATCHERS_LIMIT - 1):
         assert bench.open(key="the-right-key").closed is None
-    assert bench.open(key="the-right-key").closed == (4013, "too many pages are open")
+    assert bench.open(key="the-right-key").closed[0] == LATER
     assert len(bench.pages.all()) == PAGES_LIMIT
 
 
@@ -332,28 +340,27 @@ def test_where_nobody_may_control_all_places_are_for_watchers():
 
 def test_wrong_keys_are_limited_by_address():
     bench = Bench(key="the-right-key")
-    limited = "too many wrong keys came from this address: load the page again in a minute"
 
-    def why_not(key, host, **more):
+    def denial(key, host, **more):
         link = bench.open(key=key, host=host, **more)
         assert link.is_admitted
         bench.pages.on_closed(link)
-        return link.told[0]["why_not"]
+        return (link.told[0]["denial"] or {}).get("code")
 
     pilot = bench.open(key="the-right-key", host="2001:db8::1")
     for number in range(MAX_ATTEMPTS):
         # One network of IPv6 is one address.
-        assert "wrong" in why_not(f"guess-{number}", f"2001:db8::{number + 1:x}")
-    assert why_not("guess", "2001:db8::99") == limited
+        assert denial(f"guess-{number}", f"2001:db8::{number + 1:x}") == "wrong_key"
+    assert denial("guess", "2001:db8::99") == "too_many_keys"
     # Otherwise a client that keeps guessing would see which guess was right.
-    assert why_not("the-right-key", "2001:db8::1") == limited
-    assert why_not("the-right-key", "2001:db8:0:1::1") == ""
+    assert denial("the-right-key", "2001:db8::1") == "too_many_keys"
+    assert denial("the-right-key", "2001:db8:0:1::1") is None
     # A client that has shown the key before is not limited.
     bench.pages.on_closed(pilot)
-    assert why_not("the-right-key", "2001:db8::1", token=pilot.told[0]["token"]) == ""
+    assert denial("the-right-key", "2001:db8::1", token=pilot.told[0]["token"]) is None
     bench.clock.advance(1 / ATTEMPTS_RATE_HZ)
-    assert "without the key" in why_not(None, "2001:db8::1")
-    assert why_not("the-right-key", "2001:db8::1") == ""
+    assert denial(None, "2001:db8::1") == "no_key"
+    assert denial("the-right-key", "2001:db8::1") is None
 
 
 def test_right_keys_of_one_address_use_nothing_up():
@@ -371,7 +378,7 @@ def test_a_wrong_key_by_the_token_of_a_watcher_is_an_attempt_too():
     for _ in range(MAX_ATTEMPTS + 1):
         bench.pages.on_closed(link)
         link = bench.open(key="guess", token=link.told[0]["token"])
-    assert "too many wrong keys" in link.told[0]["why_not"]
+    assert link.told[0]["denial"]["code"] == "too_many_keys"
 
 
 def test_addresses_without_end_take_no_memory_without_end():
@@ -384,7 +391,7 @@ def test_addresses_without_end_take_no_memory_without_end():
 def test_links_that_say_nothing_keep_nobody_out(bench):
     silent = [bench.open(hello=False) for _ in range(GREETING_LIMIT)]
     assert bench.open().kinds()[0] == "welcome"
-    assert silent[0].closed == (4013, "too many pages send no hello")
+    assert silent[0].closed[0] == LATER
     assert silent[1].closed is None
     bench.pages.on_closed(silent[0])
     for link in silent[1:]:
