@@ -127,7 +127,7 @@ class GroundLink:
             self._tokens.forget()
         self._backoff.reset()
         if self._connection is not None:
-            self._connection.give_up("another seat is asked for")
+            self._connection.abort("reconnecting to request control", "reconnect")
 
     def measure(self) -> None:
         """Read the link's own delay and drops."""
@@ -145,9 +145,10 @@ class GroundLink:
     def on_line(self, connection: GroundProtocol, line: bytes) -> None:
         """Take a relayed line: a General Message, or something to drop and count."""
         if not self._is_greeted:
-            connection.give_up(
-                "the other side does not answer a hello: it is no Ground Station Proxy of this"
-                " version (--direct says no hello)"
+            connection.abort(
+                "the other side does not answer a hello: not a Ground Station Proxy of this"
+                " version (--direct sends no hello)",
+                "no_proxy",
             )
             return
         self.status.too_long = self._too_long + connection.dropped_too_long
@@ -168,7 +169,7 @@ class GroundLink:
         self._obey(connection, said)
         self._listener.on_link()
 
-    def on_lost(self, connection: GroundProtocol, reason: str) -> None:
+    def on_lost(self, connection: GroundProtocol, reason: str, code: str) -> None:
         """Wait a little and connect again."""
         self._too_long += connection.dropped_too_long
         self.status.too_long = self._too_long
@@ -177,7 +178,7 @@ class GroundLink:
             gone, self._gone = self._gone, None
             if gone is not None:
                 gone.callback(None)
-            self._retry(reason)
+            self._retry(reason, code)
 
     def _obey(self, connection: GroundProtocol, said: ProxyLine) -> None:
         status = self.status
@@ -190,7 +191,7 @@ class GroundLink:
                 self._keep(said.token)
         elif isinstance(said, Refused):
             status.rejection = said.code
-            connection.give_up(f"the proxy refuses: {said.reason} ({said.code})")
+            connection.abort(f"the proxy refuses: {said.reason} ({said.code})", "rejected")
         elif isinstance(said, ControlGranted):
             status.seat = self._wanted = Seat.COMMAND
             self._tokens.hold()
@@ -240,12 +241,12 @@ class GroundLink:
     def _failed(self, failure: Failure) -> None:
         self._attempt = None
         if self.status.state is not LinkState.STOPPED:
-            self._retry(f"cannot reach {self._settings.address}: {_why(failure)}")
+            self._retry(f"cannot reach {self._settings.address}: {_why(failure)}", "unreachable")
 
-    def _retry(self, reason: str) -> None:
+    def _retry(self, reason: str, code: str) -> None:
         if self.status.state is LinkState.STOPPED:
             return
-        self.status.disconnected(LinkState.WAITING, self._reactor.seconds(), reason)
+        self.status.disconnected(LinkState.WAITING, self._reactor.seconds(), reason, code)
         self.status.failures += 1
         self._timer = self._reactor.callLater(self._backoff.pause_s(), self._connect)
         self._listener.on_link()
