@@ -17,9 +17,8 @@ from up.config.atomic_writer import remove_unfinished
 from up.context import Context
 from up.life_cycle import BootStoppedError, LifeCycle
 from up.loading.application import Application, NoApplicationError
-from up.loading.checking import check_application
+from up.loading.checking import check_application, config_files, no_configuration
 from up.loading.discovery import CogImportError
-from up.loading.files import config_files, no_configuration
 from up.loading.plan import BootError
 from up.log import start_logging
 from up.mode import Mode

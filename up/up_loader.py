@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from up.builtin_modules import BUILTIN_MODULES
-from up.config.disabled_modules import DISABLED_MODULES
+from up.config.application import DISABLED_MODULES
 from up.context import Context
 from up.loading.application import Application
 from up.loading.commands import take_commands

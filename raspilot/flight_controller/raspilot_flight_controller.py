@@ -9,8 +9,7 @@ from twisted.internet.defer import Deferred
 from twisted.python.failure import Failure
 
 from raspilot.flight_controller import sticks
-from raspilot.flight_controller.cascade import Cascade, pitch_rate_in_turn
-from raspilot.flight_controller.yaw_damper import YawDamper
+from raspilot.flight_controller.cascade import Cascade, YawDamper, pitch_rate_in_turn
 from up.commands.flight_mode_command import FlightModeCommand
 from up.commands.flight_state_command import FlightStateCommand
 from up.commands.fly_by_wire_limits_command import FlyByWireLimitsCommand

@@ -6,9 +6,8 @@ import argparse
 import sys
 
 from up.cli.system import cog_files, cogfile_problems, program_files, system_of
-from up.cogs.echo import echo
-from up.loading.checking import check_application
-from up.loading.files import no_configuration
+from up.cogs.cog import echo
+from up.loading.checking import check_application, no_configuration
 
 EXIT_MISTAKES = 2
 

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 
 from up.cli.cli_error import CliError
 from up.cli.parser import make_parser
-from up.cogs.cog_error import CogError
+from up.cogs.cog import CogError
 from up.config import ConfigErrors
 from up.loading.application import NoApplicationError
 

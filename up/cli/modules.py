@@ -7,7 +7,7 @@ import sys
 from collections.abc import Iterable
 
 from up.cli.system import cogfile_problems, system_of
-from up.cogs.echo import echo
+from up.cogs.cog import echo
 from up.loading.checking import check_application
 from up.loading.plan import Plan
 

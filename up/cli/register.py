@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 
 from up.cli.locate import application_of
-from up.cogs.package_name import package_name
+from up.cogs.cog import package_name
 from up.cogs.registration import register, unregister
 
 

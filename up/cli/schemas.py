@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 
 from up.cli.system import cog_files, program_files, system_of
-from up.cogs.echo import echo
+from up.cogs.cog import echo
 from up.config import write_schemas
 from up.loading.application import UP_FILE_CONFIG
 from up.loading.checking import check_application

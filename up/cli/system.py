@@ -13,7 +13,7 @@ from twisted.internet.task import Clock
 
 from up.cli.cli_error import CliError
 from up.cli.locate import application_of
-from up.cogs.cog_error import CogError
+from up.cogs.cog import CogError
 from up.cogs.cogfile import COGFILE, load_cogfile
 from up.cogs.registration import find_registrant
 from up.config import ConfigErrors, ConfigFile

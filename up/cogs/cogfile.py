@@ -7,8 +7,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
-from up.cogs.cog_error import CogError
-from up.cogs.package_name import package_name
+from up.cogs.cog import CogError, package_name
 from up.cogs.source_tree import is_distribution_name
 from up.config import key
 from up.config.loader import read_text

@@ -10,7 +10,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import Literal
 
-from up.cogs.cog_error import CogError
+from up.cogs.cog import CogError
 from up.cogs.manifest import entry_lines
 from up.config.atomic_writer import write_atomically
 from up.loading.external_modules import (

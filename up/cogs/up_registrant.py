@@ -6,7 +6,7 @@ import inspect
 from pathlib import Path
 from typing import Any, ClassVar
 
-from up.cogs.echo import Echo, echo
+from up.cogs.cog import Echo, echo
 from up.cogs.manifest import MANIFEST_FILE, Manifest, load_manifest
 from up.cogs.registry import Registry, Source
 from up.config import ConfigFile, write_template

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 from up.config import items, key
-from up.config.map_file import MapFile
+from up.config.file import MapFile
 
 EXTERNAL_MODULES_FILE = "external_modules.yml"
 

@@ -8,8 +8,7 @@ from typing import Any, ClassVar
 from up.commands.command import BaseCommand
 from up.commands.heading_command import HeadingCommand
 from up.earth import compass_deg
-from up.providers.base_provider import BaseProvider
-from up.providers.reading import Reading
+from up.providers.base_provider import BaseProvider, Reading
 
 
 class UpHeadingProvider(BaseProvider[float]):

@@ -8,8 +8,7 @@ from typing import Any, ClassVar
 from up.commands.command import BaseCommand
 from up.commands.location_command import LocationCommand
 from up.earth import bearing_deg, distance_m
-from up.providers.base_provider import BaseProvider
-from up.providers.reading import Reading
+from up.providers.base_provider import BaseProvider, Reading
 
 
 class UpLocationProvider(BaseProvider[LocationCommand]):

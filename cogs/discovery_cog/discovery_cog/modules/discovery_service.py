@@ -11,9 +11,8 @@ from discovery_cog.answerer import Answerer
 from discovery_cog.config import DISCOVERY
 from discovery_cog.own_address import own_address_towards
 from discovery_cog.rate_limit import RateLimit
-from up.base_started_module import BaseStartedModule
+from up.base_started_module import BaseStartedModule, StartFailedError
 from up.mode import WITH_ARDUINO, Mode
-from up.start_result import StartFailedError
 from up.system.udp import listen_udp
 
 
