@@ -12,6 +12,8 @@ from typing import Any
 from twisted.internet.defer import Deferred
 from twisted.logger import Logger
 
+from up.base_module import BaseModule
+from up.commands.base_command_handler import BaseCommandHandler
 from up.config import ConfigErrors, load_all
 from up.config.atomic_writer import remove_unfinished
 from up.context import Context
@@ -55,8 +57,8 @@ class Program:
             self._reactor, lambda: self._life.is_healthy, self._notifier, environ
         )
         self._gc_scheduler = GcScheduler(self._reactor)
-        self._monitor = ReactorMonitor(self._reactor)
-        up.count("reactor", self._monitor.culprits)
+        self._monitor = ReactorMonitor(self._reactor, (BaseModule, BaseCommandHandler))
+        up.count("reactor", self._monitor.blocking_calls)
         self._exit_watchdog = ExitWatchdog(FORCED_AFTER_S)
         self._exit_status = EXIT_OK
         self._stopping = False
@@ -85,7 +87,7 @@ class Program:
         if self._stopping:
             return
         self._stopping = True
-        self.log.info("stopping: {why}", why=why)
+        self.log.info("stopping: {why}", why=why, code="stopping")
         self._notifier.stopping(why)
         self._exit_watchdog.request(self._exit_status or EXIT_STOPPED)
         done = Deferred.fromCoroutine(self._end())
@@ -112,7 +114,7 @@ class Program:
         # Runs after the reactor's next wait: the current turn belongs to the start.
         later = self._reactor.callLater
         later(0, later, 0, setattr, self._monitor, "has_started", True)
-        self.log.info("{count} modules run", count=len(self._life.started))
+        self.log.info("{count} modules run", count=len(self._life.started), code="started")
         if self._up.vetoes.own:
             self.log.warn("arming is refused: {vetoes}", vetoes="; ".join(self._up.vetoes.own))
 

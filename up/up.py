@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from typing import Any, TypeVar, cast
+from typing import TYPE_CHECKING, Any, TypeVar, cast
 
 from twisted.logger import Logger
 
@@ -17,15 +17,17 @@ from up.commands.command_link import CommandLink
 from up.commands.command_receiver import CommandReceiver
 from up.commands.command_registry import CommandRegistry
 from up.context import Context
-from up.loading.order import forget_wanted, needed_by
-from up.loading.plan import Plan
 from up.log.limits import Limited
+from up.needs import discard_wanted, needed_by
 from up.vetoes import Vetoes
 
 LOG_INTERVAL_S = 30.0
 """A refused Command or a thread's fault is logged immediately, then as a count per interval."""
 
 _M = TypeVar("_M")
+
+if TYPE_CHECKING:
+    from up.loading.plan import Plan
 
 
 class Up:
@@ -128,7 +130,7 @@ class Up:
         """Set the port that a module bound; it is logged and reported to the supervisor."""
         self.ports[name] = port
         add_cleanup(lambda: self._take_port_back(name, port))
-        self.log.info("{name} listens on port {port}", name=name, port=port)
+        self.log.info("{name} listens on port {port}", name=name, port=port, code="port_open")
         self.on_ports_changed()
 
     def count(self, part: str, counters: Mapping[str, int]) -> None:
@@ -177,7 +179,7 @@ class Up:
         self.command_executor.control.release(module.class_name)
         self._modules = [each for each in self._modules if each is not module]
         for each in self._modules:
-            forget_wanted(each, self._excluded)
+            discard_wanted(each, self._excluded)
         self.log.error("{name} is left out: {reason}", name=module.path, reason=reason)
         self.vetoes.set(module.path, reason)
 

@@ -7,7 +7,7 @@ from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import Any
 
-from up.cli.system import cog_files, system_of
+from up.cli.verbs import cog_files, system_of
 from up.config import ConfigFile
 from up.config.application import DISABLED_MODULES
 from up.config.schema import Entry, ListOf, MapOf, Schema, plain_value

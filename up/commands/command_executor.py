@@ -323,10 +323,11 @@ class CommandExecutor:
                 self.log.info,
                 "{owner} refused {name}: {reason}",
                 key=(owner, command.NAME, error.code),
-                code=error.code.value,
                 owner=owner,
                 name=command.NAME,
                 reason=error.reason,
+                code="command_refused",
+                refusal=error.code.value,
             )
             return awaited
         self.counters["failed_handlers"] += 1

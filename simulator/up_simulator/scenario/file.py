@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from up.builtin_modules import BUILTIN_MODULES
-from up.cli.system import cog_files, program_files
+from up.cli.verbs import cog_files, program_files
 from up.config import ConfigErrors, ConfigFile
 from up.config.loader import decode, read_text
 from up.config.nodes import MapNode, Node, Report, ScalarNode, compose
