@@ -342,7 +342,7 @@ class TestModes:
             assert not state()[0]
             rig.state(FBW_MODE)
             rig.state()
-            assert len(changes()) == 6
+            assert len(changes()) == 5
 
     def test_it_asks_for_auto_only_at_auto_and_while_the_ground_wants_it(self, tmp_path):
         rig = Rig(tmp_path)
