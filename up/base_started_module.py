@@ -28,7 +28,6 @@ class BaseStartedModule(BaseModule):
 
     @property
     def started(self) -> bool:
-        """Return whether the module is started and not stopped."""
         return self._started
 
     @property

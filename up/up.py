@@ -67,7 +67,6 @@ class Up:
 
     @property
     def modules(self) -> Sequence[BaseModule]:
-        """Return the loaded modules in their order."""
         return self._modules
 
     def get_module(self, cls: type[_M]) -> _M | None:
@@ -75,12 +74,10 @@ class Up:
         return next((cast(_M, each) for each in self._modules if isinstance(each, cls)), None)
 
     def get_modules(self, cls: type[_M]) -> list[_M]:
-        """Return every module that is an instance of a class."""
         return [cast(_M, each) for each in self._modules if isinstance(each, cls)]
 
     @property
     def telemetry_controller(self) -> Any:
-        """Return the telemetry controller, or None."""
         from up.telemetry_controller import TelemetryController
 
         return self.get_module(TelemetryController)
@@ -94,7 +91,6 @@ class Up:
 
     @property
     def rx_provider(self) -> Any:
-        """Return the provider of the receiver's inputs, or None."""
         from up.providers.base_rx_provider import BaseRXProvider
 
         return self.get_module(BaseRXProvider)
@@ -108,7 +104,6 @@ class Up:
 
     @property
     def telemetry_content(self) -> Mapping[str, Any]:
-        """Return the system's own part of telemetry."""
         executor = self.command_executor
         now_s = self.context.reactor.seconds()
         return {
@@ -161,7 +156,6 @@ class Up:
             self._register(handler)
 
     def cleanup_of(self, module: BaseModule) -> CleanupStack:
-        """Return the cleanups of a module's registrations."""
         return self._cleanups[id(module)]
 
     def missing_need(self, module: BaseModule) -> BaseModule | None:

@@ -37,7 +37,6 @@ class UpLoader:
         return plan
 
     def create(self) -> Up:
-        """Return the system, initialized and ready to start."""
         up = Up(self.plan(), self._context)
         up.initialize()
         return up

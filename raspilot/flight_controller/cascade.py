@@ -62,7 +62,6 @@ class Cascade:
     def hold_angle(
         self, wanted_deg: float, angle_deg: float, rate_deg_s: float, dt_s: float
     ) -> float:
-        """Return the servo deflection, us, that leads to an angle."""
         return self.hold_rate(self.rate_towards(wanted_deg, angle_deg, dt_s), rate_deg_s, dt_s)
 
     def rate_towards(self, wanted_deg: float, angle_deg: float, dt_s: float) -> float:
@@ -71,7 +70,6 @@ class Cascade:
         return self._stabilize(angle_deg, dt=dt_s) or 0.0
 
     def hold_rate(self, wanted_deg_s: float, rate_deg_s: float, dt_s: float) -> float:
-        """Return the servo deflection, us, that leads to a rotation rate."""
         self._rate.setpoint = wanted_deg_s
         return US_PER_UNIT * (self._rate(rate_deg_s, dt=dt_s) or 0.0)
 
@@ -89,11 +87,9 @@ class YawDamper:
         self._steady_deg_s: float | None = None
 
     def tune(self, gains: Gains) -> None:
-        """Set other gains."""
         self._pid.tunings = tuple(gains)
 
     def reset(self) -> None:
-        """Reset."""
         self._pid.reset()
         self._steady_deg_s = None
 

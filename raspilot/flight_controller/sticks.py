@@ -20,7 +20,6 @@ class Limits:
 
     @classmethod
     def of(cls, command: FlyByWireLimitsCommand) -> Limits:
-        """Return the configured limits, with defaults for missing ones."""
         said = {name: value for name, value in command.data.items() if value is not None}
         return replace(cls(), **said)
 

@@ -35,7 +35,6 @@ class CogSpec:
     revision: str = key("", "Branch, tag or commit of the repository.", max_length=200)
 
     def problems(self) -> Iterator[tuple[str, str]]:
-        """Yield invalid values and contradictions."""
         if not self.path.isprintable():
             yield "path", "must be the path of a folder"
         if self.pypi and not is_distribution_name(self.pypi):

@@ -42,7 +42,6 @@ class Registry:
         self._root = root
 
     def entries(self) -> dict[str, CogEntry]:
-        """Return the registered cogs by package name."""
         return EXTERNAL_MODULES.load(self._root)
 
     def add(self, cog: str, modules: Iterable[ModuleEntry], source: Source) -> bool:
@@ -63,7 +62,6 @@ class Registry:
             return True
 
     def remove(self, cog: str) -> bool:
-        """Unregister a cog; return whether it was registered."""
         with self._locked():
             entries = self.entries()
             if entries.pop(cog, None) is None:

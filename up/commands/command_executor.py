@@ -146,7 +146,6 @@ class CommandExecutor:
             raise KeyError(f"no observer {handle}")
 
     def has_handlers(self, command: type[BaseCommand] | str) -> bool:
-        """Return whether a Command has a subscriber."""
         return bool(self._handlers.get(self._name_of(command)))
 
     def handlers_of(self, command: type[BaseCommand] | str) -> tuple[Handler, ...]:

@@ -62,11 +62,9 @@ class ConfigFile(Generic[T]):
         return value  # type: ignore[return-value]
 
     def template(self) -> str:
-        """Return the commented file whose values are the defaults."""
         return self.render(self.cls())
 
     def render(self, values: T) -> str:
-        """Return the commented file that holds `values`."""
         return template_of(self.schema, values)
 
     def json_schema(self) -> dict[str, Any]:

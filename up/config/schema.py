@@ -31,7 +31,6 @@ class Schema:
     entries: tuple[Entry, ...]
 
     def defaults(self) -> Any:
-        """Return the instance for an empty file."""
         return self.cls()
 
 

@@ -25,7 +25,6 @@ class ModuleEntry:
         return f"{self.prefix}.{self.class_name}"
 
     def problems(self) -> Iterable[tuple[str, str]]:
-        """Yield the reasons why the entry does not name a class."""
         if not self.class_name.isidentifier():
             yield "class_name", "must be the name of a class"
         if not all(part.isidentifier() for part in self.prefix.split(".")):

@@ -28,7 +28,6 @@ class BaseRXProvider(BaseProvider[RXCommand]):
 
     @property
     def telemetry_content(self) -> Mapping[str, Any]:
-        """Return the inputs; absent until a peer sends some."""
         channels = self.get_channels()
         return self._ages() if channels is None else {"rx": channels, **self._ages()}
 

@@ -28,7 +28,6 @@ class UpAltitudeProvider(BaseProvider[float]):
 
     @property
     def telemetry_content(self) -> Mapping[str, Any]:
-        """Return the measured and the required altitude."""
         return {
             "altitude": self.altitude,
             "altitude_required": self.required_altitude,

@@ -29,7 +29,6 @@ class UpHeadingProvider(BaseProvider[float]):
 
     @property
     def telemetry_content(self) -> Mapping[str, Any]:
-        """Return both headings."""
         return {
             "heading": {"actual": self.actual_heading, "required": self.required_heading},
             **self._ages(),

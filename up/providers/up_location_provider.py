@@ -57,7 +57,6 @@ class UpLocationProvider(BaseProvider[LocationCommand]):
 
     @property
     def telemetry_content(self) -> Mapping[str, Any]:
-        """Return location and home."""
         return {
             "location": {
                 "latitude": self.latitude,

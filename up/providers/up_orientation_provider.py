@@ -50,7 +50,6 @@ class UpOrientationProvider(BaseProvider[OrientationCommand]):
 
     @property
     def telemetry_content(self) -> Mapping[str, Any]:
-        """Return orientation and rates."""
         newest = None if self._reading is None else self._reading.value
         return {
             "orientation": {"yaw": self.yaw, "pitch": self.pitch, "roll": self.roll},

@@ -60,7 +60,6 @@ class ReactorMonitor:
         self._thread.start()
 
     def stop(self) -> None:
-        """Stop monitoring."""
         if self._poller is None:
             return
         self._reactor._poller, self._poller = self._poller.poller, None
@@ -149,7 +148,6 @@ class WatchedPoller:
     def poll(
         self, *arguments: Any, _set: Any = signal.setitimer, _real: int = signal.ITIMER_REAL
     ) -> Any:
-        """Wait like the wrapped poller."""
         _set(_real, 0.0)
         self.is_waiting = True
         try:

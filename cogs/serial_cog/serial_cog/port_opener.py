@@ -101,12 +101,10 @@ class PortOpener:
         self._silent: set[str] = set()
 
     def __call__(self) -> int:
-        """Open the port."""
         return self._open_configured() if self._port else self._open_found()
 
     @property
     def wanted(self) -> str:
-        """Return the searched port, for messages."""
         return self._port or WANTED
 
     def has_another(self) -> bool:

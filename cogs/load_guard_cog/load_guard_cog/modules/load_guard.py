@@ -32,7 +32,6 @@ class LoadGuard(BaseStartedModule):
 
     @property
     def in_panic(self) -> bool:
-        """Return whether Panic Mode is on."""
         return self._switch.is_on
 
     @property
@@ -49,7 +48,6 @@ class LoadGuard(BaseStartedModule):
 
     @property
     def telemetry_content(self) -> Mapping[str, Any]:
-        """Return the load, and whether it causes panic."""
         return {
             "load": {
                 "cpu": self.cpu_utilization,

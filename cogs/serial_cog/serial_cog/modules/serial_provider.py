@@ -91,12 +91,10 @@ class SerialProvider(BaseStartedModule):
 
     @property
     def is_source_open(self) -> bool:
-        """Return whether the port is open."""
         return self._line is not None and self._line.is_open
 
     @property
     def telemetry_content(self) -> Mapping[str, Any]:
-        """Return the counters of the line."""
         counts: Counter[str] = Counter(self.counters)
         counts.update(self._retired)
         if self._line is not None:
