@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
-from up.commands.fly_by_wire_limits_command import FlyByWireLimitsCommand
+from up.commands.flight_state_command import FlyByWireLimitsCommand
 
 CENTRE_US = 1500
 HALF_TRAVEL_US = 500

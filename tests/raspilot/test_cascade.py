@@ -16,7 +16,7 @@ from raspilot.flight_controller.cascade import (
     YawDamper,
     pitch_rate_in_turn,
 )
-from up.commands.fly_by_wire_limits_command import FlyByWireLimitsCommand
+from up.commands.flight_state_command import FlyByWireLimitsCommand
 from up.flight_controller.gains import Gains
 from up.flight_controller.pids_file import PidsConfig, gain_set_of
 

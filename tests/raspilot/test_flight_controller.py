@@ -10,9 +10,11 @@ from raspilot.flight_controller.raspilot_flight_controller import RaspilotFlight
 from tests.support.reactor import reactor, run_in_reactor, until
 from tests.support.system import build_up
 from tests.up.commands.samples import Log
-from up.commands.flight_mode_command import FlightModeCommand
-from up.commands.flight_state_command import FlightStateCommand
-from up.commands.fly_by_wire_limits_command import FlyByWireLimitsCommand
+from up.commands.flight_state_command import (
+    FlightModeCommand,
+    FlightStateCommand,
+    FlyByWireLimitsCommand,
+)
 from up.commands.orientation_command import OrientationCommand
 from up.commands.origin import Origin
 from up.commands.output_command import OutputCommand

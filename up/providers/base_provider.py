@@ -65,8 +65,9 @@ class BaseProvider(BaseStartedModule, Generic[_T]):
         return round(self._reading.age_s(self._seconds()) * 1000)
 
     def _value_of(self, command: Any) -> _T | None:
-        """Return the value in a Command; None if it is not for this reading."""
-        raise NotImplementedError
+        """Return the value in a Command, by default itself; None if not for this reading."""
+        value: _T = command
+        return value
 
     def _is_valid(self, command: Any) -> bool:
         """Return whether the source marks the value as valid."""

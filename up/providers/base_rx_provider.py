@@ -31,10 +31,6 @@ class BaseRXProvider(BaseProvider[RXCommand]):
         channels = self.get_channels()
         return self._ages() if channels is None else {"rx": channels, **self._ages()}
 
-    def _value_of(self, command: Any) -> RXCommand:
-        value: RXCommand = command
-        return value
-
     def _is_valid(self, command: Any) -> bool:
         return bool(command.valid == ALL_VALID)
 

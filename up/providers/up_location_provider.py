@@ -22,10 +22,6 @@ class UpLocationProvider(BaseProvider[LocationCommand]):
         super().__init__(config, silent)
         self.home: LocationCommand | None = None
 
-    def _value_of(self, command: Any) -> LocationCommand:
-        value: LocationCommand = command
-        return value
-
     @property
     def latitude(self) -> float | None:
         """Return the newest latitude, deg."""
