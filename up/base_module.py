@@ -86,7 +86,6 @@ class BaseModule:
 
     @property
     def log(self) -> Logger:
-        """Return a logger with this module's name."""
         return Logger(namespace=self.class_name)
 
     def is_a(self, name: str) -> bool:
@@ -97,7 +96,6 @@ class BaseModule:
 
     @property
     def logger(self) -> Logger:
-        """Deprecated: use ``log``."""
         return self.log
 
     def _log_debug(self, text: str) -> None:

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Awaitable
+from enum import Enum
 from typing import Any, ClassVar
 
 from up.base_module import BaseModule
-from up.start_result import StartResult
 
 
 class BaseStartedModule(BaseModule):
@@ -28,7 +28,6 @@ class BaseStartedModule(BaseModule):
 
     @property
     def started(self) -> bool:
-        """Return whether the module is started and not stopped."""
         return self._started
 
     @property
@@ -77,3 +76,15 @@ class BaseStartedModule(BaseModule):
     def failure_result(self) -> StartResult:
         """Return how a failed start of this class affects the boot."""
         return StartResult.FAILED_STOP if self.REQUIRED else StartResult.FAILED_GO_ON
+
+
+class StartResult(Enum):
+    """How the boot continues after a module's start."""
+
+    STARTED = "started"
+    FAILED_GO_ON = "failed, go on"
+    FAILED_STOP = "failed, stop"
+
+
+class StartFailedError(Exception):
+    """Raised by a start that failed for a reason that a user can fix; the text is one sentence."""

@@ -61,7 +61,6 @@ class BaseThreadModule(BaseStartedModule):
         await super().stop()
 
     def call_in_reactor(self, call: Callable[..., Any], *arguments: Any) -> None:
-        """Call a function on the reactor thread."""
         self.context.reactor.callFromThread(call, *arguments)
 
     def _loop(self) -> None:

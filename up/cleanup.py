@@ -42,7 +42,6 @@ class CleanupStack:
         self._cleanups.clear()
 
     def add(self, cleanup: Cleanup) -> None:
-        """Add one cleanup."""
         if self._is_unwound:
             cleanup()
         elif not self._is_discarded:

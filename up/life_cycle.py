@@ -10,9 +10,8 @@ from twisted.logger import Logger, LogLevel
 from twisted.python.failure import Failure
 
 from up.base_module import BaseModule
-from up.base_started_module import BaseStartedModule
+from up.base_started_module import BaseStartedModule, StartFailedError, StartResult
 from up.config import ConfigErrors
-from up.start_result import StartFailedError, StartResult
 from up.up import Up
 
 START_LIMIT_S = 10.0

@@ -38,7 +38,6 @@ class ModeMonitor(BaseStartedModule):
 
     @property
     def telemetry_content(self) -> Mapping[str, Any]:
-        """Return the mode, and where the control loop runs."""
         controller = self.context.application.flight_controller
         return {
             "mode": self.shown,

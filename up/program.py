@@ -12,14 +12,15 @@ from typing import Any
 from twisted.internet.defer import Deferred
 from twisted.logger import Logger
 
+from up.base_module import BaseModule
+from up.commands.base_command_handler import BaseCommandHandler
 from up.config import ConfigErrors, load_all
 from up.config.atomic_writer import remove_unfinished
 from up.context import Context
 from up.life_cycle import BootStoppedError, LifeCycle
 from up.loading.application import Application, NoApplicationError
-from up.loading.checking import check_application
+from up.loading.checking import check_application, config_files, no_configuration
 from up.loading.discovery import CogImportError
-from up.loading.files import config_files, no_configuration
 from up.loading.plan import BootError
 from up.log import start_logging
 from up.mode import Mode
@@ -56,8 +57,8 @@ class Program:
             self._reactor, lambda: self._life.is_healthy, self._notifier, environ
         )
         self._gc_scheduler = GcScheduler(self._reactor)
-        self._monitor = ReactorMonitor(self._reactor)
-        up.count("reactor", self._monitor.culprits)
+        self._monitor = ReactorMonitor(self._reactor, (BaseModule, BaseCommandHandler))
+        up.count("reactor", self._monitor.blocking_calls)
         self._exit_watchdog = ExitWatchdog(FORCED_AFTER_S)
         self._exit_status = EXIT_OK
         self._stopping = False

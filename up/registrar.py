@@ -10,8 +10,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from up.cogs.cog_error import CogError
-from up.cogs.echo import echo
+from up.cogs.cog import CogError, echo
 from up.cogs.manifest import load_manifest
 from up.cogs.registry import Registry, Source
 from up.config.atomic_writer import create_text

@@ -45,12 +45,10 @@ class TelemetryController(BaseStartedModule):
 
     @property
     def period_ms(self) -> float:
-        """Return the current period."""
         return max(self.wanted_period_ms, float(self.panic_delay_ms))
 
     @property
     def telemetry_content(self) -> Mapping[str, Any]:
-        """Return the period and the counters of telemetry itself."""
         counters = {"frames": self.frames, "conflicts": self.conflicts, "faults": self.faults}
         return {
             "counters": {"telemetry": counters},
@@ -66,7 +64,6 @@ class TelemetryController(BaseStartedModule):
         )
 
     def collect(self) -> dict[str, Any]:
-        """Return the merged content of this moment."""
         return merge(self._contents(), self._on_conflict)
 
     def on_init(self) -> None:

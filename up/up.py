@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from typing import Any, TypeVar, cast
+from typing import TYPE_CHECKING, Any, TypeVar, cast
 
 from twisted.logger import Logger
 
@@ -17,15 +17,17 @@ from up.commands.command_link import CommandLink
 from up.commands.command_receiver import CommandReceiver
 from up.commands.command_registry import CommandRegistry
 from up.context import Context
-from up.loading.order import forget_wanted, needed_by
-from up.loading.plan import Plan
 from up.log.limits import Limited
+from up.needs import discard_wanted, needed_by
 from up.vetoes import Vetoes
 
 LOG_INTERVAL_S = 30.0
 """A refused Command or a thread's fault is logged immediately, then as a count per interval."""
 
 _M = TypeVar("_M")
+
+if TYPE_CHECKING:
+    from up.loading.plan import Plan
 
 
 class Up:
@@ -65,7 +67,6 @@ class Up:
 
     @property
     def modules(self) -> Sequence[BaseModule]:
-        """Return the loaded modules in their order."""
         return self._modules
 
     def get_module(self, cls: type[_M]) -> _M | None:
@@ -73,12 +74,10 @@ class Up:
         return next((cast(_M, each) for each in self._modules if isinstance(each, cls)), None)
 
     def get_modules(self, cls: type[_M]) -> list[_M]:
-        """Return every module that is an instance of a class."""
         return [cast(_M, each) for each in self._modules if isinstance(each, cls)]
 
     @property
     def telemetry_controller(self) -> Any:
-        """Return the telemetry controller, or None."""
         from up.telemetry_controller import TelemetryController
 
         return self.get_module(TelemetryController)
@@ -92,7 +91,6 @@ class Up:
 
     @property
     def rx_provider(self) -> Any:
-        """Return the provider of the receiver's inputs, or None."""
         from up.providers.base_rx_provider import BaseRXProvider
 
         return self.get_module(BaseRXProvider)
@@ -106,7 +104,6 @@ class Up:
 
     @property
     def telemetry_content(self) -> Mapping[str, Any]:
-        """Return the system's own part of telemetry."""
         executor = self.command_executor
         now_s = self.context.reactor.seconds()
         return {
@@ -159,7 +156,6 @@ class Up:
             self._register(handler)
 
     def cleanup_of(self, module: BaseModule) -> CleanupStack:
-        """Return the cleanups of a module's registrations."""
         return self._cleanups[id(module)]
 
     def missing_need(self, module: BaseModule) -> BaseModule | None:
@@ -177,7 +173,7 @@ class Up:
         self.command_executor.control.release(module.class_name)
         self._modules = [each for each in self._modules if each is not module]
         for each in self._modules:
-            forget_wanted(each, self._excluded)
+            discard_wanted(each, self._excluded)
         self.log.error("{name} is left out: {reason}", name=module.path, reason=reason)
         self.vetoes.set(module.path, reason)
 

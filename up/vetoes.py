@@ -41,7 +41,6 @@ class Vetoes:
             self.on_changed()
 
     def clear(self, name: str) -> None:
-        """Remove a veto; an unknown name is harmless."""
         if self._own.pop(name, None) is not None:
             self.on_changed()
 
@@ -51,7 +50,6 @@ class Vetoes:
 
     @property
     def own(self) -> dict[str, str]:
-        """Return this program's vetoes: name to reason."""
         return dict(self._own)
 
     @property

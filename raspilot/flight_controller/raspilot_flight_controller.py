@@ -9,11 +9,12 @@ from twisted.internet.defer import Deferred
 from twisted.python.failure import Failure
 
 from raspilot.flight_controller import sticks
-from raspilot.flight_controller.cascade import Cascade, pitch_rate_in_turn
-from raspilot.flight_controller.yaw_damper import YawDamper
-from up.commands.flight_mode_command import FlightModeCommand
-from up.commands.flight_state_command import FlightStateCommand
-from up.commands.fly_by_wire_limits_command import FlyByWireLimitsCommand
+from raspilot.flight_controller.cascade import Cascade, YawDamper, pitch_rate_in_turn
+from up.commands.flight_state_command import (
+    FlightModeCommand,
+    FlightStateCommand,
+    FlyByWireLimitsCommand,
+)
 from up.commands.orientation_command import OrientationCommand
 from up.commands.output_command import OutputCommand
 from up.commands.pid_tunings_commands import PIDTuningsCommand, PIDTuningsValuesCommand

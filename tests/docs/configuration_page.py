@@ -7,12 +7,11 @@ from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import Any
 
-from up.cli.system import cog_files, system_of
+from up.cli.verbs import cog_files, system_of
 from up.config import ConfigFile
-from up.config.disabled_modules import DISABLED_MODULES
-from up.config.schema import Entry, ListOf, MapOf, Schema
+from up.config.application import DISABLED_MODULES
+from up.config.schema import Entry, ListOf, MapOf, Schema, plain_value
 from up.config.template import yaml_scalar
-from up.config.values import plain_value
 from up.fields import Constraint, number_text
 from up.flight_controller.pids_file import PIDS
 from up.loading.application import UP_FILE_CONFIG

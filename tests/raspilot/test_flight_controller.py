@@ -10,9 +10,11 @@ from raspilot.flight_controller.raspilot_flight_controller import RaspilotFlight
 from tests.support.reactor import reactor, run_in_reactor, until
 from tests.support.system import build_up
 from tests.up.commands.samples import Log
-from up.commands.flight_mode_command import FlightModeCommand
-from up.commands.flight_state_command import FlightStateCommand
-from up.commands.fly_by_wire_limits_command import FlyByWireLimitsCommand
+from up.commands.flight_state_command import (
+    FlightModeCommand,
+    FlightStateCommand,
+    FlyByWireLimitsCommand,
+)
 from up.commands.orientation_command import OrientationCommand
 from up.commands.origin import Origin
 from up.commands.output_command import OutputCommand
@@ -342,7 +344,7 @@ class TestModes:
             assert not state()[0]
             rig.state(FBW_MODE)
             rig.state()
-            assert len(changes()) == 6
+            assert len(changes()) == 5
 
     def test_it_asks_for_auto_only_at_auto_and_while_the_ground_wants_it(self, tmp_path):
         rig = Rig(tmp_path)

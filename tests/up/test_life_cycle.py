@@ -7,11 +7,10 @@ from twisted.internet.task import Clock
 from tests.support.system import build_up
 from tests.up.commands.samples import Log, NumberCommand
 from up.base_module import BaseModule
-from up.base_started_module import BaseStartedModule
+from up.base_started_module import BaseStartedModule, StartFailedError, StartResult
 from up.commands.base_command_handler import BaseCommandHandler
 from up.life_cycle import BootStoppedError, LifeCycle
 from up.needs import needs, wants
-from up.start_result import StartFailedError, StartResult
 
 calls = []
 

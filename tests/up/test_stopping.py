@@ -7,11 +7,10 @@ from twisted.internet.defer import CancelledError, Deferred
 
 from tests.up.commands.samples import Log
 from tests.up.test_life_cycle import System
-from up.base_started_module import BaseStartedModule
+from up.base_started_module import BaseStartedModule, StartFailedError
 from up.base_thread_module import BaseThreadModule
 from up.life_cycle import STOP_LIMIT_S
 from up.program import FORCED_AFTER_S
-from up.start_result import StartFailedError
 
 STEP_S = 0.001
 

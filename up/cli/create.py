@@ -13,12 +13,12 @@ from up.builtin_modules import BUILTIN_MODULES
 from up.cli.cli_error import CliError
 from up.cli.explore import package_at
 from up.cli.names import Name, check_identifier
-from up.cogs.echo import echo
+from up.cogs.cog import echo
 from up.cogs.manifest import MANIFEST_FILE, write_manifest
 from up.config import write_template
 from up.loading.application import Application
+from up.loading.checking import config_files
 from up.loading.external_modules import ModuleEntry
-from up.loading.files import config_files
 
 _APPLICATION = {
     "__init__.py": "application_init",

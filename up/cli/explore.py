@@ -8,7 +8,7 @@ from pathlib import Path
 
 from up.base_module import BaseModule
 from up.cli.cli_error import CliError
-from up.cogs.echo import echo
+from up.cogs.cog import echo
 from up.cogs.manifest import MANIFEST_FILE, write_manifest
 from up.cogs.registration import REGISTRANT_MODULE
 from up.loading.application import UP_FILE, Application

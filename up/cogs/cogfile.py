@@ -7,8 +7,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
-from up.cogs.cog_error import CogError
-from up.cogs.package_name import package_name
+from up.cogs.cog import CogError, package_name
 from up.cogs.source_tree import is_distribution_name
 from up.config import key
 from up.config.loader import read_text
@@ -36,7 +35,6 @@ class CogSpec:
     revision: str = key("", "Branch, tag or commit of the repository.", max_length=200)
 
     def problems(self) -> Iterator[tuple[str, str]]:
-        """Yield invalid values and contradictions."""
         if not self.path.isprintable():
             yield "path", "must be the path of a folder"
         if self.pypi and not is_distribution_name(self.pypi):

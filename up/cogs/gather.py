@@ -7,9 +7,8 @@ import sys
 from collections.abc import Sequence
 
 from up.cogs import pip
-from up.cogs.cog_error import CogError
+from up.cogs.cog import CogError, Echo, echo
 from up.cogs.cogfile import COGFILE, WantedCog, load_cogfile
-from up.cogs.echo import Echo, echo
 from up.cogs.installed import is_installed
 from up.cogs.registration import register, unregister
 from up.cogs.registry import Registry

@@ -6,7 +6,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
 
-from up.cogs.cog_error import CogError
+from up.cogs.cog import CogError
 from up.config import ConfigFile, items
 from up.config.atomic_writer import write_atomically
 from up.loading.external_modules import ModuleEntry

@@ -11,9 +11,8 @@ import tempfile
 from collections.abc import Sequence
 from pathlib import Path
 
-from up.cogs.cog_error import CogError
+from up.cogs.cog import CogError, Echo
 from up.cogs.cogfile import WantedCog
-from up.cogs.echo import Echo
 from up.cogs.installed import distribution_of
 from up.cogs.source_tree import (
     builds_with_setuptools,

@@ -8,8 +8,7 @@ import importlib.util
 import inspect
 from typing import Any
 
-from up.cogs.cog_error import CogError
-from up.cogs.echo import Echo, echo
+from up.cogs.cog import CogError, Echo, echo
 from up.cogs.registry import Registry, Source
 from up.cogs.up_registrant import UpRegistrant
 from up.config import ConfigErrors

@@ -6,7 +6,7 @@ import inspect
 from pathlib import Path
 from typing import Any, ClassVar
 
-from up.cogs.echo import Echo, echo
+from up.cogs.cog import Echo, echo
 from up.cogs.manifest import MANIFEST_FILE, Manifest, load_manifest
 from up.cogs.registry import Registry, Source
 from up.config import ConfigFile, write_template
@@ -34,7 +34,6 @@ class UpRegistrant:
 
     @property
     def folder(self) -> Path:
-        """Return the folder of the cog's package."""
         return Path(inspect.getfile(type(self))).resolve().parent
 
     @property
@@ -60,13 +59,11 @@ class UpRegistrant:
         return changed
 
     def unregister(self, application: Application) -> bool:
-        """Remove the cog; return whether it was registered. Its configuration stays."""
         changed = Registry(application.root).remove(self.cog_name)
         self.echo(f"{self.cog_name}: {'unregistered' if changed else 'was not registered'}")
         return changed
 
     def create_configuration(self, application: Application) -> None:
-        """Create the cog's missing configuration files."""
         for file in self.CONFIG_FILES:
             if write_template(file, application.config_folder):
                 self.echo(f"{self.cog_name}: created {application.config_folder / file.filename}")

@@ -21,12 +21,10 @@ class BaseCommandHandler(ABC):
 
     @property
     def log(self) -> Logger:
-        """Return a logger with this handler's name."""
         return Logger(namespace=type(self).__name__)
 
     @property
     def logger(self) -> Logger:
-        """Deprecated: the thesis's name of ``log``."""
         return self.log
 
     @abstractmethod

@@ -7,14 +7,14 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Generic, TypeVar
 
-from up.config.json_schema import json_schema_of
 from up.config.loader import decode, read_text
 from up.config.nodes import compose
 from up.config.problems import ConfigErrors, ConfigProblem, Problems
 from up.config.scalars import is_null
-from up.config.schema import Schema, schema_of
+from up.config.schema import Entry, ListOf, MapOf, Schema, Spec, plain_value, schema_of
 from up.config.template import template_of
 from up.config.validator import Validator
+from up.fields import Constraint
 
 T = TypeVar("T")
 
@@ -62,11 +62,9 @@ class ConfigFile(Generic[T]):
         return value  # type: ignore[return-value]
 
     def template(self) -> str:
-        """Return the commented file whose values are the defaults."""
         return self.render(self.cls())
 
     def render(self, values: T) -> str:
-        """Return the commented file that holds `values`."""
         return template_of(self.schema, values)
 
     def json_schema(self) -> dict[str, Any]:
@@ -105,3 +103,71 @@ def unknown_files(folder: Path, files: Iterable[ConfigFile[Any]]) -> list[Path]:
     except OSError:
         return []
     return [path for path in found if path.suffix in (".yml", ".yaml") and path.name not in known]
+
+
+_DRAFT = "https://json-schema.org/draft/2020-12/schema"
+
+
+def json_schema_of(filename: str, schema: Schema) -> dict[str, Any]:
+    """Return the schema (draft 2020-12) of a file with this schema."""
+    return {"$schema": _DRAFT, "title": filename, **_schema(schema)}
+
+
+def _schema(spec: Spec) -> dict[str, Any]:
+    if isinstance(spec, Constraint):
+        return spec.json_schema()
+    if isinstance(spec, ListOf):
+        schema: dict[str, Any] = {"type": "array", "items": _schema(spec.item)}
+        if spec.max_length is not None:
+            schema["maxItems"] = spec.max_length
+        return schema
+    if isinstance(spec, MapOf):
+        schema = {"type": "object", "additionalProperties": _schema(spec.value)}
+        schema["propertyNames"] = spec.key.json_schema()
+        if spec.max_length is not None:
+            schema["maxProperties"] = spec.max_length
+        return schema
+    schema = {"type": "object", "additionalProperties": False}
+    if spec.comment:
+        schema["description"] = spec.comment
+    schema["properties"] = {entry.name: _entry_schema(entry) for entry in spec.entries}
+    return schema
+
+
+def _entry_schema(entry: Entry) -> dict[str, Any]:
+    schema = _schema(entry.spec)
+    if entry.comment:
+        schema["description"] = entry.comment
+    if entry.default is not None or (isinstance(entry.spec, Constraint) and entry.spec.nullable):
+        schema["default"] = plain_value(entry.spec, entry.default)
+    return schema
+
+
+V = TypeVar("V")
+_GREATEST_LENGTH = 1000
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class MapFile(Generic[V]):
+    """A file that maps names to entries, each read into the frozen dataclass ``cls``."""
+
+    filename: str
+    cls: type[V]
+    key: Constraint = field(default_factory=lambda: Constraint(str, max_length=100))
+
+    def load(self, folder: Path) -> dict[str, V]:
+        """Return the entries in the order of the file; none for a missing or empty file.
+
+        Raises ConfigErrors with every problem of the file.
+        """
+        path = Path(folder) / self.filename
+        problems = Problems(path)
+        text = read_text(path, problems.report)
+        entries: dict[str, V] = {}
+        if text is not None:
+            root = compose(text, problems.report)
+            if root is not None and not is_null(root):
+                spec: Any = MapOf(self.key, schema_of(self.cls), _GREATEST_LENGTH)
+                entries = Validator(problems.report, {}).read(spec, root)
+        problems.raise_if_any()
+        return entries

@@ -31,7 +31,6 @@ class Schema:
     entries: tuple[Entry, ...]
 
     def defaults(self) -> Any:
-        """Return the instance for an empty file."""
         return self.cls()
 
 
@@ -243,3 +242,19 @@ def _doc_of(cls: type[Any]) -> str:
     # A dataclass without a docstring gets its signature as one; that is not a comment.
     doc = inspect.cleandoc(cls.__doc__ or "")
     return "" if doc.startswith(f"{cls.__name__}(") else doc
+
+
+def plain_value(spec: Spec, value: Any) -> Any:
+    """Return a value as JSON and YAML types, with the file's key names; None stays None."""
+    if value is None:
+        return None
+    if isinstance(spec, Schema):
+        return {
+            entry.name: plain_value(entry.spec, getattr(value, entry.attribute))
+            for entry in spec.entries
+        }
+    if isinstance(spec, MapOf):
+        return {name: plain_value(spec.value, inner) for name, inner in value.items()}
+    if isinstance(spec, ListOf):
+        return [plain_value(spec.item, inner) for inner in value]
+    return value

@@ -9,8 +9,7 @@ from collections.abc import Iterator
 from typing import Any
 
 from up.config.scalars import needs_quotes
-from up.config.schema import Entry, ListOf, MapOf, Schema, Spec
-from up.config.values import plain_value
+from up.config.schema import Entry, ListOf, MapOf, Schema, Spec, plain_value
 from up.fields import Constraint, number_text
 
 _WIDTH = 78

@@ -2,16 +2,13 @@
 
 from __future__ import annotations
 
-import difflib
 from collections.abc import Iterable
 from typing import Any, Protocol, runtime_checkable
 
 from up.config.nodes import ListNode, MapNode, Node, Report, ScalarNode
 from up.config.scalars import is_null, read_scalar
-from up.config.schema import Entry, ListOf, MapOf, Schema, Spec
-from up.fields import Constraint, show
-
-_LONGEST_GUESSED_KEY = 60
+from up.config.schema import ListOf, MapOf, Schema, Spec
+from up.fields import Constraint, show, suggestion
 
 
 @runtime_checkable
@@ -174,7 +171,8 @@ class Validator:
                 new = show(entry.name)
                 self._refuse(node, path, f"the key {show(name)} is now called {new}")
                 return
-        self._refuse(node, path, f"unknown key {show(name)}{_guess(name, schema.entries)}")
+        guess = suggestion(name, (entry.name for entry in schema.entries))
+        self._refuse(node, path, f"unknown key {show(name)}{guess}")
 
     def _refuse(self, node: Node, path: str, what: str) -> _Refused:
         self._refused += 1
@@ -196,11 +194,3 @@ def _found(node: Node) -> str:
 
 def _join(path: str, name: str) -> str:
     return f"{path}.{name}" if path else name
-
-
-def _guess(name: str, entries: Iterable[Entry]) -> str:
-    if len(name) > _LONGEST_GUESSED_KEY:
-        return ""
-    names = {entry.name.lower(): entry.name for entry in entries}
-    near = difflib.get_close_matches(name.lower(), names, n=1)
-    return f", did you mean '{names[near[0]]}'?" if near else ""

@@ -23,7 +23,6 @@ class ExitWatchdog:
         self._thread = threading.Thread(target=self._run, name="exit-watchdog", daemon=True)
 
     def start(self) -> None:
-        """Start waiting for a request."""
         self._thread.start()
 
     def request(self, status: int) -> None:
@@ -31,7 +30,6 @@ class ExitWatchdog:
         self._requests.put(status)
 
     def cancel(self) -> None:
-        """Cancel the end of the process."""
         self._cancelled.set()
 
     def _run(self) -> None:

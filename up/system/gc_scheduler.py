@@ -31,7 +31,6 @@ class GcScheduler:
         self._schedule()
 
     def stop(self) -> None:
-        """Restore Python's automatic collector."""
         if self._call is not None and self._call.active():
             self._call.cancel()
         gc.enable()

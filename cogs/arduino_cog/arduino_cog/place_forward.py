@@ -11,7 +11,7 @@ from arduino_cog.modules.arduino_provider import ArduinoProvider
 from up.base_started_module import BaseStartedModule
 from up.mode import WITH_ARDUINO
 from up.needs import needs
-from up.providers.reading import Reading
+from up.providers.base_provider import Reading
 
 
 class PlaceForward(BaseStartedModule):

@@ -17,8 +17,7 @@ from up.commands.system_commands import SystemStopCommand
 from up.config import load_all
 from up.life_cycle import BootStoppedError, LifeCycle
 from up.loading.application import Application
-from up.loading.checking import check_application
-from up.loading.files import config_files
+from up.loading.checking import check_application, config_files
 from up.log.levels import level_named
 from up.mode import Mode
 from up.program import USER_ERRORS, make_context

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from up.builtin_modules import BUILTIN_MODULES
-from up.cli.system import cog_files, program_files
+from up.cli.verbs import cog_files, program_files
 from up.config import ConfigErrors, ConfigFile
 from up.config.loader import decode, read_text
 from up.config.nodes import MapNode, Node, Report, ScalarNode, compose
@@ -19,8 +19,8 @@ from up.config.schema import schema_of
 from up.config.validator import Validator
 from up.fields import printable
 from up.loading.application import Application, NoApplicationError
+from up.loading.checking import config_files
 from up.loading.discovery import survey
-from up.loading.files import config_files
 from up.loading.plan import BootError
 from up_simulator.aircraft import airframe_names
 from up_simulator.scenario.crosscheck import cross_problems, guess, is_there

@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 
 from tests.cogs.arduino_cog.board import PROFILE, PROFILE_FORMAT
 from up.config import ConfigErrors
-from up.config.values import plain_value
+from up.config.schema import plain_value
 from up.flight_controller.airframe_profile import AirframeProfile
 
 FACTORY = read_profile(struct.pack(PROFILE_FORMAT, *PROFILE))

@@ -8,8 +8,7 @@ from twisted.logger import formatEvent, globalLogPublisher
 
 from tests.cogs.arduino_cog.board import PROFILE, PROFILE_FORMAT, Ground
 from up.commands.arming_commands import ArmCommand
-from up.commands.flight_state_command import FlightStateCommand
-from up.commands.fly_by_wire_limits_command import FlyByWireLimitsCommand
+from up.commands.flight_state_command import FlightStateCommand, FlyByWireLimitsCommand
 from up.commands.refusal import Code, CommandRefusedError
 
 NAME = "airframe.yml"

@@ -11,8 +11,12 @@ from hypothesis import strategies as st
 
 from tests.up.config.samples import LINK, PATH, Gains, Link, Remote
 from up.config import ConfigFile, items, mapping, section, write_schemas, write_template
-from up.config.application import APPLICATION, ApplicationConfig
-from up.config.disabled_modules import DISABLED_MODULES, DisabledModulesConfig
+from up.config.application import (
+    APPLICATION,
+    DISABLED_MODULES,
+    ApplicationConfig,
+    DisabledModulesConfig,
+)
 from up.config.schema import ListOf
 from up.fields import Constraint
 

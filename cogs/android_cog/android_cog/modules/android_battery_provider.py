@@ -11,8 +11,7 @@ from android_cog.commands.android_battery_command import (
 )
 from android_cog.config import ANDROID
 from up.commands.command import BaseCommand
-from up.providers.base_provider import BaseProvider
-from up.providers.reading import Reading
+from up.providers.base_provider import BaseProvider, Reading
 
 HYSTERESIS_PERCENT = 5.0
 

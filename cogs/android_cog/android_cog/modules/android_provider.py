@@ -12,7 +12,7 @@ from android_cog.phone_link import PhoneLink, host_of
 from android_cog.phone_route import PhoneRoute
 from android_cog.ports import Ports
 from android_cog.telemetry_forward import TelemetryForward
-from up.base_started_module import BaseStartedModule
+from up.base_started_module import BaseStartedModule, StartFailedError
 from up.commands.answer_commands import AckCommand, NackCommand
 from up.commands.command import BaseCommand
 from up.commands.orientation_command import OrientationCommand
@@ -27,7 +27,6 @@ from up.mode import Mode
 from up.protocols.general_message import GeneralMessage, MalformedMessage, encode
 from up.protocols.general_message_link import GeneralMessageLink
 from up.protocols.orientation_forward import OrientationFrame
-from up.start_result import StartFailedError
 from up.system.peer_filter import PeerFilter
 
 LINK = "android"

@@ -8,7 +8,7 @@ from twisted.internet.defer import Deferred
 
 from arduino_cog.modules.arduino_provider import ArduinoProvider
 from up.base_module import BaseModule
-from up.commands.flight_mode_command import FlightModeCommand
+from up.commands.flight_state_command import FlightModeCommand
 from up.mode import WITH_ARDUINO
 from up.needs import needs
 

@@ -5,8 +5,7 @@ from __future__ import annotations
 from arduino_cog.modules.arduino_provider import ArduinoProvider
 from arduino_cog.wire import OUTPUT, pack_setpoint
 from up.base_module import BaseModule
-from up.commands.output_command import OutputCommand
-from up.commands.setpoint_command import SetpointCommand
+from up.commands.output_command import OutputCommand, SetpointCommand
 from up.mode import WITH_ARDUINO
 from up.needs import needs
 

@@ -19,9 +19,9 @@ from arduino_cog.profile import Profile, pack_profile, read_profile
 from arduino_cog.profile_data import differences, flat, with_changes
 from arduino_cog.wire import IN_FLIGHT
 from up.base_module import BaseModule
-from up.commands.fly_by_wire_limits_command import FlyByWireLimitsCommand
+from up.commands.flight_state_command import FlyByWireLimitsCommand
 from up.commands.refusal import Code, CommandRefusedError
-from up.config.values import plain_value
+from up.config.schema import plain_value
 from up.mode import WITH_ARDUINO
 from up.needs import needs, wants
 from up.providers.base_mission_control_provider import BaseMissionControlProvider

@@ -9,9 +9,8 @@ from twisted.internet.error import CannotListenError
 
 from discovery_cog.answerer import Answerer, RateLimit, own_address_towards
 from discovery_cog.config import DISCOVERY
-from up.base_started_module import BaseStartedModule
+from up.base_started_module import BaseStartedModule, StartFailedError
 from up.mode import WITH_ARDUINO, Mode
-from up.start_result import StartFailedError
 from up.system.udp import listen_udp
 
 

@@ -37,7 +37,6 @@ class SystemStateProvider(BaseStartedModule):
 
     @property
     def telemetry_content(self) -> Mapping[str, Any]:
-        """Return which providers have fresh data."""
         return {"system": {"providers": None if self.state is None else self.state.providers}}
 
     def on_init(self) -> None:

@@ -14,14 +14,13 @@ from mission_control_cog.modules.mission_control_provider import (
     ROLE_KEY,
     MissionControlProvider,
 )
-from up.base_started_module import BaseStartedModule
+from up.base_started_module import BaseStartedModule, StartFailedError
 from up.commands.command_link import CommandLink
 from up.commands.roles import Role
 from up.commands.system_commands import LinkStateCommand
 from up.log.limits import Limited
 from up.needs import needs
 from up.protocols.general_message import GeneralMessage, MalformedMessage
-from up.start_result import StartFailedError
 from up.system.peer_filter import PeerFilter
 
 LINK = "ground"

@@ -8,9 +8,8 @@ from dataclasses import asdict
 from typing import Any, Protocol
 
 from serial_cog.config import ARDUINO, SerialConfig, odd_speed
-from serial_cog.finder import Lister, list_ports
 from serial_cog.handlers import FrameHandler, FrameType, HandlerTable, type_byte
-from serial_cog.port_opener import PortOpener
+from serial_cog.port_opener import Lister, PortOpener, list_ports
 from up.base_started_module import BaseStartedModule
 from up.commands.command_executor import owner_of
 from up.mode import WITH_ARDUINO
@@ -92,12 +91,10 @@ class SerialProvider(BaseStartedModule):
 
     @property
     def is_source_open(self) -> bool:
-        """Return whether the port is open."""
         return self._line is not None and self._line.is_open
 
     @property
     def telemetry_content(self) -> Mapping[str, Any]:
-        """Return the counters of the line."""
         counts: Counter[str] = Counter(self.counters)
         counts.update(self._retired)
         if self._line is not None:

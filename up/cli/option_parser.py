@@ -1,0 +1,49 @@
+"""The argument parser of every command line: suggestions, width 80, exit status 0, 1 or 2."""
+
+from __future__ import annotations
+
+import argparse
+import functools
+from collections.abc import Iterable
+from typing import Any, NoReturn
+
+from up.fields import suggestion
+
+EXIT_OK = 0
+EXIT_FAILED = 1
+EXIT_USAGE = 2
+"""A mistake in the arguments or the configuration."""
+EXIT_INTERRUPTED = 130
+
+
+class OptionParser(argparse.ArgumentParser):
+    """Reports a wrong argument in one sentence, with the probable intention, and exits with 2.
+
+    Descriptions and epilogs keep their line breaks. Parsers of verbs are of the same class.
+    """
+
+    def __init__(self, *args: Any, **options: Any) -> None:
+        formatter = functools.partial(argparse.RawDescriptionHelpFormatter, width=80)
+        options.setdefault("formatter_class", formatter)
+        super().__init__(*args, **options)
+
+    def parse_args(self, args: Any = None, namespace: Any = None) -> Any:
+        """Return the values; ends the program at a mistake."""
+        values, unknown = self.parse_known_args(args, namespace)
+        if unknown:
+            parser = getattr(values, "parser", None) or self
+            options = (each for each in parser._option_string_actions if each.startswith("--"))
+            word = unknown[0].partition("=")[0]
+            parser.error(f"unrecognized argument {word!r}{suggestion(word, options)}")
+        return values
+
+    def error(self, message: str) -> NoReturn:
+        """Print the error and how to get help; exit with EXIT_USAGE."""
+        self.exit(EXIT_USAGE, f"{self.prog}: {message} ('{self.prog} --help' explains)\n")
+
+    def _check_value(self, action: argparse.Action, value: Any) -> None:
+        choices: Iterable[Any] | None = action.choices
+        if choices is not None and value not in choices:
+            known = [str(each) for each in choices]
+            hint = suggestion(str(value), known) or f" (choose from {', '.join(known)})"
+            raise argparse.ArgumentError(action, f"invalid choice {str(value)[:60]!r}{hint}")
