@@ -120,9 +120,7 @@ class Grounds(Factory):
             self._on_message(message, link)
             return
         self.dropped += 1
-        link.nack(
-            message.id, Code.FORBIDDEN, "another ground station has control"
-        )
+        link.nack(message.id, Code.FORBIDDEN, "another ground station has control")
 
     def _malformed(self, station: GroundConnection, fault: MalformedMessage) -> None:
         if station is self._lease.owner:
