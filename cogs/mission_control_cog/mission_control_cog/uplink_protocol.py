@@ -67,10 +67,8 @@ class UplinkProtocol(GeneralMessageProtocol):
         self._answer, ended, rest = (self._answer + data).partition(b"\n")
         if len(self._answer) >= HELLO_MAX_BYTES:
             self._give_up("answer_too_long", "its answer to the hello is too long")
-        elif ended:
-            self._on_answer(self._answer)
-            if rest and self.is_ready:
-                super().dataReceived(rest)
+        elif ended and self._on_answer(self._answer) and rest:
+            super().dataReceived(rest)
 
     def connectionLost(self, reason: Failure = connectionDone) -> None:  # noqa: N802 - Twisted's name
         """Stop the heartbeat and report the loss."""
@@ -91,12 +89,14 @@ class UplinkProtocol(GeneralMessageProtocol):
         self._pulse = self._clock.callLater(ANSWER_LIMIT_S, self._on_timeout)
         super().send(self._hello.encode())
 
-    def _on_answer(self, line: bytes) -> None:
+    def _on_answer(self, line: bytes) -> bool:
+        """Return whether the proxy accepted the hello, so that messages may follow."""
         answer = parse_line(line)
         if isinstance(answer, Accepted):
             self._on_token(answer.token)
             self._ready()
-        elif isinstance(answer, Refused):
+            return True
+        if isinstance(answer, Refused):
             self._on_token("")
             self._give_up(
                 f"proxy_refused_{answer.code}",
@@ -107,6 +107,7 @@ class UplinkProtocol(GeneralMessageProtocol):
                 "not_an_answer",
                 "it does not answer the hello (a legacy proxy? mission_control.yml: hello)",
             )
+        return False
 
     def _on_timeout(self) -> None:
         self._give_up("answer_timeout", f"no answer to the hello within {ANSWER_LIMIT_S:g} s")
