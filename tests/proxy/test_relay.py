@@ -39,7 +39,7 @@ def test_the_aircraft_never_sees_the_halves_of_two_grounds_glued(bench):
     assert air.line() == '"new"}\n'
 
 
-def test_a_buffers_of_a_broken_connection_is_never_relayed(bench):
+def test_a_partial_line_of_a_broken_connection_is_never_relayed(bench):
     air, token = bench.hello_air()
     ground, _ = bench.hello_ground()
     air.say("torn")

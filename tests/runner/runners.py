@@ -157,7 +157,7 @@ class RunnerProcess:
 
     def output(self):
         """Return the output of the program so far."""
-        while select.select([self.process.stderr], [], [], 0)[0]:
+        while self.process and select.select([self.process.stderr], [], [], 0)[0]:
             data = self.process.stderr.read()
             if not data:
                 break
