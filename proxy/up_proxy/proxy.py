@@ -5,7 +5,7 @@ from typing import Any
 from up.log import UpLogger
 from up.protocols.proxy_lines import Side
 from up.system.addresses import is_private, is_wildcard
-from up_proxy.acceptor import Acceptor, AcceptorLimits
+from up_proxy.acceptor import Acceptor
 from up_proxy.config import ProxyConfig
 from up_proxy.handshake import Handshake
 from up_proxy.listener import StartError, listen
@@ -96,16 +96,10 @@ class Proxy:
 
     def _acceptor(self, side: Side, port: int) -> Acceptor:
         config = self._config
-        limits = config.limits
         label = f"{side.value} port"
-        listener = listen(label, config.address, port, limits.user_timeout_ms)
-        # The queue of an aircraft is bounded by pausing the ground, never by dropping lines.
-        queue_bytes = limits.queue_bytes if side is Side.GROUND else 0
-        acceptor_limits = AcceptorLimits(
-            limits.connections, limits.per_address, queue_bytes, config.i_accept_plain
-        )
+        listener = listen(label, config.address, port, config.limits.user_timeout_ms)
         handshake = Handshake(side, self.registry, self._poller)
-        return Acceptor(listener, handshake, self._poller, self._reactor, side, acceptor_limits)
+        return Acceptor(listener, handshake, self._poller, self._reactor, side, config)
 
     def _check_address(self) -> None:
         address = self._config.address
