@@ -32,8 +32,8 @@ class Port(typing.Protocol):
     counts: Counter[str]
     log: Logger
 
-    def ask(self, connection: RequestConnection, request: Request) -> Deferred[Response]:
-        """Start answering a request."""
+    def handle(self, connection: RequestConnection, request: Request) -> Deferred[Response]:
+        """Start handling a request."""
 
     def encode(self, response: Response, host: str) -> bytes:
         """Return the line for the client."""
@@ -197,7 +197,7 @@ class RequestConnection(Protocol):
         self._idle.stop()
         self._unfinished.stop()
         self._set_reading()
-        self._port.ask(self, request).addBoth(self._on_response, request)
+        self._port.handle(self, request).addBoth(self._on_response, request)
 
     def _on_response(self, response: Response | Failure, request: Request) -> None:
         self.busy = False

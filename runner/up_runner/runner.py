@@ -68,7 +68,7 @@ class Runner:
         )
         self.server = RequestServer(
             reactor,
-            self._ask,
+            self._handle,
             self._encode,
             limit=config.connections.limit,
             address_limit=config.connections.address_limit,
@@ -210,7 +210,7 @@ class Runner:
     def _on_bug(self, failure: Failure) -> None:
         self._log.failure("a bug in the runner", failure, code="runner_bug")
 
-    def _ask(self, request: Request) -> Deferred[Response]:
+    def _handle(self, request: Request) -> Deferred[Response]:
         if request.action == "status":
             response: Deferred[Response] = Deferred()
             response.callback(self.instances.status(request.aircraft))

@@ -44,7 +44,7 @@ def test_a_vanished_aircraft_and_owner_are_detected_and_replaced(proxy):
         client.close()
 
 
-def test_what_is_sent_to_a_vanished_peer_ends_its_connection(proxy):
+def test_data_to_a_vanished_peer_end_its_connection(proxy):
     listener, _ = accepted(proxy.ground_port, "UP1 aircraft=local seat=listen\n", THERE)
     connections = 'up_proxy_connections{side="ground"}'
     assert figure(proxy.inside, proxy, connections) == 1

@@ -61,7 +61,7 @@ def test_a_gigabyte_without_a_line_feed_costs_no_memory(runners):
     assert runner.ask(action="status")["error"] is None
 
 
-def test_one_who_never_reads_is_dropped_and_disturbs_nobody(runners):
+def test_a_client_that_never_reads_is_dropped(runners):
     runner = runners(connections={"idle": 2}).start()
     talk = runner.talk()
     talk.socket.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 4096)
@@ -98,7 +98,7 @@ def test_silent_connections_are_closed(runners):
     assert talk.ended()
 
 
-def test_a_thousand_idle_sockets_keep_nobody_out(runners):
+def test_a_thousand_idle_sockets_do_not_block_others(runners):
     runner = runners(connections={"limit": 50, "address limit": 40, "idle": 600}).start()
     idle = [runner.talk(source=f"127.0.0.{2 + number % 50}") for number in range(1000)]
     assert runner.ask(action="status")["error"] is None
@@ -119,7 +119,7 @@ def test_one_address_cannot_take_all_connections(runners):
     runner.logs("address_limit", host="127.0.0.2")
 
 
-def test_one_that_waits_for_an_answer_does_not_make_room(runners):
+def test_a_client_that_waits_for_its_response_is_not_displaced(runners):
     runner = runners(connections={"limit": 1, "idle": 600}).start()
     gate = runner.close_gate()
     waiting = runner.talk()
@@ -145,9 +145,9 @@ def test_garbage_of_every_kind_breaks_nothing(runners):
             if chance.random() < 0.5:
                 # Gone with a reset, in the middle.
                 line.setsockopt(socket.SOL_SOCKET, socket.SO_LINGER, b"\x01\0\0\0\0\0\0\0")
-    assert runner.ask(action="status")["running"] is True
+    assert runner.status("default")["running"] is True
     wait_until(lambda: len(list(descriptors.iterdir())) <= before, "no connection stays")
-    assert "Traceback" not in runner.output()
+    assert "Traceback" not in runner.printed
     assert "runner_bug" not in [fields.get("code") for fields in runner.events()]
 
 

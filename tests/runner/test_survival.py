@@ -56,7 +56,7 @@ def test_an_instance_that_ended_while_no_runner_watched_is_started_again(runners
     assert runner.instances() == [second["pid"]]
 
 
-def test_one_that_exited_cleanly_is_not_restarted(runners):
+def test_an_instance_that_exited_cleanly_is_not_restarted(runners):
     runner = runners(**QUICK).start()
     first = runner.spawn()
     os.kill(first["pid"], signal.SIGTERM)
@@ -81,7 +81,7 @@ def test_the_phones_absence_is_known_to_the_next_runner(runners):
     runner.logs("ended", cause="phone_gone")
 
 
-def test_one_that_was_starting_when_its_runner_died_is_taken_over(runners):
+def test_a_starting_instance_is_taken_over(runners):
     runner = runners(**QUICK).start()
     gate = runner.close_gate()
     runner.talk().say({"aircraft": "glider-1"})

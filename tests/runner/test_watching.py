@@ -69,7 +69,7 @@ def test_a_black_box_that_exits_cleanly_stays_ended(runner):
     assert runner.spawn()["spawned"] is True
 
 
-def test_a_flight_controller_comes_back_whatever_its_exit_status(runners):
+def test_a_flight_controller_is_restarted_after_any_exit_status(runners):
     runner = runners(mode="flight controller", **QUICK)
     runner.write("android.yml", ANY_PORTS)
     first = runner.start().spawn()
@@ -121,7 +121,7 @@ def test_the_exit_delay_begins_when_the_phone_goes(runners):
     assert runner.spawn()["spawned"] is True
 
 
-def test_an_instance_whose_phone_never_comes_stops(runners):
+def test_an_instance_without_a_phone_stops(runners):
     runner = runners(**{"exit delay": 0.5}).start()
     runner.spawn()
     runner.logs("ended", cause="phone_gone")

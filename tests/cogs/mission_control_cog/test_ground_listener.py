@@ -96,7 +96,7 @@ def test_a_hello_is_answered_as_by_a_proxy_and_its_token_resumes_control(tmp_pat
             await peer.close()
 
 
-def test_another_token_gains_no_control_and_a_listener_none(tmp_path):
+def test_a_wrong_token_and_a_listener_gain_no_control(tmp_path):
     @listening(tmp_path, LISTENER)
     async def _(a):
         (watcher,) = await grounds(a, b"UP1 aircraft=default seat=listen\n")
@@ -117,7 +117,7 @@ def test_another_token_gains_no_control_and_a_listener_none(tmp_path):
             await peer.close()
 
 
-def test_the_role_is_the_links_and_half_lines_die_with_their_connection(tmp_path):
+def test_the_role_is_the_links_and_partial_lines_end_with_their_connection(tmp_path):
     @listening(tmp_path, LISTENER)
     async def _(a):
         a.listen_to(ArmCommand, TelemetryFrequencyCommand)
@@ -227,7 +227,7 @@ def quiet(monkeypatch):
     monkeypatch.setattr("up.protocols.general_message_link.watch_peer", lambda *_: None)
 
 
-def test_a_holder_that_was_silent_for_three_seconds_loses_control(monkeypatch):
+def test_an_owner_that_is_silent_for_three_seconds_loses_control(monkeypatch):
     quiet(monkeypatch)
     clock, heard = Clock(), []
     all_ = virtual(clock, heard)

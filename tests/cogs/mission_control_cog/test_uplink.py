@@ -41,7 +41,7 @@ def test_hello_first_then_telemetry_after_the_answer(tmp_path):
         assert a.heard == [LinkStateCommand("mission_control", True)]
 
 
-def test_the_link_comes_back_with_its_token_and_without_the_half_line(tmp_path):
+def test_the_link_reconnects_with_its_token_and_without_the_partial_line(tmp_path):
     @uplinked(tmp_path)
     async def _(a, server):
         a.listen_to(TelemetryFrequencyCommand, LinkStateCommand)
@@ -60,7 +60,7 @@ def test_the_link_comes_back_with_its_token_and_without_the_half_line(tmp_path):
         assert a.up.command_receiver.counters["malformed"] == 1
 
 
-def test_an_absent_proxy_is_no_failure_and_is_found_when_it_comes(tmp_path):
+def test_an_absent_proxy_does_not_fail_the_start_and_is_found_later(tmp_path):
     async def fly():
         server = Server(reactor)
         port = await server.open()
