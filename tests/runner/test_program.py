@@ -47,22 +47,26 @@ def test_an_instance_has_its_pid_file(runner):
     wait_until(lambda: not pid.exists(), "the pid file is removed")
 
 
+def status(arguments):
+    with pytest.raises(SystemExit) as exit_:
+        main(arguments)
+    return exit_.value.code
+
+
 @pytest.mark.parametrize("port", ["x", "-1", "65536", "1" * 5000])
 def test_a_wrong_port_is_exit_2(port, capsys):
-    with pytest.raises(SystemExit) as exit_:
-        main(["--port", port])
-    assert exit_.value.code == 2
+    assert status(["--port", port]) == 2
     assert "--port" in capsys.readouterr().err
 
 
 def test_a_missing_configuration_folder_is_exit_2(tmp_path, capsys):
-    assert main(["--config", str(tmp_path / "nowhere")]) == 2
+    assert status(["--config", str(tmp_path / "nowhere")]) == 2
     assert f"--config {tmp_path / 'nowhere'}" in capsys.readouterr().err
 
 
 def test_all_errors_of_the_configuration_have_their_place(tmp_path, capsys):
     (tmp_path / "runner.yml").write_text("prot: 1\nport: x\nexit delay: -1\n")
-    assert main(["--config", str(tmp_path)]) == 2
+    assert status(["--config", str(tmp_path)]) == 2
     lines = capsys.readouterr().err.splitlines()
     assert len(lines) == 3
     for number, line in enumerate(lines, 1):
