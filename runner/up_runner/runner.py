@@ -13,8 +13,8 @@ from twisted.internet.error import CannotListenError
 from twisted.logger import Logger
 from twisted.python.failure import Failure
 
-from up.system.addresses import is_private, is_wildcard
 from up.system.notify import Notifier, WatchdogPinger
+from up.system.peer_filter import PeerFilter
 from up_runner.config import RunnerConfig
 from up_runner.instance_config import InstanceConfig
 from up_runner.instance_host import Application, InstanceHost
@@ -160,19 +160,9 @@ class Runner:
         return {"mission_control.yml": {"remote_server": server}} if proxy.host else {}
 
     def _check(self) -> None:
-        address = self._config.address
-        try:
-            public = not is_wildcard(address) and not is_private(address)
-        except ValueError:
-            raise CannotStart(
-                "bad_address", f"address in runner.yml is not an IP address: {address!r}"
-            ) from None
-        if public and not self._config.i_accept_plain:
-            raise CannotStart(
-                "public_address",
-                f"{address} is a public address and requests are not authenticated; "
-                "i_accept_plain: true in runner.yml accepts that",
-            )
+        peers = PeerFilter(self._config.i_accept_plain, "runner.yml: i_accept_plain")
+        if refusal := peers.refusal_of(self._config.address):
+            raise CannotStart("bad_address", f"{refusal} (runner.yml: address)")
         if os.geteuid() == 0 and not self._config.i_accept_root:
             raise CannotStart(
                 "root",

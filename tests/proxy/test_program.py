@@ -99,14 +99,11 @@ def test_a_port_in_use_is_one_sentence_and_exit_1(tmp_path, which):
     assert "Traceback" not in proxy.log
 
 
-@pytest.mark.parametrize(
-    ("address", "code", "status"),
-    [("203.0.113.7", "public_address", 2), ("nonsense", "bad_address", 1)],
-)
-def test_an_address_it_cannot_use(address, code, status):
+@pytest.mark.parametrize("address", ["203.0.113.7", "nonsense"])
+def test_an_address_it_cannot_use(address):
     with pytest.raises(StartError) as error:
         Proxy(HandReactor(), ProxyConfig(address=address)).start()
-    assert (error.value.code, error.value.status) == (code, status)
+    assert (error.value.code, error.value.status) == ("bad_address", 2)
     assert address in str(error.value)
 
 

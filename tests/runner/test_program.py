@@ -77,7 +77,7 @@ def test_all_errors_of_the_configuration_have_their_place(tmp_path, capsys):
     ("config", "code"),
     [
         ({"script_path": "/nowhere/main.py"}, "no_script"),
-        ({"address": "203.0.113.9"}, "public_address"),
+        ({"address": "203.0.113.9"}, "bad_address"),
         ({"address": "nonsense"}, "bad_address"),
         ({"run_folder": "/proc/nothing"}, "run_folder_unusable"),
         ({"run_folder": "/tmp/" + "x" * 100}, "path_too_long"),
