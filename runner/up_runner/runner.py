@@ -28,6 +28,8 @@ from up_runner.response import Response
 from up_runner.run_folder import RunFolder, RunFolderError
 
 KILL_DELAY_S = 5.0
+LISTEN_BACKLOG = 1024
+"""With a short one a burst of connections delays a phone's by the kernel's repetition of 1 s."""
 _SUPERVISED = ("NOTIFY_SOCKET", "INVOCATION_ID", "UPSTART_JOB")
 
 
@@ -91,7 +93,10 @@ class Runner:
             raise CannotStart(error.code, str(error)) from None
         try:
             self._port = self._reactor.listenTCP(
-                self._config.port, self.server, interface=self._config.address
+                self._config.port,
+                self.server,
+                backlog=LISTEN_BACKLOG,
+                interface=self._config.address,
             )
         except CannotListenError as error:
             self._run_folder.release()

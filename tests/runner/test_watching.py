@@ -128,7 +128,7 @@ def test_an_instance_without_a_phone_stops(runners):
     wait_until(lambda: not runner.instances(), "it ended")
 
 
-def test_a_process_that_ignores_sigterm_is_killed_with_its_helpers(runners):
+def test_a_process_that_ignores_sigterm_is_killed_and_a_request_waits_for_that(runners):
     runner = runners(**{"exit delay": 1.0}).start()
     runner.write("blackbox/behaviour.yml", {"deaf": True})
     first = runner.spawn()
@@ -137,20 +137,13 @@ def test_a_process_that_ignores_sigterm_is_killed_with_its_helpers(runners):
     helper = int(talk.order("helper"))
     assert is_alive(helper)
     talk.order("phone 0")
-    assert "SIGKILL" in runner.logs("ended", cause="phone_gone")["error"]
-    wait_until(lambda: not is_alive(helper), "its helper ended")
-    assert not can_connect(first["ports"]["general"])
-
-
-def test_a_request_while_it_stops_waits_and_starts_a_new_one(runners):
-    runner = runners(**{"exit delay": 0.5}).start()
-    runner.write("blackbox/behaviour.yml", {"deaf": True})
-    first = runner.spawn()
     runner.logs("stopping", cause="phone_gone")
     runner.write("blackbox/behaviour.yml", {})
     second = runner.spawn()
     assert second["spawned"] is True and second["pid"] != first["pid"]
+    assert "SIGKILL" in runner.logs("ended", cause="phone_gone")["error"]
     assert not is_alive(first["pid"])
+    wait_until(lambda: not is_alive(helper), "its helper ended")
 
 
 @pytest.mark.parametrize("mode", ["flight controller", "auto"])

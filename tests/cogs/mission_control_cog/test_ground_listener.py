@@ -138,7 +138,7 @@ def test_the_role_is_the_links_and_partial_lines_end_with_their_connection(tmp_p
 def test_hostile_stations_are_bounded(tmp_path):
     @listening(tmp_path, LISTENER)
     async def _(a):
-        peers = await grounds(a, *[b""] * MAX_STATIONS)
+        peers = [await connect(reactor, a.up.ports["ground"]) for _ in range(MAX_STATIONS)]
         late = await connect(reactor, a.up.ports["ground"])
         await late.closed
         peers[0].say(b"\xff\xff\n", b"[" * 20000 + b"\n", b"UP1 " + b"x" * 30000 + b"\n")
