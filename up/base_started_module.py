@@ -45,7 +45,7 @@ class BaseStartedModule(BaseModule):
         outcome = self.on_start()
         if isinstance(outcome, Awaitable):
             outcome = await outcome
-        result = self._judge(outcome)
+        result = self._result_of(outcome)
         self._started = result is StartResult.STARTED
         return result
 
@@ -63,7 +63,7 @@ class BaseStartedModule(BaseModule):
     def on_stop(self) -> Any:
         """Close what the start opened, also after a partial start."""
 
-    def _judge(self, outcome: Any) -> StartResult:
+    def _result_of(self, outcome: Any) -> StartResult:
         if isinstance(outcome, StartResult):
             return outcome
         if outcome is None or outcome is True:

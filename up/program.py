@@ -107,8 +107,8 @@ class Program:
         if self._stopping:
             return
         self._running = True
-        self._up.on_ports_changed = self._tell_ports
-        self._tell_ports()
+        self._up.on_ports_changed = self._notify_ports
+        self._notify_ports()
         self._notifier.ready(f"{len(self._life.started)} modules run")
         self._gc_scheduler.start()
         # Runs after the reactor's next wait: the current turn belongs to the start.
@@ -118,7 +118,7 @@ class Program:
         if self._up.vetoes.own:
             self.log.warn("arming is refused: {vetoes}", vetoes="; ".join(self._up.vetoes.own))
 
-    def _tell_ports(self) -> None:
+    def _notify_ports(self) -> None:
         ports = " ".join(f"{name}:{port}" for name, port in sorted(self._up.ports.items()))
         self._notifier.variable("X_UP_PORTS", ports)
 

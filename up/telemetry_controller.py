@@ -18,7 +18,7 @@ from up.merge import merge
 from up.system.clock import Timer
 
 DEFAULT_PERIOD_MS = 100.0
-IDLE_LOOK_S = 2.0
+IDLE_POLL_S = 2.0
 """Polling period for a subscriber that starts to want telemetry without a new link."""
 
 
@@ -117,8 +117,8 @@ class TelemetryController(BaseStartedModule):
     def _transmit(self) -> None:
         # The first frame is always collected, so that failing telemetry is reported immediately.
         if self.frames and not self.is_wanted:
-            self._timer = self.context.reactor.callLater(IDLE_LOOK_S, self._transmit)
-            self._due_s = self.context.reactor.seconds() + IDLE_LOOK_S
+            self._timer = self.context.reactor.callLater(IDLE_POLL_S, self._transmit)
+            self._due_s = self.context.reactor.seconds() + IDLE_POLL_S
             return
         self._sent_s = self._due_s
         self._schedule()

@@ -124,7 +124,7 @@ class Up:
     def advertise_port(self, name: str, port: int) -> None:
         """Set the port that a module bound; it is logged and reported to the supervisor."""
         self.ports[name] = port
-        add_cleanup(lambda: self._take_port_back(name, port))
+        add_cleanup(lambda: self._withdraw_port(name, port))
         self.log.info("{name} listens on port {port}", name=name, port=port, code="port_open")
         self.on_ports_changed()
 
@@ -185,7 +185,7 @@ class Up:
             self.log.error("{name} cannot be registered: {error}", name=name, error=error)
             self.vetoes.set(name, f"cannot be registered: {error}")
 
-    def _take_port_back(self, name: str, port: int) -> None:
+    def _withdraw_port(self, name: str, port: int) -> None:
         if self.ports.get(name) == port:
             del self.ports[name]
             self.on_ports_changed()

@@ -6,7 +6,7 @@ import math
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from up.merge import DEEPEST, LONGEST, merge
+from up.merge import MAX_DEPTH, MAX_LENGTH, merge
 from up.protocols.general_message import encode
 
 
@@ -67,8 +67,8 @@ def test_what_json_does_not_have_is_dropped_alone():
         "bytes": b"x",
         "object": object(),
         "huge": 10**5000,
-        "long": "x" * (LONGEST + 1),
-        "many": list(range(LONGEST + 1)),
+        "long": "x" * (MAX_LENGTH + 1),
+        "many": list(range(MAX_LENGTH + 1)),
         "surrogate": "\ud800",
         "endless": endless,
         "circle": circle,
@@ -136,5 +136,5 @@ def test_nesting_is_bounded():
     depth = 0
     while result:
         result, depth = result["x"], depth + 1
-    assert depth == DEEPEST
+    assert depth == MAX_DEPTH
     assert conflicts

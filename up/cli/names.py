@@ -13,8 +13,8 @@ _GIVEN = re.compile(r"[A-Za-z][A-Za-z0-9_ -]*", re.ASCII)
 _IDENTIFIER = re.compile(r"[a-z][a-z0-9_]*(\.[a-z0-9_]+)+", re.ASCII)
 _WORD = re.compile(r"[A-Z]+(?![a-z])|[A-Z]?[a-z0-9]+|[0-9]+")
 _TAKEN = {"up", "raspilot", "twisted", "yaml", "serial", "psutil", "tests", "modules", "config"}
-_LONGEST = 24
-_LONGEST_IDENTIFIER = 45
+_MAX_NAME = 24
+_MAX_IDENTIFIER = 45
 
 
 @dataclass(frozen=True, slots=True)
@@ -30,7 +30,7 @@ class Name:
         Drops an ``ending`` that the generated name gets anyway. Raises CliError.
         """
         words = tuple(word.lower() for word in _WORD.findall(given))
-        if not _GIVEN.fullmatch(given) or len("_".join(words)) > _LONGEST:
+        if not _GIVEN.fullmatch(given) or len("_".join(words)) > _MAX_NAME:
             raise CliError(
                 f'"{given[:40]}" cannot be a name: use letters, digits and _, beginning with'
                 " a letter, like FuelGauge"
@@ -65,9 +65,9 @@ def check_identifier(identifier: str) -> str:
     """Return a Command's name; raises CliError for an invalid or taken name."""
     from up.commands.builtin import BUILTIN_COMMANDS
 
-    if not _IDENTIFIER.fullmatch(identifier) or len(identifier) > _LONGEST_IDENTIFIER:
+    if not _IDENTIFIER.fullmatch(identifier) or len(identifier) > _MAX_IDENTIFIER:
         raise CliError(
-            f'"{identifier[:40]}" cannot name a Command: use at most {_LONGEST_IDENTIFIER}'
+            f'"{identifier[:40]}" cannot name a Command: use at most {_MAX_IDENTIFIER}'
             " characters, words with dots between, like plane.bay.open"
         )
     for cls in BUILTIN_COMMANDS:

@@ -75,9 +75,9 @@ class LoadGuard(BaseStartedModule):
             self._timer.cancel()
 
     def _schedule(self) -> None:
-        self._timer = self.context.reactor.callLater(self.config.interval, self._look)
+        self._timer = self.context.reactor.callLater(self.config.interval, self._poll)
 
-    def _look(self) -> None:
+    def _poll(self) -> None:
         self._schedule()
         assert self.meter is not None
         now_s = self.context.reactor.seconds()
@@ -105,7 +105,7 @@ class LoadGuard(BaseStartedModule):
         )
 
 
-_LEAST_S = 1e-3
+_MIN_INTERVAL_S = 1e-3
 
 
 class Meter(Protocol):
@@ -122,16 +122,16 @@ class PsutilMeter:
     """Measures with psutil; the first load after construction covers the time since then."""
 
     def __init__(self) -> None:
-        self._looked_s = self._used_s = 0.0
+        self._polled_s = self._used_s = 0.0
         self.load_percent()
 
     def load_percent(self) -> float:
         """Return the greater of the machine's load and this process's share of one core."""
         machine: float = psutil.cpu_percent(interval=None)
         now_s, used_s = time.monotonic(), time.process_time()
-        passed_s = max(now_s - self._looked_s, _LEAST_S)
+        passed_s = max(now_s - self._polled_s, _MIN_INTERVAL_S)
         own = 100.0 * (used_s - self._used_s) / passed_s
-        self._looked_s, self._used_s = now_s, used_s
+        self._polled_s, self._used_s = now_s, used_s
         return min(100.0, max(machine, own))
 
     def memory_percent(self) -> float:
