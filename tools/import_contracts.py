@@ -51,7 +51,7 @@ LAYERS = (
     "config | mode",
     "log",
     "system",
-    "fields | version",
+    "fields | version | errors",
 )
 # Imports that still go upwards, each with the change that removes it.
 EXCEPTIONS = (

@@ -7,6 +7,7 @@ from enum import Enum
 from typing import Any, ClassVar
 
 from up.base_module import BaseModule
+from up.errors import UserError
 
 
 class BaseStartedModule(BaseModule):
@@ -86,5 +87,5 @@ class StartResult(Enum):
     FAILED_STOP = "failed, stop"
 
 
-class StartFailedError(Exception):
+class StartFailedError(UserError):
     """Raised by a start that failed for a reason that a user can fix; the text is one sentence."""

@@ -57,7 +57,9 @@ class BaseThreadModule(BaseStartedModule):
             except CancelledError:
                 break
         if self._is_thread_alive:
-            self.log.warn("its thread did not end in time and is left behind")
+            self.log.warn(
+                "its thread did not end in time and is left behind", code="thread_left_behind"
+            )
         await super().stop()
 
     def call_in_reactor(self, call: Callable[..., Any], *arguments: Any) -> None:
@@ -65,7 +67,7 @@ class BaseThreadModule(BaseStartedModule):
 
     def _loop(self) -> None:
         """Do one piece of the work."""
-        raise NotImplementedError(f"{self.class_name} does not say what its thread does")
+        raise NotImplementedError(f"{self.class_name} must override _loop")
 
     def _run(self) -> None:
         while not self.stop_event.is_set():

@@ -66,7 +66,9 @@ class ModeMonitor(BaseStartedModule):
         self._cancel_timer()
         if self.is_provisional:
             self.is_provisional = False
-            self.log.warn("the Arduino answers: back in Flight Controller Mode")
+            self.log.warn(
+                "the Arduino answers: back in Flight Controller Mode", code="mode_restored"
+            )
 
     def _wait(self) -> None:
         if self._timer is None and not self.is_provisional and not self._is_over:
@@ -84,4 +86,5 @@ class ModeMonitor(BaseStartedModule):
             "no frame from the Arduino for {patience_s:.0f} s: provisionally in Black Box Mode,"
             " orientation from the phone; nothing is controlled from here",
             patience_s=BOARD_TIMEOUT_S,
+            code="mode_provisional",
         )

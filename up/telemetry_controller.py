@@ -89,7 +89,9 @@ class TelemetryController(BaseStartedModule):
                 Code.OVERLOADED,
             )
         self.wanted_period_ms = command.period_ms
-        self.log.info("telemetry every {period_ms:.0f} ms", period_ms=command.period_ms)
+        self.log.info(
+            "telemetry every {period_ms:.0f} ms", period_ms=command.period_ms, code="period_changed"
+        )
         self._reschedule()
 
     def _on_panic(self, command: PanicCommand) -> None:
@@ -143,7 +145,11 @@ class TelemetryController(BaseStartedModule):
         except (Exception, SystemExit):  # noqa: BLE001 - a fault costs one module's part only
             self.faults += 1
             if self._said.first(module.path):
-                self.log.failure("the telemetry of {name} failed", name=module.class_name)
+                self.log.failure(
+                    "the telemetry of {name} failed",
+                    name=module.class_name,
+                    code="telemetry_failed",
+                )
             return None
 
     def _on_conflict(self, key: str, first: str, later: str) -> None:
@@ -155,6 +161,7 @@ class TelemetryController(BaseStartedModule):
                 "{later} gives telemetry {key} a value that JSON does not have",
                 later=later,
                 key=key,
+                code="telemetry_not_json",
             )
         else:
             self.log.error(
@@ -163,4 +170,5 @@ class TelemetryController(BaseStartedModule):
                 key=key,
                 first=first,
                 later=later,
+                code="telemetry_conflict",
             )

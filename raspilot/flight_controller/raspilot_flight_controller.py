@@ -96,7 +96,7 @@ class RaspilotFlightController(BaseFlightController):
         self._gains_store = GainsStore(pids, self.context.reactor)
         self.gains, problem = pids.load()
         if problem:
-            self.log.error("{reason}", reason=problem)
+            self.log.error("{reason}", reason=problem, code="gains_invalid")
             self.up.vetoes.set("pids.yml", problem)
         self._build(self.gains)
         executor = self.up.command_executor
@@ -188,7 +188,7 @@ class RaspilotFlightController(BaseFlightController):
         elif self.is_flying:
             text = "flies"
         else:
-            text = f"does not fly: {owner or 'nobody'} has control"
+            text = f"does not fly: {owner or 'no module'} has control"
         if text != self._logged:
             self._logged = text
             self.log.info(
@@ -223,7 +223,7 @@ class RaspilotFlightController(BaseFlightController):
             self._roll.tune(self.gains.rate.ailerons, self.gains.stabilize.ailerons)
             self._pitch.tune(self.gains.rate.elevator, self.gains.stabilize.elevator)
             self._yaw.tune(self.gains.rate.rudder or _NO_GAINS)
-            self.log.info("flies with other gains")
+            self.log.info("flies with other gains", code="gains_changed")
             return self._gains_store.save(self.gains).addCallbacks(self._on_saved, self._on_unsaved)
         if self.mission_control is None:
             raise CommandRefusedError("no ground station is configured", Code.UNAVAILABLE)
@@ -235,7 +235,7 @@ class RaspilotFlightController(BaseFlightController):
         self.up.vetoes.clear("pids.yml")
 
     def _on_unsaved(self, failure: Failure) -> Failure:
-        self.log.error("{reason}", reason=failure.getErrorMessage())
+        self.log.error("{reason}", reason=failure.getErrorMessage(), code="gains_not_saved")
         return failure
 
 

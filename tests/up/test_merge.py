@@ -46,10 +46,6 @@ def test_what_is_not_finite_becomes_null():
     assert result == {"a": None, "b": [None, 1.0], "c": {"d": None}}
 
 
-def test_two_nans_do_not_conflict():
-    assert merged({"a": math.nan}, {"a": math.inf})[1] == []
-
-
 class Failing(dict):
     """A map that fails while it is read."""
 

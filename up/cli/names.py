@@ -33,12 +33,16 @@ class Name:
         if not _GIVEN.fullmatch(given) or len("_".join(words)) > _MAX_NAME:
             raise CliError(
                 f'"{given[:40]}" cannot be a name: use letters, digits and _, beginning with'
-                " a letter, like FuelGauge"
+                " a letter, like FuelGauge",
+                code="name_invalid",
             )
         if len(words) > 1 and words[-1] == ending:
             words = words[:-1]
         if keyword.iskeyword("_".join(words)):
-            raise CliError(f'"{given}" cannot be a name: Python has another use for that word')
+            raise CliError(
+                f'"{given}" cannot be a name: Python has another use for that word',
+                code="name_invalid",
+            )
         return cls(words)
 
     @property
@@ -58,7 +62,10 @@ class Name:
 
     def check_free(self) -> None:
         if self.snake in _TAKEN or self.snake in sys.stdlib_module_names:
-            raise CliError(f"{self.snake} is the name of another Python package: choose one more")
+            raise CliError(
+                f"{self.snake} is the name of another Python package: choose one more",
+                code="name_taken",
+            )
 
 
 def check_identifier(identifier: str) -> str:
@@ -68,9 +75,13 @@ def check_identifier(identifier: str) -> str:
     if not _IDENTIFIER.fullmatch(identifier) or len(identifier) > _MAX_IDENTIFIER:
         raise CliError(
             f'"{identifier[:40]}" cannot name a Command: use at most {_MAX_IDENTIFIER}'
-            " characters, words with dots between, like plane.bay.open"
+            " characters, words with dots between, like plane.bay.open",
+            code="name_invalid",
         )
     for cls in BUILTIN_COMMANDS:
         if identifier in (cls.NAME, *cls.ALIASES):
-            raise CliError(f"{identifier} is a Command of Up ({cls.__name__}): choose another name")
+            raise CliError(
+                f"{identifier} is a Command of Up ({cls.__name__}): choose another name",
+                code="name_taken",
+            )
     return identifier

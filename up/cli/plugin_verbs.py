@@ -106,7 +106,7 @@ def _add_broken(verbs: Any, plugin: _Plugin, why: str) -> None:
     )
 
     def carry_out(values: argparse.Namespace) -> int:
-        raise CliError(sentence)
+        raise CliError(sentence, code="verb_broken")
 
     parser = verbs.add_parser(
         plugin.name,

@@ -21,7 +21,7 @@ from up.commands.refusal import Code, CommandRefusedError, UnhandledCommandError
 from up.protocols.general_message import GeneralMessage, MalformedMessage
 
 OUTCOME_LIMIT_S = 2.0
-_FAILED = "carrying it out failed; the log says where"
+_FAILED = "execution failed; see the log of the aircraft"
 Route = Callable[[BaseCommand, CommandLink, str | None], "Deferred[None] | None"]
 
 
@@ -150,7 +150,7 @@ class CommandReceiver:
         route = self._routes.get(command.ROUTE)
         if route is None:
             self._refuse(
-                link, message, Code.UNAVAILABLE, f"nobody carries Commands to {command.ROUTE}"
+                link, message, Code.UNAVAILABLE, f"no module forwards Commands to {command.ROUTE}"
             )
             return None
         try:
@@ -166,7 +166,7 @@ class CommandReceiver:
         elif isinstance(error, UnhandledCommandError):
             self._refuse(link, message, Code.UNAVAILABLE, f"no module handles {message.name}")
         elif isinstance(error, TimeoutError):
-            self._refuse(link, message, Code.TIMEOUT, "no answer from whoever carries it out")
+            self._refuse(link, message, Code.TIMEOUT, "the module that executes it did not answer")
         else:
             self._refuse(link, message, Code.FAILED, _FAILED)
 

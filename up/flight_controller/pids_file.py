@@ -92,7 +92,7 @@ class PidsConfig:
 
     units: str = key(
         "degrees per second",
-        "Says that the gains are in the units of these comments.",
+        "The units of the gains, as in these comments.",
         choices=("degrees per second",),
     )
     rate: Rate = section(Rate)

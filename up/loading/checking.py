@@ -92,7 +92,7 @@ def _disabled_for_nothing(disabled: Iterable[str], found: Discovered) -> list[st
     known = {f"{cls.__module__}.{cls.__qualname__}" for cls in classes}
     known |= {cls.__module__ for cls in classes} | found.disabled_files
     return [
-        f"{DISABLED_MODULES.filename}: {name} is not there to be disabled"
+        f"{DISABLED_MODULES.filename}: {name} does not exist, so it cannot be disabled"
         for name in disabled
         if name not in known
     ]

@@ -113,15 +113,15 @@ def _message_of(fields: dict[str, Any], *, may_hold_surrogates: bool) -> General
         raise MalformedMessage("text with a lone surrogate", _encodable(id_))
     name = fields.get("name")
     if not isinstance(name, str) or not 1 <= len(name) <= MAX_NAME:
-        raise MalformedMessage(f"name is no text of 1 to {MAX_NAME} characters", id_)
+        raise MalformedMessage(f"name is not a text of 1 to {MAX_NAME} characters", id_)
     data = fields.get("data")
     if data is None:
         data = {}
     elif not isinstance(data, dict):
-        raise MalformedMessage("data is no object", id_)
+        raise MalformedMessage("data is not an object", id_)
     beacon = fields.get("beacon")
     if beacon is not None and type(beacon) is not int:
-        raise MalformedMessage("beacon is no whole number", id_)
+        raise MalformedMessage("beacon is not a whole number", id_)
     return GeneralMessage(name, data, id_, beacon)
 
 
@@ -131,7 +131,7 @@ def _read_id(value: object) -> str | None:
     if type(value) in (int, float):
         value = str(value)
     if not isinstance(value, str) or not 1 <= len(value) <= MAX_ID:
-        raise MalformedMessage(f"id is no text of 1 to {MAX_ID} characters")
+        raise MalformedMessage(f"id is not a text of 1 to {MAX_ID} characters")
     return value
 
 
@@ -202,7 +202,7 @@ def _bounded_int(text: str) -> int:
 
 
 def _refuse_constant(text: str) -> NoReturn:
-    raise ValueError(f"{text} is no JSON number")
+    raise ValueError(f"{text} is not a JSON number")
 
 
 def _unique_object(pairs: list[tuple[str, Any]]) -> dict[str, Any]:

@@ -66,6 +66,7 @@ def permits(bucket: TokenBucket, peer: str, waiting: int = 1) -> bool:
             "{peer} sends more than {rate:g} messages a second: the excess is dropped and counted",
             peer=peer,
             rate=MAX_MESSAGES_HZ,
+            code="rate_exceeded",
         )
     return False
 

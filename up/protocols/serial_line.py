@@ -113,7 +113,7 @@ class SerialLine:
         """Close the port and reopen it, as after a fault."""
         if self._descriptor is not None:
             self._descriptor.stop()
-            self._lost("to be opened anew")
+            self._lost("reopening")
 
     def _open(self) -> None:
         try:

@@ -125,15 +125,6 @@ def test_connected_means_frames_within_a_second(rig):
     assert listener.events == ["opened", "heard", "silent"]
 
 
-def test_text_and_noise_before_a_frame_cost_nothing_but_themselves(checked):
-    taken = take(checked)
-    checked.start()
-    checked.port.write(b"MPU6050 connection failed\r\n\x00\x07o\x00" + bytes(range(255)) + b"\0")
-    checked.say("o", b"ab")
-    assert taken == [b"ab"]
-    assert counts(checked)["format_errors"] > 0
-
-
 @settings(
     max_examples=150,
     deadline=None,
@@ -186,14 +177,6 @@ def test_a_repeated_frame_is_handled_once_and_a_gap_is_counted(checked):
     assert counts(checked)["duplicates"] == 1
 
 
-def test_a_missing_frame_is_counted(checked):
-    take(checked)
-    checked.start()
-    checked.port.write(checked_frame(7, "o", b"ab") + checked_frame(10, "o", b"ab"))
-    checked.turn()
-    assert counts(checked)["lost_by_sequence"] == 2
-
-
 @pytest.mark.filterwarnings("ignore")
 def test_a_handler_that_raises_harms_no_other(rig):
     def broken(payload):
@@ -243,8 +226,9 @@ def test_without_a_configured_port_the_arduino_is_found_when_it_comes(tmp_path):
     serial = rig.module(SerialProvider)
     ports = []
     serial.lister = lambda: ports
-    with pytest.raises(BootStoppedError, match="SerialProvider has its port open"):
+    with pytest.raises(BootStoppedError) as error:
         rig.start()
+    assert error.value.code == "no_source"
     taken = take(rig)
     rig.advance(60)
     assert not serial.is_source_open

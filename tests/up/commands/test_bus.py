@@ -61,7 +61,7 @@ def test_by_class_by_name_by_alias_and_by_object(bus):
 
 
 def test_what_is_no_handler_is_refused(bus):
-    with pytest.raises(TypeError, match="not callable"):
+    with pytest.raises(TypeError):
         bus.register_command(NumberCommand, "text")
 
 
@@ -75,7 +75,8 @@ def test_a_failing_handler_is_named_and_counted_and_the_others_run(bus):
     assert heard == [NumberCommand(1)]
     assert owners == ["Grumpy"]
     assert bus.counters["failed_handlers"] == 1
-    assert "Grumpy failed while handling test.number" in log.text()
+    (event,) = log.of("handler_failed")
+    assert (event["owner"], event["name"]) == ("Grumpy", "test.number")
 
 
 def test_a_handler_that_fails_always_does_not_fill_the_log(bus):
@@ -85,7 +86,7 @@ def test_a_handler_that_fails_always_does_not_fill_the_log(bus):
             bus.execute_command(NumberCommand(1))
     assert bus.counters["failed_handlers"] == 1000
     assert len(log.failures) == 4
-    assert "(1000 times now)" in log.text()
+    assert log.of("handler_failed")[-1]["count"] == 1000
 
 
 def test_a_command_that_is_refused_always_does_not_fill_the_log():
@@ -223,8 +224,8 @@ def test_what_nobody_handles_is_counted_and_logged_once(bus):
             bus.execute_command(OtherCommand(), GROUND)
             bus.execute_command(NumberCommand(1), GROUND)
     assert bus.counters["unhandled"] == 100
-    assert log.text().count("nobody handles test.other") == 1
-    assert log.text().count("nobody handles test.number") == 1
+    assert {event["name"] for event in log.of("command_unhandled")} == {"test.other", "test.number"}
+    assert len(log.of("command_unhandled")) == 2
 
 
 def test_a_known_command_of_the_inside_needs_nobody(bus):
@@ -304,7 +305,7 @@ def test_a_refusal_is_the_outcome_and_no_failure(bus):
     bus.register_command(NumberCommand, refuse)
     bus.register_command(NumberCommand, heard.append)
     with Log() as log:
-        assert outcome_of(bus)[0].getErrorMessage() == "not now"
+        assert outcome_of(bus)[0].check(CommandRefusedError)
     assert bus.counters["refused"] == 1
     assert bus.counters["failed_handlers"] == 0
     assert heard and not log.failures

@@ -6,7 +6,6 @@ from tests.up.commands.samples import Border, NumberCommand
 from up.commands.answer_commands import CommandAnsweredCommand
 from up.commands.outcome_publisher import ANSWERS_HZ
 from up.commands.refusal import CommandRefusedError
-from up.commands.roles import Role
 from up.protocols.general_message import MalformedMessage
 
 
@@ -71,13 +70,6 @@ def test_a_flood_of_refusals_is_told_in_part_and_counted(border):
     border.say("no.such" + "x" * 500, {}, "later")
     newest = border.outcomes[-1][0]
     assert (newest.command_id, newest.untold, len(newest.name)) == ("later", 480, 64)
-
-
-def test_nobody_outside_may_tell_it():
-    for role in (Role.ADMIN, Role.BOARD, Role.SENSOR):
-        border = Border(role)
-        border.say("up.command.answered", {"link": "ground", "name": "up.arm"}, "a")
-        assert border.codes == ["forbidden"]
 
 
 def test_a_bus_without_a_recorder_counts_nothing_as_unhandled():

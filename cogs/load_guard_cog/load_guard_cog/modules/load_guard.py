@@ -85,13 +85,14 @@ class LoadGuard(BaseStartedModule):
             self._memory_due_s = now_s + MEMORY_EVERY_S
             self.ram = self.meter.memory_percent()
         if self._switch.update(self.meter.load_percent(), now_s):
-            word = "busy" if self.in_panic else "not busy any more"
+            word = "busy" if self.in_panic else "no longer busy"
             self.log.info(
                 "Raspberry Pi {word} ({cpu_utilization:.0f} %):"
                 " every sender may send every {delay_ms} ms (Panic Mode)",
                 word=word,
                 cpu_utilization=self.cpu_utilization,
                 delay_ms=self.delay_ms,
+                code="panic_changed",
             )
             self._publish()
 

@@ -150,7 +150,7 @@ class SerialProvider(BaseStartedModule):
         self._opener = PortOpener(config.port, config.baud_rate, self.lister, self.open_port)
         warning = odd_speed(config)
         if warning:
-            self.log.warn("{reason}", reason=warning)
+            self.log.warn("{reason}", reason=warning, code="speed_unusual")
         self._line = SerialLine(
             self.context.reactor,
             self._opener,
@@ -183,6 +183,7 @@ class SerialProvider(BaseStartedModule):
             path=self._opener.path,
             baud_rate=self.baud_rate,
             framing=self.framing,
+            code="port_opened",
         )
         self._decoder.reset()
         self._newest_frame = None
@@ -199,13 +200,14 @@ class SerialProvider(BaseStartedModule):
             path=self._opener.path,
             reason=why,
             wanted=self._opener.wanted,
+            code="port_lost",
         )
         self._on_silence()
         for listener in self._listeners:
             listener.on_line_lost()
 
     def _on_open_failed(self, why: str) -> None:
-        self.log.warn("{reason}; trying again", reason=why)
+        self.log.warn("{reason}; trying again", reason=why, code="port_unavailable")
 
     def _on_bytes(self, data: bytes) -> None:
         """Hand the frames in ``data`` to their handlers; all input goes through here."""
@@ -244,9 +246,10 @@ class SerialProvider(BaseStartedModule):
             return
         self._named.add((name, type_))
         self.log.failure(
-            "{name} failed while handling {type!r} (said once, then counted)",
+            "{name} failed while handling {type!r} (logged once, then counted)",
             name=name,
             type=chr(type_),
+            code="handler_failed",
         )
 
     def _expire(self) -> None:
@@ -274,12 +277,17 @@ class SerialProvider(BaseStartedModule):
         silent_s = self._seconds() - self._last_rx_s
         if self._is_receiving and silent_s >= limit_s:
             self.log.warn(
-                "no frame for {limit_s:g} s on {path}", limit_s=limit_s, path=self._opener.path
+                "no frame for {limit_s:g} s on {path}",
+                limit_s=limit_s,
+                path=self._opener.path,
+                code="line_silent",
             )
             self._on_silence()
         if silent_s >= TRY_ANOTHER_AFTER_S and self._opener.has_another():
             self.log.warn(
-                "nothing is understood on {path}: trying another port", path=self._opener.path
+                "nothing is understood on {path}: trying another port",
+                path=self._opener.path,
+                code="port_skipped",
             )
             self._opener.pass_over()
             assert self._line is not None
