@@ -35,12 +35,6 @@ def test_only_the_later_key_is_dropped_and_both_are_named():
     assert conflicts == [("a.x", "A", "B"), ("a", "A", "C")]
 
 
-def test_a_map_does_not_replace_a_value():
-    result, conflicts = merged({"a": None}, {"a": {"x": 1}})
-    assert result == {"a": None}
-    assert conflicts == [("a", "A", "B")]
-
-
 def test_what_is_not_finite_becomes_null():
     result, _ = merged({"a": math.nan, "b": [math.inf, 1.0], "c": {"d": -math.inf}})
     assert result == {"a": None, "b": [None, 1.0], "c": {"d": None}}

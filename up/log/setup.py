@@ -42,7 +42,6 @@ class Logging:
         self._json_lines = json_lines
 
     def stop(self) -> None:
-        """Remove the observers and close the file."""
         for observer in self._observers:
             self._publisher.removeObserver(observer)
         if self._json_lines is not None:

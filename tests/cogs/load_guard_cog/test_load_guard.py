@@ -56,15 +56,6 @@ def test_calm_leaves_panic_with_the_normal_delay(system):
     assert [(each.panic, each.delay_ms) for each in system.panics] == [(True, 150), (False, 20)]
 
 
-def test_telemetry_slows_down_in_panic(system):
-    controller = system.up.get_module(TelemetryController)
-    assert controller.period_ms == 100
-    system.run(10, 100.0)
-    assert controller.period_ms == 150
-    system.run(20, 5.0)
-    assert controller.period_ms == 100
-
-
 def test_a_link_that_comes_during_panic_is_told(system):
     system.run(10, 100.0)
     system.up.command_executor.execute_command(LinkStateCommand("android", True))

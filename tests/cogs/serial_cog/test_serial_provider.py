@@ -156,16 +156,6 @@ def test_an_unfinished_frame_is_dropped_after_100_ms_of_silence(rig):
     assert taken == [b"cd"]
 
 
-def test_a_slow_frame_whose_bytes_keep_coming_is_taken(rig):
-    taken = take(rig)
-    rig.start()
-    for byte in rig.port.frame("o", b"ab"):
-        rig.port.write(bytes((byte,)))
-        rig.turn()
-        rig.advance(0.08)
-    assert taken == [b"ab"]
-
-
 def test_a_repeated_frame_is_handled_once_and_a_gap_is_counted(checked):
     taken = take(checked)
     checked.start()
@@ -277,16 +267,3 @@ def test_stopping_leaves_no_timer_and_no_reader(rig):
     rig.stop()
     assert not rig.reactor.readers
     assert not rig.reactor.getDelayedCalls()
-
-
-def test_a_board_that_counts_anew_after_reopening_has_lost_no_frame(checked):
-    take(checked)
-    checked.start()
-    checked.say("o", b"ab", sequence=100)
-    checked.port.unplug()
-    checked.turn()
-    checked.port.plug_in()
-    checked.advance(2)
-    checked.say("o", b"ab", sequence=0)
-    assert counts(checked)["lost_by_sequence"] == 0
-    assert counts(checked)["frames"] == 2

@@ -82,14 +82,6 @@ def test_a_folder_that_cannot_be_written_is_one_sentence(up, tmp_path):
     assert len(outcome.err.splitlines()) == 1
 
 
-def test_update_says_how_without_touching_the_network(up):
-    outcome = up("update", "--dry-run")
-    assert outcome.status == 0
-    command = outcome.out.splitlines()[-1]
-    assert "-m pip install" in command
-    assert "git pull" in outcome.out or "--upgrade" in command
-
-
 @pytest.mark.parametrize(
     ("origin", "words"),
     [

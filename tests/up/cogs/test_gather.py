@@ -56,30 +56,11 @@ def test_the_life_of_a_cogfile(environment, application, tree):
     assert (application / "config/beta.yml").exists()
 
 
-def test_what_a_person_registered_is_not_unregistered(environment, application, tree):
-    cogfile(application, BOTH)
-    environment.up("gather", cwd=application)
-    environment.up("unregister", "-n", "alpha_cog", cwd=application)
-    environment.up("register", "-n", "alpha-cog", cwd=application)
-    cogfile(application, "")
-    environment.up("gather", cwd=application)
-    assert registered(application) == {"alpha_cog": "manual"}
-
-
 def test_the_current_folder_may_be_the_one_of_the_cogs(environment, application, tree):
     """The outer folder alpha_cog is not a package, and must not hide the one that is."""
     cogfile(application, BOTH)
     environment.run("-P", "-m", "up.cli", "-f", str(application), "gather", cwd=tree)
     assert registered(application) == {"alpha_cog": "cogfile", "beta_cog": "cogfile"}
-
-
-def test_an_edited_source_needs_no_new_gathering(environment, application, tree):
-    cogfile(application, BOTH)
-    environment.up("gather", cwd=application)
-    module = tree / "alpha_cog/alpha_cog/modules/alpha_module.py"
-    module.write_text(module.read_text() + "\n    LOAD_ORDER = 1 / 0\n")
-    done = environment.up("check", cwd=application, status=2)
-    assert "ZeroDivisionError" in done.stderr
 
 
 def test_names_of_the_tree_never_come_from_the_index(environment, application, tree, index):

@@ -255,11 +255,6 @@ def outcome_of(bus, command=None):
     return got
 
 
-def test_the_outcome_of_plain_handlers(bus):
-    bus.register_command(NumberCommand, lambda _: "result")
-    assert outcome_of(bus) == [None]
-
-
 def test_the_outcome_without_handlers(bus):
     assert outcome_of(bus)[0].check(UnhandledCommandError)
 
@@ -324,17 +319,6 @@ def test_async_handlers_run_and_their_outcome_counts(bus):
     later.callback("came")
     assert heard == ["came"]
     assert got[0].check(CommandRefusedError)
-
-
-def test_an_async_handler_without_anybody_waiting(bus):
-    heard = []
-
-    async def handler(command):
-        heard.append(command)
-
-    bus.register_command(NumberCommand, handler)
-    bus.execute_command(NumberCommand(3))
-    assert heard == [NumberCommand(3)]
 
 
 def test_what_was_registered_is_taken_back_as_a_whole(bus):

@@ -146,15 +146,6 @@ def test_an_id_is_forgotten_after_its_time(border, numbers):
     assert len(numbers) == 2
 
 
-def test_each_link_has_its_own_ids(border, numbers):
-    other = Border()
-    border.say("test.number", {}, "a")
-    border.link, first = other.link, border.link
-    border.say("test.number", {}, "a")
-    assert len(numbers) == 2
-    assert first is not border.link
-
-
 def test_malformed_lines_are_counted_and_nacked_where_they_have_an_id(border):
     border.receiver.receive_malformed(MalformedMessage("not JSON"), border.link)
     border.receiver.receive_malformed(MalformedMessage("data is not an object", "a"), border.link)

@@ -220,20 +220,6 @@ def test_problems_beyond_a_hundred_are_only_mentioned():
     assert problems[-1].endswith("more than 100 problems, the rest is not shown")
 
 
-def test_the_message_is_one_line_a_problem():
-    with pytest.raises(ConfigErrors) as caught:
-        parse("rol: 1\nforward: 1\n")
-    assert str(caught.value) == (
-        "link.yml:1:1: unknown key \"rol\", did you mean 'role'?\n"
-        'link.yml:2:10: forward: must be true or false, not "1"'
-    )
-
-
-def test_names_in_messages_cannot_steer_the_terminal():
-    [problem] = problems_of('"\\e[2J\\n": 1\n')
-    assert problem.isprintable()
-
-
 def test_half_a_set_is_refused_where_only_a_whole_one_will_do():
     whole = "{p: 1, i: 0}"
     assert ConfigFile("g.yml", Gains).parse(whole, PATH, whole=True) == Gains(1.0, 0.0)
