@@ -31,8 +31,8 @@ def estimate_errors(log: FlightLog) -> Iterator[EstimateError]:
     """Yield those of roll and pitch; nothing if the log has no truth or no attitude."""
     if TRUTH not in log.topics or ORIENTATION not in log.topics:
         return
-    told = ((each.time_s, each.data) for each in log.messages(TRUTH))
-    truth = columns(told, [f"{axis}_deg" for axis in AXES])
+    samples = ((each.time_s, each.data) for each in log.messages(TRUTH))
+    truth = columns(samples, [f"{axis}_deg" for axis in AXES])
     attitude = columns(followed(log, "orientation", ORIENTATION), AXES)
     for axis in AXES:
         off = _errors_deg(attitude[axis], truth[f"{axis}_deg"])

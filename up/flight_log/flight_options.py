@@ -14,13 +14,13 @@ Place = Callable[[argparse.Namespace], Path]
 """Returns the folder that the parsed options select."""
 
 
-def take_folder(parser: argparse.ArgumentParser) -> None:
+def add_folder_options(parser: argparse.ArgumentParser) -> None:
     """Add the options that select the folder of flights."""
     parser.add_argument(
         "--folder",
         type=Path,
         metavar="DIR",
-        help="where the flights are (default: as black_box.yml says)",
+        help="folder of the flights (default: from black_box.yml)",
     )
     parser.add_argument(
         "--config", type=Path, metavar="DIR", help="folder with black_box.yml (default: config)"

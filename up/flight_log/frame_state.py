@@ -17,7 +17,7 @@ SERVOS = STICKS[:4]
 
 
 class FrameState:
-    """Takes logged Commands in the order of time and returns the telemetry of a moment.
+    """Applies logged Commands in the order of time and returns the telemetry of a moment.
 
     Of several sources of a reading the one followed in flight counts. Newer Commands update the
     last logged frame of telemetry.
@@ -38,13 +38,13 @@ class FrameState:
         self._times_s: dict[str, float] = {}
         self._sources: dict[str, str] = {}
 
-    def take(self, topic: str, time_s: float, data: Mapping[str, Any]) -> None:
+    def apply(self, topic: str, time_s: float, data: Mapping[str, Any]) -> None:
         """Apply one Command; those that telemetry does not show change nothing."""
-        taker = _TAKERS.get(topic)
-        if taker is not None:
-            taker(self, time_s, data)
+        handler = _HANDLERS.get(topic)
+        if handler is not None:
+            handler(self, time_s, data)
 
-    def take_frame(self, time_s: float, tree: Mapping[str, Any]) -> None:
+    def apply_frame(self, time_s: float, tree: Mapping[str, Any]) -> None:
         """Apply a logged frame of telemetry: it has more data than the Commands."""
         self._tree = {**self._tree, **tree}
         ages, sources = tree.get("age_ms"), tree.get("source")
@@ -149,7 +149,7 @@ class FrameState:
         self._tree["mode"] = data.get("mode")
 
 
-_TAKERS: dict[str, Callable[[FrameState, float, Mapping[str, Any]], None]] = {
+_HANDLERS: dict[str, Callable[[FrameState, float, Mapping[str, Any]], None]] = {
     "up.orientation.update": FrameState._on_orientation,
     "up.rx.update": FrameState._on_rx,
     "up.servo.update": FrameState._on_servo,
@@ -163,7 +163,7 @@ _TAKERS: dict[str, Callable[[FrameState, float, Mapping[str, Any]], None]] = {
     "up.panic": FrameState._on_panic,
     "up.system.state": FrameState._on_system,
 }
-TOPICS = tuple(_TAKERS)
+TOPICS = tuple(_HANDLERS)
 """The topics that determine telemetry."""
 
 

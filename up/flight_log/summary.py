@@ -9,7 +9,7 @@ from up.flight_log import board_status
 from up.flight_log.estimate_error import EstimateError
 from up.flight_log.finding import Finding
 from up.flight_log.findings import findings
-from up.flight_log.flight_context import TELEMETRY, FlightContext
+from up.flight_log.flight_context import ERROR, TELEMETRY, WARNING, FlightContext
 from up.flight_log.flight_log import FlightLog
 from up.flight_log.followed import followed
 from up.flight_log.json_message import number_at
@@ -32,7 +32,6 @@ SOURCES: dict[str, str] = {
 ALTITUDE = "up.altitude.change"
 BATTERY = "android.battery"
 MARK = "black_box.mark"
-WARNING, ERROR = 3, 4
 _MAX_VETOES = 100
 
 
@@ -96,9 +95,9 @@ def summarise(log: FlightLog, context: FlightContext | None = None) -> FlightSum
     """Return the summary of a flight; ``context`` avoids a second pass (see `findings`)."""
     context = context or FlightContext(log)
     flight = log.metadata.get("flight", {})
-    way = track_statistics(log)
+    track = track_statistics(log)
     heights_m = list(altitudes_m(log)) or [
-        each for each in (way.lowest_m, way.highest_m) if each is not None
+        each for each in (track.lowest_m, track.highest_m) if each is not None
     ]
     levels = [line.level for line in context.log_lines]
     return FlightSummary(
@@ -112,9 +111,9 @@ def summarise(log: FlightLog, context: FlightContext | None = None) -> FlightSum
         modes=list(_modes(context)),
         highest_m=max(heights_m, default=None),
         lowest_m=min(heights_m, default=None),
-        top_speed_m_s=way.top_speed_m_s,
-        track_m=way.length_m,
-        farthest_m=way.farthest_m,
+        top_speed_m_s=track.top_speed_m_s,
+        track_m=track.length_m,
+        farthest_m=track.farthest_m,
         lowest_battery_percent=min(log.series(BATTERY, "level")[1], default=None),
         estimate_errors=context.estimate_errors,
         gaps_s=dict(_gaps_s(log)),
@@ -157,17 +156,17 @@ def _gaps_s(log: FlightLog) -> Iterator[tuple[str, float]]:
 def _vetoes(context: FlightContext) -> list[str]:
     """Return the board's and the program's vetoes in the order of their first report."""
     seen: dict[str, None] = {}
-    for each in _told_vetoes(context):
+    for each in _reported_vetoes(context):
         seen[each] = None
         if len(seen) >= _MAX_VETOES:
             break
     return list(seen)
 
 
-def _told_vetoes(context: FlightContext) -> Iterator[str]:
+def _reported_vetoes(context: FlightContext) -> Iterator[str]:
     for message in context.log.messages(TELEMETRY):
-        told = message.data.get("vetoes")
-        if isinstance(told, list):
-            yield from (each for each in told if isinstance(each, str))
+        vetoes = message.data.get("vetoes")
+        if isinstance(vetoes, list):
+            yield from (each for each in vetoes if isinstance(each, str))
     for status in context.statuses():
         yield from (f"arduino: {each}" for each in board_status.vetoes_of(status.data))

@@ -57,11 +57,11 @@ def frames(log: FlightLog, period_s: float = 0.1, since_s: float = 0.0) -> Itera
         due_s = max(due_s, now_s)
         newest_s = now_s
         if message.topic != TELEMETRY:
-            state.take(message.topic, now_s, message.data)
+            state.apply(message.topic, now_s, message.data)
             continue
         logged_s = now_s
         frame = _logged(message)
-        state.take_frame(now_s, frame.data)
+        state.apply_frame(now_s, frame.data)
         if now_s >= since_s:
             yield frame
         due_s = now_s + MISSING_S

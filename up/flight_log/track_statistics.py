@@ -60,8 +60,8 @@ def track_statistics(log: FlightLog) -> TrackStatistics:
     """Return the track from the first position, which is home."""
     home = last = marked = None
     length_m = farthest_m = 0.0
-    told_m_s: list[float] = []
-    made_m_s = 0.0
+    reported_m_s: list[float] = []
+    computed_m_s = 0.0
     jumps = 0
     altitudes_m: list[float] = []
     for fix in fixes(log):
@@ -78,7 +78,7 @@ def track_statistics(log: FlightLog) -> TrackStatistics:
         if fix.altitude_m is not None:
             altitudes_m.append(fix.altitude_m)
         if fix.speed_m_s is not None:
-            told_m_s.append(fix.speed_m_s)
+            reported_m_s.append(fix.speed_m_s)
         farthest_m = max(farthest_m, _between_m(home, fix))
         step_m = _between_m(last, fix)
         if step_m >= _STEP_M:
@@ -86,14 +86,14 @@ def track_statistics(log: FlightLog) -> TrackStatistics:
             last = fix
         passed_s = fix.time_s - marked.time_s
         if passed_s >= _SPEED_OVER_S:
-            made_m_s = max(made_m_s, _between_m(marked, fix) / passed_s)
+            computed_m_s = max(computed_m_s, _between_m(marked, fix) / passed_s)
             marked = fix
     if home is None:
         return TrackStatistics(None, None, None, None, None)
     return TrackStatistics(
         length_m,
         farthest_m,
-        max(told_m_s) if told_m_s else made_m_s,
+        max(reported_m_s) if reported_m_s else computed_m_s,
         max(altitudes_m, default=None),
         min(altitudes_m, default=None),
     )

@@ -1,7 +1,7 @@
 """The log has the reading that its provider used, whichever source came first."""
 
 import pytest
-from black_box_cog.export.log_track import points_of
+from black_box_cog.export.track import points_of
 from black_box_cog.report.report_data import read_report_data
 from twisted.internet.task import Clock
 
@@ -10,6 +10,7 @@ from tests.support.system import build_up
 from up.commands.location_command import LocationCommand
 from up.commands.origin import Origin
 from up.commands.roles import Role
+from up.flight_log.flight_context import FlightContext
 from up.flight_log.flight_log import FlightLog
 from up.flight_log.summary import summarise
 from up.flight_log.telemetry_frames import frames
@@ -62,7 +63,7 @@ def test_the_track_follows_the_provider(flown):
 
 def test_the_report_and_the_replay_follow_it_too(flown):
     log, used = flown
-    assert list(read_report_data(log).speed.values) == [
+    assert list(read_report_data(log, FlightContext(log)).speed.values) == [
         {"gps": 20.0, "android": 10.0}[link] for link, *_ in used
     ]
     # 20 m aside the phone would add 111 m for every change of the source.

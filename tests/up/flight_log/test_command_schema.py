@@ -127,7 +127,7 @@ def test_units_and_bounds_are_told():
                 "description": "m/s",
             },
             "tube": {"type": "string", "enum": ["left", "right", None], "nullable": True},
-            "_origin": {"type": "string", "description": "the link and role that it came from"},
+            "_origin": {"type": "string", "description": "link and role of the sender"},
         },
         "required": ["speed"],
     }

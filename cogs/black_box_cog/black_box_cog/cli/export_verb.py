@@ -9,14 +9,13 @@ import sys
 from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 
-from black_box_cog.cli.open_flight import flight_of, read
-from black_box_cog.cli.suggestions import no_such_topic
-from black_box_cog.cli.terminal import tell, warn
+from black_box_cog.cli.open_flight import flight_of, read, unknown_topic
+from black_box_cog.cli.terminal import echo, warn
 from black_box_cog.export.csv_table import columns_of, topic_rows, wide_rows
 from black_box_cog.export.gpx import gpx_lines
 from black_box_cog.export.kml import kml_lines
-from black_box_cog.export.log_track import track_of
 from black_box_cog.export.output import make_folder, new_file
+from black_box_cog.export.track import track_of
 from black_box_cog.report.formatting import is_clock_right, start_text
 from up.cli.cli_error import CliError
 from up.fields import printable
@@ -35,7 +34,7 @@ _NOT_IN_A_TABLE = ("log", "/location")
 def run(values: argparse.Namespace) -> int:
     """Convert a flight to another format."""
     if values.format != "csv" and (values.topic or values.rate):
-        raise CliError(f"--topic and --rate say what a csv is, not a {values.format}", status=2)
+        raise CliError(f"--topic and --rate apply to csv, not to {values.format}", status=2)
     flight = flight_of(values)
     try:
         _export(read(flight), flight, values)
@@ -50,9 +49,9 @@ def _export(log: FlightLog, flight: Flight, values: argparse.Namespace) -> None:
         return
     track = track_of(log, *_names(log, flight))
     if not track.segments:
-        raise CliError(f"{flight.paths[0].name} tells no position: there is no track")
+        raise CliError(f"{flight.paths[0].name} has no positions")
     if not is_clock_right(log.start_unix_s):
-        warn("the clock was wrong when this was recorded: so are the times in the file")
+        warn("the clock was wrong during the recording, so the times in the file are wrong")
     lines = gpx_lines if values.format == "gpx" else kml_lines
     _write(lines(track), values.output or Path(f"{flight.name}.{values.format}"), values.force)
 
@@ -60,7 +59,7 @@ def _export(log: FlightLog, flight: Flight, values: argparse.Namespace) -> None:
 def _export_csv(log: FlightLog, flight: Flight, values: argparse.Namespace) -> None:
     for topic in values.topic:
         if topic not in log.topics:
-            raise no_such_topic(topic, log)
+            raise unknown_topic(topic, log)
     topics = list(dict.fromkeys(values.topic))
     if values.rate or not topics:
         topics = topics or [topic for topic in log.topics if topic not in _NOT_IN_A_TABLE]
@@ -72,7 +71,7 @@ def _export_csv(log: FlightLog, flight: Flight, values: argparse.Namespace) -> N
     else:
         folder = values.output or Path(flight.name)
         if folder == STDOUT:
-            raise CliError("several topics are several files: name a folder by -o", status=2)
+            raise CliError("several topics need a folder: name it with -o", status=2)
         make_folder(folder)
         for topic in topics:
             _write(_csv(_one(log, topic)), folder / _file_name(topic), values.force)
@@ -85,10 +84,10 @@ def _one(log: FlightLog, topic: str) -> Iterator[list[str]]:
 
 def _wide(log: FlightLog, topics: Sequence[str], rate_hz: float) -> Iterator[list[str]]:
     if not topics:
-        raise CliError("the log has no messages: there is nothing to write")
+        raise CliError("the log has no messages")
     if log.length_s * rate_hz > MAX_ROWS:
         raise CliError(
-            f"a table of {log.length_s * rate_hz:.0f} rows is too long: say a lower --rate"
+            f"a table of {log.length_s * rate_hz:.0f} rows is too long: use a lower --rate"
         )
     columns = columns_of(log.messages(*topics))
     return wide_rows(log.messages(*topics), columns, log.start_unix_s, log.length_s, rate_hz)
@@ -109,12 +108,12 @@ def _write(texts: Iterable[str], path: Path, may_overwrite: bool) -> None:
         sys.stdout.writelines(texts)
         return
     if not path.parent.is_dir():
-        raise CliError(f"there is no folder {path.parent}: nothing is written")
+        raise CliError(f"no folder {path.parent}: nothing is written")
     count = 0
     with new_file(path, may_overwrite=may_overwrite) as file:
         for text in texts:
             count += file.write(text.encode())
-    tell(f"{path}  {count / 1000:.0f} kB")
+    echo(f"{path}  {count / 1000:.0f} kB")
 
 
 def _names(log: FlightLog, flight: Flight) -> tuple[str, str]:

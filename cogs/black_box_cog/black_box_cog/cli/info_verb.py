@@ -6,7 +6,7 @@ import argparse
 from collections.abc import Iterable, Iterator, Sequence
 
 from black_box_cog.cli.open_flight import flight_of, read
-from black_box_cog.cli.terminal import table, tell
+from black_box_cog.cli.terminal import echo, table
 from black_box_cog.report.finding_groups import groups_of
 from black_box_cog.report.formatting import clock_text, size_text, start_text
 from up.cli.cli_error import CliError
@@ -25,11 +25,11 @@ def run(values: argparse.Namespace) -> int:
     log = read(flight)
     try:
         context = FlightContext(log)
-        summary, wrong = summarise(log, context), findings(log, context)
+        summary, found = summarise(log, context), findings(log, context)
     except FlightLogError as error:
         raise CliError(printable(str(error))) from error
-    tell(_title(flight, log, summary))
-    _section("what went wrong", _wrongs(wrong))
+    echo(_title(flight, log, summary))
+    _section("what went wrong", _findings(found))
     _section("flight", _pairs(_figures(summary)))
     _section("modes", _modes(summary))
     _section("longest gap of each source", _gaps(summary))
@@ -43,26 +43,26 @@ def run(values: argparse.Namespace) -> int:
 
 def _section(title: str, lines: Sequence[str]) -> None:
     if lines:
-        tell(f"\n{title}")
+        echo(f"\n{title}")
         for line in lines:
             for row in line.split("\n"):
-                tell(f"  {printable(row)}")
+                echo(f"  {printable(row)}")
 
 
 def _title(flight: Flight, log: FlightLog, summary: FlightSummary) -> str:
     number = "" if flight.number is None else f"flight {flight.number}, "
     cut = "" if summary.is_complete else ", cut off"
     text = (
-        f"{number}{summary.aircraft or flight.aircraft or 'an aircraft without a name'},"
+        f"{number}{summary.aircraft or flight.aircraft or 'unnamed aircraft'},"
         f" {start_text(log.start_unix_s)}, {duration_text(summary.length_s)},"
         f" {size_text(flight.size)}{cut}"
     )
     return printable(text[0].upper() + text[1:])
 
 
-def _wrongs(found: Sequence[Finding]) -> list[str]:
+def _findings(found: Sequence[Finding]) -> list[str]:
     if not found:
-        return ["nothing that the log can tell"]
+        return ["no fault in the log"]
     kinds = groups_of(found)
     return [f"{clock_text(each.time_s):>8}  {each.level:<8} {each.text}" for each in kinds]
 
@@ -92,7 +92,7 @@ def _figures(summary: FlightSummary) -> Iterator[tuple[str, str]]:
     for mark in summary.marks:
         yield "mark", f"{clock_text(mark.time_s)} {mark.text}"
     for veto in summary.vetoes:
-        yield "arming vetoed", veto
+        yield "arming veto", veto
     if summary.warnings or summary.errors:
         yield "log", f"{summary.warnings} warnings, {summary.errors} errors"
     mode = ", ".join(filter(None, (summary.mode, summary.flight_controller)))
@@ -121,7 +121,7 @@ def _topics(log: FlightLog) -> list[str]:
         (topic, str(count), f"{count / seconds:.1f}" if log.length_s else "-")
         for topic, count in sorted(log.topics.items())
     ]
-    return [table(("topic", "messages", "a second"), rows, right=(1, 2))] if rows else []
+    return [table(("topic", "messages", "per second"), rows, right=(1, 2))] if rows else []
 
 
 def _pairs(pairs: Iterable[tuple[str, str]]) -> list[str]:

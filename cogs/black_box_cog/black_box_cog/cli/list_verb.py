@@ -10,11 +10,15 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from black_box_cog.cli.locate import folder_of
-from black_box_cog.cli.overview import Overview, is_being_recorded, overview_of
-from black_box_cog.cli.overview_cache import OverviewCache, cache_path
-from black_box_cog.cli.progress import Progress
-from black_box_cog.cli.terminal import table, tell, warn
+from black_box_cog.cli.open_flight import flights_folder
+from black_box_cog.cli.overview import (
+    Overview,
+    OverviewCache,
+    cache_path,
+    is_being_recorded,
+    overview_of,
+)
+from black_box_cog.cli.terminal import Progress, echo, table, warn
 from black_box_cog.report.formatting import is_clock_right, size_text, start_text
 from up.cli.cli_error import CliError
 from up.fields import printable
@@ -35,7 +39,7 @@ class Line:
 
     @property
     def note(self) -> str:
-        """Return the remarks, in words."""
+        """Return the remarks."""
         if self.is_recording:
             return "being recorded"
         if self.overview.fault is not None:
@@ -50,25 +54,25 @@ class Line:
 
 def run(values: argparse.Namespace) -> int:
     """List the flights, newest last."""
-    folder = folder_of(values)
+    folder = flights_folder(values)
     if not folder.is_dir() and values.folder is not None:
-        raise CliError(f"{folder} is no folder")
+        raise CliError(f"{folder} is not a folder")
     try:
         flights = flights_in(folder) if folder.is_dir() else []
     except FlightLogError as error:
         raise CliError(str(error)) from error
     lines = lines_of(flights, OverviewCache(cache_path(os.environ)))
     if values.json:
-        tell(json.dumps(document(folder, lines), indent=2))
+        echo(json.dumps(document(folder, lines), indent=2))
     elif lines:
-        tell(table(HEAD, map(_cells, lines), right=(0, 2, 4, 5, 6)))
+        echo(table(HEAD, map(_cells, lines), right=(0, 2, 4, 5, 6)))
         if any(line.has_wrong_clock for line in lines):
             warn(
-                "A Raspberry Pi has no clock of its own: without a network it does not know the"
-                " time. The numbers tell the order."
+                "A Raspberry Pi has no battery-backed clock: without a network its time is wrong."
+                " The numbers give the order."
             )
     else:
-        tell(f"no flight is in {printable(str(folder))}")
+        echo(f"no flight in {printable(str(folder))}")
     return 0
 
 
@@ -77,7 +81,7 @@ def lines_of(flights: Sequence[Flight], cache: OverviewCache) -> list[Line]:
     lines = []
     with Progress("reading flight", len(flights)) as progress:
         for number, flight in enumerate(flights, 1):
-            progress.at(number)
+            progress.update(number)
             is_recording = is_being_recorded(flight.paths[-1])
             overview = None if is_recording else cache.get(flight)
             if overview is None:

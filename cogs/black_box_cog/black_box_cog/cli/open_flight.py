@@ -1,25 +1,50 @@
-"""Opens the log of the flight that a verb names."""
+"""Opens the log of the flight that a verb names, and finds its topics and fields."""
 
 from __future__ import annotations
 
 import argparse
+import difflib
+import os
 import sys
+from collections.abc import Iterable
+from pathlib import Path
 
-from black_box_cog.cli.locate import folder_of
+from black_box_cog.config import BLACK_BOX
 from up.cli.cli_error import CliError
+from up.cli.locate import application_of
 from up.fields import printable
 from up.flight_log.flight_log import FlightLog
 from up.flight_log.flights import Flight, find_flight
+from up.flight_log.flights_folder import default_folder, folder_of
 from up.flight_log.mcap_format import FlightLogError
+from up.loading.application import NoApplicationError
 
+MAX_LISTED = 10
 _LARGE = 20_000_000
+
+
+def flights_folder(values: argparse.Namespace) -> Path:
+    """Return ``--folder``, otherwise the folder in black_box.yml, otherwise the default one.
+
+    Outside of an application, and without ``--config``, there is no black_box.yml. Raises
+    ConfigErrors, and CliError for a ``--file`` that does not exist.
+    """
+    if values.folder is not None:
+        return Path(values.folder)
+    config: Path | None = values.config
+    if config is None:
+        try:
+            config = application_of(values).config_folder
+        except NoApplicationError:
+            return default_folder(os.environ)
+    return folder_of(BLACK_BOX.load(config).folder, os.environ)
 
 
 def flight_of(values: argparse.Namespace) -> Flight:
     """Return the flight that FLIGHT names; raises CliError and ConfigErrors."""
     # Only a name that is not a path needs the folder, and so a valid configuration.
     try:
-        flight = find_flight(values.flight, lambda: folder_of(values))
+        flight = find_flight(values.flight, lambda: flights_folder(values))
     except FlightLogError as error:
         raise CliError(str(error)) from error
     if sys.stderr.isatty() and flight.size > _LARGE:
@@ -33,3 +58,27 @@ def read(flight: Flight) -> FlightLog:
         return FlightLog.read(flight.paths)
     except FlightLogError as error:
         raise CliError(printable(str(error))) from error
+
+
+def unknown_topic(topic: str, log: FlightLog) -> CliError:
+    """Return the error for a topic that the log does not have."""
+    return _unknown("topic", topic, log.topics, "'up log info' lists all")
+
+
+def unknown_field(field: str, known: Iterable[str]) -> CliError:
+    """Return the error for a field that no topic has."""
+    return _unknown("numeric field", field, known, "'up log export' writes all of a topic")
+
+
+def _unknown(kind: str, name: str, known: Iterable[str], hint: str) -> CliError:
+    names = sorted(known)
+    text = f"no {kind} is called '{printable(name)}'"
+    near = difflib.get_close_matches(name[:100], names, n=1, cutoff=0.5)
+    if near:
+        return CliError(f"{text}, did you mean {printable(near[0])}?")
+    if not names:
+        return CliError(f"{text}: the log has none")
+    likely = difflib.get_close_matches(name[:100], names, n=MAX_LISTED, cutoff=0.0)
+    listed = ", ".join(map(printable, sorted(likely)))
+    more = f" and {len(names) - len(likely)} more ({hint})" if len(names) > len(likely) else ""
+    return CliError(f"{text}; the log has {listed}{more}")

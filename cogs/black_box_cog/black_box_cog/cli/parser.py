@@ -9,13 +9,13 @@ from typing import Any, cast
 
 from up.cli.plugin_verbs import add_plugin_verbs
 from up.cli.verb import add_verb
-from up.flight_log.flight_options import PLACE, take_folder
+from up.flight_log.flight_options import PLACE, add_folder_options
 
 LOG_VERBS = "up.log_verbs"
 """The group of entry points for verbs that other distributions add below `up log`."""
 _EPILOG = """\
-FLIGHT is the number of a flight ('up log list' tells it), 'last', a file of a flight, or a folder
-that holds the parts of one.
+FLIGHT is the number of a flight (see 'up log list'), 'last', a file of a flight, or a folder with
+the parts of one.
 
 examples:
   up log list
@@ -24,10 +24,10 @@ examples:
   up log export 12 --format gpx
 """
 _CSV = """\
-csv: --topic T is every message of that topic, one row each (several topics: a folder with a file
+csv: with --topic T, one row for every message of that topic (several topics: a folder with a file
 for each). Without it, or with --rate, one table with the newest values of all topics at a steady
-rate; '<topic>.age_s' says how old they are.
-gpx, kml: the track, with the home and the marks that the user set in flight.
+rate and their ages ('<topic>.age_s').
+gpx, kml: the track, with home and the marks that the user set in flight.
 
 examples:
   up log export last --format gpx
@@ -35,7 +35,7 @@ examples:
   up log export 12 --format csv --rate 20
 """
 _PLOT = """\
-Without a FIELD: the track, attitude against what was asked, altitude and speed. A FIELD is a topic
+Without a FIELD: the track, attitude against its set-point, altitude and speed. A FIELD is a topic
 and one of its values; 'up log info FLIGHT' lists the topics.
 
 examples:
@@ -70,8 +70,8 @@ def add(verbs: Any) -> None:
     """Add `up log` with its verbs, and those of other distributions."""
     log = verbs.add_parser(
         "log",
-        help="look at recorded flights: list, info, export, plot, report",
-        description="Look at the flights that the black box recorded.",
+        help="read recorded flights: list, info, export, plot, report",
+        description="Read the flights that the black box recorded.",
         epilog=_EPILOG,
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
@@ -85,25 +85,25 @@ def add(verbs: Any) -> None:
     add_plugin_verbs(below, LOG_VERBS)
 
 
-def take_flight(parser: argparse.ArgumentParser) -> None:
+def add_flight_argument(parser: argparse.ArgumentParser) -> None:
     """Add the argument FLIGHT and the options that select the folder of flights."""
     parser.add_argument(
         "flight", metavar="FLIGHT", help="its number, 'last', a file, or a folder of parts"
     )
-    take_folder(parser)
+    add_folder_options(parser)
 
 
 def _add_list(verbs: Any) -> None:
     listing = add_verb(verbs, "list", "black_box_cog.cli.list_verb", "list the recorded flights")
-    take_folder(listing)
-    listing.add_argument("--json", action="store_true", help="for programs: one JSON document")
+    add_folder_options(listing)
+    listing.add_argument("--json", action="store_true", help="print one JSON document")
 
 
 def _add_info(verbs: Any) -> None:
     info = add_verb(
-        verbs, "info", "black_box_cog.cli.info_verb", "tell what a flight was and what went wrong"
+        verbs, "info", "black_box_cog.cli.info_verb", "summarise a flight and its faults"
     )
-    take_flight(info)
+    add_flight_argument(info)
 
 
 def _add_export(verbs: Any) -> None:
@@ -114,24 +114,27 @@ def _add_export(verbs: Any) -> None:
         "write a flight as a table (csv) or its track (gpx, kml)",
         epilog=_CSV,
     )
-    take_flight(export)
+    add_flight_argument(export)
     export.add_argument("--format", required=True, choices=("csv", "gpx", "kml"))
     export.add_argument(
-        "--topic", action="append", default=[], metavar="T", help="csv: this topic alone; repeats"
+        "--topic", action="append", default=[], metavar="T", help="csv: only this topic; repeatable"
     )
     export.add_argument(
-        "--rate", type=_rate, metavar="HZ", help="csv: rows a second of the one table (default: 10)"
+        "--rate",
+        type=_rate,
+        metavar="HZ",
+        help="csv: rows per second of one table (default: 10)",
     )
-    _take_output(export, "FILE", "where to (default: named after the flight; - is stdout)")
+    _add_output_options(export, "FILE", "output file (default: name of the flight; -: stdout)")
 
 
 def _add_plot(verbs: Any) -> None:
-    module, text = "black_box_cog.cli.plot_verb", "draw a flight as a picture"
+    module, text = "black_box_cog.cli.plot_verb", "plot a flight"
     plot = cast(MixedParser, add_verb(verbs, "plot", module, text, epilog=_PLOT))
     plot.is_mixed = True
-    take_flight(plot)
+    add_flight_argument(plot)
     plot.add_argument("field", nargs="*", metavar="FIELD", help="like up.orientation.update.roll")
-    _take_output(plot, "PNG", "the picture (default: named after the flight)")
+    _add_output_options(plot, "PNG", "the picture (default: named after the flight)")
 
 
 def _add_report(verbs: Any) -> None:
@@ -139,23 +142,23 @@ def _add_report(verbs: Any) -> None:
         verbs,
         "report",
         "black_box_cog.cli.report_verb",
-        "write a page that explains a flight, with its pictures",
+        "write a report of a flight as a page with pictures",
     )
-    take_flight(report)
-    where = "where to; made if need be (default: named after the flight, beside it)"
-    _take_output(report, "FOLDER", where)
+    add_flight_argument(report)
+    where = "output folder, created if missing (default: beside the flight)"
+    _add_output_options(report, "FOLDER", where)
 
 
-def _take_output(parser: argparse.ArgumentParser, what: str, text: str) -> None:
+def _add_output_options(parser: argparse.ArgumentParser, what: str, text: str) -> None:
     parser.add_argument("-o", "--output", type=Path, metavar=what, help=text)
-    parser.add_argument("--force", action="store_true", help="overwrite what is there")
+    parser.add_argument("--force", action="store_true", help="overwrite existing files")
 
 
 def _place(values: argparse.Namespace) -> Path:
     # Imported on use, which keeps help fast.
-    from black_box_cog.cli.locate import folder_of
+    from black_box_cog.cli.open_flight import flights_folder
 
-    return folder_of(values)
+    return flights_folder(values)
 
 
 def _rate(text: str) -> float:
@@ -164,5 +167,5 @@ def _rate(text: str) -> float:
     except ValueError:
         rate_hz = 0.0
     if not 0.01 <= rate_hz <= 1000:
-        raise argparse.ArgumentTypeError(f"{text!r} is no rate between 0.01 and 1000 Hz")
+        raise argparse.ArgumentTypeError(f"{text!r} is not a rate between 0.01 and 1000 Hz")
     return rate_hz

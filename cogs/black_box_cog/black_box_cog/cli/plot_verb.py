@@ -7,17 +7,15 @@ from collections.abc import Iterator, Sequence
 from functools import partial
 from pathlib import Path
 
-from black_box_cog.cli.open_flight import flight_of, read
-from black_box_cog.cli.suggestions import no_such_field
-from black_box_cog.cli.terminal import tell
-from black_box_cog.export.csv_cells import flat
-from black_box_cog.export.output import write_file
-from black_box_cog.pictures.canvas import MISSING, PictureError, has_matplotlib, png_of
+from black_box_cog.cli.open_flight import flight_of, read, unknown_field
+from black_box_cog.cli.terminal import echo
+from black_box_cog.export.csv_table import flat
+from black_box_cog.export.output import file_exists, write_file
+from black_box_cog.pictures.canvas import MISSING, PictureError, Sheet, has_matplotlib, png_of
 from black_box_cog.pictures.chart import Curve, Panel, Stage
-from black_box_cog.pictures.overview_picture import WIDTH_IN as OVERVIEW_IN
-from black_box_cog.pictures.overview_picture import draw_overview, overview_height_in
 from black_box_cog.pictures.theme import DAYLIGHT
 from black_box_cog.pictures.timeline import draw_timeline, timeline_height_in
+from black_box_cog.pictures.track_picture import TrackView, draw_track
 from black_box_cog.report.content import report_content
 from black_box_cog.report.formatting import start_text
 from black_box_cog.report.report_data import bands_of
@@ -29,8 +27,10 @@ from up.flight_log.mcap_format import FlightLogError
 from up.flight_log.spans import duration_text
 
 WIDTH_IN, DPI = 11.0, 130
+OVERVIEW_IN, HEAD_IN = 15.0, 0.62
+_TRACK_IN, _BETWEEN_IN = 5.6, 0.3
 MAX_FIELDS = 12
-_LOOKED_AT = 200
+_SAMPLE = 200
 _COLOURS = ("blue", "orange", "green", "vermilion", "purple", "sky")
 _STYLES = ("-", "--", "-.", ":")
 
@@ -43,15 +43,15 @@ def run(values: argparse.Namespace) -> int:
     log = read(flight)
     path = values.output or Path(f"{flight.name}.png")
     if path.suffix.lower() != ".png":
-        raise CliError(f"{path}: a picture's name ends in .png", status=2)
+        raise CliError(f"{path}: the name of a picture must end in .png", status=2)
     if not values.force and path.exists():
-        raise CliError(f"{path} is there already: say --force to overwrite it")
+        raise file_exists(path)
     try:
         png = _fields(log, values.field) if values.field else _overview(log, flight.name)
     except (FlightLogError, PictureError) as error:
         raise CliError(printable(str(error))) from error
     write_file(path, png, may_overwrite=values.force)
-    tell(f"{path}  {len(png) / 1000:.0f} kB")
+    echo(f"{path}  {len(png) / 1000:.0f} kB")
     return 0
 
 
@@ -60,22 +60,24 @@ def _overview(log: FlightLog, name: str) -> bytes:
     wanted = [each for each in content.pictures if each.name in ("attitude", "altitude")]
     panels = [panel for picture in wanted for panel in picture.panels]
     if not panels and content.track is None:
-        raise CliError("the log tells neither position nor attitude: name a FIELD")
-    aircraft = printable(content.summary.aircraft) or "an aircraft without a name"
+        raise CliError("the log has neither position nor attitude: name a FIELD")
+    aircraft = printable(content.summary.aircraft) or "unnamed aircraft"
     paint = partial(
-        draw_overview,
+        _draw_overview,
         title=aircraft[:60],
         subtitle=f"{start_text(log.start_unix_s)}, {duration_text(log.length_s)}",
         panels=panels,
         stage=content.stage,
         track=content.track,
     )
-    return png_of(paint, OVERVIEW_IN, overview_height_in(panels, content.stage), DPI, DAYLIGHT)
+    return png_of(paint, OVERVIEW_IN, _overview_height_in(panels, content.stage), DPI, DAYLIGHT)
 
 
 def _fields(log: FlightLog, named: Sequence[str]) -> bytes:
     if len(named) > MAX_FIELDS:
-        raise CliError(f"a picture has {MAX_FIELDS} fields at most, not {len(named)}", status=2)
+        raise CliError(
+            f"at most {MAX_FIELDS} fields fit into a picture, not {len(named)}", status=2
+        )
     panels = list(_panels(log, [_split(log, each) for each in dict.fromkeys(named)]))
     stage = Stage(log.length_s, list(bands_of(FlightContext(log))))
     height_in = timeline_height_in(panels, stage, WIDTH_IN)
@@ -106,7 +108,7 @@ def _split(log: FlightLog, named: str) -> tuple[str, str]:
         topic, field = ".".join(parts[:at]), ".".join(parts[at:])
         if topic in log.topics and log.series(topic, field)[1]:
             return topic, field
-    raise no_such_field(named, known_fields(log))
+    raise unknown_field(named, known_fields(log))
 
 
 def known_fields(log: FlightLog) -> list[str]:
@@ -114,7 +116,7 @@ def known_fields(log: FlightLog) -> list[str]:
     found: dict[str, None] = {}
     for topic in log.topics:
         for number, message in enumerate(log.messages(topic)):
-            if number >= _LOOKED_AT:
+            if number >= _SAMPLE:
                 break
             for path, value in flat(message.data):
                 if isinstance(value, int | float) and not isinstance(value, bool):
@@ -128,3 +130,32 @@ def _unit(log: FlightLog, topic: str, field: str) -> str:
     about = properties.get(field) if isinstance(properties, dict) else None
     unit = about.get("x-unit") if isinstance(about, dict) else None
     return unit if isinstance(unit, str) else ""
+
+
+def _overview_height_in(panels: Sequence[Panel], stage: Stage) -> float:
+    """Return the height of the picture."""
+    below_in = timeline_height_in(panels, stage, _panels_in()) if panels else 0.0
+    return HEAD_IN + max(below_in, _TRACK_IN)
+
+
+def _draw_overview(
+    sheet: Sheet,
+    title: str,
+    subtitle: str,
+    panels: Sequence[Panel],
+    stage: Stage,
+    track: TrackView | None,
+) -> None:
+    """Draw both; a missing one leaves its place empty."""
+    sheet.text(0.62, 0.12, title, size=14, weight="bold")
+    sheet.text(0.62, 0.38, subtitle, size=9, color=sheet.theme.muted)
+    below_in = sheet.height - HEAD_IN
+    if panels:
+        draw_timeline(sheet.part(0.0, HEAD_IN, _panels_in(), below_in), panels, stage)
+    if track is not None:
+        left_in = sheet.width - _TRACK_IN
+        draw_track(sheet.part(left_in, HEAD_IN, _TRACK_IN, _TRACK_IN), track)
+
+
+def _panels_in() -> float:
+    return OVERVIEW_IN - _TRACK_IN - _BETWEEN_IN

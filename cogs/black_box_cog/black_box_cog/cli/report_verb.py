@@ -4,17 +4,23 @@ from __future__ import annotations
 
 import argparse
 import os
+from collections.abc import Callable
 from pathlib import Path
 
 from black_box_cog.cli.open_flight import flight_of, read
-from black_box_cog.cli.terminal import tell, warn
-from black_box_cog.report.content import report_content
-from black_box_cog.report.folder import write_report
-from black_box_cog.report.verdict import verdict_of
+from black_box_cog.cli.terminal import echo, warn
+from black_box_cog.export.output import file_exists, make_folder, write_file
+from black_box_cog.pictures.canvas import PictureError
+from black_box_cog.report.content import ReportContent, report_content
+from black_box_cog.report.finding_groups import verdict_of
+from black_box_cog.report.images import ImageSet, image_sets
+from black_box_cog.report.page import page_of
 from up.cli.cli_error import CliError
 from up.fields import printable
 from up.flight_log.flights import Flight
 from up.flight_log.mcap_format import FlightLogError
+
+PAGE = "report.html"
 
 
 def run(values: argparse.Namespace) -> int:
@@ -28,10 +34,10 @@ def run(values: argparse.Namespace) -> int:
     except FlightLogError as error:
         raise CliError(printable(str(error))) from error
     _, sentence = verdict_of(content.summary, content.findings)
-    tell(printable(sentence))
-    tell(str(files[0]))
+    echo(printable(sentence))
+    echo(str(files[0]))
     if len(files) > 1:
-        tell(f"{len(files) - 1} pictures beside it")
+        echo(f"{len(files) - 1} pictures beside it")
     return 0
 
 
@@ -40,3 +46,35 @@ def default_folder(flight: Flight) -> Path:
     name = f"{flight.name}-report"
     beside = flight.paths[0].parent
     return beside / name if os.access(beside, os.W_OK) else Path(name)
+
+
+def write_report(
+    content: ReportContent,
+    folder: Path,
+    *,
+    may_overwrite: bool,
+    on_missing: Callable[[str], object],
+) -> list[Path]:
+    """Write page and pictures; return the files, the page first.
+
+    Without matplotlib the page has text, tables and an SVG track, and ``on_missing`` is called.
+    Raises CliError for an existing file or a failed write, FlightLogError.
+    """
+    if not may_overwrite and (folder / PAGE).exists():
+        raise file_exists(folder / PAGE)
+    make_folder(folder)
+    images: dict[str, ImageSet] = {}
+    missing = ""
+    try:
+        images = {image.name: image for image in image_sets(content)}
+    except PictureError as error:
+        missing = f"No pictures: {error}."
+        on_missing(missing)
+    page = page_of(content, images, missing).encode()
+    files = [folder / PAGE]
+    write_file(files[0], page, may_overwrite=may_overwrite)
+    for image in images.values():
+        path = folder / f"{image.name}.png"
+        write_file(path, image.wide, may_overwrite=may_overwrite)
+        files.append(path)
+    return files

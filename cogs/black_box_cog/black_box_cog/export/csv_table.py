@@ -2,32 +2,20 @@
 
 from __future__ import annotations
 
+import json
+import math
 from collections.abc import Iterable, Iterator, Mapping
-from typing import Any, Protocol
+from typing import Any
 
-from black_box_cog.export.csv_cells import cell, flat
 from black_box_cog.export.track import utc_text
+from up.fields import printable
+from up.flight_log.flight_log import LoggedMessage
 
 TIME, WALL_TIME, AGE = "time_s", "time", "age_s"
+_FORMULA = ("=", "+", "-", "@")
 
 
-class Message(Protocol):
-    """The attributes of a logged message that a table needs."""
-
-    @property
-    def topic(self) -> str:
-        """Return the topic."""
-
-    @property
-    def time_s(self) -> float:
-        """Return the seconds since the log's first message."""
-
-    @property
-    def data(self) -> Mapping[str, Any]:
-        """Return the content."""
-
-
-def columns_of(messages: Iterable[Message]) -> dict[str, list[str]]:
+def columns_of(messages: Iterable[LoggedMessage]) -> dict[str, list[str]]:
     """Return the dotted paths of each topic, in the order of first appearance."""
     columns: dict[str, dict[str, None]] = {}
     for message in messages:
@@ -38,7 +26,7 @@ def columns_of(messages: Iterable[Message]) -> dict[str, list[str]]:
 
 
 def topic_rows(
-    messages: Iterable[Message], paths: list[str], start_unix_s: float
+    messages: Iterable[LoggedMessage], paths: list[str], start_unix_s: float
 ) -> Iterator[list[str]]:
     """Yield the header and a row for every message of one topic."""
     yield [cell(name) for name in (TIME, WALL_TIME, *paths)]
@@ -48,7 +36,7 @@ def topic_rows(
 
 
 def wide_rows(
-    messages: Iterable[Message],
+    messages: Iterable[LoggedMessage],
     columns: Mapping[str, list[str]],
     start_unix_s: float,
     length_s: float,
@@ -85,3 +73,32 @@ def wide_rows(
 
 def _times(time_s: float, start_unix_s: float) -> list[str]:
     return [f"{time_s:.6f}", utc_text(start_unix_s + time_s) or ""]
+
+
+def flat(data: Mapping[str, Any], prefix: str = "") -> Iterator[tuple[str, Any]]:
+    """Yield the values of a message by dotted paths; an empty inner map yields nothing."""
+    for key, value in data.items():
+        path = f"{prefix}{key}"
+        if isinstance(value, Mapping):
+            yield from flat(value, f"{path}.")
+        else:
+            yield path, value
+
+
+def cell(value: Any) -> str:
+    """Return a value as a cell: numbers in full precision, empty for null and not-a-number.
+
+    Text becomes one line; one that a spreadsheet would read as a formula gets an apostrophe first.
+    """
+    if value is None:
+        return ""
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, int):
+        return str(value)
+    if isinstance(value, float):
+        return repr(value) if math.isfinite(value) else ""
+    if not isinstance(value, str):
+        value = json.dumps(value, ensure_ascii=False)
+    text = printable(value)
+    return f"'{text}" if text.startswith(_FORMULA) else text

@@ -11,8 +11,8 @@ from black_box_cog.export.track import (
     is_known,
     longitude_text,
     utc_text,
+    xml_text,
 )
-from black_box_cog.export.xml_text import xml_text
 
 _GPX = "http://www.topografix.com/GPX/1/1"
 _EXTENSION = "http://www.garmin.com/xmlschemas/TrackPointExtension/v2"

@@ -12,8 +12,8 @@ from black_box_cog.export.track import (
     is_known,
     longitude_text,
     utc_text,
+    xml_text,
 )
-from black_box_cog.export.xml_text import xml_text
 
 _HEAD = """\
 <?xml version="1.0" encoding="UTF-8"?>

@@ -19,19 +19,19 @@ def new_file(path: Path, *, may_overwrite: bool = False) -> Iterator[BinaryIO]:
     Raises CliError if the file exists, or for a failed write.
     """
     if not may_overwrite and os.path.lexists(path):
-        raise _taken(path)
+        raise file_exists(path)
     temporary = path.with_name(f".{path.name[:60]}.{secrets.token_hex(4)}.tmp")
     try:
         try:
             with temporary.open("xb") as file:
                 yield file
-            _name(temporary, path, may_overwrite)
+            _rename(temporary, path, may_overwrite)
         finally:
             temporary.unlink(missing_ok=True)
     except FileExistsError as error:
-        raise _taken(path) from error
+        raise file_exists(path) from error
     except OSError as error:
-        raise CliError(f"{path} cannot be written: {error.strerror or error}") from error
+        raise CliError(f"cannot write {path}: {error.strerror or error}") from error
 
 
 def make_folder(folder: Path) -> None:
@@ -40,11 +40,11 @@ def make_folder(folder: Path) -> None:
     Raises CliError.
     """
     if not folder.parent.is_dir():
-        raise CliError(f"there is no folder {folder.parent}: nothing is written")
+        raise CliError(f"no folder {folder.parent}: nothing is written")
     try:
         folder.mkdir(exist_ok=True)
     except OSError as error:
-        raise CliError(f"{folder} cannot be made: {error.strerror or error}") from error
+        raise CliError(f"cannot create {folder}: {error.strerror or error}") from error
 
 
 def write_file(path: Path, data: bytes, *, may_overwrite: bool = False) -> None:
@@ -53,7 +53,7 @@ def write_file(path: Path, data: bytes, *, may_overwrite: bool = False) -> None:
         file.write(data)
 
 
-def _name(temporary: Path, path: Path, may_overwrite: bool) -> None:
+def _rename(temporary: Path, path: Path, may_overwrite: bool) -> None:
     if not may_overwrite:
         try:
             # Unlike rename, link refuses a name that was created in the meantime.
@@ -68,5 +68,6 @@ def _name(temporary: Path, path: Path, may_overwrite: bool) -> None:
     temporary.replace(path)
 
 
-def _taken(path: Path) -> CliError:
-    return CliError(f"{path} is there already: say --force to overwrite it")
+def file_exists(path: Path) -> CliError:
+    """Return the error for a file that would be overwritten."""
+    return CliError(f"{path} exists: overwrite it with --force")

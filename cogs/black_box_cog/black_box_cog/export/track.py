@@ -1,13 +1,23 @@
-"""The track of an aircraft: the values from which every track format is written."""
+"""The track of a flight: the values from which every track format is written."""
 
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from datetime import UTC, datetime
 from typing import TypeGuard
+from xml.sax.saxutils import escape
 
+from up.flight_log.flight_log import FlightLog
+from up.flight_log.frame_state import place_of
+from up.flight_log.json_message import number_at
+from up.flight_log.track_statistics import fixes
+
+LOCATION, TELEMETRY, MARK = "up.location.update", "up.telemetry.update", "black_box.mark"
+# XML 1.0, 2.2: the permitted characters; the rest cannot even be written as a reference.
+_FORBIDDEN = re.compile("[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
 GAP_S = 10.0
 """After a gap this long a track continues in a new segment."""
 
@@ -85,3 +95,48 @@ def longitude_text(degrees: float) -> str:
 def is_known(value: float | None) -> TypeGuard[float]:
     """Return whether there is a finite value."""
     return value is not None and math.isfinite(value)
+
+
+def points_of(log: FlightLog) -> Iterator[TrackPoint]:
+    """Yield the positions of the followed source in the order of time.
+
+    Without a logged source these are telemetry's; a repeated position counts once.
+    """
+    start = log.start_unix_s
+    if LOCATION in log.topics:
+        for fix in fixes(log):
+            place = (fix.latitude_deg, fix.longitude_deg, fix.altitude_m, fix.speed_m_s)
+            yield TrackPoint(start + fix.time_s, *place)
+        return
+    last = None
+    for message in log.messages(TELEMETRY) if TELEMETRY in log.topics else ():
+        location = message.data.get("location")
+        found = place_of(location) if isinstance(location, dict) and location != last else None
+        if found is not None:
+            last = location
+            yield TrackPoint(start + message.time_s, *found, number_at(location, ("altitude",)))
+
+
+def track_of(log: FlightLog, name: str, description: str) -> Track:
+    """Return the track, with the first position as the home, and the marks at their positions."""
+    segments = list(segments_of(points_of(log)))
+    places = []
+    if segments:
+        places.append(Place(segments[0][0], "home"))
+        places += _marks(log, [point for segment in segments for point in segment])
+    return Track(name, description, segments, places)
+
+
+def _marks(log: FlightLog, points: list[TrackPoint]) -> Iterator[Place]:
+    at = 0
+    for message in log.messages(MARK) if MARK in log.topics else ():
+        unix_s = log.start_unix_s + message.time_s
+        while at + 1 < len(points) and points[at + 1].unix_s <= unix_s:
+            at += 1
+        text = message.data.get("text")
+        yield Place(points[at], text if isinstance(text, str) and text else "mark")
+
+
+def xml_text(text: str) -> str:
+    """Return the text with markup escaped and every character that XML forbids replaced."""
+    return escape(_FORBIDDEN.sub("\ufffd", text).replace("\r", "\n"))

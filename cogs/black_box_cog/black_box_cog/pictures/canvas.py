@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-MISSING = "matplotlib is not installed: pip install 'raspilot[log]' brings it"
+MISSING = "matplotlib is not installed: pip install 'raspilot[log]'"
 _COLOURS = 128
 """A line drawing has few colours; a palette makes its file a third as large."""
 

@@ -27,14 +27,14 @@ class Demand:
         self._is_failsafe = False
         self._limits = dict(_LIMITS)
         self._circle = dict(_CIRCLE)
-        takers = {
+        handlers = {
             STATE: self._on_state,
             STICKS: self._on_sticks,
             SETPOINT: self._on_setpoint,
             PROFILE: self._on_profile,
         }
-        for message in log.messages(*takers):
-            takers[message.topic](message.time_s, message.data)
+        for message in log.messages(*handlers):
+            handlers[message.topic](message.time_s, message.data)
 
     def _on_state(self, time_s: float, data: Mapping[str, Any]) -> None:
         self._mode = data.get("flight_mode")

@@ -22,7 +22,7 @@ _TEXT_FIELDS = {"black_box.mark": "text", "simulator.event": "event"}
 
 @dataclass(frozen=True, slots=True)
 class Event:
-    """An event in plain words."""
+    """An event as one line."""
 
     time_s: float
     text: str
@@ -31,7 +31,7 @@ class Event:
 
 def events_of(log: FlightLog, context: FlightContext) -> list[Event]:
     """Return the events, at most 400 and then a line about the rest."""
-    found = [*_states(context), *_told(log), *_lines(context)]
+    found = [*_states(context), *_from_commands(log), *_lines(context)]
     found.sort(key=lambda event: event.time_s)
     if len(found) > MAX_ENTRIES:
         more = f"{len(found) - MAX_ENTRIES} more events are not shown"
@@ -59,14 +59,14 @@ def _states(context: FlightContext) -> Iterator[Event]:
         mode = state.flight_mode
 
 
-def _told(log: FlightLog) -> Iterator[Event]:
-    takers: dict[str, Callable[[Mapping[str, Any]], tuple[str, str] | None]] = {
+def _from_commands(log: FlightLog) -> Iterator[Event]:
+    handlers: dict[str, Callable[[Mapping[str, Any]], tuple[str, str] | None]] = {
         "up.link.state": _link,
         "up.panic": _panic,
-        "up.arm": lambda data: (f"arming was asked for by {_origin(data)}", "info"),
-        "up.disarm": lambda data: (f"disarming was asked for by {_origin(data)}", "info"),
+        "up.arm": lambda data: (f"arming requested by {_origin(data)}", "info"),
+        "up.disarm": lambda data: (f"disarming requested by {_origin(data)}", "info"),
         "up.flight_mode.set": lambda data: (
-            f"flight mode {_word(data.get('mode'))} was asked for by {_origin(data)}",
+            f"flight mode {_text(data.get('mode'))} requested by {_origin(data)}",
             "info",
         ),
         "up.altitude.change": _altitude,
@@ -75,20 +75,20 @@ def _told(log: FlightLog) -> Iterator[Event]:
             ("the phone's battery is low", "warning") if data.get("low") is True else None
         ),
     }
-    known = [topic for topic in (*takers, *_TEXT_FIELDS) if topic in log.topics]
+    known = [topic for topic in (*handlers, *_TEXT_FIELDS) if topic in log.topics]
     states: dict[str, bool] = {}
     for message in log.messages(*known) if known else ():
         if message.topic in _TEXT_FIELDS:
-            text = _word(message.data.get(_TEXT_FIELDS[message.topic]))
+            text = _text(message.data.get(_TEXT_FIELDS[message.topic]))
             who = "mark" if message.topic == "black_box.mark" else "scenario"
             yield Event(message.time_s, f"{who}: {text}")
             continue
-        told = takers[message.topic](message.data)
-        if told is not None and _is_news(message.topic, message.data, states):
-            yield Event(message.time_s, *told)
+        event = handlers[message.topic](message.data)
+        if event is not None and _is_change(message.topic, message.data, states):
+            yield Event(message.time_s, *event)
 
 
-def _is_news(topic: str, data: Mapping[str, Any], states: dict[str, bool]) -> bool:
+def _is_change(topic: str, data: Mapping[str, Any], states: dict[str, bool]) -> bool:
     """Return whether a state changed; the initial state has no link and no panic."""
     key = {"up.link.state": "connected", "up.panic": "panic"}.get(topic)
     if key is None:
@@ -99,25 +99,25 @@ def _is_news(topic: str, data: Mapping[str, Any], states: dict[str, bool]) -> bo
 
 
 def _link(data: Mapping[str, Any]) -> tuple[str, str] | None:
-    link = _word(data.get("link"))
+    link = _text(data.get("link"))
     name = _LINKS.get(link, f"the link {link}")
     return (
-        (f"{name} is there", "info")
+        (f"{name} is connected", "info")
         if data.get("connected") is True
-        else (f"{name} is gone", "warning")
+        else (f"{name} is disconnected", "warning")
     )
 
 
 def _panic(data: Mapping[str, Any]) -> tuple[str, str] | None:
     if data.get("panic") is True:
-        return f"Panic Mode: every {_word(data.get('delay_ms'))} ms only", "warning"
+        return f"Panic Mode: period of {_text(data.get('delay_ms'))} ms", "warning"
     return "Panic Mode ends", "info"
 
 
 def _altitude(data: Mapping[str, Any]) -> tuple[str, str] | None:
     if data.get("mode") != "required":
         return None
-    return f"altitude {_word(data.get('altitude'))} m was asked for by {_origin(data)}", "info"
+    return f"altitude {_text(data.get('altitude'))} m requested by {_origin(data)}", "info"
 
 
 def _gains(data: Mapping[str, Any]) -> tuple[str, str] | None:
@@ -134,10 +134,10 @@ def _lines(context: FlightContext) -> Iterator[Event]:
 
 def _origin(data: Mapping[str, Any]) -> str:
     link, _ = link_and_role(data.get(KEY))
-    return _LINKS.get(link, link or "somebody")
+    return _LINKS.get(link, link or "unknown")
 
 
-def _word(value: object) -> str:
+def _text(value: object) -> str:
     if isinstance(value, float):
         return f"{value:g}"
     return "?" if value is None else str(value)[:500]

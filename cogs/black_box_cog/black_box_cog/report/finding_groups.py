@@ -1,4 +1,4 @@
-"""Findings grouped by kind, however many there are."""
+"""Findings grouped by kind, however many there are, and the flight in two sentences."""
 
 from __future__ import annotations
 
@@ -8,10 +8,12 @@ from dataclasses import dataclass
 from black_box_cog.report.formatting import clock_text
 from up.flight_log.finding import Finding
 from up.flight_log.spans import duration_text
+from up.flight_log.summary import FlightSummary
 
 MOMENTARY_S = 3.0
 """The length assumed for a momentary fault, such as a reset."""
-_LEVELS = ("alarm", "warning", "info")
+LEVELS = {"alarm": "bad", "warning": "warning", "info": "info"}
+"""The levels, worst first, and their CSS classes."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -60,8 +62,48 @@ def worst_of(findings: Sequence[Finding]) -> Finding:
     return min(
         findings,
         key=lambda each: (
-            _LEVELS.index(each.level),
+            [*LEVELS].index(each.level),
             -(each.length_s or MOMENTARY_S),
             each.time_s,
         ),
     )
+
+
+def verdict_of(summary: FlightSummary, findings: Sequence[Finding]) -> tuple[str, str]:
+    """Return ``good``, ``warning`` or ``bad``, and the sentences."""
+    kinds = [each.worst for each in groups_of(findings)]
+    alarms = [each for each in kinds if each.level == "alarm"]
+    warnings = [each for each in kinds if each.level == "warning"]
+    if alarms:
+        worst = worst_of(alarms)
+        text = f"The worst, at {clock_text(worst.time_s)}: {worst.text}."
+        return "bad", f"{_flight(summary)} {_counted(alarms, warnings)} {text}"
+    if warnings:
+        return "warning", f"{_flight(summary)} No alarm, {_number(len(warnings), 'warning')}."
+    return "good", f"{_flight(summary)} The log shows no fault."
+
+
+def _flight(summary: FlightSummary) -> str:
+    length = duration_text(summary.length_s)
+    if not summary.armed:
+        return f"{length} were recorded; the aircraft was never armed."
+    armed_s = sum(span.length_s for span in summary.armed)
+    flown = (
+        "all of it armed"
+        if armed_s >= 0.99 * summary.length_s
+        else (f"{duration_text(armed_s)} of it armed")
+    )
+    reached = "" if summary.farthest_m is None else f", up to {summary.farthest_m:.0f} m from home"
+    return f"{length} were recorded, {flown}{reached}."
+
+
+def _counted(alarms: Sequence[Finding], warnings: Sequence[Finding]) -> str:
+    more = f" and {_number(len(warnings), 'warning')}" if warnings else ""
+    text = f"{_number(len(alarms), 'alarm')}{more}."
+    return f"{text[0].upper()}{text[1:]}"
+
+
+def _number(count: int, noun: str) -> str:
+    words = ("no", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten")
+    word = words[count] if count < len(words) else str(count)
+    return f"{word} {noun}{'' if count == 1 else 's'}"

@@ -5,7 +5,7 @@ from __future__ import annotations
 from datetime import datetime
 
 MIN_UNIX_S = 1_735_689_600.0
-"""2025: no earlier flight was recorded; a Raspberry Pi without a clock starts long before."""
+"""2025: no earlier flight exists; a Raspberry Pi without a clock starts in 1970."""
 SIMULATED_UNIX_S = 946_684_800.0
 """2000-01-01: the start of the simulator scenarios' flights, which have no date."""
 _MEGABYTE = 1e6

@@ -23,19 +23,19 @@ class GainSet:
 def gain_sets(log: FlightLog) -> list[GainSet]:
     """Return the sets in the order of time, without unchanged ones."""
     found: list[GainSet] = []
-    asked_by = ""
+    requested_by = ""
     for message in log.messages(*(topic for topic in (VALUES, TUNINGS) if topic in log.topics)):
         if message.topic == TUNINGS:
             if message.data.get("request") is not True:
-                asked_by = str(message.data.get(KEY, ""))
+                requested_by = str(message.data.get(KEY, ""))
             continue
         values = gains_of(message.data)
         if values and (not found or values != found[-1].values):
-            found.append(GainSet(message.time_s, values, asked_by if found else ""))
+            found.append(GainSet(message.time_s, values, requested_by if found else ""))
     return found
 
 
-def asked_sets(log: FlightLog) -> list[GainSet]:
+def requested_sets(log: FlightLog) -> list[GainSet]:
     """Return the requested sets, accepted by the board or not."""
     return [
         GainSet(message.time_s, gains_of(data), str(message.data.get(KEY, "")))

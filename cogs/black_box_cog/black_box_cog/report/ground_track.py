@@ -5,8 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Sequence
 
-from black_box_cog.export.log_track import points_of
-from black_box_cog.export.track import TrackPoint, segments_of
+from black_box_cog.export.track import TrackPoint, points_of, segments_of
 from black_box_cog.pictures.track_picture import Path, TrackView, Wind
 from black_box_cog.report.report_data import ReportData
 from up.earth import distance_m

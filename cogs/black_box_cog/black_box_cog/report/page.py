@@ -7,11 +7,11 @@ from collections.abc import Mapping
 from pathlib import Path
 
 from black_box_cog.report.content import ReportContent
+from black_box_cog.report.finding_groups import verdict_of
 from black_box_cog.report.formatting import start_text
 from black_box_cog.report.html_text import Markup, join, lines, tag
 from black_box_cog.report.images import ImageSet
 from black_box_cog.report.sections import events, figures, finding_list, gains, modes, record, truth
-from black_box_cog.report.verdict import verdict_of
 from up.flight_log.spans import duration_text
 from up.version import VERSION
 
@@ -63,7 +63,7 @@ def _head(content: ReportContent) -> Markup:
     return tag(
         "header",
         tag("p", number, class_="eyebrow"),
-        tag("h1", content.summary.aircraft or "An aircraft without a name"),
+        tag("h1", content.summary.aircraft or "Unnamed aircraft"),
         tag("p", when, class_="when"),
         tag("p", sentence, class_=f"verdict {level}"),
         figures(content),

@@ -12,7 +12,7 @@ from up.flight_log.series import Series, error_of
 _COLOURS = dict(zip(CHANNELS, ("blue", "vermilion", "green", "purple"), strict=True))
 _STYLES = dict(zip(CHANNELS, ("-", "--", "-.", ":"), strict=True))
 _LIFETIME_S = 0.5
-"""A required attitude ends this long after the last one; a setpoint lives half as long."""
+"""A set-point is drawn for this long after the last one."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,21 +48,21 @@ def _attitude(data: ReportData) -> Picture:
         curves = [
             *_curve("truth", data.truth[f"{axis}_deg"], "blue", width=2.6),
             *_curve("measured", data.attitude[axis], "orange"),
-            *_curve("asked", demand, "ink", "--", width=1.0, gap_s=_LIFETIME_S),
+            *_curve("set-point", demand, "ink", "--", width=1.0, gap_s=_LIFETIME_S),
         ]
         panels.append(Panel(title, "deg", curves, about=0.0, min_range=10.0, share=1.15))
     caption = (
-        "Attitude against what was asked: in FBW by the sticks, in SETPOINT by the Raspberry Pi,"
-        " in failsafe by the profile. In ACRO and RATE nobody asks for an attitude."
+        "Attitude and its set-point: from the sticks in FBW, from the Raspberry Pi in SETPOINT,"
+        " from the profile in failsafe. ACRO and RATE have no attitude set-point."
     )
-    return Picture("attitude", "Attitude and demand", caption, tuple(panels))
+    return Picture("attitude", "Attitude and set-point", caption, tuple(panels))
 
 
 def _heights(data: ReportData) -> Picture:
     heights = [
         *_curve("truth", data.truth["altitude_m"], "blue", width=2.6),
         *_curve("measured", data.altitude, "orange"),
-        *_curve("asked", data.required_altitude, "ink", "--", is_step=True, gap_s=1e9),
+        *_curve("set-point", data.required_altitude, "ink", "--", is_step=True, gap_s=1e9),
     ]
     speeds = [
         *_curve("true airspeed", data.truth["airspeed_m_s"], "sky", ":"),
@@ -72,7 +72,7 @@ def _heights(data: ReportData) -> Picture:
     return Picture(
         "altitude",
         "Altitude and speed",
-        "Altitude above sea level; speed over the ground as the positions' source tells it.",
+        "Altitude above sea level; ground speed as the position source reports it.",
         (
             Panel("Altitude", "m", heights, min_range=10.0),
             Panel("Speed", "m/s", speeds, min_range=4.0),
@@ -100,7 +100,7 @@ def _channels(data: ReportData) -> Picture:
         *_curve("arming (AUX2)", data.sticks["aux2"], "vermilion", "--"),
     ]
     panels.append(Panel("Switches", "us", switches, about=1500.0, min_range=200.0, share=0.6))
-    caption = "What came from the pilot's receiver, and what went to the servos, as pulses."
+    caption = "Pulses from the pilot's receiver and to the servos."
     return Picture("sticks", "Sticks and servos", caption, tuple(panels))
 
 
@@ -114,8 +114,8 @@ def _links(data: ReportData) -> Picture:
         )
     ]
     caption = (
-        "The longest silence in each second: a step up is a silence, as high as it was long. The"
-        " ground's line tells for how long no ground station was connected."
+        "The longest silence in each second. The ground's line shows how long no ground station"
+        " was connected."
     )
     return Picture(
         "links", "Ages of the links", caption, (Panel("Silence", "s", curves, min_range=0.5),)
@@ -148,13 +148,12 @@ def _loops(data: ReportData) -> Picture:
     return Picture(
         "loops",
         "Loop times",
-        "The control loop of the Arduino, each second: its mean period, and how late it began at"
-        " worst. On the Raspberry Pi: how often something had held up the program for more than"
-        " 20 ms.",
+        "The control loop of the Arduino in each second: its mean period and its greatest lateness."
+        " The Raspberry Pi: how often its event loop was blocked for more than 20 ms.",
         (
             Panel("Period of the control loop", "us", period, min_range=40.0, share=0.6),
             Panel("Lateness of the control loop", "us", late, min_range=50.0, share=0.8),
-            Panel("Slow dispatches of the Raspberry Pi", "times", blocked, "", None, 2.0, 0.6),
+            Panel("Blocked event loop of the Raspberry Pi", "times", blocked, "", None, 2.0, 0.6),
         ),
     )
 
@@ -163,12 +162,12 @@ def _errors(data: ReportData) -> Picture:
     panels = []
     for axis, title in (("roll", "Error in roll"), ("pitch", "Error in pitch")):
         error, _ = error_of(data.attitude[axis], data.truth[f"{axis}_deg"], is_angle=True)
-        curves = _curve("measured less true", error, "vermilion")
+        curves = _curve("measured minus true", error, "vermilion")
         panels.append(Panel(title, "deg", curves, about=0.0, min_range=4.0, share=0.8))
     return Picture(
         "truth",
         "Measured against the truth",
-        "This flight was simulated: what the sensors and filters said, less what was true.",
+        "This flight was simulated: measured values minus true ones.",
         tuple(panels),
     )
 
@@ -183,7 +182,7 @@ def _curve(
     is_step: bool = False,
     gap_s: float | None = None,
 ) -> list[Curve]:
-    """Return the curve, or None without values."""
+    """Return the curve in a list, empty without values."""
     if not series:
         return []
     curve = Curve(

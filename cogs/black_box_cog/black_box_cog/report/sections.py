@@ -6,19 +6,18 @@ from collections.abc import Iterator
 from itertools import pairwise
 
 from black_box_cog.report.content import ReportContent
-from black_box_cog.report.finding_groups import FindingGroup, groups_of
+from black_box_cog.report.finding_groups import LEVELS, FindingGroup, groups_of
 from black_box_cog.report.formatting import clock_text
-from black_box_cog.report.gains import GainSet, asked_sets, changes, gain_sets
+from black_box_cog.report.gains import GainSet, changes, gain_sets, requested_sets
 from black_box_cog.report.ground_track import place_error_m
 from black_box_cog.report.html_text import Markup, join, table, tag
 from black_box_cog.report.report_data import LOCATION, first_link
-from black_box_cog.report.verdict import LEVELS
 from up.flight_log.gain_changes import Key
 from up.flight_log.origin_text import link_and_role
 from up.flight_log.series import error_of
 from up.flight_log.spans import duration_text
 
-_WORDS = {"alarm": "alarm", "warning": "warning", "info": "note"}
+_NAMES = {"alarm": "alarm", "warning": "warning", "info": "note"}
 
 
 def figures(content: ReportContent) -> Markup:
@@ -33,8 +32,8 @@ def finding_list(content: ReportContent) -> Markup:
         tag(
             "li",
             tag("time", clock_text(each.time_s)),
-            tag("span", _WORDS[each.level], class_="level"),
-            tag("div", tag("span", each.text), _each_time(each)),
+            tag("span", _NAMES[each.level], class_="level"),
+            tag("div", tag("span", each.text), _all_times(each)),
             class_=LEVELS[each.level],
         )
         for each in groups_of(content.findings)
@@ -44,12 +43,12 @@ def finding_list(content: ReportContent) -> Markup:
     return tag("section", tag("h2", "What went wrong"), shown)
 
 
-def _each_time(group: FindingGroup) -> Markup | None:
+def _all_times(group: FindingGroup) -> Markup | None:
     """Return the times of a repeated fault, folded."""
     if len(group.members) == 1:
         return None
     lines = [tag("p", f"{clock_text(each.time_s)} {each.text}") for each in group.members]
-    return tag("details", tag("summary", "each of them"), *lines)
+    return tag("details", tag("summary", "all of them"), *lines)
 
 
 def modes(content: ReportContent) -> Markup:
@@ -98,7 +97,7 @@ def truth(content: ReportContent) -> Markup | None:
     if place:
         rms = (sum(value * value for value in place) / len(place)) ** 0.5
         rows.append(["position", f"{rms:.1f} m", f"{max(place):.1f} m"])
-    head = ["measured less true", "root mean square", "greatest"]
+    head = ["measured minus true", "root mean square", "greatest"]
     return table(head, rows, right=(1, 2)) if rows else None
 
 
@@ -111,10 +110,10 @@ def gains(content: ReportContent) -> Markup | None:
     verb = "changed"
     parts: list[Markup] = []
     if not sets:
-        sets, verb = asked_sets(content.log), "asked for"
+        sets, verb = requested_sets(content.log), "requested"
         if not sets:
             return None
-        parts.append(tag("p", "The log does not tell which gains flew, but which were asked for."))
+        parts.append(tag("p", "The log has the requested gains, not the gains in use."))
         parts.append(tag("h3", _changed(sets[0], verb)))
     parts.append(_gain_table(sets[0]))
     for before, after in pairwise(sets):
@@ -127,7 +126,7 @@ def gains(content: ReportContent) -> Markup | None:
 
 
 def _changed(gains: GainSet, verb: str) -> str:
-    return f"{clock_text(gains.time_s)} {verb} by {link_and_role(gains.by)[0] or 'somebody'}"
+    return f"{clock_text(gains.time_s)} {verb} by {link_and_role(gains.by)[0] or 'unknown'}"
 
 
 def record(content: ReportContent) -> Markup:
@@ -149,7 +148,7 @@ def record(content: ReportContent) -> Markup:
         tag("ul", *(tag("li", problem.text) for problem in problems)) if problems else None,
         table(["", ""], [*facts, *(["file", path.name] for path in log.paths)]),
         tag("h3", "Topics"),
-        table(["topic", "messages", "a second"], topics, right=(1, 2)),
+        table(["topic", "messages", "per second"], topics, right=(1, 2)),
     )
 
 

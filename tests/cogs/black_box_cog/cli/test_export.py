@@ -36,7 +36,7 @@ def test_the_track_as_kml(log, flights, tmp_path):
     assert len(list(root.iter("{http://www.google.com/kml/ext/2.2}coord"))) == 20
 
 
-def test_the_place_of_telemetry_where_no_other_is_logged(log, flights, tmp_path):
+def test_positions_from_telemetry(log, flights, tmp_path):
     def fill(maker):
         for number in range(5):
             place = {"latitude": 50 + number // 2 / 1000, "longitude": 14.0, "altitude": 300}
@@ -49,7 +49,7 @@ def test_the_place_of_telemetry_where_no_other_is_logged(log, flights, tmp_path)
     assert [point.latitude for point in points] == [50.0, 50.001, 50.002]
 
 
-def test_a_silence_cuts_the_track(log, flights, tmp_path):
+def test_a_gap_splits_the_track(log, flights, tmp_path):
     def fill(maker):
         for time_s in (0, 1, 20, 21):
             maker.put(time_s, LocationCommand(50 + time_s / 1e4, 14.0))
@@ -78,10 +78,10 @@ def test_several_topics_are_a_folder(log, flights, tmp_path):
     names = sorted(path.name for path in (tmp_path / "tables").iterdir())
     assert names == ["up.altitude.change.csv", "up.rx.update.csv"]
     outcome = log("export", 1, "--format", "csv", *named, "-o", "-")
-    assert outcome.status == 2 and "name a folder by -o" in outcome.err
+    assert outcome.status == 2 and "-o" in outcome.err
 
 
-def test_everything_at_one_rate(log, flights, tmp_path):
+def test_all_topics_at_one_rate(log, flights, tmp_path):
     write_flight(flights, 1)
     log("export", 1, "--format", "csv", "--rate", "5", "-o", "all.csv")
     found = rows(tmp_path / "all.csv")
@@ -95,7 +95,7 @@ def test_everything_at_one_rate(log, flights, tmp_path):
     assert list(rows(tmp_path / "b.csv")[0])[2] == "up.rx.update.ailerons"
 
 
-def test_a_topic_is_no_path(log, flights, tmp_path):
+def test_a_topic_is_not_a_path(log, flights, tmp_path):
     topics = ("../../evil", "/etc/x", "..", "a\x00b")
     write_flight(flights, 1, lambda maker: [maker.add(0, topic, x=1) for topic in topics])
     named = [word for topic in topics[:3] for word in ("--topic", topic)]
@@ -104,12 +104,12 @@ def test_a_topic_is_no_path(log, flights, tmp_path):
     assert names == ["etc_x.csv", "evil.csv", "topic.csv"]
 
 
-def test_nothing_is_overwritten(log, flights, tmp_path):
+def test_an_existing_file_is_kept_without_force(log, flights, tmp_path):
     write_flight(flights, 1)
     (tmp_path / "a.gpx").write_text("mine")
     outcome = log("export", 1, "--format", "gpx", "-o", "a.gpx")
     assert outcome.status == 1
-    assert outcome.err == "a.gpx is there already: say --force to overwrite it\n"
+    assert "a.gpx" in outcome.err and "--force" in outcome.err
     assert (tmp_path / "a.gpx").read_text() == "mine"
     assert log("export", 1, "--format", "gpx", "-o", "a.gpx", "--force").status == 0
     assert (tmp_path / "a.gpx").read_text().startswith("<?xml")
@@ -122,68 +122,38 @@ def test_to_stdout(log, flights):
 
 
 @pytest.mark.parametrize(
-    ("options", "status", "sentence"),
+    ("options", "status", "named"),
     [
-        ("--format gpx --topic x", 2, "--topic and --rate say what a csv is, not a gpx"),
+        ("--format gpx --topic x", 2, "gpx"),
         ("--format csv --topic up.rx.updat", 1, "did you mean up.rx.update?"),
-        ("--format csv --topic zzz", 1, "no topic is called 'zzz'; there are "),
-        ("--format csv --rate 0", 2, "'0' is no rate between 0.01 and 1000 Hz"),
-        ("--format csv --rate nan", 2, "'nan' is no rate"),
-        ("--format xls", 2, "invalid choice: 'xls'"),
-        ("--format gpx -o nowhere/", 1, "nowhere"),
+        ("--format csv --topic zzz", 1, "up.location.update"),
+        ("--format csv --rate 0", 2, "'0'"),
+        ("--format csv --rate nan", 2, "'nan'"),
+        ("--format xls", 2, "'xls'"),
+        ("--format gpx -o file/", 1, "file"),
+        ("--format gpx -o nowhere/x.gpx", 1, "nowhere"),
+        ("--format csv --topic up.rx.update --topic log -o nowhere/x", 1, ""),
     ],
 )
-def test_what_cannot_be_is_said(log, flights, tmp_path, options, status, sentence):
+def test_wrong_options(log, flights, tmp_path, options, status, named):
     write_flight(flights, 1)
-    (tmp_path / "nowhere").write_text("a file")
+    (tmp_path / "file").write_text("a file")
     outcome = log("export", 1, *options.split())
-    assert outcome.status == status and sentence in outcome.err
+    assert outcome.status == status and named in outcome.err
     assert status == 2 or len(outcome.err.splitlines()) == 1
+    assert not (tmp_path / "nowhere").exists()
 
 
-def test_a_flight_without_positions(log, flights):
+def test_flights_that_cannot_be_exported(log, flights):
     write_flight(flights, 1, lambda maker: maker.add(0, "a", x=1))
-    outcome = log("export", 1, "--format", "gpx")
-    assert outcome.status == 1 and "tells no position: there is no track" in outcome.err
     write_flight(flights, 2, lambda maker: None)
-    assert "there is nothing to write" in log("export", 2, "--format", "csv").err
+    write_flight(flights, 3, lambda maker: [maker.add(time_s, "a", x=1) for time_s in (0, 1e9)])
+    for number, form in ((1, "gpx"), (2, "csv"), (3, "csv")):
+        outcome = log("export", number, "--format", form)
+        assert (outcome.status, outcome.out, outcome.err.count("\n")) == (1, "", 1)
 
 
-def test_a_table_without_end_is_refused(log, flights):
-    def fill(maker):
-        maker.add(0, "a", x=1)
-        maker.add(1e9, "a", x=2)
-
-    write_flight(flights, 1, fill)
-    outcome = log("export", 1, "--format", "csv")
-    assert outcome.status == 1 and "is too long: say a lower --rate" in outcome.err
-
-
-def test_a_clock_that_was_wrong(log, flights):
+def test_a_wrong_clock_is_a_warning(log, flights):
     write_flight(flights, 1, start_unix_s=60)
     outcome = log("export", 1, "--format", "gpx")
-    assert outcome.status == 0 and "the clock was wrong" in outcome.err
-
-
-def test_a_mistyped_folder_is_not_made(log, flights, tmp_path):
-    write_flight(flights, 1)
-    for words in (
-        ("export", 1, "--format", "csv", "-o", tmp_path / "nodir" / "x.csv"),
-        ("export", 1, "--format", "gpx", "-o", tmp_path / "nodir" / "x.gpx"),
-        ("export", 1, "--format", "csv", "--topic", "up.orientation.update", "--topic",
-         "up.location.update", "-o", tmp_path / "nodir" / "tables"),
-        ("report", 1, "-o", tmp_path / "nodir" / "mine"),
-    ):  # fmt: skip
-        outcome = log(*words)
-        assert outcome.status == 1
-        assert outcome.err == f"there is no folder {tmp_path / 'nodir'}: nothing is written\n"
-    assert not (tmp_path / "nodir").exists()
-
-
-def test_a_report_that_is_told_no_place_lies_beside_its_flight(log, flights, tmp_path):
-    write_flight(flights, 1)
-    outcome = log("report", 1)
-    assert outcome.status == 0
-    (page,) = flights.glob("*-report/report.html")
-    assert str(page) in outcome.out
-    assert not list(tmp_path.glob("*report*"))
+    assert outcome.status == 0 and outcome.err

@@ -1,13 +1,14 @@
 """``up log list``."""
 
 import fcntl
+import io
 import json
 import os
 
 import pytest
 from black_box_cog.cli.list_verb import lines_of
-from black_box_cog.cli.overview_cache import MAX_ENTRIES, OverviewCache
-from black_box_cog.cli.progress import Progress
+from black_box_cog.cli.overview import MAX_ENTRIES, OverviewCache
+from black_box_cog.cli.terminal import Progress
 
 from tests.cogs.black_box_cog.logbook import START_UNIX_S, write_flight
 from up.flight_log.flights import flights_in
@@ -26,7 +27,7 @@ def test_each_flight_is_a_line(log, flights):
         assert "20 s" in line and "10 s" in line and "320 m" in line and line.endswith("MB")
 
 
-def test_for_programs(log, flights):
+def test_json(log, flights):
     path = write_flight(flights, 7)
     write_flight(flights, 7, part=2, start_unix_s=START_UNIX_S)
     found = json.loads(log("list", "--json").out)
@@ -39,12 +40,12 @@ def test_for_programs(log, flights):
     assert flight["is_complete"] and flight["is_clock_right"] and not flight["is_recording"]
 
 
-def test_what_was_cut_off_and_what_cannot_be_read_is_said(log, flights):
+def test_damaged_flights(log, flights):
     write_flight(flights, 1, is_finished=False)
     write_flight(flights, 2).write_bytes(b"no log at all")
     lines = log("list").out.splitlines()
     assert lines[1].endswith("cut off")
-    assert "no flight log: it does not begin as MCAP does" in lines[2]
+    assert "0002-" in lines[2]
 
 
 def test_a_flight_that_is_being_recorded(log, flights):
@@ -55,37 +56,24 @@ def test_a_flight_that_is_being_recorded(log, flights):
     assert log("list").out.splitlines()[1].endswith("cut off")
 
 
-def test_a_clock_that_was_wrong(log, flights):
+def test_a_wrong_clock(log, flights):
     write_flight(flights, 1, start_unix_s=3600)
     outcome = log("list")
-    assert "1970-01-01 01:00:00 (the clock was wrong)" in outcome.out
-    assert "The numbers tell the order" in outcome.err
+    assert "1970-01-01 01:00:00" in outcome.out
+    assert outcome.err
 
 
 def test_no_flight(log, flights, tmp_path):
-    assert log("list").out == f"no flight is in {flights}\n"
-    flights.rmdir()
-    assert log("list").out == f"no flight is in {flights}\n"
+    for _ in range(2):
+        outcome = log("list")
+        assert outcome.status == 0 and str(flights) in outcome.out
+        if flights.exists():
+            flights.rmdir()
     outcome = log("list", "--folder", "nowhere")
-    assert outcome.status == 1 and outcome.err == "nowhere is no folder\n"
+    assert outcome.status == 1 and "nowhere" in outcome.err
 
 
-def test_the_folder_of_the_configuration(log, tmp_path):
-    write_flight(tmp_path / "elsewhere", 3)
-    plane = tmp_path / "plane"
-    (plane / "config").mkdir(parents=True)
-    (plane / "UpFile").write_text("")
-    (plane / "config" / "black_box.yml").write_text(f"folder: {tmp_path}/elsewhere\n")
-    assert log("list", cwd=plane).out.splitlines()[1].split()[0] == "3"
-    assert log("list", "--config", plane / "config").out.splitlines()[1].split()[0] == "3"
-    (plane / "config" / "black_box.yml").write_text("foldr: x\n")
-    outcome = log("list", cwd=plane)
-    assert outcome.status == 2 and "black_box.yml:1:1" in outcome.err
-    assert "did you mean 'folder'" in outcome.err.replace('"', "'")
-    assert log("list", "--folder", tmp_path / "elsewhere", cwd=plane).status == 0
-
-
-def test_a_name_is_no_command_for_the_terminal(log, flights):
+def test_control_characters_are_escaped(log, flights):
     write_flight(flights, 1, aircraft="a\x1b[2Jb\u202e")
     assert "a\\x1b[2Jb\\u202e" in log("list").out
 
@@ -108,25 +96,13 @@ def test_a_flight_is_read_once(flights, tmp_path):
     "content",
     [b"", b"{", b"[]", b'{"format": 1}', b'{"format": 1, "flights": []}', b"\xff", b"[" * 9999],
 )
-def test_a_damaged_cache_is_none(flights, tmp_path, content):
+def test_a_damaged_cache_is_ignored(flights, tmp_path, content):
     write_flight(flights, 1)
     cache = tmp_path / "cache.json"
     cache.write_bytes(content)
     (line,) = lines_of(flights_in(flights), OverviewCache(cache))
     assert line.overview.aircraft == "kite"
     assert json.loads(cache.read_bytes())["flights"]
-
-
-def test_entries_of_another_kind_are_not_believed(flights, tmp_path):
-    write_flight(flights, 1)
-    cache = tmp_path / "cache.json"
-    first = lines_of(flights_in(flights), OverviewCache(cache))
-    document = json.loads(cache.read_bytes())
-    (entry,) = document["flights"].values()
-    for wrong in ({"nonsense": 1}, None, 5):
-        entry["overview"] = wrong
-        cache.write_text(json.dumps(document))
-        assert lines_of(flights_in(flights), OverviewCache(cache)) == first
 
 
 def test_the_cache_is_bounded(flights, tmp_path):
@@ -139,32 +115,23 @@ def test_the_cache_is_bounded(flights, tmp_path):
     assert len(kept) == MAX_ENTRIES and any("kite" in key for key in kept)
 
 
-def test_a_cache_that_cannot_be_written_stops_nothing(flights, tmp_path):
+def test_a_cache_that_cannot_be_written(flights, tmp_path):
     write_flight(flights, 1)
     (tmp_path / "file").write_text("")
     assert lines_of(flights_in(flights), OverviewCache(tmp_path / "file" / "cache.json"))
 
 
-class Terminal:
+class Terminal(io.StringIO):
     def __init__(self, is_terminal):
-        self.said = ""
-        self._is_terminal = is_terminal
-
-    def isatty(self):
-        return self._is_terminal
-
-    def write(self, text):
-        self.said += text
-
-    def flush(self):
-        pass
+        super().__init__()
+        self.isatty = lambda: is_terminal
 
 
-@pytest.mark.parametrize(("is_terminal", "after_s", "speaks"), [(1, 0, 1), (1, 1e9, 0), (0, 0, 0)])
-def test_long_work_is_told_to_who_watches(monkeypatch, is_terminal, after_s, speaks):
-    monkeypatch.setattr("black_box_cog.cli.progress.AFTER_S", after_s)
+@pytest.mark.parametrize(("is_terminal", "delay_s", "shown"), [(1, 0, 1), (1, 1e9, 0), (0, 0, 0)])
+def test_progress_is_shown_on_a_terminal_after_a_while(monkeypatch, is_terminal, delay_s, shown):
+    monkeypatch.setattr("black_box_cog.cli.terminal._DELAY_S", delay_s)
     terminal = Terminal(bool(is_terminal))
     with Progress("reading flight", 300, terminal) as progress:
-        progress.at(12)
-    assert ("reading flight 12 of 300" in terminal.said) == bool(speaks)
-    assert terminal.said.endswith("\r\x1b[K") == bool(speaks)
+        progress.update(12)
+    assert ("12 of 300" in terminal.getvalue()) == bool(shown)
+    assert terminal.getvalue().endswith("\r\x1b[K") == bool(shown)

@@ -1,4 +1,4 @@
-"""Verbs below ``up log`` that other distributions bring."""
+"""Verbs below ``up log`` from other distributions."""
 
 import sys
 
@@ -40,17 +40,17 @@ def install(tmp_path, monkeypatch):
         del sys.modules[name]
 
 
-def test_one_is_there(log, install):
+def test_a_verb_of_another_distribution(log, install):
     install(CODE["good"])
     assert "fly it again" in log("--help").out
     outcome = log("again", "--speed", "2")
     assert (outcome.status, outcome.out) == (4, "2.0\n")
 
 
-def test_a_broken_one_harms_no_other(log, install, flights):
+def test_a_broken_verb_does_not_affect_others(log, install, flights):
     install(CODE["broken"])
     assert log("list").status == 0
     outcome = log("again", "--speed", "2")
     assert outcome.status == 1
-    assert outcome.err == ("the verb 'again' of again cannot be used: RuntimeError: not today\n")
-    assert "cannot be used: RuntimeError: not today" in log("--help").out
+    assert "'again'" in outcome.err and "RuntimeError: not today" in outcome.err
+    assert "RuntimeError: not today" in log("--help").out

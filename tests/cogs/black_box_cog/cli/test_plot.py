@@ -29,34 +29,22 @@ def test_named_fields(log, flights, tmp_path, order):
     assert size_of(tmp_path / "a.png")[0] > 1000
 
 
-def test_a_wrong_name_is_told_what_there_is(log, flights):
+def test_an_unknown_field(log, flights):
     write_flight(flights, 1)
     outcome = log("plot", 1, "up.orientation.update.rol")
-    assert outcome.status == 1
-    assert outcome.err == (
-        "no field with numbers is called 'up.orientation.update.rol',"
-        " did you mean up.orientation.update.roll?\n"
-    )
+    assert outcome.status == 1 and "did you mean up.orientation.update.roll?" in outcome.err
     unlike = log("plot", 1, "zzzzzzzz").err
-    assert unlike.startswith("no field with numbers is called 'zzzzzzzz'; there are ")
-    assert unlike.endswith(" more ('up log export' writes all of a topic)\n")
-    assert unlike.count(",") < 12
+    assert "'zzzzzzzz'" in unlike and " more (" in unlike and unlike.count(",") < 12
     assert log("plot", 1, "up.orientation.update").status == 1
-    assert "12 fields at most" in log("plot", 1, *(f"a.f{n}" for n in range(13))).err
+    assert log("plot", 1, *(f"a.f{n}" for n in range(13))).status == 2
 
 
-def test_what_is_there_stays(log, flights, tmp_path):
+def test_an_existing_file_is_kept_without_force(log, flights, tmp_path):
     write_flight(flights, 1)
     (tmp_path / "a.png").write_text("mine")
-    assert "say --force" in log("plot", 1, "-o", "a.png").err
+    assert "--force" in log("plot", 1, "-o", "a.png").err
     assert (tmp_path / "a.png").read_text() == "mine"
-    assert "ends in .png" in log("plot", 1, "-o", "a.pdf").err
-
-
-def test_nothing_to_draw(log, flights):
-    write_flight(flights, 1, lambda maker: maker.add(0, f"a {EVIL}", text="x"))
-    outcome = log("plot", 1)
-    assert outcome.status == 1 and "neither position nor attitude: name a FIELD" in outcome.err
+    assert log("plot", 1, "-o", "a.pdf").status == 2
 
 
 def test_a_single_value_is_drawn_too(log, flights, tmp_path):
@@ -65,10 +53,10 @@ def test_a_single_value_is_drawn_too(log, flights, tmp_path):
     assert size_of(tmp_path / "a.png")
 
 
-def test_without_matplotlib(log, flights, monkeypatch):
-    write_flight(flights, 1)
+def test_nothing_to_draw(log, flights, monkeypatch):
+    write_flight(flights, 1, lambda maker: maker.add(0, f"a {EVIL}", text="x"))
+    outcome = log("plot", 1)
+    assert outcome.status == 1 and "FIELD" in outcome.err
     monkeypatch.setattr("black_box_cog.cli.plot_verb.has_matplotlib", lambda: False)
     outcome = log("plot", 1)
-    assert outcome.status == 1 and outcome.err == (
-        "matplotlib is not installed: pip install 'raspilot[log]' brings it\n"
-    )
+    assert outcome.status == 1 and "raspilot[log]" in outcome.err

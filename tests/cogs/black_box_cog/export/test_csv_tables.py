@@ -4,13 +4,13 @@ import csv
 import io
 import json
 import math
-from dataclasses import dataclass, field
 
 import pytest
-from black_box_cog.export.csv_cells import cell, flat
-from black_box_cog.export.csv_table import columns_of, topic_rows, wide_rows
+from black_box_cog.export.csv_table import cell, columns_of, flat, topic_rows, wide_rows
 from hypothesis import given, settings
 from hypothesis import strategies as st
+
+from up.flight_log.flight_log import LoggedMessage
 
 SCALARS = (
     st.none()
@@ -24,13 +24,6 @@ DATA = st.dictionaries(
 )
 
 
-@dataclass
-class Said:
-    topic: str
-    time_s: float
-    data: dict = field(default_factory=dict)
-
-
 def read_again(rows):
     """Through a file and Python's own reader."""
     text = io.StringIO(newline="")
@@ -42,7 +35,7 @@ def read_again(rows):
 @settings(deadline=None)
 @given(st.lists(DATA, min_size=1, max_size=6))
 def test_a_message_is_a_row_and_a_row_a_line(contents):
-    messages = [Said("a", at / 10, data) for at, data in enumerate(contents)]
+    messages = [LoggedMessage("a", at / 10, data) for at, data in enumerate(contents)]
     paths = columns_of(messages).get("a", [])
     rows, written = read_again(topic_rows(messages, paths, 1.7e9))
     assert len(rows) == len(messages) + 1 == len(written.splitlines())
@@ -81,10 +74,10 @@ def test_inner_values_have_dotted_names():
 
 
 FLIGHT = [
-    Said("attitude", 0.0, {"roll": 1.0}),
-    Said("battery", 0.1, {"level": 90}),
-    Said("attitude", 0.5, {"roll": 2.0}),
-    Said("attitude", 1.0, {"roll": 3.0, "pitch": 4.0}),
+    LoggedMessage("attitude", 0.0, {"roll": 1.0}),
+    LoggedMessage("battery", 0.1, {"level": 90}),
+    LoggedMessage("attitude", 0.5, {"roll": 2.0}),
+    LoggedMessage("attitude", 1.0, {"roll": 3.0, "pitch": 4.0}),
 ]
 
 

@@ -14,25 +14,25 @@ def test_a_new_file(tmp_path):
     assert len(list(tmp_path.iterdir())) == 1
 
 
-def test_what_is_there_stays(tmp_path):
+def test_an_existing_file_is_kept(tmp_path):
     path = tmp_path / "a.gpx"
     path.write_bytes(b"old")
-    with pytest.raises(CliError, match=r"a\.gpx is there already: say --force to overwrite it"):
+    with pytest.raises(CliError, match="--force"):
         write_file(path, b"new")
     assert path.read_bytes() == b"old"
     write_file(path, b"new", may_overwrite=True)
     assert path.read_bytes() == b"new"
 
 
-def test_a_link_that_leads_nowhere_is_a_file_too(tmp_path):
+def test_a_dangling_link_is_an_existing_file(tmp_path):
     (tmp_path / "a").symlink_to(tmp_path / "elsewhere")
-    with pytest.raises(CliError, match="there already"):
+    with pytest.raises(CliError, match="--force"):
         write_file(tmp_path / "a", b"new")
     assert not (tmp_path / "elsewhere").exists()
 
 
 @pytest.mark.parametrize("has_links", [True, False])
-def test_what_appears_meanwhile_stays(tmp_path, monkeypatch, has_links):
+def test_a_file_that_appears_meanwhile_is_kept(tmp_path, monkeypatch, has_links):
     if not has_links:
 
         def link(*_):
@@ -40,7 +40,7 @@ def test_what_appears_meanwhile_stays(tmp_path, monkeypatch, has_links):
 
         monkeypatch.setattr(os, "link", link)
     path = tmp_path / "a"
-    with pytest.raises(CliError, match="there already"), new_file(path) as file:
+    with pytest.raises(CliError, match="--force"), new_file(path) as file:
         file.write(b"new")
         path.write_bytes(b"older")
     assert path.read_bytes() == b"older" and len(list(tmp_path.iterdir())) == 1
@@ -49,7 +49,7 @@ def test_what_appears_meanwhile_stays(tmp_path, monkeypatch, has_links):
 
 
 @pytest.mark.parametrize("may_overwrite", [True, False])
-def test_half_a_file_is_none(tmp_path, may_overwrite):
+def test_an_error_leaves_no_file(tmp_path, may_overwrite):
     path = tmp_path / "a"
     with pytest.raises(ZeroDivisionError), new_file(path, may_overwrite=may_overwrite) as file:
         file.write(b"half")
@@ -57,6 +57,6 @@ def test_half_a_file_is_none(tmp_path, may_overwrite):
     assert not list(tmp_path.iterdir())
 
 
-def test_a_folder_that_is_not_there(tmp_path):
-    with pytest.raises(CliError, match=r"nowhere/a cannot be written: No such file or directory"):
+def test_a_missing_folder(tmp_path):
+    with pytest.raises(CliError, match="nowhere/a"):
         write_file(tmp_path / "nowhere" / "a", b"x")

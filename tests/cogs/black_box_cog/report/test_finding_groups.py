@@ -1,7 +1,6 @@
 """Findings of one kind are one line."""
 
-from black_box_cog.report.finding_groups import groups_of, worst_of
-from black_box_cog.report.verdict import verdict_of
+from black_box_cog.report.finding_groups import groups_of, verdict_of, worst_of
 
 from tests.up.flight_log.logs import LogMaker
 from up.flight_log.finding import Finding, lasting
