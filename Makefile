@@ -3,13 +3,13 @@ PYTHON ?= python3
 VENV ?= .venv
 BIN := $(VENV)/bin
 PY := $(BIN)/python
-PACKAGES := up raspilot runner/up_runner proxy/up_proxy ground/up_ground simulator/up_simulator \
-	arduino/bench/up_rig
+PACKAGES := up raspilot runner/up_runner proxy/up_proxy ground/up_ground flightlog/up_flightlog \
+	simulator/up_simulator arduino/bench/up_rig
 COGS := $(wildcard cogs/*_cog)
 # mypy does not see what is installed editable through an import hook.
 empty :=
 MYPY_ROOTS := $(subst $(empty) $(empty),:,$(strip . $(COGS)))
-SETUPS := setup.py pyproject.toml $(addsuffix /setup.py,$(COGS)) raspilot/Cogfile.yml
+SETUPS := setup.py pyproject.toml flightlog/setup.py $(addsuffix /setup.py,$(COGS)) raspilot/Cogfile.yml
 TEST ?=
 # More than CI has cores: many tests wait for real time.
 WORKERS ?= 3

@@ -22,7 +22,7 @@ examples
 def add(verbs: Any) -> None:
     """Add ``up log replay``, which finds flights as the other verbs of ``up log`` do."""
     from up.cli.verb import add_verb
-    from up.flight_log.flight_options import add_folder_options
+    from up_flightlog.cli.parser import add_folder_options
 
     text = "play a flight in the page of the ground station"
     parser = add_verb(verbs, "replay", "up_ground.replay.replay", text, epilog=EPILOG)

@@ -9,8 +9,8 @@ from up.commands.flight_state_command import FlightStateCommand
 from up.commands.orientation_command import OrientationCommand
 from up.commands.rx_command import ALL_VALID, RXCommand
 from up.commands.servo_command import ServoCommand
-from up.flight_log.board_status import TOPIC as STATUS_TOPIC
 from up.flight_log.origin_text import KEY as ORIGIN
+from up_flightlog.read.board_status import TOPIC as STATUS_TOPIC
 from up_simulator.scenario.log_row import Data, LogRow, Message
 from up_simulator.scenario.sampler import CAUSES, MODES, SWITCH
 from up_simulator.scenario.sticks import CHANNELS

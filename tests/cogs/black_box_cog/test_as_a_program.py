@@ -15,7 +15,7 @@ import pytest
 from tests.cogs.black_box_cog.flights import codes_in, messages
 from tests.proxy.program import until
 from up.flight_log.flight_file import flight_files
-from up.flight_log.flight_log import FlightLog
+from up_flightlog.read.flight_log import FlightLog
 
 ROOT = Path(__file__).parents[3]
 CONFIG = {

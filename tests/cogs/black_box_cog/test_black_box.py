@@ -33,9 +33,9 @@ from up.commands.origin import INTERNAL
 from up.commands.roles import Role
 from up.commands.telemetry_commands import TelemetryCommand
 from up.flight_log.flight_file import flight_files
-from up.flight_log.flight_log import FlightLog
 from up.protocols.general_message import GeneralMessage, decode
 from up.telemetry_controller import TelemetryController
+from up_flightlog.read.flight_log import FlightLog
 
 
 class Talkative(BaseStartedModule):

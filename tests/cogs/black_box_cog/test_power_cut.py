@@ -4,8 +4,8 @@ import pytest
 from black_box_cog.recorder import BUSY_S
 
 from tests.cogs.black_box_cog.flights import Flight, TestedDisk, numbers_in
-from up.flight_log.flight_log import FlightLog
 from up.flight_log.mcap_format import FlightLogError
+from up_flightlog.read.flight_log import FlightLog
 
 SECOND_S = 1.0
 LATE_S = BUSY_S + 0.03

@@ -20,7 +20,7 @@ from up.commands.command import BaseCommand
 from up.commands.location_command import LocationCommand
 from up.commands.origin import INTERNAL
 from up.commands.telemetry_commands import TelemetryCommand
-from up.flight_log.flight_log import FlightLog
+from up_flightlog.read.flight_log import FlightLog
 
 
 @pytest.fixture

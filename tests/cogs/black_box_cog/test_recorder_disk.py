@@ -15,7 +15,7 @@ from tests.cogs.black_box_cog.flights import (
     numbers_in,
 )
 from tests.up.commands.samples import Log
-from up.flight_log.flight_log import FlightLog
+from up_flightlog.read.flight_log import FlightLog
 
 
 def logged_errors(log):

@@ -12,10 +12,10 @@ from mcap.reader import make_reader
 
 from tests.simulator.scenario.minimal import log_of, scenario
 from tests.support.firmware import build_firmware
-from up.flight_log.estimate_error import estimate_errors
-from up.flight_log.findings import findings
-from up.flight_log.flight_log import FlightLog
-from up.flight_log.telemetry_frames import frames
+from up_flightlog.findings.detectors import findings
+from up_flightlog.findings.estimate_error import estimate_errors
+from up_flightlog.read.flight_log import FlightLog
+from up_flightlog.read.telemetry_frames import frames
 from up_simulator.cli import main
 from up_simulator.scenario.event import CommandPart, Event
 from up_simulator.scenario.flight import FlightRecord

@@ -4,8 +4,8 @@ from typing import ClassVar
 
 import pytest
 
+from tests.flightlog.logs import LogMaker
 from tests.up.flight_log.commands import example, installed_commands
-from tests.up.flight_log.logs import LogMaker
 from up.commands.command import BaseCommand, value
 from up.commands.origin import INTERNAL, Origin
 from up.commands.roles import Role

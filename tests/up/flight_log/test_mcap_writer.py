@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from mcap.reader import SeekingReader, make_reader
 from mcap.stream_reader import StreamReader
 
-from tests.up.flight_log.logs import START_NS, LogMaker, small_log
+from tests.flightlog.logs import START_NS, LogMaker, small_log
 from up.flight_log.mcap_format import MAGIC
 from up.flight_log.mcap_writer import McapWriter
 from up.version import VERSION
