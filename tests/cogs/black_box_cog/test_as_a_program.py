@@ -103,14 +103,15 @@ def only_file(folder):
 
 
 def test_stopped_it_leaves_a_whole_file(aircraft, tmp_path):
-    one = aircraft()
+    one = aircraft(flights=None, environ={"XDG_STATE_HOME": str(tmp_path)})
+    folder = tmp_path / "raspilot" / "flights"
     for _ in range(50):
         one.speak()
     one.logged("recording_started")
     one.speak()
-    until(lambda: 5.1 in levels_in(only_file(tmp_path / "flights")), "the last word")
+    until(lambda: 5.1 in levels_in(only_file(folder)), "the last word")
     assert one.stop() == 0
-    log = FlightLog.read([only_file(tmp_path / "flights")])
+    log = FlightLog.read([only_file(folder)])
     assert log.is_complete and not log.problems
     assert log.series("android.battery", "level")[1] == [number / 10 for number in range(1, 52)]
     assert {"config/config.yml", "config/android.yml"} <= set(log.attachments)
@@ -156,14 +157,6 @@ def test_two_daemons_share_a_folder(aircraft, tmp_path):
     files = flight_files(tmp_path / "flights")
     assert [each.number for each in files] == [1, 2]
     assert all(FlightLog.read([each.path]).is_complete for each in files)
-
-
-def test_the_default_folder_is_that_of_the_user(aircraft, tmp_path):
-    one = aircraft(flights=None, environ={"XDG_STATE_HOME": str(tmp_path / "state")})
-    one.speak()
-    one.logged("recording_started")
-    one.stop()
-    assert len(flight_files(tmp_path / "state" / "raspilot" / "flights")) == 1
 
 
 def test_the_reactors_thread_never_touches_the_folder(aircraft, tmp_path):

@@ -3,7 +3,7 @@
 import pytest
 from black_box_cog.recorder import BUSY_S
 
-from tests.cogs.black_box_cog.flights import Flight, TestedDisk, numbers_in
+from tests.cogs.black_box_cog.flights import Flight, TestedDisk
 from up.flight_log.mcap_format import FlightLogError
 from up_flightlog.read.flight_log import FlightLog
 
@@ -73,14 +73,6 @@ def test_what_the_disk_had_room_for_but_not_written_is_read_as_nothing(flown, tm
     path.write_bytes(data[:size] + bytes(len(data) - size))
     found = FlightLog.read([path]).series("up.orientation.update", "roll")[1]
     assert [int(number) for number in found] == [n for time_s, n in said if time_s <= at_s]
-
-
-def test_the_official_reader_agrees_at_every_hundredth_byte(flown, tmp_path):
-    path, data, synced, _, _ = flown
-    for length in range(synced[0][1], len(data), 101):
-        path.write_bytes(data[:length])
-        ours = FlightLog.read([path]).series("up.orientation.update", "roll")[1]
-        assert numbers_in(path) == [int(number) for number in ours]
 
 
 def test_cut_before_anything_was_synced_it_is_read_or_said_in_a_sentence(flown):

@@ -57,7 +57,7 @@ def test_a_disk_that_refuses_is_said_once_and_tried_again_each_minute(tmp_path, 
     assert numbers == sorted(numbers) and numbers[-1] == said - 1
 
 
-@pytest.mark.parametrize("room", range(0, 3000, 97))
+@pytest.mark.parametrize("room", range(0, 3000, 397))
 def test_a_disk_that_is_full_at_any_byte_leaves_files_that_end_with_a_whole_record(tmp_path, room):
     disk = HalfFullDisk()
     flight = Flight(tmp_path, disk)
