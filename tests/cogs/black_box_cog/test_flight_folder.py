@@ -151,5 +151,5 @@ def test_when_that_is_not_enough_it_is_one_sentence(tmp_path):
     disk = TestedDisk()
     disk.free = 50_000_000
     old(tmp_path, 1)
-    with pytest.raises(NoRoomError, match="50 MB .* 200 MB"):
+    with pytest.raises(NoRoomError, match="50 MB"):
         folder_in(tmp_path, keep_free=200e6, disk=disk).make_room()

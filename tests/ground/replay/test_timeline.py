@@ -2,8 +2,8 @@
 
 import pytest
 
-from tests.ground.replay.flight import LENGTH_S, data_at, write_flight
 from tests.flightlog.logs import LogMaker
+from tests.ground.replay.flight import LENGTH_S, data_at, write_flight
 from up_flightlog.read.flight_log import FlightLog
 from up_ground.replay.timeline import ReplayTimeline, Reported
 
