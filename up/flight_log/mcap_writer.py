@@ -63,7 +63,6 @@ class McapWriter:
         self._metadata: list[bytes] = []
 
     def start(self) -> None:
-        """Write the magic and the header."""
         self._put(MAGIC + _record(Opcode.HEADER, self._header))
 
     def add_schema(self, name: str, schema: Mapping[str, Any]) -> int:

@@ -44,5 +44,4 @@ class DiskErrorState:
             )
 
     def clear(self) -> None:
-        """Note that the problem is over."""
         self.problem = self._kind = None

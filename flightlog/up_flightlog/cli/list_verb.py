@@ -39,7 +39,6 @@ class Line:
 
     @property
     def note(self) -> str:
-        """Return the remarks."""
         if self.is_recording:
             return "being recorded"
         if self.overview.fault is not None:
@@ -48,7 +47,6 @@ class Line:
 
     @property
     def has_wrong_clock(self) -> bool:
-        """Return whether the logged start of the flight is impossible."""
         return self.overview.fault is None and not is_clock_right(self.overview.start_unix_s)
 
 

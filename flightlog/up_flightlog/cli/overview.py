@@ -106,7 +106,6 @@ class OverviewCache:
             self._is_changed = True
 
     def save(self) -> None:
-        """Write the new entries; the oldest are removed."""
         if not self._is_changed:
             return
         kept = dict(list(self._entries.items())[-MAX_ENTRIES:])

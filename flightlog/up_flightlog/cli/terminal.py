@@ -62,11 +62,9 @@ class Progress:
             self._write(f"\r{self._text} {number} of {self._count}")
 
     def __enter__(self) -> Self:
-        """Return itself."""
         return self
 
     def __exit__(self, *error: object) -> None:
-        """Remove the line."""
         if self._is_shown:
             self._write("\r\x1b[K")
 

@@ -32,7 +32,6 @@ class Finding:
 
     @property
     def length_s(self) -> float:
-        """Return the duration; 0 for a momentary fault."""
         return 0.0 if self.span is None else self.span.length_s
 
     @property

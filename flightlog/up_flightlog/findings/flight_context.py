@@ -67,7 +67,6 @@ class FlightContext:
 
     @cached_property
     def armed(self) -> list[Span]:
-        """Return when it was armed."""
         return self.spans((state.time_s, state.is_armed is True) for state in self.states)
 
     @cached_property
@@ -78,7 +77,6 @@ class FlightContext:
 
     @cached_property
     def estimate_errors(self) -> list[EstimateError]:
-        """Return the attitude's error against the truth, for simulated flights."""
         return list(estimate_errors(self.log))
 
     @cached_property
@@ -123,7 +121,6 @@ class FlightContext:
         )
 
     def statuses(self) -> Iterator[LoggedMessage]:
-        """Yield the board's status messages."""
         return self.log.messages(board_status.TOPIC)
 
     def link_lost(self, is_it: Callable[[str], bool]) -> list[Span]:

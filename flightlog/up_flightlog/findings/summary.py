@@ -87,7 +87,6 @@ class FlightSummary:
 
     @property
     def armed_s(self) -> float:
-        """Return how long it was armed, s."""
         return sum(span.length_s for span in self.armed)
 
 

@@ -40,7 +40,6 @@ class Sheet:
         return Sheet(self._figure, self.theme, place)
 
     def axes(self, left: float, top: float, width: float, height: float) -> Axes:
-        """Return new axes at a position."""
         paper_width, paper_height = self._paper
         return self._figure.add_axes(
             (

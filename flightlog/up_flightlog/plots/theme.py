@@ -28,7 +28,6 @@ class Theme:
     other_band: str
 
     def band(self, mode: str) -> str:
-        """Return the colour behind a flight mode."""
         return self.bands.get(mode, self.other_band)
 
 

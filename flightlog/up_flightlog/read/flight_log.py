@@ -36,7 +36,6 @@ class FlightLog:
     """
 
     def __init__(self, paths: Sequence[Path], index: LogIndex, parts: Sequence[PartReader]) -> None:
-        """Take the result of `read`."""
         self.paths = list(paths)
         self.topics: dict[str, int] = index.counts()
         self.metadata: dict[str, dict[str, str]] = {}

@@ -33,7 +33,6 @@ class Flight:
 
     @property
     def name(self) -> str:
-        """Return the base name for files about this flight."""
         return self.paths[0].stem
 
     @property

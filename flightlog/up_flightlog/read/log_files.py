@@ -5,7 +5,6 @@ from __future__ import annotations
 import os
 from collections.abc import Sequence
 from pathlib import Path
-from types import TracebackType
 from typing import Self
 
 from up.flight_log.mcap_format import FlightLogError
@@ -31,16 +30,9 @@ class LogFiles:
         self._window = b""
 
     def __enter__(self) -> Self:
-        """Return itself."""
         return self
 
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
-        """Close every file."""
+    def __exit__(self, *error: object) -> None:
         self.close()
 
     def read(self, part: int, offset: int, size: int) -> bytes:

@@ -30,7 +30,6 @@ class LogIndex:
         self._positions: dict[int, array[int]] = {}
 
     def __len__(self) -> int:
-        """Return how many messages there are."""
         return len(self.times_ns)
 
     def topic(self, name: str) -> int | None:
@@ -75,12 +74,10 @@ class LogIndex:
             each[:] = array(each.typecode, map(each.__getitem__, order))
 
     def counts(self) -> dict[str, int]:
-        """Return how many messages each topic has."""
         counted = Counter(self._topic_of)
         return {name: counted[number] for name, number in self.topics.items()}
 
     def name_of(self, position: int) -> int:
-        """Return the number of a message's topic."""
         return self._topic_of[position]
 
     def place_of(self, position: int) -> tuple[int, int, int]:

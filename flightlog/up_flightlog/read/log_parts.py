@@ -59,7 +59,6 @@ class TopicInfo:
             self._reason = self._reason or reason
 
     def problems(self, topic: str) -> list[LogProblem]:
-        """Return the problems of the topic."""
         topic = printable(topic)
         if not self.is_json:
             text = f"{topic}: the encoding {self._encoding!a:.40} is not JSON: it is only listed"
@@ -90,12 +89,10 @@ class PartReader:
 
     @property
     def problems(self) -> list[LogProblem]:
-        """Return the problems of the file."""
         fault = [] if self.fault is None else [LogProblem(self.fault.code, str(self.fault))]
         return [*fault, *self._problems.all(), *self._outliers]
 
     def report_outliers(self, count: int) -> None:
-        """Report how many messages were dropped for an impossible time."""
         plural = "" if count == 1 else "s"
         text = f"{self.path.name}: {count} message{plural} with an impossible time skipped"
         self._outliers = [LogProblem("timestamp_outliers", text)]

@@ -65,18 +65,15 @@ class Fields:
         self._content = content
 
     def number(self, kind: Struct) -> int:
-        """Return a number."""
         return kind.unpack(self.read(kind.size))[0]  # type: ignore[no-any-return]
 
     def text(self) -> str:
-        """Return a text."""
         try:
             return self.read(self.number(U32)).decode("utf-8")
         except UnicodeDecodeError:
             raise MalformedRecordError("a text that is not UTF-8") from None
 
     def map(self) -> dict[str, str]:
-        """Return texts by name."""
         end = self.number(U32) + self.at
         values: dict[str, str] = {}
         while self.at < end:
@@ -85,7 +82,6 @@ class Fields:
         return values
 
     def read(self, size: int) -> bytes:
-        """Return this many bytes."""
         begin, self.at = self.at, self.at + size
         if self.at > len(self._content):
             raise MalformedRecordError("a field that is longer than its record")

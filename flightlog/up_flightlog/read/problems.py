@@ -15,7 +15,6 @@ class LogProblem:
     text: str
 
     def __str__(self) -> str:
-        """Return the sentence."""
         return self.text
 
 

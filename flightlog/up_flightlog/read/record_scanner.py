@@ -97,7 +97,6 @@ class RecordScanner:
         self._chunk_crc = 0
 
     def __iter__(self) -> Iterator[tuple[int, int, int, int]]:
-        """Scan once."""
         if not self._has(len(MAGIC)) or not self.buffer.startswith(MAGIC):
             code = "not_mcap" if self.buffer else "empty"
             why = "it does not begin with the MCAP magic" if self.buffer else "it is empty"

@@ -27,11 +27,9 @@ class Series:
     values: array[float] = field(default_factory=_numbers)
 
     def __bool__(self) -> bool:
-        """Return whether there is any value."""
         return bool(self.values)
 
     def add(self, time_s: float, value: float | None) -> None:
-        """Add a value at a time."""
         if value is not None:
             self.times_s.append(time_s)
             self.values.append(value)
@@ -58,7 +56,6 @@ class Columns:
         self._paths = [(tuple(name.split(".")), self.series[name].add) for name in fields]
 
     def add(self, time_s: float, data: Mapping[str, Any]) -> None:
-        """Add the values of one message."""
         for path, add in self._paths:
             add(time_s, number_at(data, path))
 

@@ -16,7 +16,6 @@ class Span:
 
     @property
     def length_s(self) -> float:
-        """Return the length, s."""
         return self.end_s - self.begin_s
 
     @property

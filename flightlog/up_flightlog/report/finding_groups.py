@@ -24,12 +24,10 @@ class FindingGroup:
 
     @property
     def level(self) -> str:
-        """Return the level of the kind."""
         return self.members[0].level
 
     @property
     def time_s(self) -> float:
-        """Return the first time."""
         return self.members[0].time_s
 
     @property
