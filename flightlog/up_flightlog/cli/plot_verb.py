@@ -16,7 +16,7 @@ from up_flightlog.export.csv_table import flat
 from up_flightlog.export.output import file_exists, write_file
 from up_flightlog.findings.flight_context import FlightContext
 from up_flightlog.plots.canvas import MISSING, PictureError, Sheet, has_matplotlib, png_of
-from up_flightlog.plots.chart import Curve, Panel, Stage
+from up_flightlog.plots.chart import Background, Curve, Panel
 from up_flightlog.plots.theme import DAYLIGHT
 from up_flightlog.plots.timeline import draw_timeline, timeline_height_in
 from up_flightlog.plots.track_picture import TrackView, draw_track
@@ -67,10 +67,12 @@ def _overview(log: FlightLog, name: str) -> bytes:
         title=aircraft[:60],
         subtitle=f"{start_text(log.start_unix_s)}, {duration_text(log.length_s)}",
         panels=panels,
-        stage=content.stage,
+        background=content.background,
         track=content.track,
     )
-    return png_of(paint, OVERVIEW_IN, _overview_height_in(panels, content.stage), DPI, DAYLIGHT)
+    return png_of(
+        paint, OVERVIEW_IN, _overview_height_in(panels, content.background), DPI, DAYLIGHT
+    )
 
 
 def _fields(log: FlightLog, named: Sequence[str]) -> bytes:
@@ -79,9 +81,9 @@ def _fields(log: FlightLog, named: Sequence[str]) -> bytes:
             f"at most {MAX_FIELDS} fields fit into a picture, not {len(named)}", status=2
         )
     panels = list(_panels(log, [_split(log, each) for each in dict.fromkeys(named)]))
-    stage = Stage(log.length_s, list(bands_of(FlightContext(log))))
-    height_in = timeline_height_in(panels, stage, WIDTH_IN)
-    paint = partial(draw_timeline, panels=panels, stage=stage)
+    background = Background(log.length_s, list(bands_of(FlightContext(log))))
+    height_in = timeline_height_in(panels, background, WIDTH_IN)
+    paint = partial(draw_timeline, panels=panels, background=background)
     return png_of(paint, WIDTH_IN, height_in, DPI, DAYLIGHT)
 
 
@@ -132,9 +134,9 @@ def _unit(log: FlightLog, topic: str, field: str) -> str:
     return unit if isinstance(unit, str) else ""
 
 
-def _overview_height_in(panels: Sequence[Panel], stage: Stage) -> float:
+def _overview_height_in(panels: Sequence[Panel], background: Background) -> float:
     """Return the height of the picture."""
-    below_in = timeline_height_in(panels, stage, _panels_in()) if panels else 0.0
+    below_in = timeline_height_in(panels, background, _panels_in()) if panels else 0.0
     return HEAD_IN + max(below_in, _TRACK_IN)
 
 
@@ -143,7 +145,7 @@ def _draw_overview(
     title: str,
     subtitle: str,
     panels: Sequence[Panel],
-    stage: Stage,
+    background: Background,
     track: TrackView | None,
 ) -> None:
     """Draw both; a missing one leaves its place empty."""
@@ -151,7 +153,7 @@ def _draw_overview(
     sheet.text(0.62, 0.38, subtitle, size=9, color=sheet.theme.muted)
     below_in = sheet.height - HEAD_IN
     if panels:
-        draw_timeline(sheet.part(0.0, HEAD_IN, _panels_in(), below_in), panels, stage)
+        draw_timeline(sheet.part(0.0, HEAD_IN, _panels_in(), below_in), panels, background)
     if track is not None:
         left_in = sheet.width - _TRACK_IN
         draw_track(sheet.part(left_in, HEAD_IN, _TRACK_IN, _TRACK_IN), track)

@@ -48,11 +48,11 @@ def receiver_lost(context: FlightContext) -> Iterator[Finding]:
         if span.length_s < MIN_LOSS_S:
             continue
         within = bad[bisect_left(bad, (span.begin_s,)) : bisect_left(bad, (span.end_s,))]
-        gone = [
+        lost_channels = [
             name for bit, name in enumerate(CHANNELS) if any(not v >> bit & 1 for _, v in within)
         ]
-        if 0 < len(gone) < len(CHANNELS):
-            names = ", ".join(gone)
+        if 0 < len(lost_channels) < len(CHANNELS):
+            names = ", ".join(lost_channels)
             text = f"no valid pulses of {names}"
             yield lasting(span, _level(context, span), "channels_lost", text, subject=names)
         else:

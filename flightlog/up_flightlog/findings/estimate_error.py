@@ -7,8 +7,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from up_flightlog.read.flight_log import FlightLog
-from up_flightlog.read.followed import followed
 from up_flightlog.read.series import Series, columns, turn
+from up_flightlog.read.source_filter import from_selected_source
 
 TRUTH = "simulator.truth"
 ORIENTATION = "up.orientation.update"
@@ -33,7 +33,7 @@ def estimate_errors(log: FlightLog) -> Iterator[EstimateError]:
         return
     samples = ((each.time_s, each.data) for each in log.messages(TRUTH))
     truth = columns(samples, [f"{axis}_deg" for axis in AXES])
-    attitude = columns(followed(log, "orientation", ORIENTATION), AXES)
+    attitude = columns(from_selected_source(log, "orientation", ORIENTATION), AXES)
     for axis in AXES:
         off = _errors_deg(attitude[axis], truth[f"{axis}_deg"])
         if off:

@@ -12,7 +12,7 @@ from up_flightlog.findings.finding import Finding
 from up_flightlog.findings.flight_context import ERROR, TELEMETRY, WARNING, FlightContext
 from up_flightlog.read import board_status
 from up_flightlog.read.flight_log import FlightLog
-from up_flightlog.read.followed import followed
+from up_flightlog.read.source_filter import from_selected_source
 from up_flightlog.read.spans import Span
 from up_flightlog.read.track_statistics import track_statistics
 
@@ -140,7 +140,7 @@ def _modes(context: FlightContext) -> Iterator[ModeSpan]:
 
 def altitudes_m(log: FlightLog) -> Iterator[float]:
     """Yield the measured altitudes (m) of the followed source."""
-    for _, data in followed(log, "altitude", ALTITUDE):
+    for _, data in from_selected_source(log, "altitude", ALTITUDE):
         altitude_m = number_at(data, ("altitude",))
         if altitude_m is not None:
             yield altitude_m

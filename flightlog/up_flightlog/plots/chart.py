@@ -64,7 +64,7 @@ class Mark:
 
 
 @dataclass(frozen=True, slots=True)
-class Stage:
+class Background:
     """The background that all panels of a flight share."""
 
     length_s: float
@@ -72,9 +72,9 @@ class Stage:
     marks: Sequence[Mark] = ()
 
 
-def drawable(curve: Curve, most: int = MAX_POINTS) -> tuple[list[float], list[float]]:
+def drawable(curve: Curve, limit: int = MAX_POINTS) -> tuple[list[float], list[float]]:
     """Return the points to draw: few, with every peak kept and gaps left open."""
-    return thinned(*broken(curve.times_s, curve.values, curve.gap_s), most)
+    return thinned(*broken(curve.times_s, curve.values, curve.gap_s), limit)
 
 
 def is_drawable(value: float) -> bool:
@@ -109,12 +109,12 @@ def usual_gap_s(times_s: Sequence[float]) -> float:
 
 
 def thinned(
-    times_s: Sequence[float], values: Sequence[float], most: int = MAX_POINTS
+    times_s: Sequence[float], values: Sequence[float], limit: int = MAX_POINTS
 ) -> tuple[list[float], list[float]]:
-    """Return about ``most`` points at most: the minimum and maximum of each short stretch."""
-    if len(values) <= most:
+    """Return about ``limit`` points at most: the minimum and maximum of each short stretch."""
+    if len(values) <= limit:
         return list(times_s), list(values)
-    width = math.ceil(2 * len(values) / most)
+    width = math.ceil(2 * len(values) / limit)
     chosen: list[int] = []
     for begin in range(0, len(values), width):
         stretch = range(begin, min(begin + width, len(values)))

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 from up_flightlog.plots.canvas import Sheet
-from up_flightlog.plots.chart import Curve, Panel, Stage, drawable, is_drawable
+from up_flightlog.plots.chart import Background, Curve, Panel, drawable, is_drawable
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -20,29 +20,29 @@ _STEPS_S = (0.1, 0.2, 0.5, 1, 2, 5, 10, 15, 30, 60, 120, 300, 600, 900, 1800, 36
 _LABEL_IN = 0.8
 
 
-def timeline_height_in(panels: Sequence[Panel], stage: Stage, width_in: float) -> float:
+def timeline_height_in(panels: Sequence[Panel], background: Background, width_in: float) -> float:
     """Return the height of the picture of these panels."""
-    strip_in = STRIP_IN if stage.bands else 0.0
+    strip_in = STRIP_IN if background.bands else 0.0
     head_in = _head_in(width_in)
     return strip_in + sum(head_in + PANEL_IN * panel.share for panel in panels) + FOOT_IN
 
 
-def draw_timeline(sheet: Sheet, panels: Sequence[Panel], stage: Stage) -> None:
+def draw_timeline(sheet: Sheet, panels: Sequence[Panel], background: Background) -> None:
     """Draw the panels onto a sheet of `timeline_height_in`."""
     has_right = any(curve.is_right for panel in panels for curve in panel.curves)
     width_in = sheet.width - LEFT_IN - (RIGHT_AXIS_IN if has_right else RIGHT_IN)
     top_in = 0.0
-    if stage.bands:
-        _draw_strip(sheet, stage, width_in)
+    if background.bands:
+        _draw_strip(sheet, background, width_in)
         top_in = STRIP_IN
     for number, panel in enumerate(panels, 1):
         top_in += _head_in(sheet.width)
         height_in = PANEL_IN * panel.share
         axes = sheet.axes(LEFT_IN, top_in, width_in, height_in)
-        axes.set_xlim(0.0, _end_s(stage))
-        _draw_background(axes, stage, sheet)
+        axes.set_xlim(0.0, _end_s(background))
+        _draw_background(axes, background, sheet)
         _draw_panel(axes, panel, sheet)
-        _set_times(axes, stage, width_in, is_last=number == len(panels))
+        _set_times(axes, background, width_in, is_last=number == len(panels))
         top_in += height_in
 
 
@@ -68,8 +68,8 @@ def limits(panel: Panel, is_right: bool) -> tuple[float, float] | None:
     if not known:
         return None
     low, high = min(known), max(known)
-    least = (5.0 if is_right else panel.min_range) or abs(high) * 0.02 or 1.0
-    extra = max(0.0, least - (high - low)) / 2 + 0.06 * max(high - low, least)
+    min_range = (5.0 if is_right else panel.min_range) or abs(high) * 0.02 or 1.0
+    extra = max(0.0, min_range - (high - low)) / 2 + 0.06 * max(high - low, min_range)
     # Limits that floating point cannot distinguish are not an axis.
     extra = max(extra, 1e-9 * max(abs(low), abs(high)))
     # Quantities that cannot be negative get no negative axis.
@@ -80,29 +80,29 @@ def _head_in(width_in: float) -> float:
     return NARROW_HEAD_IN if width_in < NARROW_IN else HEAD_IN
 
 
-def _end_s(stage: Stage) -> float:
-    return max(stage.length_s, 0.1)
+def _end_s(background: Background) -> float:
+    return max(background.length_s, 0.1)
 
 
-def _draw_strip(sheet: Sheet, stage: Stage, width_in: float) -> None:
+def _draw_strip(sheet: Sheet, background: Background, width_in: float) -> None:
     axes = sheet.axes(LEFT_IN, 0.0, width_in, STRIP_IN)
-    axes.set_xlim(0.0, _end_s(stage))
+    axes.set_xlim(0.0, _end_s(background))
     axes.set_ylim(0.0, 1.0)
     axes.set_axis_off()
-    for band in stage.bands:
+    for band in background.bands:
         colour = sheet.theme.band(band.name)
         axes.axvspan(band.begin_s, band.end_s, color=colour, lw=0)
-        room_in = (band.end_s - band.begin_s) / _end_s(stage) * width_in
+        room_in = (band.end_s - band.begin_s) / _end_s(background) * width_in
         if sheet.text_width(band.name, _NAME_PT) + 0.06 <= room_in:
             middle_s = (band.begin_s + band.end_s) / 2
             style: dict[str, Any] = {"ha": "center", "va": "center_baseline", "size": _NAME_PT}
             axes.text(middle_s, 0.5, band.name, color=sheet.theme.muted, **style)
 
 
-def _draw_background(axes: Axes, stage: Stage, sheet: Sheet) -> None:
-    for band in stage.bands:
+def _draw_background(axes: Axes, background: Background, sheet: Sheet) -> None:
+    for band in background.bands:
         axes.axvspan(band.begin_s, band.end_s, color=sheet.theme.band(band.name), lw=0, zorder=0)
-    for mark in stage.marks:
+    for mark in background.marks:
         colour = sheet.theme.vermilion if mark.is_bad else sheet.theme.muted
         axes.axvline(mark.at_s, color=colour, lw=0.7, alpha=0.8, zorder=1.5)
 
@@ -158,10 +158,10 @@ def _draw_curve(axes: Axes, curve: Curve, sheet: Sheet) -> list[Any]:
     )
 
 
-def _set_times(axes: Axes, stage: Stage, width_in: float, *, is_last: bool) -> None:
-    end_s = _end_s(stage)
-    most = max(2, int(width_in / _LABEL_IN))
-    step_s = next((step for step in _STEPS_S if end_s / step <= most), end_s)
+def _set_times(axes: Axes, background: Background, width_in: float, *, is_last: bool) -> None:
+    end_s = _end_s(background)
+    limit = max(2, int(width_in / _LABEL_IN))
+    step_s = next((step for step in _STEPS_S if end_s / step <= limit), end_s)
     ticks = [step_s * number for number in range(int(end_s / step_s) + 1)]
     axes.set_xticks(ticks, [time_text(round(tick, 3)) for tick in ticks])
     axes.tick_params(labelbottom=is_last, length=3)

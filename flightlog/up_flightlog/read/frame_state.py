@@ -9,7 +9,7 @@ from up.earth import bearing_deg, compass_deg, distance_m
 from up.flight_log.json_message import number_at
 from up.flight_log.origin_text import KEY, link_and_role
 from up_flightlog.read import board_status
-from up_flightlog.read.followed import FRESH_S, Followed
+from up_flightlog.read.source_filter import FRESH_S, SourceFilter
 
 ANGLES = ("yaw", "pitch", "roll")
 STICKS = ("ailerons", "elevator", "throttle", "rudder", "aux1", "aux2")
@@ -23,7 +23,7 @@ class FrameState:
     last logged frame of telemetry.
     """
 
-    def __init__(self, followed: Followed, home: tuple[float, float] | None = None) -> None:
+    def __init__(self, followed: SourceFilter, home: tuple[float, float] | None = None) -> None:
         self._followed = followed
         self._home = home
         self._tree: dict[str, Any] = {

@@ -80,7 +80,7 @@ class ErrorFigures:
     """The distance of one series from another: its root mean square and its maximum."""
 
     rms: float
-    greatest: float
+    maximum: float
 
 
 def error_of(

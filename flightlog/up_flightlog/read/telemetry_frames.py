@@ -8,8 +8,8 @@ from itertools import pairwise
 from typing import Any
 
 from up_flightlog.read.flight_log import FlightLog, LoggedMessage
-from up_flightlog.read.followed import Followed
 from up_flightlog.read.frame_state import TOPICS, FrameState
+from up_flightlog.read.source_filter import SourceFilter
 from up_flightlog.read.track_statistics import fixes
 
 TELEMETRY = "up.telemetry.update"
@@ -43,7 +43,7 @@ def frames(log: FlightLog, period_s: float = 0.1, since_s: float = 0.0) -> Itera
             yield _logged(message)
         return
     home = next(((each.latitude_deg, each.longitude_deg) for each in fixes(log)), None)
-    state = FrameState(Followed(log), home)
+    state = FrameState(SourceFilter(log), home)
     step_s = max(period_s, _MIN_PERIOD_S)
     due_s = newest_s = logged_s = -1.0
     for message in log.messages(TELEMETRY, *TOPICS, since_s=max(0.0, since_s - _WARM_UP_S)):

@@ -8,8 +8,8 @@ from dataclasses import dataclass
 from up.earth import distance_m
 from up.flight_log.json_message import number_at
 from up_flightlog.read.flight_log import FlightLog
-from up_flightlog.read.followed import Followed
 from up_flightlog.read.frame_state import place_of
+from up_flightlog.read.source_filter import SourceFilter
 
 LOCATION = "up.location.update"
 _STEP_M = 5.0
@@ -44,7 +44,7 @@ class TrackStatistics:
 
 def fixes(log: FlightLog) -> Iterator[Fix]:
     """Yield the positions of the followed source; a repeated one does not count."""
-    followed = Followed(log)
+    followed = SourceFilter(log)
     last: tuple[float, float] | None = None
     for message in log.messages(LOCATION):
         place = place_of(message.data)

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from up_flightlog.findings.flight_context import FlightContext
 from up_flightlog.findings.summary import Finding, FlightSummary, findings, summarise
-from up_flightlog.plots.chart import Mark, Stage
+from up_flightlog.plots.chart import Background, Mark
 from up_flightlog.plots.track_picture import TrackView
 from up_flightlog.read.flight_log import FlightLog
 from up_flightlog.report.events import Event, events_of
@@ -30,7 +30,7 @@ class ReportContent:
     data: ReportData
     pictures: list[Picture]
     track: TrackView | None
-    stage: Stage
+    background: Background
 
 
 def report_content(log: FlightLog, name: str, number: int | None = None) -> ReportContent:
@@ -50,5 +50,5 @@ def report_content(log: FlightLog, name: str, number: int | None = None) -> Repo
         data=data,
         pictures=list(pictures_of(data)),
         track=track_view(data, [each.time_s for each in summary.marks]),
-        stage=Stage(log.length_s, data.bands, marks[:_MAX_MARKS]),
+        background=Background(log.length_s, data.bands, marks[:_MAX_MARKS]),
     )

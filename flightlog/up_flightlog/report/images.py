@@ -38,9 +38,13 @@ def image_sets(content: ReportContent) -> Iterator[ImageSet]:
             "track", lambda sheet: draw_track(sheet, track), TRACK_WIDE_IN, TRACK_NARROW_IN
         )
     for picture in content.pictures:
-        panels, stage = picture.panels, content.stage
-        sizes = [(each, timeline_height_in(panels, stage, each)) for each in (WIDE_IN, NARROW_IN)]
-        yield _drawn(picture.name, partial(draw_timeline, panels=panels, stage=stage), *sizes)
+        panels, background = picture.panels, content.background
+        sizes = [
+            (each, timeline_height_in(panels, background, each)) for each in (WIDE_IN, NARROW_IN)
+        ]
+        yield _drawn(
+            picture.name, partial(draw_timeline, panels=panels, background=background), *sizes
+        )
 
 
 def _drawn(

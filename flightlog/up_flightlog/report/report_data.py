@@ -13,8 +13,8 @@ from up_flightlog.findings.estimate_error import ORIENTATION, TRUTH
 from up_flightlog.findings.flight_context import FlightContext
 from up_flightlog.plots.chart import Band
 from up_flightlog.read.flight_log import FlightLog
-from up_flightlog.read.followed import followed
 from up_flightlog.read.series import Columns, Series, columns
+from up_flightlog.read.source_filter import from_selected_source
 from up_flightlog.read.telemetry_frames import frames
 from up_flightlog.report.demand import Demand
 
@@ -65,7 +65,7 @@ def read_report_data(log: FlightLog, context: FlightContext) -> ReportData:
     """Read it; raises FlightLogError when a file can no longer be read."""
     read = partial(_messages, log)
     known, blocked = _from_frames(log)
-    followed_by = partial(followed, log)
+    followed_by = partial(from_selected_source, log)
     attitude = columns(followed_by("orientation", ORIENTATION), ANGLES)
     sticks, servos = columns(read(STICKS), INPUTS), columns(read(SERVOS), CHANNELS)
     altitude = columns(followed_by("altitude", ALTITUDE), ("altitude",))

@@ -92,12 +92,12 @@ def truth(content: ReportContent) -> Markup | None:
         rows.append([each.axis, f"{each.rms_deg:.2f} deg", f"{each.worst_deg:.2f} deg"])
     _, found = error_of(data.altitude, data.truth["altitude_m"], is_angle=False)
     if found is not None and has_source:
-        rows.append(["altitude", f"{found.rms:.2f} m", f"{found.greatest:.2f} m"])
+        rows.append(["altitude", f"{found.rms:.2f} m", f"{found.maximum:.2f} m"])
     place = place_error_m(data).values if has_source else []
     if place:
         rms = (sum(value * value for value in place) / len(place)) ** 0.5
         rows.append(["position", f"{rms:.1f} m", f"{max(place):.1f} m"])
-    head = ["measured minus true", "root mean square", "greatest"]
+    head = ["measured minus true", "root mean square", "maximum"]
     return table(head, rows, right=(1, 2)) if rows else None
 
 

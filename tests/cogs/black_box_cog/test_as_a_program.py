@@ -140,7 +140,7 @@ def test_killed_it_leaves_a_file_that_lacks_a_second_at_most(aircraft, tmp_path)
     assert len(levels) > 50
 
 
-def test_a_daemon_that_nobody_speaks_to_leaves_nothing(aircraft, tmp_path):
+def test_a_daemon_without_peers_leaves_no_file(aircraft, tmp_path):
     one = aircraft()
     one.logged("started")
     one.stop()

@@ -68,7 +68,7 @@ def test_numbers_keep_twelve_digits():
 
 
 @pytest.mark.parametrize("odd", [float("nan"), float("inf"), float("-inf")])
-def test_what_is_no_number_is_null(odd):
+def test_values_that_are_not_numbers_are_null(odd):
     assert logged(OrientationCommand(1.0, odd, 2.0))["pitch"] is None
     frame = TelemetryCommand({"a": [odd, {"b": odd}], "c": (1, 2)}, 7)
     assert logged(frame) == {

@@ -77,5 +77,5 @@ def test_the_report_and_the_replay_follow_it_too(flown):
 
 def test_without_a_selection_the_first_source_is_followed(flown, monkeypatch):
     log, _ = flown
-    monkeypatch.setattr("up_flightlog.read.followed.SELECTED", "some.other")
+    monkeypatch.setattr("up_flightlog.read.source_filter.SELECTED", "some.other")
     assert {each.latitude_deg for each in fixes(log)} == {50.001}

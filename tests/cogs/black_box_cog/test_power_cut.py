@@ -75,7 +75,7 @@ def test_what_the_disk_had_room_for_but_not_written_is_read_as_nothing(flown, tm
     assert [int(number) for number in found] == [n for time_s, n in said if time_s <= at_s]
 
 
-def test_cut_before_anything_was_synced_it_is_read_or_said_in_a_sentence(flown):
+def test_cut_before_the_first_sync_it_is_read_or_an_error(flown):
     path, data, synced, _, _ = flown
     for length in range(0, synced[0][1], 10):
         path.write_bytes(data[:length])

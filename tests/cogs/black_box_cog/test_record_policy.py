@@ -41,7 +41,7 @@ def test_an_object_is_recorded_under_its_topic(policy):
         "x." * 40,
     ],
 )
-def test_what_is_no_topic_is_invalid(topic):
+def test_invalid_topics(topic):
     with pytest.raises(InvalidCommandError):
         RecordCommand.from_data({"topic": topic, "content": {}})
 
@@ -100,6 +100,6 @@ def test_any_record_is_taken_or_refused_in_a_sentence(topic, content):
 
 
 @pytest.mark.parametrize("text", ["", "   ", "\n"])
-def test_a_mark_says_something(text):
+def test_a_mark_needs_a_text(text):
     with pytest.raises(InvalidCommandError):
         MarkCommand.from_data({"text": text})

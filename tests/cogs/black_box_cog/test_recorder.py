@@ -36,7 +36,7 @@ class FloodedError(Exception):
 
 
 @pytest.mark.parametrize("origin", [BOARD, PHONE, GROUND])
-def test_it_begins_with_the_first_command_from_outside_and_what_was_said_before(flight, origin):
+def test_a_flight_begins_with_the_first_external_command_and_those_before(flight, origin):
     flight.fly(5, origin=INTERNAL)
     assert flight.files == [] and flight.disk.calls == []
     assert not flight.status.recording and flight.recorder.round_s == IDLE_S
@@ -109,7 +109,7 @@ def test_time_is_the_wall_clock_at_the_start_and_seconds_since(flight):
     assert since == pytest.approx([number / 10 for number in range(40)], abs=1e-6)
 
 
-def test_a_wall_clock_that_jumps_is_said_once_a_jump(flight):
+def test_each_jump_of_the_wall_clock_is_reported_once(flight):
     flight.fly(3)
     for jump_s in (86_400, 0, 30, -7200, 0):
         flight.wall_s += jump_s
@@ -159,7 +159,7 @@ def test_lines_records_and_telemetry_have_their_topics(flight):
     assert line["timestamp"] == {"sec": START_UNIX_S, "nsec": 0}
 
 
-def test_a_command_that_cannot_tell_its_data_costs_no_other(flight):
+def test_a_command_that_cannot_be_encoded_is_skipped(flight):
     class Broken(BaseCommand):
         NAME = "test.broken"
 
@@ -179,7 +179,7 @@ def test_a_command_that_cannot_tell_its_data_costs_no_other(flight):
 # Bounds
 
 
-def test_a_large_flight_goes_on_in_parts(tmp_path):
+def test_a_large_flight_continues_in_parts(tmp_path):
     flight = Flight(tmp_path, file_size_mb=0.02, total_size_mb=100.0)
     flight.fly(40)
     flight.recorder.finish()
@@ -207,7 +207,7 @@ def test_the_total_is_kept_and_the_newest_stays(tmp_path):
     assert flight.numbers == list(range(flight.numbers[0], 1200))
 
 
-def test_too_much_at_once_is_dropped_counted_and_said(tmp_path):
+def test_a_full_queue_drops_counts_and_reports(tmp_path):
     flight = Flight(tmp_path, limit=100)
     flight.fly(2)
     for number in range(20, 1000):

@@ -48,7 +48,7 @@ def test_damaged_flights(log, flights):
     assert "0002-" in lines[2]
 
 
-def test_a_flight_that_is_being_recorded(log, flights):
+def test_a_flight_during_its_recording(log, flights):
     path = write_flight(flights, 1, is_finished=False)
     with path.open("ab") as recorder:
         fcntl.flock(recorder, fcntl.LOCK_EX)

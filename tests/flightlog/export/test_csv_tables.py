@@ -81,7 +81,7 @@ FLIGHT = [
 ]
 
 
-def test_a_wide_table_holds_the_newest_and_says_how_old_it_is():
+def test_a_wide_table_has_the_newest_values_and_their_ages():
     rows, _ = read_again(wide_rows(FLIGHT, columns_of(FLIGHT), 1_700_000_000, 1.5, 2))
     assert rows == [
         [

@@ -130,7 +130,7 @@ def test_a_place_without_an_altitude_lies_on_the_ground():
     assert root.findtext(f".//{KML}Point/{KML}altitudeMode") == "clampToGround"
 
 
-def test_an_altitude_that_is_missing_is_as_the_one_before():
+def test_a_missing_altitude_repeats_the_previous_one():
     heights = (None, 20.0, None, 30.0)
     points = [TrackPoint(at, 1, 2, height) for at, height in enumerate(heights)]
     root = ElementTree.fromstring("".join(kml_lines(Track("a", "", [points]))))
@@ -147,7 +147,7 @@ def test_a_silence_begins_a_new_segment(times, lengths):
     assert [len(each) for each in segments_of(points)] == lengths
 
 
-def test_a_point_that_is_not_on_earth_is_left_out():
+def test_impossible_positions_are_dropped():
     wrong = [(math.nan, 0), (0, math.inf), (91, 0), (0, 181), (-90.1, 0)]
     points = [TrackPoint(0, *place) for place in [(50, 14), *wrong, (50, 15)]]
     assert [[p.longitude_deg for p in each] for each in segments_of(points)] == [[14, 15]]

@@ -54,7 +54,7 @@ def test_a_flight_on_one_page(tmp_path):
     assert "heading" not in found.gaps_s
 
 
-def test_modes_are_told_with_their_times(tmp_path):
+def test_modes_with_their_times(tmp_path):
     maker = FlightMaker()
     for time_s, mode in ((0, "ACRO"), (2, "FBW"), (3, "FBW"), (7, "ACRO"), (8, None), (9, "FBW")):
         maker.put(time_s, FlightStateCommand(mode, False, False, time_s == 7), BOARD)
@@ -69,7 +69,7 @@ def test_modes_are_told_with_their_times(tmp_path):
     assert found.failsafes == [Span(7.0, 8.0)]
 
 
-def test_without_the_boards_word_telemetry_tells_who_flew(tmp_path):
+def test_the_state_from_telemetry_without_the_boards(tmp_path):
     maker = FlightMaker()
     for time_s in range(10):
         tree = {"armed": time_s > 4, "flight_mode": "FBW", "arduino": {"failsafe": time_s == 6}}
@@ -80,7 +80,7 @@ def test_without_the_boards_word_telemetry_tells_who_flew(tmp_path):
     assert found.modes == [ModeSpan("FBW", 0.0, 9.0)]
 
 
-def test_a_log_that_tells_nothing_is_summarised_too(tmp_path):
+def test_an_empty_log(tmp_path):
     found = summarise(FlightMaker().log(tmp_path))
     assert found.highest_m is found.track_m is found.lowest_battery_percent is None
     assert (found.armed, found.modes, found.gaps_s, found.messages) == ([], [], {}, 0)
@@ -122,7 +122,7 @@ def test_an_aircraft_that_stands_has_no_way(tmp_path):
     assert track_statistics(maker.log(tmp_path)).length_m == 0.0
 
 
-def test_jumps_of_the_receiver_are_no_way(tmp_path):
+def test_jumps_of_the_receiver_do_not_count(tmp_path):
     maker = FlightMaker()
     circle(maker, speed=False)
     maker.put(50.5, LocationCommand(0.0, 0.0), PHONE)
@@ -152,7 +152,7 @@ def test_one_receiver_is_followed_at_a_time(tmp_path):
     assert len(found) == 201
 
 
-def test_a_place_that_is_repeated_is_none(tmp_path):
+def test_a_repeated_position_does_not_count(tmp_path):
     # A phone that gives its last known place again and again flies with no speed, then jumps.
     maker = FlightMaker()
     for tenth in range(100):

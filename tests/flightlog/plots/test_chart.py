@@ -34,16 +34,16 @@ def test_what_no_axis_can_show_is_left_open():
 
 @settings(deadline=None)
 @given(VALUES, st.integers(10, 50))
-def test_thinning_keeps_order_peaks_and_silences(values, most):
+def test_thinning_keeps_order_peaks_and_silences(values, limit):
     times_s = [float(at) for at in range(len(values))]
-    found_s, found = thinned(times_s, values, most)
+    found_s, found = thinned(times_s, values, limit)
     assert found_s == sorted(found_s)
     known = [value for value in values if not math.isnan(value)]
     if known:
         kept = [value for value in found if not math.isnan(value)]
         assert max(kept) == max(known) and min(kept) == min(known)
     assert any(map(math.isnan, found)) == any(map(math.isnan, values))
-    assert len(found) <= max(most, 1.5 * most + 3)
+    assert len(found) <= max(limit, 1.5 * limit + 3)
 
 
 @settings(deadline=None)

@@ -19,7 +19,7 @@ def status(**fields) -> ArduinoStatusCommand:
 
 
 @pytest.mark.parametrize("bits", range(256))
-def test_it_says_what_the_cog_says(bits):
+def test_the_same_words_as_the_cog(bits):
     command = status(flags=bits, vetoes=bits, reset_cause=bits, switch=bits % 5, loop_us=2000)
     data = command.data
     assert vetoes_of(data) == list(command.veto_names)
@@ -44,7 +44,7 @@ def test_it_knows_every_bit_of_the_cog():
 
 
 @pytest.mark.parametrize("flags", [None, "1", -1, 256, 1.0, [1], True])
-def test_nonsense_says_nothing(flags):
+def test_invalid_values(flags):
     data = {"flags": flags, "vetoes": flags, "reset_cause": flags, "switch": [flags]}
     assert has_bit(data, "flags", FAILSAFE) is None
     assert vetoes_of(data) == []

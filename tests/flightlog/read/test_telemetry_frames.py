@@ -110,7 +110,7 @@ def test_without_telemetry_the_tree_is_put_together(tmp_path):
     json.dumps([frame.data for frame in given], allow_nan=False)
 
 
-def test_frames_are_as_the_schema_of_telemetry_says(tmp_path):
+def test_frames_match_the_schema_of_telemetry(tmp_path):
     maker = FlightMaker()
     maker.quiet_flight()
     maker.put(1, AltitudeCommand(301.0), PHONE)
@@ -125,7 +125,7 @@ def test_frames_are_as_the_schema_of_telemetry_says(tmp_path):
         assert frame.data["age_ms"].keys() == schema["properties"]["age_ms"]["properties"].keys()
 
 
-def test_what_nothing_told_is_null_or_absent(tmp_path):
+def test_unknown_values_are_null_or_absent(tmp_path):
     maker = FlightMaker()
     maker.put(0, attitude(1.0), BOARD)
     (frame,) = frames(maker.log(tmp_path))

@@ -100,7 +100,7 @@ def test_a_field_of_another_type_breaks_the_schema(cls):
         assert fault_of({**data, key: object()}, schema), key
 
 
-def test_units_and_bounds_are_told():
+def test_units_and_bounds():
     @dataclasses.dataclass(frozen=True, slots=True)
     class AirspeedCommand(BaseCommand):
         """How fast the ``air`` passes,
@@ -163,5 +163,5 @@ def test_an_origin_is_a_text_and_back(origin, text):
 @pytest.mark.parametrize(
     ("text", "read"), [("x", ("x", "")), ("a (b", ("a (b", "")), (None, ("", "")), (3, ("", ""))]
 )
-def test_any_other_origin_is_no_fault(text, read):
+def test_any_other_origin(text, read):
     assert link_and_role(text) == read

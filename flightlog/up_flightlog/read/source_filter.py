@@ -28,7 +28,7 @@ _LATER_S = 0.05
 """A selection is logged after the message that caused it."""
 
 
-class Followed:
+class SourceFilter:
     """Separates the messages that a provider used from those of sources that it did not follow.
 
     Without a logged selection (older logs never have one) a source is followed as by a provider
@@ -58,9 +58,11 @@ class Followed:
         return self._arbiters[reading].accepts(link, priority, time_s)
 
 
-def followed(log: FlightLog, reading: str, topic: str) -> Iterator[tuple[float, Mapping[str, Any]]]:
+def from_selected_source(
+    log: FlightLog, reading: str, topic: str
+) -> Iterator[tuple[float, Mapping[str, Any]]]:
     """Yield time (s) and data of the messages that a provider used, without required values."""
-    sources = Followed(log)
+    sources = SourceFilter(log)
     for each in log.messages(topic) if topic in log.topics else ():
         is_reading = each.data.get("mode") != "required"
         if is_reading and sources.accepts(reading, each.time_s, each.data):
