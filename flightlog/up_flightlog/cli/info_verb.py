@@ -29,7 +29,7 @@ def run(values: argparse.Namespace) -> int:
     except FlightLogError as error:
         raise CliError(printable(str(error))) from error
     echo(_title(flight, log, summary))
-    _section("what went wrong", _findings(found))
+    _section("faults", _findings(found))
     _section("flight", _pairs(_figures(summary)))
     _section("modes", _modes(summary))
     _section("longest gap of each source", _gaps(summary))
@@ -62,7 +62,7 @@ def _title(flight: Flight, log: FlightLog, summary: FlightSummary) -> str:
 
 def _findings(found: Sequence[Finding]) -> list[str]:
     if not found:
-        return ["no fault in the log"]
+        return ["none in the log"]
     kinds = groups_of(found)
     return [f"{clock_text(each.time_s):>8}  {each.level:<8} {each.text}" for each in kinds]
 

@@ -40,7 +40,7 @@ def finding_list(content: ReportContent) -> Markup:
     ]
     none = tag("p", "The log shows no fault.")
     shown = tag("ol", *items, class_="findings") if items else none
-    return tag("section", tag("h2", "What went wrong"), shown)
+    return tag("section", tag("h2", "Faults"), shown)
 
 
 def _all_times(group: FindingGroup) -> Markup | None:

@@ -11,7 +11,7 @@ def test_a_flight(log, flights):
     assert outcome.status == 0 and not outcome.err
     lines = outcome.out.splitlines()
     assert lines[0].startswith("Flight 12, kite, 2026-04-24 03:06:40, 20 s, 0.")
-    assert "what went wrong" in lines
+    assert "faults" in lines
     words = [line.split() for line in lines]
     for row in (
         "armed 10 s",
@@ -71,7 +71,7 @@ def test_log_alone_shows_its_verbs(log):
 
 
 def test_a_report_without_a_named_folder_is_beside_its_flight(log, flights, tmp_path):
-    write_flight(flights, 1)
+    write_flight(flights, 1, lambda maker: maker.add(0, "a", x=1))
     assert log("report", 1, "-o", tmp_path / "nodir" / "mine").status == 1
     assert not (tmp_path / "nodir").exists()
     outcome = log("report", 1)

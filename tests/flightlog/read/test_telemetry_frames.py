@@ -28,6 +28,7 @@ from tests.flightlog.flights import (
 from tests.up.flight_log.test_command_schema import fault_of
 from up.earth import bearing_deg, distance_m
 from up.flight_log.command_schema import schema_of
+from up_flightlog.read.frame_state import TOPICS
 from up_flightlog.read.telemetry_frames import Frame, frames
 
 
@@ -209,21 +210,7 @@ def test_a_gap_in_everything_is_jumped_over(tmp_path):
 def test_strange_messages_make_no_fault(tmp_path):
     maker = FlightMaker()
     nonsense = [None, True, "x", [1], {"a": 1}, 10**30, -1]
-    for topic in (
-        "up.orientation.update",
-        "up.rx.update",
-        "up.servo.update",
-        "up.location.update",
-        "up.altitude.change",
-        "up.heading.change",
-        "up.flight.state",
-        "arduino.status",
-        "android.battery",
-        "up.link.state",
-        "up.panic",
-        "up.system.state",
-        "up.telemetry.update",
-    ):
+    for topic in (*TOPICS, "up.telemetry.update"):
         for number, value in enumerate(nonsense):
             keys = ("roll", "latitude", "longitude", "heading", "mode", "link", "flags", "switch")
             more = ("age_ms", "source", "arduino", "load", "_origin", "_beacon", "vetoes")

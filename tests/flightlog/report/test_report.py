@@ -125,7 +125,7 @@ def test_the_content(report):
     for words in (
         "Flight 1",
         "20 s were recorded, 10 s of it armed",
-        "What went wrong",
+        "Faults",
         "gains were changed in flight",
         "Track",
         "Attitude and set-point",
@@ -205,7 +205,7 @@ def test_without_matplotlib(tmp_path, monkeypatch):
 )
 def test_a_log_of_little_or_nonsense(tmp_path, fill):
     page, _, _ = report_of(tmp_path, fill)
-    assert not page.wrong and "What went wrong" in page.text
+    assert not page.wrong and "Faults" in page.text
 
 
 def test_an_existing_report_is_kept(report, tmp_path):

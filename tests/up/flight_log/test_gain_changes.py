@@ -1,4 +1,4 @@
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from up.flight_log.gain_changes import changes_text, gains_of
@@ -26,6 +26,7 @@ _JSON = st.recursive(
 )
 
 
+@settings(max_examples=40, deadline=None)
 @given(_JSON, _JSON)
 def test_any_data(before, after):
     assert isinstance(changes_text(before, after), str)
