@@ -25,6 +25,7 @@ class Event:
     """An event as one line."""
 
     time_s: float
+    code: str
     text: str
     level: str = "info"
 
@@ -35,7 +36,7 @@ def events_of(log: FlightLog, context: FlightContext) -> list[Event]:
     found.sort(key=lambda event: event.time_s)
     if len(found) > MAX_ENTRIES:
         more = f"{len(found) - MAX_ENTRIES} more events are not shown"
-        found = [*found[:MAX_ENTRIES], Event(found[MAX_ENTRIES].time_s, more)]
+        found = [*found[:MAX_ENTRIES], Event(found[MAX_ENTRIES].time_s, "more", more)]
     return found
 
 
@@ -45,34 +46,37 @@ def _states(context: FlightContext) -> Iterator[Event]:
     is_failsafe: bool | None = None
     for state in context.states:
         if state.flight_mode != mode and state.flight_mode is not None:
-            yield Event(state.time_s, f"flight mode {state.flight_mode}")
+            yield Event(state.time_s, "flight_mode", f"flight mode {state.flight_mode}")
         if state.is_armed is not None and state.is_armed != is_armed:
             if is_armed is not None or state.is_armed:
-                yield Event(state.time_s, "armed" if state.is_armed else "disarmed")
+                code = "armed" if state.is_armed else "disarmed"
+                yield Event(state.time_s, code, code)
             is_armed = state.is_armed
         if state.is_failsafe is not None and state.is_failsafe != is_failsafe:
             if state.is_failsafe:
-                yield Event(state.time_s, "failsafe: the receiver is lost", "bad")
+                yield Event(state.time_s, "failsafe", "failsafe: the receiver is lost", "bad")
             elif is_failsafe is not None:
-                yield Event(state.time_s, "the receiver is back")
+                yield Event(state.time_s, "failsafe_ended", "the receiver is back")
             is_failsafe = state.is_failsafe
         mode = state.flight_mode
 
 
 def _from_commands(log: FlightLog) -> Iterator[Event]:
-    handlers: dict[str, Callable[[Mapping[str, Any]], tuple[str, str] | None]] = {
+    handlers: dict[str, Callable[[Mapping[str, Any]], tuple[str, ...] | None]] = {
         "up.link.state": _link,
         "up.panic": _panic,
-        "up.arm": lambda data: (f"arming requested by {_origin(data)}", "info"),
-        "up.disarm": lambda data: (f"disarming requested by {_origin(data)}", "info"),
+        "up.arm": lambda data: ("arm", f"arming requested by {_origin(data)}"),
+        "up.disarm": lambda data: ("disarm", f"disarming requested by {_origin(data)}"),
         "up.flight_mode.set": lambda data: (
+            "flight_mode_request",
             f"flight mode {_text(data.get('mode'))} requested by {_origin(data)}",
-            "info",
         ),
         "up.altitude.change": _altitude,
         "arduino.pids.tunings": _gains,
         "android.battery.low": lambda data: (
-            ("the phone's battery is low", "warning") if data.get("low") is True else None
+            ("battery_low", "the phone's battery is low", "warning")
+            if data.get("low") is True
+            else None
         ),
     }
     known = [topic for topic in (*handlers, *_TEXT_FIELDS) if topic in log.topics]
@@ -81,7 +85,7 @@ def _from_commands(log: FlightLog) -> Iterator[Event]:
         if message.topic in _TEXT_FIELDS:
             text = _text(message.data.get(_TEXT_FIELDS[message.topic]))
             who = "mark" if message.topic == "black_box.mark" else "scenario"
-            yield Event(message.time_s, f"{who}: {text}")
+            yield Event(message.time_s, who, f"{who}: {text}")
             continue
         event = handlers[message.topic](message.data)
         if event is not None and _is_change(message.topic, message.data, states):
@@ -98,38 +102,42 @@ def _is_change(topic: str, data: Mapping[str, Any], states: dict[str, bool]) -> 
     return is_on != was_on
 
 
-def _link(data: Mapping[str, Any]) -> tuple[str, str] | None:
+def _link(data: Mapping[str, Any]) -> tuple[str, ...] | None:
     link = _text(data.get("link"))
     name = _LINKS.get(link, f"the link {link}")
     return (
-        (f"{name} is connected", "info")
+        ("connected", f"{name} is connected")
         if data.get("connected") is True
-        else (f"{name} is disconnected", "warning")
+        else ("disconnected", f"{name} is disconnected", "warning")
     )
 
 
-def _panic(data: Mapping[str, Any]) -> tuple[str, str] | None:
+def _panic(data: Mapping[str, Any]) -> tuple[str, ...] | None:
     if data.get("panic") is True:
-        return f"Panic Mode: period of {_text(data.get('delay_ms'))} ms", "warning"
-    return "Panic Mode ends", "info"
+        return "panic", f"Panic Mode: period of {_text(data.get('delay_ms'))} ms", "warning"
+    return "panic_ended", "Panic Mode ends"
 
 
-def _altitude(data: Mapping[str, Any]) -> tuple[str, str] | None:
+def _altitude(data: Mapping[str, Any]) -> tuple[str, ...] | None:
     if data.get("mode") != "required":
         return None
-    return f"altitude {_text(data.get('altitude'))} m requested by {_origin(data)}", "info"
+    return (
+        "altitude_request",
+        f"altitude {_text(data.get('altitude'))} m requested by {_origin(data)}",
+    )
 
 
-def _gains(data: Mapping[str, Any]) -> tuple[str, str] | None:
+def _gains(data: Mapping[str, Any]) -> tuple[str, ...] | None:
     if data.get("request") is True:
         return None
-    return f"gains were set by {_origin(data)}", "info"
+    return "gains", f"gains were set by {_origin(data)}"
 
 
 def _lines(context: FlightContext) -> Iterator[Event]:
     for line in context.log_lines:
         level = "bad" if line.level >= 4 else "warning" if line.level == 3 else "info"
-        yield Event(line.time_s, f"{line.name}: {line.text}" if line.name else line.text, level)
+        text = f"{line.name}: {line.text}" if line.name else line.text
+        yield Event(line.time_s, line.code or "log", text, level)
 
 
 def _origin(data: Mapping[str, Any]) -> str:
