@@ -81,11 +81,11 @@ TEST_CASE("pilot arming: each veto keeps it disarmed, is named, and is no edge l
   bench.run(100);
   SUBCASE("throttle") {
     bench.sticks[THROTTLE] = 1060;
-    bit = VETO_THROTTLE;
+    bit = VETO_THROTTLE_NOT_LOW;
   }
   SUBCASE("IMU") {
     bench.is_imu_valid = false;
-    bit = VETO_IMU;
+    bit = VETO_IMU_INVALID;
   }
   SUBCASE("calibrating") {
     bench.is_calibrating = true;
@@ -93,11 +93,11 @@ TEST_CASE("pilot arming: each veto keeps it disarmed, is named, and is no edge l
   }
   SUBCASE("profile") {
     bench.is_profile_broken = true;
-    bit = VETO_PROFILE;
+    bit = VETO_PROFILE_INVALID;
   }
   SUBCASE("the Raspberry Pi's") {
     bench.on_slot = [&] { bench.authority.take_veto(true, bench.clock_us()); };
-    bit = VETO_RASPBERRY;
+    bit = VETO_RASPBERRY_PI;
   }
   raise_aux2(bench, 500);
   CHECK_FALSE(bench.authority.is_armed());
@@ -125,7 +125,7 @@ TEST_CASE("pilot arming: a receiver that is off or in its own failsafe vetoes") 
   SUBCASE("one channel out of range") { bench.sticks[RUDDER] = 2200; }
   SUBCASE("its own failsafe") { bench.sticks[THROTTLE] = 890; }
   bench.run(200);
-  CHECK((vetoes(bench) & VETO_RECEIVER) != 0);
+  CHECK((vetoes(bench) & VETO_RECEIVER_INVALID) != 0);
   CHECK(bench.arm() == Reason::RECEIVER_INVALID);
   CHECK_FALSE(bench.authority.is_armed());
 }
@@ -175,7 +175,7 @@ TEST_CASE("pilot arming: the Raspberry Pi's veto ends after a second without ano
   bench.run(1000);
   bench.authority.take_veto(true, bench.clock_us());
   bench.run(990);
-  CHECK(vetoes(bench) == VETO_RASPBERRY);
+  CHECK(vetoes(bench) == VETO_RASPBERRY_PI);
   CHECK(bench.arm() == Reason::VETO);
   bench.run(20);
   CHECK(vetoes(bench) == 0);
@@ -318,7 +318,7 @@ TEST_CASE("pilot arming: a glider's channel and authority need no arming, its ar
   bench.sticks[THROTTLE] = 1800;
   bench.fly(2000, false);
   CHECK(bench.throttle_us() == 1800);
-  CHECK((vetoes(bench) & VETO_THROTTLE) == 0);
+  CHECK((vetoes(bench) & VETO_THROTTLE_NOT_LOW) == 0);
   CHECK(bench.output(1600, 0) == Reason::NONE);
   CHECK(bench.throttle_us() == 1800);
   CHECK(bench.output(1600, 1200) == Reason::NONE);

@@ -234,7 +234,7 @@ TEST_CASE("pilot failsafe: before the receiver was heard it is none, level and w
     CHECK_FALSE(bench.authority.is_auto());
     CHECK(bench.authority.mode() == Mode::FBW);
     CHECK(bench.throttle_us() == (has_motor ? 1000 : 1100));
-    CHECK(bench.ask('u') == Reason::NOT_AUTO);
+    CHECK(bench.ask('u') == Reason::NOT_AT_AUTO);
     bench.is_imu_valid = false;
     bench.run(2);
     CHECK(bench.authority.mode() == Mode::ACRO);

@@ -36,7 +36,7 @@ TEST_CASE("pilot Raspberry Pi: its authority needs AUTO, receiver, IMU, and a mo
   SUBCASE("all is well") {}
   SUBCASE("switch") {
     bench.sticks[AUX1] = 1500;
-    reason = Reason::NOT_AUTO;
+    reason = Reason::NOT_AT_AUTO;
   }
   SUBCASE("receiver") {
     bench.sticks[ELEVATOR] = 2200;
@@ -124,14 +124,14 @@ TEST_CASE("pilot Raspberry Pi: another mode from the ground ends Outputs until i
   REQUIRE(bench.ask('f') == Reason::NONE);
   CHECK(bench.authority.flown_mode() == Mode::FBW);
   CHECK(bench.throttle_us() == 1000);
-  CHECK(bench.output(1600, 1700) == Reason::NOT_AUTO);
-  CHECK(bench.demand(1600, 1700) == Reason::NOT_AUTO);
+  CHECK(bench.output(1600, 1700) == Reason::NOT_AT_AUTO);
+  CHECK(bench.demand(1600, 1700) == Reason::NOT_AT_AUTO);
   REQUIRE(bench.ask('s') == Reason::NONE);
-  CHECK(bench.output(1600, 1700) == Reason::NOT_AUTO);
+  CHECK(bench.output(1600, 1700) == Reason::NOT_AT_AUTO);
   CHECK(bench.demand(1600, 1700) == Reason::NONE);
   REQUIRE(bench.ask('u') == Reason::NONE);
   CHECK(bench.authority.flown_mode() == Mode::FBW);
-  CHECK(bench.demand(1600, 1700) == Reason::NOT_AUTO);
+  CHECK(bench.demand(1600, 1700) == Reason::NOT_AT_AUTO);
   CHECK(bench.output(1600, 1700) == Reason::NONE);
   CHECK(bench.authority.flown_mode() == Mode::OUTPUT);
 }

@@ -63,8 +63,8 @@ TEST_CASE("pilot switch: leaving AUTO acts within one frame, whatever the Raspbe
       CHECK(bench.authority.flown_mode() == (aux1 == 1000 ? Mode::ACRO : Mode::FBW));
       CHECK(bench.authority.mode() == bench.authority.flown_mode());
       CHECK(bench.throttle_us() == 1000);
-      CHECK(bench.output(1900, 1800) == Reason::NOT_AUTO);
-      CHECK(bench.ask('u') == Reason::NOT_AUTO);
+      CHECK(bench.output(1900, 1800) == Reason::NOT_AT_AUTO);
+      CHECK(bench.ask('u') == Reason::NOT_AT_AUTO);
       bench.run(2);
     }
   }
@@ -75,8 +75,8 @@ TEST_CASE("pilot switch: ground modes are taken at AUTO only, and never ACRO") {
   for (uint16_t aux1 : {uint16_t{1000}, uint16_t{1500}}) {
     bench.sticks[AUX1] = aux1;
     bench.run(100);
-    for (char letter : {'r', 'f', 's', 'u'}) CHECK(bench.ask(letter) == Reason::NOT_AUTO);
-    CHECK(bench.demand(1000, 0) == Reason::NOT_AUTO);
+    for (char letter : {'r', 'f', 's', 'u'}) CHECK(bench.ask(letter) == Reason::NOT_AT_AUTO);
+    CHECK(bench.demand(1000, 0) == Reason::NOT_AT_AUTO);
     CHECK(bench.authority.mode() == (aux1 == 1000 ? Mode::ACRO : Mode::FBW));
   }
   bench.sticks[AUX1] = 2000;
@@ -102,7 +102,7 @@ TEST_CASE("pilot switch: a bad pulse stops what flies at AUTO, and does not end 
     bench.sticks[AUX1] = 1500;
     REQUIRE(bench.run_until([&] { return !bench.authority.is_auto(); }, 100) <= 34);
     CHECK(bench.authority.mode() == Mode::FBW);
-    CHECK(bench.output(1600, 0) == Reason::NOT_AUTO);
+    CHECK(bench.output(1600, 0) == Reason::NOT_AT_AUTO);
     bench.run(left_ms - 2);
     bench.sticks[AUX1] = 2000;
     bench.run(40);

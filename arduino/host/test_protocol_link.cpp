@@ -71,7 +71,7 @@ TEST_CASE("a full line does not stop streams that are never answered") {
   for (int count = 0; count < 6; ++count) bench.send('m');
   bench.send('v', {1});
   bench.autopilot.authority.update(true, false, false, bench.now_us);
-  CHECK((bench.autopilot.authority.vetoes() & VETO_RASPBERRY) != 0);
+  CHECK((bench.autopilot.authority.vetoes() & VETO_RASPBERRY_PI) != 0);
 }
 
 TEST_CASE("what is broken is dropped and counted; its neighbours are not") {

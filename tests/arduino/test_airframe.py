@@ -5,7 +5,7 @@ import pytest
 from tests.arduino.commands import SERVOS, profile, setpoint
 from tests.arduino.flight import HIGH, LOW, MIDDLE, Flight
 
-ONLY_DISARMED = 4
+ONLY_ON_GROUND = 4
 A_DEGREE_US = 20
 """What the default gains make of a degree."""
 
@@ -128,18 +128,18 @@ def test_a_glider_takes_no_other_settings_once_its_receiver_was_heard():
     """Without a motor it flies disarmed: only a silent transmitter proves the ground."""
     flight = Flight()
     fit(flight, motor=0)
-    assert flight.ask("C", profile(motor=0)) == ONLY_DISARMED
-    assert flight.ask("e", b"\0") == ONLY_DISARMED
-    assert flight.ask("e", b"\3") == ONLY_DISARMED
+    assert flight.ask("C", profile(motor=0)) == ONLY_ON_GROUND
+    assert flight.ask("e", b"\0") == ONLY_ON_GROUND
+    assert flight.ask("e", b"\3") == ONLY_ON_GROUND
     flight.run_ms(700)
     still = Flight(receiver=False, eeprom=flight.rig.eeprom.read())
-    assert still.ask("C", profile(motor=0)) == ONLY_DISARMED
+    assert still.ask("C", profile(motor=0)) == ONLY_ON_GROUND
     still.run_ms(5000)
     assert still.ask("e", b"\0") == "K"
     assert still.ask("C", profile(motor=0)) == "K"
     still.rig.receiver.start()
     still.run_ms(200)
-    assert still.ask("C", profile(motor=0)) == ONLY_DISARMED
+    assert still.ask("C", profile(motor=0)) == ONLY_ON_GROUND
 
 
 def test_a_profile_is_kept_over_a_power_cycle(flight):

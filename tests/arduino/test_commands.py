@@ -7,7 +7,7 @@ import pytest
 from tests.arduino.flight import ARMED, GAINS_KEPT, HIGH, LOW, MIDDLE, Flight
 from up_rig.imu import motion_at
 
-OUT_OF_RANGE, ONLY_DISARMED, TOO_OLD, NOT_AUTO = 3, 4, 6, 7
+OUT_OF_RANGE, ONLY_ON_GROUND, TOO_OLD, NOT_AT_AUTO = 3, 4, 6, 7
 THROTTLE, RECEIVER, IMU, VETO, NOT_STILL, NOT_SUPPORTED = 8, 9, 10, 11, 12, 13
 GAINS = tuple(0.25 * each for each in range(1, 19))
 NAN, INFINITY = float("nan"), float("inf")
@@ -98,7 +98,7 @@ def test_disarm_wants_the_throttle_low_for_two_seconds(auto):
 def test_modes_are_taken_at_auto_only(auto, letter):
     assert auto.ask("M", letter.encode()) == "K"
     auto.sticks(aux1=MIDDLE)
-    assert auto.ask("M", letter.encode()) == NOT_AUTO
+    assert auto.ask("M", letter.encode()) == NOT_AT_AUTO
     assert auto.mode() == "f"
 
 
@@ -245,7 +245,7 @@ def test_an_output_wants_the_switch_the_armed_aircraft_and_the_imu(auto):
     auto.rig.imu.plug()
     auto.run_ms(800)
     auto.sticks(1100, aux1=MIDDLE)
-    assert auto.ask("u", outputs(auto)) == NOT_AUTO
+    assert auto.ask("u", outputs(auto)) == NOT_AT_AUTO
 
 
 def test_an_output_to_a_disarmed_aircraft_is_refused(flight):
@@ -313,9 +313,9 @@ def test_a_profile_with_one_bad_field_is_refused_whole(flight, offset, value):
 
 
 def test_profile_and_calibration_wait_for_the_disarmed_aircraft(auto):
-    assert auto.ask("C", auto.ask("c")) == ONLY_DISARMED
+    assert auto.ask("C", auto.ask("c")) == ONLY_ON_GROUND
     for what in range(4):
-        assert auto.ask("e", bytes((what,))) == ONLY_DISARMED
+        assert auto.ask("e", bytes((what,))) == ONLY_ON_GROUND
 
 
 def test_level_is_what_it_is_told_to_be(flight):

@@ -59,7 +59,7 @@ def test_every_golden_frame_is_understood(flight, vector):
     flight.run_ms(60)
     refused = [each.payload[2] for each in flight.messages if each.type == "!"]
     assert not {1, 2, 3} & set(refused), "understood, whatever its authority"
-    assert flight.status().dropped == 0
+    assert flight.status().frame_errors == 0
 
 
 def test_every_bad_frame_is_dropped_counted_and_the_next_one_heard(flight):
@@ -71,7 +71,7 @@ def test_every_bad_frame_is_dropped_counted_and_the_next_one_heard(flight):
         wire = bytes.fromhex(each["wire"])
         flight.rig.serial.write(wire)
         assert flight.ask("m") == b"a", each["why"]
-        dropped = flight.status().dropped
+        dropped = flight.status().frame_errors
         # A flipped bit may have made an end of frame.
         assert dropped - before == wire.count(0), each["why"]
         before = dropped
@@ -81,7 +81,7 @@ def test_an_unfinished_frame_is_dropped_after_100_ms_without_a_further_byte(flig
     flight.status()
     flight.rig.serial.write(checked_frame(7, "m")[:-2])
     flight.run_ms(90)
-    before = flight.status().dropped
+    before = flight.status().frame_errors
     assert before == 1
     assert flight.ask("m") == b"a"
 
@@ -105,9 +105,9 @@ def test_two_halves_within_100_ms_are_one(flight):
 
 
 def test_frames_missing_by_sequence_are_counted(flight):
-    assert flight.status().missing == 0
+    assert flight.status().frames_lost == 0
     flight.sequence += 5
-    assert flight.status().missing == 5
+    assert flight.status().frames_lost == 5
 
 
 def test_old_commands_open_thesis_framing(flight):
@@ -252,7 +252,7 @@ def test_a_line_that_is_full_both_ways_loses_no_answer():
     assert sum(each.type == "m" for each in flight.messages) == 100
     assert flight.rig.serial.overruns == 0
     status = flight.status()
-    assert (status.dropped, status.missing) == (0, 0)
+    assert (status.frame_errors, status.frames_lost) == (0, 0)
 
 
 def test_at_9600_baud_the_line_is_loaded_to_70_percent_at_most():
@@ -282,4 +282,4 @@ def test_the_two_longest_commands_in_a_row_are_answered(aux1):
         asked = [flight.send("g", gains), flight.send("C", profile)]
         flight.run_ms(120)
         assert [each.payload[1] for each in flight.messages if each.type == "K"] == asked
-    assert flight.status().dropped == 0
+    assert flight.status().frame_errors == 0

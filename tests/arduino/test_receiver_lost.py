@@ -78,7 +78,7 @@ def test_each_wire_lost_in_each_way(fbw, channel, loss):
         assert least <= fbw.servo_us(name, 30) <= most, name
     status = fbw.status()
     assert status.is_failsafe and status.is_armed
-    assert status.mode == "f"
+    assert status.mode_letter == "f"
     fbw.rig.receiver.resume(channel)
     fbw.rig.receiver.set(channel, width)
     fbw.run_ms(150)
@@ -203,7 +203,7 @@ def test_short_noise_on_all_wires_changes_nothing(fbw):
     fbw.run_ms(600)
     status = fbw.status()
     assert status.is_armed and not status.is_failsafe
-    assert (status.switch, status.mode) == (0, "a")
+    assert (status.switch, status.mode_letter) == (0, "a")
     for name in SERVOS:
         pulses = fbw.rig.servo.pulses(name)
         assert all(880 <= each.width_us <= 2120 for each in pulses)
@@ -221,8 +221,8 @@ def test_a_storm_on_a_wire_is_a_lost_wire_and_no_more(fbw, channel, half_us):
     fbw.run_ms(950)
     status = fbw.status()
     assert status.is_armed and status.is_failsafe
-    assert not status.cause & 0x80
-    assert status.seconds > 2
+    assert not status.reset_cause & 0x80
+    assert status.uptime_s > 2
     for name in SERVOS:
         pulses = fbw.rig.servo.pulses(name)
         assert len(pulses) >= 30
@@ -239,7 +239,7 @@ def test_a_receiver_never_heard_is_no_failsafe_and_turns_no_motor():
     flight.run_ms(500)
     status = flight.status()
     assert not status.is_failsafe and not status.is_armed
-    assert (status.switch, status.receiver_age_ms) == (255, 65535)
+    assert (status.switch, status.rx_age_ms) == (255, 65535)
     assert flight.ask("a") == 9
     for name in ("ailerons", "elevator", "rudder"):
         assert flight.servo_us(name) == pytest.approx(1500, abs=5)

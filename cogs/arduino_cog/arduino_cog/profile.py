@@ -6,11 +6,11 @@ from dataclasses import dataclass
 from itertools import chain
 from struct import Struct
 
+from up.commands.board_schema import SWITCH_MODES
 from up.flight_controller.airframe_profile import MIXES
 
 _PROFILE = Struct(">" + "BhHH" * 4 + "BB3s" + "3h2h" + "2H" + "3H" + "B")
 PROFILE_SIZE = _PROFILE.size
-SWITCH_MODES = {"a": "ACRO", "r": "RATE", "f": "FBW", "A": "AUTO"}
 _CENTI = 100
 
 

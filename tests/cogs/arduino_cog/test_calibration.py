@@ -2,8 +2,8 @@
 
 import pytest
 from arduino_cog.commands.arduino_calibrate_command import ArduinoCalibrateCommand
-from arduino_cog.wire import Reason
 
+from up.commands.board_schema import Reason
 from up.commands.command import InvalidCommandError
 from up.commands.refusal import Code, CommandRefusedError
 

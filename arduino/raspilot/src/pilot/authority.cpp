@@ -31,9 +31,9 @@ Authority::Authority(const Profile& profile, const PwmReader& receiver)
 void Authority::update(bool is_imu_valid, bool is_calibrating, bool is_profile_broken,
                        uint32_t now_us) {
   uint8_t vetoes = 0;
-  if (!is_imu_valid) vetoes |= VETO_IMU;
+  if (!is_imu_valid) vetoes |= VETO_IMU_INVALID;
   if (is_calibrating) vetoes |= VETO_CALIBRATING;
-  if (is_profile_broken) vetoes |= VETO_PROFILE;
+  if (is_profile_broken) vetoes |= VETO_PROFILE_INVALID;
   slot_vetoes_ = vetoes;
   const uint16_t now_units = to_units(now_us);
   const uint16_t passed_units = static_cast<uint16_t>(now_units - updated_at_);
@@ -51,7 +51,7 @@ void Authority::follow_receiver(uint16_t passed_units) {
   } else {
     sound_.start();
   }
-  if (sound_.units() < RETURN_UNITS) slot_vetoes_ |= VETO_RECEIVER;
+  if (sound_.units() < RETURN_UNITS) slot_vetoes_ |= VETO_RECEIVER_INVALID;
   follow_failsafe(is_own_failsafe, passed_units);
   if (!has_receiver()) {
     arming_.forget();
@@ -128,9 +128,9 @@ bool Authority::is_throttle_low() const { return receiver_.pulse(THROTTLE) < LOW
 
 uint8_t Authority::vetoes() const {
   uint8_t vetoes = slot_vetoes_;
-  if (profile_.has_motor && !is_throttle_low()) vetoes |= VETO_THROTTLE;
-  if (!arming_.is_high()) vetoes |= VETO_AUX2;
-  if (lives_[PI_VETO].lives()) vetoes |= VETO_RASPBERRY;
+  if (profile_.has_motor && !is_throttle_low()) vetoes |= VETO_THROTTLE_NOT_LOW;
+  if (!arming_.is_high()) vetoes |= VETO_AUX2_LOW;
+  if (lives_[PI_VETO].lives()) vetoes |= VETO_RASPBERRY_PI;
   return vetoes;
 }
 
@@ -148,9 +148,9 @@ Ticks Authority::throttle() const {
 
 Reason Authority::arm(uint32_t) {
   const uint8_t against = vetoes();
-  if (against & VETO_THROTTLE) return Reason::THROTTLE_NOT_LOW;
-  if (against & VETO_RECEIVER) return Reason::RECEIVER_INVALID;
-  if (against & VETO_IMU) return Reason::IMU_INVALID;
+  if (against & VETO_THROTTLE_NOT_LOW) return Reason::THROTTLE_NOT_LOW;
+  if (against & VETO_RECEIVER_INVALID) return Reason::RECEIVER_INVALID;
+  if (against & VETO_IMU_INVALID) return Reason::IMU_INVALID;
   if (against != 0) return Reason::VETO;
   is_armed_ = true;
   return Reason::NONE;
@@ -169,7 +169,7 @@ Reason Authority::ask_mode(char letter, uint32_t) {
   if (mode != Mode::RATE && mode != Mode::FBW && mode != Mode::SETPOINT && mode != Mode::OUTPUT) {
     return Reason::OUT_OF_RANGE;
   }
-  if (!is_auto()) return Reason::NOT_AUTO;
+  if (!is_auto()) return Reason::NOT_AT_AUTO;
   if (!has_receiver()) return Reason::RECEIVER_INVALID;
   if (mode == Mode::OUTPUT && !has_imu()) return Reason::IMU_INVALID;
   asked_mode_ = letter;
@@ -180,8 +180,8 @@ Reason Authority::ask_mode(char letter, uint32_t) {
 }
 
 Reason Authority::authority_for(Mode mode) const {
-  if (!is_auto()) return Reason::NOT_AUTO;
-  if (asked_mode_ != 0 && asked_mode_ != letter_of(mode)) return Reason::NOT_AUTO;
+  if (!is_auto()) return Reason::NOT_AT_AUTO;
+  if (asked_mode_ != 0 && asked_mode_ != letter_of(mode)) return Reason::NOT_AT_AUTO;
   if (!has_receiver()) return Reason::RECEIVER_INVALID;
   if (!has_imu()) return Reason::IMU_INVALID;
   if (profile_.has_motor && !is_armed_) return Reason::VETO;

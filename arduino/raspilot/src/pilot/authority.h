@@ -13,17 +13,6 @@
 
 namespace raspilot {
 
-/** Veto bits of the status (docs/protocols.md 2.7, offset 4). */
-enum Veto : uint8_t {
-  VETO_THROTTLE = 1,
-  VETO_RECEIVER = 2,
-  VETO_IMU = 4,
-  VETO_AUX2 = 8,
-  VETO_RASPBERRY = 16,
-  VETO_CALIBRATING = 32,
-  VETO_PROFILE = 64
-};
-
 /** State that survives a watchdog reset. */
 struct AuthorityState {
   bool is_armed;
@@ -69,7 +58,7 @@ class Authority {
   bool is_in_flight(uint16_t uptime_s) const;
   /** 0 low, 1 middle, 2 high, 255 not known yet; holds while the receiver is lost. */
   uint8_t switch_position() const { return switch_.position(); }
-  bool has_receiver() const { return !(slot_vetoes_ & VETO_RECEIVER); }
+  bool has_receiver() const { return !(slot_vetoes_ & VETO_RECEIVER_INVALID); }
   /** Receiver failsafe acts: circle (IMU valid) or preset surfaces. */
   bool is_failsafe() const { return is_failsafe_; }
   /** Stays after more than 5 s of failsafe until the stick has been low. */
@@ -109,7 +98,7 @@ class Authority {
   void follow_receiver(uint16_t passed_units);
   void follow_failsafe(bool is_own_failsafe, uint16_t passed_units);
   void follow_arming(uint16_t passed_units);
-  bool has_imu() const { return !(slot_vetoes_ & VETO_IMU); }
+  bool has_imu() const { return !(slot_vetoes_ & VETO_IMU_INVALID); }
   bool is_throttle_low() const;
   bool was_heard() const { return switch_.position() != SWITCH_UNKNOWN; }
   void end_demands();
@@ -134,7 +123,7 @@ class Authority {
   char asked_mode_ ZEROED;
   bool is_armed_ ZEROED;
   /** Those that hold for a slot: receiver, IMU, calibrating, profile. */
-  uint8_t slot_vetoes_ = VETO_RECEIVER | VETO_IMU;
+  uint8_t slot_vetoes_ = VETO_RECEIVER_INVALID | VETO_IMU_INVALID;
   bool is_failsafe_ ZEROED;
   bool is_latched_ ZEROED;
 };

@@ -34,7 +34,7 @@ class ArduinoCalibration(BaseModule):
         """Calibrate; the end of the receiver calibration is not repeated, as a second one fails."""
         self.arduino.require_checked("calibrating")
         if command.what != _END and self.arduino.is_in_flight:
-            raise CommandRefusedError(f"calibrating is not for the air: {IN_FLIGHT}")
+            raise CommandRefusedError(f"calibration is refused in flight; {IN_FLIGHT}")
         payload = bytes((CALIBRATIONS[command.what],))
         done = self.arduino.request("e", payload, may_repeat=command.what != _END)
         return done.addCallback(self._say, command.what)

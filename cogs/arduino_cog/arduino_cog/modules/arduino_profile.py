@@ -179,7 +179,7 @@ class ArduinoProfile(BaseModule):
             self._is_told = True
             self.log.warn(
                 "the Arduino keeps another profile than {veto} has ({changes}):"
-                " in flight ({in_flight})",
+                " in flight; {in_flight}",
                 veto=_VETO,
                 changes=changes,
                 in_flight=IN_FLIGHT,

@@ -10,25 +10,14 @@ from serial_cog.config import ARDUINO
 from serial_cog.modules.serial_provider import SerialProvider
 from twisted.internet.defer import Deferred
 
-from arduino_cog.commands.arduino_status_command import (
-    STATUS,
-    VERSION,
-    ArduinoStatusCommand,
-    read_status,
-)
+from arduino_cog.commands.arduino_status_command import ArduinoStatusCommand, read_status
 from arduino_cog.exchange import Exchange
 from arduino_cog.gains_wire import THREE_AXES_SIZE, TWO_AXES_SIZE
 from arduino_cog.profile import PROFILE_SIZE
-from arduino_cog.wire import (
-    ATTITUDE,
-    INPUTS,
-    ORIENTATION,
-    OUTPUTS,
-    Reason,
-    flight_mode_name,
-    reason_text,
-)
+from arduino_cog.wire import ATTITUDE, IN_FLIGHT, INPUTS, ORIENTATION, OUTPUTS
 from up.base_started_module import BaseStartedModule
+from up.commands.board_schema import STATUS, VERSION, Reason
+from up.commands.board_status import flight_mode_name, refusal_text, telemetry_of
 from up.commands.command_executor import CommandExecutor
 from up.commands.flight_state_command import FlightStateCommand
 from up.commands.orientation_command import OrientationCommand
@@ -133,16 +122,7 @@ class ArduinoProvider(BaseStartedModule):
             "arduino": {
                 "connected": self.connected,
                 "framing": self.serial.framing,
-                "switch": status and status.switch_position,
-                "failsafe": status and status.is_failsafe,
-                "loop_us": status and status.loop_us,
-                "late_us": status and status.late_us,
-                "frame_errors": status and status.frame_errors,
-                "reset_cause": status and status.reset_causes,
-                "restored": status and status.is_restored,
-                "bias_stored": status and status.is_bias_stored,
-                "receiver_valid": status and status.is_receiver_valid,
-                "imu_valid": status and status.is_imu_valid,
+                **telemetry_of(status and status.data),
             },
             "armed": self.is_armed,
             "in_flight": self.is_in_flight,
@@ -334,7 +314,9 @@ class ArduinoProvider(BaseStartedModule):
             self.exchange.on_confirmed(chr(payload[0]), payload[1])
 
     def _on_refused(self, payload: bytes) -> None:
-        type_, sequence, reason = chr(payload[0]), payload[1], reason_text(payload[2])
+        type_, sequence, reason = chr(payload[0]), payload[1], refusal_text(payload[2])
+        if payload[2] == Reason.ONLY_ON_GROUND:
+            reason += f" ({IN_FLIGHT})"
         if payload[2] == Reason.VETO and self.status is not None:
             reason += f" ({', '.join(self.status.veto_names)})"
         if not self.exchange.on_refused(type_, sequence, reason):

@@ -148,7 +148,7 @@ class PIDTuningsProvider(BaseModule):
             self._is_told = True
             if self._differs(self._in_form(self._saved)):
                 self.log.warn(
-                    "the Arduino keeps other gains than pids.yml has: in flight ({in_flight})",
+                    "the Arduino keeps other gains than pids.yml has: in flight; {in_flight}",
                     in_flight=IN_FLIGHT,
                 )
 
@@ -158,7 +158,7 @@ class PIDTuningsProvider(BaseModule):
 
     def _differs(self, wanted: GainSet) -> bool:
         status = self.arduino.status
-        if status is not None and not status.are_gains_stored:
+        if status is not None and not status.is_gains_stored:
             return True
         held = self.held
         return held is None or pack_gains(held) != pack_gains(wanted)
