@@ -11,7 +11,7 @@ TEST_CASE("pilot Raspberry Pi: an Output is followed for 250 ms, then FBW holds 
   bench.run(2);
   CHECK(bench.authority.mode() == Mode::OUTPUT);
   CHECK(bench.authority.flown_mode() == Mode::OUTPUT);
-  CHECK(bench.authority.asked_outputs().ticks[AILERONS] == us_to_ticks(1723));
+  CHECK(bench.authority.requested_outputs().ticks[AILERONS] == us_to_ticks(1723));
   bench.run(240);
   CHECK(bench.authority.flown_mode() == Mode::OUTPUT);
   bench.run(8);

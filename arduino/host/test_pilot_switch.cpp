@@ -39,11 +39,11 @@ TEST_CASE("pilot switch: 1300 and 1700 us part the positions, 20 us each way") {
                {1720, 2}, {1681, 2}, {1679, 1}, {2000, 2}, {1000, 0}, {1500, 1}};
   for (const auto& move : moves) {
     CAPTURE(move.us);
-    aux1.take(static_cast<Ticks>(2 * move.us));
+    aux1.update(static_cast<Ticks>(2 * move.us));
     CHECK(aux1.position() == move.position);
   }
   ModeSwitch first;
-  first.take(us_to_ticks(1300));
+  first.update(us_to_ticks(1300));
   CHECK(first.position() == 1);
 }
 
@@ -176,7 +176,7 @@ TEST_CASE("pilot switch: outside AUTO a lost Raspberry Pi is nothing to Authorit
   PilotBench bench;
   bench.fly(1500);
   bench.sticks[THROTTLE] = 1600;
-  bench.authority.take_veto(true, bench.clock_us());
+  bench.authority.accept_veto(true, bench.clock_us());
   bench.run(5000);
   CHECK(bench.authority.mode() == Mode::FBW);
   CHECK(bench.authority.is_armed());

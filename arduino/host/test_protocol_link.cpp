@@ -81,17 +81,17 @@ TEST_CASE("what is broken is dropped and counted; its neighbours are not") {
   for (const auto& vector : page["vectors"]) {
     CAPTURE(vector["why"].get<std::string>());
     LinkBench bench;
-    bench.hear(bytes_of(vector["wire"]));
+    bench.receive(bytes_of(vector["wire"]));
     CHECK(bench.autopilot.link.dropped() >= 1);
-    CHECK_FALSE(bench.autopilot.link.has_heard(bench.now_us));
-    bench.hear(bytes_of(page["good"]));
-    CHECK(bench.autopilot.link.has_heard(bench.now_us));
+    CHECK_FALSE(bench.autopilot.link.has_received(bench.now_us));
+    bench.receive(bytes_of(page["good"]));
+    CHECK(bench.autopilot.link.has_received(bench.now_us));
   }
 }
 
 TEST_CASE("an unfinished frame is dropped after 100 ms though no byte comes") {
   LinkBench bench;
-  bench.hear(Bytes{5, 1, 2});
+  bench.receive(Bytes{5, 1, 2});
   bench.run_ms(99);
   CHECK(bench.autopilot.link.dropped() == 0);
   bench.run_ms(4);
@@ -149,14 +149,14 @@ TEST_CASE("streams are refused once a second and type, Commands each time") {
 
 TEST_CASE("the Raspberry Pi is heard for one second, however long it is silent then") {
   LinkBench bench;
-  CHECK_FALSE(bench.autopilot.link.has_heard(bench.now_us));
+  CHECK_FALSE(bench.autopilot.link.has_received(bench.now_us));
   bench.send('v', {0});
   bench.run_ms(999);
-  CHECK(bench.autopilot.link.has_heard(bench.now_us));
+  CHECK(bench.autopilot.link.has_received(bench.now_us));
   bench.run_ms(4);
-  CHECK_FALSE(bench.autopilot.link.has_heard(bench.now_us));
+  CHECK_FALSE(bench.autopilot.link.has_received(bench.now_us));
   // A clock shows the same value again after a wrap.
-  CHECK_FALSE(bench.autopilot.link.has_heard(bench.now_us - 1003000));
+  CHECK_FALSE(bench.autopilot.link.has_received(bench.now_us - 1003000));
 }
 
 TEST_CASE("what nothing here uses is refused with 13: altitude, headings, location") {

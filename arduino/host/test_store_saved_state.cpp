@@ -17,7 +17,7 @@ SavedState numbered(int number) {
   memset(static_cast<void*>(&state), 0, sizeof state);
   state.authority.is_armed = true;
   state.authority.switch_position = 2;
-  state.authority.asked_mode = 's';
+  state.authority.requested_mode = 's';
   state.attitude.gravity_q30[0] = number;
   state.attitude.bias_q36[2] = -5;
   return state;
@@ -65,7 +65,7 @@ TEST_CASE("what is read is all that was written") {
   REQUIRE(states.read(state));
   CHECK(state.authority.is_armed);
   CHECK(state.authority.switch_position == 2);
-  CHECK(state.authority.asked_mode == 's');
+  CHECK(state.authority.requested_mode == 's');
   CHECK(state.attitude.bias_q36[2] == -5);
 }
 
@@ -123,7 +123,7 @@ TEST_CASE("forgetting leaves nothing to read") {
   SavedStates states = noise(5);
   states.write(numbered(1));
   states.write(numbered(2));
-  states.forget();
+  states.reset();
   CHECK(number_in(states) == -1);
   states.write(numbered(3));
   CHECK(number_in(states) == 3);

@@ -106,7 +106,7 @@ class AttitudeFilter : private AttitudeMemory {
   bool is_copy(const ImuSample& sample);
   bool is_senseless(const ImuSample& sample);
   bool has_saturated_long(const ImuSample& sample);
-  void take_own_bias();
+  void use_own_bias();
   void on_still();
   void keep_bias();
   int16_t mean_16(uint8_t axis) const;

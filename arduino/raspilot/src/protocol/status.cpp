@@ -17,7 +17,7 @@ uint8_t flags_of(const Autopilot& autopilot, uint32_t now_us) {
   if (authority.is_failsafe()) flags |= FLAG_FAILSAFE;
   if (autopilot.attitude.is_bias_from_eeprom()) flags |= FLAG_BIAS_STORED;
   if (autopilot.settings.has_gains()) flags |= FLAG_GAINS_STORED;
-  if (autopilot.link.has_heard(now_us)) flags |= FLAG_PI_RECEIVED;
+  if (autopilot.link.has_received(now_us)) flags |= FLAG_PI_RECEIVED;
   return flags;
 }
 
