@@ -25,7 +25,7 @@ _LOCATION = Struct(">2f")
 _PANIC = Struct(">Bh")
 _I16 = Struct(">h")
 
-_I16_LEAST, _I16_MOST = -32768, 32767
+_MIN_I16, _MAX_I16 = -32768, 32767
 _CENTI = 100
 
 
@@ -41,7 +41,7 @@ def pack_panic(panic: bool, delay_ms: int) -> bytes:
 
 def pack_altitude(altitude_m: float) -> bytes:
     """Return the payload of `h`: rounded half up, clamped to 16 bits; ValueError for NaN."""
-    return _I16.pack(min(max(_half_up(altitude_m), _I16_LEAST), _I16_MOST))
+    return _I16.pack(min(max(_half_up(altitude_m), _MIN_I16), _MAX_I16))
 
 
 def pack_heading(heading_deg: float) -> bytes:

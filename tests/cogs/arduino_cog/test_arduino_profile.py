@@ -198,7 +198,7 @@ def test_a_lost_confirmation_is_no_reason_to_write_again(framed):
     rig.on_command = mute_but_good
     rig.connect(armed=False)
     rig.alive(5)
-    # The exchange itself repeats once; after that the board's values are requested first.
+    # The requests itself repeats once; after that the board's values are requested first.
     assert len(rig.sent("C")) == 2
     assert rig.up.vetoes.own == {}
 
@@ -230,7 +230,7 @@ def test_end_points_that_do_not_fit_the_boards_are_told_and_never_sent(framed, s
     rig.connect(armed=False)
     rig.alive(5)
     assert rig.sent("C") == []
-    assert "end points are 800 to 2200 us, not 2100 to 2000" in rig.up.vetoes.own[NAME]
+    assert "rudder.highest_us" in rig.up.vetoes.own[NAME]
     assert [level for level, _ in said] == ["error"]
 
 
@@ -239,7 +239,7 @@ def test_a_profile_that_cannot_be_is_not_believed(framed):
     rig.profile = wire(at16=9)
     rig.connect(armed=False)
     rig.alive(1)
-    assert "not usable: the mix or a mode" in rig.up.vetoes.own[NAME]
+    assert "mix: 9" in rig.up.vetoes.own[NAME]
     assert rig.sent("C") == []
 
 

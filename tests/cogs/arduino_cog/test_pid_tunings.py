@@ -55,7 +55,7 @@ def test_a_disarmed_board_that_differs_gets_pids_yml_once(tuned):
     rig.connect()
     rig.alive(2)
     assert rig.sent(PUSHED) == [wire(SAVED)]
-    assert rig.module(PIDTuningsProvider).held.rate.ailerons.p == 2.0
+    assert rig.module(PIDTuningsProvider).current.rate.ailerons.p == 2.0
 
 
 def test_a_board_that_does_not_differ_is_left_alone(tuned):
@@ -297,7 +297,7 @@ def test_gains_that_a_board_cannot_have_are_not_believed(tuned):
     rig.gains[4] = float("nan")
     rig.connect(armed=False)
     rig.alive(1)
-    assert rig.module(PIDTuningsProvider).held is None
+    assert rig.module(PIDTuningsProvider).current is None
     assert "not usable" in refusal(rig.ask(PIDTuningsCommand(request=True))).reason
 
 

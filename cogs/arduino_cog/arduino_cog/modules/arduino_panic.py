@@ -24,7 +24,7 @@ class ArduinoPanic(BaseModule):
 
     def on_init(self) -> None:
         self.up.command_executor.register_command(PanicCommand, self.on_panic)
-        self.arduino.add_board_listener(self.on_board_begun)
+        self.arduino.add_board_listener(self.on_board_started)
 
     def on_panic(self, command: PanicCommand) -> None:
         """Forward it; an absent Arduino receives it when it connects."""
@@ -32,7 +32,7 @@ class ArduinoPanic(BaseModule):
         if self.arduino.connected:
             self._tell(command)
 
-    def on_board_begun(self) -> None:
+    def on_board_started(self) -> None:
         """Send the period to a new or reset board during panic."""
         if self._newest is not None and self._newest.panic:
             self._tell(self._newest)

@@ -11,9 +11,9 @@ from serial_cog.modules.serial_provider import SerialProvider
 from twisted.internet.defer import Deferred
 
 from arduino_cog.commands.arduino_status_command import ArduinoStatusCommand, read_status
-from arduino_cog.exchange import Exchange
 from arduino_cog.gains_wire import THREE_AXES_SIZE, TWO_AXES_SIZE
 from arduino_cog.profile import PROFILE_SIZE
+from arduino_cog.request_tracker import RequestTracker
 from arduino_cog.wire import ATTITUDE, IN_FLIGHT, INPUTS, ORIENTATION, OUTPUTS
 from up.base_started_module import BaseStartedModule
 from up.commands.board_schema import STATUS, VERSION, Reason
@@ -69,7 +69,7 @@ class ArduinoProvider(BaseStartedModule):
         self._servo_s = 0.0
         self._status_s = float("-inf")
         self._state_s = 0.0
-        self._begun: list[Callable[[], object]] = []
+        self._board_listeners: list[Callable[[], object]] = []
         self._alive: Timer | None = None
         self._refusals_named: set[tuple[str, str]] = set()
 
@@ -117,12 +117,12 @@ class ArduinoProvider(BaseStartedModule):
             "servo": servo and round((now_s - self._servo_s) * 1000),
             "flight": status and round((now_s - self._state_s) * 1000),
         }
-        counters = {**self.counters, "unmatched": self.exchange.unmatched}
+        counters = {**self.counters, "unmatched": self.requests.unmatched}
         return {
             "arduino": {
                 "connected": self.connected,
                 "framing": self.serial.framing,
-                **telemetry_of(status and status.data),
+                **telemetry_of(None if status is None else status.data),
             },
             "armed": self.is_armed,
             "in_flight": self.is_in_flight,
@@ -135,7 +135,7 @@ class ArduinoProvider(BaseStartedModule):
 
     def add_board_listener(self, listener: Callable[[], object]) -> None:
         """Call ``listener`` whenever a board answers that may be new or reset."""
-        self._begun.append(listener)
+        self._board_listeners.append(listener)
 
     def request(
         self, type_: str, payload: bytes = b"", *, answer: str = "K", may_repeat: bool = True
@@ -146,7 +146,7 @@ class ArduinoProvider(BaseStartedModule):
         ``may_repeat``. Raises CommandRefusedError when no Arduino is connected.
         """
         self.require_connected()
-        return self.exchange.request(type_, payload, answer=answer, may_repeat=may_repeat)
+        return self.requests.request(type_, payload, answer=answer, may_repeat=may_repeat)
 
     def send_unanswered(self, type_: str, payload: bytes) -> None:
         """Send a message that gets no confirmation; raises CommandRefusedError."""
@@ -174,7 +174,7 @@ class ArduinoProvider(BaseStartedModule):
         executor: CommandExecutor = self.up.command_executor
         self._execute = executor.execute_command
         self._seconds = self.context.reactor.seconds
-        self.exchange = Exchange(self.context.reactor, self.serial.send_command)
+        self.requests = RequestTracker(self.context.reactor, self.serial.send_command)
         self._veto_changed_before = self.up.vetoes.on_changed
         self.up.vetoes.on_changed = self._on_veto_changed
         self.up.vetoes.report(LINK, (_ABSENT,))
@@ -186,7 +186,7 @@ class ArduinoProvider(BaseStartedModule):
 
     def on_stop(self) -> None:
         self._stop_alive()
-        self.exchange.fail_all("Raspilot stops")
+        self.requests.fail_all("Raspilot stops")
 
     def _stop_alive(self) -> None:
         if self._alive is not None and self._alive.active():
@@ -196,7 +196,7 @@ class ArduinoProvider(BaseStartedModule):
     def _subscribe(self) -> None:
         add = self.serial.add_handler
         add("r", self._on_outputs, OUTPUTS.size)
-        add("T", lambda payload: self.exchange.on_value("T", payload), TWO_AXES_SIZE)
+        add("T", lambda payload: self.requests.on_value("T", payload), TWO_AXES_SIZE)
         if not self.is_checked:
             add("o", self._on_attitude, ATTITUDE.size)
             add("!", self._on_refused_bare, 1)
@@ -208,9 +208,9 @@ class ArduinoProvider(BaseStartedModule):
         add("x", self._on_status, STATUS.size)
         add("K", self._on_confirmed, 2)
         add("!", self._on_refused, 3)
-        add("m", lambda payload: self.exchange.on_value("m", payload), 1)
-        add("G", lambda payload: self.exchange.on_value("G", payload), THREE_AXES_SIZE)
-        add("C", lambda payload: self.exchange.on_value("C", payload), PROFILE_SIZE)
+        add("m", lambda payload: self.requests.on_value("m", payload), 1)
+        add("G", lambda payload: self.requests.on_value("G", payload), THREE_AXES_SIZE)
+        add("C", lambda payload: self.requests.on_value("C", payload), PROFILE_SIZE)
 
     def on_line_opened(self) -> None:
         """Greet the device at the other end of the line."""
@@ -230,13 +230,13 @@ class ArduinoProvider(BaseStartedModule):
         self.log.info("the Arduino answers")
         self.up.vetoes.report(LINK, ())
         self._execute(LinkStateCommand(LINK, True))
-        self._tell_begun()
+        self._notify_board_started()
 
     def on_line_silent(self) -> None:
         """Report that the Arduino is gone; its last values are unknown from now on."""
         self.status = None
         self.up.vetoes.report(LINK, (_ABSENT,))
-        self.exchange.fail_all(_ABSENT)
+        self.requests.fail_all(_ABSENT)
         self._execute(FlightStateCommand(None, False, False, False), ORIGIN)
         self._execute(LinkStateCommand(LINK, False))
 
@@ -307,11 +307,11 @@ class ArduinoProvider(BaseStartedModule):
         self.counters["resets"] += 1
         self.log.warn("the Arduino was reset{causes}", causes=_causes_of(status))
         self._send_start()
-        self._tell_begun()
+        self._notify_board_started()
 
     def _on_confirmed(self, payload: bytes) -> None:
         if payload[0] != _START:
-            self.exchange.on_confirmed(chr(payload[0]), payload[1])
+            self.requests.on_confirmed(chr(payload[0]), payload[1])
 
     def _on_refused(self, payload: bytes) -> None:
         type_, sequence, reason = chr(payload[0]), payload[1], refusal_text(payload[2])
@@ -319,20 +319,20 @@ class ArduinoProvider(BaseStartedModule):
             reason += f" ({IN_FLIGHT})"
         if payload[2] == Reason.VETO and self.status is not None:
             reason += f" ({', '.join(self.status.veto_names)})"
-        if not self.exchange.on_refused(type_, sequence, reason):
-            self._note_refusal(type_, reason)
+        if not self.requests.on_refused(type_, sequence, reason):
+            self._log_refusal(type_, reason)
 
     def _on_refused_bare(self, payload: bytes) -> None:
         type_ = chr(payload[0]) if payload else ""
-        if not type_ or not self.exchange.on_refused(
+        if not type_ or not self.requests.on_refused(
             type_, None, "an old firmware gives no reason"
         ):
-            self._note_refusal(type_, "")
+            self._log_refusal(type_, "")
 
     def _on_echo(self, payload: bytes) -> None:
         """Take the confirmation of an old firmware; no request waits for it."""
 
-    def _note_refusal(self, type_: str, reason: str) -> None:
+    def _log_refusal(self, type_: str, reason: str) -> None:
         """Count the refusal of a stream message, and log each kind once."""
         self.counters["refused_frames"] += 1
         if (type_, reason) not in self._refusals_named:
@@ -361,8 +361,8 @@ class ArduinoProvider(BaseStartedModule):
     def _send_start(self) -> None:
         self.serial.send_command("s")
 
-    def _tell_begun(self) -> None:
-        for listener in self._begun:
+    def _notify_board_started(self) -> None:
+        for listener in self._board_listeners:
             listener()
 
 

@@ -26,7 +26,7 @@ class _Request:
     timer: Timer | None = None
 
 
-class Exchange:
+class RequestTracker:
     """Matches answers to requests by type and frame sequence; the result is the answer's payload.
 
     A request without an answer within 500 ms is repeated once if that is harmless, then it fails.
