@@ -17,6 +17,7 @@ from up.commands.board_schema import (
     VETOES,
     Alarm,
     Datum,
+    Reason,
 )
 
 TOPIC = "arduino.status"
@@ -50,6 +51,11 @@ def reset_causes_of(status: Mapping[str, Any]) -> str:
 def flight_mode_name(letter: int) -> str | None:
     """Return the name of a flight mode's letter; None for an unknown one."""
     return FLIGHT_MODES.get(chr(letter))
+
+
+def refusal_name(code: int) -> str:
+    """Return a code of `!` as a word: ``throttle_not_low``; empty for an unknown one."""
+    return Reason(code).name.lower() if code in REASONS else ""
 
 
 def refusal_text(code: int) -> str:

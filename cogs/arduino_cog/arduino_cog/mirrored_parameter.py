@@ -76,7 +76,7 @@ class MirroredParameter(Generic[T]):
             self.current = self._decode(payload)
         except ValueError as error:
             raise CommandRefusedError(
-                f"what the Arduino holds as {self._what} is not usable: {error}"
+                f"the Arduino's {self._what} is invalid: {error}", detail="invalid_value"
             ) from None
         if self.current != self._reported:
             self._reported = self.current
@@ -85,7 +85,9 @@ class MirroredParameter(Generic[T]):
 
     def _compare(self, current: T, matches: Callable[[T], bool]) -> None:
         if not matches(current):
-            raise CommandRefusedError(f"the Arduino holds another {self._what} than it was sent")
+            raise CommandRefusedError(
+                f"the Arduino has another {self._what} than it was sent", detail="value_differs"
+            )
 
     def _settled(self, outcome: Any) -> Any:
         self.is_setting = False

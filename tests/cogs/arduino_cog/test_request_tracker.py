@@ -73,10 +73,10 @@ def test_a_confirmation_is_no_value(requests):
     assert found == [b"gains"]
 
 
-def test_a_refusal_is_told_in_words(requests):
+def test_a_refusal_belongs_to_its_request(requests):
     found = outcome_of(requests.request("a"))
-    assert requests.on_refused("a", 251, "the throttle is not low")
-    assert refusal(found).reason == "the Arduino refused: the throttle is not low"
+    assert requests.on_refused("a", 251, "the throttle is not low", "throttle_not_low")
+    assert refusal(found).detail == "throttle_not_low"
     assert refusal(found).code is Code.REFUSED
     assert not requests.on_refused("a", 251, "again")
 

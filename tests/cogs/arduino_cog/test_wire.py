@@ -13,7 +13,7 @@ from arduino_cog.profile import pack_profile, read_profile
 from hypothesis import given
 from hypothesis import strategies as st
 
-from up.commands.board_status import flight_mode_name, refusal_text
+from up.commands.board_status import flight_mode_name, refusal_name
 
 VECTORS = Path(__file__).parents[2] / "vectors"
 ALL = [
@@ -89,7 +89,7 @@ def test_what_comes_means_the_vector(vector):
         case "K":
             assert payload == bytes((ord(fields["type"]), fields["sequence"]))
         case "!":
-            assert refusal_text(payload[2]) == "the throttle is not low"
+            assert refusal_name(payload[2]) == "throttle_not_low"
         case "m":
             assert flight_mode_name(payload[0]) == "FBW"
         case "T" | "G":

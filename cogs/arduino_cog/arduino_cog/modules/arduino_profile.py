@@ -76,6 +76,7 @@ class ArduinoProfile(BaseModule):
             if self._wanted:
                 self.log.warn(
                     "{veto} is not used: an old firmware (framing: thesis) keeps no profile",
+                    code="profile_not_supported",
                     veto=_VETO,
                 )
             return
@@ -144,7 +145,10 @@ class ArduinoProfile(BaseModule):
             self._log_in_flight(text)
             return
         self.log.info(
-            "the Arduino gets the profile of {veto}, which differs: {text}", veto=_VETO, text=text
+            "the Arduino gets the profile of {veto}, which differs: {text}",
+            code="profile_sent",
+            veto=_VETO,
+            text=text,
         )
         sent = self._board.send("C", payload, lambda now: now == wanted)
         sent.addCallbacks(lambda _: self._on_sent(), self._on_failed)
@@ -167,7 +171,7 @@ class ArduinoProfile(BaseModule):
         self._compare(current)
 
     def _on_sent(self) -> None:
-        self.log.info("the Arduino has taken the profile")
+        self.log.info("the Arduino has stored the profile", code="profile_stored")
         # If the board then reports a damaged copy, its EEPROM is worn: do not write again.
         self._back_off()
         self._settle()
@@ -178,7 +182,7 @@ class ArduinoProfile(BaseModule):
 
     def _give_up(self, reason: str) -> None:
         self._is_settled = True
-        self.log.error("{veto} {reason}", veto=_VETO, reason=reason)
+        self.log.error("{veto} {reason}", code="profile_invalid", veto=_VETO, reason=reason)
         self.up.vetoes.set(_VETO, reason)
 
     def _log_in_flight(self, changes: str) -> None:
@@ -187,6 +191,7 @@ class ArduinoProfile(BaseModule):
             self.log.warn(
                 "the Arduino keeps another profile than {veto} has ({changes}):"
                 " in flight; {in_flight}",
+                code="profile_differs_in_flight",
                 veto=_VETO,
                 changes=changes,
                 in_flight=IN_FLIGHT,
@@ -203,8 +208,8 @@ class ArduinoProfile(BaseModule):
         self._board.current = None
         self._back_off()
         reason = failure.getErrorMessage()
-        self.log.warn("profile: {reason}", reason=reason)
-        self._veto(f"the Arduino's profile is not as it says: {reason}")
+        self.log.warn("profile: {reason}", code="profile_failed", reason=reason)
+        self._veto(f"the Arduino does not have this profile: {reason}")
 
     def _publish(self, current: Profile) -> None:
         """Publish the current profile, for the flight log."""

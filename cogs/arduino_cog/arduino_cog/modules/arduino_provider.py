@@ -17,7 +17,12 @@ from arduino_cog.request_tracker import RequestTracker
 from arduino_cog.wire import ATTITUDE, IN_FLIGHT, INPUTS, ORIENTATION, OUTPUTS
 from up.base_started_module import BaseStartedModule
 from up.commands.board_schema import STATUS, VERSION, Reason
-from up.commands.board_status import flight_mode_name, refusal_text, telemetry_of
+from up.commands.board_status import (
+    flight_mode_name,
+    refusal_name,
+    refusal_text,
+    telemetry_of,
+)
 from up.commands.command_executor import CommandExecutor
 from up.commands.flight_state_command import FlightStateCommand
 from up.commands.orientation_command import OrientationCommand
@@ -163,7 +168,8 @@ class ArduinoProvider(BaseStartedModule):
         if not self.is_checked:
             raise CommandRefusedError(
                 f"{what} needs the firmware of this project: arduino.yml says framing: thesis,"
-                " which has no message for it"
+                " which has no message for it",
+                detail="old_firmware",
             )
 
     def send_stream(self, type_: str, payload: bytes) -> int | None:
@@ -227,7 +233,7 @@ class ArduinoProvider(BaseStartedModule):
 
     def on_line_heard(self) -> None:
         """Report that the Arduino is connected."""
-        self.log.info("the Arduino answers")
+        self.log.info("the Arduino answers", code="board_connected")
         self.up.vetoes.report(LINK, ())
         self._execute(LinkStateCommand(LINK, True))
         self._notify_board_started()
@@ -299,13 +305,19 @@ class ArduinoProvider(BaseStartedModule):
             self._on_reset(status)
         elif previous is None and status.is_restored:
             # It was silent before, or this program just started: reported in both cases.
-            self.log.warn("the Arduino flies after a reset{causes}", causes=_causes_of(status))
+            self.log.warn(
+                "the Arduino continues after a reset{causes}",
+                code="board_restored",
+                causes=_causes_of(status),
+            )
         self._execute(status, ORIGIN)
         self._execute(flight_state_of(status, self.has_motor), ORIGIN)
 
     def _on_reset(self, status: ArduinoStatusCommand) -> None:
         self.counters["resets"] += 1
-        self.log.warn("the Arduino was reset{causes}", causes=_causes_of(status))
+        self.log.warn(
+            "the Arduino was reset{causes}", code="board_reset", causes=_causes_of(status)
+        )
         self._send_start()
         self._notify_board_started()
 
@@ -315,12 +327,13 @@ class ArduinoProvider(BaseStartedModule):
 
     def _on_refused(self, payload: bytes) -> None:
         type_, sequence, reason = chr(payload[0]), payload[1], refusal_text(payload[2])
+        detail = refusal_name(payload[2])
         if payload[2] == Reason.ONLY_ON_GROUND:
             reason += f" ({IN_FLIGHT})"
         if payload[2] == Reason.VETO and self.status is not None:
             reason += f" ({', '.join(self.status.veto_names)})"
-        if not self.requests.on_refused(type_, sequence, reason):
-            self._log_refusal(type_, reason)
+        if not self.requests.on_refused(type_, sequence, reason, detail):
+            self._log_refusal(type_, reason, detail)
 
     def _on_refused_bare(self, payload: bytes) -> None:
         type_ = chr(payload[0]) if payload else ""
@@ -332,13 +345,15 @@ class ArduinoProvider(BaseStartedModule):
     def _on_echo(self, payload: bytes) -> None:
         """Take the confirmation of an old firmware; no request waits for it."""
 
-    def _log_refusal(self, type_: str, reason: str) -> None:
+    def _log_refusal(self, type_: str, reason: str, detail: str = "") -> None:
         """Count the refusal of a stream message, and log each kind once."""
         self.counters["refused_frames"] += 1
         if (type_, reason) not in self._refusals_named:
             self._refusals_named.add((type_, reason))
             self.log.info(
                 "the Arduino refused {type_!r}: {reason}",
+                code="board_refused",
+                detail=detail,
                 type_=type_,
                 reason=reason or "no reason given",
             )

@@ -42,7 +42,7 @@ class ArduinoArming(BaseModule):
         vetoes = self.up.vetoes.own
         if vetoes:
             named = "; ".join(f"{name}: {reason}" for name, reason in vetoes.items())
-            raise CommandRefusedError(f"arming is vetoed: {named}")
+            raise CommandRefusedError(f"arming is vetoed: {named}", detail="veto")
         return self.arduino.request("a", may_repeat=False)
 
     def on_disarm(self, command: DisarmCommand) -> Deferred[Any]:
@@ -86,10 +86,12 @@ class ArduinoCalibration(BaseModule):
         """Calibrate; the end of the receiver calibration is not repeated, as a second one fails."""
         self.arduino.require_checked("calibrating")
         if command.what != _END and self.arduino.is_in_flight:
-            raise CommandRefusedError(f"calibration is refused in flight; {IN_FLIGHT}")
+            raise CommandRefusedError(
+                f"calibration is refused in flight; {IN_FLIGHT}", detail="in_flight"
+            )
         payload = bytes((CALIBRATIONS[command.what],))
         done = self.arduino.request("e", payload, may_repeat=command.what != _END)
         return done.addCallback(self._log_calibrated, command.what)
 
     def _log_calibrated(self, _: object, what: str) -> None:
-        self.log.info("the Arduino calibrated: {what}", what=what)
+        self.log.info("the Arduino calibrated: {what}", code="calibrated", what=what)

@@ -98,7 +98,7 @@ class PIDTuningsProvider(BaseModule):
         if problem is None:
             self.up.vetoes.clear(_VETO)
         else:
-            self.log.error("{reason}", reason=problem)
+            self.log.error("{reason}", code="gains_invalid", reason=problem)
             self.up.vetoes.set(_VETO, problem)
 
     def _answer(self) -> Deferred[Any]:
@@ -125,9 +125,9 @@ class PIDTuningsProvider(BaseModule):
         self._is_pushed = True
         wanted = self._in_form(self._saved)
         if not self._differs(wanted):
-            self.log.info("the Arduino flies the gains of pids.yml")
+            self.log.info("the Arduino has the gains of pids.yml", code="gains_equal")
             return
-        self.log.info("the Arduino gets the gains of pids.yml, which differ from its own")
+        self.log.info("the Arduino gets the gains of pids.yml, which differ", code="gains_sent")
         self._transmit(wanted).addErrback(self._on_failed)
 
     def _may_push(self) -> bool:
@@ -149,6 +149,7 @@ class PIDTuningsProvider(BaseModule):
             if self._differs(self._in_form(self._saved)):
                 self.log.warn(
                     "the Arduino keeps other gains than pids.yml has: in flight; {in_flight}",
+                    code="gains_differ_in_flight",
                     in_flight=IN_FLIGHT,
                 )
 
@@ -165,9 +166,11 @@ class PIDTuningsProvider(BaseModule):
 
     def _set(self, gains: GainSet) -> Deferred[Any]:
         if self._is_thesis and gains.has_rudder:
-            raise CommandRefusedError("an old firmware (framing: thesis) has no rudder gains")
+            raise CommandRefusedError(
+                "an old firmware (framing: thesis) has no rudder gains", detail="old_firmware"
+            )
         if self._board.is_setting:
-            raise CommandRefusedError("another set of gains is on its way")
+            raise CommandRefusedError("another set of gains is being sent", detail="busy")
         refuse_unused(gains, (self.current or gains).completed(self._saved))
         return self._transmit(gains).addCallback(self._save, gains)
 
@@ -193,12 +196,12 @@ class PIDTuningsProvider(BaseModule):
         return self._store.save(whole).addCallbacks(lambda _: self._load(), self._on_unsaved)
 
     def _on_unsaved(self, failure: Failure) -> Failure:
-        self.log.error("{reason}", reason=failure.getErrorMessage())
+        self.log.error("{reason}", code="gains_not_saved", reason=failure.getErrorMessage())
         return failure
 
     def _on_failed(self, failure: Failure) -> None:
         failure.trap(CommandRefusedError)
-        self.log.warn("gains: {reason}", reason=failure.getErrorMessage())
+        self.log.warn("gains: {reason}", code="gains_failed", reason=failure.getErrorMessage())
 
 
 def _in_form_of(sent: GainSet, current: GainSet) -> bytes:
