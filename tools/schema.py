@@ -74,7 +74,7 @@ class Row:
 
     @property
     def is_datum(self) -> bool:
-        """Whether it is a value of its own: other bits with a text are items of a list."""
+        """Whether it is a separate value: other bits with a text are items of a list."""
         return not self.bits and (not self.text or self.row is not None)
 
     @property

@@ -200,7 +200,7 @@ TEST_CASE("an armed aircraft that is still for once does not take that for its g
   CHECK_FALSE(board.autopilot.authority.is_armed());
 }
 
-TEST_CASE("power-on never arms, whatever the sticks say") {
+TEST_CASE("power-on never arms, whatever the sticks") {
   fake_board().reset();
   FlyingBoard board;
   board.sticks[AUX2] = 2000;
@@ -237,7 +237,7 @@ TEST_CASE("the Raspberry Pi starts the streams and reads the status") {
   CHECK(fake_board().violations == 0);
 }
 
-TEST_CASE("gains of the Raspberry Pi fly at once and are kept, without holding up the streams") {
+TEST_CASE("gains of the Raspberry Pi are used immediately and saved, without delaying the streams") {
   Awake board;
   board.send('s');
   board.run(400);
@@ -331,7 +331,7 @@ TEST_CASE("an aircraft whose receiver's end points are being learned does not ar
   CHECK_FALSE(board.autopilot.authority.is_armed());
 }
 
-TEST_CASE("noise on the serial line neither arms nor hurts") {
+TEST_CASE("noise on the serial line neither arms nor disturbs") {
   Awake board;
   std::mt19937 random(11);
   for (int round = 0; round < 2000; ++round) {

@@ -28,7 +28,7 @@ TEST_CASE("pilot arming: an edge of AUX2 from low to high arms after 300 ms") {
   CHECK(vetoes(bench) == 0);
 }
 
-TEST_CASE("pilot arming: AUX2 that is high from the beginning is no edge") {
+TEST_CASE("pilot arming: AUX2 high from the beginning does not count as an edge") {
   PilotBench bench;
   bench.sticks[AUX2] = 2000;
   bench.run(5000);
@@ -75,7 +75,7 @@ TEST_CASE("pilot arming: the middle of AUX2 moves nothing") {
   CHECK(bench.authority.is_armed());
 }
 
-TEST_CASE("pilot arming: each veto keeps it disarmed, is named, and is no edge later") {
+TEST_CASE("pilot arming: each veto keeps it disarmed, is reported, and does not count as an edge later") {
   PilotBench bench;
   uint8_t bit = 0;
   bench.run(100);
@@ -130,7 +130,7 @@ TEST_CASE("pilot arming: a receiver that is off or in its own failsafe vetoes") 
   CHECK_FALSE(bench.authority.is_armed());
 }
 
-TEST_CASE("pilot arming: a Command arms when nothing speaks against it") {
+TEST_CASE("pilot arming: a Command arms when there is no veto") {
   PilotBench bench;
   bench.sticks[AUX2] = 2000;
   bench.run(1000);
@@ -161,7 +161,7 @@ TEST_CASE("pilot arming: a Command arms when nothing speaks against it") {
   CHECK(bench.authority.is_armed() == (reason == Reason::NONE));
 }
 
-TEST_CASE("pilot arming: a Command cannot arm before the receiver was heard") {
+TEST_CASE("pilot arming: a Command cannot arm before the receiver was received") {
   PilotBench bench;
   bench.is_on = false;
   bench.run(1000);
@@ -221,7 +221,7 @@ TEST_CASE("pilot arming: the ground disarms only after 2 s of low throttle that 
     bench.run(1900);
     CHECK(bench.disarm() == Reason::THROTTLE_NOT_LOW);
   }
-  SUBCASE("the receiver is lost: nobody sees the stick") {
+  SUBCASE("the receiver is lost: the stick is unknown") {
     bench.is_on = false;
     bench.run(3000);
     CHECK(bench.disarm() == Reason::RECEIVER_INVALID);
@@ -278,7 +278,7 @@ TEST_CASE("pilot arming: neither a lost IMU, a lost receiver nor a veto disarms"
   CHECK(bench.authority.is_armed());
 }
 
-TEST_CASE("pilot arming: a receiver that comes back is no edge") {
+TEST_CASE("pilot arming: the return of a receiver does not count as an edge") {
   PilotBench bench;
   SUBCASE("AUX2 was low, is high") {
     bench.run(1000);
@@ -301,7 +301,7 @@ TEST_CASE("pilot arming: a receiver that comes back is no edge") {
   CHECK(bench.authority.is_armed());
 }
 
-TEST_CASE("pilot arming: a low before a loss of 200 ms and a high after it are no edge") {
+TEST_CASE("pilot arming: a low before a loss of 200 ms and a high after it do not count as an edge") {
   PilotBench bench;
   bench.run(1000);
   bench.is_on = false;

@@ -103,7 +103,7 @@ TEST_CASE("pilot filter: a moving stick passes within a microsecond rms") {
   }
 }
 
-TEST_CASE("pilot filter: a change of 20 us or more is passed on at once, a smaller one by half") {
+TEST_CASE("pilot filter: a change of 20 us or more passes immediately, a smaller one by half") {
   PulseFilter filter;
   filter.update(us_to_ticks(1500 + 20), false);
   CHECK(filter.pulse() == us_to_ticks(1520));
@@ -114,7 +114,7 @@ TEST_CASE("pilot filter: a change of 20 us or more is passed on at once, a small
   CHECK(filter.pulse() == us_to_ticks(1508));
 }
 
-TEST_CASE("pilot filter: a change that goes on, or turns back by 3 us, is passed on at once") {
+TEST_CASE("pilot filter: a change that continues, or reverses by 3 us, passes immediately") {
   PulseFilter filter;
   filter.update(us_to_ticks(1510), false);
   filter.update(us_to_ticks(1518), false);

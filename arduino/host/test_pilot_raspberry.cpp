@@ -117,7 +117,7 @@ TEST_CASE("pilot Raspberry Pi: the throttle is the stick's unless a living deman
   CHECK(bench.throttle_us() == 1300);
 }
 
-TEST_CASE("pilot Raspberry Pi: another mode from the ground ends Outputs until it asks for them") {
+TEST_CASE("pilot Raspberry Pi: another mode from the ground ends Outputs until it requests them") {
   PilotBench bench;
   bench.fly(2000);
   REQUIRE(bench.output(1600, 1700) == Reason::NONE);
@@ -136,7 +136,7 @@ TEST_CASE("pilot Raspberry Pi: another mode from the ground ends Outputs until i
   CHECK(bench.authority.flown_mode() == Mode::OUTPUT);
 }
 
-TEST_CASE("pilot Raspberry Pi: OUTPUT that is asked for is said for 500 ms, while FBW flies") {
+TEST_CASE("pilot Raspberry Pi: a requested OUTPUT is reported for 500 ms while FBW is active") {
   PilotBench bench;
   bench.fly(2000);
   REQUIRE(bench.ask('u') == Reason::NONE);
@@ -164,7 +164,7 @@ TEST_CASE("pilot Raspberry Pi: of Output and Setpoint the newer counts") {
   CHECK(bench.throttle_us() == 1700);
 }
 
-TEST_CASE("pilot Raspberry Pi: OUTPUT is not said when it could not fly") {
+TEST_CASE("pilot Raspberry Pi: OUTPUT is not reported when it cannot be active") {
   PilotBench bench;
   bench.fly(2000);
   REQUIRE(bench.ask('u') == Reason::NONE);

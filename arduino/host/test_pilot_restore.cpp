@@ -35,7 +35,7 @@ TEST_CASE("pilot restore: an armed aircraft flies on in its mode, with its throt
   CHECK(bench.authority.mode() == Mode::FBW);
 }
 
-TEST_CASE("pilot restore: the mode that the ground asked for, failsafe and latch come back") {
+TEST_CASE("pilot restore: the ground's requested mode, failsafe and latch are restored") {
   PilotBench before;
   before.profile.throttle_failsafe_us = 1250;
   before.fly(2000);
@@ -46,7 +46,7 @@ TEST_CASE("pilot restore: the mode that the ground asked for, failsafe and latch
     bench.run(60);
     CHECK(bench.authority.mode() == Mode::RATE);
   }
-  SUBCASE("failsafe goes on without a pause, and so does the latch") {
+  SUBCASE("failsafe and its latch continue without a pause") {
     before.is_on = false;
     before.run(5500);
     REQUIRE(before.authority.is_failsafe());
@@ -62,7 +62,7 @@ TEST_CASE("pilot restore: the mode that the ground asked for, failsafe and latch
   }
 }
 
-TEST_CASE("pilot restore: a receiver that does not come back is failsafe within a second") {
+TEST_CASE("pilot restore: a receiver that stays lost triggers failsafe within a second") {
   PilotBench before;
   before.fly(1500);
   PilotBench bench;
@@ -75,7 +75,7 @@ TEST_CASE("pilot restore: a receiver that does not come back is failsafe within 
   CHECK(bench.authority.is_armed());
 }
 
-TEST_CASE("pilot restore: a receiver that was never heard is not lost") {
+TEST_CASE("pilot restore: a receiver that was never received does not count as lost") {
   PilotBench before;
   before.is_on = false;
   before.run(1000);

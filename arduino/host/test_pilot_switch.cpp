@@ -93,7 +93,7 @@ TEST_CASE("pilot switch: ground modes are taken at AUTO only, and never ACRO") {
   CHECK(bench.authority.mode() == Mode::FBW);
 }
 
-TEST_CASE("pilot switch: a bad pulse stops what flies at AUTO, and does not end the mode asked for") {
+TEST_CASE("pilot switch: a bad pulse suspends AUTO and does not end the requested mode") {
   PilotBench bench;
   bench.fly(2000);
   REQUIRE(bench.ask('r') == Reason::NONE);
@@ -110,7 +110,7 @@ TEST_CASE("pilot switch: a bad pulse stops what flies at AUTO, and does not end 
   }
 }
 
-TEST_CASE("pilot switch: leaving AUTO ends what the ground and the Raspberry Pi had asked for") {
+TEST_CASE("pilot switch: leaving AUTO ends the requests of ground and Raspberry Pi") {
   PilotBench bench;
   bench.fly(2000);
   SUBCASE("the mode") {
@@ -172,7 +172,7 @@ TEST_CASE("pilot switch: without an IMU everything is a pass-through, and it com
   }
 }
 
-TEST_CASE("pilot switch: outside AUTO a lost Raspberry Pi is nothing to Authority") {
+TEST_CASE("pilot switch: outside AUTO Authority ignores a lost Raspberry Pi") {
   PilotBench bench;
   bench.fly(1500);
   bench.sticks[THROTTLE] = 1600;
@@ -184,7 +184,7 @@ TEST_CASE("pilot switch: outside AUTO a lost Raspberry Pi is nothing to Authorit
   CHECK_FALSE(bench.authority.is_failsafe());
 }
 
-TEST_CASE("pilot switch: a profile that takes AUTO away ends an Output that lives at once") {
+TEST_CASE("pilot switch: a profile without AUTO ends an active Output immediately") {
   PilotBench bench;
   bench.profile.has_motor = false;
   bench.fly(2000, false);

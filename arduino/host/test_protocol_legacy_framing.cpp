@@ -51,13 +51,13 @@ TEST_CASE("less than that does not open it") {
   CHECK(opened_after(LOCATION + LOCATION + LOCATION) == 0);
 }
 
-TEST_CASE("no byte repeated for ever opens it") {
+TEST_CASE("no endlessly repeated byte opens it") {
   for (int byte = 0; byte < 256; ++byte) {
     CHECK(opened_after(std::string(2000, static_cast<char>(byte))) == 0);
   }
 }
 
-TEST_CASE("what is between, out of range or unfinished breaks the run") {
+TEST_CASE("other bytes, values out of range and unfinished Commands break the run") {
   const std::string half = HEADING + REQUIRED;
   CHECK(opens(half + LOCATION));
   CHECK(opened_after(half + "\xff" + LOCATION) == 0);

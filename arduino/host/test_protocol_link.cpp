@@ -74,7 +74,7 @@ TEST_CASE("a full line does not stop streams that are never answered") {
   CHECK((bench.autopilot.authority.vetoes() & VETO_RASPBERRY_PI) != 0);
 }
 
-TEST_CASE("what is broken is dropped and counted; its neighbours are not") {
+TEST_CASE("a broken frame is dropped and counted; its neighbours are not") {
   std::ifstream file(VECTORS "/serial_checked_bad.json");
   const nlohmann::json page = nlohmann::json::parse(file);
   REQUIRE(page["vectors"].size() > 3);
@@ -117,7 +117,7 @@ TEST_CASE("missing frames are counted by their sequence, round the end, and stay
   CHECK(bench.autopilot.link.missing() == 65535);
 }
 
-TEST_CASE("a type that is none, and a size that is wrong, are dropped and refused by name") {
+TEST_CASE("an unknown type and a wrong size are dropped and refused with their code") {
   LinkBench bench;
   bench.take();
   bench.send('?');
@@ -147,7 +147,7 @@ TEST_CASE("streams are refused once a second and type, Commands each time") {
   CHECK(bench.take_types() == "!!!!!");
 }
 
-TEST_CASE("the Raspberry Pi is heard for one second, however long it is silent then") {
+TEST_CASE("the Raspberry Pi counts as received for one second") {
   LinkBench bench;
   CHECK_FALSE(bench.autopilot.link.has_received(bench.now_us));
   bench.send('v', {0});
@@ -159,7 +159,7 @@ TEST_CASE("the Raspberry Pi is heard for one second, however long it is silent t
   CHECK_FALSE(bench.autopilot.link.has_received(bench.now_us - 1003000));
 }
 
-TEST_CASE("what nothing here uses is refused with 13: altitude, headings, location") {
+TEST_CASE("unused types are refused with 13: altitude, headings, location") {
   for (char type : {'h', 'b', 'B', 'l'}) {
     CAPTURE(type);
     LinkBench bench;

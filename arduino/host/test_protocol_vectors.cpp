@@ -147,7 +147,7 @@ TEST_CASE("every golden thesis Command is received whole") {
   }
 }
 
-TEST_CASE("thesis framing knows no byte that is no thesis Command") {
+TEST_CASE("thesis framing rejects every other byte") {
   unsigned unknown = 0;
   for (int byte = 0; byte < 256; ++byte) {
     ReceiveBuffer buffer = {};
@@ -175,7 +175,7 @@ TEST_CASE("the longest frame is read, one byte more is too long, and the next is
   CHECK(reading.frames == 2);
 }
 
-TEST_CASE("a frame in which any one bit is wrong is no frame, and costs no other") {
+TEST_CASE("a frame with one wrong bit is rejected and affects no other frame") {
   const Bytes good = frame_of(7, 'u', bytes_of("05dc058f000006400201"));
   for (size_t bit = 0; bit < (good.size() - 1) * 8; ++bit) {
     Bytes bad = good;

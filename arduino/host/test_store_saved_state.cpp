@@ -58,7 +58,7 @@ TEST_CASE("the state written last is read, from any RAM, round and round the seq
   }
 }
 
-TEST_CASE("what is read is all that was written") {
+TEST_CASE("a state is read back completely") {
   SavedStates states = noise(1);
   states.write(numbered(7));
   SavedState state = numbered(0);
@@ -103,7 +103,7 @@ TEST_CASE("a reset in the midst of a write leaves the state of the write before"
   }
 }
 
-TEST_CASE("a single flipped bit anywhere never brings back what was not written") {
+TEST_CASE("no single flipped bit yields a state that was never written") {
   SavedStates states = noise(4);
   states.write(numbered(1));
   states.write(numbered(2));
@@ -119,7 +119,7 @@ TEST_CASE("a single flipped bit anywhere never brings back what was not written"
   }
 }
 
-TEST_CASE("forgetting leaves nothing to read") {
+TEST_CASE("a reset leaves nothing to read") {
   SavedStates states = noise(5);
   states.write(numbered(1));
   states.write(numbered(2));

@@ -38,7 +38,7 @@ class FuzzedBoard {
     autopilot_.link.on_byte(byte, clock_us());
     const bool is_arming = is_command(frame) && frame[1] == 'a';
     never(!was_armed && autopilot_.authority.is_armed() && !is_arming,
-          "armed by bytes that are no Arm");
+          "armed by bytes other than an Arm Command");
     is_door_closed_ = is_door_closed_ || is_command(frame);
     check_rules("a byte");
     pass(BYTE_US);
@@ -167,7 +167,7 @@ class FuzzedBoard {
       if (encoded.empty()) continue;
       const Bytes frame = frame_in(encoded);
       encoded.clear();
-      never(frame.size() < 2, "a frame that nobody can read");
+      never(frame.size() < 2, "an unreadable frame");
       never(size_from_arduino(frame[1]) != static_cast<int>(frame.size()) - 2,
             "a frame of unknown type or wrong size");
       never(frame[0] != expected_, "a frame out of sequence");

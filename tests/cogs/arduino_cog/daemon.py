@@ -1,4 +1,4 @@
-"""`python main.py` as a process, and a pilot on the ground who sends Commands to it."""
+"""`python main.py` as a process, and a ground station that sends Commands to it."""
 
 from __future__ import annotations
 

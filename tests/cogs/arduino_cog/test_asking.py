@@ -32,7 +32,7 @@ def test_arming_waits_for_the_arduinos_answer(rig):
         rig.status()
     rig.advance(0.1)
     assert refusal(outcome).code is Code.TIMEOUT
-    assert len(rig.sent("a")) == 1, "arming is never repeated by itself"
+    assert len(rig.sent("a")) == 1, "arming is never repeated automatically"
 
 
 def test_every_veto_of_this_program_refuses_arming_by_name(rig):

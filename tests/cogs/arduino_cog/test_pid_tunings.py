@@ -166,7 +166,7 @@ def test_a_set_from_the_ground_flies_and_is_saved_after_the_board_confirmed(tune
     assert gain_set_to_data(saved)["ratePIDs"] == loop(3.0)
     rig.alive(1)
     rig.alive(1, armed=False)
-    assert len(rig.sent(PUSHED)) == 1, "what was tuned is not pushed back"
+    assert len(rig.sent(PUSHED)) == 1, "tuned gains are not overwritten"
 
 
 def test_a_set_that_the_board_refuses_is_not_saved(tuned):

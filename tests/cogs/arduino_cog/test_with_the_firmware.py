@@ -189,7 +189,7 @@ def test_a_reset_in_flight_is_told_and_gets_nothing_but_start(flight):
     pushed = daemon.said().count("the Arduino gets")
     with board.rig() as rig:
         rig.force_watchdog_reset()
-    ground.sees("the state of before", arduino__restored=True, armed=True)
+    ground.sees("the restored state", arduino__restored=True, armed=True)
     assert "watchdog" in ground.at("arduino.reset_cause")
     # A machine that is busy may have taken the pause for silence.
     said = "a reset (watchdog, state restored), and is armed"

@@ -231,7 +231,7 @@ bool AttitudeFilter::take_new_bias() {
   return has_new_bias;
 }
 
-/** What is felt as up, turned over: the chip's x forward, y left, z up. */
+/** The measured up direction, inverted: the chip's x forward, y left, z up. */
 void AttitudeFilter::collect(const ImuSample& sample) {
   int16_t sign = -1;
   for (uint8_t axis = 0; axis < 3; ++axis) {
@@ -258,7 +258,7 @@ void AttitudeFilter::integrate(const int16_t* gyro) {
   attitude_.pitch_rate_16 = times_q15(angle[1], RATE_Q15);
   attitude_.yaw_rate_16 = times_q15(angle[2], RATE_Q15);
   integrate_yaw(angle);
-  // What is fixed to the earth turns against the aircraft.
+  // A direction fixed to the earth turns against the aircraft.
   int32_t change[3];
   cross(down_, angle, change);
   for (uint8_t axis = 0; axis < 3; ++axis) {
