@@ -4,11 +4,14 @@ import pytest
 from arduino_cog.modules.arduino_provider import ArduinoProvider
 
 from up.commands.arming_commands import ArmCommand, DisarmCommand
+<<<<<<< HEAD
 from up.commands.flight_state_command import FlightModeCommand
+=======
+from up.commands.board_schema import Reason
+from up.commands.flight_mode_command import FlightModeCommand
+>>>>>>> 09aa82b3 (Drop chip tests that restate host tests of the same portable code)
 from up.commands.panic_command import PanicCommand
 from up.commands.refusal import Code, CommandRefusedError
-
-NOT_AT_AUTO, VETO = 7, 11
 
 
 def refusal(outcome):
@@ -51,7 +54,7 @@ def test_every_veto_of_this_program_refuses_arming_by_name(rig):
 def test_the_arduinos_own_veto_is_told_in_words(rig):
     rig.connect()
     rig.status(vetoes=0b1010)
-    rig.refuse = {"a": VETO}
+    rig.refuse = {"a": Reason.VETO}
     outcome = refusal(rig.ask(ArmCommand()))
     assert outcome.detail == "veto"
     assert "(the receiver is invalid, AUX2 is low)" in outcome.reason
@@ -115,7 +118,7 @@ def test_flight_modes_have_their_letters(make_rig, controller, mode, letter):
 
 def test_a_flight_mode_is_refused_unless_the_switch_is_at_auto(rig):
     rig.connect()
-    rig.refuse = {"M": NOT_AT_AUTO}
+    rig.refuse = {"M": Reason.NOT_AT_AUTO}
     assert refusal(rig.ask(FlightModeCommand("FBW"))).detail == "not_at_auto"
 
 
