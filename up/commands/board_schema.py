@@ -1,5 +1,5 @@
 """Codes, fields and alarms of the board's status. Generated from schema/status.yml by tools/schema.py; do not edit."""
-# ruff: noqa: E501
+# ruff: noqa: D101, E501, RUF100
 # fmt: off
 
 from __future__ import annotations
@@ -7,49 +7,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 from enum import IntEnum, IntFlag
 from struct import Struct
-from typing import Literal, NamedTuple
 
+from up.commands.board_datum import Alarm, Datum
 from up.commands.command import value
-
-
-class Datum(NamedTuple):
-    """A field of the status, or a bit of one; ``signal`` is the scenarios' name for it."""
-
-    name: str
-    field: str
-    bit: int | None
-    kind: Literal["flag", "number", "text"]
-    unit: str
-    about: str
-    in_telemetry: bool
-    signal: str
-
-
-class Alarm(NamedTuple):
-    """A condition of ``arduino.<name>`` in telemetry that is an event, an alarm or a finding."""
-
-    name: str
-    field: str
-    bit: int | None
-    kind: str
-    when: bool | None
-    above: float | None
-    level: str
-    level_armed: str
-    text: str
-    end: str
-    event: str
-    unless: str
-    lasts: bool
-    hold_s: float | None
-    finding: str
-
-    def holds(self, value: float | bool | None) -> bool | None:
-        """Return whether a value fulfils the condition; None if it is unknown."""
-        if value is None:
-            return None
-        return value is self.when if self.above is None else value > self.above
-
 
 VERSION = 1
 STATUS = Struct('>BBBBBBHHHHHHH')
@@ -59,47 +19,10 @@ SWITCH_MODES = {'a': 'ACRO', 'r': 'RATE', 'f': 'FBW', 'A': 'AUTO'}
 SWITCH_POSITIONS = {0: 'low', 1: 'middle', 2: 'high'}
 VETOES = ('the throttle is not low', 'the receiver is invalid', 'the IMU is invalid', 'AUX2 is low', 'the Raspberry Pi vetoes', 'calibrating', 'the profile is invalid', 'a veto that this program does not know')
 RESET_CAUSES = {0: 'power-on', 1: 'external', 2: 'brown-out', 3: 'watchdog', 7: 'state restored'}
-
-
-class Veto(IntFlag):
-    """Bits of vetoes."""
-
-    THROTTLE_NOT_LOW = 1
-    RECEIVER_INVALID = 2
-    IMU_INVALID = 4
-    AUX2_LOW = 8
-    RASPBERRY_PI = 16
-    CALIBRATING = 32
-    PROFILE_INVALID = 64
-    UNKNOWN = 128
-
-
-class Reset(IntFlag):
-    """Bits of the reset cause."""
-
-    POWER_ON = 1
-    EXTERNAL = 2
-    BROWN_OUT = 4
-    WATCHDOG = 8
-    RESTORED = 128
-
-
-class Flag(IntFlag):
-    """Bits of flags."""
-
-    ARMED = 1
-    AT_AUTO = 2
-    RECEIVER_VALID = 4
-    IMU_VALID = 8
-    FAILSAFE = 16
-    BIAS_STORED = 32
-    GAINS_STORED = 64
-    PI_RECEIVED = 128
+REASONS = {1: 'unknown type', 2: 'wrong size', 3: 'out of range', 4: 'only on the ground, not in flight', 5: 'not while in thesis framing', 6: 'too old', 7: 'the switch is not at AUTO', 8: 'the throttle is not low', 9: 'the receiver is invalid', 10: 'the IMU is invalid', 11: 'a veto', 12: 'not still enough', 13: 'not supported: nothing on the Arduino uses it'}
 
 
 class Reason(IntEnum):
-    """Codes of a refusal (`!`)."""
-
     UNKNOWN_TYPE = 1
     WRONG_SIZE = 2
     OUT_OF_RANGE = 3
@@ -115,21 +38,36 @@ class Reason(IntEnum):
     NOT_SUPPORTED = 13
 
 
-REASONS = {
-    1: 'unknown type',
-    2: 'wrong size',
-    3: 'out of range',
-    4: 'only on the ground, not in flight',
-    5: 'not while in thesis framing',
-    6: 'too old',
-    7: 'the switch is not at AUTO',
-    8: 'the throttle is not low',
-    9: 'the receiver is invalid',
-    10: 'the IMU is invalid',
-    11: 'a veto',
-    12: 'not still enough',
-    13: 'not supported: nothing on the Arduino uses it',
-}
+class Veto(IntFlag):
+    THROTTLE_NOT_LOW = 1
+    RECEIVER_INVALID = 2
+    IMU_INVALID = 4
+    AUX2_LOW = 8
+    RASPBERRY_PI = 16
+    CALIBRATING = 32
+    PROFILE_INVALID = 64
+    UNKNOWN = 128
+
+
+class Reset(IntFlag):
+    POWER_ON = 1
+    EXTERNAL = 2
+    BROWN_OUT = 4
+    WATCHDOG = 8
+    RESTORED = 128
+
+
+class Flag(IntFlag):
+    ARMED = 1
+    AT_AUTO = 2
+    RECEIVER_VALID = 4
+    IMU_VALID = 8
+    FAILSAFE = 16
+    BIAS_STORED = 32
+    GAINS_STORED = 64
+    PI_RECEIVED = 128
+
+
 DATA = (
     Datum('version', 'version', None, 'number', '', "version of this page's serial section", False, ''),
     Datum('mode', 'mode', None, 'number', '', 'flight mode letter', False, ''),
@@ -179,16 +117,16 @@ ALARMS = (
 class BoardStatus:
     """The fields of the status message, in the order of the wire."""
 
-    version: int = value(minimum=0, maximum=255)
-    mode: int = value(minimum=0, maximum=255)
-    switch: int = value(minimum=0, maximum=255)
-    flags: int = value(minimum=0, maximum=255)
-    vetoes: int = value(minimum=0, maximum=255)
-    reset_cause: int = value(minimum=0, maximum=255)
+    version: int = value(minimum=0, maximum=255, unit='')
+    mode: int = value(minimum=0, maximum=255, unit='')
+    switch: int = value(minimum=0, maximum=255, unit='')
+    flags: int = value(minimum=0, maximum=255, unit='')
+    vetoes: int = value(minimum=0, maximum=255, unit='')
+    reset_cause: int = value(minimum=0, maximum=255, unit='')
     loop_us: int = value(minimum=0, maximum=65535, unit='us')
     late_us: int = value(minimum=0, maximum=65535, unit='us')
-    frame_errors: int = value(minimum=0, maximum=65535)
-    frames_lost: int = value(minimum=0, maximum=65535)
+    frame_errors: int = value(minimum=0, maximum=65535, unit='')
+    frames_lost: int = value(minimum=0, maximum=65535, unit='')
     uptime_s: int = value(minimum=0, maximum=65535, unit='s')
     rx_age_ms: int = value(minimum=0, maximum=65535, unit='ms')
     imu_age_ms: int = value(minimum=0, maximum=65535, unit='ms')

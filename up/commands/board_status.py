@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
+from up.commands.board_datum import Alarm, Datum
 from up.commands.board_schema import (
     DATA,
     FLIGHT_MODES,
@@ -15,8 +16,6 @@ from up.commands.board_schema import (
     RESET_CAUSES,
     SWITCH_POSITIONS,
     VETOES,
-    Alarm,
-    Datum,
     Reason,
 )
 

@@ -4,12 +4,7 @@ import pytest
 from arduino_cog.modules.arduino_provider import ArduinoProvider
 
 from up.commands.arming_commands import ArmCommand, DisarmCommand
-<<<<<<< HEAD
 from up.commands.flight_state_command import FlightModeCommand
-=======
-from up.commands.board_schema import Reason
-from up.commands.flight_mode_command import FlightModeCommand
->>>>>>> 09aa82b3 (Drop chip tests that restate host tests of the same portable code)
 from up.commands.panic_command import PanicCommand
 from up.commands.refusal import Code, CommandRefusedError
 

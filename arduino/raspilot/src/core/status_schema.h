@@ -18,7 +18,7 @@ enum class Mode : char {
   OUTPUT = 'u'
 };
 
-/** Refusals of a Command; NONE: carried out. */
+/** Refusals of a Command. */
 enum class Reason : uint8_t {
   NONE = 0,
   UNKNOWN_TYPE = 1,
@@ -47,7 +47,7 @@ enum Veto : uint8_t {
   VETO_PROFILE_INVALID = 64
 };
 
-/** Reset cause bits of the status. */
+/** Reset cause bits. */
 enum ResetCause : uint8_t {
   RESET_POWER_ON = 1,
   RESET_EXTERNAL = 2,
@@ -68,7 +68,7 @@ enum StatusFlag : uint8_t {
   FLAG_PI_RECEIVED = 128
 };
 
-/** Offsets of the status's fields, big-endian. */
+/** Offsets of the fields, big-endian. */
 enum StatusOffset : uint8_t {
   AT_VERSION = 0,
   AT_MODE = 1,

@@ -15,7 +15,7 @@ from up.commands.heading_command import HeadingCommand
 from up.commands.location_command import LocationCommand
 from up.mode import WITH_ARDUINO
 from up.needs import needs
-from up.providers.reading import Reading
+from up.providers.base_provider import Reading
 from up.providers.up_altitude_provider import UpAltitudeProvider
 from up.providers.up_heading_provider import UpHeadingProvider
 from up.providers.up_location_provider import UpLocationProvider

@@ -11,7 +11,7 @@ from arduino_cog.modules.arduino_provider import ArduinoProvider
 from arduino_cog.wire import IN_FLIGHT
 from up.base_module import BaseModule
 from up.commands.arming_commands import ArmCommand, DisarmCommand
-from up.commands.flight_mode_command import FlightModeCommand
+from up.commands.flight_state_command import FlightModeCommand
 from up.commands.refusal import CommandRefusedError
 from up.mode import WITH_ARDUINO
 from up.needs import needs
