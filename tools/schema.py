@@ -28,7 +28,8 @@ MODE = {"letter": None, "name": None, "about": None, "holder": "", "switch": Fal
 REFUSAL = {"code": None, "name": None, "text": None}
 ALARM = {"kind": None, "when": "", "above": "", "level": "warning", "armed": "", "text": "",
          "end": "", "event": "source", "unless": "", "lasts": True, "hold_s": ""}  # fmt: skip
-ROW: dict[str, Any] = {"name": None, "type": "", "bit": "", "about": "", "unit": "", "text": "", "values": {},
+ROW: dict[str, Any] = {
+       "name": None, "type": "", "bit": "", "about": "", "unit": "", "text": "", "values": {},
        "bits": (), "telemetry": True, "signal": True, "firmware": True, "row": {}, "alarm": {},
        "finding": ""}  # fmt: skip
 
