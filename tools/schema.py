@@ -26,8 +26,9 @@ MAXIMUM = {"u8": 255, "u16": 65535}
 MODE = {"letter": None, "name": None, "about": None, "holder": "", "switch": False,
         "flown": True, "firmware": True}  # fmt: skip
 REFUSAL = {"code": None, "name": None, "text": None}
-ALARM = {"kind": None, "when": "", "above": "", "level": "warning", "armed": "", "text": "",
-         "end": "", "event": "source", "unless": "", "lasts": True, "hold_s": ""}  # fmt: skip
+ALARM = {"kind": None, "when": "", "above": "", "level": "warning", "armed": "", "code": "",
+         "text": "", "end_code": "", "end": "", "event": "source", "unless": "",
+         "lasts": True, "hold_s": ""}  # fmt: skip
 ROW: dict[str, Any] = {
        "name": None, "type": "", "bit": "", "about": "", "unit": "", "text": "", "values": {},
        "bits": (), "telemetry": True, "signal": True, "firmware": True, "row": {}, "alarm": {},
@@ -90,6 +91,8 @@ def _row(data: dict[str, Any], field: str) -> Item:
         if (alarm.when == "") == (alarm.above == ""):
             raise SchemaError(f"{row.name}: alarm: give either 'when' or 'above'")
         alarm.armed = alarm.armed or alarm.level
+        alarm.code = alarm.code or row.name
+        alarm.end_code = alarm.end_code or f"{alarm.code}_over"
         row.finding = alarm.text if row.finding == "" else row.finding or ""
     return row
 
@@ -162,8 +165,9 @@ def python(status: Status) -> str:
         *(call("Datum", r, r.kind, r.unit, r.about, r.in_telemetry, r.signal)
           for r in status.rows),
         ")", "ALARMS = (",
-        *(call("Alarm", r, a.kind, none(a.when), none(a.above), a.level, a.armed, a.text, a.end,
-               a.event, a.unless, a.lasts, none(a.hold_s), r.finding) for r, a in status.alarms),
+        *(call("Alarm", r, a.kind, none(a.when), none(a.above), a.level, a.armed, a.code, a.text,
+               a.end_code, a.end, a.event, a.unless, a.lasts, none(a.hold_s), r.finding)
+          for r, a in status.alarms),
         ")", "", "", "@dataclass(frozen=True, slots=True)", "class BoardStatus:",
         '    """The fields of the status message, in the order of the wire."""', "",
         *(f"    {r.name}: int = value(minimum=0, maximum={MAXIMUM[r.type]}, unit={r.unit!r})"
@@ -198,14 +202,16 @@ def javascript(status: Status) -> str:
 def java(status: Status) -> str:
     """Return the app's tables: events and alarms of the board, and units."""
     alarms = ",\n".join(
-        f"            new BoardAlarm({_java(alarm.kind, alarm.event)},"
-        f" {'Alarm.Kind.' + alarm.kind.upper() if alarm.lasts else 'null'},\n"
+        f"            new BoardAlarm("
+        f"{'Alarm.Kind.' + alarm.kind.upper() if alarm.lasts else 'null'},"
+        f" {str(bool(alarm.event)).lower()},\n"
         f"                    {_java(f'arduino.{row.name}')},"
         f" {'null' if alarm.when == '' else 'Boolean.' + str(alarm.when).upper()},"
         f" {float(alarm.above or 0)}, {_java(alarm.unless and f'arduino.{alarm.unless}')},\n"
         f"                    EventLevel.{alarm.level.upper()},"
-        f" EventLevel.{alarm.armed.upper()},\n                    {_java(alarm.text)},\n"
-        f"                    {_java(alarm.end)},"
+        f" EventLevel.{alarm.armed.upper()},\n"
+        f"                    {_java(alarm.code, alarm.text)},\n"
+        f"                    {_java(alarm.end_code, alarm.end)},"
         f" {round((alarm.hold_s or status.alarm_hold_s) * 1000)})"
         for row, alarm in status.alarms
         if alarm.text
@@ -264,7 +270,7 @@ def documents(status: Status, text: str) -> str:
         "refusals": [("code", "name", "reason"), *((r.code, f"`{r.name}`", r.text)
                                                    for r in status.refusals)],
         "status": [("offset", "type", "field", ""), *map(_field_row, status.fields)],
-        "alarms": [("condition", "level", "text", "when it is over"),
+        "alarms": [("condition", "level", "code", "text", "when it is over"),
                    *(_alarm_row(*each) for each in status.alarms if each[1].text)],
     }  # fmt: skip
     for name, (head, *rows) in tables.items():
@@ -289,7 +295,13 @@ def _alarm_row(row: Item, alarm: Item) -> tuple[Any, ...]:
     hidden = f", not `arduino.{alarm.unless}`" if alarm.unless else ""
     level = alarm.level + (f", {alarm.armed} while armed" if alarm.armed != alarm.level else "")
     level += "" if alarm.lasts else " (event only)"
-    return f"`arduino.{row.name}`{limit}{hidden}", level, alarm.text, alarm.end or "-"
+    return (
+        f"`arduino.{row.name}`{limit}{hidden}",
+        level,
+        f"`{alarm.code}`",
+        alarm.text,
+        alarm.end or "-",
+    )
 
 
 def _region(text: str, content: str, begin: str, end: str) -> str:

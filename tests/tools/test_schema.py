@@ -27,21 +27,21 @@ from up.commands.board_status import telemetry_of
 from up.flight_log.telemetry_schema import PROPERTIES
 from up.protocols.general_message import GeneralMessage
 from up_ground.telemetry import NAME, Telemetry
-from up_ground.web.alarms import LinkFacts
-from up_ground.web.judge import Judge
+from up_ground.web.event_monitor import EventMonitor
+from up_ground.web.event_rules import LinkSnapshot
 from up_simulator.firmware.tap import BoardTap
 from up_simulator.scenario.signals import SIGNALS
 from up_simulator.wire import checked_frame
 
 told = []
-judge = Judge("kite", told.append)
-link = LinkFacts(True, "", True, True, False)
+monitor = EventMonitor("kite", told.append)
+link = LinkSnapshot(True, "", True, True, False)
 def see(count, now_s):
     status = read_status(bytes(STATUS.size - 1) + bytes((count,)))
     telemetry = Telemetry()
     arduino = {"brown_outs": telemetry_of(status.data)["brown_outs"]}
     telemetry.take(GeneralMessage(NAME, {"arduino": arduino}), now_s)
-    judge.on_frame(telemetry, link, now_s)
+    monitor.on_frame(telemetry, link, now_s)
     return status
 for now_s, count in ((1, 0), (2, 3), (20, 0), (24, 0), (26, 0)):
     status = see(count, now_s)
@@ -49,7 +49,7 @@ tap = BoardTap()
 tap.feed(checked_frame(0, "x", bytes(STATUS.size - 1) + b"\\7"), 0.0)
 json.dump({
     "telemetry": telemetry_of(status.data)["brown_outs"],
-    "events": [each["text"] for each in told if each["type"] == "event"],
+    "events": [each["code"] for each in told if each["type"] == "event"],
     "alarms": [[a["kind"] for a in each["active"]] for each in told if each["type"] == "alarms"],
     "tap": tap.status.brown_outs,
     "signals": [each for each in SIGNALS if "brown_outs" in each],
@@ -93,7 +93,7 @@ def test_it_is_in_telemetry_events_alarms_and_scenarios(tree):
     found = json.loads(result.stdout)
     assert found == {
         "telemetry": 0,
-        "events": ["the supply of the board fails", "the supply of the board is stable"],
+        "events": ["brown_outs", "brown_outs_over"],
         "alarms": [["brown_outs"], []],
         "tap": 7,
         "signals": ["board.brown_outs", "ground.arduino.brown_outs"],
@@ -132,7 +132,10 @@ def test_it_is_in_the_app_and_in_the_documents(tree):
     assert "5000)" in table
     page = (tree / "docs" / "protocols.md").read_text()
     assert "| 20 | u8 | `brown_outs` | brown-outs since power-on |" in page
-    assert "| `arduino.brown_outs` above 2 | alarm | the supply of the board fails |" in page
+    assert (
+        "| `arduino.brown_outs` above 2 | alarm | `brown_outs` | the supply of the board fails |"
+        in page
+    )
     assert "| `x` | 78 | 21 |" in page
     assert "`frame_errors`, `brown_outs` |" in page
 

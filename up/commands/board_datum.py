@@ -29,7 +29,9 @@ class Alarm(NamedTuple):
     above: float | None
     level: str
     level_armed: str
+    code: str
     text: str
+    end_code: str
     end: str
     event: str
     unless: str

@@ -105,11 +105,11 @@ DATA = (
     Datum('imu_age_ms', 'imu_age_ms', None, 'number', 'ms', "age of the IMU's newest sample, stays at 65535", False, 'imu_age_ms'),
 )
 ALARMS = (
-    Alarm('receiver_valid', 'flags', 2, 'receiver', False, None, 'warning', 'alarm', 'the receiver is lost', 'the receiver is back', 'failsafe', 'failsafe', True, None, ''),
-    Alarm('imu_valid', 'flags', 3, 'imu', False, None, 'alarm', 'alarm', 'the IMU is invalid: nothing stabilises', 'the IMU is valid', 'source', '', True, None, 'the IMU was invalid'),
-    Alarm('failsafe', 'flags', 4, 'failsafe', True, None, 'alarm', 'alarm', 'failsafe: the board flies without a receiver', 'the failsafe is over', 'failsafe', '', True, None, ''),
-    Alarm('pi_received', 'flags', 7, 'pi_received', False, None, 'warning', 'warning', '', '', '', '', False, None, 'the board received nothing from Raspilot'),
-    Alarm('restored', 'reset_cause', 7, 'restored', True, None, 'alarm', 'alarm', 'the board was reset in flight and continues as before', '', 'source', '', False, None, ''),
+    Alarm('receiver_valid', 'flags', 2, 'receiver', False, None, 'warning', 'alarm', 'receiver_lost', 'the receiver is lost', 'receiver_back', 'the receiver is back', 'failsafe', 'failsafe', True, None, ''),
+    Alarm('imu_valid', 'flags', 3, 'imu', False, None, 'alarm', 'alarm', 'imu_invalid', 'the IMU is invalid: no stabilisation', 'imu_valid', 'the IMU is valid', 'source', '', True, None, 'the IMU was invalid'),
+    Alarm('failsafe', 'flags', 4, 'failsafe', True, None, 'alarm', 'alarm', 'failsafe', 'failsafe: the Arduino flies without a receiver', 'failsafe_over', 'the failsafe is over', 'failsafe', '', True, None, ''),
+    Alarm('pi_received', 'flags', 7, 'pi_received', False, None, 'warning', 'warning', 'raspilot_silent', '', 'raspilot_silent_over', '', '', '', False, None, 'the board received nothing from Raspilot'),
+    Alarm('restored', 'reset_cause', 7, 'restored', True, None, 'alarm', 'alarm', 'board_reset', 'the Arduino was reset in flight and restored its state', 'board_reset_over', '', 'source', '', False, None, ''),
 )
 
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from typing import Any
 
+from up.commands import board_status
 from up.earth import bearing_deg, compass_deg, distance_m
-from up.flight_log import board_status
 from up.flight_log.followed import FRESH_S, Followed
 from up.flight_log.json_message import number_at
 from up.flight_log.origin_text import KEY, link_and_role

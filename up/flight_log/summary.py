@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from up.flight_log import board_status
+from up.commands import board_status
 from up.flight_log.estimate_error import EstimateError
 from up.flight_log.finding import Finding
 from up.flight_log.findings import findings

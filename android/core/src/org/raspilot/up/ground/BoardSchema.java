@@ -13,26 +13,26 @@ final class BoardSchema {
     static final long ALARM_HOLD_MS = 2000;
     /** Events and alarms. */
     static final List<BoardAlarm> ALARMS = Collections.unmodifiableList(Arrays.asList(
-            new BoardAlarm("receiver", "failsafe", Alarm.Kind.RECEIVER,
+            new BoardAlarm(Alarm.Kind.RECEIVER, true,
                     "arduino.receiver_valid", Boolean.FALSE, 0.0, "arduino.failsafe",
                     EventLevel.WARNING, EventLevel.ALARM,
-                    "the receiver is lost",
-                    "the receiver is back", 2000),
-            new BoardAlarm("imu", "source", Alarm.Kind.IMU,
+                    "receiver_lost", "the receiver is lost",
+                    "receiver_back", "the receiver is back", 2000),
+            new BoardAlarm(Alarm.Kind.IMU, true,
                     "arduino.imu_valid", Boolean.FALSE, 0.0, "",
                     EventLevel.ALARM, EventLevel.ALARM,
-                    "the IMU is invalid: nothing stabilises",
-                    "the IMU is valid", 2000),
-            new BoardAlarm("failsafe", "failsafe", Alarm.Kind.FAILSAFE,
+                    "imu_invalid", "the IMU is invalid: no stabilisation",
+                    "imu_valid", "the IMU is valid", 2000),
+            new BoardAlarm(Alarm.Kind.FAILSAFE, true,
                     "arduino.failsafe", Boolean.TRUE, 0.0, "",
                     EventLevel.ALARM, EventLevel.ALARM,
-                    "failsafe: the board flies without a receiver",
-                    "the failsafe is over", 2000),
-            new BoardAlarm("restored", "source", null,
+                    "failsafe", "failsafe: the Arduino flies without a receiver",
+                    "failsafe_over", "the failsafe is over", 2000),
+            new BoardAlarm(null, true,
                     "arduino.restored", Boolean.TRUE, 0.0, "",
                     EventLevel.ALARM, EventLevel.ALARM,
-                    "the board was reset in flight and continues as before",
-                    "", 2000)));
+                    "board_reset", "the Arduino was reset in flight and restored its state",
+                    "board_reset_over", "", 2000)));
     /** Units by path in telemetry. */
     static final Map<String, String> UNITS = new HashMap<String, String>();
 
