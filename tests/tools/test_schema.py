@@ -40,7 +40,7 @@ def see(count, now_s):
     status = read_status(bytes(STATUS.size - 1) + bytes((count,)))
     telemetry = Telemetry()
     arduino = {"brown_outs": telemetry_of(status.data)["brown_outs"]}
-    telemetry.take(GeneralMessage(NAME, {"arduino": arduino}), now_s)
+    telemetry.update(GeneralMessage(NAME, {"arduino": arduino}), now_s)
     monitor.on_frame(telemetry, link, now_s)
     return status
 for now_s, count in ((1, 0), (2, 3), (20, 0), (24, 0), (26, 0)):
