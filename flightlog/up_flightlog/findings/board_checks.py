@@ -7,16 +7,11 @@ from collections.abc import Iterator
 from dataclasses import asdict
 from math import inf
 
+from up.commands.board_schema import ALARMS
+from up.commands.board_status import has_bit, reset_causes_of
 from up.flight_log.json_message import number_at
 from up_flightlog.findings.finding import Detector, Finding, Level, lasting
 from up_flightlog.findings.flight_context import FlightContext
-from up_flightlog.read.board_status import (
-    IMU_VALID,
-    PI_HEARD,
-    RECEIVER_VALID,
-    has_bit,
-    reset_causes_of,
-)
 from up_flightlog.read.spans import Span, joined
 
 RX = "up.rx.update"
@@ -43,7 +38,8 @@ def receiver_lost(context: FlightContext) -> Iterator[Finding]:
     if RX in context.log.topics:
         lost = context.lost(_validity(context, bad))
     else:
-        lost = context.flag_lost(RECEIVER_VALID)
+        (alarm,) = (each for each in ALARMS if each.name == "receiver_valid")
+        lost = context.alarm_spans(alarm)
     for span in joined(lost, 2 * MIN_LOSS_S):
         if span.length_s < MIN_LOSS_S:
             continue
@@ -75,10 +71,11 @@ def failsafe(context: FlightContext) -> Iterator[Finding]:
         yield lasting(span, _level(context, span), "failsafe", text)
 
 
-def imu_invalid(context: FlightContext) -> Iterator[Finding]:
-    """No attitude: the board could not stabilise."""
-    for span in context.flag_lost(IMU_VALID):
-        yield lasting(span, _level(context, span), "imu_invalid", "the IMU was invalid")
+def status_alarms(context: FlightContext) -> Iterator[Finding]:
+    """The conditions of the status that schema/status.yml defines as findings."""
+    for alarm in ALARMS:
+        for span in context.alarm_spans(alarm) if alarm.finding else ():
+            yield lasting(span, _level(context, span), alarm.code, alarm.finding)
 
 
 def board_reset(context: FlightContext) -> Iterator[Finding]:
@@ -109,13 +106,6 @@ def board_silent(context: FlightContext) -> Iterator[Finding]:
         # A program that stood still logs the loss and its end at the same moment.
         if span.length_s >= MIN_LOSS_S:
             yield lasting(span, _level(context, span), "board_silent", "the board was silent")
-
-
-def raspberry_unheard(context: FlightContext) -> Iterator[Finding]:
-    """The other direction: the board received nothing from Raspilot."""
-    for span in context.flag_lost(PI_HEARD):
-        text = "the board received nothing from Raspilot"
-        yield lasting(span, _level(context, span), "raspilot_silent", text)
 
 
 def loop_late(context: FlightContext) -> Iterator[Finding]:
@@ -178,10 +168,9 @@ def estimate_wrong(context: FlightContext) -> Iterator[Finding]:
 BOARD_CHECKS: tuple[Detector, ...] = (
     receiver_lost,
     failsafe,
-    imu_invalid,
+    status_alarms,
     board_reset,
     board_silent,
-    raspberry_unheard,
     loop_late,
     frames_damaged,
     estimate_wrong,

@@ -8,9 +8,9 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
 
+from up.commands import board_status
+from up.commands.board_datum import Alarm
 from up_flightlog.findings.estimate_error import EstimateError, estimate_errors
-from up_flightlog.read import board_status
-from up_flightlog.read.board_status import has_bit
 from up_flightlog.read.flight_log import FlightLog, LoggedMessage
 from up_flightlog.read.spans import Span, spans_of
 
@@ -114,11 +114,13 @@ class FlightContext:
         """Return the spans in which a condition was false after it had been true."""
         return self.spans(_after_first(states))
 
-    def flag_lost(self, bit: int) -> list[Span]:
-        """Return the spans in which a status flag was clear after it had been set."""
-        return self.lost(
-            (each.time_s, has_bit(each.data, "flags", bit)) for each in self.statuses()
+    def alarm_spans(self, alarm: Alarm) -> list[Span]:
+        """Return the spans in which a condition of the status held after it had not."""
+        states = (
+            (each.time_s, alarm.holds(board_status.value_of(each.data, alarm)))
+            for each in self.statuses()
         )
+        return self.lost((time_s, None if holds is None else not holds) for time_s, holds in states)
 
     def statuses(self) -> Iterator[LoggedMessage]:
         return self.log.messages(board_status.TOPIC)

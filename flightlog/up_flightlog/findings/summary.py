@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 
+from up.commands import board_status
 from up.flight_log.json_message import number_at
 from up_flightlog.findings.detectors import findings
 from up_flightlog.findings.estimate_error import EstimateError
 from up_flightlog.findings.finding import Finding
 from up_flightlog.findings.flight_context import ERROR, TELEMETRY, WARNING, FlightContext
-from up_flightlog.read import board_status
 from up_flightlog.read.flight_log import FlightLog
 from up_flightlog.read.source_filter import from_selected_source
 from up_flightlog.read.spans import Span

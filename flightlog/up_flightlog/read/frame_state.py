@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from typing import Any
 
+from up.commands import board_status
 from up.earth import bearing_deg, compass_deg, distance_m
 from up.flight_log.json_message import number_at
 from up.flight_log.origin_text import KEY, link_and_role
-from up_flightlog.read import board_status
 from up_flightlog.read.source_filter import FRESH_S, SourceFilter
 
 ANGLES = ("yaw", "pitch", "roll")

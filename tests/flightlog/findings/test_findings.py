@@ -415,4 +415,4 @@ def test_a_shared_context_gives_the_same_result(maker, tmp_path):
     context = FlightContext(log)
     assert findings(log, context) == findings(log)
     assert summary.summarise(log, context) == summary.summarise(log)
-    assert len({detector.__name__ for detector in DETECTORS}) == len(DETECTORS) == 23
+    assert len({detector.__name__ for detector in DETECTORS}) == len(DETECTORS) == 22

@@ -17,10 +17,10 @@ namespace raspilot {
  * count nothing, forty-eight bytes that are twelve gains count all. A run of random bytes reaches
  * the eight points needed about once in 10^10 beginnings.
  */
-class ThesisDoor {
+class LegacyFramingDetector {
  public:
   /** Takes one byte; true when the run is long and improbable enough. */
-  bool take(uint8_t byte, uint32_t now_us);
+  bool receive(uint8_t byte, uint32_t now_us);
   /** Breaks a run whose Command is unfinished after 100 ms. */
   void expire(uint32_t now_us);
 

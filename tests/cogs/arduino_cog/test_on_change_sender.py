@@ -3,7 +3,7 @@
 from itertools import pairwise
 
 import pytest
-from arduino_cog.change_sender import ChangeSender
+from arduino_cog.on_change_sender import OnChangeSender
 from hypothesis import given
 from hypothesis import strategies as st
 from twisted.internet.task import Clock
@@ -21,7 +21,7 @@ def make(clock, sent, leaves=lambda: True):
         sent.append((clock.seconds(), payload))
         return 0
 
-    return ChangeSender(clock, send)
+    return OnChangeSender(clock, send)
 
 
 def test_the_same_value_is_sent_once(clock):
@@ -67,7 +67,7 @@ def test_another_board_is_told_again(clock):
     sender = make(clock, sent)
     sender.offer(b"a")
     clock.advance(1)
-    sender.forget()
+    sender.reset()
     sender.offer(b"a")
     assert [payload for _, payload in sent] == [b"a", b"a"]
 

@@ -4,7 +4,7 @@
 
 #include "flying_board.h"
 #include "link_bench.h"
-#include "protocol/thesis_door.h"
+#include "protocol/legacy_framing_detector.h"
 #include "wire_vectors.h"
 
 using namespace raspilot;
@@ -21,11 +21,11 @@ std::string gains() {
   return "t" + std::string(4 * 12, '\0');
 }
 
-/** How many bytes the door takes until it opens; 0 when it does not. */
+/** How many bytes the detector takes until it opens; 0 when it does not. */
 size_t opened_after(const std::string& bytes) {
-  ThesisDoor door = {};
+  LegacyFramingDetector detector = {};
   for (size_t at = 0; at < bytes.size(); ++at) {
-    if (door.take(static_cast<uint8_t>(bytes[at]), 0)) return at + 1;
+    if (detector.receive(static_cast<uint8_t>(bytes[at]), 0)) return at + 1;
   }
   return 0;
 }
@@ -34,7 +34,7 @@ bool opens(const std::string& bytes) { return opened_after(bytes) == bytes.size(
 
 }  // namespace
 
-TEST_CASE("an old Raspberry Pi opens the door") {
+TEST_CASE("an old Raspberry Pi opens the detector") {
   CHECK(opens(gains() + "T"));
   CHECK(opens(gains() + ALTITUDE));
   CHECK(opens(PANIC + PANIC));
@@ -51,13 +51,13 @@ TEST_CASE("less than that does not open it") {
   CHECK(opened_after(LOCATION + LOCATION + LOCATION) == 0);
 }
 
-TEST_CASE("no byte repeated for ever opens it") {
+TEST_CASE("no endlessly repeated byte opens it") {
   for (int byte = 0; byte < 256; ++byte) {
     CHECK(opened_after(std::string(2000, static_cast<char>(byte))) == 0);
   }
 }
 
-TEST_CASE("what is between, out of range or unfinished breaks the run") {
+TEST_CASE("other bytes, values out of range and unfinished Commands break the run") {
   const std::string half = HEADING + REQUIRED;
   CHECK(opens(half + LOCATION));
   CHECK(opened_after(half + "\xff" + LOCATION) == 0);
@@ -74,29 +74,29 @@ TEST_CASE("what is between, out of range or unfinished breaks the run") {
     set.replace(1 + 4 * 7, 4, std::string(gain.begin(), gain.end()));
     CHECK(opened_after(half + set) == 0);
   }
-  ThesisDoor door = {};
-  for (char byte : half + "l") door.take(static_cast<uint8_t>(byte), 0);
-  door.expire(99999);
+  LegacyFramingDetector detector = {};
+  for (char byte : half + "l") detector.receive(static_cast<uint8_t>(byte), 0);
+  detector.expire(99999);
   bool is_open = false;
-  for (char byte : LOCATION.substr(1)) is_open |= door.take(static_cast<uint8_t>(byte), 99999);
+  for (char byte : LOCATION.substr(1)) is_open |= detector.receive(static_cast<uint8_t>(byte), 99999);
   CHECK(is_open);
-  door = ThesisDoor();
-  for (char byte : half + "l") door.take(static_cast<uint8_t>(byte), 0);
-  door.expire(102048);
+  detector = LegacyFramingDetector();
+  for (char byte : half + "l") detector.receive(static_cast<uint8_t>(byte), 0);
+  detector.expire(102048);
   is_open = false;
-  for (char byte : LOCATION) is_open |= door.take(static_cast<uint8_t>(byte), 102048);
+  for (char byte : LOCATION) is_open |= detector.receive(static_cast<uint8_t>(byte), 102048);
   CHECK_FALSE(is_open);
 }
 
 TEST_CASE("ten million random bytes do not open it, whatever their pauses") {
   std::mt19937 random(20150517);
-  ThesisDoor door = {};
+  LegacyFramingDetector detector = {};
   uint32_t now_us = 0;
   unsigned openings = 0;
   for (int count = 0; count < 10000000; ++count) {
     const uint32_t drawn = static_cast<uint32_t>(random());
     if ((drawn >> 8 & 0x3F) == 0) now_us += 150000;
-    openings += door.take(static_cast<uint8_t>(drawn), now_us);
+    openings += detector.receive(static_cast<uint8_t>(drawn), now_us);
   }
   CHECK(openings == 0);
 }
@@ -104,18 +104,18 @@ TEST_CASE("ten million random bytes do not open it, whatever their pauses") {
 TEST_CASE("random bytes of the thesis's own letters do not open it") {
   std::mt19937 random(4711);
   const std::string letters = "ptThbBl";
-  ThesisDoor door = {};
+  LegacyFramingDetector detector = {};
   unsigned openings = 0;
   for (int count = 0; count < 3000000; ++count) {
-    openings += door.take(static_cast<uint8_t>(letters[random() % letters.size()]), 0);
+    openings += detector.receive(static_cast<uint8_t>(letters[random() % letters.size()]), 0);
   }
   CHECK(openings == 0);
 }
 
-TEST_CASE("through the door thesis framing is spoken until reset") {
+TEST_CASE("through the detector thesis framing is spoken until reset") {
   LinkBench bench;
   bench.take_raw();
-  bench.hear(gains() + "T");
+  bench.receive(gains() + "T");
   CHECK(bench.autopilot.link.is_thesis());
   // Neither was carried out, and no start was needed.
   CHECK(bench.take_raw().empty());
@@ -123,7 +123,7 @@ TEST_CASE("through the door thesis framing is spoken until reset") {
   const Bytes streamed = bench.take_raw();
   REQUIRE(streamed.size() % 9 == 0);
   CHECK(streamed[0] == 'r');
-  bench.hear("T");
+  bench.receive("T");
   bench.run_ms(10);
   const Bytes answer = bench.take_raw();
   REQUIRE(answer.size() >= 49);
@@ -134,31 +134,31 @@ TEST_CASE("through the door thesis framing is spoken until reset") {
 
 TEST_CASE("thesis framing takes no Command with authority, and answers as old firmware does") {
   LinkBench bench;
-  bench.hear(gains() + "T");
+  bench.receive(gains() + "T");
   bench.take_raw();
   for (char type : {'a', 'M', 'u', 'S', 'C', 'e', 's', 'g'}) {
-    bench.hear(std::string(1, type));
+    bench.receive(std::string(1, type));
     const Bytes answer = bench.take_raw();
     CHECK(answer == Bytes{'!', static_cast<uint8_t>(type)});
   }
   CHECK_FALSE(bench.autopilot.authority.is_armed());
-  bench.hear(std::string("p\x03\x00\x32", 4));
+  bench.receive(std::string("p\x03\x00\x32", 4));
   CHECK(bench.take_raw() == Bytes{'!', 'p'});
-  bench.hear("h\x01");
+  bench.receive("h\x01");
   bench.now_us += 102048;
   bench.autopilot.link.check(bench.now_us);
   CHECK(bench.take_raw() == Bytes{'!'});
 }
 
-TEST_CASE("a valid checked frame closes the door; a broken one, or one of no type, does not") {
+TEST_CASE("a valid checked frame closes the detector; a broken one, or one of no type, does not") {
   LinkBench closed;
   closed.send('v', {0});
-  closed.hear(gains() + "T" + PANIC + PANIC);
+  closed.receive(gains() + "T" + PANIC + PANIC);
   CHECK_FALSE(closed.autopilot.link.is_thesis());
   LinkBench open;
   open.send('?');
-  open.hear(Bytes{5, 1, 2, 3, 4, 0});
-  open.hear(gains() + "T");
+  open.receive(Bytes{5, 1, 2, 3, 4, 0});
+  open.receive(gains() + "T");
   CHECK(open.autopilot.link.is_thesis());
 }
 

@@ -26,7 +26,7 @@ class _Request:
     timer: Timer | None = None
 
 
-class Exchange:
+class RequestTracker:
     """Matches answers to requests by type and frame sequence; the result is the answer's payload.
 
     A request without an answer within 500 ms is repeated once if that is harmless, then it fails.
@@ -50,23 +50,25 @@ class Exchange:
         return request.done
 
     def on_confirmed(self, type_: str, sequence: int) -> None:
-        """Take `K`."""
+        """Process `K`."""
         request = self._find(type_, sequence)
         if request is not None and request.answer_type == "K":
             self._finish(request).callback(b"")
         else:
             self.unmatched += 1
 
-    def on_refused(self, type_: str, sequence: int | None, reason: str) -> bool:
-        """Take `!`; return whether it belonged to a request. A sequence of None matches any."""
+    def on_refused(self, type_: str, sequence: int | None, reason: str, detail: str = "") -> bool:
+        """Process `!`; return whether it belongs to a request. A sequence of None matches any."""
         request = self._find(type_, sequence)
         if request is None:
             return False
-        self._finish(request).errback(CommandRefusedError(f"the Arduino refused: {reason}"))
+        self._finish(request).errback(
+            CommandRefusedError(f"the Arduino refused: {reason}", detail=detail)
+        )
         return True
 
     def on_value(self, type_: str, payload: bytes) -> None:
-        """Take an answer with a value; it completes the oldest request for it."""
+        """Process an answer with a value; it completes the oldest request for it."""
         for request in self._waiting:
             if request.answer_type == type_:
                 self._finish(request).callback(payload)
@@ -82,7 +84,9 @@ class Exchange:
         sequence = self._send(request.type, request.payload)
         if sequence is None:
             self._finish(request).errback(
-                CommandRefusedError("the line to the Arduino is closed", Code.UNAVAILABLE)
+                CommandRefusedError(
+                    "the line to the Arduino is closed", Code.UNAVAILABLE, detail="line_closed"
+                )
             )
             return
         request.sequences.add(sequence)
@@ -95,7 +99,7 @@ class Exchange:
             self._transmit(request)
             return
         self._finish(request).errback(
-            CommandRefusedError("the Arduino did not answer", Code.TIMEOUT)
+            CommandRefusedError("the Arduino did not answer", Code.TIMEOUT, detail="no_answer")
         )
 
     def _find(self, type_: str, sequence: int | None) -> _Request | None:

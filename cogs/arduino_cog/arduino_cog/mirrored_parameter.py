@@ -22,10 +22,10 @@ class Board(Protocol):
         """Send a message that an old firmware does not confirm; raises CommandRefusedError."""
 
 
-class BoardValue(Generic[T]):
+class MirroredParameter(Generic[T]):
     """Reads a value by the request ``ask``, answered by ``answer``, and sends new values.
 
-    ``held`` is the board's last reported value, None while unknown. ``decode`` raises ValueError
+    ``current`` is the board's last reported value, None while unknown. ``decode`` raises ValueError
     for invalid bytes; ``what`` names the value in messages. Failures are CommandRefusedError with a
     text for the sender. ``on_changed`` is called for the board's first value and for every
     different one.
@@ -40,7 +40,7 @@ class BoardValue(Generic[T]):
         what: str,
         on_changed: Callable[[T], object],
     ) -> None:
-        self.held: T | None = None
+        self.current: T | None = None
         self.is_setting = False
         self._board = board
         self._ask = ask
@@ -48,18 +48,18 @@ class BoardValue(Generic[T]):
         self._decode = decode
         self._what = what
         self._on_changed = on_changed
-        self._told: T | None = None
+        self._reported: T | None = None
 
     def read(self) -> Deferred[T]:
         """Request the value; the result is the board's current value."""
         return self._board.request(self._ask, answer=self._answer).addCallback(self._on_read)
 
     def send(
-        self, type_: str, payload: bytes, is_held: Callable[[T], bool], *, is_answered: bool = True
+        self, type_: str, payload: bytes, matches: Callable[[T], bool], *, is_answered: bool = True
     ) -> Deferred[Any]:
         """Send a value; the result fires when the board has confirmed it.
 
-        The value is read back: ``is_held`` compares it with the one sent. An old firmware confirms
+        The value is read back: ``matches`` compares it with the one sent. An old firmware confirms
         in no other way (``is_answered`` false). One at a time: see ``is_setting``.
         """
         done: Deferred[Any]
@@ -69,23 +69,25 @@ class BoardValue(Generic[T]):
             self._board.send_unanswered(type_, payload)
             done = self.read()
         self.is_setting = True
-        return done.addCallback(self._compare, is_held).addBoth(self._settled)
+        return done.addCallback(self._compare, matches).addBoth(self._settled)
 
     def _on_read(self, payload: bytes) -> T:
         try:
-            self.held = self._decode(payload)
+            self.current = self._decode(payload)
         except ValueError as error:
             raise CommandRefusedError(
-                f"what the Arduino holds as {self._what} is not usable: {error}"
+                f"the Arduino's {self._what} is invalid: {error}", detail="invalid_value"
             ) from None
-        if self.held != self._told:
-            self._told = self.held
-            self._on_changed(self.held)
-        return self.held
+        if self.current != self._reported:
+            self._reported = self.current
+            self._on_changed(self.current)
+        return self.current
 
-    def _compare(self, held: T, is_held: Callable[[T], bool]) -> None:
-        if not is_held(held):
-            raise CommandRefusedError(f"the Arduino holds another {self._what} than it was sent")
+    def _compare(self, current: T, matches: Callable[[T], bool]) -> None:
+        if not matches(current):
+            raise CommandRefusedError(
+                f"the Arduino has another {self._what} than it was sent", detail="value_differs"
+            )
 
     def _settled(self, outcome: Any) -> Any:
         self.is_setting = False

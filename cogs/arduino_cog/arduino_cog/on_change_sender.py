@@ -6,10 +6,10 @@ from collections.abc import Callable
 
 from up.system.clock import Clock, Timer
 
-LEAST_PERIOD_S = 0.1
+MIN_PERIOD_S = 0.1
 
 
-class ChangeSender:
+class OnChangeSender:
     """Sends the newest payload, at most ten times a second and only when it differs.
 
     A payload offered too early waits, and only the newest waits. ``send`` returns None for a
@@ -31,7 +31,7 @@ class ChangeSender:
             return
         if payload == self._sent:
             return
-        wait_s = self._sent_s + LEAST_PERIOD_S - self._clock.seconds()
+        wait_s = self._sent_s + MIN_PERIOD_S - self._clock.seconds()
         if wait_s > 0:
             self._waiting = payload
             self._timer = self._clock.callLater(wait_s, self._waited)
@@ -39,7 +39,7 @@ class ChangeSender:
         self._sent_s = self._clock.seconds()
         self._sent = payload if self._send(payload) is not None else None
 
-    def forget(self) -> None:
+    def reset(self) -> None:
         """Discard the sent and the waiting payload: the next offer is sent to any board."""
         self._sent = None
         self.stop()

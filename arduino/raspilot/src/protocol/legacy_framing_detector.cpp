@@ -1,4 +1,4 @@
-#include "thesis_door.h"
+#include "legacy_framing_detector.h"
 
 #include "../core/flash.h"
 #include "../store/gains.h"
@@ -27,7 +27,7 @@ const ThesisCommand THESIS_COMMANDS[] PROGMEM = {
 
 }  // namespace
 
-bool ThesisDoor::take(uint8_t byte, uint32_t now_us) {
+bool LegacyFramingDetector::receive(uint8_t byte, uint32_t now_us) {
   expire(now_us);
   if (left_ == 0) {
     begin(static_cast<char>(byte), now_us);
@@ -46,7 +46,7 @@ bool ThesisDoor::take(uint8_t byte, uint32_t now_us) {
   return commands_ >= COMMANDS_NEEDED && points_ >= POINTS_NEEDED;
 }
 
-void ThesisDoor::begin(char type, uint32_t now_us) {
+void LegacyFramingDetector::begin(char type, uint32_t now_us) {
   for (const ThesisCommand& command : THESIS_COMMANDS) {
     if (static_cast<char>(pgm_read_byte(&command.type)) != type) continue;
     type_ = type;
@@ -58,12 +58,12 @@ void ThesisDoor::begin(char type, uint32_t now_us) {
   break_run();
 }
 
-void ThesisDoor::expire(uint32_t now_us) {
+void LegacyFramingDetector::expire(uint32_t now_us) {
   if (left_ != 0 && beginning_.is_too_old(now_us)) break_run();
 }
 
 /** Checks the field that ended with the newest byte; true in the middle of one. */
-bool ThesisDoor::is_field_good() const {
+bool LegacyFramingDetector::is_field_good() const {
   const int16_t number = static_cast<int16_t>(window_);
   switch (type_) {
     case 'b': case 'B': return left_ != 0 || (number >= 0 && number <= 359);
@@ -72,13 +72,13 @@ bool ThesisDoor::is_field_good() const {
       return left_ != 0 || (number >= 10 && number <= 1000);
     case 't': return (left_ & 3) != 0 || is_gain(window_);
     case 'l':
-      if (left_ == 4) return is_magnitude_within(window_, MOST_LATITUDE);
-      return left_ != 0 || is_magnitude_within(window_, MOST_LONGITUDE);
+      if (left_ == 4) return is_magnitude_within(window_, MAX_LATITUDE);
+      return left_ != 0 || is_magnitude_within(window_, MAX_LONGITUDE);
     default: return true;
   }
 }
 
-void ThesisDoor::break_run() {
+void LegacyFramingDetector::break_run() {
   type_ = 0;
   left_ = 0;
   points_ = 0;
