@@ -3,13 +3,13 @@ PYTHON ?= python3
 VENV ?= .venv
 BIN := $(VENV)/bin
 PY := $(BIN)/python
-PACKAGES := up raspilot runner/up_runner proxy/up_proxy ground/up_ground simulator/up_simulator \
-	arduino/bench/up_rig
+PACKAGES := up raspilot runner/up_runner proxy/up_proxy ground/up_ground flightlog/up_flightlog \
+	simulator/up_simulator arduino/bench/up_rig
 COGS := $(wildcard cogs/*_cog)
 # mypy does not see what is installed editable through an import hook.
 empty :=
 MYPY_ROOTS := $(subst $(empty) $(empty),:,$(strip . $(COGS)))
-SETUPS := setup.py pyproject.toml $(addsuffix /setup.py,$(COGS)) raspilot/Cogfile.yml
+SETUPS := setup.py pyproject.toml flightlog/setup.py $(addsuffix /setup.py,$(COGS)) raspilot/Cogfile.yml
 TEST ?=
 # More than CI has cores: many tests wait for real time.
 WORKERS ?= 3
@@ -22,7 +22,7 @@ ARGS ?=
 VENDOR := ground/up_ground/web/static/vendor
 WEB := $(VENDOR)/.stamp
 
-.PHONY: help run scenarios test test-browser check bench pictures format schemas clean
+.PHONY: help run scenarios test test-browser check bench pictures format schema schemas clean
 
 help:
 	@echo 'make run      set up everything and fly the virtual aircraft; Ctrl-C stops it'
@@ -34,6 +34,7 @@ help:
 	@echo 'make bench    the performance table (BENCH="bus --quick" for some)'
 	@echo 'make pictures  the documentation'"'"'s pictures of the page, from a flight'
 	@echo 'make format   put the code into the project'"'"'s form'
+	@echo 'make schema   the tables of the board'"'"'s status, from schema/status.yml'
 	@echo 'make schemas  JSON Schema of every configuration file, into build/schemas'
 	@echo 'make -C arduino help  the firmware: build, upload, figures'
 	@echo 'make -C android help  the phone: the app, the Up Library, its tests'
@@ -77,11 +78,12 @@ check: $(VENV)/.dev-ready
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
 	$(BIN)/mypy main.py tools/import_contracts.py tools/phone_commands.py \
-		tools/plain_english.py $(PACKAGES)
+		tools/plain_english.py tools/schema.py $(PACKAGES)
 	@for cog in $(COGS); do echo "mypy $$cog"; \
 		MYPYPATH=$(MYPY_ROOTS) $(BIN)/mypy $$cog/$$(basename $$cog) || exit 1; done
 	MYPYPATH=android/tools $(BIN)/mypy android/tools/*.py
 	$(PY) tools/import_contracts.py
+	$(PY) tools/schema.py --check
 	@android/tools/where_ready check
 
 # The peers besides; HAProxy, socat and gcc (Debian) are measured where they are installed.
@@ -97,6 +99,10 @@ pictures: $(VENV)/.run-ready $(WEB)
 
 format: $(VENV)/.dev-ready
 	$(BIN)/ruff check --fix . ; $(BIN)/ruff format .
+
+# The tables of the board's status in every language, from schema/.
+schema: $(VENV)/.dev-ready
+	$(PY) tools/schema.py
 
 schemas: $(VENV)/.run-ready
 	$(BIN)/up schemas build/schemas

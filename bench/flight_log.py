@@ -17,8 +17,8 @@ from typing import Any
 
 from bench.table import Row, compared
 from bench.timing import Limit
-from up.flight_log.flight_log import FlightLog
 from up.flight_log.mcap_writer import McapWriter
+from up_flightlog.read.flight_log import FlightLog
 
 PEER = "mcap (official)"
 MINUTES, QUICK_MINUTES = 30, 1

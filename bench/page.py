@@ -20,7 +20,7 @@ from typing import Any
 from bench.processes import environment
 from bench.table import LeftOutError, Row
 from bench.timing import percentile
-from up.flight_log.flight_log import FlightLog
+from up_flightlog.read.flight_log import FlightLog
 
 ROOT = Path(__file__).parents[1]
 TESTS = ROOT / "tests" / "browser"

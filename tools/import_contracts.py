@@ -20,11 +20,12 @@ ARROWS: dict[str, set[str]] = {
     "up": set(),
     "raspilot": {"up"},
     "up_runner": {"up"},
-    "up_ground": {"up"},
+    "up_flightlog": {"up"},
+    "up_ground": {"up", "up_flightlog"},
     "up_proxy": {"up"},
     # It runs daemon, ground station and the compiled firmware in its own process.
     # Raspilot and its cogs are loaded like any application, never imported.
-    "up_simulator": {"up", "up_ground", "up_rig"},
+    "up_simulator": {"up", "up_ground", "up_flightlog", "up_rig"},
     "up_rig": set(),
 }
 # The parts of Up for a program on another machine: the proxy uses no modules and no bus.

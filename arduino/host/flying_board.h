@@ -100,7 +100,7 @@ class FlyingBoard {
     }
     now_us_ += SLOT_US;
     fake_board().elapse(SLOT_US);
-    for (uint8_t byte : fake_board().take_sent()) hear(byte);
+    for (uint8_t byte : fake_board().take_sent()) receive(byte);
   }
   void frame() {
     double at_us = static_cast<double>(next_frame_us_);
@@ -110,8 +110,8 @@ class FlyingBoard {
     }
     next_frame_us_ = now_us_ + 20000;
   }
-  void hear(uint8_t byte) {
-    if (reader_.take(byte, now_us()) != CheckedReader::Found::FRAME) return;
+  void receive(uint8_t byte) {
+    if (reader_.receive(byte, now_us()) != CheckedReader::Found::FRAME) return;
     const uint8_t* const first = reader_.payload();
     const std::vector<uint8_t> payload(first, first + reader_.payload_size());
     frames.push_back(SentFrame{reader_.type(), now_us(), payload});

@@ -26,11 +26,11 @@ class LinkBench {
     autopilot.link.open();
   }
 
-  void hear(const Bytes& bytes) {
+  void receive(const Bytes& bytes) {
     for (uint8_t byte : bytes) autopilot.link.on_byte(byte, now_us);
   }
-  void hear(const std::string& bytes) { hear(Bytes(bytes.begin(), bytes.end())); }
-  void send(char type, const Bytes& payload = {}) { hear(frame_of(sequence++, type, payload)); }
+  void receive(const std::string& bytes) { receive(Bytes(bytes.begin(), bytes.end())); }
+  void send(char type, const Bytes& payload = {}) { receive(frame_of(sequence++, type, payload)); }
   /** Time passes with all the work of a slot's spare time, in steps of 500 us. */
   void run_ms(uint32_t ms) {
     for (uint32_t step = 0; step < ms * 2; ++step) {
@@ -46,7 +46,7 @@ class LinkBench {
   std::vector<Message> take() {
     std::vector<Message> messages;
     for (uint8_t byte : take_raw()) {
-      const CheckedReader::Found found = reader_.take(byte, 0);
+      const CheckedReader::Found found = reader_.receive(byte, 0);
       if (found == CheckedReader::Found::BROKEN) is_clean = false;
       if (found != CheckedReader::Found::FRAME) continue;
       if (reader_.sequence() != expected_++) is_clean = false;

@@ -200,7 +200,7 @@ TEST_CASE("an armed aircraft that is still for once does not take that for its g
   CHECK_FALSE(board.autopilot.authority.is_armed());
 }
 
-TEST_CASE("power-on never arms, whatever the sticks say") {
+TEST_CASE("power-on never arms, whatever the sticks") {
   fake_board().reset();
   FlyingBoard board;
   board.sticks[AUX2] = 2000;
@@ -237,7 +237,7 @@ TEST_CASE("the Raspberry Pi starts the streams and reads the status") {
   CHECK(fake_board().violations == 0);
 }
 
-TEST_CASE("gains of the Raspberry Pi fly at once and are kept, without holding up the streams") {
+TEST_CASE("gains of the Raspberry Pi are used immediately and saved, without delaying the streams") {
   Awake board;
   board.send('s');
   board.run(400);
@@ -294,7 +294,7 @@ TEST_CASE("a profile is taken and kept while disarmed, refused while armed") {
   board.run(100);
   const SentFrame refusal = board.take('!');
   REQUIRE(refusal.payload.size() == 3);
-  CHECK(refusal.payload[2] == static_cast<uint8_t>(Reason::ONLY_DISARMED));
+  CHECK(refusal.payload[2] == static_cast<uint8_t>(Reason::ONLY_ON_GROUND));
   CHECK(board.output_us(AILERONS) == 1300);
   const FlyingBoard later;
   CHECK(later.autopilot.settings.profile.servos[AILERONS].is_reversed);
@@ -309,14 +309,14 @@ TEST_CASE("a profile that EEPROM has lost vetoes arming until there is a new one
   for (uint8_t& cell : fake_board().eeprom) cell = cell == 0xA5 ? 0x5A : cell;
   FlyingBoard board;
   board.wake();
-  CHECK((board.autopilot.authority.vetoes() & VETO_PROFILE) != 0);
+  CHECK((board.autopilot.authority.vetoes() & VETO_PROFILE_INVALID) != 0);
   board.flick_aux2();
   CHECK_FALSE(board.autopilot.authority.is_armed());
   Bytes wire(PROFILE_SIZE);
   write_profile(DEFAULT_PROFILE, wire.data());
   board.send('C', wire);
   board.run(3000);
-  CHECK((board.autopilot.authority.vetoes() & VETO_PROFILE) == 0);
+  CHECK((board.autopilot.authority.vetoes() & VETO_PROFILE_INVALID) == 0);
   board.flick_aux2();
   CHECK(board.autopilot.authority.is_armed());
 }
@@ -331,7 +331,7 @@ TEST_CASE("an aircraft whose receiver's end points are being learned does not ar
   CHECK_FALSE(board.autopilot.authority.is_armed());
 }
 
-TEST_CASE("noise on the serial line neither arms nor hurts") {
+TEST_CASE("noise on the serial line neither arms nor disturbs") {
   Awake board;
   std::mt19937 random(11);
   for (int round = 0; round < 2000; ++round) {

@@ -123,7 +123,7 @@ TEST_CASE("a push that feels like more than 1 g tilts nothing") {
   CHECK(flight.tilt_error_deg() <= 1.0);
 }
 
-TEST_CASE("a long push along the nose tilts it little") {
+TEST_CASE("a long acceleration along the nose tilts it little") {
   Flight flight;
   flight.fly(4);
   // 0.3 g for 3 s: a throttle opened.
@@ -132,7 +132,7 @@ TEST_CASE("a long push along the nose tilts it little") {
   CHECK(flight.tilt_error_deg() <= 4.0);
 }
 
-TEST_CASE("what the gyro reads too much in level flight is learned") {
+TEST_CASE("the gyro's bias in level flight is learned") {
   Flight flight;
   flight.fly(3);
   flight.imu.bias_deg_s[0] = 0.3;
@@ -172,7 +172,7 @@ TEST_CASE("yaw goes round the circle as heading, banked too") {
   CHECK(std::fabs(std::remainder(flight.yaw_deg() - flight.imu.yaw_deg - before_deg, 360)) <= 3.0);
 }
 
-TEST_CASE("after a reset in flight attitude, yaw and bias are those from before at once") {
+TEST_CASE("after a reset in flight attitude, yaw and bias are restored immediately") {
   Flight flight;
   flight.imu.bias_deg_s[0] = 2;
   flight.fly(3);

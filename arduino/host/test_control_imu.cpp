@@ -7,7 +7,7 @@
 
 using namespace raspilot;
 
-TEST_CASE("a still second gives the bias at start, and says so") {
+TEST_CASE("a still second at start gives the bias and sets the flag") {
   Flight flight;
   flight.imu.bias_deg_s[0] = 3.1;
   flight.imu.bias_deg_s[1] = -7.7;
@@ -37,7 +37,7 @@ TEST_CASE("without stillness the bias of the calibration flies, and arming waits
   CHECK(flight.filter.is_bias_from_eeprom());
   CHECK_FALSE(flight.filter.is_still());
   CHECK(flight.bias_deg_s(0) == doctest::Approx(2).epsilon(0.2));
-  SUBCASE("the search goes on") {
+  SUBCASE("the search continues") {
     flight.fly(1.2);
     CHECK_FALSE(flight.filter.is_bias_from_eeprom());
   }
@@ -90,7 +90,7 @@ TEST_CASE("an armed aircraft never takes stillness for bias") {
   CHECK(std::fabs(flight.bias_deg_s(2)) <= 0.5);
 }
 
-TEST_CASE("a turn that begins between two still seconds is no stillness") {
+TEST_CASE("a turn that begins between two still seconds does not count as still") {
   Flight flight;
   flight.imu.gyro_noise_deg_s = 0.02;
   for (int slot = 0; slot < 512; ++slot) flight.slot();
@@ -183,7 +183,7 @@ TEST_CASE("samples that were missed are made up for") {
   CHECK(flight.tilt_error_deg() <= 1.0);
 }
 
-TEST_CASE("an IMU that was away for long finds gravity anew") {
+TEST_CASE("an IMU that returns after a long loss finds gravity again") {
   Flight flight;
   flight.fly(2);
   flight.miss(1.0);
@@ -195,7 +195,7 @@ TEST_CASE("an IMU that was away for long finds gravity anew") {
   CHECK(flight.tilt_error_deg() <= 1.0);
 }
 
-TEST_CASE("the age of the newest sample stays at its greatest") {
+TEST_CASE("the age of the newest sample saturates") {
   Flight flight;
   CHECK(flight.filter.age_ms(flight.now_us) == 65535);
   flight.slot();

@@ -125,7 +125,7 @@ TEST_CASE("the derivative is on the measurement: a new aim does not kick") {
   CHECK(pid.update(0, 176, RATE_LIMIT) < 0);
 }
 
-TEST_CASE("a measurement that goes round the circle is no change") {
+TEST_CASE("a measurement that wraps around the circle does not count as a change") {
   Pid pid = Pid();
   pid.tune({0.0f, 0.0f, 1.0f});
   pid.update(0, 23000, RATE_LIMIT);

@@ -55,7 +55,7 @@ TEST_CASE("the meter counts seconds without drift and over the wrap of the clock
   CHECK(meter.late_us() == 49);
 }
 
-TEST_CASE("a period that is no part of a second moves no second") {
+TEST_CASE("a period that does not divide a second does not shift the seconds") {
   LoopMeter meter;
   for (uint32_t us = 0; us <= 1000003000; us += 2003) meter.on_slot(us, us);
   CHECK(meter.seconds() == 1000);

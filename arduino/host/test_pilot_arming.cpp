@@ -28,7 +28,7 @@ TEST_CASE("pilot arming: an edge of AUX2 from low to high arms after 300 ms") {
   CHECK(vetoes(bench) == 0);
 }
 
-TEST_CASE("pilot arming: AUX2 that is high from the beginning is no edge") {
+TEST_CASE("pilot arming: AUX2 high from the beginning does not count as an edge") {
   PilotBench bench;
   bench.sticks[AUX2] = 2000;
   bench.run(5000);
@@ -75,17 +75,17 @@ TEST_CASE("pilot arming: the middle of AUX2 moves nothing") {
   CHECK(bench.authority.is_armed());
 }
 
-TEST_CASE("pilot arming: each veto keeps it disarmed, is named, and is no edge later") {
+TEST_CASE("pilot arming: each veto keeps it disarmed, is reported, and does not count as an edge later") {
   PilotBench bench;
   uint8_t bit = 0;
   bench.run(100);
   SUBCASE("throttle") {
     bench.sticks[THROTTLE] = 1060;
-    bit = VETO_THROTTLE;
+    bit = VETO_THROTTLE_NOT_LOW;
   }
   SUBCASE("IMU") {
     bench.is_imu_valid = false;
-    bit = VETO_IMU;
+    bit = VETO_IMU_INVALID;
   }
   SUBCASE("calibrating") {
     bench.is_calibrating = true;
@@ -93,11 +93,11 @@ TEST_CASE("pilot arming: each veto keeps it disarmed, is named, and is no edge l
   }
   SUBCASE("profile") {
     bench.is_profile_broken = true;
-    bit = VETO_PROFILE;
+    bit = VETO_PROFILE_INVALID;
   }
   SUBCASE("the Raspberry Pi's") {
-    bench.on_slot = [&] { bench.authority.take_veto(true, bench.clock_us()); };
-    bit = VETO_RASPBERRY;
+    bench.on_slot = [&] { bench.authority.accept_veto(true, bench.clock_us()); };
+    bit = VETO_RASPBERRY_PI;
   }
   raise_aux2(bench, 500);
   CHECK_FALSE(bench.authority.is_armed());
@@ -105,7 +105,7 @@ TEST_CASE("pilot arming: each veto keeps it disarmed, is named, and is no edge l
   CHECK(bench.arm() != Reason::NONE);
   CHECK_FALSE(bench.authority.is_armed());
   bench.on_slot = nullptr;
-  bench.authority.take_veto(false, bench.clock_us());
+  bench.authority.accept_veto(false, bench.clock_us());
   bench.sticks[THROTTLE] = 1000;
   bench.is_imu_valid = true;
   bench.is_calibrating = bench.is_profile_broken = false;
@@ -125,12 +125,12 @@ TEST_CASE("pilot arming: a receiver that is off or in its own failsafe vetoes") 
   SUBCASE("one channel out of range") { bench.sticks[RUDDER] = 2200; }
   SUBCASE("its own failsafe") { bench.sticks[THROTTLE] = 890; }
   bench.run(200);
-  CHECK((vetoes(bench) & VETO_RECEIVER) != 0);
+  CHECK((vetoes(bench) & VETO_RECEIVER_INVALID) != 0);
   CHECK(bench.arm() == Reason::RECEIVER_INVALID);
   CHECK_FALSE(bench.authority.is_armed());
 }
 
-TEST_CASE("pilot arming: a Command arms when nothing speaks against it") {
+TEST_CASE("pilot arming: a Command arms when there is no veto") {
   PilotBench bench;
   bench.sticks[AUX2] = 2000;
   bench.run(1000);
@@ -161,7 +161,7 @@ TEST_CASE("pilot arming: a Command arms when nothing speaks against it") {
   CHECK(bench.authority.is_armed() == (reason == Reason::NONE));
 }
 
-TEST_CASE("pilot arming: a Command cannot arm before the receiver was heard") {
+TEST_CASE("pilot arming: a Command cannot arm before the receiver was received") {
   PilotBench bench;
   bench.is_on = false;
   bench.run(1000);
@@ -173,9 +173,9 @@ TEST_CASE("pilot arming: the Raspberry Pi's veto ends after a second without ano
   PilotBench bench;
   bench.sticks[AUX2] = 2000;
   bench.run(1000);
-  bench.authority.take_veto(true, bench.clock_us());
+  bench.authority.accept_veto(true, bench.clock_us());
   bench.run(990);
-  CHECK(vetoes(bench) == VETO_RASPBERRY);
+  CHECK(vetoes(bench) == VETO_RASPBERRY_PI);
   CHECK(bench.arm() == Reason::VETO);
   bench.run(20);
   CHECK(vetoes(bench) == 0);
@@ -221,7 +221,7 @@ TEST_CASE("pilot arming: the ground disarms only after 2 s of low throttle that 
     bench.run(1900);
     CHECK(bench.disarm() == Reason::THROTTLE_NOT_LOW);
   }
-  SUBCASE("the receiver is lost: nobody sees the stick") {
+  SUBCASE("the receiver is lost: the stick is unknown") {
     bench.is_on = false;
     bench.run(3000);
     CHECK(bench.disarm() == Reason::RECEIVER_INVALID);
@@ -272,13 +272,13 @@ TEST_CASE("pilot arming: neither a lost IMU, a lost receiver nor a veto disarms"
   }
   SUBCASE("vetoes") {
     bench.is_calibrating = bench.is_profile_broken = true;
-    bench.on_slot = [&] { bench.authority.take_veto(true, bench.clock_us()); };
+    bench.on_slot = [&] { bench.authority.accept_veto(true, bench.clock_us()); };
   }
   bench.run(10000);
   CHECK(bench.authority.is_armed());
 }
 
-TEST_CASE("pilot arming: a receiver that comes back is no edge") {
+TEST_CASE("pilot arming: the return of a receiver does not count as an edge") {
   PilotBench bench;
   SUBCASE("AUX2 was low, is high") {
     bench.run(1000);
@@ -301,7 +301,7 @@ TEST_CASE("pilot arming: a receiver that comes back is no edge") {
   CHECK(bench.authority.is_armed());
 }
 
-TEST_CASE("pilot arming: a low before a loss of 200 ms and a high after it are no edge") {
+TEST_CASE("pilot arming: a low before a loss of 200 ms and a high after it do not count as an edge") {
   PilotBench bench;
   bench.run(1000);
   bench.is_on = false;
@@ -318,7 +318,7 @@ TEST_CASE("pilot arming: a glider's channel and authority need no arming, its ar
   bench.sticks[THROTTLE] = 1800;
   bench.fly(2000, false);
   CHECK(bench.throttle_us() == 1800);
-  CHECK((vetoes(bench) & VETO_THROTTLE) == 0);
+  CHECK((vetoes(bench) & VETO_THROTTLE_NOT_LOW) == 0);
   CHECK(bench.output(1600, 0) == Reason::NONE);
   CHECK(bench.throttle_us() == 1800);
   CHECK(bench.output(1600, 1200) == Reason::NONE);

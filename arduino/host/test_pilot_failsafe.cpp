@@ -58,7 +58,7 @@ TEST_CASE("pilot failsafe: one channel that is dead or out of range is a lost re
   CHECK(bench.authority.is_failsafe());
 }
 
-TEST_CASE("pilot failsafe: a receiver that sends its own failsafe acts at once") {
+TEST_CASE("pilot failsafe: a receiver in its own failsafe triggers failsafe immediately") {
   PilotBench bench;
   fly(bench, 1500);
   bench.sticks[THROTTLE] = 890;
@@ -95,7 +95,7 @@ TEST_CASE("pilot failsafe: the return gives the mode of the switch as it stands"
   CHECK(bench.throttle_us() == 1600);
 }
 
-TEST_CASE("pilot failsafe: channels that the receiver moves in its failsafe are no switch") {
+TEST_CASE("pilot failsafe: channels that the receiver moves in its failsafe do not switch") {
   PilotBench bench;
   fly(bench, 2000);
   REQUIRE(bench.ask('r') == Reason::NONE);
@@ -113,7 +113,7 @@ TEST_CASE("pilot failsafe: channels that the receiver moves in its failsafe are 
   CHECK(bench.authority.is_armed());
 }
 
-TEST_CASE("pilot failsafe: the Raspberry Pi has no say, and what it said does not live on") {
+TEST_CASE("pilot failsafe: the Raspberry Pi is ignored, and its earlier requests end") {
   PilotBench bench;
   fly(bench, 2000);
   REQUIRE(bench.output(1900, 1800) == Reason::NONE);
@@ -177,7 +177,7 @@ TEST_CASE("pilot failsafe: after more than 5 s the throttle waits for a low stic
   CHECK(bench.throttle_us() == 1500);
 }
 
-TEST_CASE("pilot failsafe: after less than 5 s the throttle is the stick's at once") {
+TEST_CASE("pilot failsafe: after less than 5 s the throttle returns to the stick immediately") {
   PilotBench bench;
   fly(bench, 1500);
   bench.is_on = false;
@@ -199,7 +199,7 @@ TEST_CASE("pilot failsafe: its own failsafe latches the throttle too") {
   CHECK(bench.throttle_us() == 1250);
 }
 
-TEST_CASE("pilot failsafe: without an IMU it says so: preset surfaces, the same throttle") {
+TEST_CASE("pilot failsafe: without an IMU: preset surfaces, the same throttle") {
   PilotBench bench;
   fly(bench, 1500);
   bench.is_on = bench.is_imu_valid = false;
@@ -219,7 +219,7 @@ TEST_CASE("pilot failsafe: disarmed, the motor gets 1000 us in failsafe too") {
   CHECK(bench.throttle_us() == 1000);
 }
 
-TEST_CASE("pilot failsafe: before the receiver was heard it is none, level and without throttle") {
+TEST_CASE("pilot failsafe: before the first valid receiver no failsafe: level, without throttle") {
   for (bool has_motor : {true, false}) {
     PilotBench bench;
     bench.profile.has_motor = has_motor;
@@ -234,7 +234,7 @@ TEST_CASE("pilot failsafe: before the receiver was heard it is none, level and w
     CHECK_FALSE(bench.authority.is_auto());
     CHECK(bench.authority.mode() == Mode::FBW);
     CHECK(bench.throttle_us() == (has_motor ? 1000 : 1100));
-    CHECK(bench.ask('u') == Reason::NOT_AUTO);
+    CHECK(bench.ask('u') == Reason::NOT_AT_AUTO);
     bench.is_imu_valid = false;
     bench.run(2);
     CHECK(bench.authority.mode() == Mode::ACRO);

@@ -25,11 +25,11 @@ struct Spread {
 Spread spread_at(double width_us, uint32_t seed) {
   std::mt19937 random(seed);
   PulseFilter filter;
-  for (int i = 0; i < 50; ++i) filter.take(stamped(width_us, random), false);
+  for (int i = 0; i < 50; ++i) filter.update(stamped(width_us, random), false);
   double sum = 0, squares = 0;
   const int count = 2000;
   for (int i = 0; i < count; ++i) {
-    filter.take(stamped(width_us, random), false);
+    filter.update(stamped(width_us, random), false);
     const double us = filter.pulse() / 2.0;
     sum += us;
     squares += us * us;
@@ -43,11 +43,11 @@ template <class Stick>
 double error_rms_us(Stick stick_us, uint32_t seed) {
   std::mt19937 random(seed);
   PulseFilter filter;
-  for (int i = 0; i < 20; ++i) filter.take(stamped(stick_us(0), random), false);
+  for (int i = 0; i < 20; ++i) filter.update(stamped(stick_us(0), random), false);
   double squares = 0;
   const int count = 2000;
   for (int i = 0; i < count; ++i) {
-    filter.take(stamped(stick_us(i), random), false);
+    filter.update(stamped(stick_us(i), random), false);
     const double error_us = filter.pulse() / 2.0 - stick_us(i);
     squares += error_us * error_us;
   }
@@ -69,7 +69,7 @@ TEST_CASE("pilot filter: a still stick gives a still output at half a microsecon
 TEST_CASE("pilot filter: pulses of one width are passed on exactly") {
   for (int width = us_to_ticks(885); width <= us_to_ticks(2115); width += 7) {
     PulseFilter filter;
-    for (int i = 0; i < 12; ++i) filter.take(static_cast<Ticks>(width), false);
+    for (int i = 0; i < 12; ++i) filter.update(static_cast<Ticks>(width), false);
     CHECK(std::abs(filter.pulse() - width) <= 1);
   }
 }
@@ -80,8 +80,8 @@ TEST_CASE("pilot filter: it has no bias between rising and falling") {
     PulseFilter up, down;
     up.reset(3000);
     down.reset(3000);
-    up.take(static_cast<Ticks>(3000 + step), false);
-    down.take(static_cast<Ticks>(3000 - step), false);
+    up.update(static_cast<Ticks>(3000 + step), false);
+    down.update(static_cast<Ticks>(3000 - step), false);
     CHECK(up.pulse() - 3000 == 3000 - down.pulse());
   }
 }
@@ -103,34 +103,34 @@ TEST_CASE("pilot filter: a moving stick passes within a microsecond rms") {
   }
 }
 
-TEST_CASE("pilot filter: a change of 20 us or more is passed on at once, a smaller one by half") {
+TEST_CASE("pilot filter: a change of 20 us or more passes immediately, a smaller one by half") {
   PulseFilter filter;
-  filter.take(us_to_ticks(1500 + 20), false);
+  filter.update(us_to_ticks(1500 + 20), false);
   CHECK(filter.pulse() == us_to_ticks(1520));
-  filter.take(us_to_ticks(1500), false);
+  filter.update(us_to_ticks(1500), false);
   CHECK(filter.pulse() == us_to_ticks(1500));
   filter.reset(us_to_ticks(1500));
-  filter.take(us_to_ticks(1500 + 16), false);
+  filter.update(us_to_ticks(1500 + 16), false);
   CHECK(filter.pulse() == us_to_ticks(1508));
 }
 
-TEST_CASE("pilot filter: a change that goes on, or turns back by 3 us, is passed on at once") {
+TEST_CASE("pilot filter: a change that continues, or reverses by 3 us, passes immediately") {
   PulseFilter filter;
-  filter.take(us_to_ticks(1510), false);
-  filter.take(us_to_ticks(1518), false);
+  filter.update(us_to_ticks(1510), false);
+  filter.update(us_to_ticks(1518), false);
   CHECK(filter.pulse() == us_to_ticks(1518));
-  filter.take(us_to_ticks(1510), false);
+  filter.update(us_to_ticks(1510), false);
   CHECK(filter.pulse() == us_to_ticks(1510));
-  filter.take(us_to_ticks(1512), false);
+  filter.update(us_to_ticks(1512), false);
   CHECK(filter.pulse() < us_to_ticks(1512));
 }
 
 TEST_CASE("pilot filter: an uncertain stamp holds the value when it differs by 6 us at most") {
   PulseFilter filter;
   for (int off_us : {-6, 3, 6, -1, 6, 6, 6}) {
-    filter.take(static_cast<Ticks>(3000 + 2 * off_us), true);
+    filter.update(static_cast<Ticks>(3000 + 2 * off_us), true);
     CHECK(filter.pulse() == us_to_ticks(1500));
   }
-  filter.take(us_to_ticks(1526), true);
+  filter.update(us_to_ticks(1526), true);
   CHECK(filter.pulse() == us_to_ticks(1526));
 }

@@ -119,7 +119,7 @@ TEST_CASE("pilot reader: a line that stays high or low is lost within 100 ms and
   }
 }
 
-TEST_CASE("pilot reader: a pulse longer than the stamps wrap is no pulse") {
+TEST_CASE("pilot reader: a pulse longer than the wrap of the stamps is rejected") {
   for (double too_long_us : {32768 + 1500.0, 65536 + 1200.0, 2 * 65536 + 1500.0}) {
     Lines bench;
     wake(bench);
@@ -131,7 +131,7 @@ TEST_CASE("pilot reader: a pulse longer than the stamps wrap is no pulse") {
   }
 }
 
-TEST_CASE("pilot reader: what was measured across a stalled loop is forgotten") {
+TEST_CASE("pilot reader: a measurement across a stalled loop is discarded") {
   Lines bench;
   wake(bench);
   bench.lines.pulse(30000, RUDDER, 1600);

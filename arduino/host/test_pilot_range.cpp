@@ -87,7 +87,7 @@ TEST_CASE("pilot range: one range that is too small keeps nothing of all") {
   CHECK_FALSE(bench.reader.is_learning());
 }
 
-TEST_CASE("pilot range: a stick that rests within 200 us of its end is no centre") {
+TEST_CASE("pilot range: a stick that rests within 200 us of its end gives no centre") {
   for (uint16_t rest_us : {uint16_t{1280}, uint16_t{1740}}) {
     PilotBench bench;
     bench.run(100);
@@ -110,7 +110,7 @@ TEST_CASE("pilot range: an end that never began and a receiver that is off learn
   CHECK_FALSE(bench.reader.end_range_learning(learned));
 }
 
-TEST_CASE("pilot range: a pulse that noise has cut is no end point") {
+TEST_CASE("pilot range: a pulse cut by noise does not become an end point") {
   PilotBench bench;
   bench.run(100);
   move_all(bench, NARROW, 1920);

@@ -11,7 +11,7 @@ TEST_CASE("pilot Raspberry Pi: an Output is followed for 250 ms, then FBW holds 
   bench.run(2);
   CHECK(bench.authority.mode() == Mode::OUTPUT);
   CHECK(bench.authority.flown_mode() == Mode::OUTPUT);
-  CHECK(bench.authority.asked_outputs().ticks[AILERONS] == us_to_ticks(1723));
+  CHECK(bench.authority.requested_outputs().ticks[AILERONS] == us_to_ticks(1723));
   bench.run(240);
   CHECK(bench.authority.flown_mode() == Mode::OUTPUT);
   bench.run(8);
@@ -36,7 +36,7 @@ TEST_CASE("pilot Raspberry Pi: its authority needs AUTO, receiver, IMU, and a mo
   SUBCASE("all is well") {}
   SUBCASE("switch") {
     bench.sticks[AUX1] = 1500;
-    reason = Reason::NOT_AUTO;
+    reason = Reason::NOT_AT_AUTO;
   }
   SUBCASE("receiver") {
     bench.sticks[ELEVATOR] = 2200;
@@ -117,26 +117,26 @@ TEST_CASE("pilot Raspberry Pi: the throttle is the stick's unless a living deman
   CHECK(bench.throttle_us() == 1300);
 }
 
-TEST_CASE("pilot Raspberry Pi: another mode from the ground ends Outputs until it asks for them") {
+TEST_CASE("pilot Raspberry Pi: another mode from the ground ends Outputs until it requests them") {
   PilotBench bench;
   bench.fly(2000);
   REQUIRE(bench.output(1600, 1700) == Reason::NONE);
   REQUIRE(bench.ask('f') == Reason::NONE);
   CHECK(bench.authority.flown_mode() == Mode::FBW);
   CHECK(bench.throttle_us() == 1000);
-  CHECK(bench.output(1600, 1700) == Reason::NOT_AUTO);
-  CHECK(bench.demand(1600, 1700) == Reason::NOT_AUTO);
+  CHECK(bench.output(1600, 1700) == Reason::NOT_AT_AUTO);
+  CHECK(bench.demand(1600, 1700) == Reason::NOT_AT_AUTO);
   REQUIRE(bench.ask('s') == Reason::NONE);
-  CHECK(bench.output(1600, 1700) == Reason::NOT_AUTO);
+  CHECK(bench.output(1600, 1700) == Reason::NOT_AT_AUTO);
   CHECK(bench.demand(1600, 1700) == Reason::NONE);
   REQUIRE(bench.ask('u') == Reason::NONE);
   CHECK(bench.authority.flown_mode() == Mode::FBW);
-  CHECK(bench.demand(1600, 1700) == Reason::NOT_AUTO);
+  CHECK(bench.demand(1600, 1700) == Reason::NOT_AT_AUTO);
   CHECK(bench.output(1600, 1700) == Reason::NONE);
   CHECK(bench.authority.flown_mode() == Mode::OUTPUT);
 }
 
-TEST_CASE("pilot Raspberry Pi: OUTPUT that is asked for is said for 500 ms, while FBW flies") {
+TEST_CASE("pilot Raspberry Pi: a requested OUTPUT is reported for 500 ms while FBW is active") {
   PilotBench bench;
   bench.fly(2000);
   REQUIRE(bench.ask('u') == Reason::NONE);
@@ -164,7 +164,7 @@ TEST_CASE("pilot Raspberry Pi: of Output and Setpoint the newer counts") {
   CHECK(bench.throttle_us() == 1700);
 }
 
-TEST_CASE("pilot Raspberry Pi: OUTPUT is not said when it could not fly") {
+TEST_CASE("pilot Raspberry Pi: OUTPUT is not reported when it cannot be active") {
   PilotBench bench;
   bench.fly(2000);
   REQUIRE(bench.ask('u') == Reason::NONE);

@@ -35,7 +35,7 @@ TEST_CASE("pilot restore: an armed aircraft flies on in its mode, with its throt
   CHECK(bench.authority.mode() == Mode::FBW);
 }
 
-TEST_CASE("pilot restore: the mode that the ground asked for, failsafe and latch come back") {
+TEST_CASE("pilot restore: the ground's requested mode, failsafe and latch are restored") {
   PilotBench before;
   before.profile.throttle_failsafe_us = 1250;
   before.fly(2000);
@@ -46,7 +46,7 @@ TEST_CASE("pilot restore: the mode that the ground asked for, failsafe and latch
     bench.run(60);
     CHECK(bench.authority.mode() == Mode::RATE);
   }
-  SUBCASE("failsafe goes on without a pause, and so does the latch") {
+  SUBCASE("failsafe and its latch continue without a pause") {
     before.is_on = false;
     before.run(5500);
     REQUIRE(before.authority.is_failsafe());
@@ -62,7 +62,7 @@ TEST_CASE("pilot restore: the mode that the ground asked for, failsafe and latch
   }
 }
 
-TEST_CASE("pilot restore: a receiver that does not come back is failsafe within a second") {
+TEST_CASE("pilot restore: a receiver that stays lost triggers failsafe within a second") {
   PilotBench before;
   before.fly(1500);
   PilotBench bench;
@@ -75,7 +75,7 @@ TEST_CASE("pilot restore: a receiver that does not come back is failsafe within 
   CHECK(bench.authority.is_armed());
 }
 
-TEST_CASE("pilot restore: a receiver that was never heard is not lost") {
+TEST_CASE("pilot restore: a receiver that was never received does not count as lost") {
   PilotBench before;
   before.is_on = false;
   before.run(1000);
@@ -146,7 +146,7 @@ TEST_CASE("pilot: whatever happens, the rules hold") {
       if (dice == 9) bench.is_on = !bench.is_on;
       if (dice == 10) bench.is_imu_valid = !bench.is_imu_valid;
       if (dice == 11) bench.is_calibrating = !bench.is_calibrating;
-      if (dice == 12) bench.authority.take_veto(random() & 1, bench.clock_us());
+      if (dice == 12) bench.authority.accept_veto(random() & 1, bench.clock_us());
       if (dice == 13) bench.is_on = bench.is_imu_valid = !(bench.is_calibrating = false);
       if (dice == 14) bench.sticks[THROTTLE] = 1000;
       const uint8_t vetoes_before = bench.authority.vetoes();

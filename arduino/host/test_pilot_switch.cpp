@@ -39,11 +39,11 @@ TEST_CASE("pilot switch: 1300 and 1700 us part the positions, 20 us each way") {
                {1720, 2}, {1681, 2}, {1679, 1}, {2000, 2}, {1000, 0}, {1500, 1}};
   for (const auto& move : moves) {
     CAPTURE(move.us);
-    aux1.take(static_cast<Ticks>(2 * move.us));
+    aux1.update(static_cast<Ticks>(2 * move.us));
     CHECK(aux1.position() == move.position);
   }
   ModeSwitch first;
-  first.take(us_to_ticks(1300));
+  first.update(us_to_ticks(1300));
   CHECK(first.position() == 1);
 }
 
@@ -63,8 +63,8 @@ TEST_CASE("pilot switch: leaving AUTO acts within one frame, whatever the Raspbe
       CHECK(bench.authority.flown_mode() == (aux1 == 1000 ? Mode::ACRO : Mode::FBW));
       CHECK(bench.authority.mode() == bench.authority.flown_mode());
       CHECK(bench.throttle_us() == 1000);
-      CHECK(bench.output(1900, 1800) == Reason::NOT_AUTO);
-      CHECK(bench.ask('u') == Reason::NOT_AUTO);
+      CHECK(bench.output(1900, 1800) == Reason::NOT_AT_AUTO);
+      CHECK(bench.ask('u') == Reason::NOT_AT_AUTO);
       bench.run(2);
     }
   }
@@ -75,8 +75,8 @@ TEST_CASE("pilot switch: ground modes are taken at AUTO only, and never ACRO") {
   for (uint16_t aux1 : {uint16_t{1000}, uint16_t{1500}}) {
     bench.sticks[AUX1] = aux1;
     bench.run(100);
-    for (char letter : {'r', 'f', 's', 'u'}) CHECK(bench.ask(letter) == Reason::NOT_AUTO);
-    CHECK(bench.demand(1000, 0) == Reason::NOT_AUTO);
+    for (char letter : {'r', 'f', 's', 'u'}) CHECK(bench.ask(letter) == Reason::NOT_AT_AUTO);
+    CHECK(bench.demand(1000, 0) == Reason::NOT_AT_AUTO);
     CHECK(bench.authority.mode() == (aux1 == 1000 ? Mode::ACRO : Mode::FBW));
   }
   bench.sticks[AUX1] = 2000;
@@ -93,7 +93,7 @@ TEST_CASE("pilot switch: ground modes are taken at AUTO only, and never ACRO") {
   CHECK(bench.authority.mode() == Mode::FBW);
 }
 
-TEST_CASE("pilot switch: a bad pulse stops what flies at AUTO, and does not end the mode asked for") {
+TEST_CASE("pilot switch: a bad pulse suspends AUTO and does not end the requested mode") {
   PilotBench bench;
   bench.fly(2000);
   REQUIRE(bench.ask('r') == Reason::NONE);
@@ -102,7 +102,7 @@ TEST_CASE("pilot switch: a bad pulse stops what flies at AUTO, and does not end 
     bench.sticks[AUX1] = 1500;
     REQUIRE(bench.run_until([&] { return !bench.authority.is_auto(); }, 100) <= 34);
     CHECK(bench.authority.mode() == Mode::FBW);
-    CHECK(bench.output(1600, 0) == Reason::NOT_AUTO);
+    CHECK(bench.output(1600, 0) == Reason::NOT_AT_AUTO);
     bench.run(left_ms - 2);
     bench.sticks[AUX1] = 2000;
     bench.run(40);
@@ -110,7 +110,7 @@ TEST_CASE("pilot switch: a bad pulse stops what flies at AUTO, and does not end 
   }
 }
 
-TEST_CASE("pilot switch: leaving AUTO ends what the ground and the Raspberry Pi had asked for") {
+TEST_CASE("pilot switch: leaving AUTO ends the requests of ground and Raspberry Pi") {
   PilotBench bench;
   bench.fly(2000);
   SUBCASE("the mode") {
@@ -172,11 +172,11 @@ TEST_CASE("pilot switch: without an IMU everything is a pass-through, and it com
   }
 }
 
-TEST_CASE("pilot switch: outside AUTO a lost Raspberry Pi is nothing to Authority") {
+TEST_CASE("pilot switch: outside AUTO Authority ignores a lost Raspberry Pi") {
   PilotBench bench;
   bench.fly(1500);
   bench.sticks[THROTTLE] = 1600;
-  bench.authority.take_veto(true, bench.clock_us());
+  bench.authority.accept_veto(true, bench.clock_us());
   bench.run(5000);
   CHECK(bench.authority.mode() == Mode::FBW);
   CHECK(bench.authority.is_armed());
@@ -184,7 +184,7 @@ TEST_CASE("pilot switch: outside AUTO a lost Raspberry Pi is nothing to Authorit
   CHECK_FALSE(bench.authority.is_failsafe());
 }
 
-TEST_CASE("pilot switch: a profile that takes AUTO away ends an Output that lives at once") {
+TEST_CASE("pilot switch: a profile without AUTO ends an active Output immediately") {
   PilotBench bench;
   bench.profile.has_motor = false;
   bench.fly(2000, false);

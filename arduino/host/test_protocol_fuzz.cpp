@@ -58,7 +58,7 @@ TEST_CASE("a script's Arm Command arms, and bare bytes of it do as well when the
   CHECK_FALSE(play(bare).is_armed);
 }
 
-TEST_CASE("random bytes with pauses neither arm nor open the thesis's door") {
+TEST_CASE("random bytes with pauses neither arm nor select thesis framing") {
   std::mt19937 random(7);
   for (int count = 0; count < 40; ++count) {
     Bytes script;

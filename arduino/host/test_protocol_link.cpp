@@ -71,27 +71,27 @@ TEST_CASE("a full line does not stop streams that are never answered") {
   for (int count = 0; count < 6; ++count) bench.send('m');
   bench.send('v', {1});
   bench.autopilot.authority.update(true, false, false, bench.now_us);
-  CHECK((bench.autopilot.authority.vetoes() & VETO_RASPBERRY) != 0);
+  CHECK((bench.autopilot.authority.vetoes() & VETO_RASPBERRY_PI) != 0);
 }
 
-TEST_CASE("what is broken is dropped and counted; its neighbours are not") {
+TEST_CASE("a broken frame is dropped and counted; its neighbours are not") {
   std::ifstream file(VECTORS "/serial_checked_bad.json");
   const nlohmann::json page = nlohmann::json::parse(file);
   REQUIRE(page["vectors"].size() > 3);
   for (const auto& vector : page["vectors"]) {
     CAPTURE(vector["why"].get<std::string>());
     LinkBench bench;
-    bench.hear(bytes_of(vector["wire"]));
+    bench.receive(bytes_of(vector["wire"]));
     CHECK(bench.autopilot.link.dropped() >= 1);
-    CHECK_FALSE(bench.autopilot.link.has_heard(bench.now_us));
-    bench.hear(bytes_of(page["good"]));
-    CHECK(bench.autopilot.link.has_heard(bench.now_us));
+    CHECK_FALSE(bench.autopilot.link.has_received(bench.now_us));
+    bench.receive(bytes_of(page["good"]));
+    CHECK(bench.autopilot.link.has_received(bench.now_us));
   }
 }
 
 TEST_CASE("an unfinished frame is dropped after 100 ms though no byte comes") {
   LinkBench bench;
-  bench.hear(Bytes{5, 1, 2});
+  bench.receive(Bytes{5, 1, 2});
   bench.run_ms(99);
   CHECK(bench.autopilot.link.dropped() == 0);
   bench.run_ms(4);
@@ -117,7 +117,7 @@ TEST_CASE("missing frames are counted by their sequence, round the end, and stay
   CHECK(bench.autopilot.link.missing() == 65535);
 }
 
-TEST_CASE("a type that is none, and a size that is wrong, are dropped and refused by name") {
+TEST_CASE("an unknown type and a wrong size are dropped and refused with their code") {
   LinkBench bench;
   bench.take();
   bench.send('?');
@@ -147,19 +147,19 @@ TEST_CASE("streams are refused once a second and type, Commands each time") {
   CHECK(bench.take_types() == "!!!!!");
 }
 
-TEST_CASE("the Raspberry Pi is heard for one second, however long it is silent then") {
+TEST_CASE("the Raspberry Pi counts as received for one second") {
   LinkBench bench;
-  CHECK_FALSE(bench.autopilot.link.has_heard(bench.now_us));
+  CHECK_FALSE(bench.autopilot.link.has_received(bench.now_us));
   bench.send('v', {0});
   bench.run_ms(999);
-  CHECK(bench.autopilot.link.has_heard(bench.now_us));
+  CHECK(bench.autopilot.link.has_received(bench.now_us));
   bench.run_ms(4);
-  CHECK_FALSE(bench.autopilot.link.has_heard(bench.now_us));
+  CHECK_FALSE(bench.autopilot.link.has_received(bench.now_us));
   // A clock shows the same value again after a wrap.
-  CHECK_FALSE(bench.autopilot.link.has_heard(bench.now_us - 1003000));
+  CHECK_FALSE(bench.autopilot.link.has_received(bench.now_us - 1003000));
 }
 
-TEST_CASE("what nothing here uses is refused with 13: altitude, headings, location") {
+TEST_CASE("unused types are refused with 13: altitude, headings, location") {
   for (char type : {'h', 'b', 'B', 'l'}) {
     CAPTURE(type);
     LinkBench bench;

@@ -80,7 +80,7 @@ TEST_CASE("the orientation counts its frames and tells degrees in its order") {
   CHECK(degrees(after) == doctest::Approx(attitude.roll_cdeg / 100.0).epsilon(0.01).scale(10));
 }
 
-TEST_CASE("no orientation is told while the IMU is not valid") {
+TEST_CASE("no orientation is sent while the IMU is invalid") {
   Awake board;
   board.is_imu_on = false;
   board.run(100);
@@ -90,7 +90,7 @@ TEST_CASE("no orientation is told while the IMU is not valid") {
   CHECK(board.streamed('O', 500) >= 24);
 }
 
-TEST_CASE("inputs are told with their validity, and a lost receiver's as measured last") {
+TEST_CASE("inputs are sent with their validity; a lost receiver's keep their last values") {
   Awake board;
   board.sticks[RUDDER] = 1234;
   board.run(300);
@@ -104,7 +104,7 @@ TEST_CASE("inputs are told with their validity, and a lost receiver's as measure
   CHECK(inputs.payload[12] == 0);
 }
 
-TEST_CASE("panic stretches what is forwarded, at once and back, and never the status") {
+TEST_CASE("panic stretches the forwarded streams immediately and reversibly, never the status") {
   Awake board;
   board.send('p', panic(150));
   CHECK(board.streamed('i', 1500) <= 11);

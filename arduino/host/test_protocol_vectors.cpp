@@ -40,7 +40,7 @@ struct Reading {
 
   void take(const Bytes& bytes, uint32_t now_us = 0) {
     for (uint8_t byte : bytes) {
-      const CheckedReader::Found found = reader.take(byte, now_us);
+      const CheckedReader::Found found = reader.receive(byte, now_us);
       frames += found == CheckedReader::Found::FRAME;
       broken += found == CheckedReader::Found::BROKEN;
     }
@@ -67,7 +67,7 @@ TEST_CASE("COBS is that of the golden vectors, as long as frames are short") {
   for (const auto& vector : vectors_of("cobs")) {
     const Bytes plain = bytes_of(vector["plain"]);
     const Bytes encoded = bytes_of(vector["encoded"]);
-    if (plain.size() > LONGEST_FRAME) continue;
+    if (plain.size() > MAX_FRAME) continue;
     ++short_ones;
     Bytes buffer(plain.size() + 1);
     CobsEncoder encoder(buffer.data());
@@ -78,7 +78,7 @@ TEST_CASE("COBS is that of the golden vectors, as long as frames are short") {
     Bytes decoded;
     for (uint8_t byte : encoded) {
       uint8_t one;
-      if (decoder.take(byte, one) == CobsDecoder::Step::BYTE) decoded.push_back(one);
+      if (decoder.receive(byte, one) == CobsDecoder::Step::BYTE) decoded.push_back(one);
     }
     CHECK(decoder.is_complete());
     CHECK(decoded == plain);
@@ -138,7 +138,7 @@ TEST_CASE("every golden thesis Command is received whole") {
     const Bytes wire = bytes_of(vector["wire"]);
     for (size_t at = 0; at < wire.size(); ++at) {
       const bool is_last = at + 1 == wire.size();
-      CHECK(receiver.take(wire[at], 0) == (is_last ? CommandReceiver::Found::COMMAND
+      CHECK(receiver.receive(wire[at], 0) == (is_last ? CommandReceiver::Found::COMMAND
                                                    : CommandReceiver::Found::NOTHING));
     }
     CHECK(receiver.definition().type == vector["type"].get<std::string>()[0]);
@@ -147,24 +147,24 @@ TEST_CASE("every golden thesis Command is received whole") {
   }
 }
 
-TEST_CASE("thesis framing knows no byte that is no thesis Command") {
+TEST_CASE("thesis framing rejects every other byte") {
   unsigned unknown = 0;
   for (int byte = 0; byte < 256; ++byte) {
     ReceiveBuffer buffer = {};
     CommandReceiver receiver(buffer);
-    unknown += receiver.take(static_cast<uint8_t>(byte), 0) == CommandReceiver::Found::UNKNOWN;
+    unknown += receiver.receive(static_cast<uint8_t>(byte), 0) == CommandReceiver::Found::UNKNOWN;
   }
   CHECK(unknown == 256 - 7);
 }
 
 TEST_CASE("the longest frame is read, one byte more is too long, and the next is read again") {
   Reading reading;
-  reading.take(frame_of(1, 'g', Bytes(LONGEST_PAYLOAD, 0x11)));
+  reading.take(frame_of(1, 'g', Bytes(MAX_PAYLOAD, 0x11)));
   CHECK(reading.frames == 1);
-  CHECK(reading.reader.payload_size() == LONGEST_PAYLOAD);
-  CHECK(reading.reader.payload()[LONGEST_COMMAND - 1] == 0x11);
-  Bytes too_long(LONGEST_FRAME + 2, 0x11);
-  too_long[0] = LONGEST_FRAME + 2;
+  CHECK(reading.reader.payload_size() == MAX_PAYLOAD);
+  CHECK(reading.reader.payload()[MAX_COMMAND - 1] == 0x11);
+  Bytes too_long(MAX_FRAME + 2, 0x11);
+  too_long[0] = MAX_FRAME + 2;
   too_long.push_back(0);
   reading.take(too_long);
   CHECK(reading.broken == 1);
@@ -175,7 +175,7 @@ TEST_CASE("the longest frame is read, one byte more is too long, and the next is
   CHECK(reading.frames == 2);
 }
 
-TEST_CASE("a frame in which any one bit is wrong is no frame, and costs no other") {
+TEST_CASE("a frame with one wrong bit is rejected and affects no other frame") {
   const Bytes good = frame_of(7, 'u', bytes_of("05dc058f000006400201"));
   for (size_t bit = 0; bit < (good.size() - 1) * 8; ++bit) {
     Bytes bad = good;

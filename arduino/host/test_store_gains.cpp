@@ -60,7 +60,7 @@ TEST_CASE("the golden gains of two axes leave the rudder's alone") {
   CHECK(wire == payloads[0]);
 }
 
-TEST_CASE("the gains at the first start are those of an aircraft that nobody has tuned") {
+TEST_CASE("the gains at the first start are the defaults") {
   const float expected[18] = {2, 0, 0, 1.5f, 0, 0, 1, 0, 0, 8, 0, 0, 8, 0, 0, 0, 0, 0};
   Bytes wire(GAINS_SIZE);
   WireWriter writer(wire.data());
@@ -68,12 +68,12 @@ TEST_CASE("the gains at the first start are those of an aircraft that nobody has
   CHECK(three_axes(DEFAULT_GAINS) == wire);
 }
 
-TEST_CASE("a set with one gain that is no number of 0 to 50 is refused whole") {
+TEST_CASE("a set with one gain outside 0 to 50 is refused as a whole") {
   const float infinity = std::numeric_limits<float>::infinity();
   const float nan = std::numeric_limits<float>::quiet_NaN();
-  const float wrong[] = {std::nextafter(GREATEST_GAIN, 51.0f), infinity, -infinity, nan, -nan,
+  const float wrong[] = {std::nextafter(MAX_GAIN, 51.0f), infinity, -infinity, nan, -nan,
                          -std::numeric_limits<float>::denorm_min(), -1.0f, 3e38f};
-  const float right[] = {GREATEST_GAIN, 0.0f, -0.0f, std::numeric_limits<float>::denorm_min()};
+  const float right[] = {MAX_GAIN, 0.0f, -0.0f, std::numeric_limits<float>::denorm_min()};
   for (size_t gain = 0; gain < 18; ++gain) {
     for (float value : wrong) {
       CAPTURE(value);

@@ -46,7 +46,7 @@ void check_word(size_t at, int least, int most) {
 
 }  // namespace
 
-TEST_CASE("the default profile is what the page says and the stand-in boots with") {
+TEST_CASE("the default profile is that of the page") {
   const Bytes channel = bytes_of("00000003e807d0");
   Bytes wire;
   for (int output = 0; output < 4; ++output) wire.insert(wire.end(), channel.begin(), channel.end());

@@ -17,7 +17,7 @@ SavedState numbered(int number) {
   memset(static_cast<void*>(&state), 0, sizeof state);
   state.authority.is_armed = true;
   state.authority.switch_position = 2;
-  state.authority.asked_mode = 's';
+  state.authority.requested_mode = 's';
   state.attitude.gravity_q30[0] = number;
   state.attitude.bias_q36[2] = -5;
   return state;
@@ -58,14 +58,14 @@ TEST_CASE("the state written last is read, from any RAM, round and round the seq
   }
 }
 
-TEST_CASE("what is read is all that was written") {
+TEST_CASE("a state is read back completely") {
   SavedStates states = noise(1);
   states.write(numbered(7));
   SavedState state = numbered(0);
   REQUIRE(states.read(state));
   CHECK(state.authority.is_armed);
   CHECK(state.authority.switch_position == 2);
-  CHECK(state.authority.asked_mode == 's');
+  CHECK(state.authority.requested_mode == 's');
   CHECK(state.attitude.bias_q36[2] == -5);
 }
 
@@ -103,7 +103,7 @@ TEST_CASE("a reset in the midst of a write leaves the state of the write before"
   }
 }
 
-TEST_CASE("a single flipped bit anywhere never brings back what was not written") {
+TEST_CASE("no single flipped bit yields a state that was never written") {
   SavedStates states = noise(4);
   states.write(numbered(1));
   states.write(numbered(2));
@@ -119,11 +119,11 @@ TEST_CASE("a single flipped bit anywhere never brings back what was not written"
   }
 }
 
-TEST_CASE("forgetting leaves nothing to read") {
+TEST_CASE("a reset leaves nothing to read") {
   SavedStates states = noise(5);
   states.write(numbered(1));
   states.write(numbered(2));
-  states.forget();
+  states.reset();
   CHECK(number_in(states) == -1);
   states.write(numbered(3));
   CHECK(number_in(states) == 3);

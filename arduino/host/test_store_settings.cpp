@@ -69,7 +69,7 @@ TEST_CASE("an erased EEPROM gives the defaults and nothing is broken") {
   CHECK(fake_board().violations == 0);
 }
 
-TEST_CASE("what was saved is loaded at the next power-on, each kind for itself") {
+TEST_CASE("saved settings are loaded at the next power-on, each kind separately") {
   fake_board().reset();
   Settings settings = reloaded();
   settings.profile.has_motor = false;
@@ -144,7 +144,7 @@ TEST_CASE("a power cut at any byte of a save leaves the copy before, or the new 
   }
 }
 
-TEST_CASE("EEPROM is not written while armed, and a save that arming interrupts begins anew") {
+TEST_CASE("EEPROM is not written while armed; a save interrupted by arming starts again") {
   Settings settings = with_two_copies();
   save_gain(settings, 3);
   settings.background(true);
@@ -176,7 +176,7 @@ TEST_CASE("EEPROM is not written while armed, and a save that arming interrupts 
   CHECK(fake_board().violations == 0);
 }
 
-TEST_CASE("a kind that changes while it is saved is saved as it is now") {
+TEST_CASE("a kind that changes during a save is saved with its new values") {
   Settings settings = with_two_copies();
   save_gain(settings, 3);
   write_bytes(settings, 4);
@@ -187,7 +187,7 @@ TEST_CASE("a kind that changes while it is saved is saved as it is now") {
   CHECK(reloaded().gains.stabilize[2].p == 9);
 }
 
-TEST_CASE("a change that nobody marks does not end in a copy of two halves") {
+TEST_CASE("an unmarked change does not produce a copy of two halves") {
   Settings settings = with_two_copies();
   save_gain(settings, 3);
   write_bytes(settings, 4);
@@ -230,7 +230,7 @@ TEST_CASE("one flipped bit in the newest copy gives the older one") {
   }
 }
 
-TEST_CASE("copies with a right CRC and a value out of range are not taken") {
+TEST_CASE("copies with a correct CRC and a value out of range are rejected") {
   Settings settings = with_two_copies();
   settings.gains.rate[0].p = 51;
   settings.save_gains();
@@ -238,7 +238,7 @@ TEST_CASE("copies with a right CRC and a value out of range are not taken") {
   CHECK(reloaded().gains.rate[0].p == 2);
 }
 
-TEST_CASE("a profile that cannot be read any more is told, and mended by a new one") {
+TEST_CASE("an unreadable profile is reported, and repaired by a new one") {
   fake_board().reset();
   Settings settings = reloaded();
   settings.profile.has_motor = false;
@@ -280,7 +280,7 @@ TEST_CASE("gains and calibrations that cannot be read are broken settings") {
   CHECK_FALSE(settings.has_calibration());
 }
 
-TEST_CASE("a cell that does not take its value is given up, and the older copy stays") {
+TEST_CASE("a worn cell is given up, and the older copy stays") {
   Settings settings = with_two_copies();
   save_gain(settings, 3);
   const uint16_t worn = static_cast<uint16_t>(slot_address(1, 0) + 20);

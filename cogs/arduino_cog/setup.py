@@ -5,7 +5,7 @@ from setuptools import find_packages, setup
 setup(
     name="raspilot-arduino-cog",
     version="1.0.0",
-    description="The Arduino of Raspilot: readings, arming, flight modes, Outputs and gains",
+    description="The Arduino of Raspilot: readings, arming, flight modes, Outputs, gains, profile",
     license="MIT",
     python_requires=">=3.11",
     packages=find_packages(include=["arduino_cog", "arduino_cog.*"]),

@@ -9,7 +9,7 @@ setup(
     license="MIT",
     python_requires=">=3.11",
     packages=find_packages(),
-    package_data={"black_box_cog": ["registered_modules.yml", "py.typed", "report/*.css"]},
+    package_data={"black_box_cog": ["registered_modules.yml", "py.typed"]},
     install_requires=["raspilot"],
-    entry_points={"up.verbs": ["log = black_box_cog.cli.parser:add"]},
+    entry_points={"up.flights_folder": ["black_box = black_box_cog.config:BLACK_BOX"]},
 )

@@ -7,9 +7,9 @@ from dataclasses import dataclass
 
 from tests.arduino.rig.firmware import make_rig
 from tests.support.firmware import build_firmware
+from up.commands.board_schema import STATUS, BoardStatus
 from up.protocols.crc16 import crc16
 from up_rig.imu import motion_at
-from up_simulator.firmware.tap import BoardStatus
 from up_simulator.wire import checked_frame, cobs_decode
 
 LOW, MIDDLE, HIGH = 1000, 1500, 2000
@@ -108,12 +108,7 @@ class Flight:
     def status(self):
         """Return the newest status, requested by a Start Command if necessary."""
         self.send("s")
-        return BoardStatus(
-            *(
-                chr(each[0]) if isinstance(each, bytes) else each
-                for each in struct.unpack(">BcBBBBHHHHHHH", self.newest("x").payload)
-            )
-        )
+        return BoardStatus(*STATUS.unpack(self.newest("x").payload))
 
     def mode(self):
         """Return the mode letter that `m` answers."""

@@ -4,8 +4,8 @@ import pytest
 
 from tests.arduino.commands import SERVOS, profile, setpoint
 from tests.arduino.flight import HIGH, LOW, MIDDLE, Flight
+from up.commands.board_schema import Reason
 
-ONLY_DISARMED = 4
 A_DEGREE_US = 20
 """What the default gains make of a degree."""
 
@@ -39,23 +39,6 @@ def test_sticks_pass_straight_through(flight):
     assert servos_us(flight) == pytest.approx([1234, 1678, 1000, 1890], abs=1)
 
 
-@pytest.mark.parametrize("channel", ["ailerons", "elevator", "rudder"])
-def test_a_servo_is_reversed_about_the_centre(flight, channel):
-    fit(flight, {channel: {"reversed": 1}})
-    flight.sticks(**{channel: 1700})
-    expected = [1300 if each == channel else 1500 for each in SERVOS]
-    expected[2] = 1000
-    assert servos_us(flight) == pytest.approx(expected, abs=1)
-
-
-@pytest.mark.parametrize("channel", ["ailerons", "elevator", "rudder"])
-def test_a_trim_moves_a_servo_after_its_direction(flight, channel):
-    fit(flight, {channel: {"reversed": 1, "trim_us": 80}})
-    assert flight.servo_us(channel) == pytest.approx(1580, abs=1)
-    flight.sticks(**{channel: 1600})
-    assert flight.servo_us(channel) == pytest.approx(1480, abs=1)
-
-
 def test_no_servo_goes_beyond_its_ends(flight):
     ends = {"lowest_us": 1200, "highest_us": 1750, "trim_us": 100}
     fit(flight, dict.fromkeys(("ailerons", "elevator", "rudder"), ends))
@@ -63,27 +46,6 @@ def test_no_servo_goes_beyond_its_ends(flight):
         flight.sticks(ailerons=stick, elevator=stick, rudder=stick)
         expected = [servo, servo, 1000, servo]
         assert servos_us(flight) == pytest.approx(expected, abs=1)
-
-
-def test_elevons_mix_ailerons_and_elevator(flight):
-    fit(flight, mix=1)
-    # To the right: the left elevon (first) down, the right one up; nose up: both up.
-    flight.sticks(ailerons=1600)
-    assert servos_us(flight) == pytest.approx([1400, 1600, 1000, 1500], abs=1)
-    flight.sticks(ailerons=1500, elevator=1600)
-    assert servos_us(flight) == pytest.approx([1600, 1600, 1000, 1500], abs=1)
-    flight.sticks(ailerons=1700, elevator=1400)
-    assert servos_us(flight) == pytest.approx([1200, 1600, 1000, 1500], abs=1)
-    flight.sticks(ailerons=2000, elevator=2000, rudder=1800)
-    assert servos_us(flight) == pytest.approx([1500, 2000, 1000, 1800], abs=1)
-
-
-def test_a_v_tail_mixes_elevator_and_rudder(flight):
-    fit(flight, mix=2)
-    flight.sticks(rudder=1600, ailerons=1700)
-    assert servos_us(flight) == pytest.approx([1700, 1600, 1000, 1400], abs=1)
-    flight.sticks(rudder=1500, elevator=1600)
-    assert servos_us(flight) == pytest.approx([1700, 1600, 1000, 1600], abs=1)
 
 
 def test_a_mix_is_turned_and_trimmed_for_each_servo(flight):
@@ -116,30 +78,22 @@ def test_the_motors_servo_has_no_direction_nor_trim_that_could_start_it(flight):
     assert not flight.status().is_armed
 
 
-def test_without_a_motor_the_channel_is_a_servo_like_any():
-    flight = Flight()
-    fit(flight, {"throttle": {"reversed": 1, "trim_us": 50, "highest_us": 1900}}, motor=0)
-    for stick, servo in ((1700, 1350), (1500, 1550), (1000, 1900)):
-        flight.sticks(throttle=stick)
-        assert flight.servo_us("throttle") == pytest.approx(servo, abs=1)
-
-
 def test_a_glider_takes_no_other_settings_once_its_receiver_was_heard():
     """Without a motor it flies disarmed: only a silent transmitter proves the ground."""
     flight = Flight()
     fit(flight, motor=0)
-    assert flight.ask("C", profile(motor=0)) == ONLY_DISARMED
-    assert flight.ask("e", b"\0") == ONLY_DISARMED
-    assert flight.ask("e", b"\3") == ONLY_DISARMED
+    assert flight.ask("C", profile(motor=0)) == Reason.ONLY_ON_GROUND
+    assert flight.ask("e", b"\0") == Reason.ONLY_ON_GROUND
+    assert flight.ask("e", b"\3") == Reason.ONLY_ON_GROUND
     flight.run_ms(700)
     still = Flight(receiver=False, eeprom=flight.rig.eeprom.read())
-    assert still.ask("C", profile(motor=0)) == ONLY_DISARMED
+    assert still.ask("C", profile(motor=0)) == Reason.ONLY_ON_GROUND
     still.run_ms(5000)
     assert still.ask("e", b"\0") == "K"
     assert still.ask("C", profile(motor=0)) == "K"
     still.rig.receiver.start()
     still.run_ms(200)
-    assert still.ask("C", profile(motor=0)) == ONLY_DISARMED
+    assert still.ask("C", profile(motor=0)) == Reason.ONLY_ON_GROUND
 
 
 def test_a_profile_is_kept_over_a_power_cycle(flight):
@@ -168,16 +122,6 @@ def test_fbw_asks_for_its_limits_at_full_stick(flight, channel, stick, attitude)
     assert flight.servo_us(channel) == pytest.approx(1500, abs=A_DEGREE_US)
     flight.tilt(0)
     assert abs(flight.servo_us(channel) - 1500) > 140
-
-
-def test_other_limits_are_taken_from_the_profile(flight):
-    fit(flight, roll_limit_cdeg=3000, pitch_up_limit_cdeg=1000, pitch_down_limit_cdeg=1500)
-    flight.tilt(0, -15)
-    flight.tilt(30, -15)
-    flight.sticks(ailerons=2000, elevator=1000, aux1=MIDDLE)
-    assert flight.servo_us("ailerons") == pytest.approx(1500, abs=A_DEGREE_US)
-    assert flight.rig.servo.newest_us("elevator") == pytest.approx(1500, abs=A_DEGREE_US)
-    flight.tilt(0)
 
 
 def test_a_setpoint_stays_within_fbws_limits(flight):

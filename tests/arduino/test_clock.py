@@ -41,7 +41,7 @@ def test_the_wrap_of_the_microseconds_is_not_felt(near_wrap):
     assert status.is_armed
     assert not status.is_failsafe
     assert status.late_us < 200
-    assert status.receiver_age_ms < 30
+    assert status.rx_age_ms < 30
 
 
 def test_lifetimes_end_across_the_wrap(near_wrap):

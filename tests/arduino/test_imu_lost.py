@@ -84,7 +84,7 @@ def test_a_lost_imu_passes_the_sticks_through_within_100_ms(fbw, loss):
     assert len(passed) >= 12
     assert passed == pytest.approx([STICK_US] * len(passed), abs=1)
     status = fbw.status()
-    assert status.mode == "a"
+    assert status.mode_letter == "a"
     assert not status.flags & IMU
     assert status.vetoes & 4
     assert status.is_armed and not status.is_failsafe
@@ -93,7 +93,7 @@ def test_a_lost_imu_passes_the_sticks_through_within_100_ms(fbw, loss):
     mend(fbw.rig.imu)
     fbw.run_ms(1000)
     status = fbw.status()
-    assert status.flags & IMU and status.mode == "f" and status.is_armed
+    assert status.flags & IMU and status.mode_letter == "f" and status.is_armed
     assert fbw.servo_us("ailerons") < STICK_US - 100
     assert fbw.attitude()[0] == pytest.approx(30, abs=2)
 
@@ -114,7 +114,7 @@ def test_unplugged_at_any_byte_of_a_sample_and_back(fbw, fault):
         assert fbw.mode() == "f", f"not back after byte {byte} of transfer {transfer}"
     status = fbw.status()
     assert status.is_armed and status.flags & IMU
-    assert not status.cause & 0x80
+    assert not status.reset_cause & 0x80
     assert status.late_us < 2000
 
 
@@ -129,7 +129,7 @@ def test_an_imu_that_hangs_at_any_byte_is_freed_at_once(fbw):
         assert imu.transfers > samples + 60
         assert max(widths(fbw, start)) < STICK_US - 100
     status = fbw.status()
-    assert status.is_armed and status.mode == "f"
+    assert status.is_armed and status.mode_letter == "f"
 
 
 @pytest.mark.parametrize("fault", FAULTS)
@@ -150,8 +150,8 @@ def test_plugged_in_and_failing_at_any_byte_of_its_set_up(fbw, fault):
         assert fbw.attitude()[0] == pytest.approx(-20 if byte else 30, abs=2), at
     fbw.tilt(30, seconds=0.2)
     status = fbw.status()
-    assert status.is_armed and status.flags & IMU and status.mode == "f"
-    assert not status.cause & 0x80
+    assert status.is_armed and status.flags & IMU and status.mode_letter == "f"
+    assert not status.reset_cause & 0x80
     assert fbw.servo_us("ailerons") < STICK_US - 100
 
 
@@ -166,7 +166,7 @@ def test_a_transfer_that_fails_once_is_not_felt(fbw, fault):
         imu.mend()
         fbw.run_ms(95)
         assert max(widths(fbw, start)) < STICK_US - 100
-    assert fbw.status().mode == "f"
+    assert fbw.status().mode_letter == "f"
 
 
 def test_another_part_at_the_address_is_not_taken_for_the_imu(fbw):

@@ -39,23 +39,6 @@ def test_a_blank_chip_has_the_defaults_and_may_arm():
     assert flight.rig.eeprom.read() == b"\xff" * 1024
 
 
-def test_the_newer_of_two_copies_is_flown(kept):
-    assert boot(kept).ask("G") == OLD
-
-
-def test_a_broken_newer_copy_leaves_the_older(kept):
-    changed = 0
-    for at in range(0, 1024, 7):
-        if kept[at] == 0xFF:
-            continue
-        spoilt = bytearray(kept)
-        spoilt[at] ^= 0x10
-        gains = boot(bytes(spoilt)).ask("G")
-        assert gains in (OLD, NEW)
-        changed += gains == NEW
-    assert changed > 5
-
-
 def test_power_cut_at_any_byte_of_a_write_leaves_one_whole_set(kept):
     """The supply sags in the midst of the write of each byte in turn."""
     cuts = 0

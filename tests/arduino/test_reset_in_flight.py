@@ -89,9 +89,9 @@ def assert_flies_on(flight, since):
     assert flight.servo_us("throttle", 40) == pytest.approx(THROTTLE_US, abs=1)
     status = flight.status()
     assert status.is_armed
-    assert status.mode == "f"
+    assert status.mode_letter == "f"
     assert status.flags & IMU
-    assert status.cause == Reset.WATCHDOG | RESTORED
+    assert status.reset_cause == Reset.WATCHDOG | RESTORED
     roll, pitch, _yaw, *rates = flight.attitude()
     assert (roll, pitch) == pytest.approx((25, 0), abs=1.5)
     assert rates == pytest.approx([0, 0, 0], abs=0.5)
@@ -130,8 +130,8 @@ def test_with_optiboot_a_deaf_stop_gives_the_surfaces_back_and_no_motor():
     flight.run(before / 16 + 1_500_000 - flight.rig.now_us)
     assert longest_gap_ms(flight, "ailerons", before) <= 300
     status = flight.status()
-    assert not status.is_armed and not status.cause & RESTORED
-    assert status.mode == "f" and status.flags & IMU
+    assert not status.is_armed and not status.reset_cause & RESTORED
+    assert status.mode_letter == "f" and status.flags & IMU
     assert flight.servo_us("throttle") == pytest.approx(1000, abs=1)
 
 
@@ -166,7 +166,7 @@ def test_what_the_ground_asked_for_at_auto_comes_back():
     hang(flight)
     flight.run_ms(600)
     status = flight.status()
-    assert (status.mode, status.switch) == ("r", 2)
+    assert (status.mode_letter, status.switch) == ("r", 2)
     assert status.flags & AUTO and status.is_armed
 
 
@@ -256,9 +256,9 @@ def test_no_other_reset_ever_arms(bootloader, how):
     assert throttles == pytest.approx([1000] * len(throttles), abs=1)
     status = flight.status()
     assert not status.is_armed
-    assert not status.cause & RESTORED
-    assert not status.cause & Reset.WATCHDOG
-    assert status.mode == "f"
+    assert not status.reset_cause & RESTORED
+    assert not status.reset_cause & Reset.WATCHDOG
+    assert status.mode_letter == "f"
     # AUX2 stays high: that is not an edge.
     flight.sticks(500, throttle=LOW)
     assert not flight.status().is_armed
@@ -271,7 +271,7 @@ def test_power_that_fails_after_a_reset_in_flight_does_not_arm(bootloader):
     power_gap(flight)
     flight.run_ms(2000)
     status = flight.status()
-    assert not status.is_armed and not status.cause & RESTORED
+    assert not status.is_armed and not status.reset_cause & RESTORED
 
 
 def turning(bank_deg, speed_m_s=12.0):

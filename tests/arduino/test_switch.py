@@ -52,7 +52,7 @@ def test_low_is_acro_middle_is_fbw_and_high_is_auto(armed):
     assert not armed.status().flags & AUTO
     armed.sticks(aux1=HIGH)
     status = armed.status()
-    assert (status.mode, status.switch, status.flags & AUTO) == ("f", 2, AUTO)
+    assert (status.mode_letter, status.switch, status.flags & AUTO) == ("f", 2, AUTO)
     assert armed.servo_us("ailerons") < 1300
 
 
@@ -119,7 +119,7 @@ def test_a_receiver_that_comes_back_is_not_a_switch_that_moved(auto):
     auto.run_ms(150)
     status = auto.status()
     assert not status.is_failsafe
-    assert (status.mode, status.switch) == ("r", 2)
+    assert (status.mode_letter, status.switch) == ("r", 2)
     assert status.is_armed
 
 

@@ -266,7 +266,7 @@ def test_what_is_recorded(tmp_path):
     flight.say(1)
     flight.recorder.work()
     with traced() as calls:
-        flight.intake.observe(ServoCommand(1500, 1500, 1000, 1500), BOARD)
+        flight.queue.observe(ServoCommand(1500, 1500, 1000, 1500), BOARD)
         flight.pass_s(2)
         flight.recorder.work()
     flight.recorder.finish()

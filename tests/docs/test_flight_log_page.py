@@ -8,10 +8,10 @@ import subprocess
 import sys
 
 import pytest
-from black_box_cog.cli.parser import add
 
-from tests.cogs.black_box_cog.logbook import quiet, write_flight
+from tests.flightlog.logbook import quiet, write_flight
 from tests.support.virtual_environment import REPOSITORY
+from up_flightlog.cli.parser import add
 
 PAGE = (REPOSITORY / "docs" / "flight-log.md").read_text(encoding="utf-8")
 EXAMPLES = dict(re.findall(r"<!-- file: (\S+) -->\n```python\n(.*?)```", PAGE, re.DOTALL))
@@ -69,7 +69,7 @@ def test_every_verb_is_on_the_page():
 
 
 def test_the_topics_that_it_names_are_recorded(tmp_path):
-    from up.flight_log.flight_log import FlightLog
+    from up_flightlog.read.flight_log import FlightLog
 
     log = FlightLog.read([write_flight(tmp_path, 1, quiet)])
     for topic in ("up.orientation.update", "up.rx.update", "up.flight.state", "arduino.status"):

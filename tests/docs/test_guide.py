@@ -19,7 +19,7 @@ import pytest
 from tests.docs.flying import LIMIT_S, copy_of_the_tree, files_of, flying, lines_of
 from tests.support.tools import need_tool, unavailable
 from tests.support.virtual_environment import REPOSITORY, VirtualEnvironment
-from up.flight_log.flight_log import FlightLog
+from up_flightlog.read.flight_log import FlightLog
 
 PAGE = "guide.md"
 FILES = files_of(PAGE)

@@ -9,7 +9,7 @@ import xml.etree.ElementTree as ElementTree
 from itertools import pairwise
 
 import pytest
-from arduino_cog.airframe import AIRFRAME
+from arduino_cog.profile import AIRFRAME
 
 from tests.docs.flying import files_of, lines_of
 from tests.support.firmware import ARDUINO, CORE, need_toolchain

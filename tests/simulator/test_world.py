@@ -99,13 +99,13 @@ def test_an_imu_that_fails_in_flight_leaves_the_pilot_the_surfaces_and_comes_bac
     flown.fly(0.3)
     assert flown.board.imu.fault == fault
     status = flown.status()
-    assert (status.mode, status.is_imu_valid, status.is_armed) == ("a", False, True)
+    assert (status.mode_letter, status.is_imu_valid, status.is_armed) == ("a", False, True)
     assert flown.board.pulses_us()[0] == pytest.approx(1460, abs=1)
     flown.board.imu.set_fault("well")
     flown.board.set_stick("ailerons", 1500)
     flown.fly(0.8)
     status = flown.status()
-    assert (status.mode, status.is_imu_valid, status.is_armed) == ("f", True, True)
+    assert (status.mode_letter, status.is_imu_valid, status.is_armed) == ("f", True, True)
     assert flown.dynamics.crash is None
 
 
@@ -119,8 +119,8 @@ def test_a_watchdog_reset_in_flight_is_flown_on():
     states = flown.fly(2)
     assert max(flown.board.pulse_ages_us()) < 1.5e6 * FRAME_S
     status = flown.status()
-    assert status.is_restored and status.is_armed and status.mode == "f"
-    assert status.cause & 8
+    assert status.is_restored and status.is_armed and status.mode_letter == "f"
+    assert status.reset_cause & 8
     assert worst_roll_deg(states) < 8
     assert flown.board.pulses_us()[2] == pytest.approx(1500, abs=1)
 

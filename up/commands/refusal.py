@@ -28,12 +28,13 @@ NO_NAVIGATION = "nothing navigates yet: no module flies to a heading or an altit
 
 
 class CommandRefusedError(Exception):
-    """Raised by a handler that rejects a valid Command."""
+    """Raised by a handler that rejects a valid Command; ``detail`` is the handler's own code."""
 
-    def __init__(self, reason: str, code: Code = Code.REFUSED) -> None:
+    def __init__(self, reason: str, code: Code = Code.REFUSED, *, detail: str = "") -> None:
         super().__init__(reason)
         self.reason = reason
         self.code = code
+        self.detail = detail
 
 
 class UnhandledCommandError(LookupError):

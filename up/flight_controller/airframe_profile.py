@@ -5,10 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 
+from up.commands.board_schema import SWITCH_MODES
 from up.config import key, section
 
 MIXES = ("none", "elevon", "V-tail")
-MODES = ("ACRO", "RATE", "FBW", "AUTO")
+MODES = tuple(SWITCH_MODES.values())
 
 
 def _pulse(comment: str, least: int = 800, most: int = 2200) -> int | None:

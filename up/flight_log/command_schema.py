@@ -37,7 +37,7 @@ def schema_of(cls: type[BaseCommand]) -> dict[str, Any]:
             properties[key] = _property(schema, hints[field.name])
             if field.default is dataclasses.MISSING:
                 required.append(key)
-    properties[KEY] = {"type": "string", "description": "the link and role that it came from"}
+    properties[KEY] = {"type": "string", "description": "link and role of the sender"}
     return {
         "$schema": _DIALECT,
         "title": cls.NAME,

@@ -46,7 +46,6 @@ class FlightFile:
 
     @property
     def path(self) -> Path:
-        """Return the file's path."""
         part = "" if self.part == 1 else f".{self.part}"
         return self.folder / f"{self.number:04d}-{self.stamp}-{self.aircraft}{part}.mcap"
 
@@ -56,7 +55,6 @@ class FlightFile:
         return self.number, self.stamp, self.aircraft
 
     def at_part(self, part: int) -> FlightFile:
-        """Return another part of the same flight."""
         return FlightFile(self.folder, self.number, self.stamp, self.aircraft, part)
 
 

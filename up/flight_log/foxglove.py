@@ -49,7 +49,7 @@ LOG_SCHEMA: dict[str, Any] = {
 LOCATION_FIX_SCHEMA: dict[str, Any] = {
     "$schema": "https://json-schema.org/draft/2020-12/schema",
     "title": LOCATION_FIX,
-    "description": "Where the aircraft is, WGS 84",
+    "description": "The position of the aircraft, WGS 84",
     "type": "object",
     "properties": {
         "timestamp": _TIME,

@@ -26,10 +26,10 @@ def gains_of(data: Any) -> dict[Key, float]:
     return dict(_cells(data)) if isinstance(data, dict) else {}
 
 
-def changes_text(before: Any, after: Any, most: int = 27) -> str:
+def changes_text(before: Any, after: Any, limit: int = 27) -> str:
     """Return ``rate roll P 3 to 2.4, ...``; empty if nothing differs.
 
-    A gain missing in ``before`` is listed with its new value only; differences beyond ``most`` are
+    A gain missing in ``before`` is listed with its new value only; differences beyond ``limit`` are
     only counted.
     """
     known = gains_of(before)
@@ -38,8 +38,8 @@ def changes_text(before: Any, after: Any, most: int = 27) -> str:
         for (loop, axis, term), value in gains_of(after).items()
         if not _is_same(known.get((loop, axis, term)), value)
     ]
-    more = f" and {len(found) - most} more" if len(found) > most else ""
-    return ", ".join(found[:most]) + more
+    more = f" and {len(found) - limit} more" if len(found) > limit else ""
+    return ", ".join(found[:limit]) + more
 
 
 def _is_same(before: float | None, after: float) -> bool:

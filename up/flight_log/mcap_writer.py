@@ -63,7 +63,6 @@ class McapWriter:
         self._metadata: list[bytes] = []
 
     def start(self) -> None:
-        """Write the magic and the header."""
         self._put(MAGIC + _record(Opcode.HEADER, self._header))
 
     def add_schema(self, name: str, schema: Mapping[str, Any]) -> int:
@@ -84,7 +83,7 @@ class McapWriter:
         ``schema_id`` 0: without a schema. ValueError for an unknown schema, or too many channels.
         """
         if not 0 <= schema_id <= len(self._schemas):
-            raise ValueError(f"there is no schema {schema_id} for {topic}")
+            raise ValueError(f"unknown schema {schema_id} of {topic}")
         number = _next(len(self._channels), "channels")
         content = CHANNEL.pack(number, schema_id) + _text(topic) + _text(JSON)
         record = _record(Opcode.CHANNEL, content + _map(metadata or {}))
@@ -112,8 +111,8 @@ class McapWriter:
             )
         except (KeyError, struct.error):
             raise ValueError(
-                f"no message for channel {channel_id} at {log_time_ns} ns: there is no such"
-                " channel or no such time"
+                f"cannot write a message: channel {channel_id} is unknown or {log_time_ns} ns is"
+                " out of range"
             ) from None
         self._write(record)
         self.size += len(record)
@@ -137,7 +136,7 @@ class McapWriter:
     def add_attachment(self, name: str, media_type: str, data: bytes, log_time_ns: int) -> None:
         """Write an attached file; ValueError for a time that MCAP cannot hold."""
         if not 0 <= log_time_ns < 2**64:
-            raise ValueError(f"no attachment {name} at {log_time_ns} ns: there is no such time")
+            raise ValueError(f"cannot attach {name}: {log_time_ns} ns is out of range")
         times, names = ATTACHMENT.pack(log_time_ns, 0), _text(name) + _text(media_type)
         content = times + names + U64.pack(len(data)) + data
         record = _record(Opcode.ATTACHMENT, content + U32.pack(crc32(content)))

@@ -5,6 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import Any
 
+from up.commands.board_datum import Datum
+from up.commands.board_schema import DATA
+
 READINGS = (
     *("orientation", "rx", "servo", "flight"),
     *("location", "altitude", "heading", "battery"),
@@ -24,6 +27,10 @@ def _number(unit: str = "") -> dict[str, Any]:
 
 def _numbers(names: Iterable[str], unit: str = "") -> dict[str, Any]:
     return _object(dict.fromkeys(names, _number(unit)))
+
+
+def _type(datum: Datum) -> dict[str, Any]:
+    return {"flag": _FLAG, "text": _TEXT, "number": _number(datum.unit)}[datum.kind]
 
 
 def _object(properties: dict[str, Any]) -> dict[str, Any]:
@@ -47,12 +54,8 @@ PROPERTIES: dict[str, Any] = {
     ),
     "arduino": _object(
         {
-            **dict.fromkeys(("connected", "failsafe", "restored", "bias_stored"), _FLAG),
-            **dict.fromkeys(("receiver_valid", "imu_valid"), _FLAG),
-            **dict.fromkeys(("framing", "switch", "reset_cause"), _TEXT),
-            "loop_us": _number("us"),
-            "late_us": _number("us"),
-            "frame_errors": _number(),
+            **{"connected": _FLAG, "framing": _TEXT},
+            **{each.name: _type(each) for each in DATA if each.in_telemetry},
         }
     ),
     "load": _object(

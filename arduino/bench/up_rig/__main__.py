@@ -19,7 +19,7 @@ from up_rig.rig import CrashError, Rig
 from up_rig.sticks import BEFORE, StickMove, SticksError, read_sticks
 
 DESCRIPTION = """\
-The Arduino's firmware as it is compiled, on a simulated ATmega328P in real time, with its serial
+The compiled firmware of the Arduino, on a simulated ATmega328P in real time, with its serial
 line on a pty: for Raspilot (arduino.yml: port) and for trying Commands by hand."""
 
 EPILOG = """\
@@ -72,10 +72,10 @@ def _load(path: Path) -> bytes:
     """Return the content of an EEPROM file; only such a file, or a new one, is ever written."""
     if not path.exists():
         if not path.parent.is_dir():
-            raise FirmwareError(f"there is no folder {path.parent} for the EEPROM's file")
+            raise FirmwareError(f"the folder {path.parent} for the EEPROM file does not exist")
         return b""
     if not path.is_file() or path.stat().st_size != SIZE:
-        raise FirmwareError(f"{path} is no EEPROM's file: those have {SIZE} bytes")
+        raise FirmwareError(f"{path} is not an EEPROM file: these have {SIZE} bytes")
     return path.read_bytes()
 
 

@@ -49,7 +49,7 @@ def read_firmware(path: Path) -> Firmware:
     try:
         firmware = _read_elf(data) if data[:4] == b"\x7fELF" else read_hex(data.decode("ascii"))
     except (struct.error, ValueError, IndexError) as error:
-        raise FirmwareError(f"{path} is no firmware: {error}") from error
+        raise FirmwareError(f"{path} is not a firmware: {error}") from error
     for address, part in firmware.flash:
         if not 0 <= address <= FLASH_SIZE - len(part):
             raise FirmwareError(f"{path} does not fit into {FLASH_SIZE} bytes of flash")

@@ -103,7 +103,7 @@ class PtyLine:
     def _make_link(self, link: Path) -> None:
         """Point ``link`` here in one step; an old link is replaced, any other file is kept."""
         if link.exists() and not link.is_symlink():
-            raise PtyLineError(f"{link} exists and is no symbolic link: left alone")
+            raise PtyLineError(f"{link} exists and is not a symbolic link: left unchanged")
         if _is_live(link):
             raise PtyLineError(f"{link} is the line of another board that runs: end it first")
         temporary = link.with_name(f".{link.name}.{os.getpid()}")

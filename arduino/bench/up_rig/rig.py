@@ -143,7 +143,7 @@ class Rig:
         place, start = self._symbol(symbol), self._symbol(at)
         is_inside = place.address + len(value) <= RAM_START + RAM_SIZE
         if not (place.is_data and is_inside and 0 < len(value) <= max(place.size, 1)):
-            raise FirmwareError(f"{symbol} is no variable of {len(value)} bytes")
+            raise FirmwareError(f"{symbol} is not a variable of {len(value)} bytes")
         self._library.rig_preload(self._handle, start.address, place.address, value, len(value))
 
     def write_flash(self, address: int, code: bytes) -> None:

@@ -9,7 +9,7 @@ using namespace raspilot;
 namespace {
 
 /** Steps beyond this time only wait. */
-constexpr uint32_t MOST_SLOTS = 3000;
+constexpr uint32_t MAX_SLOTS = 3000;
 
 class Input {
  public:
@@ -43,11 +43,11 @@ void step(FuzzedBoard& board, Input& input, uint32_t& slots_left) {
   };
   switch (input.u8()) {
     case 'b':  // bare bytes
-      for (uint8_t byte : input.bytes(input.u8())) board.hear(byte);
+      for (uint8_t byte : input.bytes(input.u8())) board.receive(byte);
       break;
     case 'f': {  // a frame with any payload
       const uint8_t type = input.u8();
-      board.hear_frame(type, input.bytes(input.u8() % 97));
+      board.receive_frame(type, input.bytes(input.u8() % 97));
       break;
     }
     case 'c': {  // a Command of the right size
@@ -55,14 +55,14 @@ void step(FuzzedBoard& board, Input& input, uint32_t& slots_left) {
       const int size = size_to_arduino(type);
       Bytes payload = input.bytes(size > 0 ? static_cast<size_t>(size) : 0);
       payload.resize(size > 0 ? static_cast<size_t>(size) : 0);
-      board.hear_frame(type, payload);
+      board.receive_frame(type, payload);
       break;
     }
     case 't': {  // a thesis Command of the right size
       const uint8_t type = input.u8();
       const int size = size_to_arduino(type);
-      board.hear(type);
-      for (uint8_t byte : input.bytes(size > 0 ? static_cast<size_t>(size) : 0)) board.hear(byte);
+      board.receive(type);
+      for (uint8_t byte : input.bytes(size > 0 ? static_cast<size_t>(size) : 0)) board.receive(byte);
       break;
     }
     case 'w': run(input.u8()); break;
@@ -84,7 +84,7 @@ void step(FuzzedBoard& board, Input& input, uint32_t& slots_left) {
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   Input input(data, size);
   FuzzedBoard board(begin_us(input.u8()));
-  uint32_t slots_left = MOST_SLOTS;
+  uint32_t slots_left = MAX_SLOTS;
   while (!input.is_empty()) step(board, input, slots_left);
   board.run(10);
   return 0;

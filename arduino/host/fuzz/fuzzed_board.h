@@ -27,30 +27,30 @@ class FuzzedBoard {
     fake_board().reset();
     autopilot_.begin(nullptr, RESET_POWER_ON, begin_us);
     autopilot_.link.open();
-    look("begin");
+    check_rules("begin");
   }
 
   /** A byte arrives, and the time that it takes on the line passes. */
-  void hear(uint8_t byte) {
+  void receive(uint8_t byte) {
     const bool was_armed = autopilot_.authority.is_armed();
     const bool was_thesis = autopilot_.link.is_thesis();
     const Bytes frame = was_thesis ? Bytes() : listener_.take(byte, clock_us());
     autopilot_.link.on_byte(byte, clock_us());
     const bool is_arming = is_command(frame) && frame[1] == 'a';
     never(!was_armed && autopilot_.authority.is_armed() && !is_arming,
-          "armed by bytes that are no Arm");
+          "armed by bytes other than an Arm Command");
     is_door_closed_ = is_door_closed_ || is_command(frame);
-    look("a byte");
+    check_rules("a byte");
     pass(BYTE_US);
   }
   /** A checked frame arrives, valid except perhaps for type and size. */
-  void hear_frame(uint8_t type, const Bytes& payload) {
+  void receive_frame(uint8_t type, const Bytes& payload) {
     outgoing().clear();
     write_frame(sequence_++, static_cast<char>(type), payload.data(),
                 static_cast<uint8_t>(payload.size()),
                 [](uint8_t byte) { outgoing().push_back(byte); });
     const Bytes wire = outgoing();
-    for (uint8_t byte : wire) hear(byte);
+    for (uint8_t byte : wire) receive(byte);
   }
   /** Slots run as on the chip. */
   void run(uint32_t slots) {
@@ -101,10 +101,10 @@ class FuzzedBoard {
       was_aux2_low_ = false;
       follow_aux2(sticks_[AUX2]);
     }
-    look("control");
+    check_rules("control");
     for (int piece = 0; piece < 3; ++piece) {
       autopilot_.background(clock_us());
-      look("background");
+      check_rules("background");
     }
   }
   /** Level and at rest, with enough noise that the IMU does not count as frozen. */
@@ -132,7 +132,7 @@ class FuzzedBoard {
   }
 
   /** After every call: framing, counters, outputs, and the sent bytes. */
-  void look(const char* after) {
+  void check_rules(const char* after) {
     const Link& link = autopilot_.link;
     if (link.is_thesis() && !is_thesis_) {
       never(is_door_closed_, "thesis framing after a valid checked frame");
@@ -167,7 +167,7 @@ class FuzzedBoard {
       if (encoded.empty()) continue;
       const Bytes frame = frame_in(encoded);
       encoded.clear();
-      never(frame.size() < 2, "a frame that nobody can read");
+      never(frame.size() < 2, "an unreadable frame");
       never(size_from_arduino(frame[1]) != static_cast<int>(frame.size()) - 2,
             "a frame of unknown type or wrong size");
       never(frame[0] != expected_, "a frame out of sequence");

@@ -80,13 +80,13 @@ class Conversation {
       const size_t left = static_cast<size_t>(end - script);
       if (record < 0x80) {
         const size_t count = std::min<size_t>(record, left);
-        for (size_t at = 0; at < count; ++at) hear(*script++);
+        for (size_t at = 0; at < count; ++at) receive(*script++);
       } else if (record < 0xC0) {
         slots(record - 0x80U + 1);
       } else {
         script = frame(script, left);
       }
-      look();
+      check_rules();
     }
     const ScriptEnd result = {autopilot_.authority.is_armed(), autopilot_.link.is_thesis()};
     still_answers();
@@ -94,7 +94,7 @@ class Conversation {
   }
 
  private:
-  void hear(uint8_t byte) {
+  void receive(uint8_t byte) {
     watcher_.take(byte);
     autopilot_.link.on_byte(byte, now_us());
   }
@@ -105,7 +105,7 @@ class Conversation {
     const char type = static_cast<char>(*script++);
     CommandDefinition command;
     const bool is_known = CommandExecutor::find(type, command);
-    uint8_t payload[LONGEST_COMMAND] = {};
+    uint8_t payload[MAX_COMMAND] = {};
     const size_t size = std::min<size_t>(is_known ? command.size : 3, left - 1);
     std::copy(script, script + size, payload);
     if (is_known && !autopilot_.link.is_thesis()) is_door_closed_ = true;
@@ -117,7 +117,7 @@ class Conversation {
     static std::vector<uint8_t> written;
     written.assign(1, 0);
     write_frame(sequence_++, type, payload, size, [](uint8_t byte) { written.push_back(byte); });
-    for (uint8_t byte : written) hear(byte);
+    for (uint8_t byte : written) receive(byte);
   }
 
   void slots(uint32_t count) {
@@ -134,12 +134,12 @@ class Conversation {
       autopilot_.authority.update(true, autopilot_.receiver.is_learning(), false, now_us());
       fake_board().elapse(SLOT_US);
       for (int piece = 0; piece < 4; ++piece) autopilot_.background(now_us());
-      look();
+      check_rules();
     }
   }
 
   /** Invariants at every moment. */
-  void look() {
+  void check_rules() {
     const Link& link = autopilot_.link;
     const bool is_armed = autopilot_.authority.is_armed();
     demand(!is_armed || watcher_.has_seen, "nothing but a valid Arm Command arms");
@@ -166,7 +166,7 @@ class Conversation {
   void listen() {
     for (uint8_t byte : fake_board().take_sent()) {
       if (was_thesis_) continue;
-      const CheckedReader::Found found = reader_.take(byte, 0);
+      const CheckedReader::Found found = reader_.receive(byte, 0);
       demand(found != CheckedReader::Found::BROKEN, "every frame sent is whole");
       if (found != CheckedReader::Found::FRAME) continue;
       demand(reader_.sequence() == expected_++, "frames are sent in sequence");
@@ -179,7 +179,7 @@ class Conversation {
     slots(150);
     if (autopilot_.link.is_thesis()) {
       fake_board().take_sent();
-      hear('T');
+      receive('T');
       unsigned bytes = 0;
       for (int count = 0; count < 20; ++count) {
         fake_board().elapse(SLOT_US);
@@ -190,10 +190,10 @@ class Conversation {
       demand(bytes >= 1 + TWO_AXIS_GAINS_SIZE, "thesis framing still answers");
       return;
     }
-    const unsigned told_before = modes_told_;
+    const unsigned reported_before = modes_told_;
     send('m', nullptr, 0);
     slots(60);
-    demand(modes_told_ == told_before + 1, "checked framing still answers");
+    demand(modes_told_ == reported_before + 1, "checked framing still answers");
   }
 
   uint32_t now_us() const { return static_cast<uint32_t>(slot_us_); }

@@ -14,7 +14,7 @@ namespace raspilot {
 typedef std::vector<uint8_t> Bytes;
 
 constexpr int NO_SIZE = -1;
-constexpr size_t LONGEST_ENCODED = 101;
+constexpr size_t MAX_ENCODED = 101;
 constexpr uint32_t DROPPED_AFTER_US = 100000;
 
 /** Payload of messages to the Arduino, bytes. */
@@ -52,7 +52,7 @@ inline int size_from_arduino(uint8_t type) {
 
 /** One frame without its closing zero: sequence, type and payload; empty when invalid. */
 inline Bytes frame_in(const Bytes& encoded) {
-  if (encoded.size() > LONGEST_ENCODED) return {};
+  if (encoded.size() > MAX_ENCODED) return {};
   Bytes plain;
   for (size_t at = 0; at < encoded.size();) {
     const size_t code = encoded[at];

@@ -9,7 +9,7 @@ uint16_t UBRR0;
 
 namespace {
 
-constexpr host::Cycles SHORTEST_WATCHDOG = 16000 * host::PER_US;
+constexpr host::Cycles MIN_WATCHDOG = 16000 * host::PER_US;
 
 host::Cycles watchdog_time;
 host::Cycles watchdog_due = host::NEVER;
@@ -17,7 +17,7 @@ host::Cycles watchdog_due = host::NEVER;
 }  // namespace
 
 void wdt_enable(uint8_t time) {
-  watchdog_time = SHORTEST_WATCHDOG << time;
+  watchdog_time = MIN_WATCHDOG << time;
   wdt_reset();
 }
 

@@ -12,7 +12,7 @@ namespace {
 
 constexpr uint16_t SIZE = sizeof view.eeprom;
 constexpr Cycles WRITE = 3400 * PER_US;
-constexpr Cycles MOST_WAIT = 10000 * PER_US;
+constexpr Cycles MAX_WAIT = 10000 * PER_US;
 constexpr Cycles LOOK = 100 * PER_US;
 /** To read a byte, check it and put it in its place. */
 constexpr Cycles READ = 10 * PER_US;
@@ -55,7 +55,7 @@ namespace raspilot {
 namespace eeprom {
 
 void begin() {
-  const host::Cycles end = host::now() + host::memory::MOST_WAIT;
+  const host::Cycles end = host::now() + host::memory::MAX_WAIT;
   while (!board::eeprom_is_ready() && host::now() < end) host::pass(host::memory::LOOK);
 }
 

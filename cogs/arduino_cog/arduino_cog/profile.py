@@ -1,133 +1,132 @@
-"""The profile of the airframe that the Arduino stores (docs/protocols.md 2.6)."""
+"""The airframe profile that the Arduino stores (docs/protocols.md 2.6), by keys of airframe.yml."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from itertools import chain
+from collections.abc import Callable, Iterator, Mapping
+from functools import partial
 from struct import Struct
+from typing import Any, NamedTuple
 
-from up.flight_controller.airframe_profile import MIXES
+from up.commands.board_schema import SWITCH_MODES
+from up.config import ConfigFile
+from up.flight_controller.airframe_profile import MIXES, AirframeProfile
 
-_PROFILE = Struct(">" + "BhHH" * 4 + "BB3s" + "3h2h" + "2H" + "3H" + "B")
-PROFILE_SIZE = _PROFILE.size
-SWITCH_MODES = {"a": "ACRO", "r": "RATE", "f": "FBW", "A": "AUTO"}
+AIRFRAME = ConfigFile("airframe.yml", AirframeProfile)
+"""The required profile of the Arduino; null values stay unchanged."""
+
+Profile = dict[str, Any]
+"""Every value by its dotted key, such as ``rudder.trim_us``."""
+
+_SERVOS = ("ailerons", "elevator", "throttle", "rudder")
+_MODES = {name: ord(letter) for letter, name in SWITCH_MODES.items()}
+_MIXES = {name: number for number, name in enumerate(MIXES)}
 _CENTI = 100
 
 
-@dataclass(frozen=True, slots=True)
-class Channel:
-    """One servo output: direction, trim (us) and end points (us)."""
+class _Field(NamedTuple):
+    """A value and its form on the wire; ``encode`` and ``decode`` raise ValueError."""
 
-    reversed: bool
-    trim_us: int
-    lowest_us: int
-    highest_us: int
+    key: str
+    format: str
+    encode: Callable[[Any], int]
+    decode: Callable[[int], Any]
 
 
-@dataclass(frozen=True, slots=True)
-class Profile:
-    """The airframe profile of the Arduino; ``switch`` gives the modes of AUX1 low, middle, high."""
+def _flag(key: str, decode: Callable[[int], bool] = lambda number: bool(number & 1)) -> _Field:
+    return _Field(key, "B", bool, decode)
 
-    ailerons: Channel
-    elevator: Channel
-    throttle: Channel
-    rudder: Channel
-    mix: str
-    has_motor: bool
-    switch: tuple[str, str, str]
-    roll_limit_deg: float
-    pitch_up_limit_deg: float
-    pitch_down_limit_deg: float
-    glide_pitch_deg: float
-    circle_bank_deg: float
-    throttle_failsafe_us: int
-    throttle_lost_us: int
-    preset_ailerons_us: int
-    preset_elevator_us: int
-    preset_rudder_us: int
-    may_return_with_motor: bool
+
+def _number(key: str, minimum: int, maximum: int) -> _Field:
+    form = "h" if minimum < 0 else "H"
+    return _Field(key, form, partial(_within, key, minimum, maximum), int)
+
+
+def _angle(key: str, minimum: int) -> _Field:
+    def encode(angle: float) -> int:
+        within: float = _within(key, minimum, 90, angle)
+        return round(within * _CENTI)
+
+    return _Field(key, "h", encode, lambda number: number / _CENTI)
+
+
+def _word(key: str, words: Mapping[str, int]) -> _Field:
+    names = {number: name for name, number in words.items()}
+
+    def look_up(table: Mapping[Any, Any], item: Any) -> Any:
+        if item not in table:
+            raise ValueError(f"{key}: {item} is unknown")
+        return table[item]
+
+    return _Field(key, "B", partial(look_up, words), partial(look_up, names))
+
+
+def _within(key: str, minimum: float, maximum: float, value: Any) -> Any:
+    if not minimum <= value <= maximum:
+        raise ValueError(f"{key} must be {minimum} to {maximum}, not {value}")
+    return value
+
+
+def _fields() -> Iterator[_Field]:
+    """Yield the fields in the order of the wire."""
+    for servo in _SERVOS:
+        yield _flag(f"{servo}.reversed")
+        yield _number(f"{servo}.trim_us", -200, 200)
+        yield _number(f"{servo}.lowest_us", 800, 2200)
+        yield _number(f"{servo}.highest_us", 800, 2200)
+    yield _word("mix", _MIXES)
+    yield _flag("motor", bool)
+    yield from (_word(f"switch.{position}", _MODES) for position in ("low", "middle", "high"))
+    yield from (_angle(f"fly_by_wire.{of}_deg", 0) for of in ("roll", "pitch_up", "pitch_down"))
+    yield from (_angle(f"receiver_lost.{of}_deg", -90) for of in ("glide_pitch", "circle_bank"))
+    yield _number("receiver_lost.throttle_us", 800, 2200)
+    yield _number("receiver_lost.below_us", 0, 2200)
+    for servo in ("ailerons", "elevator", "rudder"):
+        yield _number(f"receiver_lost.{servo}_us", 800, 2200)
+    yield _flag("receiver_lost.return_with_motor")
+
+
+_FIELDS = tuple(_fields())
+_PROFILE = Struct(">" + "".join(each.format for each in _FIELDS))
+PROFILE_SIZE = _PROFILE.size
 
 
 def pack_profile(profile: Profile) -> bytes:
-    """Return the 54 bytes of `C`; raises ValueError naming the value out of range."""
-    channels = (profile.ailerons, profile.elevator, profile.throttle, profile.rudder)
-    for channel in channels:
-        if not -200 <= channel.trim_us <= 200:
-            raise ValueError(f"a trim is -200 to 200 us, not {channel.trim_us}")
-        if not 800 <= channel.lowest_us < channel.highest_us <= 2200:
-            raise ValueError(
-                f"end points are 800 to 2200 us, not {channel.lowest_us} to {channel.highest_us}"
-            )
-    letters = {name: letter for letter, name in SWITCH_MODES.items()}
-    if profile.mix not in MIXES or not set(profile.switch) <= set(letters):
-        raise ValueError("the mix or a mode of the switch is not known")
-    angles = (
-        profile.roll_limit_deg,
-        profile.pitch_up_limit_deg,
-        profile.pitch_down_limit_deg,
-        profile.glide_pitch_deg,
-        profile.circle_bank_deg,
-    )
-    if not all(-90 <= angle <= 90 for angle in angles) or min(angles[:3]) < 0:
-        raise ValueError("an angle of the profile is out of range")
-    pulses = (
-        profile.throttle_failsafe_us,
-        profile.preset_ailerons_us,
-        profile.preset_elevator_us,
-        profile.preset_rudder_us,
-    )
-    if (
-        not all(800 <= pulse <= 2200 for pulse in pulses)
-        or not 0 <= profile.throttle_lost_us <= 2200
-    ):
-        raise ValueError("a pulse of the profile is out of range")
-    return _PROFILE.pack(
-        *chain.from_iterable(
-            (each.reversed, each.trim_us, each.lowest_us, each.highest_us) for each in channels
-        ),
-        MIXES.index(profile.mix),
-        profile.has_motor,
-        "".join(letters[name] for name in profile.switch).encode("ascii"),
-        *(round(angle * _CENTI) for angle in angles),
-        profile.throttle_failsafe_us,
-        profile.throttle_lost_us,
-        profile.preset_ailerons_us,
-        profile.preset_elevator_us,
-        profile.preset_rudder_us,
-        profile.may_return_with_motor,
-    )
+    """Return the payload of `C`; raises ValueError naming the key of an invalid value."""
+    for servo in _SERVOS:
+        if not profile[f"{servo}.lowest_us"] < profile[f"{servo}.highest_us"]:
+            raise ValueError(f"{servo}.highest_us must be above {servo}.lowest_us")
+    return _PROFILE.pack(*(each.encode(profile[each.key]) for each in _FIELDS))
 
 
 def read_profile(payload: bytes) -> Profile:
-    """Decode the 54 bytes of `C`; raises ValueError for an unknown mix or mode."""
-    fields = _PROFILE.unpack(payload)
-    channels = [Channel(bool(fields[at] & 1), *fields[at + 1 : at + 4]) for at in (0, 4, 8, 12)]
-    mix, motor, letters, *angles = fields[16:24]
-    try:
-        low, middle, high = (SWITCH_MODES[chr(letter)] for letter in letters)
-        mix_name = MIXES[mix]
-    except (KeyError, IndexError):
-        raise ValueError("the mix or a mode of the switch is not known") from None
-    ailerons, elevator, throttle, rudder = channels
-    roll_limit, pitch_up_limit, pitch_down_limit, glide_pitch, circle_bank = angles
-    throttle_failsafe_us, throttle_lost_us, *preset_us, flags = fields[24:30]
-    return Profile(
-        ailerons=ailerons,
-        elevator=elevator,
-        throttle=throttle,
-        rudder=rudder,
-        mix=mix_name,
-        has_motor=bool(motor),
-        switch=(low, middle, high),
-        roll_limit_deg=roll_limit / _CENTI,
-        pitch_up_limit_deg=pitch_up_limit / _CENTI,
-        pitch_down_limit_deg=pitch_down_limit / _CENTI,
-        glide_pitch_deg=glide_pitch / _CENTI,
-        circle_bank_deg=circle_bank / _CENTI,
-        throttle_failsafe_us=throttle_failsafe_us,
-        throttle_lost_us=throttle_lost_us,
-        preset_ailerons_us=preset_us[0],
-        preset_elevator_us=preset_us[1],
-        preset_rudder_us=preset_us[2],
-        may_return_with_motor=bool(flags & 1),
-    )
+    """Decode the payload of `C`; raises ValueError naming the key of an unknown mix or mode."""
+    values = zip(_FIELDS, _PROFILE.unpack(payload), strict=True)
+    return {each.key: each.decode(number) for each, number in values}
+
+
+def nested(profile: Profile) -> dict[str, Any]:
+    """Return a profile as nested keys, as in airframe.yml."""
+    data: dict[str, Any] = {}
+    for key, value in profile.items():
+        section, _, name = key.rpartition(".")
+        (data.setdefault(section, {}) if section else data)[name] = value
+    return data
+
+
+def flat(data: Mapping[str, Any], above: str = "") -> Iterator[tuple[str, Any]]:
+    """Yield (dotted key, value) for every nested value that is not None."""
+    for name, value in data.items():
+        if isinstance(value, Mapping):
+            yield from flat(value, f"{above}{name}.")
+        elif value is not None:
+            yield above + name, value
+
+
+def differences(current: Profile, wanted: Profile) -> list[str]:
+    """Return the differences, in words: ``rudder.trim_us 0, wanted 20``."""
+    changed = (key for key in current if current[key] != wanted[key])
+    return [f"{key} {_text(current[key])}, wanted {_text(wanted[key])}" for key in changed]
+
+
+def _text(value: Any) -> str:
+    return str(value).lower() if isinstance(value, bool) else str(value)

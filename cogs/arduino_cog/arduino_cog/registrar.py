@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from arduino_cog.airframe import AIRFRAME
+from arduino_cog.profile import AIRFRAME
 from up.cogs.up_registrant import UpRegistrant
 from up.flight_controller.pids_file import PIDS
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from enum import IntEnum
 from struct import Struct
 
 OUTPUTS = Struct(">4H")
@@ -26,66 +25,11 @@ _LOCATION = Struct(">2f")
 _PANIC = Struct(">Bh")
 _I16 = Struct(">h")
 
-FLIGHT_MODES = {
-    "a": "ACRO",
-    "r": "RATE",
-    "f": "FBW",
-    "s": "SETPOINT",
-    "u": "OUTPUT",
-    "h": "RTH",
-}
-"""Flight mode letters of our firmware, and their names in telemetry."""
-
-_I16_LEAST, _I16_MOST = -32768, 32767
+_MIN_I16, _MAX_I16 = -32768, 32767
 _CENTI = 100
 
 
-class Reason(IntEnum):
-    """The Arduino's reasons for a refusal (docs/protocols.md 2.5)."""
-
-    UNKNOWN_TYPE = 1
-    WRONG_SIZE = 2
-    OUT_OF_RANGE = 3
-    ONLY_DISARMED = 4
-    NOT_IN_THESIS_FRAMING = 5
-    TOO_OLD = 6
-    NOT_AT_AUTO = 7
-    THROTTLE_NOT_LOW = 8
-    RECEIVER_INVALID = 9
-    IMU_INVALID = 10
-    VETO = 11
-    NOT_STILL = 12
-    NOT_SUPPORTED = 13
-
-
-IN_FLIGHT = "armed, or no motor and the receiver was heard since power-on"
-"""The states in which the aircraft may be in flight, in words."""
-
-_REASONS = {
-    Reason.UNKNOWN_TYPE: "unknown type",
-    Reason.WRONG_SIZE: "wrong size",
-    Reason.OUT_OF_RANGE: "out of range",
-    Reason.ONLY_DISARMED: f"only on the ground (in flight is: {IN_FLIGHT})",
-    Reason.NOT_IN_THESIS_FRAMING: "not while in thesis framing",
-    Reason.TOO_OLD: "too old",
-    Reason.NOT_AT_AUTO: "the switch is not at AUTO",
-    Reason.THROTTLE_NOT_LOW: "the throttle is not low",
-    Reason.RECEIVER_INVALID: "the receiver is invalid",
-    Reason.IMU_INVALID: "the IMU is invalid",
-    Reason.VETO: "a veto",
-    Reason.NOT_STILL: "not still enough",
-    Reason.NOT_SUPPORTED: "nothing on the Arduino uses it",
-}
-
-
-def reason_text(code: int) -> str:
-    """Return the text of a reason of `!`."""
-    return _REASONS.get(code) or f"reason {code}"  # type: ignore[call-overload]
-
-
-def flight_mode_name(letter: int) -> str | None:
-    """Return the name of a flight mode's letter; None for an unknown one."""
-    return FLIGHT_MODES.get(chr(letter))
+IN_FLIGHT = "in flight means armed, or without a motor and the receiver received since power-on"
 
 
 def pack_panic(panic: bool, delay_ms: int) -> bytes:
@@ -97,7 +41,7 @@ def pack_panic(panic: bool, delay_ms: int) -> bytes:
 
 def pack_altitude(altitude_m: float) -> bytes:
     """Return the payload of `h`: rounded half up, clamped to 16 bits; ValueError for NaN."""
-    return _I16.pack(min(max(_half_up(altitude_m), _I16_LEAST), _I16_MOST))
+    return _I16.pack(min(max(_half_up(altitude_m), _MIN_I16), _MAX_I16))
 
 
 def pack_heading(heading_deg: float) -> bytes:

@@ -18,24 +18,24 @@ class BlackBoxConfig:
     enabled: bool = key(True, "Whether flights are recorded.")
     folder: str = key(
         "",
-        "Folder of the flights. Empty: flights/ in the state directory that systemd gives, else "
-        "raspilot/flights in $XDG_STATE_HOME (~/.local/state). Else an absolute path.",
+        "Folder of the flights, an absolute path. Empty: flights/ in the state directory that "
+        "systemd sets, otherwise raspilot/flights in $XDG_STATE_HOME (~/.local/state).",
         max_length=1024,
     )
     always: bool = key(
         False,
         "Whether to record from the start of the program to its end. Otherwise a flight begins "
-        "with the first Command from the Arduino, the phone or the ground, with what was said "
-        "before, and ends when none has come for ten minutes.",
+        "with the first Command from the Arduino, the phone or the ground, including the Commands "
+        "before it, and ends after ten minutes without one.",
     )
     telemetry: bool = key(
         True,
-        "Whether the recorder asks for telemetry itself while the Arduino or the phone is heard, "
-        "so that a flight without a ground station has it too.",
+        "Whether the recorder requests telemetry while the Arduino or the phone sends data, so "
+        "that a flight without a ground station has it too.",
     )
     file_size_mb: float = key(
         50.0,
-        "Size at which a flight goes on in another file.",
+        "Size at which a flight continues in another file.",
         name="file size (MB)",
         unit="MB",
         minimum=1,
@@ -43,7 +43,7 @@ class BlackBoxConfig:
     )
     total_size_mb: float = key(
         1000.0,
-        "What all flights together may take; beyond it the oldest are deleted.",
+        "Maximum size of all flights together; the oldest are deleted beyond it.",
         name="total size (MB)",
         unit="MB",
         minimum=2,
@@ -51,8 +51,8 @@ class BlackBoxConfig:
     )
     keep_free_mb: float = key(
         200.0,
-        "What stays free on the disk: the oldest flights are deleted for it, and recording stops "
-        "when that is not enough.",
+        "Space to keep free on the disk: the oldest flights are deleted, and recording stops when "
+        "that is not enough.",
         name="keep free (MB)",
         unit="MB",
         minimum=0,
@@ -60,7 +60,7 @@ class BlackBoxConfig:
     )
     sync_s: float = key(
         1.0,
-        "How much a power cut may cost: the file is forced onto the disk this often.",
+        "Maximum loss at a power cut: the file is synced to the disk this often.",
         name="sync (s)",
         unit="s",
         minimum=0.4,
@@ -68,8 +68,8 @@ class BlackBoxConfig:
     )
     waiting_messages: int = key(
         20_000,
-        "How many messages may wait in memory while the disk is slow; more are dropped and "
-        "counted.",
+        "Maximum number of messages that wait in memory while the disk is slow; more are dropped "
+        "and counted.",
         name="waiting (messages)",
         minimum=1000,
         maximum=1_000_000,
@@ -80,7 +80,7 @@ class BlackBoxConfig:
         try:
             folder = Path(self.folder).expanduser()
         except RuntimeError:
-            yield "folder", "names a user who has no home here"
+            yield "folder", "names a user without a home folder"
         else:
             if self.folder and (not folder.is_absolute() or "\0" in self.folder):
                 yield "folder", "must be an absolute path, or begin with ~/"

@@ -31,7 +31,6 @@ class Disk:
         os.fdatasync(descriptor)
 
     def truncate(self, descriptor: int, size: int) -> None:
-        """Truncate the file."""
         os.ftruncate(descriptor, size)
 
     def is_linked(self, descriptor: int) -> bool:
@@ -43,7 +42,6 @@ class Disk:
         os.close(descriptor)
 
     def make_folder(self, folder: Path) -> None:
-        """Create a folder and its parents."""
         folder.mkdir(parents=True, exist_ok=True)
 
     def open_folder(self, folder: Path) -> int:
@@ -51,7 +49,6 @@ class Disk:
         return os.open(folder, os.O_RDONLY | os.O_DIRECTORY | os.O_CLOEXEC)
 
     def sync_folder(self, folder: Path) -> None:
-        """Wait until the names in a folder are on the disk."""
         descriptor = self.open_folder(folder)
         try:
             os.fsync(descriptor)
@@ -64,7 +61,6 @@ class Disk:
         return status.f_bavail * status.f_frsize
 
     def size(self, path: Path) -> int:
-        """Return the size of a file."""
         return path.stat().st_size
 
     def is_locked(self, path: Path) -> bool:

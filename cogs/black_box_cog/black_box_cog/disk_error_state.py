@@ -12,7 +12,7 @@ RETRY_S = 60.0
 
 
 class DiskErrorState:
-    """The current problem of the disk; ``problem`` is None without one."""
+    """The current problem of the disk; ``problem`` is None if there is none."""
 
     def __init__(self, log: Logger, folder: Path) -> None:
         self.problem: str | None = None
@@ -44,5 +44,4 @@ class DiskErrorState:
             )
 
     def clear(self) -> None:
-        """Note that the problem is over."""
         self.problem = self._kind = None

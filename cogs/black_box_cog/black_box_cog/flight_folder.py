@@ -74,7 +74,7 @@ class FlightFolder:
             free_mb = self._disk.free_bytes(self.path) // MEGABYTE
             keep_mb = self._keep_free_bytes / MEGABYTE
             raise NoRoomError(
-                f"{free_mb} MB are free in {self.path}, and {keep_mb:g} MB shall stay free"
+                f"{free_mb} MB are free in {self.path}, but {keep_mb:g} MB must stay free"
                 " (black_box.yml: keep free (MB))"
             )
         return deleted

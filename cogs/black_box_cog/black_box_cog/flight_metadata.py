@@ -30,7 +30,6 @@ class FlightMetadata:
     config_folder: Path | None = None
 
     def flight(self, started: str) -> dict[str, str]:
-        """Return the metadata record ``flight``."""
         return {
             "aircraft": self.aircraft,
             "version": VERSION,

@@ -123,7 +123,6 @@ class IngestQueue:
         return popped
 
     def __len__(self) -> int:
-        """Return how many entries wait."""
         return len(self._entries)
 
 
@@ -151,11 +150,9 @@ class LogForwarder:
         self._put = put
 
     def start(self) -> None:
-        """Start observing."""
         globalLogPublisher.addObserver(cast(ILogObserver, self))
 
     def stop(self) -> None:
-        """Stop observing; harmless at any time."""
         globalLogPublisher.removeObserver(cast(ILogObserver, self))
 
     def __call__(self, event: LogEvent) -> None:

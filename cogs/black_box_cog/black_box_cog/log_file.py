@@ -25,7 +25,6 @@ class LogFile:
         self._records: list[bytes] = []
 
     def put(self, record: bytes) -> None:
-        """Add one record; the next ``flush`` writes it."""
         self._records.append(record)
 
     def flush(self) -> None:

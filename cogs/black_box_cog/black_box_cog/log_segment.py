@@ -88,7 +88,6 @@ class LogSegment:
             yield
 
     def put(self, entry: Entry) -> None:
-        """Add one entry; the next flush of the file writes it."""
         time_s, subject, origin = entry
         kind = subject.topic if type(subject) is Recorded else type(subject)
         time_ns = self._timeline.log_ns(time_s)

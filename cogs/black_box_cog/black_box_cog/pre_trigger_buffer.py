@@ -34,10 +34,8 @@ class PreTriggerBuffer:
 
     @property
     def entries(self) -> list[Entry]:
-        """Return the entries in the order of arrival."""
         return [*self._lines, *self._entries]
 
     def clear(self) -> None:
-        """Discard all entries: they are written."""
         self._entries.clear()
         self._lines.clear()

@@ -93,7 +93,6 @@ class Recorder:
         self._throttle.run(steps)
 
     def work(self) -> None:
-        """Write the queued entries."""
         # The entries of a failed round are lost.
         self._dropped += self._batch_size
         waiting = len(self._queue)
@@ -115,7 +114,6 @@ class Recorder:
         self._publish_status(self._now())
 
     def finish(self) -> None:
-        """Write the remaining entries, and the summary."""
         self._throttle.disable()
         self.work()
         if self._segment is not None:

@@ -65,7 +65,6 @@ class SegmentFactory:
         self._folder.make_room(self._last)
 
     def end_flight(self) -> None:
-        """Start a new flight with the next file."""
         self._last = None
 
     def jump_s(self) -> float | None:

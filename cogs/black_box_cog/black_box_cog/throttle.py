@@ -18,17 +18,14 @@ class CooperativeThrottle:
         self._due_s = 0.0
 
     def begin(self) -> None:
-        """Restart the time until the next pause."""
         self._due_s = time.perf_counter() + BATCH_S
 
     def step(self) -> None:
-        """Pause, if the time is over."""
         if time.perf_counter() > self._due_s:
             self._pause(PAUSE_S)
             self._due_s = time.perf_counter() + BATCH_S
 
     def run(self, steps: Iterable[object]) -> None:
-        """Run the steps, with pauses between them."""
         self.begin()
         for _ in steps:
             self.step()

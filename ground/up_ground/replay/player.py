@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 
-from up.flight_log.telemetry_frames import Frame
 from up.system.clock import Clock, Timer
+from up_flightlog.read.telemetry_frames import Frame
 
 MIN_SPEED, MAX_SPEED = 0.25, 64.0
 MIN_PAUSE_S = 0.04

@@ -9,11 +9,11 @@ from typing import Any
 
 from up.cli.cli_error import CliError
 from up.fields import printable
-from up.flight_log.flight_log import FlightLog
-from up.flight_log.flight_options import PLACE
-from up.flight_log.flights import find_flight_of
 from up.flight_log.flights_folder import folder_of
 from up.flight_log.mcap_format import FlightLogError
+from up_flightlog.cli.parser import PLACE
+from up_flightlog.read.flight_log import FlightLog
+from up_flightlog.read.flights import find_flight_of
 from up_ground.one_shot_task import EXIT_USAGE, echo, print_error
 from up_ground.one_shot_task import run as run_task
 from up_ground.replay.replayed_aircraft import ReplayedAircraft

@@ -6,10 +6,10 @@ import math
 from collections.abc import Iterable
 from typing import Any
 
-from up.flight_log.flight_log import FlightLog
 from up.flight_log.mcap_format import FlightLogError
-from up.flight_log.telemetry_frames import Frame, frames
 from up.system.clock import Clock, Timer
+from up_flightlog.read.flight_log import FlightLog
+from up_flightlog.read.telemetry_frames import Frame, frames
 from up_ground.replay.player import Player
 from up_ground.replay.timeline import ReplayTimeline, past
 from up_ground.web.aircraft_source import Subscribers

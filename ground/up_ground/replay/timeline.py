@@ -8,9 +8,9 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from up.flight_log.flight_log import FlightLog
-from up.flight_log.telemetry_frames import Frame, frames
 from up.protocols.general_message import GeneralMessage
+from up_flightlog.read.flight_log import FlightLog
+from up_flightlog.read.telemetry_frames import Frame, frames
 from up_ground.sanitize_text import sanitize_text
 from up_ground.telemetry import NAME, SILENT_S, Telemetry
 from up_ground.web.event_monitor import EventMonitor

@@ -22,12 +22,12 @@ examples
 def add(verbs: Any) -> None:
     """Add ``up log replay``, which finds flights as the other verbs of ``up log`` do."""
     from up.cli.verb import add_verb
-    from up.flight_log.flight_options import take_folder
+    from up_flightlog.cli.parser import add_folder_options
 
     text = "play a flight in the page of the ground station"
     parser = add_verb(verbs, "replay", "up_ground.replay.replay", text, epilog=EPILOG)
     _add_flight(parser)
-    take_folder(parser)
+    add_folder_options(parser)
     add_page_options(parser)
 
 

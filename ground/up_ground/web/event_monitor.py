@@ -8,11 +8,12 @@ from dataclasses import dataclass
 from functools import partial
 from typing import Any
 
+from up.commands.board_schema import ALARM_HOLD_S
 from up_ground.telemetry import Telemetry
 from up_ground.web.event_rules import (
     ALARM,
-    ALARM_HOLD_S,
     EVENT_RULES,
+    HOLDS_S,
     INFO,
     WARNING,
     Alarm,
@@ -77,9 +78,12 @@ class Debouncer:
 
 
 class Alarms:
-    """The active alarms. One begins immediately and ends ``hold_s`` after its cause."""
+    """The active alarms. One begins immediately and ends ``hold_s`` after its cause.
 
-    def __init__(self, hold_s: float = ALARM_HOLD_S) -> None:
+    None: after the time that schema/status.yml gives.
+    """
+
+    def __init__(self, hold_s: float | None = None) -> None:
         self._hold_s = hold_s
         self._had_board = False
         self.active: tuple[Alarm, ...] = ()
@@ -94,7 +98,8 @@ class Alarms:
         self._known.update(found)
         self._seen_s.update(dict.fromkeys(found, now_s))
         for kind, seen_s in list(self._seen_s.items()):
-            if kind not in found and now_s - seen_s >= self._hold_s:
+            hold_s = HOLDS_S.get(kind, ALARM_HOLD_S) if self._hold_s is None else self._hold_s
+            if kind not in found and now_s - seen_s >= hold_s:
                 del self._seen_s[kind], self._known[kind]
         before, self.active = self.active, tuple(self._known[kind] for kind in sorted(self._known))
         return self.active != before
@@ -143,7 +148,7 @@ class EventMonitor:
         self,
         aircraft: str,
         notify: Callable[[dict[str, Any]], object],
-        hold_s: float = ALARM_HOLD_S,
+        hold_s: float | None = None,
     ) -> None:
         self._aircraft = aircraft
         self._notify = notify

@@ -6,14 +6,15 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
+from up.commands.board_datum import Alarm as BoardAlarm
+from up.commands.board_schema import ALARMS as BOARD_ALARMS
 from up_ground.status_text import busy_text
 from up_ground.telemetry import Telemetry
 
 INFO, WARNING, ALARM = "info", "warning", "alarm"
 NOT_YET = "not yet"
 """A part that was never connected and never reported anything does not count as lost."""
-ALARM_HOLD_S = 2.0
-"""An alarm ends when its cause has been away for this time."""
+HOLDS_S = {each.kind: each.hold_s for each in BOARD_ALARMS if each.hold_s is not None}
 BATTERY_LOW = 20.0
 BATTERY_EMPTY = 10.0
 _BATTERY_BACK = 3.0
@@ -46,17 +47,19 @@ class EventRule:
     describe: Describe
 
 
-def _flag(key: str, kind: str, path: str, bad: bool, codes: tuple[str, str], text_bad: str,
-          text_good: str, level: str = WARNING) -> EventRule:  # fmt: skip
-    """Return a rule that reports when a flag becomes ``bad``, and when it is good again."""
-    steps = path.split(".")
+def is_board_alarm(alarm: BoardAlarm, telemetry: Telemetry) -> bool | None:
+    """Return whether the condition of an alarm of the board holds; None if unknown."""
+    read = telemetry.flag if alarm.above is None else telemetry.number
+    return alarm.holds(read("arduino", alarm.name))
 
+
+def _board_rule(alarm: BoardAlarm) -> EventRule:
     def describe(before: Any, now: Any) -> Report | None:
-        if now is bad:
-            return Report(level, codes[0], text_bad)
-        return None if before is None else Report(INFO, codes[1], text_good)
+        if now:
+            return Report(alarm.level, alarm.code, alarm.text)
+        return Report(INFO, alarm.end_code, alarm.end) if before and alarm.end else None
 
-    return EventRule(key, kind, lambda telemetry: telemetry.flag(*steps), describe)
+    return EventRule(alarm.kind, alarm.event, lambda t: is_board_alarm(alarm, t), describe)
 
 
 def board_state(telemetry: Telemetry) -> bool | str | None:
@@ -124,11 +127,6 @@ def _read_vetoes(telemetry: Telemetry) -> Any:
     return None if vetoes is None else (bool(telemetry.flag("armed")), tuple(sorted(vetoes)))
 
 
-def _restored(before: Any, now: Any) -> Report | None:
-    text = "the Arduino was reset in flight and restored its state"
-    return Report(ALARM, "board_reset", text) if now else None
-
-
 @dataclass(frozen=True, slots=True)
 class _Busy:
     """The Raspberry Pi is busy: all instances are equal, so a new load figure is not a change."""
@@ -164,13 +162,7 @@ EVENT_RULES: tuple[EventRule, ...] = (
     EventRule("switch", "mode", lambda t: t.text("arduino", "switch"),
               _changed("switch", "switch position")),
     EventRule("armed", "armed", lambda t: t.flag("armed"), _armed),
-    _flag("failsafe", "failsafe", "arduino.failsafe", True, ("failsafe", "failsafe_over"),
-          "failsafe: the Arduino flies without a receiver", "the failsafe is over", ALARM),
-    _flag("receiver", "failsafe", "arduino.receiver_valid", False,
-          ("receiver_lost", "receiver_back"), "the receiver is lost", "the receiver is back"),
-    _flag("imu", "source", "arduino.imu_valid", False, ("imu_invalid", "imu_valid"),
-          "the IMU is invalid: no stabilisation", "the IMU is valid", ALARM),
-    EventRule("restored", "source", lambda t: t.flag("arduino", "restored"), _restored),
+    *(_board_rule(each) for each in BOARD_ALARMS if each.event),
     _part("board", "Arduino", board_state, ALARM),
     _part("phone", "phone", phone_state, WARNING),
     EventRule("competitor", "source", lambda t: t.text("android", "competitor"), _competitor),
@@ -211,13 +203,11 @@ def faults(telemetry: Telemetry, link: LinkSnapshot, was_low: bool, had_board: b
     if link.was_heard and link.is_silent:
         found.append(_silence(link))
     flag = telemetry.flag
-    if flag("arduino", "failsafe"):
-        found.append(Alarm("failsafe", ALARM, "failsafe: the Arduino flies without a receiver"))
-    elif flag("arduino", "receiver_valid") is False:
-        level = ALARM if flag("armed") else WARNING
-        found.append(Alarm("receiver", level, "the receiver is lost"))
-    if flag("arduino", "imu_valid") is False:
-        found.append(Alarm("imu", ALARM, "the IMU is invalid: no stabilisation"))
+    for each in BOARD_ALARMS:
+        is_hidden = each.unless and flag("arduino", each.unless)
+        if each.lasts and not is_hidden and is_board_alarm(each, telemetry):
+            level = each.level_armed if flag("armed") else each.level
+            found.append(Alarm(each.kind, level, each.text, each.code))
     if board_state(telemetry) is NOT_YET and not had_board:
         found.append(Alarm("board", WARNING, "the Arduino is not connected yet", "board_awaited"))
     elif flag("arduino", "connected") is False:

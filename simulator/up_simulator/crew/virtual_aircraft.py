@@ -10,6 +10,7 @@ from typing import Any
 
 from twisted.internet.task import LoopingCall
 
+from up.commands.board_schema import FLIGHT_MODES
 from up_rig.pty_line import PtyLine
 from up_simulator.aircraft import Airframe, load_airframe
 from up_simulator.crew.aloft import put_aloft
@@ -31,7 +32,6 @@ from up_simulator.state_log import StateLog
 from up_simulator.truth import NAMES, RECORDED_NAMES, record_of
 
 TICK_S = 0.004
-MODE_NAMES = {"a": "ACRO", "r": "RATE", "f": "FBW", "s": "SETPOINT", "u": "OUTPUT"}
 MODE_WORDS = {
     "ACRO": "ACRO, the sticks move the servos",
     "RATE": "RATE, the Arduino holds the rates",
@@ -122,7 +122,7 @@ class VirtualAircraft:
         tap = BoardTap()
 
         def mode() -> str:
-            return MODE_NAMES.get(tap.mode or "", "")
+            return FLIGHT_MODES.get(tap.mode or "", "")
 
         def is_armed() -> bool | None:
             return None if tap.status is None else tap.status.is_armed

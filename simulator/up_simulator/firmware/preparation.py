@@ -8,6 +8,7 @@ import json
 from collections.abc import Callable, Mapping
 from typing import Any
 
+from up.commands.board_status import refusal_text
 from up_rig.imu import motion_at
 from up_simulator.firmware.board import BoardKind, FirmwareBoard
 from up_simulator.firmware.build import aboard
@@ -22,8 +23,6 @@ QUIET_STEPS = 30
 """An EEPROM unchanged for this time is complete: a byte takes 3.4 ms."""
 WRITE_STEPS = 600
 _ANSWERS = {"c": "C", "G": "G"}
-_REASONS = {1: "unknown type", 2: "wrong size", 3: "out of range", 4: "only disarmed"}
-"""Reasons for which a board refuses settings (docs/protocols.md 2.5)."""
 
 
 class PreparationError(Exception):
@@ -96,9 +95,7 @@ class _Talk:
         if answer is None:
             raise PreparationError(f"the board does not answer to {what}")
         if answer[0] == "!":
-            code = answer[1][2]
-            reason = _REASONS.get(code, f"reason {code}")
-            raise PreparationError(f"the board refuses {what}: {reason}")
+            raise PreparationError(f"the board refuses {what}: {refusal_text(answer[1][2])}")
 
     def ask(self, letter: str) -> bytes:
         answer = self._exchange(letter, b"", _ANSWERS[letter])

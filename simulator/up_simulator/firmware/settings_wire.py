@@ -7,10 +7,12 @@ import struct
 from collections.abc import Mapping, Sequence
 from typing import Any
 
+from up.commands.board_schema import SWITCH_MODES
+
 GREATEST_GAIN = 50.0
 PROFILE = struct.Struct(">" + "BhHH" * 4 + "BB" + "3s" + "hhh" + "hh" + "HH" + "HHH" + "B")
 """The fields of a profile (protocols 2.6)."""
-MODES = {"ACRO": "a", "RATE": "r", "FBW": "f", "AUTO": "A"}
+MODES = {name: letter for letter, name in SWITCH_MODES.items()}
 MIXES = ("none", "elevon", "V-tail")
 _SERVOS = ("ailerons", "elevator", "throttle", "rudder")
 _OF_A_SERVO = ("reversed", "trim_us", "lowest_us", "highest_us")

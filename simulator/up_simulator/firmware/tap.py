@@ -7,69 +7,15 @@ from collections import Counter
 from collections.abc import Iterator
 from dataclasses import dataclass
 
+from up.commands.board_schema import STATUS, BoardStatus
 from up_simulator.wire import LONGEST_ENCODED, Command, checked_frame, open_frame
 
 SIZES = {
-    "r": 8, "i": 13, "O": 26, "x": 20, "K": 2, "!": 3, "m": 1, "T": 48, "G": 72, "C": 54,
+    "r": 8, "i": 13, "O": 26, "x": STATUS.size, "K": 2, "!": 3, "m": 1, "T": 48, "G": 72, "C": 54,
 }  # fmt: skip
 """Payload bytes of every message from the Arduino in checked framing (protocols 2.4)."""
-_STATUS = struct.Struct(">Bc4B7H")
 _ORIENTATION = struct.Struct(">H6f")
 _OUTPUTS, _INPUTS = struct.Struct(">4H"), struct.Struct(">6HB")
-
-
-@dataclass(frozen=True, slots=True)
-class BoardStatus:
-    """The fields of ``x`` (protocols 2.7); flags and vetoes as properties."""
-
-    version: int
-    mode: str
-    switch: int
-    flags: int
-    vetoes: int
-    cause: int
-    loop_us: int
-    late_us: int
-    dropped: int
-    missing: int
-    seconds: int
-    receiver_age_ms: int
-    imu_age_ms: int
-
-    @property
-    def is_armed(self) -> bool:
-        """Return whether the motor and the Raspberry Pi's authority are armed."""
-        return bool(self.flags & 1)
-
-    @property
-    def is_auto(self) -> bool:
-        """Return whether the switch is at AUTO."""
-        return bool(self.flags & 2)
-
-    @property
-    def is_receiver_valid(self) -> bool:
-        """Return whether the receiver's pulses are good."""
-        return bool(self.flags & 4)
-
-    @property
-    def is_imu_valid(self) -> bool:
-        """Return whether the attitude is known."""
-        return bool(self.flags & 8)
-
-    @property
-    def is_failsafe(self) -> bool:
-        """Return whether the receiver's failsafe acts."""
-        return bool(self.flags & 16)
-
-    @property
-    def has_heard(self) -> bool:
-        """Return whether the board received from the Raspberry Pi within a second."""
-        return bool(self.flags & 128)
-
-    @property
-    def is_restored(self) -> bool:
-        """Return whether the state from before the reset was restored."""
-        return bool(self.cause & 128)
 
 
 @dataclass(frozen=True, slots=True)
@@ -170,9 +116,8 @@ class BoardTap:
         payload = message.payload
         match message.type:
             case "x":
-                version, mode, *numbers = _STATUS.unpack(payload)
-                self.status = BoardStatus(version, mode.decode("latin-1"), *numbers)
-                self.mode, self.status_s = self.status.mode, now_s
+                self.status, self.status_s = BoardStatus(*STATUS.unpack(payload)), now_s
+                self.mode = self.status.mode_letter
             case "O":
                 self.orientation = BoardOrientation(*_ORIENTATION.unpack(payload))
                 self.orientation_s = now_s

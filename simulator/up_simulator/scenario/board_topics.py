@@ -5,40 +5,22 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
+from up.commands.board_schema import DATA, FLIGHT_MODES, RESET_CAUSES, SWITCH_POSITIONS, Flag
+from up.commands.board_status import TOPIC as STATUS_TOPIC
 from up.commands.flight_state_command import FlightStateCommand
 from up.commands.orientation_command import OrientationCommand
 from up.commands.rx_command import ALL_VALID, RXCommand
 from up.commands.servo_command import ServoCommand
-from up.flight_log.board_status import TOPIC as STATUS_TOPIC
 from up.flight_log.origin_text import KEY as ORIGIN
 from up_simulator.scenario.log_row import Data, LogRow, Message
-from up_simulator.scenario.sampler import CAUSES, MODES, SWITCH
 from up_simulator.scenario.sticks import CHANNELS
 
 BOARD = "arduino (board)"
 STATE_S = 1.0
 _ANGLES = ("roll", "pitch", "yaw")
-_LETTERS = {word: letter for letter, word in MODES.items()}
-_POSITIONS = {word: number for number, word in SWITCH.items()}
-_FLAGS = {
-    "armed": 1,
-    "auto": 2,
-    "receiver_valid": 4,
-    "imu_valid": 8,
-    "failsafe": 16,
-    "gains_valid": 64,
-    "pi_heard": 128,
-}
-_RESTORED = 128
-_COUNTS = {
-    "loop_us": "loop_us",
-    "late_us": "loop_late_us",
-    "frame_errors": "dropped_frames",
-    "frames_lost": "missing_frames",
-    "uptime_s": "uptime_s",
-    "rx_age_ms": "receiver_age_ms",
-    "imu_age_ms": "imu_age_ms",
-}
+_LETTERS = {word: letter for letter, word in FLIGHT_MODES.items()}
+_POSITIONS = {word: number for number, word in SWITCH_POSITIONS.items()}
+_SIGNALS = [each for each in DATA if each.signal]
 
 
 class News:
@@ -99,17 +81,23 @@ class BoardTopics:
 
     def _told(self, row: LogRow) -> Data:
         """Return its status, without the vetoes, which the log has no signal for."""
-        bits = (bit for name, bit in _FLAGS.items() if row.flag(f"board.{name}"))
-        flags = sum(bits) & ~(0 if self._has_raspilot else _FLAGS["pi_heard"])
         causes = (row.word("board.reset_cause") or "").split()
-        cause = sum(bit for bit, word in CAUSES.items() if word in causes)
+        bits = {
+            "flags": 0,
+            "reset_cause": sum(1 << bit for bit, word in RESET_CAUSES.items() if word in causes),
+        }
+        for each in _SIGNALS:
+            if each.bit is not None and row.flag(f"board.{each.signal}"):
+                bits[each.field] |= 1 << each.bit
+        if not self._has_raspilot:
+            bits["flags"] &= ~Flag.PI_RECEIVED
         data: Data = {
             "mode": ord(_LETTERS.get(row.word("board.mode") or "", "\0")),
             "switch": _POSITIONS.get(row.word("board.switch") or ""),
-            "flags": flags,
-            "reset_cause": cause | (_RESTORED if row.flag("board.restored") else 0),
+            **bits,
         }
-        return data | {key: row.whole(f"board.{name}") for key, name in _COUNTS.items()}
+        numbers = (each for each in _SIGNALS if each.bit is None)
+        return data | {each.name: row.whole(f"board.{each.signal}") for each in numbers}
 
 
 def _pulses(row: LogRow, source: str, channels: tuple[str, ...]) -> Data | None:

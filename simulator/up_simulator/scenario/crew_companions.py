@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from types import MappingProxyType
 from typing import Protocol
 
+from up.commands.board_schema import Veto
 from up_simulator.crew.protocols import CrewError, Ground, Raspilot
 from up_simulator.crew.protocols import Phone as PluggedPhone
 from up_simulator.link.model import LinkModel
@@ -16,7 +17,6 @@ from up_simulator.scenario.event import Event
 from up_simulator.scenario.line_board import LineBoard
 from up_simulator.scenario.scenario import Scenario
 
-PI_VETO = 1 << 4
 SETTLED_S = 1.0
 
 
@@ -156,7 +156,9 @@ class CrewCompanions(ABC):
         if self.scenario.board == "direct":
             return True
         status = self.board.tap.status
-        return status is not None and status.has_heard and not status.vetoes & PI_VETO
+        return (
+            status is not None and status.is_pi_received and not status.vetoes & Veto.RASPBERRY_PI
+        )
 
     def _set_up(self) -> None:
         """Make the initial requests; a bad link starts only now, with the flight."""

@@ -6,6 +6,7 @@ import dataclasses
 from collections.abc import Callable, Iterable, Mapping
 from typing import Any
 
+from up.commands.board_schema import DATA, FLIGHT_MODES, RESET_CAUSES, SWITCH_POSITIONS
 from up_simulator.crew.protocols import Ground, Phone, Raspilot
 from up_simulator.firmware.tap import BoardTap
 from up_simulator.scenario.demand import DemandModel
@@ -16,11 +17,7 @@ from up_simulator.scenario.sticks import CHANNELS
 from up_simulator.world import Dynamics, World
 
 Values = dict[str, float | bool | str | None]
-MODES = {"a": "ACRO", "r": "RATE", "f": "FBW", "s": "SETPOINT", "u": "OUTPUT", "h": "RTH"}
-SWITCH = {0: "low", 1: "middle", 2: "high"}
-CAUSES = {1: "power", 2: "button", 4: "brown-out", 8: "watchdog"}
 _SERVOS = CHANNELS[:4]
-_GAINS_VALID, _RESTORED = 64, 128
 
 
 def columns_of(scenario: Scenario) -> list[str]:
@@ -128,25 +125,15 @@ def _board(tap: BoardTap, now_s: float) -> Iterable[tuple[str, Any]]:
     status = tap.status
     if status is None:
         return
-    yield "board.mode", MODES.get(status.mode, status.mode)
-    yield "board.armed", status.is_armed
-    yield "board.auto", status.is_auto
-    yield "board.failsafe", status.is_failsafe
-    yield "board.imu_valid", status.is_imu_valid
-    yield "board.receiver_valid", status.is_receiver_valid
-    yield "board.restored", status.is_restored
-    yield "board.pi_heard", status.has_heard
-    yield "board.gains_valid", bool(status.flags & _GAINS_VALID)
-    yield "board.switch", SWITCH.get(status.switch, "not known")
-    cause = status.cause & ~_RESTORED
-    yield "board.reset_cause", " ".join(word for bit, word in CAUSES.items() if cause & bit)
-    yield "board.loop_us", status.loop_us
-    yield "board.loop_late_us", status.late_us
-    yield "board.dropped_frames", status.dropped
-    yield "board.missing_frames", status.missing
-    yield "board.receiver_age_ms", status.receiver_age_ms
-    yield "board.imu_age_ms", status.imu_age_ms
-    yield "board.uptime_s", status.seconds
+    yield "board.mode", FLIGHT_MODES.get(status.mode_letter, status.mode_letter)
+    yield "board.switch", SWITCH_POSITIONS.get(status.switch, "not known")
+    causes = (word for bit, word in RESET_CAUSES.items() if status.reset_cause >> bit & 1)
+    yield "board.reset_cause", " ".join(word for word in causes if " " not in word)
+    for datum in DATA:
+        if datum.signal:
+            number = getattr(status, datum.field)
+            value = number if datum.bit is None else bool(number >> datum.bit & 1)
+            yield f"board.{datum.signal}", value
     yield "board.status_age_s", now_s - tap.status_s
 
 

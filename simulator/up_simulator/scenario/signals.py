@@ -7,6 +7,8 @@ import enum
 from collections.abc import Iterator
 from dataclasses import dataclass
 
+from up.commands.board_schema import DATA
+
 
 class Kind(enum.Enum):
     """The type of a signal's values."""
@@ -32,6 +34,7 @@ class Signal:
 
 
 _FLAG, _WORD = Kind.FLAG, Kind.WORD
+_KINDS = {"flag": Kind.FLAG, "text": Kind.WORD, "number": Kind.NUMBER}
 _STICKS = ("ailerons", "elevator", "throttle", "rudder", "aux1", "aux2")
 _SERVOS = _STICKS[:4]
 
@@ -83,17 +86,9 @@ def _pilot() -> Iterator[Signal]:
 
 def _board() -> Iterator[Signal]:
     yield Signal("board.mode", "what the Arduino flies: ACRO, RATE, FBW, SETPOINT...", kind=_WORD)
-    for name, about in (
-        ("armed", "the motor and the Raspberry Pi may act"),
-        ("auto", "the mode switch stands at AUTO"),
-        ("failsafe", "it flies the circle of a lost receiver"),
-        ("imu_valid", "the attitude can be flown by"),
-        ("receiver_valid", "the receiver can be flown by"),
-        ("restored", "the last reset came in flight and the state before it came back"),
-        ("pi_heard", "the Raspberry Pi was heard within a second"),
-        ("gains_valid", "the EEPROM holds gains"),
-    ):
-        yield Signal(f"board.{name}", about, kind=_FLAG)
+    for datum in DATA:
+        if datum.signal:
+            yield Signal(f"board.{datum.signal}", datum.about, datum.unit, _KINDS[datum.kind])
     yield Signal("board.switch", "where AUX1 stands: low, middle, high", kind=_WORD)
     yield Signal("board.reset_cause", "of the last reset", kind=_WORD)
     for name, unit, about in (
@@ -103,13 +98,6 @@ def _board() -> Iterator[Signal]:
         ("roll_rate_deg_s", "deg/s", "its gyroscope"),
         ("pitch_rate_deg_s", "deg/s", "its gyroscope"),
         ("yaw_rate_deg_s", "deg/s", "its gyroscope"),
-        ("loop_us", "us", "period of its loop, mean of a second"),
-        ("loop_late_us", "us", "greatest lateness of its loop in a second"),
-        ("dropped_frames", "", "frames from the Raspberry Pi that it dropped"),
-        ("missing_frames", "", "frames from the Raspberry Pi that never came"),
-        ("receiver_age_ms", "ms", "age of the newest pulses"),
-        ("imu_age_ms", "ms", "age of the newest sample"),
-        ("uptime_s", "s", "since its reset"),
         ("status_age_s", "s", "since its newest status was heard"),
         ("orientation_age_s", "s", "since its newest orientation was heard"),
         ("bad_frames", "", "frames of the Arduino that a listener on the line had to drop"),
@@ -161,9 +149,6 @@ def _ground() -> Iterator[Signal]:
         ("heading.actual", "deg"),
         ("heading.required", "deg"),
         ("android.batteryLevel", "%"),
-        ("arduino.loop_us", "us"),
-        ("arduino.late_us", "us"),
-        ("arduino.frame_errors", ""),
         ("load.cpu", "%"),
         ("load.ram", "%"),
         ("load.delay_ms", "ms"),
@@ -173,19 +158,12 @@ def _ground() -> Iterator[Signal]:
     for name in (
         "android.connected",
         "arduino.connected",
-        "arduino.failsafe",
-        "arduino.restored",
-        "arduino.bias_stored",
-        "arduino.receiver_valid",
-        "arduino.imu_valid",
         "load.panic",
         "armed",
     ):
         yield _telemetry(name, kind=_FLAG)
     for name in (
         "arduino.framing",
-        "arduino.switch",
-        "arduino.reset_cause",
         "mode",
         "flight_mode",
         "flight_controller",
@@ -193,6 +171,9 @@ def _ground() -> Iterator[Signal]:
         "vetoes",
     ):
         yield _telemetry(name, kind=_WORD)
+    for datum in DATA:
+        if datum.in_telemetry:
+            yield _telemetry(f"arduino.{datum.name}", datum.unit, _KINDS[datum.kind])
     for reading in _READINGS:
         yield _telemetry(f"age_ms.{reading}", "ms")
         yield _telemetry(f"source.{reading}", kind=_WORD)

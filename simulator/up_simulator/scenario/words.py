@@ -4,21 +4,23 @@ from __future__ import annotations
 
 import difflib
 
-_MODES = ("ACRO", "RATE", "FBW", "SETPOINT", "OUTPUT", "RTH")
-_POSITIONS = ("low", "middle", "high")
+from up.commands.board_schema import FLIGHT_MODES, RESET_CAUSES, SWITCH_MODES, SWITCH_POSITIONS
+
+_MODES = tuple(FLIGHT_MODES.values())
+_POSITIONS = tuple(SWITCH_POSITIONS.values())
 _SOURCES = ("arduino", "android")
-_CAUSES = ("power-on", "external", "brown-out", "watchdog", "state restored", "unknown")
+_CAUSES = tuple(RESET_CAUSES.values())
 _WORDS: dict[str, tuple[str, ...]] = {
     "board.mode": _MODES,
     "board.switch": (*_POSITIONS, "not known"),
-    "board.reset_cause": ("power", "button", "brown-out", "watchdog"),
+    "board.reset_cause": tuple(word for word in _CAUSES if " " not in word),
     "ground.arduino.framing": ("checked", "thesis"),
     "ground.arduino.switch": _POSITIONS,
-    "ground.arduino.reset_cause": _CAUSES,
+    "ground.arduino.reset_cause": (*_CAUSES, "unknown"),
     "ground.mode": ("flight controller", "black box", "black box (provisional)"),
     "ground.flight_mode": _MODES,
     "ground.flight_controller": ("arduino", "raspberry"),
-    "ground.flight_control.mode": ("ACRO", "RATE", "FBW", "AUTO"),
+    "ground.flight_control.mode": tuple(SWITCH_MODES.values()),
 }
 _SEVERAL = {"board.reset_cause": " ", "ground.arduino.reset_cause": ", "}
 """Separators for signals that may have several values at a time."""

@@ -37,8 +37,8 @@ def test_hex_lines_are_checked():
     [
         (b"", "is empty"),
         (b"hello", "neither ELF nor Intel HEX"),
-        (b"\xff\xfe", "is no firmware"),
-        (b"\x7fELF", "is no firmware"),
+        (b"\xff\xfe", "is not a firmware"),
+        (b"\x7fELF", "is not a firmware"),
         (b":02800000010279\n".replace(b"79", b"7B"), "does not fit into 32768 bytes"),
     ],
 )

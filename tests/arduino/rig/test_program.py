@@ -100,7 +100,7 @@ def test_a_file_in_the_links_place_is_left_alone(echo, tmp_path):
     with program(echo, "--pty", "--pty-link", place) as process:
         _output, errors = process.communicate(timeout=DEADLINE_S)
         assert process.returncode == 1
-        assert "no symbolic link: left alone" in errors
+        assert "not a symbolic link: left unchanged" in errors
         assert place.read_text() == "mine"
 
 
@@ -208,13 +208,13 @@ def test_any_script_is_read_or_refused_in_one_sentence(words):
         assert all(earlier.time_s <= later.time_s for earlier, later in itertools.pairwise(moves))
 
 
-@pytest.mark.parametrize("contents", [b"", b"text of somebody", bytes(1025)])
+@pytest.mark.parametrize("contents", [b"", b"another text", bytes(1025)])
 def test_a_file_that_is_no_eeproms_is_never_written(tmp_path, contents):
     elf, other = build("resets", tmp_path, "-DCASE=6"), tmp_path / "other.txt"
     other.write_bytes(contents)
     command = [sys.executable, "-m", "up_rig", str(elf), "--pty", "--eeprom", str(other)]
     done = subprocess.run(command, capture_output=True, text=True, check=False, timeout=60)
     assert done.returncode == 1
-    assert "is no EEPROM's file" in done.stderr
+    assert "is not an EEPROM file" in done.stderr
     assert "Traceback" not in done.stderr
     assert other.read_bytes() == contents

@@ -147,7 +147,7 @@ def test_a_link_that_another_board_has_taken_stays(tmp_path):
 def test_a_file_in_the_way_is_left_alone(tmp_path):
     link = tmp_path / "board"
     link.write_text("precious")
-    with pytest.raises(PtyLineError, match="left alone"):
+    with pytest.raises(PtyLineError, match="left unchanged"):
         PtyLine(link)
     assert link.read_text() == "precious"
 

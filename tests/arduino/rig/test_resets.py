@@ -143,7 +143,7 @@ def test_optiboot_waits_for_a_programmer_after_the_reset_pin(case, optiboot):
     rig.serial.read()
     rig.run_us(400_000)
     assert rig.serial.read() == b""
-    assert rig.servo.pin_edges(LED), "it blinks meanwhile"
+    assert rig.servo.pin_edges(LED), "it blinks"
     rig.run_us(2_000_000)
     assert b"\xee" in rig.serial.read()
 
@@ -160,7 +160,7 @@ def test_what_cannot_be_preloaded_is_said(case):
     rig = case(5)
     with pytest.raises(FirmwareError, match="no symbol missing"):
         rig.preload("missing", b"\0")
-    with pytest.raises(FirmwareError, match="counter is no variable of 2 bytes"):
+    with pytest.raises(FirmwareError, match="counter is not a variable of 2 bytes"):
         rig.preload("counter", b"\0\0")
 
 

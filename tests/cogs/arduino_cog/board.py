@@ -4,16 +4,20 @@ from __future__ import annotations
 
 import struct
 
-from arduino_cog.modules.arduino_altitude_module import ArduinoAltitudeModule
-from arduino_cog.modules.arduino_arming import ArduinoArming
-from arduino_cog.modules.arduino_calibration import ArduinoCalibration
-from arduino_cog.modules.arduino_flight_mode import ArduinoFlightMode
-from arduino_cog.modules.arduino_heading_module import ArduinoHeadingModule
-from arduino_cog.modules.arduino_location_module import ArduinoLocationModule
+from arduino_cog.modules.arduino_forward import (
+    ArduinoAltitudeModule,
+    ArduinoHeadingModule,
+    ArduinoLocationModule,
+)
 from arduino_cog.modules.arduino_output import ArduinoOutput
 from arduino_cog.modules.arduino_panic import ArduinoPanic
 from arduino_cog.modules.arduino_profile import ArduinoProfile
 from arduino_cog.modules.arduino_provider import ArduinoProvider
+from arduino_cog.modules.arduino_requests import (
+    ArduinoArming,
+    ArduinoCalibration,
+    ArduinoFlightMode,
+)
 from arduino_cog.modules.pid_tunings_provider import PIDTuningsProvider
 from serial_cog.modules.serial_provider import SerialProvider
 

@@ -1,8 +1,9 @@
-"""`python main.py` as a process, and a pilot on the ground who sends Commands to it."""
+"""`python main.py` as a process, and a ground station that sends Commands to it."""
 
 from __future__ import annotations
 
 import json
+import os
 import re
 import signal
 import socket
@@ -54,6 +55,7 @@ class Daemon:
                 stdout=output,
                 stderr=subprocess.STDOUT,
                 cwd=ROOT,
+                env={**os.environ, "UP_LOG_FORMAT": "json"},
             )
         found = wait(lambda: self._port(start), "the ground's port in the log")
         self.ground = Ground(int(found[1]))
@@ -65,6 +67,12 @@ class Daemon:
 
     def said(self):
         return self.log.read_text(encoding="utf-8")
+
+    def logged(self, *codes):
+        """Return the fields of every log line with one of these codes."""
+        lines = [line for line in self.said().splitlines() if line.startswith("{")]
+        fields = [json.loads(line).get("fields", {}) for line in lines if line.endswith("}")]
+        return [each for each in fields if each.get("code") in codes]
 
     def end(self, number=signal.SIGTERM):
         """End it and return its exit status."""

@@ -4,10 +4,7 @@ import struct
 from pathlib import Path
 
 import pytest
-from arduino_cog.airframe import AIRFRAME
-from arduino_cog.profile import pack_profile, read_profile
-from arduino_cog.profile_data import differences, flat, profile_from_data, profile_to_data
-from arduino_cog.profile_data import with_changes as changed
+from arduino_cog.profile import AIRFRAME, differences, flat, nested, pack_profile, read_profile
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -40,12 +37,12 @@ def test_every_key_has_a_place_in_the_profile_and_the_other_way_round():
                 keys.add(above + entry.name)
 
     walk(AIRFRAME.schema)
-    assert keys == dict(flat(profile_to_data(FACTORY))).keys()
+    assert keys == dict(flat(nested(FACTORY))).keys()
 
 
 def test_a_profile_that_was_told_can_be_written_into_the_file():
-    data = profile_to_data(FACTORY)
-    assert profile_from_data(data) == FACTORY
+    data = nested(FACTORY)
+    assert dict(flat(data)) == FACTORY
     lines = []
     for name, value in data.items():
         if isinstance(value, dict):
@@ -53,7 +50,7 @@ def test_a_profile_that_was_told_can_be_written_into_the_file():
         else:
             lines.append(f"{name}: {value}")
     text = "\n".join(lines).replace("True", "true").replace("False", "false")
-    assert changed(FACTORY, wishes(text)) == FACTORY
+    assert {**FACTORY, **wishes(text)} == FACTORY
 
 
 def test_only_what_is_said_changes():
@@ -61,14 +58,11 @@ def test_only_what_is_said_changes():
         "rudder: {reversed: true, trim_us: -20}\nmix: V-tail\nswitch: {low: fbw}\n"
         "receiver_lost: {glide_pitch_deg: -2.5}\n"
     )
-    profile = changed(FACTORY, said)
-    assert profile.rudder.reversed
-    assert profile.switch == ("FBW", "FBW", "AUTO")
-    assert differences(FACTORY, profile) == [
+    assert differences(FACTORY, {**FACTORY, **said}) == [
         "rudder.reversed false, wanted true",
         "rudder.trim_us 0, wanted -20",
-        "switch.low ACRO, wanted FBW",
         "mix none, wanted V-tail",
+        "switch.low ACRO, wanted FBW",
         "receiver_lost.glide_pitch_deg -3.0, wanted -2.5",
     ]
 
@@ -109,6 +103,34 @@ def test_mistakes_are_told_with_their_place(text, place, sentence):
     )
 )
 def test_what_is_asked_for_is_found_in_what_is_read_back(changes):
-    sent = pack_profile(changed(FACTORY, changes))
-    held = read_profile(sent)
-    assert pack_profile(changed(held, changes)) == sent
+    sent = pack_profile({**FACTORY, **changes})
+    current = read_profile(sent)
+    assert pack_profile({**current, **changes}) == sent
+
+
+@pytest.mark.parametrize(
+    ("key", "value"),
+    [
+        ("ailerons.trim_us", 201),
+        ("rudder.highest_us", 1000),
+        ("throttle.highest_us", 2201),
+        ("mix", "delta"),
+        ("switch.middle", "RTH"),
+        ("fly_by_wire.roll_deg", 91.0),
+        ("fly_by_wire.pitch_up_deg", -1.0),
+        ("receiver_lost.glide_pitch_deg", float("nan")),
+    ],
+)
+def test_a_value_out_of_range_is_never_packed(key, value):
+    with pytest.raises(ValueError, match=key):
+        pack_profile({**FACTORY, key: value})
+
+
+@given(st.binary(min_size=54, max_size=54))
+def test_any_bytes_are_read_or_refused_by_name(payload):
+    try:
+        profile = read_profile(payload)
+    except ValueError as error:
+        assert str(error).partition(":")[0] in {"mix", "switch.low", "switch.middle", "switch.high"}
+    else:
+        assert profile.keys() == FACTORY.keys()

@@ -4,7 +4,7 @@ import struct
 
 import pytest
 from arduino_cog.commands.arduino_profile_commands import ArduinoProfileRequestCommand
-from twisted.logger import formatEvent, globalLogPublisher
+from twisted.logger import globalLogPublisher
 
 from tests.cogs.arduino_cog.board import PROFILE, PROFILE_FORMAT, Ground
 from up.commands.arming_commands import ArmCommand
@@ -42,14 +42,13 @@ def framed(make_rig):
 
 
 @pytest.fixture
-def said():
-    """The log messages of the module, by level."""
+def logged():
+    """The log events of the module."""
     lines = []
 
     def observe(event):
         if event["log_namespace"] == "ArduinoProfile":
-            level = {"warn": "warning"}.get(event["log_level"].name, event["log_level"].name)
-            lines.append((level, formatEvent(event)))
+            lines.append(event)
 
     globalLogPublisher.addObserver(observe)
     yield lines
@@ -75,15 +74,15 @@ def test_its_limits_of_fbw_are_told_before_the_board_says_who_flies(framed):
     assert isinstance(told[1], FlightStateCommand)
 
 
-def test_a_disarmed_board_that_differs_gets_it_once_and_is_read_back(framed, said):
+def test_a_disarmed_board_that_differs_gets_it_once_and_is_read_back(framed, logged):
     rig = framed()
     rig.connect(armed=False)
     rig.alive(5)
     assert rig.sent("C") == [TRIMMED]
     assert rig.sent("c") == [b"", b""]
     assert rig.up.vetoes.own == {}
-    assert ("info", f"the Arduino gets the profile of {NAME}, which differs: rudder.trim_us 0,"
-            " wanted 20") in said  # fmt: skip
+    (sent,) = (each for each in logged if each["code"] == "profile_sent")
+    assert sent["text"] == "rudder.trim_us 0, wanted 20"
 
 
 def test_a_board_that_does_not_differ_is_left_alone(framed):
@@ -112,16 +111,14 @@ def test_an_angle_is_taken_as_the_wire_rounds_it(framed):
     assert rig.up.vetoes.own == {}
 
 
-def test_an_armed_board_gets_nothing_and_arming_stays_forbidden(framed, said):
+def test_an_armed_board_gets_nothing_and_arming_stays_forbidden(framed, logged):
     rig = framed()
     rig.connect(armed=True)
     rig.alive(3)
     assert rig.sent("C") == []
     assert "rudder.trim_us 0, wanted 20" in rig.up.vetoes.own[NAME]
     assert rig.sent("v")[-1] == b"\1"
-    told = [text for level, text in said if level == "warning"]
-    assert len(told) == 1
-    assert "keeps another profile" in told[0]
+    assert [each["code"] for each in logged] == ["profile_differs_in_flight"]
     rig.alive(1, armed=False)
     assert rig.sent("C") == [TRIMMED]
     assert rig.sent("v")[-1] == b"\0"
@@ -182,7 +179,7 @@ def test_a_board_that_holds_another_one_afterwards_is_not_believed(framed):
     rig.on_command = forgetful
     rig.connect(armed=False)
     rig.alive(0.6)
-    assert "holds another profile than it was sent" in rig.up.vetoes.own[NAME]
+    assert "another profile than it was sent" in rig.up.vetoes.own[NAME]
 
 
 def test_a_lost_confirmation_is_no_reason_to_write_again(framed):
@@ -198,7 +195,7 @@ def test_a_lost_confirmation_is_no_reason_to_write_again(framed):
     rig.on_command = mute_but_good
     rig.connect(armed=False)
     rig.alive(5)
-    # The exchange itself repeats once; after that the board's values are requested first.
+    # The requests itself repeats once; after that the board's values are requested first.
     assert len(rig.sent("C")) == 2
     assert rig.up.vetoes.own == {}
 
@@ -225,13 +222,13 @@ def test_a_damaged_copy_in_the_board_is_written_anew(framed):
     assert rig.up.vetoes.own == {}
 
 
-def test_end_points_that_do_not_fit_the_boards_are_told_and_never_sent(framed, said):
+def test_end_points_that_do_not_fit_the_boards_are_told_and_never_sent(framed, logged):
     rig = framed("rudder: {lowest_us: 2100}\n")
     rig.connect(armed=False)
     rig.alive(5)
     assert rig.sent("C") == []
-    assert "end points are 800 to 2200 us, not 2100 to 2000" in rig.up.vetoes.own[NAME]
-    assert [level for level, _ in said] == ["error"]
+    assert "rudder.highest_us" in rig.up.vetoes.own[NAME]
+    assert [each["code"] for each in logged] == ["profile_invalid"]
 
 
 def test_a_profile_that_cannot_be_is_not_believed(framed):
@@ -239,22 +236,20 @@ def test_a_profile_that_cannot_be_is_not_believed(framed):
     rig.profile = wire(at16=9)
     rig.connect(armed=False)
     rig.alive(1)
-    assert "not usable: the mix or a mode" in rig.up.vetoes.own[NAME]
+    assert "mix: 9" in rig.up.vetoes.own[NAME]
     assert rig.sent("C") == []
 
 
-def test_an_old_firmware_gets_nothing_and_it_is_said_once(framed, said):
+def test_an_old_firmware_gets_nothing_and_it_is_said_once(framed, logged):
     rig = framed(framing="thesis")
     rig.start()
     rig.throttle(1000)
     rig.advance(3)
     assert b"C" not in {bytes([each]) for each in rig.port.heard if isinstance(each, int)}
     assert rig.sent("cC") == []
-    assert [text for _, text in said] == [
-        f"{NAME} is not used: an old firmware (framing: thesis) keeps no profile"
-    ]
+    assert [each["code"] for each in logged] == ["profile_not_supported"]
     assert NAME not in rig.up.vetoes.own
-    assert "framing: thesis" in refusal(rig.ask(ArduinoProfileRequestCommand())).reason
+    assert refusal(rig.ask(ArduinoProfileRequestCommand())).detail == "old_firmware"
 
 
 def test_a_request_is_answered_with_what_the_board_holds(framed):

@@ -2,8 +2,8 @@
 
 import pytest
 from arduino_cog.commands.arduino_calibrate_command import ArduinoCalibrateCommand
-from arduino_cog.wire import Reason
 
+from up.commands.board_schema import Reason
 from up.commands.command import InvalidCommandError
 from up.commands.refusal import Code, CommandRefusedError
 
@@ -18,15 +18,15 @@ def test_each_goes_to_the_board_whose_answer_is_the_answer(rig, what, number):
 
 
 @pytest.mark.parametrize(
-    ("reason", "words"),
-    [(Reason.OUT_OF_RANGE, "out of range"), (Reason.NOT_STILL, "not still enough")],
+    ("reason", "detail"),
+    [(Reason.OUT_OF_RANGE, "out_of_range"), (Reason.NOT_STILL, "not_still")],
 )
-def test_a_refusal_is_told_in_words(rig, reason, words):
+def test_the_arduinos_refusal_is_returned(rig, reason, detail):
     rig.connect()
     rig.refuse = {"e": reason}
     (error,) = rig.ask(ArduinoCalibrateCommand("gyro"))
     assert isinstance(error, CommandRefusedError)
-    assert error.reason == f"the Arduino refused: {words}"
+    assert error.detail == detail
 
 
 @pytest.mark.parametrize(("what", "asked"), [("level", 2), ("receiver_end", 1)])

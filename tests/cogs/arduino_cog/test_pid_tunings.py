@@ -55,7 +55,7 @@ def test_a_disarmed_board_that_differs_gets_pids_yml_once(tuned):
     rig.connect()
     rig.alive(2)
     assert rig.sent(PUSHED) == [wire(SAVED)]
-    assert rig.module(PIDTuningsProvider).held.rate.ailerons.p == 2.0
+    assert rig.module(PIDTuningsProvider).current.rate.ailerons.p == 2.0
 
 
 def test_a_board_that_does_not_differ_is_left_alone(tuned):
@@ -166,7 +166,7 @@ def test_a_set_from_the_ground_flies_and_is_saved_after_the_board_confirmed(tune
     assert gain_set_to_data(saved)["ratePIDs"] == loop(3.0)
     rig.alive(1)
     rig.alive(1, armed=False)
-    assert len(rig.sent(PUSHED)) == 1, "what was tuned is not pushed back"
+    assert len(rig.sent(PUSHED)) == 1, "tuned gains are not overwritten"
 
 
 def test_a_set_that_the_board_refuses_is_not_saved(tuned):
@@ -174,7 +174,7 @@ def test_a_set_that_the_board_refuses_is_not_saved(tuned):
     rig.connect(armed=True)
     rig.refuse = {"g": 3}
     before = (rig.folder / "pids.yml").read_text()
-    assert refusal(rig.ask(tunings())).reason == "the Arduino refused: out of range"
+    assert refusal(rig.ask(tunings())).detail == "out_of_range"
     assert (rig.folder / "pids.yml").read_text() == before
 
 
@@ -189,7 +189,7 @@ def test_a_set_that_the_board_does_not_hold_afterwards_is_not_saved(tuned):
         rig.gains[:] = FACTORY
 
     rig.on_command = forgetful
-    assert "holds another set of gains" in refusal(rig.ask(tunings())).reason
+    assert refusal(rig.ask(tunings())).detail == "value_differs"
     assert (rig.folder / "pids.yml").read_text() == before
 
 
@@ -222,7 +222,7 @@ def test_a_set_while_another_is_on_its_way_is_refused(tuned):
     rig.connect(armed=True)
     rig.mute = {"g"}
     first = rig.ask(tunings())
-    assert "on its way" in refusal(rig.ask(tunings(rate=9.0))).reason
+    assert refusal(rig.ask(tunings(rate=9.0))).detail == "busy"
     rig.mute = set()
     rig.alive(0.8)
     assert first == ["done"]
@@ -297,8 +297,8 @@ def test_gains_that_a_board_cannot_have_are_not_believed(tuned):
     rig.gains[4] = float("nan")
     rig.connect(armed=False)
     rig.alive(1)
-    assert rig.module(PIDTuningsProvider).held is None
-    assert "not usable" in refusal(rig.ask(PIDTuningsCommand(request=True))).reason
+    assert rig.module(PIDTuningsProvider).current is None
+    assert refusal(rig.ask(PIDTuningsCommand(request=True))).detail == "invalid_value"
 
 
 def test_an_old_firmware_gets_them_when_it_is_met_and_the_throttle_is_low(tuned):
@@ -332,7 +332,7 @@ def test_an_old_firmware_takes_two_axes_only(tuned):
     rig = tuned("thesis")
     rig.start()
     rig.throttle(1400)
-    assert "no rudder gains" in refusal(rig.ask(tunings())).reason
+    assert refusal(rig.ask(tunings())).detail == "old_firmware"
     assert rig.sent("t") == []
     assert rig.ask(tunings(AXES[:2])) == ["done"]
     assert rig.gains[:3] == [3.0, 0.25, 0.125]

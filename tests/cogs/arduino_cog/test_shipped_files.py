@@ -4,7 +4,7 @@ import importlib
 from pathlib import Path
 
 import pytest
-from arduino_cog.airframe import AIRFRAME
+from arduino_cog.profile import AIRFRAME
 
 from up.base_module import BaseModule
 from up.cogs.manifest import load_manifest

@@ -25,6 +25,8 @@ NO_GAINS = "\n".join(line.split(":")[0] + ": 0.0" if " p:" in line or " i:" in l
                      or " d:" in line else line for line in PIDS.template().splitlines()
                      if not line.lstrip().startswith("#"))  # fmt: skip
 
+SENT = ("gains_sent", "profile_sent")
+
 
 @pytest.fixture(scope="module")
 def elf():
@@ -102,12 +104,12 @@ def test_orientation_inputs_and_outputs_reach_the_ground(flight):
 def test_the_gains_of_pids_yml_are_pushed_and_read_back(flight):
     _, daemon = flight
     assert daemon.ground.ask("arduino.pids.tunings", request=True) == ""
-    held = daemon.ground.content("arduino.pids.values")
+    current = daemon.ground.content("arduino.pids.values")
     wanted = gain_set_to_data(gain_set_of(PIDS.parse(GAINS, Path("pids.yml"))))
     assert wanted["ratePIDs"]["ailerons"]["p"] == 2.25
-    assert held["ratePIDs"] == wanted["ratePIDs"]
-    assert held["stabPIDs"] == wanted["stabPIDs"]
-    assert "the Arduino gets the gains of pids.yml" in daemon.said()
+    assert current["ratePIDs"] == wanted["ratePIDs"]
+    assert current["stabPIDs"] == wanted["stabPIDs"]
+    assert daemon.logged("gains_sent")
 
 
 def test_the_profile_of_airframe_yml_is_pushed_and_flown(flight):
@@ -117,7 +119,8 @@ def test_the_profile_of_airframe_yml_is_pushed_and_flown(flight):
     assert profile["rudder"]["trim_us"] == 40
     assert profile["fly_by_wire"]["roll_deg"] == 33.33
     assert profile["mix"] == "none"
-    assert "rudder.trim_us 0, wanted 40; fly_by_wire.roll_deg 50.0, wanted 33.33" in daemon.said()
+    changes = "rudder.trim_us 0, wanted 40; fly_by_wire.roll_deg 50.0, wanted 33.33"
+    assert daemon.logged("profile_sent")[-1]["text"] == changes
     board.move(aux1=1000, rudder=1500)
     board.gives("rudder", 1540, 3)
     assert not [veto for veto in daemon.ground.at("vetoes") if "airframe.yml" in veto]
@@ -186,17 +189,17 @@ def test_a_reset_in_flight_is_told_and_gets_nothing_but_start(flight):
     arm(board, ground)
     board.move(throttle=1400)
     ground.comes("rx.throttle", 1400, 3)
-    pushed = daemon.said().count("the Arduino gets")
+    pushed = len(daemon.logged(*SENT))
     with board.rig() as rig:
         rig.force_watchdog_reset()
-    ground.sees("the state of before", arduino__restored=True, armed=True)
+    ground.sees("the restored state", arduino__restored=True, armed=True)
     assert "watchdog" in ground.at("arduino.reset_cause")
     # A machine that is busy may have taken the pause for silence.
-    said = "a reset (watchdog, state restored), and is armed"
-    board.wait(lambda: said in daemon.said().replace("was reset", "a reset"), "the log")
+    reset = board.wait(lambda: daemon.logged("board_reset", "board_restored"), "the log")
+    assert reset[-1]["causes"] == " (watchdog, state restored), and is armed"
     board.gives("throttle", 1400, 3)
     board.pass_us(1_000_000)
-    assert daemon.said().count("the Arduino gets") == pushed
+    assert len(daemon.logged(*SENT)) == pushed
     disarm(board, ground)
 
 
@@ -205,7 +208,7 @@ def test_calibrating_is_refused_while_armed_and_by_the_board_while_it_moves(flig
     ground = daemon.ground
     arm(board, ground)
     for what in ("level", "gyro", "receiver_begin"):
-        assert "not for the air" in ground.ask("arduino.calibrate", what=what)
+        assert "in flight" in ground.ask("arduino.calibrate", what=what)
     disarm(board, ground)
     with board.rig() as rig:
         rig.imu.motion = motion_at(6.0, -4.0, (0.0, 0.0, 20.0))
@@ -250,14 +253,14 @@ def test_what_was_set_outlives_power(flight):
     board.pass_us(2_000_000)
     board.end()
     ground.sees("the board is gone", arduino__connected=False)
-    pushed = daemon.said().count("the Arduino gets")
-    compared = daemon.said().count("flies the gains of pids.yml")
+    pushed = len(daemon.logged(*SENT))
+    compared = len(daemon.logged("gains_equal"))
     board.fly()
     ground.sees("the board is back", arduino__connected=True)
-    board.wait(lambda: daemon.said().count("flies the gains of pids.yml") > compared, "gains")
+    board.wait(lambda: len(daemon.logged("gains_equal")) > compared, "gains")
     ground.comes("orientation.roll", 0.0, 0.5)
     await_profile(board, ground)
-    assert daemon.said().count("the Arduino gets") == pushed
+    assert len(daemon.logged(*SENT)) == pushed
 
 
 def test_a_start_on_a_rocking_boat_is_told(flight):

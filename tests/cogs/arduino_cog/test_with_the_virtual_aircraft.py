@@ -106,7 +106,7 @@ def system(tmp_path, framing="checked", controller="arduino", modules=MODULES):
 
 def profile_of(up):
     """Return the profile once it has no veto left."""
-    return None if "airframe.yml" in up.vetoes.own else up.get_module(ArduinoProfile).held
+    return None if "airframe.yml" in up.vetoes.own else up.get_module(ArduinoProfile).current
 
 
 async def ask(up, command):
@@ -130,9 +130,9 @@ def test_readings_arming_modes_and_gains(aircraft, tmp_path):
         content = up.telemetry_controller.collect()
         assert content["arduino"]["connected"]
         assert content["rx"]["aux1"] > 1900
-        await until(lambda: gains.held is not None and gains.held.rate.ailerons.p == 2.25)
+        await until(lambda: gains.current is not None and gains.current.rate.ailerons.p == 2.25)
         profile = await until(lambda: profile_of(up))
-        assert profile.roll_limit_deg == 45.0
+        assert profile["fly_by_wire.roll_deg"] == 45.0
         up.vetoes.set("a module", "did not start")
         assert await ask(up, ArmCommand()) == "arming is vetoed: a module: did not start"
         up.vetoes.clear("a module")
@@ -143,7 +143,7 @@ def test_readings_arming_modes_and_gains(aircraft, tmp_path):
         stabilize = {**LOOP, "rudder": {"p": 0, "i": 0, "d": 0}}
         pids = {"ratePIDs": LOOP, "stabPIDs": stabilize}
         assert await ask(up, PIDTuningsCommand(pids=pids)) is None
-        assert gains.held.rate.rudder.d == 0.1
+        assert gains.current.rate.rudder.d == 0.1
         assert arduino.is_in_flight
         assert await ask(up, ArduinoCalibrateCommand("level")) is not None
         # The throttle must have been low for 2 s.
@@ -255,11 +255,11 @@ def test_an_old_firmware_with_its_boot_text(fly_aircraft, tmp_path):
         arduino = up.get_module(ArduinoProvider)
         gains = up.get_module(PIDTuningsProvider)
         await until(lambda: arduino.servo is not None)
-        await until(lambda: gains.held is not None and gains.held.rate.ailerons.p == 2.25)
+        await until(lambda: gains.current is not None and gains.current.rate.ailerons.p == 2.25)
         two_axes = {axis: LOOP[axis] for axis in ("ailerons", "elevator")}
         command = PIDTuningsCommand(pids={"ratePIDs": two_axes, "stabPIDs": two_axes})
         assert await ask(up, command) is None
-        assert gains.held.stabilize.elevator.p == 3.25
+        assert gains.current.stabilize.elevator.p == 3.25
         assert "framing: thesis" in await ask(up, ArmCommand())
         content = up.telemetry_controller.collect()
         assert content["orientation"]["roll"] is not None

@@ -15,7 +15,7 @@ import pytest
 from tests.cogs.black_box_cog.flights import codes_in, messages
 from tests.proxy.program import until
 from up.flight_log.flight_file import flight_files
-from up.flight_log.flight_log import FlightLog
+from up_flightlog.read.flight_log import FlightLog
 
 ROOT = Path(__file__).parents[3]
 CONFIG = {
@@ -103,14 +103,15 @@ def only_file(folder):
 
 
 def test_stopped_it_leaves_a_whole_file(aircraft, tmp_path):
-    one = aircraft()
+    one = aircraft(flights=None, environ={"XDG_STATE_HOME": str(tmp_path)})
+    folder = tmp_path / "raspilot" / "flights"
     for _ in range(50):
         one.speak()
     one.logged("recording_started")
     one.speak()
-    until(lambda: 5.1 in levels_in(only_file(tmp_path / "flights")), "the last word")
+    until(lambda: 5.1 in levels_in(only_file(folder)), "the last word")
     assert one.stop() == 0
-    log = FlightLog.read([only_file(tmp_path / "flights")])
+    log = FlightLog.read([only_file(folder)])
     assert log.is_complete and not log.problems
     assert log.series("android.battery", "level")[1] == [number / 10 for number in range(1, 52)]
     assert {"config/config.yml", "config/android.yml"} <= set(log.attachments)
@@ -139,7 +140,7 @@ def test_killed_it_leaves_a_file_that_lacks_a_second_at_most(aircraft, tmp_path)
     assert len(levels) > 50
 
 
-def test_a_daemon_that_nobody_speaks_to_leaves_nothing(aircraft, tmp_path):
+def test_a_daemon_without_peers_leaves_no_file(aircraft, tmp_path):
     one = aircraft()
     one.logged("started")
     one.stop()
@@ -156,14 +157,6 @@ def test_two_daemons_share_a_folder(aircraft, tmp_path):
     files = flight_files(tmp_path / "flights")
     assert [each.number for each in files] == [1, 2]
     assert all(FlightLog.read([each.path]).is_complete for each in files)
-
-
-def test_the_default_folder_is_that_of_the_user(aircraft, tmp_path):
-    one = aircraft(flights=None, environ={"XDG_STATE_HOME": str(tmp_path / "state")})
-    one.speak()
-    one.logged("recording_started")
-    one.stop()
-    assert len(flight_files(tmp_path / "state" / "raspilot" / "flights")) == 1
 
 
 def test_the_reactors_thread_never_touches_the_folder(aircraft, tmp_path):

@@ -27,7 +27,7 @@ def names(path):
     return sorted(each.name for each in path.iterdir())
 
 
-def test_numbers_run_on_whatever_the_clock_says(tmp_path):
+def test_numbers_increase_whatever_the_clock(tmp_path):
     folder = folder_in(tmp_path / "deep" / "flights")
     made = []
     for start_unix_s in (START_UNIX_S, 0, START_UNIX_S):
@@ -41,7 +41,7 @@ def test_numbers_run_on_whatever_the_clock_says(tmp_path):
     ]
 
 
-def test_a_file_that_is_there_is_never_written_over(tmp_path):
+def test_an_existing_file_is_never_overwritten(tmp_path):
     folder = folder_in(tmp_path)
     first, descriptor = folder.create(START_UNIX_S, "kite")
     os.close(descriptor)
@@ -131,7 +131,7 @@ def test_without_locks_it_goes_by_names(tmp_path, monkeypatch):
     assert [each.number for each in folder.make_room(file)] == [1]
 
 
-def test_flights_make_way_for_what_shall_stay_free(tmp_path):
+def test_flights_are_deleted_for_the_space_to_keep_free(tmp_path):
     disk = TestedDisk()
     disk.free = 500
     remove = disk.remove
@@ -147,9 +147,9 @@ def test_flights_make_way_for_what_shall_stay_free(tmp_path):
     assert [each.number for each in gone] == [1, 2]
 
 
-def test_when_that_is_not_enough_it_is_one_sentence(tmp_path):
+def test_too_little_space_is_an_error(tmp_path):
     disk = TestedDisk()
     disk.free = 50_000_000
     old(tmp_path, 1)
-    with pytest.raises(NoRoomError, match=r"^50 MB are free in .*, and 200 MB shall stay free"):
+    with pytest.raises(NoRoomError, match="50 MB"):
         folder_in(tmp_path, keep_free=200e6, disk=disk).make_room()

@@ -1,8 +1,6 @@
 """The log has the reading that its provider used, whichever source came first."""
 
 import pytest
-from black_box_cog.export.log_track import points_of
-from black_box_cog.report.report_data import read_report_data
 from twisted.internet.task import Clock
 
 from tests.cogs.black_box_cog.flights import PHONE, Flight
@@ -10,11 +8,14 @@ from tests.support.system import build_up
 from up.commands.location_command import LocationCommand
 from up.commands.origin import Origin
 from up.commands.roles import Role
-from up.flight_log.flight_log import FlightLog
-from up.flight_log.summary import summarise
-from up.flight_log.telemetry_frames import frames
-from up.flight_log.track_statistics import fixes
 from up.providers.up_location_provider import UpLocationProvider
+from up_flightlog.export.track import points_of
+from up_flightlog.findings.flight_context import FlightContext
+from up_flightlog.findings.summary import summarise
+from up_flightlog.read.flight_log import FlightLog
+from up_flightlog.read.telemetry_frames import frames
+from up_flightlog.read.track_statistics import fixes
+from up_flightlog.report.report_data import read_report_data
 
 GPS = Origin("gps", Role.SENSOR)
 GPS_AWAY_S = (30, 40)
@@ -62,7 +63,7 @@ def test_the_track_follows_the_provider(flown):
 
 def test_the_report_and_the_replay_follow_it_too(flown):
     log, used = flown
-    assert list(read_report_data(log).speed.values) == [
+    assert list(read_report_data(log, FlightContext(log)).speed.values) == [
         {"gps": 20.0, "android": 10.0}[link] for link, *_ in used
     ]
     # 20 m aside the phone would add 111 m for every change of the source.
@@ -76,5 +77,5 @@ def test_the_report_and_the_replay_follow_it_too(flown):
 
 def test_without_a_selection_the_first_source_is_followed(flown, monkeypatch):
     log, _ = flown
-    monkeypatch.setattr("up.flight_log.followed.SELECTED", "some.other")
+    monkeypatch.setattr("up_flightlog.read.source_filter.SELECTED", "some.other")
     assert {each.latitude_deg for each in fixes(log)} == {50.001}

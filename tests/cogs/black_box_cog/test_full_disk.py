@@ -43,7 +43,7 @@ def told(tmp_path_factory):
     return flown_on(tmp_path_factory.mktemp("disk") / "small", SIZE)
 
 
-def test_it_stops_and_says_so_once(told):
+def test_a_full_disk_stops_the_recording_and_is_reported_once(told):
     full = told["full"]
     assert told["free_when_full"] == 0
     assert not full["recording"]
@@ -58,7 +58,7 @@ def test_what_was_recorded_stays_readable_up_to_its_last_whole_record(told):
     assert told["whole"] and told["complete"][0] is False
 
 
-def test_with_room_again_the_flight_goes_on_in_another_part(told):
+def test_with_room_again_the_flight_continues_in_another_part(told):
     assert told["later"] == {
         "recording": True,
         "problem": None,
@@ -72,7 +72,7 @@ def test_with_room_again_the_flight_goes_on_in_another_part(told):
     assert told["codes"].count("recording_stopped") == 1
 
 
-def test_a_read_only_disk_is_said_once(tmp_path):
+def test_a_read_only_disk_is_reported_once(tmp_path):
     told = flown_on(tmp_path / "small", f"{SIZE},ro", "read-only")
     assert told["files"] == []
     assert told["read_only"]["problem"].endswith("Read-only file system")

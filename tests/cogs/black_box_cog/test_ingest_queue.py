@@ -8,7 +8,7 @@ from up.commands.telemetry_commands import TelemetryCommand
 PLACE = OrientationCommand(1.0, 2.0, 3.0)
 
 
-def test_what_waits_is_bounded_by_what_it_takes_too():
+def test_waiting_entries_are_bounded_by_their_memory():
     queue = IngestQueue(1_000_000)
     for _ in range(LIMIT_BYTES // 4000):
         queue.put(Recorded("companion.air", "x" * 4000))

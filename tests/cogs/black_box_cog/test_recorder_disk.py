@@ -15,7 +15,7 @@ from tests.cogs.black_box_cog.flights import (
     numbers_in,
 )
 from tests.up.commands.samples import Log
-from up.flight_log.flight_log import FlightLog
+from up_flightlog.read.flight_log import FlightLog
 
 
 def logged_errors(log):
@@ -31,7 +31,7 @@ def logged_errors(log):
         ("make_folder", errno.EROFS),
     ],
 )
-def test_a_disk_that_refuses_is_said_once_and_tried_again_each_minute(tmp_path, call, number):
+def test_a_disk_error_is_reported_once_and_retried_each_minute(tmp_path, call, number):
     flight = Flight(tmp_path)
     said = flight.fly(15)
     with Log() as log:
@@ -57,8 +57,8 @@ def test_a_disk_that_refuses_is_said_once_and_tried_again_each_minute(tmp_path, 
     assert numbers == sorted(numbers) and numbers[-1] == said - 1
 
 
-@pytest.mark.parametrize("room", range(0, 3000, 97))
-def test_a_disk_that_is_full_at_any_byte_leaves_files_that_end_with_a_whole_record(tmp_path, room):
+@pytest.mark.parametrize("room", range(0, 3000, 397))
+def test_a_disk_full_at_any_byte_leaves_whole_records(tmp_path, room):
     disk = HalfFullDisk()
     flight = Flight(tmp_path, disk)
     flight.fly(2)
@@ -93,7 +93,7 @@ def test_a_try_without_success_leaves_no_file(tmp_path):
     assert flight.files == []
 
 
-def test_with_too_little_free_it_ends_politely_and_goes_on_later(tmp_path):
+def test_with_too_little_free_space_it_ends_and_continues_later(tmp_path):
     flight = Flight(tmp_path, keep_free_mb=200.0)
     flight.disk.free = 300_000_000
     flight.fly(15)
@@ -139,7 +139,7 @@ def test_one_whose_file_is_removed_in_flight_begins_another(tmp_path, what):
     assert numbers[0] <= 60 and numbers == list(range(numbers[0], 100))
 
 
-def test_a_folder_that_is_a_file_is_said(tmp_path):
+def test_a_folder_that_is_a_file_is_reported(tmp_path):
     flight = Flight(tmp_path)
     flight.path.write_text("no folder")
     with Log() as log:
@@ -183,7 +183,7 @@ def test_a_disk_that_hangs_is_a_problem_while_it_does(tmp_path):
     assert flight.status.problem is None and flight.status.recording
 
 
-def test_a_round_that_fails_is_a_problem_and_what_it_had_is_counted(tmp_path, monkeypatch):
+def test_a_failed_round_is_a_problem_and_its_entries_are_counted(tmp_path, monkeypatch):
     flight = Flight(tmp_path)
     flight.fly(5)
 
@@ -202,7 +202,7 @@ def test_a_round_that_fails_is_a_problem_and_what_it_had_is_counted(tmp_path, mo
     assert (flight.status.problem, flight.status.dropped) == (None, 8)
 
 
-def test_after_the_end_nothing_is_wrong_with_a_recorder_that_is_silent(tmp_path):
+def test_a_finished_recorder_has_no_problem(tmp_path):
     flight = Flight(tmp_path)
     flight.fly(1)
     flight.recorder.finish()

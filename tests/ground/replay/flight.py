@@ -2,8 +2,8 @@
 
 import math
 
+from tests.flightlog.logs import LogMaker
 from tests.ground.aircraft import frame
-from tests.up.flight_log.logs import LogMaker
 
 LENGTH_S = 30.0
 

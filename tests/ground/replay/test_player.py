@@ -5,7 +5,7 @@ from itertools import pairwise
 import pytest
 from twisted.internet.task import Clock
 
-from up.flight_log.telemetry_frames import Frame
+from up_flightlog.read.telemetry_frames import Frame
 from up_ground.replay.player import Player
 
 

@@ -2,9 +2,9 @@
 
 import pytest
 
+from tests.flightlog.logs import LogMaker
 from tests.ground.replay.flight import LENGTH_S, data_at, write_flight
-from tests.up.flight_log.logs import LogMaker
-from up.flight_log.flight_log import FlightLog
+from up_flightlog.read.flight_log import FlightLog
 from up_ground.replay.timeline import ReplayTimeline, Reported
 
 

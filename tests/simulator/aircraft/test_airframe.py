@@ -5,7 +5,7 @@ import shutil
 import sys
 
 import pytest
-from arduino_cog.airframe import AIRFRAME
+from arduino_cog.profile import AIRFRAME
 from hypothesis import given
 from hypothesis import strategies as st
 

@@ -62,9 +62,7 @@ class Aboard:
 
     def stands(self):
         """Return the status without the values that may differ between two clocks."""
-        return dataclasses.replace(
-            self.status(), loop_us=0, late_us=0, receiver_age_ms=0, imu_age_ms=0
-        )
+        return dataclasses.replace(self.status(), loop_us=0, late_us=0, rx_age_ms=0, imu_age_ms=0)
 
     def attitude(self):
         orientation = self.tap.orientation

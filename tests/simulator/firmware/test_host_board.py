@@ -39,8 +39,8 @@ def test_it_boots_as_the_chip_does(library, elf):
     pair.each("run_ms", 1400)
     assert pair.agree_on_pulses() == NEUTRAL_US
     status = pair.agree("stands")
-    assert (status.mode, status.is_armed, status.is_imu_valid) == ("a", False, True)
-    assert status.cause == 1
+    assert (status.mode_letter, status.is_armed, status.is_imu_valid) == ("a", False, True)
+    assert status.reset_cause == 1
 
 
 @pytest.mark.parametrize("sticks", [(1000, 2000, 1700), (1234.5, 1765.5, 1111), (887, 2113, 2000)])
@@ -71,7 +71,7 @@ def test_modes_arming_and_disarming_go_the_same_way(pair):
     ):
         pair.each("sticks", **sticks)
         status = pair.agree("stands")
-        seen.append((status.mode, status.is_armed))
+        seen.append((status.mode_letter, status.is_armed))
         pair.agree_on_pulses(within_us=2.0)
     assert {mode for mode, _ in seen} == {"a", "f"}
     assert {is_armed for _, is_armed in seen} == {True, False}
@@ -138,7 +138,7 @@ def test_raspberry_flies_both_alike(pair):
         pair.each("run_ms", 40)
     assert pair.agree_on_pulses()[::3] == pytest.approx((1333, 1555), abs=1)
     pair.each("run_ms", 500)
-    assert pair.agree("stands").mode == "f"
+    assert pair.agree("stands").mode_letter == "f"
 
 
 def test_streams_come_as_often(pair):
@@ -161,7 +161,7 @@ def test_bytes_of_any_kind_are_dropped_alike(pair):
     for each in (pair.host, pair.chip):
         # A frame that was left unfinished swallows the first Command after it.
         each.send("s")
-    dropped = pair.agree("stands").dropped
+    dropped = pair.agree("stands").frame_errors
     assert dropped > 20
 
 
@@ -217,14 +217,14 @@ def test_a_faulty_imu_is_seen_alike_and_comes_back(pair, fault):
         each.board.imu.set_fault(fault)
     pair.each("run_ms", 400)
     status = pair.agree("stands")
-    assert (status.is_imu_valid, status.mode) == (False, "a")
+    assert (status.is_imu_valid, status.mode_letter) == (False, "a")
     assert pair.agree_on_pulses()[0] == pytest.approx(1600, abs=1)
     for each in (pair.host, pair.chip):
         each.board.imu.set_fault("well")
         assert each.board.imu.fault == "well"
     pair.each("run_ms", 1500)
     status = pair.agree("stands")
-    assert (status.is_imu_valid, status.mode) == (True, "f")
+    assert (status.is_imu_valid, status.mode_letter) == (True, "f")
 
 
 def test_eeprom_images_interchange_both_ways(library, elf):
@@ -276,7 +276,7 @@ def test_a_watchdog_reset_in_flight_comes_back_armed_and_banked(library, elf):
     assert min(pair.host.board.pulse_ages_us()) > 15_000, "pulses came from a chip in reset"
     pair.each("run_ms", 450)
     status = pair.agree("stands")
-    assert (status.mode, status.is_armed, status.cause) == ("f", True, 0x88)
+    assert (status.mode_letter, status.is_armed, status.reset_cause) == ("f", True, 0x88)
     host, chip = pair.each("attitude")
     assert host == pytest.approx(chip, abs=0.1)
     assert host[0] == pytest.approx(25, abs=1)
@@ -290,7 +290,7 @@ def test_no_other_reset_arms(pair, cause, bits):
     pair.board("reset", cause)
     pair.each("run_ms", 800)
     status = pair.agree("stands")
-    assert (status.is_armed, status.cause) == (False, bits)
+    assert (status.is_armed, status.reset_cause) == (False, bits)
     # Nor does the switch, which stands high: an edge is needed.
     pair.each("sticks", throttle=LOW)
     assert not pair.agree("stands").is_armed

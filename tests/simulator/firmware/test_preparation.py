@@ -146,7 +146,7 @@ def test_a_refusal_says_what_and_why(elf):
     armed.set_stick("aux2", 2000)
     armed.run_us(500_000)
     with pytest.raises(
-        PreparationError, match="refuses the profile of the airframe: only disarmed"
+        PreparationError, match="refuses the profile of the airframe: only on the ground"
     ):
         prepare_eeprom(armed, {"motor": False}, {})
 

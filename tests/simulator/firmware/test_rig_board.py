@@ -62,8 +62,8 @@ def test_a_reset_says_its_cause(aboard, cause):
     aboard.board.reset(cause)
     aboard.run_ms(1500)
     status = aboard.status()
-    assert status.cause & bit
-    assert status.seconds <= 2
+    assert status.reset_cause & bit
+    assert status.uptime_s <= 2
     assert status.is_restored is (cause == "watchdog")
 
 

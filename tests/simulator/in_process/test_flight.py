@@ -94,12 +94,12 @@ def test_the_flight_controller_on_the_raspberry_flies_in_output_mode(fly):
     flying = fly(OF_THE_PI, arms=True, start=Start(roll_deg=20))
     flying.start()
     flying.board.set_stick("aux1", AUTO_US)
-    flying.until(lambda: flying.status.mode == "u", 3.0)
+    flying.until(lambda: flying.status.mode_letter == "u", 3.0)
     flying.fly(1.0)
     modes, rolls_deg = set(), []
 
     def look():
-        modes.add(flying.status.mode)
+        modes.add(flying.status.mode_letter)
         rolls_deg.append(flying.state.roll_deg)
 
     flying.fly(4.0, look)
@@ -113,9 +113,9 @@ def test_a_killed_daemon_leaves_level_flight_to_the_board_within_250_ms(fly):
     flying = fly(OF_THE_PI, arms=True, start=Start(roll_deg=20))
     flying.start()
     flying.board.set_stick("aux1", AUTO_US)
-    flying.until(lambda: flying.status.mode == "u", 3.0)
+    flying.until(lambda: flying.status.mode_letter == "u", 3.0)
     flying.fly(1.5)
-    assert mode_of(flying) and flying.status.mode == "u"
+    assert mode_of(flying) and flying.status.mode_letter == "u"
     flying.raspilot.kill()
     took_s = flying.until(lambda: mode_of(flying) == "f", 1.0)
     assert took_s <= 0.25
@@ -125,14 +125,14 @@ def test_a_killed_daemon_leaves_level_flight_to_the_board_within_250_ms(fly):
     assert abs(flying.state.roll_deg) < 6
     # Back, it takes the aircraft again without anybody's help.
     flying.raspilot.start()
-    assert flying.until(lambda: flying.status.mode == "u", 3.0) < 2.0
+    assert flying.until(lambda: flying.status.mode_letter == "u", 3.0) < 2.0
 
 
 def test_a_frozen_daemon_loses_the_aircraft_and_takes_it_again(fly):
     flying = fly(OF_THE_PI, arms=True, link=CELLULAR)
     flying.start()
     flying.board.set_stick("aux1", AUTO_US)
-    flying.until(lambda: flying.status.mode == "u", 3.0)
+    flying.until(lambda: flying.status.mode_letter == "u", 3.0)
     flying.fly(1.5)
     flying.raspilot.freeze()
     assert flying.until(lambda: mode_of(flying) == "f", 1.0) <= 0.25
@@ -148,7 +148,7 @@ def test_a_frozen_daemon_loses_the_aircraft_and_takes_it_again(fly):
             ages_s.append(flying.raspilot.up.beacons.age_s(flying.ground.beacon))
 
     flying.fly(2.0, look)
-    assert flying.status.mode == "u"
+    assert flying.status.mode_letter == "u"
     assert len(ages_s) > 10
     assert max(ages_s) < 0.3
 
@@ -157,7 +157,7 @@ def test_leaving_auto_takes_the_aircraft_from_the_daemon_at_once(fly):
     flying = fly(OF_THE_PI, arms=True)
     flying.start()
     flying.board.set_stick("aux1", AUTO_US)
-    flying.until(lambda: flying.status.mode == "u", 3.0)
+    flying.until(lambda: flying.status.mode_letter == "u", 3.0)
     flying.board.set_stick("aux1", ACRO_US)
     assert flying.until(lambda: mode_of(flying) == "a", 1.0) <= 0.06
 
@@ -245,7 +245,7 @@ def test_noise_on_the_serial_line_is_dropped_and_counted_and_the_flight_goes_on(
     flying = fly(OF_THE_PI, arms=True, start=Start(roll_deg=10))
     flying.start()
     flying.board.set_stick("aux1", AUTO_US)
-    flying.until(lambda: flying.status.mode == "u", 3.0)
+    flying.until(lambda: flying.status.mode_letter == "u", 3.0)
     noise = SerialNoise(60, flipped_percent=0.2, inserted_percent=0.05, lost_percent=0.05)
     flying.board.wires.set_noise(noise, flying.board.now_s)
     flying.fly(4.0)

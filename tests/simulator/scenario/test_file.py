@@ -11,9 +11,9 @@ from hypothesis import strategies as st
 
 import up_simulator.scenario
 from tests.simulator.scenario.minimal import EXPECT, HEAD, scenario
+from up.commands.board_schema import FLIGHT_MODES
 from up.config import ConfigErrors
 from up_simulator.scenario.file import parse_scenario, read_scenario
-from up_simulator.scenario.sampler import CAUSES, MODES
 from up_simulator.scenario.scenario import Scenario
 from up_simulator.scenario.words import words_of
 from up_simulator.verbs.shelf import shipped_paths
@@ -227,7 +227,7 @@ def test_a_wrong_expectation_is_told(expectation, what):
         ("signal: board.mode, is_not: fbw", "did you mean 'FBW'?"),
         ("signal: board.mode, is: 3", "it has ACRO, RATE, FBW, SETPOINT, OUTPUT, RTH"),
         ("signal: board.mode, becomes: on, within_s: 1", 'is never "on"'),
-        ("signal: board.reset_cause, is: power watchdg", "did you mean 'watchdog'?"),
+        ("signal: board.reset_cause, is: power-on watchdg", "did you mean 'watchdog'?"),
         ("signal: ground.source.orientation, is: phone", "it has arduino, android"),
         ("signal: ground.mode, is: blackbox", "did you mean 'black box'?"),
         ("signal: ground.arduino.reset_cause, is: power", "did you mean 'power-on'?"),
@@ -243,7 +243,7 @@ def test_a_word_that_a_signal_never_has_is_told(expectation, what):
     "expectation",
     [
         "signal: board.mode, is: null",
-        "signal: board.reset_cause, is: power brown-out",
+        "signal: board.reset_cause, is: power-on brown-out",
         "signal: ground.arduino.reset_cause, is: 'watchdog, state restored'",
         "signal: ground.vetoes, is: any text",
     ],
@@ -253,8 +253,8 @@ def test_a_word_that_a_signal_has_is_taken(expectation):
 
 
 def test_the_words_are_those_that_the_flight_computer_and_the_daemon_say():
-    assert words_of("board.mode") == tuple(MODES.values())
-    assert words_of("board.reset_cause") == tuple(CAUSES.values())
+    assert words_of("board.mode") == tuple(FLIGHT_MODES.values())
+    assert words_of("board.reset_cause") == ("power-on", "external", "brown-out", "watchdog")
     every = ArduinoStatusCommand(*(0xFF for _ in fields(ArduinoStatusCommand))).reset_causes
     assert set(every.split(", ")) | {"unknown"} == set(words_of("ground.arduino.reset_cause"))
 

@@ -6,7 +6,7 @@ import sys
 from pathlib import Path
 
 from tests.support.firmware import build_firmware
-from up.flight_log.flight_log import FlightLog
+from up_flightlog.read.flight_log import FlightLog
 from up_simulator.scenario.log import read_log
 
 LIMIT_S = 240.0

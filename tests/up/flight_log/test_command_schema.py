@@ -4,8 +4,8 @@ from typing import ClassVar
 
 import pytest
 
+from tests.flightlog.logs import LogMaker
 from tests.up.flight_log.commands import example, installed_commands
-from tests.up.flight_log.logs import LogMaker
 from up.commands.command import BaseCommand, value
 from up.commands.origin import INTERNAL, Origin
 from up.commands.roles import Role
@@ -92,15 +92,7 @@ def test_every_command_has_a_schema_that_its_data_satisfy(cls):
         assert "has no" in fault_of(short, schema)
 
 
-@pytest.mark.parametrize("cls", COMMANDS, ids=lambda cls: cls.NAME)
-def test_a_field_of_another_type_breaks_the_schema(cls):
-    schema = schema_of(cls)
-    data = {**example(cls, True).data}
-    for key in schema["properties"].keys() & data.keys():
-        assert fault_of({**data, key: object()}, schema), key
-
-
-def test_units_and_bounds_are_told():
+def test_units_and_bounds():
     @dataclasses.dataclass(frozen=True, slots=True)
     class AirspeedCommand(BaseCommand):
         """How fast the ``air`` passes,
@@ -127,7 +119,7 @@ def test_units_and_bounds_are_told():
                 "description": "m/s",
             },
             "tube": {"type": "string", "enum": ["left", "right", None], "nullable": True},
-            "_origin": {"type": "string", "description": "the link and role that it came from"},
+            "_origin": {"type": "string", "description": "link and role of the sender"},
         },
         "required": ["speed"],
     }
@@ -163,5 +155,5 @@ def test_an_origin_is_a_text_and_back(origin, text):
 @pytest.mark.parametrize(
     ("text", "read"), [("x", ("x", "")), ("a (b", ("a (b", "")), (None, ("", "")), (3, ("", ""))]
 )
-def test_any_other_origin_is_no_fault(text, read):
+def test_any_other_origin(text, read):
     assert link_and_role(text) == read

@@ -15,7 +15,7 @@ HERE = Path("flights")
     st.text(max_size=40),
     st.integers(1, 999_999),
 )
-def test_every_name_that_is_made_is_read_again(number, start_unix_s, aircraft, part):
+def test_every_name_is_read_again(number, start_unix_s, aircraft, part):
     made = FlightFile.first(HERE, number, start_unix_s, aircraft).at_part(part)
     assert FlightFile.of(made.path) == made
     assert made.path.parent == HERE
@@ -43,7 +43,7 @@ def test_the_name_reads_like_this():
         "notes.txt",
     ],
 )
-def test_other_names_are_no_flights(name):
+def test_other_names(name):
     assert FlightFile.of(HERE / name) is None
 
 

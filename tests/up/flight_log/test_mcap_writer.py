@@ -9,13 +9,13 @@ from hypothesis import strategies as st
 from mcap.reader import SeekingReader, make_reader
 from mcap.stream_reader import StreamReader
 
-from tests.up.flight_log.logs import START_NS, LogMaker, small_log
+from tests.flightlog.logs import START_NS, LogMaker, small_log
 from up.flight_log.mcap_format import MAGIC
 from up.flight_log.mcap_writer import McapWriter
 from up.version import VERSION
 
 
-def test_the_official_reader_finds_everything():
+def test_the_official_reader_reads_it():
     reader = make_reader(io.BytesIO(small_log()), validate_crcs=True)
     assert isinstance(reader, SeekingReader)
     assert reader.get_header().library == f"raspilot {VERSION}"
@@ -85,7 +85,7 @@ def test_each_call_is_one_write_of_whole_records():
     assert [(m.log_time, m.publish_time) for m in messages] == [(1, 1), (2, 1)]
 
 
-def test_a_record_that_was_not_written_does_not_count():
+def test_a_failed_write_does_not_count():
     out = bytearray()
     is_full = False
 
@@ -119,7 +119,7 @@ def test_a_record_that_was_not_written_does_not_count():
     list(StreamReader(io.BytesIO(out), validate_crcs=True).records)
 
 
-def test_times_out_of_order_make_right_bounds():
+def test_times_out_of_order():
     maker = LogMaker()
     for time_s in (5, 2, 9, 3):
         maker.add(time_s, "a")
@@ -128,7 +128,7 @@ def test_times_out_of_order_make_right_bounds():
     assert statistics.message_end_time == START_NS + 9_000_000_000
 
 
-def test_a_log_without_messages_is_whole():
+def test_a_log_without_messages():
     out = bytearray()
     writer = McapWriter(out.extend)
     writer.start()
@@ -138,26 +138,26 @@ def test_a_log_without_messages_is_whole():
 
 
 @pytest.mark.parametrize(("channel", "time_ns"), [(0, 1), (2, 1), (-1, 1), (1, -1), (1, 2**64)])
-def test_what_mcap_cannot_hold_is_refused_in_a_sentence(channel, time_ns):
+def test_values_out_of_range_are_rejected(channel, time_ns):
     out = bytearray()
     writer = McapWriter(out.extend)
     writer.start()
     writer.add_channel("a", 0)
     size = len(out)
-    with pytest.raises(ValueError, match="no message for channel"):
+    with pytest.raises(ValueError, match=f"channel {channel}"):
         writer.message(channel, time_ns, b"{}")
-    with pytest.raises(ValueError, match="no schema 7"):
+    with pytest.raises(ValueError, match="7"):
         writer.add_channel("a", 7)
-    with pytest.raises(ValueError, match="no such time"):
+    with pytest.raises(ValueError, match="-1 ns"):
         writer.add_attachment("a", "", b"", -1)
     assert len(out) == size
 
 
-def test_there_is_an_end_to_channels():
+def test_channels_are_bounded():
     writer = McapWriter(lambda data: None)
     for _ in range(65535):
         writer.add_channel("a", 0)
-    with pytest.raises(ValueError, match="65535 channels at most"):
+    with pytest.raises(ValueError, match="65535"):
         writer.add_channel("a", 0)
 
 
@@ -170,7 +170,7 @@ texts = st.text(max_size=20)
     messages=st.lists(st.tuples(st.integers(0, 2**64 - 1), st.binary(max_size=50))),
     metadata=st.dictionaries(texts, texts, max_size=3),
 )
-def test_whatever_is_written_is_read_officially(profile, topics, messages, metadata):
+def test_the_official_reader_reads_any_content(profile, topics, messages, metadata):
     out = bytearray()
     writer = McapWriter(out.extend, profile)
     writer.start()
@@ -188,7 +188,7 @@ def test_whatever_is_written_is_read_officially(profile, topics, messages, metad
     assert next(reader.iter_metadata()).metadata == metadata
 
 
-def test_a_text_with_a_lone_surrogate_does_not_end_the_recording():
+def test_a_lone_surrogate_is_replaced():
     out = bytearray()
     writer = McapWriter(out.extend)
     writer.start()

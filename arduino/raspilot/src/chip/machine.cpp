@@ -32,7 +32,7 @@ static constexpr int16_t PIECE_TICKS = 2 * 560;
 static constexpr int16_t KEEP_TICKS = 2 * 340;
 static constexpr int16_t BYTE_TICKS = 2 * 150;
 static constexpr int16_t COMMAND_TICKS = 2 * 390;
-/** After so many slots without time for background work a slot's sample gives way to it. */
+/** After this many slots without background work a slot gives up its sample for it. */
 static constexpr uint8_t PATIENT_SLOTS = 5;
 /** State is kept 50 times a second. */
 static constexpr uint8_t KEEP_SLOTS = 10;
@@ -137,7 +137,7 @@ OUT_OF_LINE void run_slot() {
   work_until(static_cast<uint16_t>(due_ticks - IMU_TICKS));
   read_imu_until(due_ticks);
 
-  // A slot that took several is not made up for: time goes on from here.
+  // Missed slots are not made up for: the time continues from here.
   const uint32_t end = clock::now_us();
   if (static_cast<int32_t>(end - due_us) > SLOT_US) due_us = end;
   reset::feed();

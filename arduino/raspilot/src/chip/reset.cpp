@@ -39,7 +39,7 @@ bool restore(SavedState& state) {
   const bool is_kept = !(cause_at_start & _BV(PORF)) && states.read(state);
   if (is_kept && cause_at_start == _BV(WDRF)) return true;
   // Neither copy may arm after a second reset.
-  states.forget();
+  states.reset();
   if (!is_kept) return false;
   state.authority = AuthorityState();
   state.authority.switch_position = SWITCH_UNKNOWN;

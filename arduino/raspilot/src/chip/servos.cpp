@@ -14,10 +14,10 @@ static constexpr uint16_t STAGGER_TICKS = 40;
 static constexpr uint16_t STAGGER_TICKS = 0;
 #endif
 static constexpr uint16_t FREE_PERIOD_TICKS = 40000;
-static constexpr uint16_t LEAST_PERIOD_TICKS = 12000;
+static constexpr uint16_t MIN_PERIOD_TICKS = 12000;
 /** A rise is planned when it is nearer than this, a slot and how late the next may be. */
 static constexpr int16_t LEAD_TICKS = 6000;
-static constexpr int16_t LEAST_LEAD_TICKS = 600;
+static constexpr int16_t MIN_LEAD_TICKS = 600;
 /** 26 ms without a rise: the receiver is silent, as its frames last 22 ms at most. */
 static constexpr uint8_t SILENT_SLOTS = 13;
 /** 20 ms of a free frame less a lead: no rise is planned before. */
@@ -55,7 +55,7 @@ void Servos::plan_channel(Channel channel, uint16_t now) {
   if (!plan.has_next) {
     if (plan.slots >= SILENT_SLOTS) {
       plan.is_free = true;
-      rise = now + LEAST_LEAD_TICKS + channel * STAGGER_TICKS;
+      rise = now + MIN_LEAD_TICKS + channel * STAGGER_TICKS;
     } else if (plan.is_free && plan.slots >= FREE_SLOTS) {
       rise = plan.rise + FREE_PERIOD_TICKS;
     } else {
@@ -65,9 +65,9 @@ void Servos::plan_channel(Channel channel, uint16_t now) {
   const int16_t left = static_cast<int16_t>(rise - now);
   if (left > LEAD_TICKS) return;
   // A late slot has made this one late too; better late than not at all.
-  if (left < LEAST_LEAD_TICKS) rise = now + LEAST_LEAD_TICKS;
+  if (left < MIN_LEAD_TICKS) rise = now + MIN_LEAD_TICKS;
   plan.has_next = false;
-  if (plan.slots < SILENT_SLOTS && static_cast<uint16_t>(rise - plan.rise) < LEAST_PERIOD_TICKS)
+  if (plan.slots < SILENT_SLOTS && static_cast<uint16_t>(rise - plan.rise) < MIN_PERIOD_TICKS)
     return;
   servo_edges::plan(channel, rise);
   plan.rise = rise;

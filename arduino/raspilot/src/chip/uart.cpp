@@ -10,7 +10,7 @@ namespace uart {
 /** Two of the longest Commands arrive faster than a full slot reads them: 11 ms of bytes. */
 static constexpr uint8_t RX_SIZE = 128;
 /** The longest message that is ever sent, and one place that stays empty. */
-static constexpr uint8_t TX_SIZE = LONGEST_COMMAND + FRAME_OVERHEAD + COBS_OVERHEAD + 1;
+static constexpr uint8_t TX_SIZE = MAX_COMMAND + FRAME_OVERHEAD + COBS_OVERHEAD + 1;
 static constexpr uint16_t DIVIDER = (F_CPU / 4 / RASPILOT_BAUD - 1) / 2;
 
 static uint8_t rx[RX_SIZE];

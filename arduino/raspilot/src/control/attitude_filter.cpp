@@ -9,26 +9,26 @@ namespace {
 
 constexpr uint16_t STALE_SLOTS = 25;   // 50 ms
 constexpr uint16_t LOST_SLOTS = 250;   // half a second
-constexpr uint16_t OLDEST_SLOTS = 32767;
+constexpr uint16_t MAX_AGE_SLOTS = 32767;
 constexpr uint16_t SEARCH_SLOTS = 5000;
 constexpr uint8_t FROZEN_COPIES = 24;  // with the one they copy 25 samples, 50 ms
 constexpr uint8_t GOOD_ENOUGH = 10;
 constexpr uint8_t SATURATED_SLOTS = 250;
 // No aircraft and no sensor with a filter of 98 Hz turns 500 deg/s faster after 2 ms.
-constexpr int8_t GREATEST_JUMP = 64;
+constexpr int8_t MAX_JUMP = 64;
 // A senseless sample is forgotten after eight that make sense; after two none is believed until all
 // but one are forgotten.
 constexpr uint8_t DOUBT = 8;
-constexpr uint8_t MOST_DISTRUST = 5 * DOUBT;
-constexpr uint8_t MOST_PENDING_SLOTS = 25;
+constexpr uint8_t MAX_DISTRUST = 5 * DOUBT;
+constexpr uint8_t MAX_PENDING_SLOTS = 25;
 constexpr uint8_t STEPS_A_SLOT = 2;
 
 // One gyro count (1 / 32.8 deg/s) for one slot is 1.0642e-6 rad: 4570.9 in Q32.
 constexpr int16_t TURN_PER_COUNT = 4571;
 // A sixteenth of a degree per second is 149923 in Q36.
 constexpr int32_t BIAS_PER_16TH = 149923;
-constexpr int16_t GREATEST_BIAS_16 = 32 * 16;
-constexpr int32_t GREATEST_BIAS = GREATEST_BIAS_16 * BIAS_PER_16TH;
+constexpr int16_t MAX_BIAS_16 = 32 * 16;
+constexpr int32_t MAX_BIAS = MAX_BIAS_16 * BIAS_PER_16TH;
 constexpr uint8_t BIAS_FRACTION = 4;
 // A sixteenth of a count in sixteenths of a deg/s, Q15.
 constexpr int16_t COUNT_TO_DEG_S = 999;
@@ -40,7 +40,7 @@ constexpr int16_t RATE_Q15 = 28648;
 constexpr int32_t ONE_Q30 = 1L << 30;
 constexpr int32_t ONE_Q28 = 1L << 28;
 constexpr int16_t ONE_Q14 = 1 << 14;
-constexpr int16_t LEAST_COSINE_SQUARED_Q14 = 820;  // pitch of 77 degrees: yaw means little above
+constexpr int16_t MIN_COSINE_SQUARED_Q14 = 820;  // pitch of 77 degrees: yaw means little above
 constexpr uint16_t YAW_PER_Q17 = 5215;             // 2^32 / (2 pi) / 2^17
 constexpr int16_t HALF_CIRCLE_CDEG = 18000;
 // Straight up or down a bank means nothing: 0.2.
@@ -49,7 +49,7 @@ constexpr int16_t MIN_COS_PITCH = 3277;
 // Four samples are collected for one look at the accelerometer, each at most 2 g an axis: halved
 // and turned in any way they stay within 16 bits.
 constexpr uint8_t GROUP = 4;
-constexpr int16_t GREATEST_ACCEL = 8191;
+constexpr int16_t MAX_ACCEL = 8191;
 constexpr int32_t ONE_Q26 = 1L << 26;
 constexpr int32_t SQUARE_TOLERANCE_FINDING = static_cast<int32_t>(0.6 * ONE_Q26);  // 0.63 to 1.26 g
 // Gravity is found by 2^-n of the difference every 8 ms.
@@ -80,7 +80,7 @@ void AttitudeFilter::begin() {
   has_begun_ = true;
   level_.set(calibration_.level_roll_cdeg, calibration_.level_pitch_cdeg);
   for (uint8_t axis = 0; axis < 3; ++axis) {
-    const int16_t bias_16 = clamped16(calibration_.gyro_bias_16[axis], GREATEST_BIAS_16);
+    const int16_t bias_16 = clamped16(calibration_.gyro_bias_16[axis], MAX_BIAS_16);
     state_.bias_q36[axis] = bias_16 * BIAS_PER_16TH;
     // No gyro is without bias: three zeros are what EEPROM holds before one was measured.
     if (bias_16 != 0) state_.has_bias = true;
@@ -126,11 +126,11 @@ OUT_OF_LINE void AttitudeFilter::on_sample(const ImuSample& sample, uint32_t) {
 void AttitudeFilter::on_missing(uint32_t) { miss(); }
 
 OUT_OF_LINE void AttitudeFilter::miss() {
-  if (missing_slots_ < OLDEST_SLOTS) ++missing_slots_;
+  if (missing_slots_ < MAX_AGE_SLOTS) ++missing_slots_;
   if (missing_slots_ < STALE_SLOTS) return;
   is_fresh_ = false;
   good_samples_ = 0;
-  stillness_.forget();
+  stillness_.reset();
   if (missing_slots_ == STALE_SLOTS) tilt_.widen(KEPT_TILT);
   if (missing_slots_ >= LOST_SLOTS) lose();
 }
@@ -161,11 +161,11 @@ OUT_OF_LINE bool AttitudeFilter::is_senseless(const ImuSample& sample) {
   for (uint8_t axis = 0; axis < 3; ++axis) {
     const int8_t rate = static_cast<int8_t>(sample.gyro[axis] >> 8);
     const int16_t jump = static_cast<int16_t>(rate - gyro_[axis]);
-    if (clamped16(jump, GREATEST_JUMP) != jump) is_bad = true;
+    if (clamped16(jump, MAX_JUMP) != jump) is_bad = true;
     gyro_[axis] = rate;
   }
   if (is_bad) {
-    distrust_ = distrust_ < MOST_DISTRUST ? static_cast<uint8_t>(distrust_ + DOUBT) : MOST_DISTRUST;
+    distrust_ = distrust_ < MAX_DISTRUST ? static_cast<uint8_t>(distrust_ + DOUBT) : MAX_DISTRUST;
   } else if (distrust_ != 0) {
     --distrust_;
   }
@@ -190,12 +190,12 @@ OUT_OF_LINE bool AttitudeFilter::is_copy(const ImuSample& sample) {
 /** More than one sample that was missed is made up for in the slots to come. */
 OUT_OF_LINE void AttitudeFilter::count_slots() {
   const uint16_t slots = static_cast<uint16_t>(pending_slots_ + missing_slots_ + 1);
-  pending_slots_ = static_cast<uint8_t>(slots < MOST_PENDING_SLOTS ? slots : MOST_PENDING_SLOTS);
+  pending_slots_ = static_cast<uint8_t>(slots < MAX_PENDING_SLOTS ? slots : MAX_PENDING_SLOTS);
   missing_slots_ = 0;
   has_sample_ = true;
 }
 
-OUT_OF_LINE void AttitudeFilter::take_own_bias() {
+OUT_OF_LINE void AttitudeFilter::use_own_bias() {
   for (uint8_t axis = 0; axis < 3; ++axis) {
     state_.bias_q36[axis] = product(stillness_.mean_q4()[axis], TURN_PER_COUNT);
   }
@@ -209,7 +209,7 @@ OUT_OF_LINE void AttitudeFilter::take_own_bias() {
 
 /** The still second that was searched for: its bias also flies after a reset with lost memory. */
 void AttitudeFilter::on_still() {
-  take_own_bias();
+  use_own_bias();
   for (uint8_t axis = 0; axis < 3; ++axis) {
     const int16_t change_16 = difference_of(mean_16(axis), calibration_.gyro_bias_16[axis]);
     if (clamped16(change_16, BIAS_CHANGE_16) != change_16) has_new_bias_ = true;
@@ -231,12 +231,12 @@ bool AttitudeFilter::take_new_bias() {
   return has_new_bias;
 }
 
-/** What is felt as up, turned over: the chip's x forward, y left, z up. */
+/** The measured up direction, inverted: the chip's x forward, y left, z up. */
 void AttitudeFilter::collect(const ImuSample& sample) {
   int16_t sign = -1;
   for (uint8_t axis = 0; axis < 3; ++axis) {
     if (phase_ == 0) measured_[axis] = 0;
-    const int16_t felt = clamped16(sample.accel[axis], GREATEST_ACCEL);
+    const int16_t felt = clamped16(sample.accel[axis], MAX_ACCEL);
     measured_[axis] = static_cast<int16_t>(measured_[axis] + sign * felt);
     sign = 1;
   }
@@ -258,7 +258,7 @@ void AttitudeFilter::integrate(const int16_t* gyro) {
   attitude_.pitch_rate_16 = times_q15(angle[1], RATE_Q15);
   attitude_.yaw_rate_16 = times_q15(angle[2], RATE_Q15);
   integrate_yaw(angle);
-  // What is fixed to the earth turns against the aircraft.
+  // A direction fixed to the earth turns against the aircraft.
   int32_t change[3];
   cross(down_, angle, change);
   for (uint8_t axis = 0; axis < 3; ++axis) {
@@ -272,7 +272,7 @@ void AttitudeFilter::integrate_yaw(const int16_t* angle) {
   yaw_change_ += (product(down_[1], angle[1]) + product(down_[2], angle[2])) >> 2;
   if ((phase_ & 1) == 0) return;
   int16_t cosine_squared = static_cast<int16_t>(ONE_Q14 - times_q14(down_[0], down_[0]));
-  if (cosine_squared < LEAST_COSINE_SQUARED_Q14) cosine_squared = LEAST_COSINE_SQUARED_Q14;
+  if (cosine_squared < MIN_COSINE_SQUARED_Q14) cosine_squared = MIN_COSINE_SQUARED_Q14;
   const int32_t change_q17 = yaw_change_ / cosine_squared;
   yaw_change_ %= cosine_squared;
   state_.yaw += static_cast<uint32_t>(change_q17) * YAW_PER_Q17;
@@ -325,7 +325,7 @@ void AttitudeFilter::apply(TiltCorrection& correction) {
   for (uint8_t axis = 0; axis < 3; ++axis) {
     state_.gravity_q30[axis] += change[axis] / 2;
     int32_t& bias = state_.bias_q36[axis];
-    bias = clamped(bias + product(correction.bias_q28[axis], 256), GREATEST_BIAS);
+    bias = clamped(bias + product(correction.bias_q28[axis], 256), MAX_BIAS);
   }
 }
 
@@ -352,7 +352,7 @@ OUT_OF_LINE void AttitudeFilter::find_angles() {
 }
 
 uint16_t AttitudeFilter::age_ms(uint32_t) const {
-  if (!has_sample_ || missing_slots_ == OLDEST_SLOTS) return 65535;
+  if (!has_sample_ || missing_slots_ == MAX_AGE_SLOTS) return 65535;
   return static_cast<uint16_t>(missing_slots_ * 2);
 }
 
@@ -369,7 +369,7 @@ Reason AttitudeFilter::refusal() const {
 
 Reason AttitudeFilter::calibrate_gyro() {
   if (refusal() != Reason::NONE) return refusal();
-  take_own_bias();
+  use_own_bias();
   keep_bias();
   return Reason::NONE;
 }
@@ -380,8 +380,8 @@ Reason AttitudeFilter::calibrate_level() {
   level_.tilt(down_);
   find_angles();
   const bool is_in_range =
-      clamped16(attitude_.roll_cdeg, Level::GREATEST_CDEG) == attitude_.roll_cdeg &&
-      clamped16(attitude_.pitch_cdeg, Level::GREATEST_CDEG) == attitude_.pitch_cdeg;
+      clamped16(attitude_.roll_cdeg, Level::MAX_CDEG) == attitude_.roll_cdeg &&
+      clamped16(attitude_.pitch_cdeg, Level::MAX_CDEG) == attitude_.pitch_cdeg;
   if (is_in_range) {
     calibration_.level_roll_cdeg = attitude_.roll_cdeg;
     calibration_.level_pitch_cdeg = attitude_.pitch_cdeg;

@@ -22,7 +22,7 @@ struct AttitudeState {
 };
 
 /**
- * Everything else that the filter remembers; all of it zero at first. What is used most comes first:
+ * Everything else that the filter remembers; initially zero. The most used comes first:
  * the chip reaches 64 bytes of an object by short instructions.
  */
 struct AttitudeMemory {
@@ -72,7 +72,7 @@ class AttitudeFilter : private AttitudeMemory {
 
   const Attitude& attitude() const { return attitude_; }
   /**
-   * Samples come, are no copies of each other for 50 ms, make sense, and gravity has been found.
+   * Samples arrive, differ within 50 ms, are plausible, and gravity has been found.
    */
   bool is_valid() const { return is_fresh_ && has_gravity_; }
   /** Age of the newest sample, ms, counted in slots, at most 65535. */
@@ -80,7 +80,7 @@ class AttitudeFilter : private AttitudeMemory {
 
   /**
    * Against arming: no bias is known, or the search for a still second is younger than 10 s. The
-   * search itself goes on until it succeeds or stop_calibrating() ends it.
+   * search itself continues until it succeeds or stop_calibrating() ends it.
    */
   bool is_calibrating() const;
   /** The search has had its 10 s. */
@@ -106,7 +106,7 @@ class AttitudeFilter : private AttitudeMemory {
   bool is_copy(const ImuSample& sample);
   bool is_senseless(const ImuSample& sample);
   bool has_saturated_long(const ImuSample& sample);
-  void take_own_bias();
+  void use_own_bias();
   void on_still();
   void keep_bias();
   int16_t mean_16(uint8_t axis) const;

@@ -11,11 +11,11 @@ OUT_OF_LINE void turn(int16_t& a, int16_t& b, int16_t sine, int16_t cosine) {
   b = from_q14(product(b, cosine) - product(before, sine));
 }
 
-constexpr int16_t Level::GREATEST_CDEG;
+constexpr int16_t Level::MAX_CDEG;
 
 OUT_OF_LINE void Level::set(int16_t roll_cdeg, int16_t pitch_cdeg) {
-  const int16_t roll = clamped16(roll_cdeg, GREATEST_CDEG);
-  const int16_t pitch = clamped16(pitch_cdeg, GREATEST_CDEG);
+  const int16_t roll = clamped16(roll_cdeg, MAX_CDEG);
+  const int16_t pitch = clamped16(pitch_cdeg, MAX_CDEG);
   roll_sine_ = small_sine_q14(roll);
   roll_cosine_ = small_cosine_q14(roll);
   pitch_sine_ = small_sine_q14(pitch);

@@ -11,7 +11,7 @@ void turn(int16_t& a, int16_t& b, int16_t sine, int16_t cosine);
 /** The sensor's roll and pitch while the airframe is level; call `set` first. */
 class Level {
  public:
-  static constexpr int16_t GREATEST_CDEG = 1500;
+  static constexpr int16_t MAX_CDEG = 1500;
 
   void set(int16_t roll_cdeg, int16_t pitch_cdeg);
   /** Turns a vector of at most 32000 from the sensor's axes (forward, right, down) straight. */

@@ -14,13 +14,13 @@ constexpr uint16_t I_FACTOR = 1049;
 // that 2^-10: 500 / 256 / 2 is 125 / 128.
 constexpr uint8_t D_BITS = 14;
 constexpr uint8_t D_FACTOR = 125;
-constexpr uint32_t GREATEST_D = 65535;
+constexpr uint32_t MAX_D = 65535;
 
 constexpr uint8_t INTEGRAL_BITS = 6;
 // Six times every limit when it is a derivative, and the greatest P still fits beside it.
-constexpr int32_t GREATEST_SLOPE = 50000000L;
+constexpr int32_t MAX_SLOPE = 50000000L;
 // No aircraft turns by this much in a slot: the angle went round the circle.
-constexpr int16_t GREATEST_CHANGE = 1000;
+constexpr int16_t MAX_CHANGE = 1000;
 
 /** A gain of 0 to 50 times 2^bits, rounded down. */
 OUT_OF_LINE int32_t to_fixed(float gain, uint8_t bits) {
@@ -33,7 +33,7 @@ OUT_OF_LINE void Pid::tune(const PidGains& gains) {
   p_ = static_cast<uint16_t>(to_fixed(gains.p, P_BITS));
   i_ = static_cast<uint16_t>(static_cast<uint32_t>(to_fixed(gains.i, I_BITS)) * I_FACTOR >> I_BITS);
   const uint32_t d = static_cast<uint32_t>(to_fixed(gains.d, D_BITS)) * D_FACTOR >> 7;
-  d_ = static_cast<uint16_t>(d > GREATEST_D ? GREATEST_D : d);
+  d_ = static_cast<uint16_t>(d > MAX_D ? MAX_D : d);
   if (i_ == 0) integral_ = 0;
 }
 
@@ -59,12 +59,12 @@ OUT_OF_LINE int32_t Pid::update(int16_t error, int16_t measured, int32_t limit) 
 int32_t Pid::derivative(int16_t measured) {
   const uint16_t difference = static_cast<uint16_t>(measured) - static_cast<uint16_t>(measured_);
   const int16_t change = static_cast<int16_t>(difference);
-  const bool is_change = has_measured_ && clamped16(change, GREATEST_CHANGE) == change;
+  const bool is_change = has_measured_ && clamped16(change, MAX_CHANGE) == change;
   has_measured_ = true;
   measured_ = measured;
   const int16_t step_q4 = static_cast<int16_t>((is_change ? change : 0) * 16 - change_q4_);
   change_q4_ = static_cast<int16_t>(change_q4_ + step_q4 / 4);
-  return clamped(scaled(d_, change_q4_), GREATEST_SLOPE) * -2;
+  return clamped(scaled(d_, change_q4_), MAX_SLOPE) * -2;
 }
 
 }  // namespace raspilot

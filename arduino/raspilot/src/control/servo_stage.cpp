@@ -9,7 +9,7 @@ namespace {
 constexpr Ticks NEUTRAL = us_to_ticks(1500);
 constexpr Ticks MOTOR_OFF = us_to_ticks(1000);
 // No demand exceeds this, and no sum of two and a trim leaves 16 bits.
-constexpr int16_t GREATEST_DEFLECTION = 4000;
+constexpr int16_t MAX_DEFLECTION = 4000;
 
 OUT_OF_LINE Ticks within(const ServoSetup& servo, Ticks ticks) {
   const Ticks lowest = us_to_ticks(static_cast<int16_t>(servo.lowest_us));
@@ -27,7 +27,7 @@ Ticks to_pulse(const ServoSetup& servo, int16_t deflection) {
 OUT_OF_LINE void to_servos(const Profile& profile, const Ticks* demands, Outputs& outputs) {
   int16_t deflections[OUTPUTS];
   for (uint8_t channel = 0; channel < OUTPUTS; ++channel) {
-    deflections[channel] = clamped16(difference_of(demands[channel], NEUTRAL), GREATEST_DEFLECTION);
+    deflections[channel] = clamped16(difference_of(demands[channel], NEUTRAL), MAX_DEFLECTION);
   }
   const int16_t ailerons = deflections[AILERONS];
   const int16_t elevator = deflections[ELEVATOR];

@@ -7,12 +7,12 @@ namespace raspilot {
 namespace {
 
 constexpr uint16_t WINDOW = 256;
-constexpr int16_t GREATEST_CHANGE = 40;  // 256 of them fit in 16 bits; 1.2 deg/s
-constexpr int16_t GREATEST_BIAS = 656;   // 20 deg/s (data sheet 6.1)
+constexpr int16_t MAX_CHANGE = 40;  // 256 of them fit in 16 bits; 1.2 deg/s
+constexpr int16_t MAX_BIAS = 656;   // 20 deg/s (data sheet 6.1)
 
 }  // namespace
 
-OUT_OF_LINE void Stillness::forget() {
+OUT_OF_LINE void Stillness::reset() {
   samples_ = 0;
   is_still_ = false;
 }
@@ -20,9 +20,9 @@ OUT_OF_LINE void Stillness::forget() {
 bool Stillness::on_sample(const int16_t* gyro) {
   int16_t changes[3];
   for (uint8_t axis = 0; axis < 3; ++axis) {
-    const int16_t rate = clamped16(gyro[axis], GREATEST_BIAS);
+    const int16_t rate = clamped16(gyro[axis], MAX_BIAS);
     changes[axis] = static_cast<int16_t>(rate - first_[axis]);
-    if (rate != gyro[axis] || clamped16(changes[axis], GREATEST_CHANGE) != changes[axis]) forget();
+    if (rate != gyro[axis] || clamped16(changes[axis], MAX_CHANGE) != changes[axis]) reset();
   }
   for (uint8_t axis = 0; axis < 3; ++axis) {
     if (samples_ == 0) {

@@ -14,7 +14,7 @@ class Stillness {
   /** Takes a gyro sample, chip counts; true when a still window ends with it. */
   bool on_sample(const int16_t* gyro);
   /** Samples are missing: clears the state. */
-  void forget();
+  void reset();
   /** Whether a window was still and nothing has moved since. */
   bool is_still() const { return is_still_; }
   /** Mean of the newest still window, sixteenths of a chip count. */

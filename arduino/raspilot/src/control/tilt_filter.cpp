@@ -36,7 +36,7 @@ constexpr float EARLY_DRIFT_SHARE = CYCLE_S / 27;
 constexpr float DRIFT_SHARE = CYCLE_S / 100;
 constexpr float YAW_DRIFT_KEPT = 1 - CYCLE_S / 100;
 
-// 1 sigma of what is observed, for one cycle.
+// 1 sigma of the observation, for one cycle.
 constexpr float FORCE_SIGMA = 0.138F;  // g, across the nose
 constexpr float EXCESS_WEIGHT = 4.9F;  // a force is trusted less when it is not 1 g
 constexpr float SPEED_SIGMA = 12;      // m/s, about its mean
@@ -55,7 +55,7 @@ constexpr float BIAS_TO_Q28 = 536870.9F;
 /** m/s and sixteenths of a deg/s in g Q13, times 512. */
 constexpr float SPEED_TO_FORCE = RAD / 16 / GRAVITY_M_S2 * 8192 * 512;
 constexpr int16_t TWO_G_Q13 = 16383;
-/** A force beyond 1 g by more than this is no change of airspeed: a launch, a loop. */
+/** A force beyond 1 g by more than this does not mean a change of airspeed: a launch, a loop. */
 constexpr int16_t MAX_EXCESS_Q13 = 1434;
 /** More load than this is a pull-up: it does not end within a cycle or two. */
 constexpr int16_t MAX_LOAD_FACTOR_ERROR_Q13 = 2048;

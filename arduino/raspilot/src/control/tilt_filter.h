@@ -31,7 +31,7 @@ class TiltFilter {
  public:
   /**
    * Starts over with these uncertainties (1 sigma): tilt in degrees, gyro bias in tenths of a
-   * deg/s. A speed in m/s that is no flying speed becomes the default.
+   * deg/s. An implausible speed (m/s) becomes the default.
    */
   void begin(uint8_t tilt_deg, uint8_t bias_10, float speed_m_s);
   /** Samples are missing: the tilt may have changed by `tilt_deg`. The cycle starts over. */
@@ -82,11 +82,11 @@ class TiltFilter {
   float mean_share_;  // of a cycle in the mean
   float drift_[3];   // rad/s a cycle
   union {
-    float gains_[STATES];  // covariance of the states with what is observed
+    float gains_[STATES];  // covariance of the states with the observation
     int32_t sums_[SUMS];
   };
   float change_[STATES];
-  float weights_[STATES];  // of the states in what is observed
+  float weights_[STATES];  // of the states in the observation
   float covariance_[STATES * (STATES + 1) / 2];  // lower triangle, row by row
 };
 

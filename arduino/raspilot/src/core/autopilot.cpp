@@ -51,7 +51,7 @@ Demand Autopilot::demand() const {
   }
   demand.throttle = authority.throttle();
   demand.setpoint = authority.setpoint();
-  demand.asked = authority.asked_outputs();
+  demand.asked = authority.requested_outputs();
   return demand;
 }
 

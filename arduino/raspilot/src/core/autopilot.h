@@ -14,15 +14,6 @@
 
 namespace raspilot {
 
-/** Reset cause bits of the status (docs/protocols.md 2.7, offset 5). */
-enum ResetCause : uint8_t {
-  RESET_POWER_ON = 1,
-  RESET_EXTERNAL = 2,
-  RESET_BROWN_OUT = 4,
-  RESET_WATCHDOG = 8,
-  RESET_RESTORED = 128
-};
-
 class Autopilot {
  public:
   Autopilot();

@@ -5,7 +5,7 @@ namespace raspilot {
 namespace {
 
 constexpr uint32_t SECOND_US = 1000000;
-constexpr uint16_t GREATEST = 65535;
+constexpr uint16_t MAX = 65535;
 
 }  // namespace
 
@@ -20,13 +20,13 @@ void LoopMeter::on_slot(uint32_t due_us, uint32_t now_us) {
   ++slots_;
   const int32_t late_us = static_cast<int32_t>(now_us - due_us);
   if (late_us <= latest_us_) return;
-  latest_us_ = late_us < GREATEST ? static_cast<uint16_t>(late_us) : GREATEST;
+  latest_us_ = late_us < MAX ? static_cast<uint16_t>(late_us) : MAX;
 }
 
 void LoopMeter::end_second(uint32_t now_us) {
   // The seconds keep their own grid: a slot that begins a little early or late moves no second.
   second_us_ += SECOND_US;
-  if (seconds_ != GREATEST) ++seconds_;
+  if (seconds_ != MAX) ++seconds_;
   // The watchdog ends a slot of 120 ms, so that there are eight and more in a second.
   period_us_ = static_cast<uint16_t>((now_us - first_slot_us_) / slots_);
   first_slot_us_ = now_us;

@@ -3,6 +3,8 @@
 
 #include <stdint.h>
 
+#include "status_schema.h"
+
 namespace raspilot {
 
 /** A pulse width or a moment of Timer1 in half microseconds: 1500 us is 3000. */
@@ -17,27 +19,6 @@ enum Channel : uint8_t { AILERONS, ELEVATOR, THROTTLE, RUDDER, AUX1, AUX2 };
 constexpr uint8_t INPUTS = 6;
 constexpr uint8_t OUTPUTS = 4;
 constexpr uint8_t ALL_INPUTS = 0x3F;
-
-/** Flight modes by their letter on the wire (docs/protocols.md 2.3). */
-enum class Mode : char { ACRO = 'a', RATE = 'r', FBW = 'f', SETPOINT = 's', OUTPUT = 'u' };
-
-/** Why a Command is refused: the codes of docs/protocols.md 2.5; NONE is carried out. */
-enum class Reason : uint8_t {
-  NONE = 0,
-  UNKNOWN_TYPE = 1,
-  WRONG_SIZE = 2,
-  OUT_OF_RANGE = 3,
-  ONLY_DISARMED = 4,
-  NOT_IN_THESIS_FRAMING = 5,
-  TOO_OLD = 6,
-  NOT_AUTO = 7,
-  THROTTLE_NOT_LOW = 8,
-  RECEIVER_INVALID = 9,
-  IMU_INVALID = 10,
-  VETO = 11,
-  NOT_STILL = 12,
-  NOT_SUPPORTED = 13
-};
 
 /**
  * Attitude and rotation in body axes (x forward, y right, z down): roll right wing down, pitch

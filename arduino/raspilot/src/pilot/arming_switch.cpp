@@ -10,7 +10,7 @@ constexpr uint16_t DEBOUNCE_UNITS = units_at_least(300);
 
 }  // namespace
 
-ArmingSwitch::Event ArmingSwitch::take(Ticks pulse, uint16_t passed_units) {
+ArmingSwitch::Event ArmingSwitch::update(Ticks pulse, uint16_t passed_units) {
   const int16_t width_us = now_ == HIGH ? -HYSTERESIS_US : now_ == LOW ? HYSTERESIS_US : 0;
   const Level level =
       pulse >= us_to_ticks(static_cast<int16_t>(MIDDLE_US + width_us)) ? HIGH : LOW;
@@ -27,6 +27,6 @@ ArmingSwitch::Event ArmingSwitch::take(Ticks pulse, uint16_t passed_units) {
   return was_low ? ROSE : NOTHING;
 }
 
-void ArmingSwitch::forget() { now_ = settled_ = UNKNOWN; }
+void ArmingSwitch::reset() { now_ = settled_ = UNKNOWN; }
 
 }  // namespace raspilot

@@ -16,9 +16,9 @@ class ArmingSwitch {
    * counts after 300 ms. ROSE needs a low that counted before it; the initial position is not an
    * edge.
    */
-  Event take(Ticks pulse, uint16_t passed_units);
+  Event update(Ticks pulse, uint16_t passed_units);
   /** The receiver is lost: its later pulses start from the beginning. */
-  void forget();
+  void reset();
   /** At high, and has been for 300 ms. */
   bool is_high() const { return settled_ == HIGH && now_ == HIGH; }
 

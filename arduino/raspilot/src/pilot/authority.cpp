@@ -10,14 +10,14 @@ constexpr uint16_t RETURN_UNITS = units_at_least(30);
 // Three frames of any receiver.
 constexpr uint16_t LEFT_UNITS = units_at_least(70);
 constexpr uint16_t LATCH_UNITS = units_at_least(5000);
-constexpr uint16_t OUTPUT_LIVES_UNITS = units_at_most(250);
-constexpr uint16_t LONGEST_SETPOINT_MS = 250;
+constexpr uint16_t OUTPUT_TIMEOUT_UNITS = units_at_most(250);
+constexpr uint16_t MAX_SETPOINT_MS = 250;
 constexpr uint16_t ASKED_OUTPUT_UNITS = units_at_least(500);
-constexpr uint16_t VETO_LIVES_UNITS = units_at_least(1000);
+constexpr uint16_t VETO_TIMEOUT_UNITS = units_at_least(1000);
 constexpr uint16_t LOW_LONG_ENOUGH_UNITS = units_at_least(2000);
 // A receiver needs that long to link again after a reset in flight.
 constexpr uint16_t RELINK_S = 5;
-constexpr uint32_t OLDEST_ORIENTATION_US = 100000;
+constexpr uint32_t MAX_ORIENTATION_AGE_US = 100000;
 constexpr Ticks LOW_THROTTLE = us_to_ticks(1050);
 constexpr Ticks MOTOR_OFF = us_to_ticks(1000);
 
@@ -31,14 +31,14 @@ Authority::Authority(const Profile& profile, const PwmReader& receiver)
 void Authority::update(bool is_imu_valid, bool is_calibrating, bool is_profile_broken,
                        uint32_t now_us) {
   uint8_t vetoes = 0;
-  if (!is_imu_valid) vetoes |= VETO_IMU;
+  if (!is_imu_valid) vetoes |= VETO_IMU_INVALID;
   if (is_calibrating) vetoes |= VETO_CALIBRATING;
-  if (is_profile_broken) vetoes |= VETO_PROFILE;
+  if (is_profile_broken) vetoes |= VETO_PROFILE_INVALID;
   slot_vetoes_ = vetoes;
   const uint16_t now_units = to_units(now_us);
   const uint16_t passed_units = static_cast<uint16_t>(now_units - updated_at_);
   updated_at_ = now_units;
-  for (Lifetime& life : lives_) life.pass(passed_units);
+  for (Lifetime& life : timeouts_) life.pass(passed_units);
   follow_receiver(passed_units);
 }
 
@@ -47,25 +47,25 @@ void Authority::follow_receiver(uint16_t passed_units) {
   const Ticks lost_throttle = us_to_ticks(static_cast<int16_t>(profile_.throttle_lost_us));
   const bool is_own_failsafe = is_valid && receiver_.pulse(THROTTLE) < lost_throttle;
   if (is_valid && !is_own_failsafe) {
-    sound_.pass(passed_units);
+    rx_ok_timer_.pass(passed_units);
   } else {
-    sound_.start();
+    rx_ok_timer_.start();
   }
-  if (sound_.units() < RETURN_UNITS) slot_vetoes_ |= VETO_RECEIVER;
+  if (rx_ok_timer_.units() < RETURN_UNITS) slot_vetoes_ |= VETO_RECEIVER_INVALID;
   follow_failsafe(is_own_failsafe, passed_units);
   if (!has_receiver()) {
-    arming_.forget();
+    arming_.reset();
     throttle_low_.start();
     return;
   }
-  switch_.take(receiver_.pulse(AUX1));
+  switch_.update(receiver_.pulse(AUX1));
   if (is_auto()) {
     away_.start();
   } else {
     // One bad pulse suspends the selected mode but does not end it.
     away_.pass(passed_units);
-    if (away_.units() >= LEFT_UNITS) asked_mode_ = 0;
-    lives_[ASKED].end();
+    if (away_.units() >= LEFT_UNITS) requested_mode_ = 0;
+    timeouts_[ASKED].end();
     end_demands();
   }
   if (is_throttle_low()) {
@@ -92,13 +92,13 @@ void Authority::follow_failsafe(bool is_own_failsafe, uint16_t passed_units) {
 }
 
 void Authority::follow_arming(uint16_t passed_units) {
-  const ArmingSwitch::Event event = arming_.take(receiver_.pulse(AUX2), passed_units);
+  const ArmingSwitch::Event event = arming_.update(receiver_.pulse(AUX2), passed_units);
   if (event == ArmingSwitch::FELL) is_armed_ = false;
   if (event == ArmingSwitch::ROSE && vetoes() == 0) is_armed_ = true;
 }
 
 Mode Authority::mode() const {
-  const bool is_asked = asked_mode_ == letter_of(Mode::OUTPUT) && lives_[ASKED].lives();
+  const bool is_asked = requested_mode_ == letter_of(Mode::OUTPUT) && timeouts_[ASKED].is_running();
   return is_asked && has_imu() && has_receiver() ? Mode::OUTPUT : flown_mode();
 }
 
@@ -110,9 +110,9 @@ Mode Authority::flown_mode() const {
   if (letter == letter_of(Mode::ACRO)) return Mode::ACRO;
   if (letter == letter_of(Mode::RATE)) return Mode::RATE;
   if (letter != 'A') return Mode::FBW;
-  if (has_receiver() && lives_[OUTPUT].lives()) return Mode::OUTPUT;
-  if (has_receiver() && lives_[DEMAND].lives()) return Mode::SETPOINT;
-  return asked_mode_ == letter_of(Mode::RATE) ? Mode::RATE : Mode::FBW;
+  if (has_receiver() && timeouts_[OUTPUT].is_running()) return Mode::OUTPUT;
+  if (has_receiver() && timeouts_[DEMAND].is_running()) return Mode::SETPOINT;
+  return requested_mode_ == letter_of(Mode::RATE) ? Mode::RATE : Mode::FBW;
 }
 
 bool Authority::is_auto() const {
@@ -128,9 +128,9 @@ bool Authority::is_throttle_low() const { return receiver_.pulse(THROTTLE) < LOW
 
 uint8_t Authority::vetoes() const {
   uint8_t vetoes = slot_vetoes_;
-  if (profile_.has_motor && !is_throttle_low()) vetoes |= VETO_THROTTLE;
-  if (!arming_.is_high()) vetoes |= VETO_AUX2;
-  if (lives_[PI_VETO].lives()) vetoes |= VETO_RASPBERRY;
+  if (profile_.has_motor && !is_throttle_low()) vetoes |= VETO_THROTTLE_NOT_LOW;
+  if (!arming_.is_high()) vetoes |= VETO_AUX2_LOW;
+  if (timeouts_[PI_VETO].is_running()) vetoes |= VETO_RASPBERRY_PI;
   return vetoes;
 }
 
@@ -142,15 +142,15 @@ Ticks Authority::throttle() const {
   const Mode mode = flown_mode();
   uint16_t demand_us = 0;
   if (mode == Mode::SETPOINT) demand_us = setpoint_.throttle_us;
-  if (mode == Mode::OUTPUT) demand_us = ticks_to_us(asked_outputs_.ticks[THROTTLE]);
+  if (mode == Mode::OUTPUT) demand_us = ticks_to_us(requested_outputs_.ticks[THROTTLE]);
   return demand_us != 0 ? us_to_ticks(static_cast<int16_t>(demand_us)) : receiver_.pulse(THROTTLE);
 }
 
 Reason Authority::arm(uint32_t) {
   const uint8_t against = vetoes();
-  if (against & VETO_THROTTLE) return Reason::THROTTLE_NOT_LOW;
-  if (against & VETO_RECEIVER) return Reason::RECEIVER_INVALID;
-  if (against & VETO_IMU) return Reason::IMU_INVALID;
+  if (against & VETO_THROTTLE_NOT_LOW) return Reason::THROTTLE_NOT_LOW;
+  if (against & VETO_RECEIVER_INVALID) return Reason::RECEIVER_INVALID;
+  if (against & VETO_IMU_INVALID) return Reason::IMU_INVALID;
   if (against != 0) return Reason::VETO;
   is_armed_ = true;
   return Reason::NONE;
@@ -164,71 +164,71 @@ Reason Authority::disarm(uint32_t) {
   return Reason::NONE;
 }
 
-Reason Authority::ask_mode(char letter, uint32_t) {
+Reason Authority::request_mode(char letter, uint32_t) {
   const Mode mode = static_cast<Mode>(letter);
   if (mode != Mode::RATE && mode != Mode::FBW && mode != Mode::SETPOINT && mode != Mode::OUTPUT) {
     return Reason::OUT_OF_RANGE;
   }
-  if (!is_auto()) return Reason::NOT_AUTO;
+  if (!is_auto()) return Reason::NOT_AT_AUTO;
   if (!has_receiver()) return Reason::RECEIVER_INVALID;
   if (mode == Mode::OUTPUT && !has_imu()) return Reason::IMU_INVALID;
-  asked_mode_ = letter;
-  lives_[ASKED].start(ASKED_OUTPUT_UNITS);
-  if (mode != Mode::OUTPUT) lives_[OUTPUT].end();
-  if (mode != Mode::SETPOINT) lives_[DEMAND].end();
+  requested_mode_ = letter;
+  timeouts_[ASKED].start(ASKED_OUTPUT_UNITS);
+  if (mode != Mode::OUTPUT) timeouts_[OUTPUT].end();
+  if (mode != Mode::SETPOINT) timeouts_[DEMAND].end();
   return Reason::NONE;
 }
 
 Reason Authority::authority_for(Mode mode) const {
-  if (!is_auto()) return Reason::NOT_AUTO;
-  if (asked_mode_ != 0 && asked_mode_ != letter_of(mode)) return Reason::NOT_AUTO;
+  if (!is_auto()) return Reason::NOT_AT_AUTO;
+  if (requested_mode_ != 0 && requested_mode_ != letter_of(mode)) return Reason::NOT_AT_AUTO;
   if (!has_receiver()) return Reason::RECEIVER_INVALID;
   if (!has_imu()) return Reason::IMU_INVALID;
   if (profile_.has_motor && !is_armed_) return Reason::VETO;
   return Reason::NONE;
 }
 
-Reason Authority::take_outputs(const uint16_t* pulses_us, uint32_t age_us, uint32_t) {
+Reason Authority::accept_outputs(const uint16_t* pulses_us, uint32_t age_us, uint32_t) {
   const Reason reason = authority_for(Mode::OUTPUT);
   if (reason != Reason::NONE) return reason;
-  if (age_us > OLDEST_ORIENTATION_US) return Reason::TOO_OLD;
+  if (age_us > MAX_ORIENTATION_AGE_US) return Reason::TOO_OLD;
   for (uint8_t i = 0; i < OUTPUTS; ++i) {
-    asked_outputs_.ticks[i] = us_to_ticks(static_cast<int16_t>(pulses_us[i]));
+    requested_outputs_.ticks[i] = us_to_ticks(static_cast<int16_t>(pulses_us[i]));
   }
   // They share memory with a Setpoint, which must not be read from here on.
-  lives_[DEMAND].end();
-  lives_[OUTPUT].start(OUTPUT_LIVES_UNITS);
+  timeouts_[DEMAND].end();
+  timeouts_[OUTPUT].start(OUTPUT_TIMEOUT_UNITS);
   return Reason::NONE;
 }
 
-Reason Authority::take_setpoint(const Setpoint& setpoint, uint16_t lifetime_ms, uint32_t) {
+Reason Authority::accept_setpoint(const Setpoint& setpoint, uint16_t lifetime_ms, uint32_t) {
   const Reason reason = authority_for(Mode::SETPOINT);
   if (reason != Reason::NONE) return reason;
   setpoint_ = setpoint;
-  const uint16_t bounded_ms = lifetime_ms < LONGEST_SETPOINT_MS ? lifetime_ms : LONGEST_SETPOINT_MS;
+  const uint16_t bounded_ms = lifetime_ms < MAX_SETPOINT_MS ? lifetime_ms : MAX_SETPOINT_MS;
   // Rather a unit too short than one too long.
-  lives_[DEMAND].start(static_cast<uint16_t>(bounded_ms * 31 / 32));
-  lives_[OUTPUT].end();
+  timeouts_[DEMAND].start(static_cast<uint16_t>(bounded_ms * 31 / 32));
+  timeouts_[OUTPUT].end();
   return Reason::NONE;
 }
 
-void Authority::take_veto(bool is_vetoed, uint32_t) {
-  lives_[PI_VETO].start(is_vetoed ? VETO_LIVES_UNITS : 0);
+void Authority::accept_veto(bool is_vetoed, uint32_t) {
+  timeouts_[PI_VETO].start(is_vetoed ? VETO_TIMEOUT_UNITS : 0);
 }
 
 void Authority::end_demands() {
-  lives_[OUTPUT].end();
-  lives_[DEMAND].end();
+  timeouts_[OUTPUT].end();
+  timeouts_[DEMAND].end();
 }
 
 AuthorityState Authority::state() const {
-  return AuthorityState{is_armed_, switch_.position(), asked_mode_, is_latched_, is_failsafe_};
+  return AuthorityState{is_armed_, switch_.position(), requested_mode_, is_latched_, is_failsafe_};
 }
 
 void Authority::restore(const AuthorityState& state, uint32_t now_us) {
   is_armed_ = state.is_armed;
   switch_.restore(state.switch_position);
-  asked_mode_ = state.asked_mode;
+  requested_mode_ = state.requested_mode;
   is_latched_ = state.is_throttle_latched;
   is_failsafe_ = state.is_failsafe;
   updated_at_ = to_units(now_us);

@@ -13,22 +13,11 @@
 
 namespace raspilot {
 
-/** Veto bits of the status (docs/protocols.md 2.7, offset 4). */
-enum Veto : uint8_t {
-  VETO_THROTTLE = 1,
-  VETO_RECEIVER = 2,
-  VETO_IMU = 4,
-  VETO_AUX2 = 8,
-  VETO_RASPBERRY = 16,
-  VETO_CALIBRATING = 32,
-  VETO_PROFILE = 64
-};
-
 /** State that survives a watchdog reset. */
 struct AuthorityState {
   bool is_armed;
   uint8_t switch_position;
-  char asked_mode;
+  char requested_mode;
   bool is_throttle_latched;
   bool is_failsafe;
 };
@@ -69,7 +58,7 @@ class Authority {
   bool is_in_flight(uint16_t uptime_s) const;
   /** 0 low, 1 middle, 2 high, 255 not known yet; holds while the receiver is lost. */
   uint8_t switch_position() const { return switch_.position(); }
-  bool has_receiver() const { return !(slot_vetoes_ & VETO_RECEIVER); }
+  bool has_receiver() const { return !(slot_vetoes_ & VETO_RECEIVER_INVALID); }
   /** Receiver failsafe acts: circle (IMU valid) or preset surfaces. */
   bool is_failsafe() const { return is_failsafe_; }
   /** Stays after more than 5 s of failsafe until the stick has been low. */
@@ -81,22 +70,22 @@ class Authority {
   /** Means something in mode SETPOINT only. */
   const Setpoint& setpoint() const { return setpoint_; }
   /** Means something in flown mode OUTPUT only; throttle 0 is the stick's: see throttle(). */
-  const Outputs& asked_outputs() const { return asked_outputs_; }
+  const Outputs& requested_outputs() const { return requested_outputs_; }
 
   /** Refused by any veto: throttle, receiver and IMU have their own reasons. */
   Reason arm(uint32_t now_us);
   /** With a motor, refused unless the throttle stick was seen low for the last 2 s. */
   Reason disarm(uint32_t now_us);
   /** `M`: only with the switch at AUTO; never ACRO. */
-  Reason ask_mode(char letter, uint32_t now_us);
+  Reason request_mode(char letter, uint32_t now_us);
   /**
    * `u`; `age_us` is that of the orientation that it was computed from. Holds for 250 ms. Values
    * are in range, here and in a Setpoint: the reader of the wire refuses others.
    */
-  Reason take_outputs(const uint16_t* pulses_us, uint32_t age_us, uint32_t now_us);
-  Reason take_setpoint(const Setpoint& setpoint, uint16_t lifetime_ms, uint32_t now_us);
+  Reason accept_outputs(const uint16_t* pulses_us, uint32_t age_us, uint32_t now_us);
+  Reason accept_setpoint(const Setpoint& setpoint, uint16_t lifetime_ms, uint32_t now_us);
   /** `v`: holds for 1 s. */
-  void take_veto(bool is_vetoed, uint32_t now_us);
+  void accept_veto(bool is_vetoed, uint32_t now_us);
 
   AuthorityState state() const;
   /** After a watchdog reset only. */
@@ -104,12 +93,12 @@ class Authority {
 
  private:
   /** States with a lifetime. */
-  enum Life : uint8_t { ASKED, OUTPUT, DEMAND, PI_VETO, LIVES };
+  enum Life : uint8_t { ASKED, OUTPUT, DEMAND, PI_VETO, TIMEOUTS };
 
   void follow_receiver(uint16_t passed_units);
   void follow_failsafe(bool is_own_failsafe, uint16_t passed_units);
   void follow_arming(uint16_t passed_units);
-  bool has_imu() const { return !(slot_vetoes_ & VETO_IMU); }
+  bool has_imu() const { return !(slot_vetoes_ & VETO_IMU_INVALID); }
   bool is_throttle_low() const;
   bool was_heard() const { return switch_.position() != SWITCH_UNKNOWN; }
   void end_demands();
@@ -120,21 +109,21 @@ class Authority {
   const PwmReader& receiver_;
   ModeSwitch switch_;
   ArmingSwitch arming_;
-  Lifetime lives_[LIVES];
+  Lifetime timeouts_[TIMEOUTS];
   Stopwatch throttle_low_;
-  Stopwatch sound_;
+  Stopwatch rx_ok_timer_;
   Stopwatch lost_;
   Stopwatch away_;
   // The newer of the two: flown_mode() returns which it is.
   union {
     Setpoint setpoint_ ZEROED;
-    Outputs asked_outputs_;
+    Outputs requested_outputs_;
   };
   uint16_t updated_at_ ZEROED;
-  char asked_mode_ ZEROED;
+  char requested_mode_ ZEROED;
   bool is_armed_ ZEROED;
   /** Those that hold for a slot: receiver, IMU, calibrating, profile. */
-  uint8_t slot_vetoes_ = VETO_RECEIVER | VETO_IMU;
+  uint8_t slot_vetoes_ = VETO_RECEIVER_INVALID | VETO_IMU_INVALID;
   bool is_failsafe_ ZEROED;
   bool is_latched_ ZEROED;
 };

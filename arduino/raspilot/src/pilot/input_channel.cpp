@@ -6,8 +6,8 @@ namespace raspilot {
 
 namespace {
 
-constexpr uint16_t NARROWEST_TICKS = us_to_ticks(885);
-constexpr uint16_t WIDEST_TICKS = us_to_ticks(2115);
+constexpr uint16_t MIN_TICKS = us_to_ticks(885);
+constexpr uint16_t MAX_TICKS = us_to_ticks(2115);
 constexpr uint16_t NOISE_TICKS = us_to_ticks(300);
 constexpr int16_t REST_TICKS = us_to_ticks(2500);
 constexpr int16_t STUCK_TICKS = us_to_ticks(3000);
@@ -55,12 +55,12 @@ InputChannel::Fall InputChannel::on_fall(uint16_t stamp, bool is_late) {
     return NOISE;
   }
   width_ = width;
-  if (width < NARROWEST_TICKS || width > WIDEST_TICKS) {
+  if (width < MIN_TICKS || width > MAX_TICKS) {
     flags_ = without(flags, MEASURING | VALID);
     return OUT_OF_RANGE;
   }
   before_ = raw();
-  filter_.take(static_cast<Ticks>(width), is_late || (flags & UNCERTAIN));
+  filter_.update(static_cast<Ticks>(width), is_late || (flags & UNCERTAIN));
   flags_ = without(flags, MEASURING) | VALID | CHANGED | REVOCABLE;
   if (!(flags & VALID)) {
     flags_ |= UNPROVEN;

@@ -27,7 +27,7 @@ class Lifetime {
   void start(uint16_t units) { left_ = units; }
   void end() { left_ = 0; }
   void pass(uint16_t units);
-  bool lives() const { return left_ != 0; }
+  bool is_running() const { return left_ != 0; }
 
  private:
   uint16_t left_ ZEROED;

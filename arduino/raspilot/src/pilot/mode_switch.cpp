@@ -10,7 +10,7 @@ constexpr Ticks HYSTERESIS = us_to_ticks(20);
 
 }  // namespace
 
-void ModeSwitch::take(Ticks pulse) {
+void ModeSwitch::update(Ticks pulse) {
   Ticks middle = MIDDLE;
   Ticks high = HIGH;
   if (position_ == 0) middle += HYSTERESIS;

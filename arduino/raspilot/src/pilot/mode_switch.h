@@ -13,7 +13,7 @@ class ModeSwitch {
   /** 0 low, 1 middle, 2 high, SWITCH_UNKNOWN before the first pulse. */
   uint8_t position() const { return position_; }
   /** Follows the pulse immediately; moves at 1300 and 1700 us, each way 20 us beyond them. */
-  void take(Ticks pulse);
+  void update(Ticks pulse);
   void restore(uint8_t position) { position_ = position <= 2 ? position : SWITCH_UNKNOWN; }
 
  private:

@@ -16,7 +16,7 @@ int16_t magnitude(int16_t value) { return value < 0 ? static_cast<int16_t>(-valu
 
 }  // namespace
 
-void PulseFilter::take(Ticks measured, bool is_uncertain) {
+void PulseFilter::update(Ticks measured, bool is_uncertain) {
   const int8_t movement = movement_;
   const Ticks off = static_cast<Ticks>(measured - pulse_);
   if (is_uncertain && magnitude(off) <= UNCERTAIN) return;

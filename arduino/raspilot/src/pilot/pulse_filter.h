@@ -16,7 +16,7 @@ namespace raspilot {
 class PulseFilter {
  public:
   /** Takes a measured pulse; one whose stamps are uncertain only moves it by more than 6 us. */
-  void take(Ticks measured, bool is_uncertain);
+  void update(Ticks measured, bool is_uncertain);
   /** Jumps to a pulse, as if there had been no other. */
   void reset(Ticks pulse);
   Ticks pulse() const { return pulse_; }

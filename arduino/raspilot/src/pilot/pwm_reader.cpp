@@ -6,8 +6,8 @@ namespace {
 
 // Stamps have 16 bits of 0.5 us: only half of their range of 32.768 ms is unambiguous.
 constexpr uint16_t STALL_UNITS = 15;
-constexpr uint8_t MOST_AGED = 127;
-constexpr uint16_t MOST_AGE_UNITS = 64000;
+constexpr uint8_t MAX_AGED = 127;
+constexpr uint16_t MAX_AGE_UNITS = 64000;
 
 }  // namespace
 
@@ -33,7 +33,7 @@ void PwmReader::on_edge(uint16_t stamp_ticks, uint8_t levels, bool is_late, uint
     } else if (!(changed & 1)) {
       // Another channel's edge.
     } else if (levels & 1) {
-      if (channel.on_rise(stamp_ticks, is_late)) learner_.take(index, channel.width());
+      if (channel.on_rise(stamp_ticks, is_late)) learner_.update(index, channel.width());
     } else if (channel.on_fall(stamp_ticks, is_late) != InputChannel::NOISE) {
       age_.start();
     }
@@ -48,7 +48,7 @@ void PwmReader::check(uint32_t now_us) {
   checked_at_ = to_units(now_us);
   if (passed > STALL_UNITS) is_lost_ = true;
   age_.pass(passed);
-  const uint8_t aged = static_cast<uint8_t>(passed < MOST_AGED ? passed : MOST_AGED);
+  const uint8_t aged = static_cast<uint8_t>(passed < MAX_AGED ? passed : MAX_AGED);
   const uint16_t now_stamp = static_cast<uint16_t>(now_us * 2);
   uint8_t levels = levels_;
   const ChannelRange* range = calibration_.receiver;
@@ -76,7 +76,7 @@ uint16_t PwmReader::age_ms(uint32_t now_us) const {
   age.pass(passed_units(now_us));
   const uint16_t units = age.units();
   // 1024 us are 1 + 1/42 ms.
-  return units > MOST_AGE_UNITS ? 65535 : static_cast<uint16_t>(units + units / 42);
+  return units > MAX_AGE_UNITS ? 65535 : static_cast<uint16_t>(units + units / 42);
 }
 
 bool PwmReader::take_rise(Channel channel, uint16_t& stamp_ticks) {

@@ -6,11 +6,11 @@ namespace raspilot {
 
 namespace {
 
-constexpr Ticks LOWEST_TICKS = us_to_ticks(885);
+constexpr Ticks MIN_TICKS = us_to_ticks(885);
 constexpr Ticks CENTRE_TICKS = us_to_ticks(1500);
-constexpr Ticks HIGHEST_TICKS = us_to_ticks(2115);
+constexpr Ticks MAX_TICKS = us_to_ticks(2115);
 constexpr int16_t HALF_TRAVEL_TICKS = us_to_ticks(500);
-constexpr uint16_t SMALLEST_HALF_US = 200;
+constexpr uint16_t MIN_HALF_US = 200;
 
 uint16_t to_us(uint16_t ticks) { return static_cast<uint16_t>((ticks + 1) >> 1); }
 bool rests_anywhere(uint8_t channel) { return channel == THROTTLE || channel >= AUX1; }
@@ -18,11 +18,11 @@ bool rests_anywhere(uint8_t channel) { return channel == THROTTLE || channel >= 
 }  // namespace
 
 void RangeLearner::begin() {
-  for (Ends& ends : ends_) ends = Ends{HIGHEST_TICKS, LOWEST_TICKS};
+  for (Ends& ends : ends_) ends = Ends{MAX_TICKS, MIN_TICKS};
   is_learning_ = true;
 }
 
-void RangeLearner::take(uint8_t channel, uint16_t width_ticks) {
+void RangeLearner::update(uint8_t channel, uint16_t width_ticks) {
   if (!is_learning_) return;
   Ends& ends = ends_[channel];
   if (width_ticks < ends.lowest) ends.lowest = width_ticks;
@@ -40,8 +40,8 @@ bool RangeLearner::end(const Ticks* resting, ChannelRange* ranges) {
     range.centre_us = rests_anywhere(i)
                           ? static_cast<uint16_t>((range.lowest_us + range.highest_us) / 2)
                           : to_us(static_cast<uint16_t>(resting[i]));
-    if (range.centre_us < range.lowest_us + SMALLEST_HALF_US ||
-        range.highest_us < range.centre_us + SMALLEST_HALF_US) {
+    if (range.centre_us < range.lowest_us + MIN_HALF_US ||
+        range.highest_us < range.centre_us + MIN_HALF_US) {
       return false;
     }
   }
@@ -60,7 +60,7 @@ Ticks calibrated(const ChannelRange& range, Ticks pulse) {
     offset = static_cast<int16_t>(static_cast<int32_t>(offset) * HALF_TRAVEL_TICKS / half);
   }
   const Ticks scaled = static_cast<Ticks>(CENTRE_TICKS + offset);
-  return scaled < LOWEST_TICKS ? LOWEST_TICKS : scaled > HIGHEST_TICKS ? HIGHEST_TICKS : scaled;
+  return scaled < MIN_TICKS ? MIN_TICKS : scaled > MAX_TICKS ? MAX_TICKS : scaled;
 }
 
 }  // namespace raspilot

@@ -18,7 +18,7 @@ class RangeLearner {
  public:
   void begin();
   /** Takes a good pulse; ignored while not learning. */
-  void take(uint8_t channel, uint16_t width_ticks);
+  void update(uint8_t channel, uint16_t width_ticks);
   /**
    * Ends learning; `resting` are the newest pulses, ticks. False, and `ranges` untouched, when
    * it had not begun or a centre is within 200 us of an end.

@@ -32,7 +32,7 @@ bool RefusalLimit::allows(char type, uint32_t now_us) {
   for (uint8_t index = 0; index < count_; ++index) {
     if (refused_[index].type == type) return false;
   }
-  if (count_ == CAPACITY) forget_oldest();
+  if (count_ == CAPACITY) discard_oldest();
   refused_[count_].type = type;
   refused_[count_].stamp = stamp_of(now_us);
   ++count_;
@@ -42,11 +42,11 @@ bool RefusalLimit::allows(char type, uint32_t now_us) {
 void RefusalLimit::check(uint32_t now_us) {
   // The oldest comes first, so that the rest is younger.
   while (count_ != 0 && static_cast<uint8_t>(stamp_of(now_us) - refused_[0].stamp) > SECOND) {
-    forget_oldest();
+    discard_oldest();
   }
 }
 
-void RefusalLimit::forget_oldest() {
+void RefusalLimit::discard_oldest() {
   --count_;
   for (uint8_t index = 0; index < count_; ++index) refused_[index] = refused_[index + 1];
 }

@@ -53,7 +53,7 @@ class RefusalLimit {
   };
   static constexpr uint8_t CAPACITY = 8;
 
-  void forget_oldest();
+  void discard_oldest();
 
   Refused refused_[CAPACITY];
   uint8_t count_ ZEROED;

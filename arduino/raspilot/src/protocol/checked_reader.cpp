@@ -4,7 +4,7 @@
 
 namespace raspilot {
 
-CheckedReader::Found CheckedReader::take(uint8_t byte, uint32_t now_us) {
+CheckedReader::Found CheckedReader::receive(uint8_t byte, uint32_t now_us) {
   if (byte == 0) {
     if (!has_begun_) return Found::NOTHING;
     const bool is_frame = !is_too_long_ && cobs_.is_complete() && length_ >= FRAME_OVERHEAD &&
@@ -18,8 +18,8 @@ CheckedReader::Found CheckedReader::take(uint8_t byte, uint32_t now_us) {
     beginning_.note(now_us);
   }
   uint8_t decoded;
-  if (cobs_.take(byte, decoded) == CobsDecoder::Step::NOTHING) return Found::NOTHING;
-  if (length_ == LONGEST_FRAME) {
+  if (cobs_.receive(byte, decoded) == CobsDecoder::Step::NOTHING) return Found::NOTHING;
+  if (length_ == MAX_FRAME) {
     is_too_long_ = true;
     return Found::NOTHING;
   }

@@ -17,13 +17,13 @@ class CheckedReader {
   explicit CheckedReader(ReceiveBuffer& buffer) : buffer_(buffer) {}
 
   /** Takes one byte; a FRAME stays readable until the next byte is taken. */
-  Found take(uint8_t byte, uint32_t now_us);
+  Found receive(uint8_t byte, uint32_t now_us);
   /** Drops a frame that is unfinished 100 ms after its first byte; true when there was one. */
   bool expire(uint32_t now_us);
 
   uint8_t sequence() const { return buffer_.bytes[0]; }
   char type() const { return static_cast<char>(buffer_.bytes[1]); }
-  /** LONGEST_COMMAND bytes of it at most. */
+  /** MAX_COMMAND bytes of it at most. */
   const uint8_t* payload() const { return buffer_.bytes + 2; }
   uint8_t payload_size() const { return payload_size_; }
 

@@ -13,7 +13,7 @@ class CobsDecoder {
   enum class Step : uint8_t { NOTHING, BYTE };
 
   /** Takes one byte, never zero; after BYTE the decoded one is in `decoded`. */
-  Step take(uint8_t encoded, uint8_t& decoded) {
+  Step receive(uint8_t encoded, uint8_t& decoded) {
     if (left_ != 0) {
       --left_;
       decoded = encoded;

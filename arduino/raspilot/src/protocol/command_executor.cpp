@@ -23,7 +23,7 @@ bool CommandExecutor::find(char type, CommandDefinition& found) {
       if (static_cast<char>(pgm_read_byte(&at->type)) != type) continue;
       memcpy_P(&found, at, sizeof found);
       // A longer one would not fit into the receive buffer.
-      return found.size <= LONGEST_COMMAND;
+      return found.size <= MAX_COMMAND;
     }
   }
   return false;

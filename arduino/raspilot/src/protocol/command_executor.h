@@ -67,7 +67,7 @@ class CommandGroup {
 
 class CommandExecutor {
  public:
-  /** Looks a type up; false unless it is registered with at most LONGEST_COMMAND bytes. */
+  /** Looks a type up; false unless it is registered with at most MAX_COMMAND bytes. */
   static bool find(char type, CommandDefinition& found);
   /** How many Commands are registered for this type: one, unless two files name the same. */
   static uint8_t count(char type);

@@ -2,7 +2,7 @@
 
 namespace raspilot {
 
-CommandReceiver::Found CommandReceiver::take(uint8_t byte, uint32_t now_us) {
+CommandReceiver::Found CommandReceiver::receive(uint8_t byte, uint32_t now_us) {
   if (!is_in_payload_) {
     if (!CommandExecutor::find(static_cast<char>(byte), definition_) ||
         definition_.framing != Framing::BOTH) {

@@ -16,7 +16,7 @@ class CommandReceiver {
   explicit CommandReceiver(ReceiveBuffer& buffer) : buffer_(buffer) {}
 
   /** Takes one byte; a COMMAND stays readable until the next byte is taken. */
-  Found take(uint8_t byte, uint32_t now_us);
+  Found receive(uint8_t byte, uint32_t now_us);
   /** Drops a Command that is unfinished 100 ms after its type; true when there was one. */
   bool expire(uint32_t now_us);
 

@@ -13,7 +13,7 @@ namespace {
 constexpr uint32_t LOAD_BYTES_S = RASPILOT_BAUD / 10 * 7 / 10;
 constexpr uint32_t STATUS_BYTES_S = 26 * 5;
 constexpr uint32_t STREAMED_BYTES = 19 + 32 + 14;
-constexpr uint32_t LEAST_PERIOD_US = STREAMED_BYTES * 1000000UL / (LOAD_BYTES_S - STATUS_BYTES_S);
+constexpr uint32_t MIN_PERIOD_US = STREAMED_BYTES * 1000000UL / (LOAD_BYTES_S - STATUS_BYTES_S);
 constexpr uint8_t STEP_BITS = 5;
 
 /** Steps that last at least `us`. */
@@ -21,11 +21,11 @@ constexpr uint16_t steps_of(uint32_t us) {
   return static_cast<uint16_t>((us + (1 << STEP_BITS) - 1) >> STEP_BITS);
 }
 
-constexpr uint16_t LEAST_PERIOD = steps_of(LEAST_PERIOD_US);
-constexpr uint16_t PERIOD = steps_of(LEAST_PERIOD_US > 20000 ? LEAST_PERIOD_US : 20000);
+constexpr uint16_t MIN_PERIOD = steps_of(MIN_PERIOD_US);
+constexpr uint16_t PERIOD = steps_of(MIN_PERIOD_US > 20000 ? MIN_PERIOD_US : 20000);
 constexpr uint16_t STATUS_PERIOD = steps_of(200000);
 constexpr uint16_t THESIS_PERIOD = steps_of(50000);
-constexpr uint16_t OLDEST = steps_of(100000);
+constexpr uint16_t MAX_AGE = steps_of(100000);
 constexpr uint8_t ORIENTATION_SIZE = 26;
 constexpr uint8_t ATTITUDE_SIZE = 12;
 
@@ -76,7 +76,7 @@ OUT_OF_LINE Forwarder::Steps Forwarder::period(uint8_t stream) const {
   const Steps asked = static_cast<Steps>(period_ms_ * 31 + period_ms_ / 4);
   const bool is_consumed = stream != OUTPUTS_STREAM && autopilot_.authority.mode() == Mode::OUTPUT;
   if (is_consumed && asked > usual) return usual;
-  const Steps least = is_thesis ? THESIS_PERIOD : LEAST_PERIOD;
+  const Steps least = is_thesis ? THESIS_PERIOD : MIN_PERIOD;
   return asked < least ? least : asked;
 }
 
@@ -166,7 +166,7 @@ void Forwarder::remember(Steps now) {
 /** Whether any is, and the newest is young enough to be computed from. */
 OUT_OF_LINE bool Forwarder::is_remembered(Steps now) const {
   const Steps newest = sent_[static_cast<uint8_t>(sequence_ - 1) % REMEMBERED];
-  return remembered_ != 0 && static_cast<Steps>(now - newest) <= OLDEST;
+  return remembered_ != 0 && static_cast<Steps>(now - newest) <= MAX_AGE;
 }
 
 uint32_t Forwarder::orientation_age_us(uint16_t sequence, uint32_t now_us) const {

@@ -9,11 +9,11 @@
 namespace raspilot {
 
 /** Maximum payload of a frame, and that of any Command or answer of ours (`g` and `G`). */
-constexpr uint8_t LONGEST_PAYLOAD = 96;
-constexpr uint8_t LONGEST_COMMAND = 72;
+constexpr uint8_t MAX_PAYLOAD = 96;
+constexpr uint8_t MAX_COMMAND = 72;
 /** Sequence, type, payload, CRC. */
 constexpr uint8_t FRAME_OVERHEAD = 4;
-constexpr uint8_t LONGEST_FRAME = LONGEST_PAYLOAD + FRAME_OVERHEAD;
+constexpr uint8_t MAX_FRAME = MAX_PAYLOAD + FRAME_OVERHEAD;
 /** The one byte that COBS adds, and the zero that ends a frame. */
 constexpr uint8_t COBS_OVERHEAD = 2;
 
@@ -36,7 +36,7 @@ class Beginning {
  * frame that is longer than any Command the rest is checked and not kept.
  */
 struct ReceiveBuffer {
-  uint8_t bytes[LONGEST_COMMAND + 2];
+  uint8_t bytes[MAX_COMMAND + 2];
 };
 
 }  // namespace raspilot

@@ -8,7 +8,7 @@ namespace raspilot {
 
 void write_frame(uint8_t sequence, char type, const uint8_t* payload, uint8_t size,
                  void (*write)(uint8_t byte)) {
-  uint8_t encoded[LONGEST_FRAME + 1];
+  uint8_t encoded[MAX_FRAME + 1];
   CobsEncoder cobs(encoded);
   Crc16 crc;
   const uint8_t check_at = static_cast<uint8_t>(size + 2);

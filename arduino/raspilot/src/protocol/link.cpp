@@ -9,7 +9,7 @@ namespace raspilot {
 namespace {
 
 constexpr uint16_t HEARD_UNITS = units_at_least(1000);
-constexpr uint16_t MOST = 65535;
+constexpr uint16_t MAX = 65535;
 constexpr uint8_t REFUSED_SIZE = 3;
 
 }  // namespace
@@ -24,18 +24,18 @@ void Link::open() {
 void Link::on_byte(uint8_t byte, uint32_t now_us) {
   expire(now_us);
   if (is_thesis_) {
-    hear_thesis(byte, now_us);
+    on_thesis_byte(byte, now_us);
     return;
   }
-  hear_checked(byte, now_us);
-  if (!is_door_closed_) look_for_thesis(byte, now_us);
+  on_checked_byte(byte, now_us);
+  if (!is_door_closed_) detect_legacy(byte, now_us);
 }
 
 void Link::check(uint32_t now_us) {
   expire(now_us);
   limit_.check(now_us);
   forwarder_.check(now_us);
-  is_heard_ = has_heard(now_us);
+  is_heard_ = has_received(now_us);
 }
 
 bool Link::background(uint32_t now_us) {
@@ -43,8 +43,8 @@ bool Link::background(uint32_t now_us) {
   return forwarder_.send_next(now_us);
 }
 
-OUT_OF_LINE bool Link::has_heard(uint32_t now_us) const {
-  return is_heard_ && static_cast<uint16_t>(to_units(now_us) - heard_units_) <= HEARD_UNITS;
+OUT_OF_LINE bool Link::has_received(uint32_t now_us) const {
+  return is_heard_ && static_cast<uint16_t>(to_units(now_us) - last_rx_units_) <= HEARD_UNITS;
 }
 
 bool Link::has_room(uint8_t size) const {
@@ -53,7 +53,7 @@ bool Link::has_room(uint8_t size) const {
 }
 
 bool Link::send(char type, const uint8_t* payload, uint8_t size) {
-  if (size > LONGEST_COMMAND || !has_room(size)) return false;
+  if (size > MAX_COMMAND || !has_room(size)) return false;
   if (is_thesis_) {
     board::serial_write(static_cast<uint8_t>(type));
     for (uint8_t index = 0; index < size; ++index) board::serial_write(payload[index]);
@@ -63,8 +63,8 @@ bool Link::send(char type, const uint8_t* payload, uint8_t size) {
   return true;
 }
 
-void Link::hear_checked(uint8_t byte, uint32_t now_us) {
-  switch (reader_.take(byte, now_us)) {
+void Link::on_checked_byte(uint8_t byte, uint32_t now_us) {
+  switch (reader_.receive(byte, now_us)) {
     case CheckedReader::Found::FRAME: on_frame(now_us); break;
     case CheckedReader::Found::BROKEN: on_dropped(); break;
     case CheckedReader::Found::NOTHING: break;
@@ -91,20 +91,20 @@ void Link::on_frame(uint32_t now_us) {
 void Link::count_sequence(uint8_t sequence) {
   if (has_expected_) {
     const uint8_t missed = static_cast<uint8_t>(sequence - expected_);
-    missing_ = missing_ > MOST - missed ? MOST : static_cast<uint16_t>(missing_ + missed);
+    missing_ = missing_ > MAX - missed ? MAX : static_cast<uint16_t>(missing_ + missed);
   }
   has_expected_ = true;
   expected_ = static_cast<uint8_t>(sequence + 1);
 }
 
-void Link::look_for_thesis(uint8_t byte, uint32_t now_us) {
-  if (!door_.take(byte, now_us) || autopilot_.authority.is_armed()) return;
+void Link::detect_legacy(uint8_t byte, uint32_t now_us) {
+  if (!door_.receive(byte, now_us) || autopilot_.authority.is_armed()) return;
   is_thesis_ = true;
   forwarder_.start(now_us);
 }
 
-void Link::hear_thesis(uint8_t byte, uint32_t now_us) {
-  switch (receiver_.take(byte, now_us)) {
+void Link::on_thesis_byte(uint8_t byte, uint32_t now_us) {
+  switch (receiver_.receive(byte, now_us)) {
     case CommandReceiver::Found::COMMAND: {
       const Request request = {receiver_.payload(), 0, now_us};
       carry_out(receiver_.definition(), request);
@@ -120,7 +120,7 @@ void Link::hear_thesis(uint8_t byte, uint32_t now_us) {
 
 void Link::carry_out(const CommandDefinition& command, const Request& request) {
   is_heard_ = true;
-  heard_units_ = to_units(request.now_us);
+  last_rx_units_ = to_units(request.now_us);
   const bool is_stream = command.answer == Answer::UNANSWERED;
   if (!is_stream && !answers_.has_place()) {
     // To execute it without an answer would be worse: the sender would repeat it.
@@ -171,7 +171,7 @@ bool Link::send_answer(uint32_t now_us) {
 /** Lets a handler send its own answer; false without room. A refusal replaces the request. */
 bool Link::ask(PendingAnswer& pending, uint32_t now_us) {
   CommandDefinition command;
-  if (!has_room(LONGEST_COMMAND)) return false;
+  if (!has_room(MAX_COMMAND)) return false;
   if (!CommandExecutor::find(static_cast<char>(pending.type), command)) return true;
   const Request request = {buffer_.bytes, pending.sequence, now_us};
   const Reason reason = command.handler(autopilot_, request);
@@ -190,7 +190,7 @@ void Link::expire(uint32_t now_us) {
 }
 
 void Link::on_dropped() {
-  if (dropped_ != MOST) ++dropped_;
+  if (dropped_ != MAX) ++dropped_;
 }
 
 }  // namespace raspilot

@@ -12,7 +12,7 @@
 #include "command_receiver.h"
 #include "forwarder.h"
 #include "frame.h"
-#include "thesis_door.h"
+#include "legacy_framing_detector.h"
 
 namespace raspilot {
 
@@ -48,15 +48,15 @@ class Link {
   bool is_thesis() const { return is_thesis_; }
   bool is_started() const { return forwarder_.is_started(); }
   /** Whether the Raspberry Pi has sent a valid message within 1 s. */
-  bool has_heard(uint32_t now_us) const;
+  bool has_received(uint32_t now_us) const;
   /** Frames dropped, and frames missing by sequence, since reset; they stay at 65535. */
   uint16_t dropped() const { return dropped_; }
   uint16_t missing() const { return missing_; }
 
  private:
-  void hear_checked(uint8_t byte, uint32_t now_us);
-  void hear_thesis(uint8_t byte, uint32_t now_us);
-  void look_for_thesis(uint8_t byte, uint32_t now_us);
+  void on_checked_byte(uint8_t byte, uint32_t now_us);
+  void on_thesis_byte(uint8_t byte, uint32_t now_us);
+  void detect_legacy(uint8_t byte, uint32_t now_us);
   void on_frame(uint32_t now_us);
   void expire(uint32_t now_us);
   void count_sequence(uint8_t sequence);
@@ -67,11 +67,11 @@ class Link {
   void on_dropped();
 
   Autopilot& autopilot_;
-  ThesisDoor door_;
+  LegacyFramingDetector door_;
   Answers answers_;
   RefusalLimit limit_;
   Forwarder forwarder_;
-  uint16_t heard_units_ ZEROED;
+  uint16_t last_rx_units_ ZEROED;
   uint16_t dropped_ ZEROED;
   uint16_t missing_ ZEROED;
   uint8_t sequence_ ZEROED;

@@ -6,8 +6,8 @@
 namespace raspilot {
 
 /** 90.0f. */
-constexpr uint32_t MOST_LATITUDE = 0x42B40000;
+constexpr uint32_t MAX_LATITUDE = 0x42B40000;
 /** 180.0f. */
-constexpr uint32_t MOST_LONGITUDE = 0x43340000;
+constexpr uint32_t MAX_LONGITUDE = 0x43340000;
 
 }  // namespace raspilot

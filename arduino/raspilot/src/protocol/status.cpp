@@ -1,57 +1,48 @@
 #include "status.h"
 
 #include "../core/autopilot.h"
-#include "../store/wire_bytes.h"
+#include "../core/compiler.h"
 
 namespace raspilot {
 
 namespace {
 
-constexpr uint8_t VERSION = 1;
-
-enum Flag : uint8_t {
-  ARMED = 1,
-  AT_AUTO = 2,
-  RECEIVER_VALID = 4,
-  IMU_VALID = 8,
-  FAILSAFE_ACTS = 16,
-  BIAS_FROM_EEPROM = 32,
-  GAINS_IN_EEPROM = 64,
-  RASPBERRY_HEARD = 128
-};
-
 uint8_t flags_of(const Autopilot& autopilot, uint32_t now_us) {
   const Authority& authority = autopilot.authority;
   uint8_t flags = 0;
-  if (authority.is_armed()) flags |= ARMED;
-  if (authority.is_auto()) flags |= AT_AUTO;
-  if (authority.has_receiver()) flags |= RECEIVER_VALID;
-  if (autopilot.attitude.is_valid()) flags |= IMU_VALID;
-  if (authority.is_failsafe()) flags |= FAILSAFE_ACTS;
-  if (autopilot.attitude.is_bias_from_eeprom()) flags |= BIAS_FROM_EEPROM;
-  if (autopilot.settings.has_gains()) flags |= GAINS_IN_EEPROM;
-  if (autopilot.link.has_heard(now_us)) flags |= RASPBERRY_HEARD;
+  if (authority.is_armed()) flags |= FLAG_ARMED;
+  if (authority.is_auto()) flags |= FLAG_AT_AUTO;
+  if (authority.has_receiver()) flags |= FLAG_RECEIVER_VALID;
+  if (autopilot.attitude.is_valid()) flags |= FLAG_IMU_VALID;
+  if (authority.is_failsafe()) flags |= FLAG_FAILSAFE;
+  if (autopilot.attitude.is_bias_from_eeprom()) flags |= FLAG_BIAS_STORED;
+  if (autopilot.settings.has_gains()) flags |= FLAG_GAINS_STORED;
+  if (autopilot.link.has_received(now_us)) flags |= FLAG_PI_RECEIVED;
   return flags;
+}
+
+OUT_OF_LINE void put_u16(uint8_t* bytes, uint16_t value) {
+  bytes[0] = static_cast<uint8_t>(value >> 8);
+  bytes[1] = static_cast<uint8_t>(value);
 }
 
 }  // namespace
 
 void write_status(const Autopilot& autopilot, uint32_t now_us, uint8_t* payload) {
   const Authority& authority = autopilot.authority;
-  WireWriter writer(payload);
-  writer.u8(VERSION);
-  writer.u8(static_cast<uint8_t>(authority.mode()));
-  writer.u8(authority.switch_position());
-  writer.u8(flags_of(autopilot, now_us));
-  writer.u8(authority.vetoes());
-  writer.u8(autopilot.reset_cause);
-  writer.u16(autopilot.meter.period_us());
-  writer.u16(autopilot.meter.late_us());
-  writer.u16(autopilot.link.dropped());
-  writer.u16(autopilot.link.missing());
-  writer.u16(autopilot.meter.seconds());
-  writer.u16(autopilot.receiver.age_ms(now_us));
-  writer.u16(autopilot.attitude.age_ms(now_us));
+  payload[AT_VERSION] = PROTOCOL_VERSION;
+  payload[AT_MODE] = static_cast<uint8_t>(authority.mode());
+  payload[AT_SWITCH] = authority.switch_position();
+  payload[AT_FLAGS] = flags_of(autopilot, now_us);
+  payload[AT_VETOES] = authority.vetoes();
+  payload[AT_RESET_CAUSE] = autopilot.reset_cause;
+  put_u16(payload + AT_LOOP_US, autopilot.meter.period_us());
+  put_u16(payload + AT_LATE_US, autopilot.meter.late_us());
+  put_u16(payload + AT_FRAME_ERRORS, autopilot.link.dropped());
+  put_u16(payload + AT_FRAMES_LOST, autopilot.link.missing());
+  put_u16(payload + AT_UPTIME_S, autopilot.meter.seconds());
+  put_u16(payload + AT_RX_AGE_MS, autopilot.receiver.age_ms(now_us));
+  put_u16(payload + AT_IMU_AGE_MS, autopilot.attitude.age_ms(now_us));
 }
 
 }  // namespace raspilot

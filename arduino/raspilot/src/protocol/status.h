@@ -7,8 +7,6 @@ namespace raspilot {
 
 class Autopilot;
 
-constexpr uint8_t STATUS_SIZE = 20;
-
 /** Writes the STATUS_SIZE bytes of `x`. */
 void write_status(const Autopilot& autopilot, uint32_t now_us, uint8_t* payload);
 

@@ -37,8 +37,8 @@ bool read_calibration(const uint8_t* bytes, Calibration& calibration) {
     const uint16_t lowest_us = reader.u16();
     const uint16_t centre_us = reader.u16();
     const uint16_t highest_us = reader.u16();
-    if (centre_us < lowest_us + LEAST_HALF_RANGE_US) return false;
-    if (highest_us < centre_us + LEAST_HALF_RANGE_US) return false;
+    if (centre_us < lowest_us + MIN_HALF_RANGE_US) return false;
+    if (highest_us < centre_us + MIN_HALF_RANGE_US) return false;
   }
   read_fields(FIELDS, sizeof FIELDS, bytes, &calibration);
   return true;

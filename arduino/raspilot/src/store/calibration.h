@@ -25,7 +25,7 @@ struct Calibration {
 constexpr uint8_t CALIBRATION_SIZE = 46;
 
 /** From the centre to either end at least, so that scaling stays sane. */
-constexpr uint16_t LEAST_HALF_RANGE_US = 100;
+constexpr uint16_t MIN_HALF_RANGE_US = 100;
 
 /** No bias, level as mounted, every channel 1000, 1500, 2000 us. In flash: copy with memcpy_P. */
 extern const Calibration DEFAULT_CALIBRATION;

@@ -14,7 +14,7 @@ static_assert(sizeof(Gains) == GAINS_SIZE, "the copies below count on it");
 constexpr uint8_t GAINS_A_LOOP = 9;
 constexpr uint8_t WIRED_GAINS_A_LOOP = 6;
 /** 50.0f. Positive floats are ordered as their bits are, and infinity and NaN lie above every number. */
-constexpr uint32_t GREATEST_GAIN_BITS = 0x42480000;
+constexpr uint32_t MAX_GAIN_BITS = 0x42480000;
 constexpr uint32_t MINUS_ZERO_BITS = 0x80000000;
 
 bool read(const uint8_t* wire, Gains& gains, uint8_t gains_a_loop) {
@@ -49,7 +49,7 @@ void write(const Gains& gains, uint8_t* wire, uint8_t gains_a_loop) {
 
 }  // namespace
 
-bool is_gain(uint32_t bits) { return bits <= GREATEST_GAIN_BITS || bits == MINUS_ZERO_BITS; }
+bool is_gain(uint32_t bits) { return bits <= MAX_GAIN_BITS || bits == MINUS_ZERO_BITS; }
 
 const Gains DEFAULT_GAINS PROGMEM = {
     {{2.0f, 0.0f, 0.0f}, {1.5f, 0.0f, 0.0f}, {1.0f, 0.0f, 0.0f}},

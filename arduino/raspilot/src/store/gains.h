@@ -7,7 +7,7 @@ namespace raspilot {
 
 constexpr uint8_t GAINS_SIZE = 72;
 constexpr uint8_t TWO_AXIS_GAINS_SIZE = 48;
-constexpr float GREATEST_GAIN = 50.0f;
+constexpr float MAX_GAIN = 50.0f;
 
 /** One PID's gains. Rate: units of 1.25 us per deg/s; stabilize: deg/s per degree. */
 struct PidGains {

@@ -20,8 +20,8 @@ const uint8_t FIELDS[] PROGMEM = {
     PULSE,  FLOOR,  PULSE,  PULSE,  PULSE,  FLAG         // throttle, presets, return
 };
 constexpr uint8_t SERVO_SIZE = 7;
-constexpr uint8_t LOWEST_AT = 3;
-constexpr uint8_t HIGHEST_AT = 5;
+constexpr uint8_t MIN_AT = 3;
+constexpr uint8_t MAX_AT = 5;
 constexpr uint8_t SWITCH_AT = 30;
 
 bool is_switch_mode(uint8_t letter) {
@@ -33,7 +33,7 @@ bool is_profile(const uint8_t* wire) {
   for (uint8_t output = 0; output < OUTPUTS; ++output) {
     const uint8_t* const servo = wire + output * SERVO_SIZE;
     // Big-endian numbers are ordered as their bytes are.
-    if (memcmp(servo + LOWEST_AT, servo + HIGHEST_AT, 2) >= 0) return false;
+    if (memcmp(servo + MIN_AT, servo + MAX_AT, 2) >= 0) return false;
   }
   for (uint8_t position = 0; position < 3; ++position) {
     if (!is_switch_mode(wire[SWITCH_AT + position])) return false;

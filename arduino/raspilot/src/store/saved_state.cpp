@@ -54,7 +54,7 @@ bool SavedStates::read(SavedState& state) const {
   return true;
 }
 
-void SavedStates::forget() {
+void SavedStates::reset() {
   for (Copy& copy : copies_) copy.crc = static_cast<uint16_t>(~crc_of(copy.state, copy.sequence));
 }
 

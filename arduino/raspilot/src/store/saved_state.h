@@ -20,7 +20,7 @@ class SavedStates {
   /** The newest copy whose CRC is right; false without one. */
   bool read(SavedState& state) const;
   /** Makes both copies unreadable. */
-  void forget();
+  void reset();
 
  private:
   struct Copy {

@@ -12,7 +12,7 @@ namespace {
 /** Version of the stored format. */
 constexpr uint8_t VERSION = 1;
 /** A cell that will not take its value is given up after this number of saves. */
-constexpr uint8_t MOST_ATTEMPTS = 3;
+constexpr uint8_t MAX_ATTEMPTS = 3;
 constexpr uint8_t LARGEST_SIZE = GAINS_SIZE;
 
 const uint8_t SIZES[] PROGMEM = {PROFILE_SIZE, GAINS_SIZE, CALIBRATION_SIZE};
@@ -46,7 +46,7 @@ void Settings::load_kind(Kind kind) {
     uint8_t sequence;
     if (!read_slot(slot_address(kind, slot), VERSION, size_of(kind), data, sequence)) continue;
     if (state.is_stored && !is_newer(sequence, state.sequence)) continue;
-    if (!take(kind, data)) continue;
+    if (!apply(kind, data)) continue;
     state.is_stored = true;
     state.slot = slot;
     state.sequence = sequence;
@@ -91,7 +91,7 @@ bool Settings::is_kept() const {
   const KindState& state = kinds_[kind_];
   if (!state.is_stored) return false;
   uint8_t data[LARGEST_SIZE];
-  give(data);
+  fill(data);
   const uint16_t start = static_cast<uint16_t>(slot_address(kind_, state.slot) + SLOT_HEADER_SIZE);
   for (uint8_t at = 0; at < size_of(kind_); ++at) {
     if (board::eeprom_read(static_cast<uint16_t>(start + at)) != data[at]) return false;
@@ -127,7 +127,7 @@ void Settings::fail() {
   const uint8_t attempts = static_cast<uint8_t>(attempts_ + 1);
   begin_save();
   attempts_ = attempts;
-  if (attempts < MOST_ATTEMPTS) return;
+  if (attempts < MAX_ATTEMPTS) return;
   kinds_[kind_].is_pending = false;
   kinds_[kind_].is_broken = !kinds_[kind_].is_stored;
 }
@@ -158,7 +158,7 @@ uint8_t Settings::next_byte() {
     value = static_cast<uint8_t>(kinds_[kind_].sequence + 1);
   } else {
     uint8_t data[LARGEST_SIZE];
-    give(data);
+    fill(data);
     value = data[at - SLOT_HEADER_SIZE];
   }
   crc_.put(value);
@@ -170,13 +170,13 @@ uint16_t Settings::target() const { return slot_address(kind_, kinds_[kind_].slo
 
 bool Settings::is_at_end() const { return offset_ >= size_of(kind_) + SLOT_OVERHEAD; }
 
-bool Settings::take(Kind kind, const uint8_t* data) {
+bool Settings::apply(Kind kind, const uint8_t* data) {
   if (kind == PROFILE) return read_profile(data, profile);
   if (kind == GAINS) return read_three_axes(data, gains);
   return read_calibration(data, calibration);
 }
 
-void Settings::give(uint8_t* data) const {
+void Settings::fill(uint8_t* data) const {
   if (kind_ == PROFILE) {
     write_profile(profile, data);
   } else if (kind_ == GAINS) {

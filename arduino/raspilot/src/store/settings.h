@@ -63,8 +63,8 @@ class Settings {
   bool is_kept() const;
   uint16_t target() const;
   bool is_at_end() const;
-  bool take(Kind kind, const uint8_t* data);
-  void give(uint8_t* data) const;
+  bool apply(Kind kind, const uint8_t* data);
+  void fill(uint8_t* data) const;
 
   // load() sets all of these: nothing is to be done before it.
   KindState kinds_[KINDS];

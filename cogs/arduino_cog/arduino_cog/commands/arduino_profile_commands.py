@@ -5,15 +5,14 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
-from arduino_cog.profile import Profile
-from arduino_cog.profile_data import profile_to_data
+from arduino_cog.profile import Profile, nested
 from up.commands.command import BaseCommand, value
 from up.commands.roles import Role
 
 
 @dataclass(frozen=True, slots=True)
 class ArduinoProfileRequestCommand(BaseCommand):
-    """Asks for the profile of the airframe that the Arduino holds now."""
+    """Requests the active profile of the Arduino."""
 
     NAME: ClassVar[str] = "arduino.profile.request"
     ROLES: ClassVar[frozenset[Role]] = frozenset({Role.OBSERVER})
@@ -21,7 +20,7 @@ class ArduinoProfileRequestCommand(BaseCommand):
 
 @dataclass(frozen=True, slots=True)
 class ArduinoProfileValuesCommand(BaseCommand):
-    """The profile that flies now; its keys are called as in airframe.yml."""
+    """The active profile, with the keys of airframe.yml."""
 
     NAME: ClassVar[str] = "arduino.profile.values"
     profile: dict[str, Any] = value()
@@ -29,7 +28,7 @@ class ArduinoProfileValuesCommand(BaseCommand):
     @classmethod
     def of(cls, profile: Profile) -> ArduinoProfileValuesCommand:
         """Return a Command with a profile."""
-        return cls(profile_to_data(profile))
+        return cls(nested(profile))
 
     @property
     def data(self) -> dict[str, Any]:

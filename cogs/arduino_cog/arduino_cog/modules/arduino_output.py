@@ -25,7 +25,10 @@ class ArduinoOutput(BaseModule):
     def on_init(self) -> None:
         self._send_command = self.arduino.serial.send_command
         if not self.arduino.is_checked:
-            self.log.info("thesis framing: the Raspberry Pi's Outputs and setpoints are not sent")
+            self.log.info(
+                "thesis framing: the Raspberry Pi's Outputs and setpoints are not sent",
+                code="outputs_not_supported",
+            )
             return
         self.up.command_executor.register_command(OutputCommand, self.on_output)
         self.up.command_executor.register_command(SetpointCommand, self.on_setpoint)

@@ -24,20 +24,20 @@ class ArduinoPanic(BaseModule):
 
     def on_init(self) -> None:
         self.up.command_executor.register_command(PanicCommand, self.on_panic)
-        self.arduino.add_board_listener(self.on_board_begun)
+        self.arduino.add_board_listener(self.on_board_started)
 
     def on_panic(self, command: PanicCommand) -> None:
         """Forward it; an absent Arduino receives it when it connects."""
         self._newest = command
         if self.arduino.connected:
-            self._tell(command)
+            self._forward(command)
 
-    def on_board_begun(self) -> None:
+    def on_board_started(self) -> None:
         """Send the period to a new or reset board during panic."""
         if self._newest is not None and self._newest.panic:
-            self._tell(self._newest)
+            self._forward(self._newest)
 
-    def _tell(self, command: PanicCommand) -> None:
+    def _forward(self, command: PanicCommand) -> None:
         payload = pack_panic(command.panic, command.delay_ms)
         if self.arduino.is_checked:
             self.arduino.request("p", payload).addErrback(self._on_refused)
@@ -46,4 +46,8 @@ class ArduinoPanic(BaseModule):
 
     def _on_refused(self, failure: Failure) -> None:
         failure.trap(CommandRefusedError)
-        self.log.warn("panic was not passed on: {reason}", reason=failure.getErrorMessage())
+        self.log.warn(
+            "panic was not passed on: {reason}",
+            code="panic_refused",
+            reason=failure.getErrorMessage(),
+        )

@@ -10,25 +10,19 @@ from serial_cog.config import ARDUINO
 from serial_cog.modules.serial_provider import SerialProvider
 from twisted.internet.defer import Deferred
 
-from arduino_cog.commands.arduino_status_command import (
-    STATUS,
-    VERSION,
-    ArduinoStatusCommand,
-    read_status,
-)
-from arduino_cog.exchange import Exchange
+from arduino_cog.commands.arduino_status_command import ArduinoStatusCommand, read_status
 from arduino_cog.gains_wire import THREE_AXES_SIZE, TWO_AXES_SIZE
 from arduino_cog.profile import PROFILE_SIZE
-from arduino_cog.wire import (
-    ATTITUDE,
-    INPUTS,
-    ORIENTATION,
-    OUTPUTS,
-    Reason,
-    flight_mode_name,
-    reason_text,
-)
+from arduino_cog.request_tracker import RequestTracker
+from arduino_cog.wire import ATTITUDE, IN_FLIGHT, INPUTS, ORIENTATION, OUTPUTS
 from up.base_started_module import BaseStartedModule
+from up.commands.board_schema import STATUS, VERSION, Reason
+from up.commands.board_status import (
+    flight_mode_name,
+    refusal_name,
+    refusal_text,
+    telemetry_of,
+)
 from up.commands.command_executor import CommandExecutor
 from up.commands.flight_state_command import FlightStateCommand
 from up.commands.orientation_command import OrientationCommand
@@ -80,7 +74,7 @@ class ArduinoProvider(BaseStartedModule):
         self._servo_s = 0.0
         self._status_s = float("-inf")
         self._state_s = 0.0
-        self._begun: list[Callable[[], object]] = []
+        self._board_listeners: list[Callable[[], object]] = []
         self._alive: Timer | None = None
         self._refusals_named: set[tuple[str, str]] = set()
 
@@ -128,21 +122,12 @@ class ArduinoProvider(BaseStartedModule):
             "servo": servo and round((now_s - self._servo_s) * 1000),
             "flight": status and round((now_s - self._state_s) * 1000),
         }
-        counters = {**self.counters, "unmatched": self.exchange.unmatched}
+        counters = {**self.counters, "unmatched": self.requests.unmatched}
         return {
             "arduino": {
                 "connected": self.connected,
                 "framing": self.serial.framing,
-                "switch": status and status.switch_position,
-                "failsafe": status and status.is_failsafe,
-                "loop_us": status and status.loop_us,
-                "late_us": status and status.late_us,
-                "frame_errors": status and status.frame_errors,
-                "reset_cause": status and status.reset_causes,
-                "restored": status and status.is_restored,
-                "bias_stored": status and status.is_bias_stored,
-                "receiver_valid": status and status.is_receiver_valid,
-                "imu_valid": status and status.is_imu_valid,
+                **telemetry_of(None if status is None else status.data),
             },
             "armed": self.is_armed,
             "in_flight": self.is_in_flight,
@@ -155,7 +140,7 @@ class ArduinoProvider(BaseStartedModule):
 
     def add_board_listener(self, listener: Callable[[], object]) -> None:
         """Call ``listener`` whenever a board answers that may be new or reset."""
-        self._begun.append(listener)
+        self._board_listeners.append(listener)
 
     def request(
         self, type_: str, payload: bytes = b"", *, answer: str = "K", may_repeat: bool = True
@@ -166,7 +151,7 @@ class ArduinoProvider(BaseStartedModule):
         ``may_repeat``. Raises CommandRefusedError when no Arduino is connected.
         """
         self.require_connected()
-        return self.exchange.request(type_, payload, answer=answer, may_repeat=may_repeat)
+        return self.requests.request(type_, payload, answer=answer, may_repeat=may_repeat)
 
     def send_unanswered(self, type_: str, payload: bytes) -> None:
         """Send a message that gets no confirmation; raises CommandRefusedError."""
@@ -183,7 +168,8 @@ class ArduinoProvider(BaseStartedModule):
         if not self.is_checked:
             raise CommandRefusedError(
                 f"{what} needs the firmware of this project: arduino.yml says framing: thesis,"
-                " which has no message for it"
+                " which has no message for it",
+                detail="old_firmware",
             )
 
     def send_stream(self, type_: str, payload: bytes) -> int | None:
@@ -194,7 +180,7 @@ class ArduinoProvider(BaseStartedModule):
         executor: CommandExecutor = self.up.command_executor
         self._execute = executor.execute_command
         self._seconds = self.context.reactor.seconds
-        self.exchange = Exchange(self.context.reactor, self.serial.send_command)
+        self.requests = RequestTracker(self.context.reactor, self.serial.send_command)
         self._veto_changed_before = self.up.vetoes.on_changed
         self.up.vetoes.on_changed = self._on_veto_changed
         self.up.vetoes.report(LINK, (_ABSENT,))
@@ -206,7 +192,7 @@ class ArduinoProvider(BaseStartedModule):
 
     def on_stop(self) -> None:
         self._stop_alive()
-        self.exchange.fail_all("Raspilot stops")
+        self.requests.fail_all("Raspilot stops")
 
     def _stop_alive(self) -> None:
         if self._alive is not None and self._alive.active():
@@ -216,7 +202,7 @@ class ArduinoProvider(BaseStartedModule):
     def _subscribe(self) -> None:
         add = self.serial.add_handler
         add("r", self._on_outputs, OUTPUTS.size)
-        add("T", lambda payload: self.exchange.on_value("T", payload), TWO_AXES_SIZE)
+        add("T", lambda payload: self.requests.on_value("T", payload), TWO_AXES_SIZE)
         if not self.is_checked:
             add("o", self._on_attitude, ATTITUDE.size)
             add("!", self._on_refused_bare, 1)
@@ -228,9 +214,9 @@ class ArduinoProvider(BaseStartedModule):
         add("x", self._on_status, STATUS.size)
         add("K", self._on_confirmed, 2)
         add("!", self._on_refused, 3)
-        add("m", lambda payload: self.exchange.on_value("m", payload), 1)
-        add("G", lambda payload: self.exchange.on_value("G", payload), THREE_AXES_SIZE)
-        add("C", lambda payload: self.exchange.on_value("C", payload), PROFILE_SIZE)
+        add("m", lambda payload: self.requests.on_value("m", payload), 1)
+        add("G", lambda payload: self.requests.on_value("G", payload), THREE_AXES_SIZE)
+        add("C", lambda payload: self.requests.on_value("C", payload), PROFILE_SIZE)
 
     def on_line_opened(self) -> None:
         """Greet the device at the other end of the line."""
@@ -247,16 +233,16 @@ class ArduinoProvider(BaseStartedModule):
 
     def on_line_heard(self) -> None:
         """Report that the Arduino is connected."""
-        self.log.info("the Arduino answers")
+        self.log.info("the Arduino answers", code="board_connected")
         self.up.vetoes.report(LINK, ())
         self._execute(LinkStateCommand(LINK, True))
-        self._tell_begun()
+        self._notify_board_started()
 
     def on_line_silent(self) -> None:
         """Report that the Arduino is gone; its last values are unknown from now on."""
         self.status = None
         self.up.vetoes.report(LINK, (_ABSENT,))
-        self.exchange.fail_all(_ABSENT)
+        self.requests.fail_all(_ABSENT)
         self._execute(FlightStateCommand(None, False, False, False), ORIGIN)
         self._execute(LinkStateCommand(LINK, False))
 
@@ -319,44 +305,55 @@ class ArduinoProvider(BaseStartedModule):
             self._on_reset(status)
         elif previous is None and status.is_restored:
             # It was silent before, or this program just started: reported in both cases.
-            self.log.warn("the Arduino flies after a reset{causes}", causes=_causes_of(status))
+            self.log.warn(
+                "the Arduino continues after a reset{causes}",
+                code="board_restored",
+                causes=_causes_of(status),
+            )
         self._execute(status, ORIGIN)
         self._execute(flight_state_of(status, self.has_motor), ORIGIN)
 
     def _on_reset(self, status: ArduinoStatusCommand) -> None:
         self.counters["resets"] += 1
-        self.log.warn("the Arduino was reset{causes}", causes=_causes_of(status))
+        self.log.warn(
+            "the Arduino was reset{causes}", code="board_reset", causes=_causes_of(status)
+        )
         self._send_start()
-        self._tell_begun()
+        self._notify_board_started()
 
     def _on_confirmed(self, payload: bytes) -> None:
         if payload[0] != _START:
-            self.exchange.on_confirmed(chr(payload[0]), payload[1])
+            self.requests.on_confirmed(chr(payload[0]), payload[1])
 
     def _on_refused(self, payload: bytes) -> None:
-        type_, sequence, reason = chr(payload[0]), payload[1], reason_text(payload[2])
+        type_, sequence, reason = chr(payload[0]), payload[1], refusal_text(payload[2])
+        detail = refusal_name(payload[2])
+        if payload[2] == Reason.ONLY_ON_GROUND:
+            reason += f" ({IN_FLIGHT})"
         if payload[2] == Reason.VETO and self.status is not None:
             reason += f" ({', '.join(self.status.veto_names)})"
-        if not self.exchange.on_refused(type_, sequence, reason):
-            self._note_refusal(type_, reason)
+        if not self.requests.on_refused(type_, sequence, reason, detail):
+            self._log_refusal(type_, reason, detail)
 
     def _on_refused_bare(self, payload: bytes) -> None:
         type_ = chr(payload[0]) if payload else ""
-        if not type_ or not self.exchange.on_refused(
+        if not type_ or not self.requests.on_refused(
             type_, None, "an old firmware gives no reason"
         ):
-            self._note_refusal(type_, "")
+            self._log_refusal(type_, "")
 
     def _on_echo(self, payload: bytes) -> None:
         """Take the confirmation of an old firmware; no request waits for it."""
 
-    def _note_refusal(self, type_: str, reason: str) -> None:
+    def _log_refusal(self, type_: str, reason: str, detail: str = "") -> None:
         """Count the refusal of a stream message, and log each kind once."""
         self.counters["refused_frames"] += 1
         if (type_, reason) not in self._refusals_named:
             self._refusals_named.add((type_, reason))
             self.log.info(
                 "the Arduino refused {type_!r}: {reason}",
+                code="board_refused",
+                detail=detail,
                 type_=type_,
                 reason=reason or "no reason given",
             )
@@ -379,8 +376,8 @@ class ArduinoProvider(BaseStartedModule):
     def _send_start(self) -> None:
         self.serial.send_command("s")
 
-    def _tell_begun(self) -> None:
-        for listener in self._begun:
+    def _notify_board_started(self) -> None:
+        for listener in self._board_listeners:
             listener()
 
 

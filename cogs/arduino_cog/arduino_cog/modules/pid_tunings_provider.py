@@ -7,9 +7,9 @@ from typing import Any
 from twisted.internet.defer import Deferred
 from twisted.python.failure import Failure
 
-from arduino_cog.board_value import BoardValue
 from arduino_cog.commands.arduino_status_command import ArduinoStatusCommand
 from arduino_cog.gains_wire import pack_gains, read_gains, without_rudder
+from arduino_cog.mirrored_parameter import MirroredParameter
 from arduino_cog.modules.arduino_provider import ArduinoProvider
 from arduino_cog.wire import IN_FLIGHT
 from up.base_module import BaseModule
@@ -43,47 +43,47 @@ class PIDTuningsProvider(BaseModule):
 
     def __init__(self) -> None:
         self._is_pushed = False
-        self._is_told = False
+        self._is_logged = False
 
     def load(self) -> bool:
         """Return whether the Arduino is the flight controller, so that it uses its gains."""
         return bool(self.context.application.flight_controller == "arduino")
 
     @property
-    def held(self) -> GainSet | None:
+    def current(self) -> GainSet | None:
         """Return the gains that the Arduino last reported; None while unknown."""
-        return self._board.held
+        return self._board.current
 
     @property
     def pids(self) -> GainSet | None:
         """Return the Arduino's gains, with pids.yml's navigation; None while unknown."""
-        return None if self.held is None else self.held.completed(self._saved)
+        return None if self.current is None else self.current.completed(self._saved)
 
     def on_init(self) -> None:
         self._file = PidsFile(self.context.config_folder)
-        self._keeper = GainsStore(self._file, self.context.reactor)
+        self._store = GainsStore(self._file, self.context.reactor)
         self._load()
         self._is_thesis = not self.arduino.is_checked
         type_ = "T" if self._is_thesis else "G"
-        self._board = BoardValue(
-            self.arduino, type_, type_, read_gains, "set of gains", self._tell_bus
+        self._board = MirroredParameter(
+            self.arduino, type_, type_, read_gains, "set of gains", self._publish
         )
-        self.arduino.add_board_listener(self.on_board_begun)
+        self.arduino.add_board_listener(self.on_board_started)
         executor = self.up.command_executor
         executor.register_command(PIDTuningsCommand, self.on_tunings)
         executor.register_command(ArduinoStatusCommand, self.on_status)
 
-    def on_board_begun(self) -> None:
+    def on_board_started(self) -> None:
         """Read the gains of a board that may be another one, or was reset."""
-        self._board.held = None
-        self._is_told = False
+        self._board.current = None
+        self._is_logged = False
         if not self._is_thesis:
             self._is_pushed = False
         self._board.read().addCallbacks(lambda _: self._reconcile(), self._on_failed)
 
     def on_status(self, status: ArduinoStatusCommand) -> None:
         """Send pids.yml when a board leaves flight, or is first known to be on the ground."""
-        if self.held is not None:
+        if self.current is not None:
             self._reconcile()
 
     def on_tunings(self, command: PIDTuningsCommand) -> Deferred[Any]:
@@ -98,7 +98,7 @@ class PIDTuningsProvider(BaseModule):
         if problem is None:
             self.up.vetoes.clear(_VETO)
         else:
-            self.log.error("{reason}", reason=problem)
+            self.log.error("{reason}", code="gains_invalid", reason=problem)
             self.up.vetoes.set(_VETO, problem)
 
     def _answer(self) -> Deferred[Any]:
@@ -106,17 +106,17 @@ class PIDTuningsProvider(BaseModule):
             raise CommandRefusedError("no ground station is configured", Code.UNAVAILABLE)
         return self._board.read().addCallback(self._send_values)
 
-    def _send_values(self, held: GainSet) -> None:
+    def _send_values(self, current: GainSet) -> None:
         assert self.mission_control is not None
-        if not self.mission_control.send_command(self._values_of(held)):
+        if not self.mission_control.send_command(self._values_of(current)):
             raise CommandRefusedError("the ground station is not connected", Code.UNAVAILABLE)
 
-    def _tell_bus(self, held: GainSet) -> None:
+    def _publish(self, current: GainSet) -> None:
         """Publish the current gains, for the flight log."""
-        self.up.command_executor.execute_command(self._values_of(held))
+        self.up.command_executor.execute_command(self._values_of(current))
 
-    def _values_of(self, held: GainSet) -> PIDTuningsValuesCommand:
-        return PIDTuningsValuesCommand.of(held.completed(self._saved))
+    def _values_of(self, current: GainSet) -> PIDTuningsValuesCommand:
+        return PIDTuningsValuesCommand.of(current.completed(self._saved))
 
     def _reconcile(self) -> None:
         """Send pids.yml to the board, if it is needed and harmless."""
@@ -125,30 +125,31 @@ class PIDTuningsProvider(BaseModule):
         self._is_pushed = True
         wanted = self._in_form(self._saved)
         if not self._differs(wanted):
-            self.log.info("the Arduino flies the gains of pids.yml")
+            self.log.info("the Arduino has the gains of pids.yml", code="gains_equal")
             return
-        self.log.info("the Arduino gets the gains of pids.yml, which differ from its own")
+        self.log.info("the Arduino gets the gains of pids.yml, which differ", code="gains_sent")
         self._transmit(wanted).addErrback(self._on_failed)
 
     def _may_push(self) -> bool:
         """Return whether pids.yml may be sent: it is valid and the board surely on the ground."""
-        if self.held is None or not self._is_good or not self._is_saved:
+        if self.current is None or not self._is_good or not self._is_saved:
             return False
         if self._is_thesis:
             servo = self.arduino.servo
             return servo is not None and servo.throttle_us <= LOW_THROTTLE_US
         if self.arduino.is_in_flight is not False:
-            self._tell_in_flight()
+            self._log_in_flight()
             return False
         return True
 
-    def _tell_in_flight(self) -> None:
+    def _log_in_flight(self) -> None:
         """Log once that a board in flight has other gains than pids.yml."""
-        if self.arduino.is_in_flight and not self._is_told:
-            self._is_told = True
+        if self.arduino.is_in_flight and not self._is_logged:
+            self._is_logged = True
             if self._differs(self._in_form(self._saved)):
                 self.log.warn(
-                    "the Arduino keeps other gains than pids.yml has: in flight ({in_flight})",
+                    "the Arduino keeps other gains than pids.yml has: in flight; {in_flight}",
+                    code="gains_differ_in_flight",
                     in_flight=IN_FLIGHT,
                 )
 
@@ -158,17 +159,19 @@ class PIDTuningsProvider(BaseModule):
 
     def _differs(self, wanted: GainSet) -> bool:
         status = self.arduino.status
-        if status is not None and not status.are_gains_stored:
+        if status is not None and not status.is_gains_stored:
             return True
-        held = self.held
-        return held is None or pack_gains(held) != pack_gains(wanted)
+        current = self.current
+        return current is None or pack_gains(current) != pack_gains(wanted)
 
     def _set(self, gains: GainSet) -> Deferred[Any]:
         if self._is_thesis and gains.has_rudder:
-            raise CommandRefusedError("an old firmware (framing: thesis) has no rudder gains")
+            raise CommandRefusedError(
+                "an old firmware (framing: thesis) has no rudder gains", detail="old_firmware"
+            )
         if self._board.is_setting:
-            raise CommandRefusedError("another set of gains is on its way")
-        refuse_unused(gains, (self.held or gains).completed(self._saved))
+            raise CommandRefusedError("another set of gains is being sent", detail="busy")
+        refuse_unused(gains, (self.current or gains).completed(self._saved))
         return self._transmit(gains).addCallback(self._save, gains)
 
     def _transmit(self, gains: GainSet) -> Deferred[Any]:
@@ -182,25 +185,25 @@ class PIDTuningsProvider(BaseModule):
         return self._board.send(
             type_,
             payload,
-            lambda held: _in_form_of(gains, held) == payload,
+            lambda current: _in_form_of(gains, current) == payload,
             is_answered=not self._is_thesis,
         )
 
     def _save(self, _: object, gains: GainSet) -> Deferred[Any]:
         """Save the confirmed gains without blocking the bus on the disk."""
         self._is_pushed = True
-        whole = gains.completed(self.held or gains)
-        return self._keeper.save(whole).addCallbacks(lambda _: self._load(), self._on_unsaved)
+        whole = gains.completed(self.current or gains)
+        return self._store.save(whole).addCallbacks(lambda _: self._load(), self._on_unsaved)
 
     def _on_unsaved(self, failure: Failure) -> Failure:
-        self.log.error("{reason}", reason=failure.getErrorMessage())
+        self.log.error("{reason}", code="gains_not_saved", reason=failure.getErrorMessage())
         return failure
 
     def _on_failed(self, failure: Failure) -> None:
         failure.trap(CommandRefusedError)
-        self.log.warn("gains: {reason}", reason=failure.getErrorMessage())
+        self.log.warn("gains: {reason}", code="gains_failed", reason=failure.getErrorMessage())
 
 
-def _in_form_of(sent: GainSet, held: GainSet) -> bytes:
+def _in_form_of(sent: GainSet, current: GainSet) -> bytes:
     """Return the board's gains in the wire's form, without the rudder if none was sent."""
-    return pack_gains(held if sent.has_rudder else without_rudder(held))
+    return pack_gains(current if sent.has_rudder else without_rudder(current))

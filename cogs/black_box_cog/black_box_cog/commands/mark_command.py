@@ -11,7 +11,7 @@ from up.commands.roles import Role
 
 @dataclass(frozen=True, slots=True)
 class MarkCommand(BaseCommand):
-    """A mark in the flight log, in the words of whoever sets it."""
+    """A mark in the flight log with a note of the user."""
 
     NAME: ClassVar[str] = "black_box.mark"
     ROLES: ClassVar[frozenset[Role]] = frozenset({Role.OPERATOR})

@@ -14,7 +14,7 @@ _TOPIC = re.compile(r"[a-z0-9_]+(\.[a-z0-9_]+)+", re.ASCII)
 
 @dataclass(frozen=True, slots=True)
 class RecordCommand(BaseCommand):
-    """An object that goes into the flight log under a topic of its own."""
+    """An object that goes into the flight log under a separate topic."""
 
     NAME: ClassVar[str] = "black_box.record"
     ROLES: ClassVar[frozenset[Role]] = frozenset({Role.SENSOR})

@@ -55,13 +55,11 @@ class BlackBox(BaseThreadModule):
     recorder: Recorder | None = None
 
     def load(self) -> bool:
-        """Return whether flights are recorded."""
         enabled: bool = self.config.enabled
         return enabled
 
     @property
     def status(self) -> RecorderStatus:
-        """Return the recorder's status."""
         return RecorderStatus() if self.recorder is None else self.recorder.status
 
     @property
@@ -76,7 +74,6 @@ class BlackBox(BaseThreadModule):
 
     @property
     def telemetry_content(self) -> Mapping[str, Any]:
-        """Return whether it records, into which file, and its problem."""
         return {"black_box": asdict(self.status)}
 
     def on_init(self) -> None:

@@ -14,7 +14,7 @@ bool is_in_flight(const Autopilot& autopilot) {
 Reason on_profile(Autopilot& autopilot, const Request& request) {
   Profile profile;
   if (!read_profile(request.payload, profile)) return Reason::OUT_OF_RANGE;
-  if (is_in_flight(autopilot)) return Reason::ONLY_DISARMED;
+  if (is_in_flight(autopilot)) return Reason::ONLY_ON_GROUND;
   autopilot.settings.profile = profile;
   autopilot.settings.save_profile();
   return Reason::NONE;
@@ -40,7 +40,7 @@ Reason on_calibrate(Autopilot& autopilot, const Request& request) {
   if (what > GYRO) return Reason::OUT_OF_RANGE;
   // The end points of a glider need its transmitter, which was off when they began.
   if (autopilot.authority.is_armed() || (what != ENDS_END && is_in_flight(autopilot))) {
-    return Reason::ONLY_DISARMED;
+    return Reason::ONLY_ON_GROUND;
   }
   if (what == ENDS_BEGIN) {
     autopilot.receiver.begin_range_learning();

@@ -15,7 +15,7 @@ Reason on_disarm(Autopilot& autopilot, const Request& request) {
 
 Reason on_veto(Autopilot& autopilot, const Request& request) {
   if (request.payload[0] > 1) return Reason::OUT_OF_RANGE;
-  autopilot.authority.take_veto(request.payload[0] == 1, request.now_us);
+  autopilot.authority.accept_veto(request.payload[0] == 1, request.now_us);
   return Reason::NONE;
 }
 
@@ -24,7 +24,7 @@ Reason on_mode(Autopilot& autopilot, const Request& request) {
   if (letter != 'r' && letter != 'f' && letter != 's' && letter != 'u') {
     return Reason::OUT_OF_RANGE;
   }
-  return autopilot.authority.ask_mode(letter, request.now_us);
+  return autopilot.authority.request_mode(letter, request.now_us);
 }
 
 Reason on_mode_asked(Autopilot& autopilot, const Request&) {

@@ -6,9 +6,9 @@
 namespace raspilot {
 namespace {
 
-constexpr int16_t MOST_ROLL_CDEG = 18000;
-constexpr int16_t MOST_PITCH_CDEG = 9000;
-constexpr uint16_t MOST_LIFETIME_MS = 250;
+constexpr int16_t MAX_ROLL_CDEG = 18000;
+constexpr int16_t MAX_PITCH_CDEG = 9000;
+constexpr uint16_t MAX_LIFETIME_MS = 250;
 
 bool is_pulse(uint16_t pulse_us) { return pulse_us >= 1000 && pulse_us <= 2000; }
 
@@ -27,7 +27,7 @@ Reason on_output(Autopilot& autopilot, const Request& request) {
     }
   }
   const uint32_t age_us = autopilot.link.orientation_age_us(reader.u16(), request.now_us);
-  return autopilot.authority.take_outputs(pulses_us, age_us, request.now_us);
+  return autopilot.authority.accept_outputs(pulses_us, age_us, request.now_us);
 }
 
 Reason on_setpoint(Autopilot& autopilot, const Request& request) {
@@ -38,12 +38,12 @@ Reason on_setpoint(Autopilot& autopilot, const Request& request) {
   setpoint.yaw_rate_cdeg_s = reader.i16();
   setpoint.throttle_us = reader.u16();
   const uint16_t lifetime_ms = reader.u16();
-  if (!is_within(setpoint.roll_cdeg, MOST_ROLL_CDEG) ||
-      !is_within(setpoint.pitch_cdeg, MOST_PITCH_CDEG) || !is_throttle(setpoint.throttle_us) ||
-      lifetime_ms == 0 || lifetime_ms > MOST_LIFETIME_MS) {
+  if (!is_within(setpoint.roll_cdeg, MAX_ROLL_CDEG) ||
+      !is_within(setpoint.pitch_cdeg, MAX_PITCH_CDEG) || !is_throttle(setpoint.throttle_us) ||
+      lifetime_ms == 0 || lifetime_ms > MAX_LIFETIME_MS) {
     return Reason::OUT_OF_RANGE;
   }
-  return autopilot.authority.take_setpoint(setpoint, lifetime_ms, request.now_us);
+  return autopilot.authority.accept_setpoint(setpoint, lifetime_ms, request.now_us);
 }
 
 const CommandDefinition COMMANDS[] PROGMEM = {

@@ -6,8 +6,8 @@
 namespace raspilot {
 namespace {
 
-constexpr int16_t LEAST_DELAY_MS = 10;
-constexpr int16_t MOST_DELAY_MS = 1000;
+constexpr int16_t MIN_DELAY_MS = 10;
+constexpr int16_t MAX_DELAY_MS = 1000;
 
 Reason on_start(Autopilot& autopilot, const Request& request) {
   autopilot.link.start(request.now_us);
@@ -16,7 +16,7 @@ Reason on_start(Autopilot& autopilot, const Request& request) {
 
 Reason on_panic(Autopilot& autopilot, const Request& request) {
   const int16_t delay_ms = WireReader(request.payload + 1).i16();
-  if (request.payload[0] > 1 || delay_ms < LEAST_DELAY_MS || delay_ms > MOST_DELAY_MS) {
+  if (request.payload[0] > 1 || delay_ms < MIN_DELAY_MS || delay_ms > MAX_DELAY_MS) {
     return Reason::OUT_OF_RANGE;
   }
   autopilot.link.set_period_ms(static_cast<uint16_t>(delay_ms));

@@ -1,4 +1,5 @@
 import { html } from "../readout.js";
+import { BOARD_ROWS } from "../state/board_schema.js";
 import { flagText, numberText } from "../state/format.js";
 import { Row } from "./row.js";
 
@@ -6,35 +7,10 @@ import { Row } from "./row.js";
 export function mount(element, store) {
   const list = html("dl", { class: "rows" });
   element.append(list);
-  const good = (value) => (value === false ? "alarm" : "");
-  const bad = (value) => (value === true ? "warning" : "");
-  const us = (value) => `${numberText(value)} us`;
   const percent = (value) => `${numberText(value)} %`;
-  const valid = (value) => flagText(value, "valid", "NOT VALID");
   const rows = [
-    new Row(list, "Receiver", "arduino.receiver_valid", "flag", valid, good),
-    new Row(list, "IMU", "arduino.imu_valid", "flag", valid, good),
-    new Row(
-      list,
-      "Gyro's bias",
-      "arduino.bias_stored",
-      "flag",
-      (is) => (is ? "an old one" : "fresh"),
-      bad,
-    ),
+    ...BOARD_ROWS.map((row) => new Row(list, row.label, row.path, row.kind, formatOf(row), styleOf(row))),
     new Row(list, "Framing", "arduino.framing", "text"),
-    new Row(list, "Loop", "arduino.loop_us", "number", us),
-    new Row(list, "Late", "arduino.late_us", "number", us),
-    new Row(list, "Frame errors", "arduino.frame_errors", "number", (value) => numberText(value)),
-    new Row(list, "Last reset", "arduino.reset_cause", "value"),
-    new Row(
-      list,
-      "Reset in flight",
-      "arduino.restored",
-      "flag",
-      (is) => flagText(is, "YES", "no"),
-      bad,
-    ),
     new Row(list, "Processor", "load.cpu", "number", percent),
     new Row(list, "Memory", "load.ram", "number", percent),
     new Row(list, "Up runs for", "system.uptime_s", "number", uptimeText),
@@ -46,6 +22,17 @@ export function mount(element, store) {
       }
     },
   };
+}
+
+function formatOf({ kind, unit, yes, no }) {
+  if (kind === "flag") {
+    return (value) => flagText(value, yes, no);
+  }
+  return kind === "number" ? (value) => `${numberText(value)} ${unit}`.trim() : String;
+}
+
+function styleOf({ style, when }) {
+  return (value) => (style !== "" && value === when ? style : "");
 }
 
 /** As `41 s`, `12 min 05 s`, `3 h 20 min`. */

@@ -1,16 +1,8 @@
 import { html, Readout, setAttribute, setText } from "../readout.js";
 import { switchText } from "../panels/switch.js";
+import { MODES } from "../state/board_schema.js";
 import { flagText, numberText, UNKNOWN } from "../state/format.js";
 import { Row } from "./row.js";
-
-const MEANINGS = {
-  ACRO: "the pilot's sticks move the servos",
-  RATE: "the sticks ask for rates of rotation",
-  FBW: "the sticks ask for angles",
-  SETPOINT: "the Raspberry Pi asks for angles",
-  OUTPUT: "the Raspberry Pi moves the servos",
-  RTH: "flies home by itself",
-};
 
 /** State of control: mode, armed, vetoes, load, failsafe. */
 export function mount(element, store) {
@@ -33,7 +25,7 @@ export function mount(element, store) {
   ];
   return {
     update() {
-      setText(meaning, MEANINGS[modeReadout.update(store)] ?? "");
+      setText(meaning, MODES[modeReadout.update(store)]?.about ?? "");
       setAttribute(armed, "data-armed", String(armedReadout.update(store)));
       for (const row of rows) {
         row.update(store);
@@ -51,22 +43,13 @@ function alarmIfTrue(value) {
   return value === true ? "alarm" : "";
 }
 
-const HOLDERS = {
-  ACRO: "nobody: the sticks",
-  RATE: "nobody: rates only",
-  FBW: "Arduino",
-  SETPOINT: "Arduino",
-  OUTPUT: "Raspberry Pi",
-  RTH: "Arduino",
-};
-
 /** mode: that is flown. Returns who holds bank and pitch. */
 export function holderText(mode, store) {
   // Raspilot's controller passes the sticks through where it knows no rates.
   if (mode === "OUTPUT" && store.text("flight_control.mode") === "ACRO") {
-    return HOLDERS.ACRO;
+    return MODES.ACRO.holder;
   }
-  return Object.hasOwn(HOLDERS, mode) ? HOLDERS[mode] : UNKNOWN;
+  return Object.hasOwn(MODES, mode) ? MODES[mode].holder : UNKNOWN;
 }
 
 function busyText(value, store) {

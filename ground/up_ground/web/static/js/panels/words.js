@@ -1,12 +1,8 @@
-const MODES = {
-  RATE: "the sticks ask for rotation",
-  FBW: "the sticks ask for attitude, within limits",
-  AUTO: "modules on the Raspberry Pi may fly; without one the sticks ask for attitude",
-};
+import { MODES } from "../state/board_schema.js";
 
 /** The effect of a flight mode, in a few words; empty for an unknown one. */
 export function modeWords(mode) {
-  return Object.hasOwn(MODES, mode) ? MODES[mode] : "";
+  return Object.hasOwn(MODES, mode) ? MODES[mode].about : "";
 }
 
 /** name: of a Command. Returns the request of a Command, as a heading. */

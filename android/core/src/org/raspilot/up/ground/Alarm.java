@@ -6,12 +6,14 @@ public final class Alarm {
     public enum Kind {
         /** No current telemetry: the link, the aircraft or its sender is silent. */
         SILENT,
-        /** The board flies without a receiver. */
-        FAILSAFE,
+        // schema begin
         /** The receiver is lost. */
         RECEIVER,
-        /** The board has no valid IMU. */
+        /** The IMU is invalid: no stabilisation. */
         IMU,
+        /** Failsafe: the Arduino flies without a receiver. */
+        FAILSAFE,
+        // schema end
         /** The board is gone. */
         BOARD,
         /** The airborne phone is gone. */

@@ -7,12 +7,10 @@ import java.util.List;
 import java.util.Map;
 
 /**
- * The active alarms: each starts immediately and ends {@link #OVER_MS} after its cause. Only on the
+ * The active alarms: each starts immediately and ends some time after its cause. Only on the
  * loop.
  */
 public final class Alarms {
-    /** An alarm ends when its cause has been absent for this time, ms. */
-    public static final long OVER_MS = 2000;
     /** The airborne phone's battery is low below this, percent. */
     public static final double BATTERY_LOW = 20;
     /** The airborne phone's battery is nearly empty below this, percent. */
@@ -82,12 +80,21 @@ public final class Alarms {
         }
         for (Alarm.Kind kind : Alarm.Kind.values()) {
             final Long lastMs = causeMs.get(kind);
-            if (lastMs != null && nowMs - lastMs >= OVER_MS) {
+            if (lastMs != null && nowMs - lastMs >= holdMs(kind)) {
                 causeMs.remove(kind);
                 known.remove(kind);
             }
         }
         return publish();
+    }
+
+    private static long holdMs(Alarm.Kind kind) {
+        for (BoardAlarm each : BoardSchema.ALARMS) {
+            if (each.kind == kind) {
+                return each.holdMs;
+            }
+        }
+        return BoardSchema.ALARM_HOLD_MS;
     }
 
     private boolean publish() {
@@ -105,16 +112,11 @@ public final class Alarms {
         if (telemetry != Telemetry.EMPTY && status.isSilent) {
             found.add(new Alarm(Alarm.Kind.SILENT, EventLevel.ALARM, silence(status)));
         }
-        if (isTrue(telemetry, "arduino.failsafe")) {
-            found.add(new Alarm(Alarm.Kind.FAILSAFE, EventLevel.ALARM,
-                    "failsafe: the board flies without a receiver"));
-        } else if (isFalse(telemetry, "arduino.receiver_valid")) {
-            found.add(new Alarm(Alarm.Kind.RECEIVER, isTrue(telemetry, "armed")
-                    ? EventLevel.ALARM : EventLevel.WARNING, "the receiver is lost"));
-        }
-        if (isFalse(telemetry, "arduino.imu_valid")) {
-            found.add(new Alarm(Alarm.Kind.IMU, EventLevel.ALARM,
-                    "the IMU is invalid: nothing stabilises"));
+        for (BoardAlarm each : BoardSchema.ALARMS) {
+            final Alarm alarm = each.alarm(telemetry);
+            if (alarm != null) {
+                found.add(alarm);
+            }
         }
         if (EventRule.NOT_YET.equals(EventRule.board(telemetry)) && !hadBoard) {
             found.add(new Alarm(Alarm.Kind.BOARD, EventLevel.WARNING,
@@ -146,10 +148,6 @@ public final class Alarms {
             return "the aircraft is not connected to the proxy";
         }
         return status.isLate ? "telemetry comes too late" : "the aircraft is silent";
-    }
-
-    private static boolean isTrue(Telemetry telemetry, String path) {
-        return Boolean.TRUE.equals(telemetry.flag(path));
     }
 
     private static boolean isFalse(Telemetry telemetry, String path) {

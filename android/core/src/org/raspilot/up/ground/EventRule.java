@@ -9,23 +9,12 @@ import java.util.List;
 final class EventRule {
     /** Not connected and without a reading so far, which is not a loss. */
     static final String NOT_YET = "not yet";
-    static final List<EventRule> ALL = Collections.unmodifiableList(Arrays.asList(
+    private static final int AFTER_ARMED = 4;
+    static final List<EventRule> ALL = all(
             named("flight_mode", "flight_mode", "flight mode", EventLevel.INFO),
             named("mode", "mode", "mode", EventLevel.INFO),
             named("switch", "arduino.switch", "mode switch", EventLevel.INFO),
             new EventRule("armed", telemetry -> telemetry.flag("armed"), EventRule::armed),
-            flag("arduino.failsafe", true, EventLevel.ALARM,
-                    "failsafe_started", "failsafe: the board flies without a receiver",
-                    "failsafe_ended", "the failsafe is over"),
-            flag("arduino.receiver_valid", false, EventLevel.WARNING,
-                    "receiver_lost", "the receiver is lost",
-                    "receiver_valid", "the receiver is back"),
-            flag("arduino.imu_valid", false, EventLevel.ALARM,
-                    "imu_invalid", "the IMU is invalid: nothing stabilises",
-                    "imu_valid", "the IMU is valid"),
-            flag("arduino.restored", true, EventLevel.ALARM,
-                    "board_reset", "the board was reset in flight and went on as before",
-                    "", null),
             new EventRule("board", EventRule::board, (before, now) ->
                     part("board", EventLevel.ALARM, before, now)),
             new EventRule("phone", EventRule::phone, (before, now) ->
@@ -34,7 +23,7 @@ final class EventRule {
             new EventRule("vetoes", EventRule::vetoes, EventRule::vetoes),
             named("role", "ground.role", "role of this ground", EventLevel.WARNING),
             source("orientation"), source("location"), source("altitude"), source("heading"),
-            source("battery")));
+            source("battery"));
 
     /** What is known of a change. */
     static final class Change {
@@ -67,6 +56,18 @@ final class EventRule {
         this.key = key;
         this.reader = reader;
         this.describer = describer;
+    }
+
+    /** Adds the events of the board's status after those of the modes. */
+    private static List<EventRule> all(EventRule... others) {
+        final List<EventRule> all = new ArrayList<>(Arrays.asList(others));
+        int place = AFTER_ARMED;
+        for (BoardAlarm each : BoardSchema.ALARMS) {
+            if (each.isEvent) {
+                all.add(place++, new EventRule(each.path, each::holds, each::describe));
+            }
+        }
+        return Collections.unmodifiableList(all);
     }
 
     /** Returns whether the board is connected, or NOT_YET, or null if unknown. */
@@ -102,18 +103,6 @@ final class EventRule {
     private static EventRule source(String reading) {
         return named("source " + reading, "source." + reading, reading + " comes from",
                 EventLevel.WARNING);
-    }
-
-    /** A flag that is reported when it becomes bad, and when it is good again. */
-    private static EventRule flag(String path, Boolean bad, EventLevel level, String badCode,
-            String badText, String goodCode, String goodText) {
-        return new EventRule(path, telemetry -> telemetry.flag(path), (before, now) -> {
-            if (bad.equals(now)) {
-                return new Change(badCode, level, badText);
-            }
-            return before == null || goodText == null ? null
-                    : new Change(goodCode, EventLevel.INFO, goodText);
-        });
     }
 
     /** A part that may connect later than the program, and disconnect. */

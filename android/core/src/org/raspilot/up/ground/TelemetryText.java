@@ -33,8 +33,7 @@ public final class TelemetryText {
         UNITS.put("altitude", "m");
         UNITS.put("altitude_required", "m");
         UNITS.put("android.batteryLevel", "%");
-        UNITS.put("arduino.loop_us", "us");
-        UNITS.put("arduino.late_us", "us");
+        UNITS.putAll(BoardSchema.UNITS);
         UNITS.put("load.cpu", "%");
         UNITS.put("load.ram", "%");
         UNITS.put("load.delay_ms", "ms");

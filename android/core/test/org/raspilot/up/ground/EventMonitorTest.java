@@ -52,7 +52,7 @@ public final class EventMonitorTest {
                     + " \"load\": {\"panic\": true, \"cpu\": 99.4, \"delay_ms\": 150},"
                     + " \"vetoes\": [\"b\", \"a\"]}");
         }
-        assertEquals(Arrays.asList("flight_mode_changed", "armed", "failsafe_started",
+        assertEquals(Arrays.asList("flight_mode_changed", "armed", "failsafe",
                 "panic_started", "vetoes_changed"), newEvents(before));
         final List<Event> events = bench.ground.events().snapshot().events;
         assertEquals(EventLevel.ALARM, events.get(before + 2).level);

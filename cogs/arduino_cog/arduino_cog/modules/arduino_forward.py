@@ -1,0 +1,100 @@
+"""Forwards readings to an Arduino with the thesis's firmware; this project's does not use them."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from serial_cog.config import ARDUINO
+
+from arduino_cog.modules.arduino_provider import ArduinoProvider
+from arduino_cog.on_change_sender import OnChangeSender
+from arduino_cog.wire import pack_altitude, pack_heading, pack_location
+from up.base_started_module import BaseStartedModule
+from up.commands.altitude_command import AltitudeCommand
+from up.commands.heading_command import HeadingCommand
+from up.commands.location_command import LocationCommand
+from up.mode import WITH_ARDUINO
+from up.needs import needs
+from up.providers.base_provider import Reading
+from up.providers.up_altitude_provider import UpAltitudeProvider
+from up.providers.up_heading_provider import UpHeadingProvider
+from up.providers.up_location_provider import UpLocationProvider
+
+
+class ReadingForward(BaseStartedModule):
+    """Forwards each new valid reading of ``source`` once, as the stream ``LETTER``.
+
+    A subclass names the ``COMMAND`` that delivers readings, the provider as ``source``, and the
+    packing of a value.
+    """
+
+    MODES = WITH_ARDUINO
+    COMMAND: type[Any]
+    LETTER: str
+
+    arduino = needs(ArduinoProvider)
+    source: Any
+
+    _forwarded: Reading[Any] | None = None
+
+    def load(self) -> bool:
+        """Return whether the firmware is the thesis's."""
+        return bool(self.context.config(ARDUINO).framing == "thesis")
+
+    def pack(self, value: Any) -> bytes:
+        """Return a value as the payload of a message."""
+        raise NotImplementedError
+
+    def on_init(self) -> None:
+        self._sender = OnChangeSender(
+            self.context.reactor, lambda payload: self.arduino.send_stream(self.LETTER, payload)
+        )
+        self.arduino.add_board_listener(self._sender.reset)
+        self.up.command_executor.register_command(self.COMMAND, self.on_reading)
+
+    def on_stop(self) -> None:
+        self._sender.stop()
+
+    def on_reading(self, command: Any) -> None:
+        """Forward the provider's reading if it is new: the provider received the Command before."""
+        reading = self.source.reading
+        if self.started and reading is not None and reading is not self._forwarded:
+            self._forwarded = reading
+            if reading.valid:
+                self._sender.offer(self.pack(reading.value))
+
+
+class ArduinoAltitudeModule(ReadingForward):
+    """Forwards the altitude that the provider follows, in whole metres."""
+
+    COMMAND = AltitudeCommand
+    LETTER = "h"
+    source = needs(UpAltitudeProvider)
+
+    def pack(self, value: float) -> bytes:
+        """Return the altitude as the payload of ``h``."""
+        return pack_altitude(value)
+
+
+class ArduinoHeadingModule(ReadingForward):
+    """Forwards the heading that the provider follows, in whole degrees."""
+
+    COMMAND = HeadingCommand
+    LETTER = "b"
+    source = needs(UpHeadingProvider)
+
+    def pack(self, value: float) -> bytes:
+        """Return the heading as the payload of ``b``."""
+        return pack_heading(value)
+
+
+class ArduinoLocationModule(ReadingForward):
+    """Forwards the position that the provider follows."""
+
+    COMMAND = LocationCommand
+    LETTER = "l"
+    source = needs(UpLocationProvider)
+
+    def pack(self, value: LocationCommand) -> bytes:
+        """Return the location as the payload of ``l``."""
+        return pack_location(value.latitude_deg, value.longitude_deg)

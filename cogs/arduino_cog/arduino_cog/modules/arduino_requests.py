@@ -1,0 +1,97 @@
+"""Passes Commands of the ground to the Arduino: arming, flight mode, calibration."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from twisted.internet.defer import Deferred
+
+from arduino_cog.commands.arduino_calibrate_command import CALIBRATIONS, ArduinoCalibrateCommand
+from arduino_cog.modules.arduino_provider import ArduinoProvider
+from arduino_cog.wire import IN_FLIGHT
+from up.base_module import BaseModule
+from up.commands.arming_commands import ArmCommand, DisarmCommand
+from up.commands.flight_state_command import FlightModeCommand
+from up.commands.refusal import CommandRefusedError
+from up.mode import WITH_ARDUINO
+from up.needs import needs
+
+_LETTERS = {"RATE": b"r", "FBW": b"f"}
+_AUTO = {"arduino": b"s", "raspberry": b"u"}
+"""The mode for AUTO: setpoints of the Raspberry Pi, or servo outputs where it controls."""
+_END = "receiver_end"
+
+
+class ArduinoArming(BaseModule):
+    """Passes `up.arm` and `up.disarm` to the Arduino and returns its answer.
+
+    Refuses arming while this program has a veto, and names each.
+    """
+
+    MODES = WITH_ARDUINO
+
+    arduino = needs(ArduinoProvider)
+
+    def on_init(self) -> None:
+        self.up.command_executor.register_command(ArmCommand, self.on_arm)
+        self.up.command_executor.register_command(DisarmCommand, self.on_disarm)
+
+    def on_arm(self, command: ArmCommand) -> Deferred[Any]:
+        """Arm; never repeated: a late repetition must not arm after a disarm."""
+        self.arduino.require_checked("arming")
+        vetoes = self.up.vetoes.own
+        if vetoes:
+            named = "; ".join(f"{name}: {reason}" for name, reason in vetoes.items())
+            raise CommandRefusedError(f"arming is vetoed: {named}", detail="veto")
+        return self.arduino.request("a", may_repeat=False)
+
+    def on_disarm(self, command: DisarmCommand) -> Deferred[Any]:
+        """Disarm."""
+        self.arduino.require_checked("disarming")
+        return self.arduino.request("d")
+
+
+class ArduinoFlightMode(BaseModule):
+    """Passes `up.flight_mode.set` to the Arduino, which accepts it only with the switch at AUTO."""
+
+    MODES = WITH_ARDUINO
+
+    arduino = needs(ArduinoProvider)
+
+    def on_init(self) -> None:
+        auto = _AUTO[self.context.application.flight_controller]
+        self._letters = {**_LETTERS, "AUTO": auto}
+        self.up.command_executor.register_command(FlightModeCommand, self.on_flight_mode)
+
+    def on_flight_mode(self, command: FlightModeCommand) -> Deferred[Any]:
+        """Request the mode; ACRO has no letter, as the ground can never select it."""
+        self.arduino.require_checked("a flight mode")
+        return self.arduino.request("M", self._letters[command.mode])
+
+
+class ArduinoCalibration(BaseModule):
+    """Passes `arduino.calibrate` to the Arduino, unless the aircraft may be in flight.
+
+    The end of the receiver calibration is always passed on: it began on the ground.
+    """
+
+    MODES = WITH_ARDUINO
+
+    arduino = needs(ArduinoProvider)
+
+    def on_init(self) -> None:
+        self.up.command_executor.register_command(ArduinoCalibrateCommand, self.on_calibrate)
+
+    def on_calibrate(self, command: ArduinoCalibrateCommand) -> Deferred[Any]:
+        """Calibrate; the end of the receiver calibration is not repeated, as a second one fails."""
+        self.arduino.require_checked("calibrating")
+        if command.what != _END and self.arduino.is_in_flight:
+            raise CommandRefusedError(
+                f"calibration is refused in flight; {IN_FLIGHT}", detail="in_flight"
+            )
+        payload = bytes((CALIBRATIONS[command.what],))
+        done = self.arduino.request("e", payload, may_repeat=command.what != _END)
+        return done.addCallback(self._log_calibrated, command.what)
+
+    def _log_calibrated(self, _: object, what: str) -> None:
+        self.log.info("the Arduino calibrated: {what}", code="calibrated", what=what)

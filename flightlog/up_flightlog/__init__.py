@@ -1,0 +1,1 @@
+"""Reads recorded flights: findings, report, plots, exports, and `up log`."""

@@ -1,0 +1,88 @@
+"""Opens the log of the flight that a verb names, and finds its topics and fields."""
+
+from __future__ import annotations
+
+import argparse
+import difflib
+import os
+import sys
+from collections.abc import Iterable
+from importlib.metadata import entry_points
+from pathlib import Path
+
+from up.cli.cli_error import CliError
+from up.cli.locate import application_of
+from up.fields import printable
+from up.flight_log.flights_folder import default_folder, folder_of
+from up.flight_log.mcap_format import FlightLogError
+from up.loading.application import NoApplicationError
+from up_flightlog.read.flight_log import FlightLog
+from up_flightlog.read.flights import Flight, find_flight
+
+FOLDER_FILES = "up.flights_folder"
+"""The group of entry points by which a recorder names its configuration file, with ``folder``."""
+MAX_LISTED = 10
+_LARGE = 20_000_000
+
+
+def flights_folder(values: argparse.Namespace) -> Path:
+    """Return ``--folder``, otherwise the folder in black_box.yml, otherwise the default one.
+
+    Outside of an application, and without ``--config``, there is no black_box.yml. Raises
+    ConfigErrors, and CliError for a ``--file`` that does not exist.
+    """
+    if values.folder is not None:
+        return Path(values.folder)
+    config: Path | None = values.config
+    if config is None:
+        try:
+            config = application_of(values).config_folder
+        except NoApplicationError:
+            return default_folder(os.environ)
+    for recorder in entry_points(group=FOLDER_FILES):
+        return folder_of(recorder.load().load(config).folder, os.environ)
+    return default_folder(os.environ)
+
+
+def flight_of(values: argparse.Namespace) -> Flight:
+    """Return the flight that FLIGHT names; raises CliError and ConfigErrors."""
+    # Only a name that is not a path needs the folder, and so a valid configuration.
+    try:
+        flight = find_flight(values.flight, lambda: flights_folder(values))
+    except FlightLogError as error:
+        raise CliError(str(error)) from error
+    if sys.stderr.isatty() and flight.size > _LARGE:
+        sys.stderr.write(f"reading {len(flight.paths)} files, {flight.size / 1e6:.0f} MB ...\n")
+    return flight
+
+
+def read(flight: Flight) -> FlightLog:
+    """Return its log; raises CliError with the reader's sentence."""
+    try:
+        return FlightLog.read(flight.paths)
+    except FlightLogError as error:
+        raise CliError(printable(str(error))) from error
+
+
+def unknown_topic(topic: str, log: FlightLog) -> CliError:
+    """Return the error for a topic that the log does not have."""
+    return _unknown("topic", topic, log.topics, "'up log info' lists all")
+
+
+def unknown_field(field: str, known: Iterable[str]) -> CliError:
+    """Return the error for a field that no topic has."""
+    return _unknown("numeric field", field, known, "'up log export' writes all of a topic")
+
+
+def _unknown(kind: str, name: str, known: Iterable[str], hint: str) -> CliError:
+    names = sorted(known)
+    text = f"no {kind} is called '{printable(name)}'"
+    near = difflib.get_close_matches(name[:100], names, n=1, cutoff=0.5)
+    if near:
+        return CliError(f"{text}, did you mean {printable(near[0])}?")
+    if not names:
+        return CliError(f"{text}: the log has none")
+    likely = difflib.get_close_matches(name[:100], names, n=MAX_LISTED, cutoff=0.0)
+    listed = ", ".join(map(printable, sorted(likely)))
+    more = f" and {len(names) - len(likely)} more ({hint})" if len(names) > len(likely) else ""
+    return CliError(f"{text}; the log has {listed}{more}")

@@ -1,0 +1,80 @@
+"""``up log report``."""
+
+from __future__ import annotations
+
+import argparse
+import os
+from collections.abc import Callable
+from pathlib import Path
+
+from up.cli.cli_error import CliError
+from up.fields import printable
+from up.flight_log.mcap_format import FlightLogError
+from up_flightlog.cli.open_flight import flight_of, read
+from up_flightlog.cli.terminal import echo, warn
+from up_flightlog.export.output import file_exists, make_folder, write_file
+from up_flightlog.plots.canvas import PictureError
+from up_flightlog.read.flights import Flight
+from up_flightlog.report.content import ReportContent, report_content
+from up_flightlog.report.finding_groups import verdict_of
+from up_flightlog.report.images import ImageSet, image_sets
+from up_flightlog.report.page import page_of
+
+PAGE = "report.html"
+
+
+def run(values: argparse.Namespace) -> int:
+    """Write the report of a flight."""
+    flight = flight_of(values)
+    log = read(flight)
+    folder = values.output or default_folder(flight)
+    try:
+        content = report_content(log, flight.name, flight.number)
+        files = write_report(content, folder, may_overwrite=values.force, on_missing=warn)
+    except FlightLogError as error:
+        raise CliError(printable(str(error))) from error
+    _, sentence = verdict_of(content.summary, content.findings)
+    echo(printable(sentence))
+    echo(str(files[0]))
+    if len(files) > 1:
+        echo(f"{len(files) - 1} pictures beside it")
+    return 0
+
+
+def default_folder(flight: Flight) -> Path:
+    """Return the default place of a report: beside the flight, otherwise the current folder."""
+    name = f"{flight.name}-report"
+    beside = flight.paths[0].parent
+    return beside / name if os.access(beside, os.W_OK) else Path(name)
+
+
+def write_report(
+    content: ReportContent,
+    folder: Path,
+    *,
+    may_overwrite: bool,
+    on_missing: Callable[[str], object],
+) -> list[Path]:
+    """Write page and pictures; return the files, the page first.
+
+    Without matplotlib the page has text, tables and an SVG track, and ``on_missing`` is called.
+    Raises CliError for an existing file or a failed write, FlightLogError.
+    """
+    if not may_overwrite and (folder / PAGE).exists():
+        raise file_exists(folder / PAGE)
+    make_folder(folder)
+    images: dict[str, ImageSet] = {}
+    missing = ""
+    try:
+        images = {image.name: image for image in image_sets(content)}
+    except PictureError as error:
+        missing = f"No pictures: {error}."
+        on_missing(missing)
+    page = page_of(content, images, missing).encode()
+    files = [folder / PAGE]
+    write_file(files[0], page, may_overwrite=may_overwrite)
+    for image in images.values():
+        path = folder / f"{image.name}.png"
+        write_file(path, image.wide, may_overwrite=may_overwrite)
+        files.append(path)
+    return files

@@ -1,0 +1,169 @@
+"""Panels one below the other over the same time, with the flight modes behind them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
+
+from up_flightlog.plots.canvas import Sheet
+from up_flightlog.plots.chart import Background, Curve, Panel, drawable, is_drawable
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+STRIP_IN, PANEL_IN, FOOT_IN = 0.22, 1.45, 0.42
+HEAD_IN, NARROW_HEAD_IN, NARROW_IN = 0.4, 0.58, 6.0
+"""Space above a panel for its title and its legend, stacked where it is narrow."""
+LEFT_IN, RIGHT_IN, RIGHT_AXIS_IN = 0.62, 0.22, 0.5
+_NAME_PT = 8.0
+_STEPS_S = (0.1, 0.2, 0.5, 1, 2, 5, 10, 15, 30, 60, 120, 300, 600, 900, 1800, 3600, 7200)
+_LABEL_IN = 0.8
+
+
+def timeline_height_in(panels: Sequence[Panel], background: Background, width_in: float) -> float:
+    """Return the height of the picture of these panels."""
+    strip_in = STRIP_IN if background.bands else 0.0
+    head_in = _head_in(width_in)
+    return strip_in + sum(head_in + PANEL_IN * panel.share for panel in panels) + FOOT_IN
+
+
+def draw_timeline(sheet: Sheet, panels: Sequence[Panel], background: Background) -> None:
+    """Draw the panels onto a sheet of `timeline_height_in`."""
+    has_right = any(curve.is_right for panel in panels for curve in panel.curves)
+    width_in = sheet.width - LEFT_IN - (RIGHT_AXIS_IN if has_right else RIGHT_IN)
+    top_in = 0.0
+    if background.bands:
+        _draw_strip(sheet, background, width_in)
+        top_in = STRIP_IN
+    for number, panel in enumerate(panels, 1):
+        top_in += _head_in(sheet.width)
+        height_in = PANEL_IN * panel.share
+        axes = sheet.axes(LEFT_IN, top_in, width_in, height_in)
+        axes.set_xlim(0.0, _end_s(background))
+        _draw_background(axes, background, sheet)
+        _draw_panel(axes, panel, sheet)
+        _set_times(axes, background, width_in, is_last=number == len(panels))
+        top_in += height_in
+
+
+def time_text(seconds: float) -> str:
+    """Return a time on the axis: 1:30, or 12.5 for a short span."""
+    if seconds % 1:
+        return f"{seconds:g}"
+    whole = round(seconds)
+    if whole >= 3600:
+        return f"{whole // 3600}:{whole // 60 % 60:02d}:{whole % 60:02d}"
+    return f"{whole // 60}:{whole % 60:02d}"
+
+
+def limits(panel: Panel, is_right: bool) -> tuple[float, float] | None:
+    """Return the limits of an axis: all values, some margin, never less than the least range."""
+    known = [
+        value
+        for curve in panel.curves
+        if curve.is_right == is_right
+        for value in curve.values
+        if is_drawable(value)
+    ]
+    if not known:
+        return None
+    low, high = min(known), max(known)
+    min_range = (5.0 if is_right else panel.min_range) or abs(high) * 0.02 or 1.0
+    extra = max(0.0, min_range - (high - low)) / 2 + 0.06 * max(high - low, min_range)
+    # Limits that floating point cannot distinguish are not an axis.
+    extra = max(extra, 1e-9 * max(abs(low), abs(high)))
+    # Quantities that cannot be negative get no negative axis.
+    return (min(low, 0.0) if low >= 0 > low - extra else low - extra), high + extra
+
+
+def _head_in(width_in: float) -> float:
+    return NARROW_HEAD_IN if width_in < NARROW_IN else HEAD_IN
+
+
+def _end_s(background: Background) -> float:
+    return max(background.length_s, 0.1)
+
+
+def _draw_strip(sheet: Sheet, background: Background, width_in: float) -> None:
+    axes = sheet.axes(LEFT_IN, 0.0, width_in, STRIP_IN)
+    axes.set_xlim(0.0, _end_s(background))
+    axes.set_ylim(0.0, 1.0)
+    axes.set_axis_off()
+    for band in background.bands:
+        colour = sheet.theme.band(band.name)
+        axes.axvspan(band.begin_s, band.end_s, color=colour, lw=0)
+        room_in = (band.end_s - band.begin_s) / _end_s(background) * width_in
+        if sheet.text_width(band.name, _NAME_PT) + 0.06 <= room_in:
+            middle_s = (band.begin_s + band.end_s) / 2
+            style: dict[str, Any] = {"ha": "center", "va": "center_baseline", "size": _NAME_PT}
+            axes.text(middle_s, 0.5, band.name, color=sheet.theme.muted, **style)
+
+
+def _draw_background(axes: Axes, background: Background, sheet: Sheet) -> None:
+    for band in background.bands:
+        axes.axvspan(band.begin_s, band.end_s, color=sheet.theme.band(band.name), lw=0, zorder=0)
+    for mark in background.marks:
+        colour = sheet.theme.vermilion if mark.is_bad else sheet.theme.muted
+        axes.axvline(mark.at_s, color=colour, lw=0.7, alpha=0.8, zorder=1.5)
+
+
+def _draw_panel(axes: Axes, panel: Panel, sheet: Sheet) -> None:
+    right = None
+    if any(curve.is_right for curve in panel.curves):
+        right = axes.twinx()
+        right.grid(False)
+        right.set_ylabel(panel.right_unit)
+        right.spines["right"].set_visible(True)
+    handles = []
+    for curve in panel.curves:
+        into = right if curve.is_right and right is not None else axes
+        handles += _draw_curve(into, curve, sheet)
+    if panel.about is not None:
+        axes.axhline(panel.about, color=sheet.theme.muted, lw=0.6, zorder=1)
+    for each, is_right in ((axes, False), (right, True)):
+        ends = limits(panel, is_right)
+        if each is not None and ends is not None:
+            each.set_ylim(*ends)
+            each.locator_params(axis="y", nbins=5)
+    axes.set_ylabel(panel.unit)
+    is_narrow = sheet.width < NARROW_IN
+    axes.set_title(panel.title, loc="left", size=9.5, weight="bold", pad=19 if is_narrow else 6)
+    axes.legend(
+        handles=handles,
+        loc="lower left" if is_narrow else "lower right",
+        bbox_to_anchor=(0.0 if is_narrow else 1.0, 1.0),
+        ncol=len(handles),
+        borderaxespad=0.1,
+        borderpad=0.1 if is_narrow else 0.4,
+        fontsize=7.5 if is_narrow else 8.5,
+        handlelength=1.4 if is_narrow else 1.8,
+        handletextpad=0.4,
+        columnspacing=0.9 if is_narrow else 1.2,
+    )
+
+
+def _draw_curve(axes: Axes, curve: Curve, sheet: Sheet) -> list[Any]:
+    is_rare = len(curve.values) < 3
+    return axes.plot(
+        *drawable(curve),
+        color=getattr(sheet.theme, curve.colour),
+        linestyle=curve.style,
+        linewidth=curve.width,
+        label=curve.label,
+        drawstyle="steps-post" if curve.is_step else "default",
+        # A line needs two points to be visible.
+        marker="o" if is_rare else "",
+        markersize=3.5,
+        zorder=3,
+    )
+
+
+def _set_times(axes: Axes, background: Background, width_in: float, *, is_last: bool) -> None:
+    end_s = _end_s(background)
+    limit = max(2, int(width_in / _LABEL_IN))
+    step_s = next((step for step in _STEPS_S if end_s / step <= limit), end_s)
+    ticks = [step_s * number for number in range(int(end_s / step_s) + 1)]
+    axes.set_xticks(ticks, [time_text(round(tick, 3)) for tick in ticks])
+    axes.tick_params(labelbottom=is_last, length=3)
+    if is_last:
+        axes.set_xlabel("time of the flight (min:s)" if end_s >= 2 else "time of the flight (s)")

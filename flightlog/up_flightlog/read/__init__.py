@@ -1,0 +1,1 @@
+"""Reads the files of a flight as far as they are intact."""

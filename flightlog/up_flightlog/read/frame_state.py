@@ -1,0 +1,175 @@
+"""The telemetry tree (docs/protocols.md 6), rebuilt from the Commands that determine it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import Any
+
+from up.commands import board_status
+from up.earth import bearing_deg, compass_deg, distance_m
+from up.flight_log.json_message import number_at
+from up.flight_log.origin_text import KEY, link_and_role
+from up_flightlog.read.source_filter import FRESH_S, SourceFilter
+
+ANGLES = ("yaw", "pitch", "roll")
+STICKS = ("ailerons", "elevator", "throttle", "rudder", "aux1", "aux2")
+SERVOS = STICKS[:4]
+
+
+class FrameState:
+    """Applies logged Commands in the order of time and returns the telemetry of a moment.
+
+    Of several sources of a reading the one followed in flight counts. Newer Commands update the
+    last logged frame of telemetry.
+    """
+
+    def __init__(self, followed: SourceFilter, home: tuple[float, float] | None = None) -> None:
+        self._followed = followed
+        self._home = home
+        self._tree: dict[str, Any] = {
+            "orientation": dict.fromkeys(ANGLES),
+            "rates": dict.fromkeys(ANGLES),
+            "location": {"latitude": None, "longitude": None, "altitude": None},
+            "altitude": None,
+            "heading": {"actual": None, "required": None},
+            "flight_mode": None,
+            "armed": None,
+        }
+        self._times_s: dict[str, float] = {}
+        self._sources: dict[str, str] = {}
+
+    def apply(self, topic: str, time_s: float, data: Mapping[str, Any]) -> None:
+        """Apply one Command; those that telemetry does not show change nothing."""
+        handler = _HANDLERS.get(topic)
+        if handler is not None:
+            handler(self, time_s, data)
+
+    def apply_frame(self, time_s: float, tree: Mapping[str, Any]) -> None:
+        """Apply a logged frame of telemetry: it has more data than the Commands."""
+        self._tree = {**self._tree, **tree}
+        ages, sources = tree.get("age_ms"), tree.get("source")
+        for reading in FRESH_S:
+            age_ms = number_at(ages, (reading,))
+            if age_ms is not None:
+                self._times_s[reading] = time_s - age_ms / 1000
+        if isinstance(sources, dict):
+            self._sources.update({name: each for name, each in sources.items() if each})
+
+    def tree(self, time_s: float) -> dict[str, Any]:
+        """Return the telemetry of that moment; the caller owns the tree except its leaves."""
+        known = self._times_s
+        ages = {
+            reading: round((time_s - known[reading]) * 1000) if reading in known else None
+            for reading in FRESH_S
+        }
+        return {**self._tree, "age_ms": ages, "source": dict(self._sources)}
+
+    def _accepts(self, reading: str, time_s: float, data: Mapping[str, Any]) -> bool:
+        if not self._followed.accepts(reading, time_s, data):
+            return False
+        self._times_s[reading] = time_s
+        self._sources[reading], _ = link_and_role(data.get(KEY))
+        return True
+
+    def _update(self, key: str, values: Mapping[str, Any]) -> None:
+        # A new dict: frames returned earlier keep the old one.
+        known = self._tree.get(key)
+        self._tree[key] = {**known, **values} if isinstance(known, dict) else dict(values)
+
+    def _on_orientation(self, time_s: float, data: Mapping[str, Any]) -> None:
+        if self._accepts("orientation", time_s, data):
+            self._tree["orientation"] = {name: data.get(name) for name in ANGLES}
+            self._tree["rates"] = {name: data.get(f"{name}_rate") for name in ANGLES}
+
+    def _on_rx(self, time_s: float, data: Mapping[str, Any]) -> None:
+        if self._accepts("rx", time_s, data):
+            self._tree["rx"] = {name: data.get(name) for name in STICKS}
+
+    def _on_servo(self, time_s: float, data: Mapping[str, Any]) -> None:
+        if self._accepts("servo", time_s, data):
+            self._tree["servo"] = {name: data.get(name) for name in SERVOS}
+
+    def _on_location(self, time_s: float, data: Mapping[str, Any]) -> None:
+        place = place_of(data)
+        if place is None or not self._accepts("location", time_s, data):
+            return
+        self._tree["location"] = {
+            "latitude": place[0],
+            "longitude": place[1],
+            "altitude": data.get("altitude"),
+        }
+        home = self._home = self._home or place
+        self._tree["home"] = {
+            "distance": distance_m(*place, *home),
+            "bearing": bearing_deg(*place, *home),
+        }
+
+    def _on_altitude(self, time_s: float, data: Mapping[str, Any]) -> None:
+        if data.get("mode") != "required" and self._accepts("altitude", time_s, data):
+            self._tree["altitude"] = data.get("altitude")
+
+    def _on_heading(self, time_s: float, data: Mapping[str, Any]) -> None:
+        heading = number_at(data, ("heading",))
+        if heading is None:
+            return
+        if data.get("mode") == "required":
+            self._update("heading", {"required": compass_deg(heading)})
+        elif self._accepts("heading", time_s, data):
+            self._update("heading", {"actual": compass_deg(heading)})
+
+    def _on_flight_state(self, time_s: float, data: Mapping[str, Any]) -> None:
+        if data.get("flight_mode") is None:
+            self._times_s.pop("flight", None)
+        else:
+            self._accepts("flight", time_s, data)
+        self._tree["flight_mode"] = data.get("flight_mode")
+        self._tree["armed"] = data.get("armed")
+        self._update("arduino", {"failsafe": data.get("failsafe")})
+
+    def _on_status(self, time_s: float, data: Mapping[str, Any]) -> None:
+        self._update("arduino", board_status.telemetry_of(data))
+        self._tree["vetoes"] = [f"arduino: {each}" for each in board_status.vetoes_of(data)]
+
+    def _on_battery(self, time_s: float, data: Mapping[str, Any]) -> None:
+        if self._accepts("battery", time_s, data):
+            self._update("android", {"batteryLevel": data.get("level")})
+
+    def _on_link(self, time_s: float, data: Mapping[str, Any]) -> None:
+        link = data.get("link")
+        if link in ("android", "arduino"):
+            self._update(link, {"connected": data.get("connected")})
+
+    def _on_panic(self, time_s: float, data: Mapping[str, Any]) -> None:
+        self._update("load", {"panic": data.get("panic"), "delay_ms": data.get("delay_ms")})
+
+    def _on_system(self, time_s: float, data: Mapping[str, Any]) -> None:
+        self._update("load", {"cpu": data.get("utilization"), "ram": data.get("memory")})
+        self._update("system", {"providers": data.get("providers")})
+        self._update("arduino", {"connected": data.get("arduino_connected")})
+        self._tree["mode"] = data.get("mode")
+
+
+_HANDLERS: dict[str, Callable[[FrameState, float, Mapping[str, Any]], None]] = {
+    "up.orientation.update": FrameState._on_orientation,
+    "up.rx.update": FrameState._on_rx,
+    "up.servo.update": FrameState._on_servo,
+    "up.location.update": FrameState._on_location,
+    "up.altitude.change": FrameState._on_altitude,
+    "up.heading.change": FrameState._on_heading,
+    "up.flight.state": FrameState._on_flight_state,
+    board_status.TOPIC: FrameState._on_status,
+    "android.battery": FrameState._on_battery,
+    "up.link.state": FrameState._on_link,
+    "up.panic": FrameState._on_panic,
+    "up.system.state": FrameState._on_system,
+}
+TOPICS = tuple(_HANDLERS)
+"""The topics that determine telemetry."""
+
+
+def place_of(data: Mapping[str, Any]) -> tuple[float, float] | None:
+    """Return latitude and longitude, deg, of a location; None without valid ones."""
+    latitude, longitude = number_at(data, ("latitude",)), number_at(data, ("longitude",))
+    if latitude is None or longitude is None or abs(latitude) > 90 or abs(longitude) > 180:
+        return None
+    return latitude, longitude

@@ -1,0 +1,98 @@
+"""Numbers of a log over time."""
+
+from __future__ import annotations
+
+import math
+from array import array
+from bisect import bisect_left
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+from up.flight_log.json_message import number_at
+
+
+def _numbers() -> array[float]:
+    return array("d")
+
+
+@dataclass(frozen=True, slots=True)
+class Series:
+    """Values and their times, seconds from the log's first message.
+
+    Eight bytes each: a list of Python floats for an hour would take four times that.
+    """
+
+    times_s: array[float] = field(default_factory=_numbers)
+    values: array[float] = field(default_factory=_numbers)
+
+    def __bool__(self) -> bool:
+        return bool(self.values)
+
+    def add(self, time_s: float, value: float | None) -> None:
+        if value is not None:
+            self.times_s.append(time_s)
+            self.values.append(value)
+
+    def at(self, time_s: float, within_s: float) -> float | None:
+        """Interpolate the value at a time; None if its neighbours are too far apart."""
+        after = bisect_left(self.times_s, time_s)
+        if after < len(self.times_s) and self.times_s[after] == time_s:
+            return self.values[after]
+        if not 0 < after < len(self.times_s):
+            return None
+        low_s, high_s = self.times_s[after - 1], self.times_s[after]
+        if high_s - low_s > within_s:
+            return None
+        low, high = self.values[after - 1], self.values[after]
+        return low + (high - low) * (time_s - low_s) / (high_s - low_s)
+
+
+class Columns:
+    """Collects a series for each field (dotted paths) of its messages."""
+
+    def __init__(self, fields: Sequence[str]) -> None:
+        self.series = {name: Series() for name in fields}
+        self._paths = [(tuple(name.split(".")), self.series[name].add) for name in fields]
+
+    def add(self, time_s: float, data: Mapping[str, Any]) -> None:
+        for path, add in self._paths:
+            add(time_s, number_at(data, path))
+
+
+def columns(
+    messages: Iterable[tuple[float, Mapping[str, Any]]], fields: Sequence[str]
+) -> dict[str, Series]:
+    """Return a series for each field of the messages."""
+    found = Columns(fields)
+    for time_s, data in messages:
+        found.add(time_s, data)
+    return found.series
+
+
+def turn(degrees: float) -> float:
+    """Return the same angle between -180 and 180."""
+    return (degrees + 180) % 360 - 180
+
+
+@dataclass(frozen=True, slots=True)
+class ErrorFigures:
+    """The distance of one series from another: its root mean square and its maximum."""
+
+    rms: float
+    maximum: float
+
+
+def error_of(
+    series: Series, truth: Series, *, is_angle: bool
+) -> tuple[Series, ErrorFigures | None]:
+    """Return measured minus true values, where both are known, and their statistics."""
+    error = Series()
+    for time_s, value in zip(series.times_s, series.values, strict=True):
+        true = truth.at(time_s, within_s=0.5)
+        if true is not None:
+            error.add(time_s, turn(value - true) if is_angle else value - true)
+    if not error:
+        return error, None
+    mean_square = sum(value * value for value in error.values) / len(error.values)
+    return error, ErrorFigures(math.sqrt(mean_square), max(map(abs, error.values)))
