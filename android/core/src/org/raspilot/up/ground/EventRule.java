@@ -64,7 +64,9 @@ final class EventRule {
         int place = AFTER_ARMED;
         for (BoardAlarm each : BoardSchema.ALARMS) {
             if (each.isEvent) {
-                all.add(place++, new EventRule(each.path, each::holds, each::describe));
+                // A lambda: a bound method reference needs java.util.Objects, which API 16 lacks.
+                all.add(place++, new EventRule(each.path, telemetry -> each.holds(telemetry),
+                        (before, now) -> each.describe(before, now)));
             }
         }
         return Collections.unmodifiableList(all);
