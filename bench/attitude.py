@@ -11,15 +11,15 @@ import random
 from collections.abc import Iterable
 
 from bench.table import LeftOutError, Row
+from tools.tuning.workers import MOST_PROCESSES, Workers
 from up_simulator.aircraft import FlightDynamics, Start, Weather, load_airframe
-from up_simulator.crew.firmware_aircraft import FirmwareAircraft
+from up_simulator.aircraft.flight import FlightUnavailableError
 from up_simulator.firmware.build import BoardUnavailableError, choose_board
 from up_simulator.firmware.imu_errors import ImuErrors, drawn_errors
+from up_simulator.firmware.line_monitor import BoardTap
 from up_simulator.firmware.preparation import PreparationError, prepared_eeprom
-from up_simulator.firmware.tap import BoardTap
-from up_simulator.flight import FlightUnavailableError
+from up_simulator.harness.firmware_aircraft import FirmwareAircraft
 from up_simulator.radio.circling_pilot import CirclingPilot
-from up_simulator.tuning.workers import MOST_PROCESSES, Workers
 
 FLIGHTS, MINUTES = 20, 10
 TARGET_DEG = 2.0

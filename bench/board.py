@@ -10,7 +10,7 @@ from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 
 from bench.timing import percentile
-from up_simulator.wire import checked_frame, cobs_decode
+from up_simulator.firmware.wire import checked_frame, cobs_decode
 
 ANSWER_S = 1.0
 GENERATOR_PRIORITY = 40

@@ -14,8 +14,8 @@ from bench.table import LeftOutError, Row
 from up_rig import CYCLES_PER_US, FirmwareError, Rig, RigUnavailableError
 from up_rig.build import BuildError, build_firmware
 from up_rig.imu import motion_at
-from up_simulator.firmware.tap import BoardTap
-from up_simulator.wire import COMMAND_SIZES, checked_frame
+from up_simulator.firmware.line_monitor import BoardTap
+from up_simulator.firmware.wire import COMMAND_SIZES, checked_frame
 
 SERVOS = ("ailerons", "elevator", "throttle", "rudder")
 FRAME_US = 20_000.0

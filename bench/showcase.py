@@ -24,7 +24,7 @@ def rows(quick: bool = False) -> Iterable[Row]:
     with tempfile.TemporaryDirectory(prefix="upb-") as name:
         folder = Path(name)
         log = folder / "log"
-        command = (sys.executable, "-m", "up_simulator.showcase", "--folder", folder, *OPTIONS)
+        command = (sys.executable, "-m", "up_simulator.demo", "--folder", folder, *OPTIONS)
         with log.open("w") as stream, running(command, stream, folder) as showcase:
             wait_until(
                 lambda: showcase.poll() is not None or "Ctrl-C stops" in log.read_text(),

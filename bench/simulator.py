@@ -8,12 +8,12 @@ from collections.abc import Callable, Iterable
 from bench.table import LeftOutError, Row, compared
 from bench.timing import Limit
 from up_simulator.aircraft import FlightDynamics, Weather, load_airframe
+from up_simulator.aircraft.flight import FlightUnavailableError
 from up_simulator.firmware.board import BoardKind
 from up_simulator.firmware.build import BoardUnavailableError, choose_board
+from up_simulator.firmware.line_monitor import BoardTap
 from up_simulator.firmware.preparation import PreparationError, prepared_eeprom
-from up_simulator.firmware.tap import BoardTap
-from up_simulator.flight import FlightUnavailableError
-from up_simulator.world import World
+from up_simulator.harness.world import World
 
 CHIP_TARGET, HOST_TARGET = (Limit(value, is_least=True) for value in (8.0, 30.0))
 ROUNDS = 3

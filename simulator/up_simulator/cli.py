@@ -9,12 +9,13 @@ import os
 import sys
 from collections.abc import Callable, Sequence
 from contextlib import suppress
+from pathlib import Path
 from typing import Any
 
 from up.config import ConfigErrors
 from up.version import VERSION
-from up_simulator.crew.option_parser import OptionParser
-from up_simulator.ending import ending_in_order
+from up_simulator.harness.option_parser import OptionParser
+from up_simulator.harness.signal_handling import ending_in_order
 from up_simulator.verbs.outcome import (
     INTERRUPTED,
     NOT_HELD,
@@ -35,6 +36,7 @@ A first flight in three commands:
   up-sim start                       the aircraft in real time, for Raspilot and a ground station
 'up-sim VERB --help' explains a verb; docs/simulator.md explains the virtual aircraft and
 docs/scenarios.md scenarios."""
+ROOT = Path(__file__).resolve().parents[2]
 VERBS = {
     "fly": ("fly scenarios and report what held", "up_simulator.verbs.fly"),
     "list": ("list the scenarios", "up_simulator.verbs.listing"),
@@ -42,9 +44,9 @@ VERBS = {
     "check": ("look for mistakes in scenario files without flying", "up_simulator.verbs.check"),
     "signals": ("list what can be expected and logged", "up_simulator.verbs.signals"),
     "all": ("fly every scenario that is shipped, and count", "up_simulator.verbs.all"),
-    "tune": ("step tests over gains; proposes a set", "up_simulator.tuning.cli"),
-    "start": ("the virtual aircraft in real time", "up_simulator.crew.start"),
-    "radio": ("take the sticks of an aircraft that flies", "up_simulator.radio.take_over"),
+    "tune": ("step tests over gains; proposes a set", "tools.tuning.cli"),
+    "start": ("the virtual aircraft in real time", "up_simulator.harness.start"),
+    "radio": ("take the sticks of an aircraft that flies", "up_simulator.radio.rc_override"),
 }
 """A verb's module has ``main(arguments) -> exit status``."""
 
@@ -98,10 +100,12 @@ def _main(words: list[str]) -> int:
 
 
 def _module(verb: str) -> Any:
+    if VERBS[verb][1].startswith("tools."):
+        sys.path.append(str(ROOT))
     try:
         return importlib.import_module(VERBS[verb][1])
     except ModuleNotFoundError as error:
-        if error.name is not None and error.name.startswith("up_simulator"):
+        if error.name is not None and error.name.split(".")[0] in ("up_simulator", "tools"):
             raise UsageError(f"'{verb}' is not built in here ({error.name})") from error
         raise UsageError(
             f"'{verb}' needs {error.name}, which is not installed: pip install -e '.[sim]'"

@@ -9,8 +9,8 @@ from tests.arduino.rig.firmware import make_rig
 from tests.support.firmware import build_firmware
 from up.protocols.crc16 import crc16
 from up_rig.imu import motion_at
-from up_simulator.firmware.tap import BoardStatus
-from up_simulator.wire import checked_frame, cobs_decode
+from up_simulator.firmware.line_monitor import BoardStatus
+from up_simulator.firmware.wire import checked_frame, cobs_decode
 
 LOW, MIDDLE, HIGH = 1000, 1500, 2000
 BOOT_US = 1_400_000

@@ -24,7 +24,7 @@ from up.flight_log.flight_log import FlightLog
 PAGE = "guide.md"
 FILES = files_of(PAGE)
 TEXT = (REPOSITORY / "docs" / PAGE).read_text(encoding="utf-8")
-PROXY = "run/showcase/proxy.pid"
+PROXY = "run/demo/proxy.pid"
 ADDRESS = r"http://127\.0\.0\.1:\d+/"
 FBW, OUTPUT = (
     "board: FBW, the Arduino holds the attitude",
@@ -110,7 +110,7 @@ def test_what_breaks_ends_the_run_and_by_hand_the_others_bear_it(tmp_path):
         _look_at_the_flight(flight, said)
         proxy, simulator, daemon, _watch = lines_of(PAGE, "by hand")
         general, orientation = re.findall(
-            r"port: (\d+)", (flight.tree / "run/showcase/config/android.yml").read_text()
+            r"port: (\d+)", (flight.tree / "run/demo/config/android.yml").read_text()
         )
         simulator += f" --general-port {general} --orientation-port {orientation}"
         with ExitStack() as stack:
@@ -125,7 +125,7 @@ def test_what_breaks_ends_the_run_and_by_hand_the_others_bear_it(tmp_path):
             board.send_signal(signal.SIGINT)
             _wait_for("does not fly", log)
             _wait_for("provisionally in Black Box Mode", log)
-            assert not (flight.tree / "run/showcase/board").is_symlink()
+            assert not (flight.tree / "run/demo/board").is_symlink()
             log.write_text("")
             board, board_said = start(simulator, "board 2")
             _wait_for("Controller: flies", log)

@@ -11,9 +11,9 @@ from tests.simulator.scenarios.shipped import ALONE
 from tests.support.firmware import build_firmware
 from tests.support.virtual_environment import REPOSITORY
 from up_simulator.cli import VERBS, main
-from up_simulator.crew.start_options import read_options
+from up_simulator.demo.__main__ import _options as read_showcase_options
+from up_simulator.harness.start_options import read_options
 from up_simulator.scenario.event import EVENT_KINDS
-from up_simulator.showcase import _options as read_showcase_options
 
 PAGE = "simulator.md"
 SHIPPED_FLIGHT = "level-flight-in-gusts"

@@ -5,9 +5,9 @@ from tests.support.tools import unavailable
 from up_simulator.aircraft import FlightDynamics, Start, Weather, load_airframe
 from up_simulator.firmware.build import BoardUnavailableError, choose_board
 from up_simulator.firmware.imu_errors import ImuErrors
+from up_simulator.firmware.line_monitor import BoardTap
 from up_simulator.firmware.preparation import prepared_eeprom
-from up_simulator.firmware.tap import BoardTap
-from up_simulator.world import World
+from up_simulator.harness.world import World
 
 ACRO, FBW, AUTO = 1000, 1500, 2000
 BEAT_S = 0.02

@@ -6,7 +6,7 @@ import time
 from pathlib import Path
 
 from up_rig.pty_line import PtyLine
-from up_simulator.wire import COMMAND_SIZES, UNFINISHED_S, Command
+from up_simulator.firmware.wire import COMMAND_SIZES, UNFINISHED_S, Command
 
 THESIS_TYPES = "ptThbBl"
 STREAM_S = 0.05

@@ -23,9 +23,9 @@ from up_simulator.aircraft.airframe_file import (
     ServosConfig,
     file_named,
 )
+from up_simulator.aircraft.flight import FlightUnavailableError
 from up_simulator.aircraft.geometry import GEOMETRY, Geometry, ModelError
 from up_simulator.aircraft.model_check import MOTOR, ModelRefusedError, check_model
-from up_simulator.flight import FlightUnavailableError
 
 _OUTPUTS = ("ailerons", "elevator", "rudder")
 SHIPPED = Path(__file__).parent / "airframes"

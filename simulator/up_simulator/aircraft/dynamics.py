@@ -8,6 +8,7 @@ from typing import Any
 
 from up_rig.imu import Motion
 from up_simulator.aircraft.airframe import Airframe
+from up_simulator.aircraft.flight import FlightState, Servos
 from up_simulator.aircraft.model import FOOT_M, load_model, reader, writer
 from up_simulator.aircraft.model_check import MOTOR
 from up_simulator.aircraft.motor import Battery, Motor
@@ -19,7 +20,6 @@ from up_simulator.aircraft.start import (
     set_initial,
 )
 from up_simulator.aircraft.weather import Air, Weather
-from up_simulator.flight import FlightState, Servos
 
 _Move = tuple[Callable[[float], None], int, float, float]
 _NEWTON_LBS = 1 / 4.4482216

@@ -10,8 +10,8 @@ from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import Any
 
+from up_simulator.aircraft.flight import FlightUnavailableError
 from up_simulator.aircraft.model import FOOT_M, has_property, load_model
-from up_simulator.flight import FlightUnavailableError
 
 MOTOR = "external_reactions/motor/magnitude"
 _LIMIT_S = 60.0

@@ -13,10 +13,10 @@ import numpy as np
 
 from up.config import ConfigErrors
 from up_simulator.aircraft.derivation import ALPHAS_DEG, BETAS_DEG, Derivation
+from up_simulator.aircraft.flight import FlightUnavailableError
 from up_simulator.aircraft.geometry import GEOMETRY, ModelError
 from up_simulator.aircraft.glide import describe
-from up_simulator.flight import FlightUnavailableError
-from up_simulator.kept import keep, kept_path
+from up_simulator.firmware.kept import keep, kept_path
 
 # What a wing that is one has by the radian.
 _LEAST_SLOPE, _GREATEST_SLOPE = 0.3, 9.0

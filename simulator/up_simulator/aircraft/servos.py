@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from up_simulator.flight import NEUTRAL, Servos
+from up_simulator.aircraft.flight import NEUTRAL, Servos
 
 _THROTTLE = 2
 

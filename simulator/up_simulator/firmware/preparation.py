@@ -11,9 +11,9 @@ from typing import Any
 from up_rig.imu import motion_at
 from up_simulator.firmware.board import BoardKind, FirmwareBoard
 from up_simulator.firmware.build import aboard
+from up_simulator.firmware.kept import keep, kept_path
+from up_simulator.firmware.line_monitor import BoardTap
 from up_simulator.firmware.settings_wire import gains_bytes, profile_bytes
-from up_simulator.firmware.tap import BoardTap
-from up_simulator.kept import keep, kept_path
 
 STEP_US = 10_000.0
 BOOT_US = 1_500_000.0

@@ -6,13 +6,13 @@ import math
 from collections.abc import Callable, Sequence
 from typing import Any
 
-from up_simulator.flight import Flight
+from up_simulator.aircraft.flight import Flight
 from up_simulator.in_process.machine import Machine
 from up_simulator.in_process.piped_sockets import PipedSockets
-from up_simulator.java_phone import JvmHandset, options_of
-from up_simulator.java_phone_feed import SensorFeed
-from up_simulator.java_phone_process import JavaPhoneProcess
-from up_simulator.java_phone_program import JavaProgram
+from up_simulator.phone.java_feed import SensorFeed
+from up_simulator.phone.java_handset import JvmHandset, options_of
+from up_simulator.phone.java_process import JavaPhoneProcess
+from up_simulator.phone.java_program import JavaProgram
 
 THINKS_S = 0.002
 """Simulated duration of the phone's work, during which the JVM runs beside the simulation."""

@@ -7,17 +7,17 @@ from typing import Any
 
 from twisted.internet.defer import Deferred
 
-from up_simulator.flight import Flight
+from up_simulator.aircraft.flight import Flight
 from up_simulator.in_process.java_phone import SteppedJavaHandset
 from up_simulator.in_process.machine import Machine
 from up_simulator.in_process.network import ADDRESS
 from up_simulator.in_process.reactor import SimulatedReactor
-from up_simulator.java_phone import JavaHandset
-from up_simulator.java_phone_program import JavaProgram
 from up_simulator.link.model import LinkModel, LinkSettings
-from up_simulator.phone_address import RaspberryPi
-from up_simulator.phone_handset import Handset, PythonHandset
-from up_simulator.phone_link import OrientationBy
+from up_simulator.phone.address import RaspberryPi
+from up_simulator.phone.handset import Handset, PythonHandset
+from up_simulator.phone.java_handset import JavaHandset
+from up_simulator.phone.java_program import JavaProgram
+from up_simulator.phone.link import OrientationBy
 
 GENERAL_PORT, ORIENTATION_PORT = 50001, 50000
 TICK_S = 0.01

@@ -27,13 +27,13 @@ from up.protocols.serial_line import SerialLike
 from up.protocols.serial_port import SerialPortError
 from up.up import Up
 from up.up_loader import UpLoader
-from up_simulator.crew.protocols import CrewError
 from up_simulator.firmware.board import FirmwareBoard
+from up_simulator.harness.participants import CrewError
+from up_simulator.harness.world import BYTES_A_STEP
 from up_simulator.in_process.daemon_log import DaemonLog
 from up_simulator.in_process.machine import Machine
 from up_simulator.in_process.reactor import SimulatedReactor
 from up_simulator.in_process.socket_line import SocketLine
-from up_simulator.world import BYTES_A_STEP
 
 ROOT = Path(__file__).resolve().parents[3]
 

@@ -13,7 +13,7 @@ from up_simulator.picture.canvas import PictureError, Sheet, sheet_for
 from up_simulator.picture.palette import FAULT, MUTED
 from up_simulator.picture.panels import PANELS, Line, Panel, draw_panel, shade_failure
 from up_simulator.picture.series import Log, Span, crash_index, mode_spans, numbers
-from up_simulator.picture.strip import (
+from up_simulator.picture.timeline_strip import (
     SIZE_PT,
     Mark,
     PlacedMark,

@@ -7,7 +7,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from up.earth import bearing_deg, distance_m
-from up_simulator.flight import FlightState
+from up_simulator.aircraft.flight import FlightState
 from up_simulator.radio.sticks import CENTRE_US, HIGHEST_US, LOWEST_US, SWITCH_US, Sticks
 
 GRAVITY_M_S2 = 9.80665

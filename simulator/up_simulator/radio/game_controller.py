@@ -8,7 +8,7 @@ from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 
-from up_simulator.flight import FlightState
+from up_simulator.aircraft.flight import FlightState
 from up_simulator.radio.axis_map import AxisMap, MappedSticks
 from up_simulator.radio.js_event import JsEventReader
 from up_simulator.radio.sticks import RadioError, Sticks

@@ -6,7 +6,7 @@ import select
 from collections.abc import Callable
 from contextlib import suppress
 
-from up_simulator.flight import FlightState
+from up_simulator.aircraft.flight import FlightState
 from up_simulator.radio.keyboard import HELP, KeyboardSticks
 from up_simulator.radio.keys import KeyReader
 from up_simulator.radio.sticks import Sticks

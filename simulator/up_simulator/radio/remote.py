@@ -8,7 +8,7 @@ from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
-from up_simulator.flight import FlightState
+from up_simulator.aircraft.flight import FlightState
 from up_simulator.radio.arming_again import ArmingAgain
 from up_simulator.radio.remote_words import LONGEST, Seen, read_sticks_of, write_seen
 from up_simulator.radio.sticks import Radio, RadioError, Sticks

@@ -7,7 +7,7 @@ import math
 from dataclasses import dataclass, fields
 from typing import Any
 
-from up_simulator.flight import FlightState
+from up_simulator.aircraft.flight import FlightState
 from up_simulator.radio.sticks import CHANNELS, Sticks
 
 LONGEST = 2048

@@ -6,7 +6,7 @@ from dataclasses import replace
 from typing import Any
 
 from up_rig.sticks import StickMove
-from up_simulator.flight import FlightState
+from up_simulator.aircraft.flight import FlightState
 from up_simulator.radio.sticks import Radio, Sticks
 
 

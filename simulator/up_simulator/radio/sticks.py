@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from typing import Any, Protocol
 
+from up_simulator.aircraft.flight import FlightState
 from up_simulator.firmware.board import Channel
-from up_simulator.flight import FlightState
 
 LOWEST_US, CENTRE_US, HIGHEST_US = 1000, 1500, 2000
 SWITCH_US = {"ACRO": 1000, "FBW": 1500, "AUTO": 2000}

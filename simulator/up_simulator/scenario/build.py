@@ -9,6 +9,7 @@ from up_simulator.aircraft import Airframe, FlightDynamics, Start, Weather, load
 from up_simulator.aircraft import Gust as AirGust
 from up_simulator.firmware.build import choose_board
 from up_simulator.firmware.preparation import prepared_eeprom
+from up_simulator.harness.world import World
 from up_simulator.scenario.companions import Companions, Nobody
 from up_simulator.scenario.demand import DemandModel
 from up_simulator.scenario.flight import ScenarioFlight
@@ -17,7 +18,6 @@ from up_simulator.scenario.scenario import Scenario
 from up_simulator.scenario.serial_line import SerialWires
 from up_simulator.scenario.settings import gains_of, profile_of, spoilt
 from up_simulator.scenario.sticks import SWITCH_US, StickTimeline
-from up_simulator.world import World
 
 Say = Callable[[str], None]
 

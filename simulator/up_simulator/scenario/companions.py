@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from types import MappingProxyType
 from typing import Protocol
 
-from up_simulator.crew.protocols import Ground, Phone, Raspilot
+from up_simulator.harness.participants import Ground, Phone, Raspilot
 from up_simulator.scenario.event import Event
 from up_simulator.scenario.line_board import LineBoard
 

@@ -7,10 +7,10 @@ from collections.abc import Mapping
 from types import MappingProxyType
 from typing import Protocol
 
-from up_simulator.crew.protocols import CrewError, Ground, Raspilot
-from up_simulator.crew.protocols import Phone as PluggedPhone
+from up_simulator.harness.participants import CrewError, Ground, Raspilot
+from up_simulator.harness.participants import Phone as PluggedPhone
 from up_simulator.link.model import LinkModel
-from up_simulator.phone_sensors import PhoneSensors
+from up_simulator.phone.sensors import PhoneSensors
 from up_simulator.scenario.circumstances import LinkPart
 from up_simulator.scenario.event import Event
 from up_simulator.scenario.line_board import LineBoard

@@ -9,8 +9,10 @@ from typing import Any
 
 from up_rig.imu import motion_at
 from up_simulator.aircraft.airframe_file import ImuConfig
-from up_simulator.crew.protocols import CrewError
 from up_simulator.firmware.board import BoardCrashedError
+from up_simulator.firmware.wire import Command
+from up_simulator.harness.participants import CrewError
+from up_simulator.harness.world import STEP_S, World
 from up_simulator.scenario.companions import Companions
 from up_simulator.scenario.demand import DemandModel
 from up_simulator.scenario.event import Event
@@ -22,8 +24,6 @@ from up_simulator.scenario.sampler import Sampler, columns_of
 from up_simulator.scenario.scenario import Scenario
 from up_simulator.scenario.signals import EVENT_COLUMN
 from up_simulator.scenario.sticks import AT_FIRST_US, CHANNELS, StickTimeline
-from up_simulator.wire import Command
-from up_simulator.world import STEP_S, World
 
 STEPS_A_ROW = 10
 READY_S = 15.0

@@ -24,11 +24,11 @@ from up.flight_log.foxglove import LOG, LOG_LEVELS, LOG_SCHEMA, timestamp
 from up.flight_log.mcap_writer import McapWriter
 from up.flight_log.origin_text import KEY as ORIGIN
 from up.version import VERSION
+from up_simulator.aircraft.truth import NAMES, TOPIC
 from up_simulator.scenario.flight_topics import SIGNALS_TOPIC, FlightTopics
 from up_simulator.scenario.question import Question
 from up_simulator.scenario.result import Result
 from up_simulator.scenario.signals import SIGNALS
-from up_simulator.truth import NAMES, TOPIC
 
 BEGIN_NS = 946_684_800_000_000_000
 """2000-01-01: a simulated flight has no date, and the same flight is the same file."""

@@ -5,13 +5,13 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping
 
+from up_simulator.aircraft.truth import NAMES, TOPIC
 from up_simulator.scenario.board_topics import BoardTopics
 from up_simulator.scenario.log import ROW_S, Value
 from up_simulator.scenario.log_row import Data, LogRow, Message
 from up_simulator.scenario.place_topics import SeenByGround, TruePlace
 from up_simulator.scenario.scenario import Scenario
 from up_simulator.scenario.signals import Kind, signal_of
-from up_simulator.truth import NAMES, TOPIC
 
 SIGNALS_TOPIC = "simulator.signals"
 SIGNALS_S = 0.1

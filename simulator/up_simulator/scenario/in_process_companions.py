@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
-from up_simulator.flight import Flight
+from up_simulator.aircraft.flight import Flight
 from up_simulator.in_process.config_folder import GROUND_PORT, write_config
 from up_simulator.in_process.ground import InProcessGround
 from up_simulator.in_process.phone import InProcessPhone
 from up_simulator.in_process.raspilot import InProcessRaspilot
 from up_simulator.in_process.reactor import SimulatedReactor
-from up_simulator.phone_choice import choose_phone
+from up_simulator.phone.choice import choose_phone
 from up_simulator.scenario.crew_companions import CrewCompanions
 from up_simulator.scenario.line_board import LineBoard
 from up_simulator.scenario.scenario import Scenario

@@ -6,9 +6,9 @@ from collections.abc import Callable
 
 from up_rig.imu import Motion
 from up_simulator.firmware.board import BoardImu, Channel, FirmwareBoard, Pulses, ResetCause
-from up_simulator.firmware.tap import BoardTap
+from up_simulator.firmware.line_monitor import BoardTap
+from up_simulator.firmware.wire import CheckedReader, Command
 from up_simulator.scenario.serial_line import FROM_BOARD, TO_BOARD, SerialWires
-from up_simulator.wire import CheckedReader, Command
 
 SLICE_US = 2000.0
 

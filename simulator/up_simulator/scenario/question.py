@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from up_simulator.crew.protocols import Ground
+from up_simulator.harness.participants import Ground
 from up_simulator.scenario.event import CommandPart, Event
 from up_simulator.scenario.verdict import Verdict
 

@@ -6,15 +6,16 @@ from collections.abc import Callable
 from typing import Any
 
 from up_rig.pty_line import PtyLine, PtyLineError
-from up_simulator.crew.ports import choose_port_sets
-from up_simulator.crew.protocols import CrewError
-from up_simulator.crew.real_raspilot import RealRaspilot
-from up_simulator.crew.real_servers import RealProxy, RealRunner
-from up_simulator.flight import Flight
+from up_simulator.aircraft.flight import Flight
+from up_simulator.harness.participants import CrewError
+from up_simulator.harness.ports import choose_port_sets
+from up_simulator.harness.real_raspilot import RealRaspilot
+from up_simulator.harness.real_servers import RealProxy, RealRunner
+from up_simulator.harness.world import BYTES_A_STEP
 from up_simulator.in_process.config_folder import write_config
 from up_simulator.in_process.ground import InProcessGround
 from up_simulator.in_process.phone import InProcessPhone
-from up_simulator.phone_choice import choose_phone
+from up_simulator.phone.choice import choose_phone
 from up_simulator.scenario.crew_companions import CrewCompanions
 from up_simulator.scenario.event import Event
 from up_simulator.scenario.line_board import LineBoard
@@ -23,7 +24,6 @@ from up_simulator.scenario.runner_crew import RunnerDaemon, RunnerPhone, write_r
 from up_simulator.scenario.scenario import Scenario
 from up_simulator.scenario.settings import merge
 from up_simulator.scenario.workspace import Workspace
-from up_simulator.world import BYTES_A_STEP
 
 FLIGHTS = "flights"
 

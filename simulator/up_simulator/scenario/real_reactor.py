@@ -5,7 +5,7 @@ from __future__ import annotations
 import time
 from typing import Any
 
-from up_simulator.crew.protocols import CrewError
+from up_simulator.harness.participants import CrewError
 from up_simulator.in_process.machine import LiteralResolver
 from up_simulator.link.datagram_relay import DatagramRelay
 from up_simulator.link.listening_relay import LinkRelayError

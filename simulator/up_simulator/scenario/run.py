@@ -12,13 +12,13 @@ from functools import partial
 from pathlib import Path
 
 from up_simulator.aircraft import AirframeError
-from up_simulator.crew.protocols import CrewError
-from up_simulator.ending import ending_between_steps
+from up_simulator.aircraft.flight import FlightUnavailableError
 from up_simulator.firmware.board import BoardCrashedError
 from up_simulator.firmware.build import BoardUnavailableError
 from up_simulator.firmware.preparation import PreparationError
 from up_simulator.firmware.settings_wire import SettingsError
-from up_simulator.flight import FlightUnavailableError
+from up_simulator.harness.participants import CrewError
+from up_simulator.harness.signal_handling import ending_between_steps
 from up_simulator.picture.flight_picture import Failure, PictureError, Wind, draw_flight
 from up_simulator.scenario.build import build_flight
 from up_simulator.scenario.flight import FlightRecord

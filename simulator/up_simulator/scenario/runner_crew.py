@@ -12,11 +12,11 @@ from typing import Any
 
 import yaml
 
-from up_simulator.crew.protocols import CrewError
-from up_simulator.crew.real_servers import RealRunner
+from up_simulator.harness.participants import CrewError
+from up_simulator.harness.real_servers import RealRunner
 from up_simulator.in_process.phone import InProcessPhone
-from up_simulator.java_phone_program import JavaProgram
-from up_simulator.phone_address import RaspberryPi, Runner, spawn
+from up_simulator.phone.address import RaspberryPi, Runner, spawn
+from up_simulator.phone.java_program import JavaProgram
 from up_simulator.scenario.real_reactor import LOOPBACK, RealReactor
 from up_simulator.scenario.runner_door import RunnerDoor
 

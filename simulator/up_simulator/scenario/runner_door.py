@@ -10,7 +10,7 @@ from twisted.internet.defer import Deferred
 from twisted.internet.protocol import Factory
 from twisted.protocols.basic import LineOnlyReceiver
 
-from up_simulator.phone_address import (
+from up_simulator.phone.address import (
     LONGEST_ANSWER,
     NotFoundError,
     Runner,

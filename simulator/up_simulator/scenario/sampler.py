@@ -6,14 +6,14 @@ import dataclasses
 from collections.abc import Callable, Iterable, Mapping
 from typing import Any
 
-from up_simulator.crew.protocols import Ground, Phone, Raspilot
-from up_simulator.firmware.tap import BoardTap
+from up_simulator.firmware.line_monitor import BoardTap
+from up_simulator.harness.participants import Ground, Phone, Raspilot
+from up_simulator.harness.world import Dynamics, World
 from up_simulator.scenario.demand import DemandModel
 from up_simulator.scenario.line_board import LineBoard
 from up_simulator.scenario.scenario import Scenario
 from up_simulator.scenario.signals import EVENT_COLUMN, SIGNALS
 from up_simulator.scenario.sticks import CHANNELS
-from up_simulator.world import Dynamics, World
 
 Values = dict[str, float | bool | str | None]
 MODES = {"a": "ACRO", "r": "RATE", "f": "FBW", "s": "SETPOINT", "u": "OUTPUT", "h": "RTH"}

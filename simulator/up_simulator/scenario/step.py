@@ -7,9 +7,9 @@ import math
 from up_simulator.scenario.expectation import Expectation, StepLimits
 from up_simulator.scenario.log import FlightLog
 from up_simulator.scenario.signals import signal_of
+from up_simulator.scenario.step_response import StepError, StepResponse, analyse_step
 from up_simulator.scenario.verdict import Verdict, number_text
 from up_simulator.scenario.window import Window
-from up_simulator.tuning.step_response import StepError, StepResponse, analyse_step
 
 LOOK_S = 0.2
 """The demand is read this time before and after the step: the receiver and the mode need it."""

@@ -17,14 +17,14 @@ from typing import TextIO
 
 from up.config import ConfigErrors
 from up.fields import printable
-from up_simulator.crew.child import dying_wish
-from up_simulator.crew.option_parser import OptionParser
-from up_simulator.phone_choice import KINDS
+from up_simulator.harness.child import dying_wish
+from up_simulator.harness.option_parser import OptionParser
+from up_simulator.phone.choice import KINDS
 from up_simulator.scenario.file import read_scenario
 from up_simulator.scenario.run import FLIGHTS, REPORT, SUMMARY
+from up_simulator.verbs.catalogue import name_of, no_such_tag, shipped_paths
 from up_simulator.verbs.fly import try_output
 from up_simulator.verbs.outcome import HELD, INTERRUPTED, NOT_HELD, WRONG_INPUT
-from up_simulator.verbs.shelf import name_of, no_such_tag, shipped_paths
 
 WAIT_S = 0.05
 END_LIMIT_S = 30.0

@@ -8,10 +8,10 @@ from collections.abc import Sequence
 
 from up.config import ConfigErrors
 from up.fields import printable
-from up_simulator.crew.option_parser import OptionParser
+from up_simulator.harness.option_parser import OptionParser
 from up_simulator.scenario.file import read_scenario
+from up_simulator.verbs.catalogue import find
 from up_simulator.verbs.outcome import HELD, WRONG_INPUT
-from up_simulator.verbs.shelf import find
 
 EPILOG = """\
 Every mistake is told with file, line, column and, where there is one, what was probably meant.

@@ -10,8 +10,8 @@ from dataclasses import replace
 from pathlib import Path
 
 from up.fields import printable
-from up_simulator.crew.option_parser import OptionParser
-from up_simulator.phone_choice import KINDS
+from up_simulator.harness.option_parser import OptionParser
+from up_simulator.phone.choice import KINDS
 from up_simulator.scenario.file import read_scenario
 from up_simulator.scenario.override import Override
 from up_simulator.scenario.progress import ProgressLine
@@ -26,8 +26,8 @@ from up_simulator.scenario.run import (
     write_files,
 )
 from up_simulator.scenario.scenario import BOARDS, Scenario
+from up_simulator.verbs.catalogue import find, name_of
 from up_simulator.verbs.outcome import HELD, INTERRUPTED, NOT_HELD, FailedError, UsageError
-from up_simulator.verbs.shelf import find, name_of
 
 EPILOG = """\
 examples:

@@ -9,10 +9,10 @@ from pathlib import Path
 
 from up.config import ConfigErrors
 from up.fields import printable
-from up_simulator.crew.option_parser import OptionParser
+from up_simulator.harness.option_parser import OptionParser
 from up_simulator.scenario.file import read_scenario
+from up_simulator.verbs.catalogue import name_of, no_such_tag, shipped_paths
 from up_simulator.verbs.outcome import HELD, WRONG_INPUT
-from up_simulator.verbs.shelf import name_of, no_such_tag, shipped_paths
 
 EPILOG = """\
 examples:

@@ -8,7 +8,7 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
-from up_simulator.crew.option_parser import OptionParser
+from up_simulator.harness.option_parser import OptionParser
 from up_simulator.verbs.outcome import HELD, FailedError, UsageError
 
 TEMPLATE = "template.yml"

@@ -6,7 +6,7 @@ import argparse
 import sys
 from collections.abc import Sequence
 
-from up_simulator.crew.option_parser import OptionParser
+from up_simulator.harness.option_parser import OptionParser
 from up_simulator.scenario.signals import SIGNALS, Kind
 from up_simulator.verbs.outcome import HELD, UsageError
 

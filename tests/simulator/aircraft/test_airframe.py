@@ -20,7 +20,7 @@ from up_simulator.aircraft import (
 )
 from up_simulator.aircraft.airframe import SHIPPED
 from up_simulator.aircraft.airframe_file import file_named
-from up_simulator.flight import FlightUnavailableError
+from up_simulator.aircraft.flight import FlightUnavailableError
 
 
 def own(folder, yml=lambda text: text, xml=lambda text: text):

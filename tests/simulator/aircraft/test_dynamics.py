@@ -14,8 +14,8 @@ from up_simulator.aircraft import (
     load_airframe,
 )
 from up_simulator.aircraft.airframe import SHIPPED
+from up_simulator.aircraft.flight import NEUTRAL
 from up_simulator.aircraft.servos import ServoRack
-from up_simulator.flight import NEUTRAL
 
 NAMES = airframe_names()
 HANDS_OFF = tuple(float(each) for each in NEUTRAL)

@@ -10,7 +10,7 @@ from tests.support.tools import unavailable
 from up_simulator.aircraft import FlightDynamics, Start, airframe_names, load_airframe
 from up_simulator.firmware.build import BoardUnavailableError, choose_board
 from up_simulator.firmware.preparation import prepared_eeprom
-from up_simulator.world import World
+from up_simulator.harness.world import World
 
 NAMES = airframe_names()
 LOW, MIDDLE = 1000.0, 1500.0

@@ -9,6 +9,7 @@ from tests.support.tools import unavailable
 from up_simulator.firmware import preparation
 from up_simulator.firmware.build import BoardUnavailableError, aboard
 from up_simulator.firmware.imu_errors import ImuErrors
+from up_simulator.firmware.line_monitor import BoardTap
 from up_simulator.firmware.preparation import PreparationError, prepare_eeprom, prepared_eeprom
 from up_simulator.firmware.rig_board import RigBoard
 from up_simulator.firmware.settings_wire import (
@@ -19,7 +20,6 @@ from up_simulator.firmware.settings_wire import (
     gains_bytes,
     profile_bytes,
 )
-from up_simulator.firmware.tap import BoardTap
 
 CHANNEL = (0, 0, 1000, 2000)
 GAINS = tuple(float(each) for each in range(18))

@@ -6,9 +6,10 @@ from tests.support.firmware import build_firmware
 from up_simulator.aircraft.airframe import load_airframe
 from up_simulator.aircraft.dynamics import FlightDynamics, Start
 from up_simulator.firmware.imu_errors import ImuErrors
+from up_simulator.firmware.line_monitor import BoardTap
 from up_simulator.firmware.preparation import prepared_eeprom
 from up_simulator.firmware.rig_board import RigBoard
-from up_simulator.firmware.tap import BoardTap
+from up_simulator.harness.world import STEP_S, World
 from up_simulator.in_process.config_folder import GROUND_PORT, write_config
 from up_simulator.in_process.ground import InProcessGround
 from up_simulator.in_process.phone import InProcessPhone
@@ -16,7 +17,6 @@ from up_simulator.in_process.raspilot import InProcessRaspilot
 from up_simulator.in_process.reactor import SimulatedReactor
 from up_simulator.link.model import LinkModel, LinkSettings
 from up_simulator.scenario.serial_line import FROM_BOARD, TO_BOARD, SerialWires
-from up_simulator.world import STEP_S, World
 
 ACRO_US, FBW_US, AUTO_US = 1000.0, 1500.0, 2000.0
 CELLULAR = LinkSettings(delay_ms=40, jitter_ms=10)

@@ -12,8 +12,8 @@ from twisted.logger import globalLogPublisher
 from tests.simulator.bench import StillFlight
 from tests.support.tools import unavailable
 from up_rig.imu import motion_at
-from up_simulator.crew.protocols import CrewError
 from up_simulator.firmware.build import BoardUnavailableError, choose_board
+from up_simulator.harness.participants import CrewError
 from up_simulator.in_process.config_folder import GROUND_PORT, write_config
 from up_simulator.in_process.ground import InProcessGround
 from up_simulator.in_process.phone import InProcessPhone

@@ -8,14 +8,14 @@ from up.earth import distance_m
 from up_rig import RigUnavailableError
 from up_rig.sticks import read_sticks
 from up_simulator.aircraft import FlightDynamics, Weather, load_airframe
-from up_simulator.crew.virtual_aircraft import MODE_NAMES
 from up_simulator.firmware.build import BoardUnavailableError, choose_board
+from up_simulator.firmware.line_monitor import BoardTap
 from up_simulator.firmware.preparation import prepared_eeprom
-from up_simulator.firmware.tap import BoardTap
+from up_simulator.harness.virtual_aircraft import MODE_NAMES
+from up_simulator.harness.world import World
 from up_simulator.radio.circling_pilot import CirclingPilot
 from up_simulator.radio.scripted import ScriptedRadio
 from up_simulator.radio.sticks import Sticks, Transmitter
-from up_simulator.world import World
 
 
 @pytest.mark.parametrize(

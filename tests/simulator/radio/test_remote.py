@@ -21,11 +21,13 @@ from tests.support.tools import unavailable
 from up_rig import RigUnavailableError
 from up_simulator.aircraft import FlightDynamics, load_airframe
 from up_simulator.firmware.build import BoardUnavailableError, choose_board
+from up_simulator.firmware.line_monitor import BoardTap
 from up_simulator.firmware.preparation import prepared_eeprom
-from up_simulator.firmware.tap import BoardTap
+from up_simulator.harness.world import World
 from up_simulator.radio.circling_pilot import CirclingPilot
 from up_simulator.radio.keyboard import HELP
 from up_simulator.radio.keyboard_radio import status_line
+from up_simulator.radio.rc_override import RadioLink
 from up_simulator.radio.remote import RemoteRadio
 from up_simulator.radio.remote_words import (
     Seen,
@@ -36,9 +38,7 @@ from up_simulator.radio.remote_words import (
 )
 from up_simulator.radio.scripted import ScriptedRadio
 from up_simulator.radio.sticks import RadioError, Sticks, Transmitter
-from up_simulator.radio.take_over import RadioLink
 from up_simulator.radio.terminal import wrapped
-from up_simulator.world import World
 
 DEADLINE_S = 30.0
 STATE = StillFlight().state

@@ -16,7 +16,7 @@ from up_simulator.scenario.file import parse_scenario, read_scenario
 from up_simulator.scenario.sampler import CAUSES, MODES
 from up_simulator.scenario.scenario import Scenario
 from up_simulator.scenario.words import words_of
-from up_simulator.verbs.shelf import shipped_paths
+from up_simulator.verbs.catalogue import shipped_paths
 
 ABOARD = HEAD + "raspilot: {runs: in process}\nground: {role: pilot}\n"
 TEMPLATE = Path(up_simulator.scenario.__file__).with_name("template.yml")

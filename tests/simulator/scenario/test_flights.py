@@ -10,7 +10,7 @@ from up_simulator.firmware.imu_errors import drawn_errors
 from up_simulator.scenario.build import build_flight
 from up_simulator.scenario.file import parse_scenario, read_scenario
 from up_simulator.scenario.result import Result, control_scenario, control_verdicts, verdicts_of
-from up_simulator.verbs.shelf import SHIPPED
+from up_simulator.verbs.catalogue import SHIPPED
 
 LEVEL = "sticks: [{at_s: 0, mode: FBW, arm: true, throttle: 0.5}]\n"
 HELD = "expect: [{name: It is held, signal: error.roll_deg, rms_below: 3}]\n"

@@ -5,9 +5,9 @@ from pathlib import Path
 import pytest
 
 from tests.support.firmware import build_firmware
+from tools.tuning.cli import main as tune
 from up_simulator.cli import main
-from up_simulator.tuning.cli import main as tune
-from up_simulator.verbs.shelf import shipped_paths
+from up_simulator.verbs.catalogue import shipped_paths
 
 GOOD = """\
 title: Good
@@ -41,7 +41,7 @@ def test_a_place_that_takes_no_files_is_told_before_the_flight(words, output, ca
 
 
 def test_gains_that_cannot_be_written_are_not_looked_for(monkeypatch):
-    monkeypatch.setattr("up_simulator.tuning.cli.Workers", never)
+    monkeypatch.setattr("tools.tuning.cli.Workers", never)
     with pytest.raises(OSError, match="/proc/x"):
         tune(["--write", "/proc/x/pids.yml"])
 

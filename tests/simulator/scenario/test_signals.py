@@ -2,7 +2,7 @@ import dataclasses
 
 import pytest
 
-from up_simulator.flight import FlightState
+from up_simulator.aircraft.flight import FlightState
 from up_simulator.scenario.signals import SIGNALS, Kind, signal_of
 
 

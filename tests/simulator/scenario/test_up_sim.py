@@ -14,7 +14,7 @@ import pytest
 from tests.support.firmware import build_firmware
 from up_simulator.cli import VERBS, main
 from up_simulator.scenario.log import read_log
-from up_simulator.verbs.shelf import shipped_paths
+from up_simulator.verbs.catalogue import shipped_paths
 
 GOOD = """\
 title: Good
@@ -241,7 +241,7 @@ def test_ctrl_c_is_a_line_and_a_partial_report():
 
 def test_all_flies_everything_and_counts(capsys, monkeypatch, in_a_folder):
     build_firmware()
-    monkeypatch.setattr("up_simulator.verbs.shelf.SHIPPED", in_a_folder)
+    monkeypatch.setattr("up_simulator.verbs.catalogue.SHIPPED", in_a_folder)
     write("good.yml", GOOD)
     write("bad.yml", BAD)
     assert main(["all"]) == 1

@@ -20,7 +20,7 @@ from tests.arduino.mutate import changes
 from tests.arduino.mutate import mutations as firmware_mutations
 from up_simulator.scenario.file import read_scenario
 from up_simulator.scenario.run import SUMMARY
-from up_simulator.verbs.shelf import shipped_paths
+from up_simulator.verbs.catalogue import shipped_paths
 
 ROOT = Path(__file__).resolve().parents[3]
 FIRMWARE = "arduino/raspilot/src/"

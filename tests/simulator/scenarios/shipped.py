@@ -8,7 +8,7 @@ from tests.support.tools import need_tool
 from up_simulator.scenario.file import read_scenario
 from up_simulator.scenario.progress import ProgressLine
 from up_simulator.scenario.run import fly_scenario
-from up_simulator.verbs.shelf import shipped_paths
+from up_simulator.verbs.catalogue import shipped_paths
 
 SCENARIOS = {path.stem: read_scenario(path) for path in shipped_paths()}
 REAL = [name for name, each in SCENARIOS.items() if each.is_real]

@@ -7,7 +7,7 @@ import pytest
 from tests.simulator.scenarios.mutate import ROOT, mutations
 from tests.simulator.scenarios.shipped import ALONE, REAL, SCENARIOS, WITH_DAEMON, fly
 from up_simulator.scenario.measures import limit_text
-from up_simulator.verbs.shelf import shipped_paths
+from up_simulator.verbs.catalogue import shipped_paths
 
 # Expectations that check only who controls the aircraft need no number of their own.
 LEAST_EXPECTATIONS = 2

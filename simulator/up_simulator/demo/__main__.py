@@ -1,0 +1,198 @@
+"""``make run``: the whole system on one machine, in the air, stabilised, until Ctrl-C.
+
+Starts the proxy, the virtual aircraft with its firmware and phone, Raspilot and the ground station
+for browser and terminal, each as the process that a user would start, with configuration in its
+own folder.
+"""
+
+from __future__ import annotations
+
+import argparse
+import contextlib
+import fcntl
+import math
+import signal
+import sys
+from collections.abc import Callable, Sequence
+from pathlib import Path
+
+from up_simulator.aircraft import AirframeError, airframe_names
+from up_simulator.demo.flight import ShowcaseFlight
+from up_simulator.harness.option_parser import WRONG_INPUT, OptionParser
+from up_simulator.harness.participants import CrewError
+from up_simulator.harness.start_options import (
+    BOARD_HELP,
+    BOARDS,
+    TURBULENCE,
+    link_settings,
+    wind_m_s,
+)
+from up_simulator.phone.choice import KINDS
+
+ROOT = Path(__file__).resolve().parents[3]
+
+
+class Stopped(Exception):  # noqa: N818 - a signal is not an error
+    """A signal requests the end."""
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run everything; return 0 after Ctrl-C, 1 when a part failed, 2 for wrong input."""
+    options = _options(arguments)
+    folder = (options.folder or ROOT / "run" / "showcase").resolve()
+    if not (ROOT / "main.py").is_file():
+        return _fail("the showcase runs from a clone of the project: make run", WRONG_INPUT)
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        lock = (folder / "lock").open("w")
+    except OSError as error:
+        return _fail(f"--folder {folder}: {error.strerror}", WRONG_INPUT)
+    with lock:
+        try:
+            fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except BlockingIOError:
+            return _fail(
+                f"another 'make run' flies with {folder}: end it, or give this one another folder:"
+                " make run ARGS='--folder run/second'",
+                1,
+            )
+        return _fly(options, folder)
+
+
+def _fly(options: argparse.Namespace, folder: Path) -> int:
+    # A shell starts background jobs with SIGINT ignored: one sent to this process is intended.
+    signal.signal(signal.SIGINT, signal.default_int_handler)
+    for number in (signal.SIGTERM, signal.SIGHUP):
+        # Signals that 'nohup' ignores stay ignored.
+        if signal.getsignal(number) != signal.SIG_IGN:
+            signal.signal(number, _raise_stopped)
+    last_words = ""
+    flight: ShowcaseFlight | None = None
+    try:
+        flight = ShowcaseFlight(options, folder, ROOT, _say)
+        flight.start()
+        flight.stay()
+    except (KeyboardInterrupt, Stopped):
+        pass
+    except AirframeError as error:
+        # Before anything was started.
+        return _fail(f"make run: {error}", WRONG_INPUT)
+    except (CrewError, OSError) as error:
+        last_words = str(error)
+    finally:
+        for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+            signal.signal(number, signal.SIG_IGN)
+        if flight is not None:
+            flight.stop()
+    if last_words:
+        # Only now: the picture of the ground station would have wiped it away.
+        _say(f"\n{last_words}")
+    return 1 if last_words else 0
+
+
+def _options(arguments: Sequence[str] | None) -> argparse.Namespace:
+    parser = OptionParser(
+        prog="make run",
+        allow_abbrev=False,
+        description="Flies the virtual aircraft with the real firmware, daemon, proxy and ground"
+        " station. From make: make run CONTROLLER=raspberry RADIO=keyboard ARGS='--wind 6'",
+    )
+    parser.add_argument(
+        "--controller",
+        choices=("arduino", "raspberry"),
+        default="arduino",
+        help="who holds the attitude: the firmware, or Raspilot on this machine; default arduino",
+    )
+    parser.add_argument("--airframe", default="glider", help=" or ".join(airframe_names()))
+    parser.add_argument(
+        "--wind",
+        type=_text_of(wind_m_s),
+        default="4",
+        metavar="M_S",
+        help="from the south, default 4",
+    )
+    parser.add_argument(
+        "--turbulence", choices=TURBULENCE, default="moderate", help="default moderate"
+    )
+    parser.add_argument(
+        "--radio",
+        type=_who,
+        default="circle",
+        metavar="WHO",
+        help="who moves the sticks: circle (default), keyboard, js0",
+    )
+    parser.add_argument(
+        "--board",
+        choices=BOARDS,
+        default="auto",
+        help=BOARD_HELP,
+    )
+    parser.add_argument(
+        "--link",
+        type=_text_of(link_settings),
+        default="",
+        help="a bad link from aircraft to proxy: 'delay=80 jitter=20 loss=1 rate=20000'",
+    )
+    parser.add_argument(
+        "--phone",
+        choices=KINDS,
+        default="auto",
+        help="what the phone is: java, the app's own Up Library; python, a stand-in; default auto",
+    )
+    parser.add_argument("--folder", type=Path, help="for configuration and logs (run/demo)")
+    parser.add_argument(
+        "--seconds", type=_seconds, help="stop after this many seconds; default: at Ctrl-C"
+    )
+    parser.add_argument("--no-watch", action="store_true", help="do not show the telemetry")
+    parser.add_argument("--no-page", action="store_true", help="no ground station for a browser")
+    parser.add_argument(
+        "--page",
+        metavar="ADDRESS:PORT",
+        help="where the ground station for a browser listens; default 127.0.0.1:8080",
+    )
+    parser.add_argument("--replay", type=Path, help="fly a recorded flight, not the model")
+    parser.add_argument("--state-log", type=Path, help="write the true state there, as CSV")
+    parser.add_argument("--any-ports", action="store_true", help="do not try the usual ports")
+    return parser.parse_args(arguments)
+
+
+def _text_of(read: Callable[[str], object]) -> Callable[[str], str]:
+    """Return a parser that keeps a text unchanged, after a check by the aircraft's own parser."""
+
+    def take(text: str) -> str:
+        read(text)
+        return text
+
+    return take
+
+
+def _seconds(text: str) -> float:
+    seconds = float(text)
+    if not 0 < seconds < math.inf:
+        raise argparse.ArgumentTypeError(f"{text!r} is not a number of seconds above 0")
+    return seconds
+
+
+def _who(text: str) -> str:
+    if text not in ("circle", "keyboard") and not text.startswith(("js", "/")):
+        raise argparse.ArgumentTypeError(f"{text!r} is not circle, keyboard or js0")
+    return text
+
+
+def _raise_stopped(number: int, frame: object) -> None:
+    raise Stopped
+
+
+def _fail(text: str, status: int) -> int:
+    sys.stderr.write(f"{text}\n")
+    return status
+
+
+def _say(text: str) -> None:
+    # The terminal may be closed already.
+    with contextlib.suppress(OSError):
+        print(text, flush=True)  # noqa: T201
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,58 @@
+"""The ground station in a browser: a part of ``make run`` that no flight needs."""
+
+from __future__ import annotations
+
+import re
+import shlex
+import sys
+import time
+from pathlib import Path
+
+from up_simulator.demo.hints import program
+from up_simulator.harness.child import Child
+from up_simulator.harness.ports import Ports
+
+LIMIT_S = 30.0
+LOOK_AGAIN_S = 0.05
+_ADDRESS = re.compile(r"http://\S+")
+
+
+class Page:
+    """``up-ground serve`` for the aircraft behind the proxy of a run.
+
+    ``listen`` is its address, ``ADDRESS:PORT``; its output is in ``page.log``. ``command`` is the
+    shell command that starts it again.
+    """
+
+    def __init__(self, folder: Path, ports: Ports, listen: str | None = None) -> None:
+        (folder / "page.log").unlink(missing_ok=True)
+        words = ["serve", "--port", str(ports.ground)]
+        words += ["--listen", listen or f"127.0.0.1:{ports.page}"]
+        self.child = Child("page", [sys.executable, "-m", "up_ground.main", *words], folder)
+        self.command = f"{program('up-ground')} {shlex.join(words)}"
+
+    def wait_for_address(self) -> str | None:
+        """Return the page's address; None when it has ended or prints none in time."""
+        deadline_s = time.monotonic() + LIMIT_S
+        while time.monotonic() < deadline_s:
+            has_ended = self.child.poll() is not None
+            for line in self.child.lines():
+                found = _ADDRESS.search(line)
+                if found is not None:
+                    return found[0]
+            if has_ended:
+                return None
+            time.sleep(LOOK_AGAIN_S)
+        return None
+
+    @property
+    def why_not(self) -> str:
+        """Return in words why the page is missing."""
+        status = self.child.poll()
+        if status is None:
+            return f"it names no address within {LIMIT_S:.0f} s (its log: {self.child.log})"
+        said = [line.strip() for line in self.child.lines() if line.strip()]
+        if said and status >= 0:
+            return said[-1].removeprefix("up-ground: ").removeprefix("error: ")
+        how = f"signal {-status}" if status < 0 else f"status {status}"
+        return f"it ended by itself with {how} (its log: {self.child.log})"
