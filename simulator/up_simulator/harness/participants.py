@@ -72,10 +72,6 @@ class Phone(Protocol):
     def is_plugged(self) -> bool:
         """Return whether its cable is plugged in."""
 
-    @property
-    def loss(self) -> str | None:
-        """Return in a sentence how it ended unexpectedly; None if it has not."""
-
     def plug(self) -> None:
         """Plug it in: it connects within its own retry time."""
 

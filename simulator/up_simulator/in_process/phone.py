@@ -2,21 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import Any
-
 from twisted.internet.defer import Deferred
 
 from up_simulator.aircraft.flight import Flight
-from up_simulator.in_process.java_phone import SteppedJavaHandset
-from up_simulator.in_process.machine import Machine
 from up_simulator.in_process.network import ADDRESS
 from up_simulator.in_process.reactor import SimulatedReactor
 from up_simulator.link.model import LinkModel, LinkSettings
 from up_simulator.phone.address import RaspberryPi
-from up_simulator.phone.handset import Handset, PythonHandset
-from up_simulator.phone.java_handset import JavaHandset
-from up_simulator.phone.java_program import JavaProgram
+from up_simulator.phone.handset import PythonHandset
 from up_simulator.phone.link import OrientationBy
 
 GENERAL_PORT, ORIENTATION_PORT = 50001, 50000
@@ -30,8 +23,7 @@ class InProcessPhone:
 
     ``plug`` and ``unplug`` move the cable: a connection without it hangs, as with USB tethering,
     until its own timeouts end it. With ``is_told`` both ends are reset immediately, as with
-    ``adb``. ``said`` has the phone's messages and notes. With ``java`` it is the Java phone: in
-    steps on a simulated reactor, otherwise in real time with its own sockets.
+    ``adb``. ``said`` has the phone's messages and notes.
     """
 
     def __init__(
@@ -44,7 +36,6 @@ class InProcessPhone:
         general_port: int = GENERAL_PORT,
         orientation_port: int = ORIENTATION_PORT,
         cable: LinkSettings = CABLE,
-        java: JavaProgram | None = None,
     ) -> None:
         self.said: list[str] = []
         self.up = LinkModel(cable, seed)
@@ -55,8 +46,9 @@ class InProcessPhone:
         for port in self._ports:
             reactor.link(port, self.up, self.down)
         self._machine = reactor.machine("phone")
-        make = self._in_python if java is None else self._in_java(java)
-        self.handset: Handset = make(flight, orientation, seed)
+        self.handset = PythonHandset(
+            self._machine, flight, self.find, orientation, self._say, seed=seed
+        )
         self.sensors = self.handset.sensors
         self._is_started = False
 
@@ -64,17 +56,6 @@ class InProcessPhone:
     def is_plugged(self) -> bool:
         """Return whether the cable is plugged in."""
         return self._is_started and not self.up.is_black
-
-    @property
-    def loss(self) -> str | None:
-        """Return in a sentence how it ended unexpectedly; None if it has not."""
-        return self.handset.loss
-
-    @property
-    def is_awaited(self) -> bool:
-        """Return whether a separate program has started and has not connected yet."""
-        handset = self.handset
-        return self._is_started and isinstance(handset, JavaHandset) and not handset.has_connected
 
     def plug(self) -> None:
         """Plug it in; the first time it also begins to connect."""
@@ -103,30 +84,8 @@ class InProcessPhone:
         Deferred.fromCoroutine(self.handset.stop()).addErrback(lambda _: None)
 
     async def find(self) -> RaspberryPi:
-        """Return where the phone in Python connects to."""
+        """Return where the phone connects to."""
         return self._place
-
-    def place_options(self) -> list[str]:
-        """Return the same for the phone in Java, as its options."""
-        ports = ":".join(map(str, self._ports))
-        return ["--raspberry", f"{ADDRESS}:{ports}"]
-
-    def _in_python(self, flight: Flight, orientation: OrientationBy, seed: int) -> Handset:
-        return PythonHandset(self._machine, flight, self.find, orientation, self._say, seed=seed)
-
-    def _in_java(self, java: JavaProgram) -> Callable[[Flight, OrientationBy, int], Handset]:
-        def make(flight: Flight, orientation: OrientationBy, seed: int) -> Handset:
-            machine: Any = self._machine
-            if isinstance(machine, Machine):
-                place = self.place_options()
-                return SteppedJavaHandset(
-                    java, machine, flight, place, orientation, self._say, seed=seed
-                )
-            return JavaHandset(
-                java, machine, flight, self.place_options, orientation, self._say, seed=seed
-            )
-
-        return make
 
     def _tick(self) -> None:
         if self._is_started:

@@ -34,7 +34,7 @@ def build_flight(scenario: Scenario, say: Say = lambda _text: None) -> ScenarioF
     )
     board = _board(scenario, airframe, say)
     world = World(dynamics, board)
-    companions = _companions(scenario, airframe, dynamics, board, say)
+    companions = _companions(scenario, airframe, dynamics, board)
     demand = DemandModel(profile_of(scenario, airframe.profile))
     flight = ScenarioFlight(scenario, world, board, companions, demand, airframe.imu)
     flight.record.settings = _settings(scenario, airframe)
@@ -67,7 +67,7 @@ def _board(scenario: Scenario, airframe: Airframe, say: Say) -> LineBoard:
 
 
 def _companions(
-    scenario: Scenario, airframe: Airframe, dynamics: FlightDynamics, board: LineBoard, say: Say
+    scenario: Scenario, airframe: Airframe, dynamics: FlightDynamics, board: LineBoard
 ) -> Companions:
     if not scenario.has_raspilot:
         return Nobody(board)
@@ -78,10 +78,10 @@ def _companions(
     if scenario.is_real:
         from up_simulator.scenario.real_companions import RealCompanions
 
-        return RealCompanions(scenario, dynamics, board, settings, say)
+        return RealCompanions(scenario, dynamics, board, settings)
     from up_simulator.scenario.in_process_companions import InProcessCompanions
 
-    return InProcessCompanions(scenario, dynamics, board, settings, say)
+    return InProcessCompanions(scenario, dynamics, board, settings)
 
 
 def _start(scenario: Scenario) -> Start:

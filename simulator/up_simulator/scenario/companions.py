@@ -29,10 +29,6 @@ class Companions(Protocol):
         """Return the phone aboard."""
 
     @property
-    def phone_title(self) -> str:
-        """Return the phone's kind and its reason, for the report; empty without a phone."""
-
-    @property
     def black_boxes(self) -> Mapping[str, bytes]:
         """Return the files, by name, that a real daemon has recorded; there once all have ended."""
 
@@ -61,7 +57,6 @@ class Nobody:
     raspilot: Raspilot | None = None
     ground: Ground | None = None
     phone: Phone | None = None
-    phone_title = ""
     black_boxes: Mapping[str, bytes] = MappingProxyType({})
 
     def __init__(self, board: LineBoard) -> None:

@@ -52,7 +52,6 @@ class CrewCompanions(ABC):
     raspilot: Daemon
     ground: Ground | None = None
     phone: AboardPhone | None = None
-    phone_title = ""
     black_boxes: Mapping[str, bytes] = MappingProxyType({})
 
     def __init__(self, scenario: Scenario, board: LineBoard) -> None:

@@ -53,7 +53,6 @@ class FlightRecord:
     failure_log: Sequence[str] = ()
     is_interrupted: bool = False
     board_title: str = ""
-    phone_title: str = ""
     notes: list[str] = field(default_factory=list)
     settings: Mapping[str, Mapping[str, Any]] = field(default_factory=dict)
     black_boxes: Mapping[str, bytes] = field(default_factory=dict)
@@ -99,7 +98,6 @@ class ScenarioFlight:
         self._total_steps = round(scenario.duration_s / STEP_S)
         self.record = FlightRecord(scenario, FlightLog(columns_of(scenario)))
         self.record.board_title = board.title
-        self.record.phone_title = companions.phone_title
         self._sampler = Sampler(
             world,
             board,
@@ -140,9 +138,6 @@ class ScenarioFlight:
         finally:
             self.record.flown_s = self.time_s
             self.record.took_s = time.perf_counter() - began_s
-            phone = self.companions.phone
-            if phone is not None and phone.loss is not None:
-                self.record.notes.append(f"the {phone.loss}")
             self.companions.stop()
             self.record.black_boxes = self.companions.black_boxes
         return self.record

@@ -103,7 +103,6 @@ class _FlightFile:
                 "about": scenario.about,
                 "seed": str(scenario.seed),
                 "board": record.board_title,
-                "phone": record.phone_title,
             },
         )
         for file, settings in record.settings.items():

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from typing import Any
 
 from up_simulator.aircraft.flight import Flight
@@ -11,7 +10,6 @@ from up_simulator.in_process.ground import InProcessGround
 from up_simulator.in_process.phone import InProcessPhone
 from up_simulator.in_process.raspilot import InProcessRaspilot
 from up_simulator.in_process.reactor import SimulatedReactor
-from up_simulator.phone.choice import choose_phone
 from up_simulator.scenario.crew_companions import CrewCompanions
 from up_simulator.scenario.line_board import LineBoard
 from up_simulator.scenario.scenario import Scenario
@@ -31,7 +29,6 @@ class InProcessCompanions(CrewCompanions):
         flight: Flight,
         board: LineBoard,
         settings: dict[str, dict[str, Any]],
-        say: Callable[[str], None] = lambda _text: None,
     ) -> None:
         super().__init__(scenario, board)
         self._reactor = SimulatedReactor()
@@ -45,14 +42,11 @@ class InProcessCompanions(CrewCompanions):
                 self._reactor, seed=scenario.seed, frame_age=self._daemon.frame_age_s
             )
         if scenario.phone is not None:
-            choice = choose_phone(scenario.phone.program, say)
-            self.phone_title = choice.title
             self.phone = InProcessPhone(
                 self._reactor,
                 flight,
                 orientation=scenario.phone.orientation,
                 seed=scenario.seed,
-                java=choice.java,
             )
 
     def seconds(self) -> float:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from typing import Any
 
 from up_rig.pty_line import PtyLine, PtyLineError
@@ -15,7 +14,6 @@ from up_simulator.harness.world import BYTES_A_STEP
 from up_simulator.in_process.config_folder import write_config
 from up_simulator.in_process.ground import InProcessGround
 from up_simulator.in_process.phone import InProcessPhone
-from up_simulator.phone.choice import choose_phone
 from up_simulator.scenario.crew_companions import CrewCompanions
 from up_simulator.scenario.event import Event
 from up_simulator.scenario.line_board import LineBoard
@@ -41,7 +39,6 @@ class RealCompanions(CrewCompanions):
         flight: Flight,
         board: LineBoard,
         settings: dict[str, dict[str, Any]],
-        say: Callable[[str], None] = lambda _text: None,
     ) -> None:
         super().__init__(scenario, board)
         self._reactor = RealReactor()
@@ -53,7 +50,7 @@ class RealCompanions(CrewCompanions):
         self._real = self._make_daemon(merge(self._files(), settings))
         self.raspilot = self._real
         self._make_ground()
-        self._make_phone(flight, say)
+        self._make_phone(flight)
 
     @property
     def _through(self) -> str:
@@ -103,12 +100,6 @@ class RealCompanions(CrewCompanions):
                 self._proxy.kill()
             else:
                 self._proxy.begin()
-
-    def _has_connected(self) -> bool:
-        """Wait for a JVM aboard, too: on a busy machine it is there seconds after the others."""
-        phone = self.phone
-        is_awaited = isinstance(phone, InProcessPhone) and phone.is_awaited
-        return not is_awaited and super()._has_connected()
 
     def plug_serial(self, is_in: bool) -> None:
         """Attach the pty, or remove it with all queued bytes."""
@@ -220,12 +211,10 @@ class RealCompanions(CrewCompanions):
             self._reactor.link(before.ground, up=self.down, down=self.up)
             self.ground = InProcessGround(reactor, before.ground, seed=seed)
 
-    def _make_phone(self, flight: Flight, say: Callable[[str], None]) -> None:
+    def _make_phone(self, flight: Flight) -> None:
         part = self.scenario.phone
         if part is None:
             return
-        choice = choose_phone(part.program, say)
-        self.phone_title = choice.title
         ports, before = self._ports, self._before
         if isinstance(self._real, RunnerDaemon):
             self.phone = RunnerPhone(
@@ -235,7 +224,6 @@ class RealCompanions(CrewCompanions):
                 lambda port: self._reactor.relay(0, port, self.up, self.down),
                 orientation=part.orientation,
                 seed=self.scenario.seed,
-                java=choice.java,
             )
             return
         self._reactor.targets[before.general] = ports.general
@@ -248,5 +236,4 @@ class RealCompanions(CrewCompanions):
             seed=self.scenario.seed,
             general_port=before.general,
             orientation_port=before.orientation,
-            java=choice.java,
         )

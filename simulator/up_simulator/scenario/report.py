@@ -68,8 +68,6 @@ def _flown(what: str, record: FlightRecord) -> Iterator[str]:
         f"  {what}: {speed_text(record)}; {scenario.airframe}, seed {scenario.seed},"
         f" {record.board_title}"
     )
-    if record.phone_title:
-        yield f"  {what}: the phone is {record.phone_title}"
     for note in record.notes:
         yield f"  {what}: {note}"
 

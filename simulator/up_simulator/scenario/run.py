@@ -248,7 +248,6 @@ def _summary(name: str, result: Result) -> dict[str, object]:
     return {
         "name": name,
         "title": record.scenario.title,
-        "phone": record.phone_title,
         "held": result.is_held,
         "flown_s": round(record.flown_s, 3),
         "speed": round(record.speed, 2),

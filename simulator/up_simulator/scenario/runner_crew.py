@@ -16,9 +16,7 @@ from up_simulator.harness.participants import CrewError
 from up_simulator.harness.real_servers import RealRunner
 from up_simulator.in_process.phone import InProcessPhone
 from up_simulator.phone.address import RaspberryPi, Runner, spawn
-from up_simulator.phone.java_program import JavaProgram
 from up_simulator.scenario.real_reactor import LOOPBACK, RealReactor
-from up_simulator.scenario.runner_door import RunnerDoor
 
 AIRCRAFT = "default"
 LOG_TAIL_BYTES = 16_384
@@ -107,13 +105,11 @@ class RunnerPhone(InProcessPhone):
         *,
         orientation: Any,
         seed: int,
-        java: JavaProgram | None = None,
     ) -> None:
         self._runner_port = port
         self._relay = relay
         self._relayed: dict[int, int] = {}
         self._real = reactor
-        self._door: RunnerDoor | None = None
         simulated: Any = reactor
         super().__init__(
             simulated,
@@ -122,20 +118,7 @@ class RunnerPhone(InProcessPhone):
             seed=seed,
             general_port=0,
             orientation_port=0,
-            java=java,
         )
-
-    def stop(self) -> None:
-        """Switch it off."""
-        super().stop()
-        if self._door is not None:
-            self._door.stop()
-
-    def place_options(self) -> list[str]:
-        """Return the runner's address for the phone in Java, which has its own sockets."""
-        if self._door is None:
-            self._door = RunnerDoor(self._real.machine(), self._runner_port, self._by_link)
-        return ["--runner", f"{LOOPBACK}:{self._door.start()}", "--aircraft", AIRCRAFT]
 
     async def find(self) -> RaspberryPi:
         """Request an instance from the runner; return where the link to it begins."""

@@ -47,11 +47,6 @@ class PhonePart:
         "off", "Whether it sends its own orientation, 50 times a second."
     )
     battery_percent: float = key(100.0, "Its battery.", unit="%", minimum=0, maximum=100)
-    program: Literal["auto", "java", "python"] = key(
-        "auto",
-        "What it is. java: the app's own Up Library on a Java virtual machine. python: a stand-in."
-        " auto: java where there is one, else python.",
-    )
 
 
 @dataclass(frozen=True, slots=True)

@@ -19,7 +19,6 @@ from up.config import ConfigErrors
 from up.fields import printable
 from up_simulator.harness.child import dying_wish
 from up_simulator.harness.option_parser import OptionParser
-from up_simulator.phone.choice import KINDS
 from up_simulator.scenario.file import read_scenario
 from up_simulator.scenario.run import FLIGHTS, REPORT, SUMMARY
 from up_simulator.verbs.catalogue import name_of, no_such_tag, shipped_paths
@@ -65,7 +64,6 @@ class Job:
         command = [sys.executable, "-m", "up_simulator.cli", "fly", str(self.path), "--quiet"]
         command += ["--output", str(options.output)]
         command += [] if options.picture else ["--no-picture"]
-        command += ["--phone", options.phone] if options.phone else []
         self.began_s = time.monotonic()
         self.process = subprocess.Popen(command, stdin=subprocess.DEVNULL, preexec_fn=dying_wish())
 
@@ -247,9 +245,6 @@ def _parser() -> argparse.ArgumentParser:
     )
     parser.add_argument("--tag", action="append", default=[], help="only those with this tag")
     parser.add_argument("--picture", action="store_true", help="draw pictures, too")
-    parser.add_argument(
-        "--phone", choices=KINDS, help="what the phone is, where there is one (default: auto)"
-    )
     parser.add_argument(
         "--processes", type=int, choices=range(1, 9), default=2, metavar="N", help="default 2"
     )

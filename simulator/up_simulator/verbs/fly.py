@@ -6,12 +6,10 @@ import argparse
 import sys
 from collections.abc import Iterable, Sequence
 from contextlib import suppress
-from dataclasses import replace
 from pathlib import Path
 
 from up.fields import printable
 from up_simulator.harness.option_parser import OptionParser
-from up_simulator.phone.choice import KINDS
 from up_simulator.scenario.file import read_scenario
 from up_simulator.scenario.override import Override
 from up_simulator.scenario.progress import ProgressLine
@@ -86,8 +84,6 @@ def _read(path: Path, options: argparse.Namespace) -> Scenario:
     ]
     overrides += [_override(text) for text in options.set]
     scenario = read_scenario(path, overrides)
-    if options.phone is not None and scenario.phone is not None:
-        scenario = replace(scenario, phone=replace(scenario.phone, program=options.phone))
     if options.speed == "fast" and scenario.is_real:
         raise UsageError(f"{path}: real programs fly in real time only")
     return scenario
@@ -153,9 +149,6 @@ def _parser() -> argparse.ArgumentParser:
         "--speed",
         choices=("fast", "real"),
         help="fast: as fast as it goes (default); real: no faster than real time",
-    )
-    parser.add_argument(
-        "--phone", choices=KINDS, help="what the phone is, where there is one (default: auto)"
     )
     parser.add_argument("--board", choices=BOARDS, help="what flies (default: the scenario's)")
     parser.add_argument(

@@ -66,7 +66,6 @@ class Flying:
         link=None,
         arms=False,
         orientation="tcp",
-        java=None,
     ):
         airframe = load_airframe("glider")
         eeprom = prepared_eeprom("firmware", airframe.profile, airframe.gains)
@@ -82,9 +81,7 @@ class Flying:
             self.up, self.down = LinkModel(link, seed), LinkModel(link, seed + 1)
             self.reactor.link(GROUND_PORT, self.up, self.down)
         self.ground = InProcessGround(self.reactor, seed=seed)
-        self.phone = InProcessPhone(
-            self.reactor, dynamics, orientation=orientation, seed=seed, java=java
-        )
+        self.phone = InProcessPhone(self.reactor, dynamics, orientation=orientation, seed=seed)
         self.board.set_stick("aux1", FBW_US)
         self.world.boot(arms=arms)
 

@@ -2,18 +2,14 @@
 
 import os
 import shutil
-import subprocess
-import sys
 import zipfile
 
 import pytest
 
 from tests.simulator.program import Program
-from tests.support.firmware import build_firmware
 from tests.support.java import java_program, path_without
 from up_simulator.harness.participants import CrewError
 from up_simulator.phone.choice import IN_JAVA, IN_PYTHON, choose_phone
-from up_simulator.phone.java_handset import GONE
 from up_simulator.phone.java_program import (
     ANDROID,
     JavaUnavailableError,
@@ -127,24 +123,3 @@ def test_an_aircraft_without_java_says_so_and_flies_the_stand_in(tmp_path):
     with Program("--no-board", "--phone", "java", environment=path) as program:
         assert program.process.wait(60) == 1
         assert program.error().startswith("up-sim: the phone cannot be the Java one: there is no")
-
-
-def test_a_phone_that_cannot_begin_is_told_beside_what_was_not_held(tmp_path):
-    java_program()
-    build_firmware()
-    (tmp_path / "bin").mkdir()
-    java = tmp_path / "bin" / "java"
-    java.write_text("#!/bin/sh\necho 'There is no memory for it.' >&2\nexit 3\n")
-    java.chmod(0o755)
-    flown = subprocess.run(
-        [sys.executable, "-m", "up_simulator", "fly", "phone-battery-low", "--phone", "java"],
-        env=os.environ | {"PATH": f"{java.parent}:{os.environ['PATH']}"},
-        cwd=tmp_path,
-        capture_output=True,
-        text=True,
-        timeout=120,
-        check=False,
-    )
-    assert flown.returncode == 1, flown.stderr
-    (told,) = [line for line in flown.stdout.splitlines() if line.endswith(GONE)]
-    assert "the phone ended by itself with status 3" in told and "no memory" in told

@@ -245,7 +245,7 @@ def test_the_firmware_knows_the_throttle_of_a_receiver_without_radio():
 
 def test_without_gps_the_position_grows_old_and_the_altitude_does_not():
     record = fly(
-        HEAD + "raspilot: {runs: in process}\nground: {period_ms: 50}\nphone: {program: python}\n"
+        HEAD + "raspilot: {runs: in process}\nground: {period_ms: 50}\nphone: {}\n"
         "events: [{at_s: 0.5, gps: lost}, {at_s: 3, gps: back}]\n" + LEVEL + HELD
     )
     ages_ms = record.log.numbers("ground.age_ms.location")
