@@ -21,7 +21,7 @@ SUBJECTS = {
     "firmware": "the compiled firmware in the AVR simulator",
     "attitude": "the firmware's attitude beside the truth, with the gyro errors of each seed",
     "simulator": "the virtual aircraft against the clock",
-    "showcase": "CPU of every process of make run",
+    "demo": "CPU of every process of make run",
     "page": "from telemetry to the pixel of the ground station's page",
 }
 FAILED = "failed"

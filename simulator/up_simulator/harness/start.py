@@ -22,7 +22,7 @@ from up_simulator.harness.option_parser import WRONG_INPUT
 from up_simulator.harness.participants import CrewError
 from up_simulator.harness.start_options import read_options
 from up_simulator.harness.virtual_aircraft import VirtualAircraft
-from up_simulator.link.listening_relay import LinkRelayError
+from up_simulator.link.relay import LinkRelayError
 from up_simulator.radio.sticks import RadioError
 
 FOR_THE_USER = (

@@ -10,7 +10,7 @@ from typing import TypeVar
 from up_rig.sticks import StickMove, SticksError, read_sticks
 from up_simulator.harness.option_parser import OptionParser
 from up_simulator.harness.uplink import UplinkError, read_link
-from up_simulator.link.settings import LinkSettings
+from up_simulator.link.model import LinkSettings
 from up_simulator.phone.choice import KINDS
 from up_simulator.radio.axis_map import AxisMap, read_axis_map
 from up_simulator.radio.sticks import RadioError

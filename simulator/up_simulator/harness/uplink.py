@@ -5,9 +5,8 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import Any
 
-from up_simulator.link.model import LinkModel
+from up_simulator.link.model import LinkModel, LinkSettings
 from up_simulator.link.relay import LinkRelay
-from up_simulator.link.settings import LinkSettings
 
 USER_TIMEOUT_S = 1.5
 """The daemon's socket option TCP_USER_TIMEOUT."""

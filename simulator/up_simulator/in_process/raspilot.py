@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections import deque
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from random import Random
-from typing import Any
+from typing import Any, cast
 
+from constantly import NamedConstant
 from twisted.internet.defer import Deferred
-from twisted.logger import Logger
+from twisted.logger import ILogObserver, LogEvent, Logger, globalLogPublisher
 from twisted.python.failure import Failure
+from zope.interface import implementer
 
 from up.base_module import BaseModule
 from up.commands.beacon import Beacons
@@ -19,7 +22,8 @@ from up.life_cycle import BootStoppedError, LifeCycle
 from up.loading.application import Application
 from up.loading.checking import check_application
 from up.loading.files import config_files
-from up.log.levels import level_named
+from up.log.levels import level_named, level_of, word_of
+from up.log.text import source_of, text_of, traceback_of
 from up.mode import Mode
 from up.program import USER_ERRORS, make_context
 from up.protocols.general_message import GeneralMessage
@@ -30,10 +34,45 @@ from up.up_loader import UpLoader
 from up_simulator.firmware.board import FirmwareBoard
 from up_simulator.harness.participants import CrewError
 from up_simulator.harness.world import BYTES_A_STEP
-from up_simulator.in_process.daemon_log import DaemonLog
-from up_simulator.in_process.machine import Machine
+from up_simulator.in_process.host import Machine
 from up_simulator.in_process.reactor import SimulatedReactor
 from up_simulator.in_process.socket_line import SocketLine
+
+LINES_MOST = 2000
+
+
+@implementer(ILogObserver)
+class DaemonLog:
+    """Keeps the newest lines, between ``open`` and ``close``; no other observer is touched."""
+
+    def __init__(self, seconds: Callable[[], float]) -> None:
+        self.lines: deque[str] = deque(maxlen=LINES_MOST)
+        self._seconds = seconds
+        self._least: NamedConstant | None = None
+
+    def open(self, least: NamedConstant) -> None:
+        """Take every event of that level and above from now on."""
+        if self._least is None:
+            globalLogPublisher.addObserver(cast(ILogObserver, self))
+        self._least = least
+
+    def close(self) -> None:
+        """Take no more events."""
+        if self._least is not None:
+            self._least = None
+            globalLogPublisher.removeObserver(cast(ILogObserver, self))
+
+    def say(self, text: str) -> None:
+        """Add a line that is not an event."""
+        self.lines.append(f"{self._seconds():9.3f} {text}")
+
+    def __call__(self, event: LogEvent) -> None:
+        """Keep an event that is severe enough."""
+        least = self._least
+        if least is not None and level_of(event) >= least:
+            self.say(f"{word_of(level_of(event)):<8} {source_of(event)}: {text_of(event)}")
+            self.lines.extend(f"    {line}" for line in traceback_of(event, least).splitlines())
+
 
 ROOT = Path(__file__).resolve().parents[3]
 

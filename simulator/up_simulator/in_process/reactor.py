@@ -15,7 +15,7 @@ from twisted.internet.task import Clock
 from twisted.logger import Logger
 from twisted.python.failure import Failure
 
-from up_simulator.in_process.machine import Machine, TimedCall
+from up_simulator.in_process.host import Machine, TimedCall
 from up_simulator.in_process.network import Network
 from up_simulator.link.model import LinkModel
 

@@ -9,9 +9,9 @@ from typing import Any
 from twisted.internet.protocol import DatagramProtocol
 
 from up.system.udp import listen_udp
-from up_simulator.link.listening_relay import ListeningRelay
 from up_simulator.link.model import LinkModel
 from up_simulator.link.pipe import LinkPipe
+from up_simulator.link.relay import ListeningRelay
 from up_simulator.link.stream import LOOK_S, Clock
 
 HEADER = 28

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import random
+from collections.abc import Callable, Mapping
 from typing import Any
 
 from up_simulator.aircraft import Airframe, FlightDynamics, Start, Weather, load_airframe
@@ -10,13 +11,12 @@ from up_simulator.aircraft import Gust as AirGust
 from up_simulator.firmware.build import choose_board
 from up_simulator.firmware.preparation import prepared_eeprom
 from up_simulator.harness.world import World
-from up_simulator.scenario.companions import Companions, Nobody
+from up_simulator.in_process.config_folder import merge
 from up_simulator.scenario.demand import DemandModel
 from up_simulator.scenario.flight import ScenarioFlight
-from up_simulator.scenario.line_board import LineBoard
+from up_simulator.scenario.line_board import LineBoard, SerialWires
+from up_simulator.scenario.participants import Companions, Nobody
 from up_simulator.scenario.scenario import Scenario
-from up_simulator.scenario.serial_line import SerialWires
-from up_simulator.scenario.settings import gains_of, profile_of, spoilt
 from up_simulator.scenario.sticks import SWITCH_US, StickTimeline
 
 Say = Callable[[str], None]
@@ -76,10 +76,10 @@ def _companions(
         settings["mission_control.yml"] = {"role": scenario.ground.role}
     # Twisted and the whole daemon: only for those who fly with it.
     if scenario.is_real:
-        from up_simulator.scenario.real_companions import RealCompanions
+        from up_simulator.scenario.real_participants import RealCompanions
 
         return RealCompanions(scenario, dynamics, board, settings)
-    from up_simulator.scenario.in_process_companions import InProcessCompanions
+    from up_simulator.scenario.in_process_participants import InProcessCompanions
 
     return InProcessCompanions(scenario, dynamics, board, settings)
 
@@ -105,4 +105,27 @@ def _weather(scenario: Scenario) -> Weather:
         wind_from_deg=weather.wind_from_deg,
         turbulence=weather.turbulence,
         gusts=gusts,
+    )
+
+
+SPOILT_EVERY = 7
+
+
+def profile_of(scenario: Scenario, profile: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the profile (as airframe.yml) that the board flies by."""
+    merged = merge(profile, scenario.profile)
+    return merge(merged, {"switch": scenario.switch.positions()})
+
+
+def gains_of(scenario: Scenario, gains: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the gains (as pids.yml) that the board flies by."""
+    return merge(gains, scenario.gains)
+
+
+def spoilt(eeprom: bytes, seed: int) -> bytes:
+    """Return an EEPROM's contents with a wrong bit in every seventh byte."""
+    noise = random.Random(f"eeprom {seed}")
+    return bytes(
+        byte ^ (1 << noise.randrange(8)) if at % SPOILT_EVERY == 0 else byte
+        for at, byte in enumerate(eeprom)
     )

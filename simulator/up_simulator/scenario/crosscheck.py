@@ -8,10 +8,10 @@ from pathlib import Path
 
 from up.config.nodes import MapNode, Node
 from up_simulator.aircraft import airframe_names
+from up_simulator.scenario.locator import place
 from up_simulator.scenario.sampler import sources_of
 from up_simulator.scenario.scenario import Scenario
 from up_simulator.scenario.signals import signal_of
-from up_simulator.scenario.tree import place
 
 Problem = tuple[Node, str]
 _PATH_LIKE = ("/", ".")

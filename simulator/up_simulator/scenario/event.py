@@ -8,7 +8,7 @@ from typing import Any, Literal
 
 from up.config import key, mapping, section
 from up.fields import Constraint
-from up_simulator.scenario.circumstances import ImuPart, LinkPart
+from up_simulator.scenario.initial_conditions import ImuPart, LinkPart
 
 _NAME = Constraint(str, max_length=128)
 _TEXT = Constraint(str, max_length=4096)

@@ -7,8 +7,7 @@ from dataclasses import dataclass
 
 from up.config import items, key, section
 from up.fields import Constraint
-from up_simulator.scenario.signals import Kind, signal_of
-from up_simulator.scenario.words import word_problem
+from up_simulator.scenario.signals import Kind, signal_of, word_problem
 
 _NUMBER = Constraint(float)
 
@@ -205,3 +204,25 @@ def _signal_problems(attribute: str, name: str) -> Iterator[tuple[str, str]]:
         signal_of(name)
     except KeyError as error:
         yield attribute, f'"{name[:60]}": {error.args[0]}'
+
+
+@dataclass(frozen=True, slots=True)
+class Verdict:
+    """Whether it held, with its figure beside the limit; ``why`` adds where and when it did not.
+
+    ``has_figure`` is False without a measurement, which does not count as a visible failure.
+    """
+
+    name: str
+    is_held: bool
+    figure: str
+    limit: str
+    why: str = ""
+    has_figure: bool = True
+
+
+def number_text(number: float) -> str:
+    """Return a figure with its significant digits."""
+    if abs(number) >= 1000 or number == int(number):
+        return f"{number:.0f}"
+    return f"{number:.3g}" if abs(number) < 10 else f"{number:.1f}"

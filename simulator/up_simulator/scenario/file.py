@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from dataclasses import replace
 from functools import cache
@@ -11,13 +12,13 @@ from typing import Any
 from up.builtin_modules import BUILTIN_MODULES
 from up.cli.system import cog_files, program_files
 from up.config import ConfigErrors, ConfigFile
-from up.config.nodes import MapNode, Node, Report, ScalarNode, compose
+from up.config.nodes import ListNode, MapNode, Node, Report, ScalarNode, compose
 from up.config.problems import Problems
 from up.config.reading import decode, read_text
-from up.config.scalars import is_null
+from up.config.scalars import is_null, needs_quotes
 from up.config.shape import shape_of
 from up.config.validator import Validator
-from up.fields import printable
+from up.fields import printable, show
 from up.loading.application import Application, NoApplicationError
 from up.loading.discovery import survey
 from up.loading.files import config_files
@@ -25,10 +26,9 @@ from up.loading.plan import BootError
 from up_simulator.aircraft import airframe_names
 from up_simulator.scenario.crosscheck import cross_problems, guess, is_there
 from up_simulator.scenario.event import Event
+from up_simulator.scenario.locator import child, items_of, path_of
 from up_simulator.scenario.override import OverriddenProblems, Override, apply
-from up_simulator.scenario.plain import plain_of
 from up_simulator.scenario.scenario import Scenario
-from up_simulator.scenario.tree import child, items_of, path_of
 
 SHAPE = shape_of(Scenario)
 _HERE = Path()
@@ -180,3 +180,54 @@ def _with_data(event: Event, data: dict[str, Any]) -> Event:
         if event.command is None
         else replace(event, command=replace(event.command, data=data))
     )
+
+
+_INT = re.compile(r"[-+]?(0|[1-9][0-9]{0,17})", re.ASCII)
+_FLOAT = re.compile(r"[-+]?((0|[1-9][0-9]*)(\.[0-9]*)?|\.[0-9]+)([eE][-+]?[0-9]{1,3})?", re.ASCII)
+_BOOLS = {"true": True, "false": False}
+
+
+def plain_of(node: Node, report: Report) -> Any:
+    """Return maps, lists, numbers, true, false, None and texts; ambiguous scalars are reported.
+
+    Readers of YAML disagree on some scalars (``no``, ``12:30``, ``010``): these must be in quotes.
+    """
+    if isinstance(node, MapNode):
+        return _map(node, report)
+    if isinstance(node, ListNode):
+        return [plain_of(item, report) for item in node.items]
+    return _scalar(node, report)
+
+
+def _map(node: MapNode, report: Report) -> dict[str, Any]:
+    values: dict[str, Any] = {}
+    for key, value in node.pairs:
+        if not isinstance(key, ScalarNode):
+            report(key.line, key.column, "a key must be one word or text")
+        elif key.text in values:
+            report(key.line, key.column, f"the key {show(key.text)} stands here twice")
+        else:
+            values[key.text] = plain_of(value, report)
+    return values
+
+
+def _scalar(node: ScalarNode, report: Report) -> Any:
+    text = node.text
+    if not node.plain:
+        return text
+    if is_null(node):
+        return None
+    if text in _BOOLS:
+        return _BOOLS[text]
+    if _INT.fullmatch(text):
+        return int(text)
+    if len(text) < 400 and _FLOAT.fullmatch(text):
+        number = float(text)
+        if abs(number) < float("inf"):
+            return number
+    if needs_quotes(text):
+        what = (
+            f"{show(text)} can be read in two ways: write true or false, a plain number, or quotes"
+        )
+        report(node.line, node.column, what)
+    return text

@@ -3,23 +3,21 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
-from typing import Any
+from collections.abc import Callable
+from typing import cast
 
 from up_rig.imu import motion_at
 from up_simulator.aircraft.airframe_file import ImuConfig
-from up_simulator.firmware.board import BoardCrashedError
+from up_simulator.firmware.board import BoardCrashedError, Channel, ImuFault, ResetCause
 from up_simulator.firmware.wire import Command
 from up_simulator.harness.participants import CrewError
 from up_simulator.harness.world import STEP_S, World
-from up_simulator.scenario.companions import Companions
 from up_simulator.scenario.demand import DemandModel
 from up_simulator.scenario.event import Event
-from up_simulator.scenario.happening import happen
+from up_simulator.scenario.flight_record import FlightRecord, Question
 from up_simulator.scenario.line_board import LineBoard
 from up_simulator.scenario.log import EVENT_SEPARATOR, FlightLog
-from up_simulator.scenario.question import Question
+from up_simulator.scenario.participants import Companions
 from up_simulator.scenario.sampler import Sampler, columns_of
 from up_simulator.scenario.scenario import Scenario
 from up_simulator.scenario.signals import EVENT_COLUMN
@@ -30,42 +28,6 @@ READY_S = 15.0
 READY_STEP_US = 20_000.0
 LOG_TAIL = 20
 _HALF_STEP_S = STEP_S / 2
-
-
-@dataclass(slots=True)
-class FlightRecord:
-    """Result of a flight: the log, and all results that are not signals.
-
-    ``crash`` is a sentence about its end on the ground, ``failure`` one about an early end, with
-    the lines of the daemon's log behind it. ``settings`` are the board's configuration files,
-    ``black_boxes`` the recordings of a real daemon.
-    """
-
-    scenario: Scenario
-    log: FlightLog
-    event_times: dict[str, float] = field(default_factory=dict)
-    questions: list[Question] = field(default_factory=list)
-    flown_s: float = 0.0
-    took_s: float = 0.0
-    crash: str | None = None
-    crash_s: float | None = None
-    failure: str | None = None
-    failure_log: Sequence[str] = ()
-    is_interrupted: bool = False
-    board_title: str = ""
-    notes: list[str] = field(default_factory=list)
-    settings: Mapping[str, Mapping[str, Any]] = field(default_factory=dict)
-    black_boxes: Mapping[str, bytes] = field(default_factory=dict)
-
-    @property
-    def speed(self) -> float:
-        """Return how many times faster than the real time it was."""
-        return self.flown_s / self.took_s if self.took_s > 0 else 0.0
-
-    @property
-    def is_broken_off(self) -> bool:
-        """Return whether another cause than a crash ended it before its time."""
-        return self.is_interrupted or self.failure is not None
 
 
 class ScenarioFlight:
@@ -257,3 +219,40 @@ class ScenarioFlight:
         row[EVENT_COLUMN] = EVENT_SEPARATOR.join(self._happened)
         self._happened.clear()
         self.record.log.append(row)
+
+
+def happen(
+    event: Event, board: LineBoard, companions: Companions, imu: ImuConfig, scenario: Scenario
+) -> None:
+    """Carry out one event now: at the board and its wires, or at the crew.
+
+    ``imu`` is the mounting of the airframe's IMU. Raises CrewError.
+    """
+    match event.kinds[0]:
+        case "mark":
+            pass
+        case "imu":
+            board.imu.set_fault(cast(ImuFault, event.imu))
+        case "imu_errors":
+            assert event.imu_errors is not None
+            board.imu.errors = event.imu_errors.errors(imu, scenario.seed)
+        case "receiver":
+            if event.receiver == "failsafe":
+                board.lose_radio(scenario.receiver.failsafe_throttle_us)
+            else:
+                board.set_receiver(event.receiver == "back")
+                board.find_radio()
+        case "channel_lost":
+            board.set_channel(cast(Channel, event.channel_lost), False)
+        case "channel_back":
+            board.set_channel(cast(Channel, event.channel_back), True)
+        case "reset":
+            board.reset(cast(ResetCause, event.reset))
+        case "serial_noise":
+            assert event.serial_noise is not None
+            board.wires.set_noise(event.serial_noise, board.now_s)
+        case "serial":
+            board.wires.is_plugged = event.serial == "back"
+            companions.carry_out(event)
+        case _:
+            companions.carry_out(event)

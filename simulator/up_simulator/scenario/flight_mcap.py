@@ -25,8 +25,8 @@ from up.flight_log.mcap_writer import McapWriter
 from up.flight_log.origin_text import KEY as ORIGIN
 from up.version import VERSION
 from up_simulator.aircraft.truth import NAMES, TOPIC
+from up_simulator.scenario.flight_record import Question
 from up_simulator.scenario.flight_topics import SIGNALS_TOPIC, FlightTopics
-from up_simulator.scenario.question import Question
 from up_simulator.scenario.result import Result
 from up_simulator.scenario.signals import SIGNALS
 

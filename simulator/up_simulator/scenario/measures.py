@@ -9,11 +9,10 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 from statistics import fmean
 
-from up_simulator.scenario.expectation import Expectation, value_of
+from up_simulator.scenario.expectation import Expectation, Verdict, number_text, value_of
 from up_simulator.scenario.log import Value
 from up_simulator.scenario.signals import Kind, signal_of
 from up_simulator.scenario.step import step_limit_text
-from up_simulator.scenario.verdict import Verdict, number_text
 from up_simulator.scenario.window import Window
 
 

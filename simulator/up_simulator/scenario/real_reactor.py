@@ -6,11 +6,10 @@ import time
 from typing import Any
 
 from up_simulator.harness.participants import CrewError
-from up_simulator.in_process.machine import LiteralResolver
+from up_simulator.in_process.host import LiteralResolver
 from up_simulator.link.datagram_relay import DatagramRelay
-from up_simulator.link.listening_relay import LinkRelayError
 from up_simulator.link.model import LinkModel
-from up_simulator.link.relay import LinkRelay
+from up_simulator.link.relay import LinkRelay, LinkRelayError
 
 LATEST_S = 0.25
 LOOPBACK = "127.0.0.1"

@@ -6,9 +6,9 @@ from collections.abc import Iterable, Iterator
 from pathlib import Path
 
 from up.fields import printable
-from up_simulator.scenario.flight import FlightRecord
+from up_simulator.scenario.expectation import Verdict
+from up_simulator.scenario.flight_record import FlightRecord
 from up_simulator.scenario.result import Result
-from up_simulator.scenario.verdict import Verdict
 
 _HELD, _NOT_HELD = "held", "NOT HELD"
 _NAME_WIDTH = 58

@@ -21,8 +21,8 @@ from up_simulator.harness.participants import CrewError
 from up_simulator.harness.signal_handling import ending_between_steps
 from up_simulator.picture.flight_picture import Failure, PictureError, Wind, draw_flight
 from up_simulator.scenario.build import build_flight
-from up_simulator.scenario.flight import FlightRecord
 from up_simulator.scenario.flight_mcap import write_flight
+from up_simulator.scenario.flight_record import FlightRecord
 from up_simulator.scenario.progress import ProgressLine
 from up_simulator.scenario.report import report_lines
 from up_simulator.scenario.result import (

@@ -8,15 +8,15 @@ from typing import Any, Literal
 
 from up.config import items, key, mapping, section
 from up.fields import Constraint
-from up_simulator.scenario.circumstances import (
+from up_simulator.scenario.event import Event
+from up_simulator.scenario.expectation import Expectation
+from up_simulator.scenario.initial_conditions import (
     ImuPart,
     LinkPart,
     ReceiverPart,
     StartPart,
     WeatherPart,
 )
-from up_simulator.scenario.event import Event
-from up_simulator.scenario.expectation import Expectation
 from up_simulator.scenario.sticks import StickPoint
 
 _NAME = Constraint(str, max_length=128)

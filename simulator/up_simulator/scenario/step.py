@@ -4,11 +4,10 @@ from __future__ import annotations
 
 import math
 
-from up_simulator.scenario.expectation import Expectation, StepLimits
+from up_simulator.scenario.expectation import Expectation, StepLimits, Verdict, number_text
 from up_simulator.scenario.log import FlightLog
 from up_simulator.scenario.signals import signal_of
 from up_simulator.scenario.step_response import StepError, StepResponse, analyse_step
-from up_simulator.scenario.verdict import Verdict, number_text
 from up_simulator.scenario.window import Window
 
 LOOK_S = 0.2

@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from up_simulator.harness.uplink import UplinkError, read_link
-from up_simulator.link.settings import LinkSettings
+from up_simulator.link.model import LinkSettings
 
 
 def test_words_become_a_link():

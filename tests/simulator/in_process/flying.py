@@ -16,7 +16,7 @@ from up_simulator.in_process.phone import InProcessPhone
 from up_simulator.in_process.raspilot import InProcessRaspilot
 from up_simulator.in_process.reactor import SimulatedReactor
 from up_simulator.link.model import LinkModel, LinkSettings
-from up_simulator.scenario.serial_line import FROM_BOARD, TO_BOARD, SerialWires
+from up_simulator.scenario.line_board import FROM_BOARD, TO_BOARD, SerialWires
 
 ACRO_US, FBW_US, AUTO_US = 1000.0, 1500.0, 2000.0
 CELLULAR = LinkSettings(delay_ms=40, jitter_ms=10)

@@ -8,8 +8,8 @@ from twisted.internet.task import Clock
 from tests.simulator.link.peers import UdpPeer, flown, turn
 from tests.support.reactor import reactor
 from up_simulator.link.datagram_relay import MOST_CLIENTS, MOST_WAITING, DatagramRelay
-from up_simulator.link.listening_relay import LinkRelayError
 from up_simulator.link.model import LinkModel, LinkSettings
+from up_simulator.link.relay import LinkRelayError
 
 
 class Bench:

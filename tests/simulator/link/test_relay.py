@@ -9,9 +9,8 @@ from hypothesis import strategies as st
 
 from tests.simulator.link.peers import Bench, flown, turn
 from tests.support.reactor import reactor, until
-from up_simulator.link.listening_relay import LinkRelayError
 from up_simulator.link.model import LinkModel, LinkSettings
-from up_simulator.link.relay import WINDOW, LinkRelay
+from up_simulator.link.relay import WINDOW, LinkRelay, LinkRelayError
 
 LINKS = st.builds(
     LinkSettings,

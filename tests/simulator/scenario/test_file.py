@@ -15,7 +15,7 @@ from up.config import ConfigErrors
 from up_simulator.scenario.file import parse_scenario, read_scenario
 from up_simulator.scenario.sampler import CAUSES, MODES
 from up_simulator.scenario.scenario import Scenario
-from up_simulator.scenario.words import words_of
+from up_simulator.scenario.signals import words_of
 from up_simulator.verbs.catalogue import shipped_paths
 
 ABOARD = HEAD + "raspilot: {runs: in process}\nground: {role: pilot}\n"

@@ -18,12 +18,11 @@ from up.flight_log.telemetry_frames import frames
 from up.flight_log.wrongs import wrongs
 from up_simulator.cli import main
 from up_simulator.scenario.event import CommandPart, Event
-from up_simulator.scenario.flight import FlightRecord
+from up_simulator.scenario.expectation import Verdict
 from up_simulator.scenario.flight_mcap import BEGIN_NS, write_flight
-from up_simulator.scenario.question import Question
+from up_simulator.scenario.flight_record import FlightRecord, Question
 from up_simulator.scenario.result import Result
 from up_simulator.scenario.sampler import columns_of
-from up_simulator.scenario.verdict import Verdict
 
 FLOWN = """\
 title: Flown

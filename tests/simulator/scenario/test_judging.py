@@ -6,7 +6,7 @@ import pytest
 
 from tests.simulator.scenario.minimal import HEAD, log_of
 from up_simulator.scenario.file import parse_scenario
-from up_simulator.scenario.judging import FlightFacts, judge
+from up_simulator.scenario.result import FlightFacts, judge
 
 TWO_S = 101
 

@@ -35,7 +35,7 @@ def taken(reactor, port, *models, **more):
 RealReactor.link = taken
 """
 TAKEN_NAME = """
-from up_simulator.scenario.real_companions import RealCompanions
+from up_simulator.scenario.real_participants import RealCompanions
 plug = RealCompanions.plug_serial
 def taken(companions, is_in):
     if is_in:

@@ -4,8 +4,7 @@ import pytest
 
 from tests.simulator.scenario.minimal import HEAD, log_of
 from up_simulator.scenario.file import parse_scenario
-from up_simulator.scenario.flight import FlightRecord
-from up_simulator.scenario.question import Question
+from up_simulator.scenario.flight_record import FlightRecord, Question
 from up_simulator.scenario.report import report_lines
 from up_simulator.scenario.result import (
     NO_CRASH,

@@ -1,7 +1,7 @@
 import pytest
 
 from up_simulator.scenario.event import SerialNoise
-from up_simulator.scenario.serial_line import FROM_BOARD, TO_BOARD, SerialWires
+from up_simulator.scenario.line_board import FROM_BOARD, TO_BOARD, SerialWires
 
 DATA = bytes(range(256)) * 40
 

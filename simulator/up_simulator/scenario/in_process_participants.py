@@ -5,15 +5,14 @@ from __future__ import annotations
 from typing import Any
 
 from up_simulator.aircraft.flight import Flight
-from up_simulator.in_process.config_folder import GROUND_PORT, write_config
+from up_simulator.in_process.config_folder import GROUND_PORT, merge, write_config
 from up_simulator.in_process.ground import InProcessGround
 from up_simulator.in_process.phone import InProcessPhone
 from up_simulator.in_process.raspilot import InProcessRaspilot
 from up_simulator.in_process.reactor import SimulatedReactor
-from up_simulator.scenario.crew_companions import CrewCompanions
 from up_simulator.scenario.line_board import LineBoard
+from up_simulator.scenario.participants import CrewCompanions
 from up_simulator.scenario.scenario import Scenario
-from up_simulator.scenario.settings import merge
 from up_simulator.scenario.workspace import Workspace
 
 

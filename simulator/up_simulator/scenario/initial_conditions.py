@@ -11,7 +11,7 @@ from up.fields import Constraint
 from up_rig.imu import NOISE_DEG_S, NOISE_M_S2
 from up_simulator.aircraft.airframe_file import ImuConfig
 from up_simulator.firmware.imu_errors import ZERO, ImuErrors, drawn_errors
-from up_simulator.link.settings import LinkSettings
+from up_simulator.link.model import LinkSettings
 
 _RATE = Constraint(float, minimum=-500, maximum=500, unit="deg/s")
 _FORCE = Constraint(float, minimum=-50, maximum=50, unit="m/s^2")

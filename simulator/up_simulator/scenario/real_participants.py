@@ -11,16 +11,15 @@ from up_simulator.harness.ports import choose_port_sets
 from up_simulator.harness.real_raspilot import RealRaspilot
 from up_simulator.harness.real_servers import RealProxy, RealRunner
 from up_simulator.harness.world import BYTES_A_STEP
-from up_simulator.in_process.config_folder import write_config
+from up_simulator.in_process.config_folder import merge, write_config
 from up_simulator.in_process.ground import InProcessGround
 from up_simulator.in_process.phone import InProcessPhone
-from up_simulator.scenario.crew_companions import CrewCompanions
 from up_simulator.scenario.event import Event
 from up_simulator.scenario.line_board import LineBoard
+from up_simulator.scenario.participants import CrewCompanions
 from up_simulator.scenario.real_reactor import LOOPBACK, RealReactor
-from up_simulator.scenario.runner_crew import RunnerDaemon, RunnerPhone, write_runner_config
+from up_simulator.scenario.runner_participants import RunnerDaemon, RunnerPhone, write_runner_config
 from up_simulator.scenario.scenario import Scenario
-from up_simulator.scenario.settings import merge
 from up_simulator.scenario.workspace import Workspace
 
 FLIGHTS = "flights"
