@@ -17,14 +17,14 @@ from pathlib import Path
 
 from bench.board import Board, Latency, terminal
 from bench.daemon import CONTROL, MAIN, daemon
-from bench.processes import hogs, running
+from bench.processes import busy_loops, running
 from bench.table import Row, compared
 from bench.timing import Limit
 
 RATE_HZ = 1000
 SECONDS, QUICK_SECONDS = 4.0, 0.5
 ROUNDS, QUICK_ROUNDS = 7, 3
-HOGS = 2
+BUSY_LOOPS = 2
 PRIORITY = 20
 GREET_S = 30.0
 P50_TARGET, P99_TARGET = 2.3, 2.5
@@ -100,12 +100,12 @@ def floor_rows(ours: list[Latency], floors: list[Latency]) -> Iterable[Row]:
 
 def hogs_row(seconds: float, rounds: int) -> Row:
     """Return the tail under real-time priority beside that at nice 0, with every core occupied."""
-    what = f"{WHAT}, {HOGS} CPU hogs, SCHED_FIFO {PRIORITY}, p99"
+    what = f"{WHAT}, {BUSY_LOOPS} CPU busy_loops, SCHED_FIFO {PRIORITY}, p99"
     if not may_be_realtime():
         return Row(what, left_out="real-time priority is not permitted here")
     with ExitStack() as stack:
         boards = [stack.enter_context(daemon_board(priority=each)) for each in (PRIORITY, 0)]
-        stack.enter_context(hogs(HOGS))
+        stack.enter_context(busy_loops(BUSY_LOOPS))
         runs = in_turns(boards, seconds, rounds)
     realtime, nice = ([each.p99_us for each in run] for run in runs)
     limit = Limit(HOGS_TARGET, is_least=True)

@@ -19,18 +19,18 @@ from up_ground.settings import Seat, Settings
 from up_ground.telemetry import Telemetry
 from up_ground.token_store import TokenStore
 from up_simulator.in_process.config_folder import GROUND_PORT
-from up_simulator.in_process.host import Machine
+from up_simulator.in_process.host import SimulatedHost
 from up_simulator.in_process.network import ADDRESS
 from up_simulator.in_process.reactor import SimulatedReactor
 
 FrameAge = Callable[[GeneralMessage, float], float | None]
 """Takes a frame and its arrival time (s); returns its age (s), None: not known."""
-_ONE_LIFE = 1_000_000
+MAX_BEACON_GAP = 1_000_000
 """Beacons of one life of the daemon are nearer: each life draws its first at random below 2**31."""
 
 
 @dataclass(slots=True)
-class _Life:
+class _DaemonRun:
     beacon: int
     origin_s: float
 
@@ -44,7 +44,7 @@ class UptimeAges:
     """
 
     def __init__(self) -> None:
-        self._lives: list[_Life] = []
+        self._lives: list[_DaemonRun] = []
 
     def age_s(self, message: GeneralMessage, now_s: float) -> float | None:
         """Return the age of a frame that arrives now; None without a beacon or uptime."""
@@ -58,17 +58,17 @@ class UptimeAges:
         life.origin_s = min(life.origin_s, now_s - uptime_s)
         return now_s - uptime_s - life.origin_s
 
-    def _life(self, beacon: int, origin_s: float) -> _Life:
+    def _life(self, beacon: int, origin_s: float) -> _DaemonRun:
         for life in self._lives:
-            if abs(beacon - life.beacon) < _ONE_LIFE:
+            if abs(beacon - life.beacon) < MAX_BEACON_GAP:
                 return life
-        life = _Life(beacon, origin_s)
+        life = _DaemonRun(beacon, origin_s)
         self._lives.append(life)
         return life
 
 
-ANSWERS_KEPT = 256
-OTHERS_KEPT = 64
+MAX_ANSWERS = 256
+MAX_OTHER_MESSAGES = 64
 
 
 class InProcessGround:
@@ -99,7 +99,7 @@ class InProcessGround:
         self._newest_age_s: float | None = None
         self._worst_age_s: float | None = None
         self._sent = 0
-        self._machine: Machine | None = None
+        self._host: SimulatedHost | None = None
         self._link: GroundLink | None = None
 
     @property
@@ -141,9 +141,9 @@ class InProcessGround:
     def start(self) -> None:
         """Connect, and connect again after every loss."""
         if self._link is None:
-            self._machine = self._reactor.machine("ground")
+            self._host = self._reactor.host("ground")
             backoff = Backoff(Random(self._seed).random)
-            link = GroundLink(self._machine, self._settings, self, self._tokens, backoff)
+            link = GroundLink(self._host, self._settings, self, self._tokens, backoff)
             self._link = link
             link.start()
 
@@ -178,12 +178,12 @@ class InProcessGround:
             refused = message.name == "up.nack"
             reason = str(message.data.get("reason") or "refused") if refused else ""
             self._answers[str(message.data.get("id"))] = reason
-            if len(self._answers) > ANSWERS_KEPT:
+            if len(self._answers) > MAX_ANSWERS:
                 self._answers.popitem(last=False)
         else:
             self.others[message.name] = message.data
             self.others.move_to_end(message.name)
-            if len(self.others) > OTHERS_KEPT:
+            if len(self.others) > MAX_OTHER_MESSAGES:
                 self.others.popitem(last=False)
 
     def on_link(self) -> None:

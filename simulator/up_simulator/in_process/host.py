@@ -25,17 +25,17 @@ from up_simulator.in_process.udp_port import UdpPort
 if TYPE_CHECKING:
     from up_simulator.in_process.reactor import SimulatedReactor
 
-_FORGET_AT = 256
+PRUNE_AT = 256
 
 
 class TimedCall(DelayedCall):
     """A call later that knows whose it is."""
 
-    machine: Machine | None = None
+    host: SimulatedHost | None = None
 
 
 @implementer(IReactorTime, IReactorTCP, IReactorUDP, IReactorFDSet, IReactorPluggableNameResolver)
-class Machine:
+class SimulatedHost:
     """The reactor that a program sees; its sockets stay in this process, at 127.0.0.1.
 
     ``cut_off`` kills the program: no timer, descriptor or port of it is left. Between ``freeze``
@@ -55,7 +55,7 @@ class Machine:
         self._calls: list[TimedCall] = []
         self._late_calls: list[TimedCall] = []
         self._missed: list[tuple[Callable[..., Any], tuple[Any, ...]]] = []
-        self._taken_descriptors: list[Callable[[], None]] = []
+        self._suspended_descriptors: list[Callable[[], None]] = []
         self._descriptors: dict[Any, None] = {}
 
     def callLater(  # noqa: N802 - Twisted's name
@@ -63,9 +63,9 @@ class Machine:
     ) -> TimedCall:
         """Call later; ignored after the end of this program."""
         call = self.reactor.callLater(delay, callable, *args, **kw)
-        call.machine = self
+        call.host = self
         self._calls.append(call)
-        if len(self._calls) > _FORGET_AT:
+        if len(self._calls) > PRUNE_AT:
             self._calls = [each for each in self._calls if each.active()]
         return call
 
@@ -171,7 +171,7 @@ class Machine:
         """Suspend the program."""
         if not self.is_frozen and self.running:
             self.is_frozen = True
-            self._taken_descriptors = self.reactor.take_descriptors(self._descriptors)
+            self._suspended_descriptors = self.reactor.suspend_descriptors(self._descriptors)
 
     def keep_call(self, call: TimedCall) -> None:
         """Keep a call that became due while frozen."""
@@ -186,7 +186,7 @@ class Machine:
         for call in calls:
             if call.active():
                 self.reactor.put_back(call)
-        descriptors, self._taken_descriptors = self._taken_descriptors, []
+        descriptors, self._suspended_descriptors = self._suspended_descriptors, []
         for give_back in descriptors:
             give_back()
         self.callLater(0, self._catch_up)
@@ -202,7 +202,7 @@ class Machine:
         for call in self._calls:
             if call.active():
                 call.cancel()
-        for calls in (self._calls, self._late_calls, self._missed, self._taken_descriptors):
+        for calls in (self._calls, self._late_calls, self._missed, self._suspended_descriptors):
             calls.clear()
         self.is_frozen = False
         self.removeAll()

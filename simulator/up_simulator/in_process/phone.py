@@ -15,14 +15,14 @@ from up_simulator.phone.link import OrientationBy
 GENERAL_PORT, ORIENTATION_PORT = 50001, 50000
 TICK_S = 0.01
 CABLE = LinkSettings(delay_ms=1.0)
-SAID_KEPT = 200
+MAX_MESSAGES = 200
 
 
 class InProcessPhone:
     """A phone at the daemon's ports by a cable, which both links share.
 
     ``plug`` and ``unplug`` move the cable: a connection without it hangs, as with USB tethering,
-    until its own timeouts end it. With ``is_told`` both ends are reset immediately, as with
+    until its own timeouts end it. With ``resets_links`` both ends are reset immediately, as with
     ``adb``. ``said`` has the phone's messages and notes.
     """
 
@@ -45,9 +45,9 @@ class InProcessPhone:
         self._place = RaspberryPi(ADDRESS, general_port, orientation_port)
         for port in self._ports:
             reactor.link(port, self.up, self.down)
-        self._machine = reactor.machine("phone")
+        self._host = reactor.host("phone")
         self.handset = PythonHandset(
-            self._machine, flight, self.find, orientation, self._say, seed=seed
+            self._host, flight, self.find, orientation, self._say, seed=seed
         )
         self.sensors = self.handset.sensors
         self._is_started = False
@@ -66,11 +66,11 @@ class InProcessPhone:
             self.handset.start()
             self._tick()
 
-    def unplug(self, is_told: bool = False) -> None:
+    def unplug(self, resets_links: bool = False) -> None:
         """Pull the cable."""
         self.up.black_out()
         self.down.black_out()
-        if is_told:
+        if resets_links:
             for port in self._ports:
                 self._reactor.network.reset_connections(port)
 
@@ -89,9 +89,9 @@ class InProcessPhone:
 
     def _tick(self) -> None:
         if self._is_started:
-            self._machine.callLater(TICK_S, self._tick)
+            self._host.callLater(TICK_S, self._tick)
             self.handset.tick()
 
     def _say(self, text: str) -> None:
-        if len(self.said) < SAID_KEPT:
+        if len(self.said) < MAX_MESSAGES:
             self.said.append(f"{self._reactor.seconds():9.3f} {text}")

@@ -34,11 +34,11 @@ from up.up_loader import UpLoader
 from up_simulator.firmware.board import FirmwareBoard
 from up_simulator.harness.participants import CrewError
 from up_simulator.harness.world import BYTES_A_STEP
-from up_simulator.in_process.host import Machine
+from up_simulator.in_process.host import SimulatedHost
 from up_simulator.in_process.reactor import SimulatedReactor
 from up_simulator.in_process.socket_line import SocketLine
 
-LINES_MOST = 2000
+MAX_LOG_LINES = 2000
 
 
 @implementer(ILogObserver)
@@ -46,7 +46,7 @@ class DaemonLog:
     """Keeps the newest lines, between ``open`` and ``close``; no other observer is touched."""
 
     def __init__(self, seconds: Callable[[], float]) -> None:
-        self.lines: deque[str] = deque(maxlen=LINES_MOST)
+        self.lines: deque[str] = deque(maxlen=MAX_LOG_LINES)
         self._seconds = seconds
         self._least: NamedConstant | None = None
 
@@ -125,7 +125,7 @@ class InProcessRaspilot:
         self._boot_s = boot_s
         self._root = root
         self._log = DaemonLog(reactor.seconds)
-        self._machine: Machine | None = None
+        self._host: SimulatedHost | None = None
         self._life: LifeCycle | None = None
         self._is_stopping = False
         self._beacons: list[Beacons] = []
@@ -133,7 +133,7 @@ class InProcessRaspilot:
     @property
     def is_running(self) -> bool:
         """Return whether the process would be there: booting, running or stopping."""
-        return self._machine is not None
+        return self._host is not None
 
     @property
     def log(self) -> Sequence[str]:
@@ -149,65 +149,65 @@ class InProcessRaspilot:
         """Begin to boot; raises CrewError with every sentence that the program would print."""
         if self.is_running:
             raise CrewError("Raspilot runs already")
-        machine = self._reactor.machine("raspilot")
+        host = self._reactor.host("raspilot")
         application = None
         try:
             application = Application.find(self._root)
-            context = make_context(application, machine, self._config_folder, {})
+            context = make_context(application, host, self._config_folder, {})
             # A later start draws other numbers, as a later process would.
             context.random = Random(self._seed + 1_000_003 * self.boots)
             self._log.open(level_named(context.application.log_level))
             plan = UpLoader(application, context).plan()
             load_all(context.config_folder, config_files(plan.modules))
             up = Up(plan, context)
-            self._hand_in(up)
+            self._substitute_modules(up)
             up.initialize()
         except USER_ERRORS as error:
             self._log.close()
             problems = str(error).splitlines()
             if application is not None:
                 words = {"UP_MODE": Mode.AUTO.value}
-                context = make_context(application, machine, self._config_folder, words)
+                context = make_context(application, host, self._config_folder, words)
                 problems += check_application(application, context).problems
-            machine.cut_off()
+            host.cut_off()
             raise CrewError("\n".join(dict.fromkeys(problems))) from error
         self.boots += 1
-        self._machine, self.up, self._is_stopping = machine, up, False
+        self._host, self.up, self._is_stopping = host, up, False
         self._beacons.append(up.beacons)
         self._life = LifeCycle(up)
         up.command_executor.adopt_thread()
         up.command_executor.register_command(SystemStopCommand, lambda _: self.stop())
-        machine.callLater(self._boot_s, self._begin)
+        host.callLater(self._boot_s, self._begin)
 
     def stop(self) -> None:
         """Stop every module, as at a SIGTERM: it has ended after 2 s at the latest."""
         if self._life is None or self._is_stopping:
             return
         self._is_stopping = True
-        life, machine = self._life, self._machine
+        life, host = self._life, self._host
         done = Deferred.fromCoroutine(life.stop())
         done.addErrback(self._failed, "stopping failed")
-        done.addBoth(lambda _: self.kill() if self._machine is machine else None)
+        done.addBoth(lambda _: self.kill() if self._host is host else None)
 
     def kill(self) -> None:
         """Cut off timers, ports, connections, and the serial line in mid-frame."""
-        machine, self._machine = self._machine, None
-        if machine is None:
+        host, self._host = self._host, None
+        if host is None:
             return
         self._log.close()
-        machine.cut_off()
+        host.cut_off()
         self.line.cut()
         self.up = self._life = None
 
     def freeze(self) -> None:
         """Suspend it: it holds its ports and does nothing, as a hung one."""
-        if self._machine is not None:
-            self._machine.freeze()
+        if self._host is not None:
+            self._host.freeze()
 
     def thaw(self) -> None:
         """Resume a frozen one."""
-        if self._machine is not None:
-            self._machine.thaw()
+        if self._host is not None:
+            self._host.thaw()
 
     def pump(self, board: FirmwareBoard) -> None:
         """Move the bytes of 2 ms between the board and the daemon; call it at every step."""
@@ -233,7 +233,7 @@ class InProcessRaspilot:
                 return module
         raise LookupError(f"no module {class_name} is loaded")
 
-    def _hand_in(self, up: Up) -> None:
+    def _substitute_modules(self, up: Up) -> None:
         """Give the modules that would look outside what they find here instead."""
         for module in up.modules:
             each: Any = module

@@ -15,7 +15,7 @@ from twisted.internet.task import Clock
 from twisted.logger import Logger
 from twisted.python.failure import Failure
 
-from up_simulator.in_process.host import Machine, TimedCall
+from up_simulator.in_process.host import SimulatedHost, TimedCall
 from up_simulator.in_process.network import Network
 from up_simulator.link.model import LinkModel
 
@@ -28,7 +28,7 @@ _READABLE = select.POLLIN | select.POLLHUP | select.POLLERR | select.POLLNVAL
 class SimulatedReactor(Clock):
     """The time, the network and the descriptors of all programs that fly in this process.
 
-    Each program gets a ``machine`` as its reactor. ``advance`` moves the time in steps of 2 ms:
+    Each program gets a ``host`` as its reactor. ``advance`` moves the time in steps of 2 ms:
     timers first, then descriptors, then arriving data, then departing data. Nothing happens
     between two calls, and the same calls give the same bytes everywhere, as long as no program
     uses threads. A call that raises is logged, as by any reactor.
@@ -46,9 +46,9 @@ class SimulatedReactor(Clock):
         self._readers: dict[Any, int] = {}
         self._writers: dict[Any, int] = {}
 
-    def machine(self, name: str = "") -> Machine:
+    def host(self, name: str = "") -> SimulatedHost:
         """Return a reactor for one program; ``name`` is what people call it."""
-        return Machine(self, name)
+        return SimulatedHost(self, name)
 
     def link(self, port: int, up: LinkModel, down: LinkModel) -> None:
         """Route connections and datagrams to a port over a link from now on.
@@ -103,7 +103,7 @@ class SimulatedReactor(Clock):
         if number is not None:
             self._watch(number)
 
-    def take_descriptors(self, of: Iterable[Any]) -> list[Callable[[], None]]:
+    def suspend_descriptors(self, of: Iterable[Any]) -> list[Callable[[], None]]:
         """Stop watching descriptors; return the calls that watch them again."""
         give_back: list[Callable[[], None]] = []
         for each in of:
@@ -142,8 +142,8 @@ class SimulatedReactor(Clock):
         for call in due:
             if not call.active():
                 continue
-            if call.machine is not None and call.machine.is_frozen:
-                call.machine.keep_call(call)
+            if call.host is not None and call.host.is_frozen:
+                call.host.keep_call(call)
                 continue
             if call.getTime() > due_s:
                 self.put_back(call)

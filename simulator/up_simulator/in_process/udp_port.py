@@ -12,27 +12,27 @@ from zope.interface import implementer
 from up_simulator.in_process.network import ADDRESS
 
 HEADER = 28
-LARGEST = 65507
+MAX_DATAGRAM_BYTES = 65507
 
 
 @implementer(IListeningPort, IUDPTransport)
 class UdpPort:
     """A port for datagrams; those without a receiver vanish."""
 
-    def __init__(self, machine: Any, port: int, protocol: Any, interface: str) -> None:
+    def __init__(self, host: Any, port: int, protocol: Any, interface: str) -> None:
         self.protocol = protocol
         self.interface = interface
-        self._machine = machine
+        self._host = host
         self._number = port
         self._peer: tuple[str, int] | None = None
         self._is_open = False
 
     def startListening(self) -> None:  # noqa: N802 - Twisted's name
         """Open it; raises CannotListenError."""
-        network = self._machine.network
+        network = self._host.network
         self._number = network.bind(network.udp, self._number, self, self.interface)
         self._is_open = True
-        self._machine.opened[self] = None
+        self._host.opened[self] = None
         self.protocol.makeConnection(self)
 
     def stopListening(self) -> Deferred[None]:  # noqa: N802 - Twisted's name
@@ -47,9 +47,9 @@ class UdpPort:
     def write(self, packet: bytes, addr: tuple[str, int] | None = None) -> None:
         """Send a datagram."""
         target = addr or self._peer
-        if not self._is_open or target is None or len(packet) > LARGEST:
+        if not self._is_open or target is None or len(packet) > MAX_DATAGRAM_BYTES:
             return
-        network = self._machine.network
+        network = self._host.network
         route = network.datagram_route(self._number, target[1])
         source = (ADDRESS, self._number)
         route.carry(HEADER + len(packet), _arrive, network, target[1], bytes(packet), source)
@@ -67,7 +67,7 @@ class UdpPort:
         return IPv4Address("UDP", self.interface or "0.0.0.0", self._number)
 
     def setBroadcastAllowed(self, enabled: bool) -> None:  # noqa: N802 - Twisted's name
-        """Do nothing: there is one machine to reach."""
+        """Do nothing: there is one host to reach."""
 
     def getBroadcastAllowed(self) -> bool:  # noqa: N802 - Twisted's name
         """Return whether broadcasts can be sent."""
@@ -76,12 +76,12 @@ class UdpPort:
     def cut_off(self) -> None:
         """Close it without a notification."""
         self._is_open = False
-        self._machine.opened.pop(self, None)
-        self._machine.network.udp.pop(self._number, None)
+        self._host.opened.pop(self, None)
+        self._host.network.udp.pop(self._number, None)
 
     def take(self, packet: bytes, source: tuple[str, int]) -> None:
         """Hand a datagram to the protocol."""
-        self._machine.do(self._machine.reactor.guarded, self._hear, packet, source)
+        self._host.do(self._host.reactor.guarded, self._hear, packet, source)
 
     def _hear(self, packet: bytes, source: tuple[str, int]) -> None:
         if self._is_open:

@@ -32,10 +32,10 @@ class LinkSettings:
 
 __all__ = ["LinkModel", "LinkSettings"]
 
-FIRST_RETRY_S = 0.2
+INITIAL_RETRY_S = 0.2
 """The least time after which TCP sends a lost packet again (Linux; RFC 6298 requires 1 s)."""
-LONGEST_RETRY_S = 3.0
-MOST_RETRIES = 12
+MAX_RETRY_S = 3.0
+MAX_RETRIES = 12
 """A packet lost more often than this counts as arrived, so that time advances."""
 
 
@@ -130,12 +130,12 @@ class LinkModel:
         if loss >= 1:
             return None
         # One draw yields the number of losses: that of a geometric distribution.
-        return min(MOST_RETRIES, int(math.log(max(draw, 1e-300)) / math.log(loss)))
+        return min(MAX_RETRIES, int(math.log(max(draw, 1e-300)) / math.log(loss)))
 
     def _retry_s(self, retries: int) -> float:
-        wait_s = FIRST_RETRY_S + 2 * self.settings.delay_ms / 1000
+        wait_s = INITIAL_RETRY_S + 2 * self.settings.delay_ms / 1000
         total_s = 0.0
         for _ in range(retries):
-            total_s += min(wait_s, LONGEST_RETRY_S)
+            total_s += min(wait_s, MAX_RETRY_S)
             wait_s *= 2
         return total_s

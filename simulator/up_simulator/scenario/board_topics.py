@@ -1,4 +1,4 @@
-"""The board's messages, row by row, as the Commands that they are aboard."""
+"""The board's messages, row by row, as Commands."""
 
 from __future__ import annotations
 
@@ -29,12 +29,12 @@ class LogRow:
         self.time_s = self.number("time_s") or 0.0
 
     def number(self, name: str) -> float | None:
-        """Return a number that is one."""
+        """Return a finite number."""
         value = self._values.get(name)
         return value if isinstance(value, float) and math.isfinite(value) else None
 
     def whole(self, name: str) -> int | None:
-        """Return a number as a whole one."""
+        """Return a number, rounded."""
         value = self.number(name)
         return None if value is None else round(value)
 
@@ -43,13 +43,13 @@ class LogRow:
         value = self.number(name)
         return None if value is None else bool(value)
 
-    def word(self, name: str) -> str | None:
-        """Return a word that is not empty."""
+    def text(self, name: str) -> str | None:
+        """Return a text that is not empty."""
         value = self._values.get(name)
         return value if isinstance(value, str) and value else None
 
     def known(self) -> Iterator[tuple[str, float | str]]:
-        """Yield every signal that is known."""
+        """Yield every known signal."""
         for name, value in self._values.items():
             if math.isfinite(value) if isinstance(value, float) else value:
                 yield name, value
@@ -58,8 +58,8 @@ class LogRow:
 BOARD = "arduino (board)"
 STATE_S = 1.0
 _ANGLES = ("roll", "pitch", "yaw")
-_LETTERS = {word: letter for letter, word in MODES.items()}
-_POSITIONS = {word: number for number, word in SWITCH.items()}
+_LETTERS = {mode: letter for letter, mode in MODES.items()}
+_POSITIONS = {position: number for number, position in SWITCH.items()}
 _FLAGS = {
     "armed": 1,
     "auto": 2,
@@ -81,7 +81,7 @@ _COUNTS = {
 }
 
 
-class News:
+class FreshnessDetector:
     """Detects a new datum by its age: that of an old one grows with the time.
 
     An age that grows by less than this ``share`` of the time is new: transit times vary.
@@ -107,8 +107,8 @@ class BoardTopics:
 
     def __init__(self, has_raspilot: bool) -> None:
         self._has_raspilot = has_raspilot
-        self._orientation = News()
-        self._status = News()
+        self._orientation = FreshnessDetector()
+        self._status = FreshnessDetector()
         self._state: Data = {}
         self._state_due_s = -math.inf
 
@@ -125,10 +125,10 @@ class BoardTopics:
             yield ServoCommand.NAME, {**outputs, ORIGIN: BOARD}
         yield from self._flight_state(row)
         if self._status.is_new(row.number("board.status_age_s"), row.time_s):
-            yield STATUS_TOPIC, {**self._told(row), ORIGIN: BOARD}
+            yield STATUS_TOPIC, {**self._status_data(row), ORIGIN: BOARD}
 
     def _flight_state(self, row: LogRow) -> Iterator[Message]:
-        mode = row.word("board.mode")
+        mode = row.text("board.mode")
         if mode is None:
             return
         state: Data = {"flight_mode": mode}
@@ -137,15 +137,15 @@ class BoardTopics:
             self._state, self._state_due_s = state, row.time_s + STATE_S
             yield FlightStateCommand.NAME, {**state, ORIGIN: BOARD}
 
-    def _told(self, row: LogRow) -> Data:
+    def _status_data(self, row: LogRow) -> Data:
         """Return its status, without the vetoes, which the log has no signal for."""
         bits = (bit for name, bit in _FLAGS.items() if row.flag(f"board.{name}"))
         flags = sum(bits) & ~(0 if self._has_raspilot else _FLAGS["pi_heard"])
-        causes = (row.word("board.reset_cause") or "").split()
-        cause = sum(bit for bit, word in CAUSES.items() if word in causes)
+        causes = (row.text("board.reset_cause") or "").split()
+        cause = sum(bit for bit, name in CAUSES.items() if name in causes)
         data: Data = {
-            "mode": ord(_LETTERS.get(row.word("board.mode") or "", "\0")),
-            "switch": _POSITIONS.get(row.word("board.switch") or ""),
+            "mode": ord(_LETTERS.get(row.text("board.mode") or "", "\0")),
+            "switch": _POSITIONS.get(row.text("board.switch") or ""),
             "flags": flags,
             "reset_cause": cause | (_RESTORED if row.flag("board.restored") else 0),
         }

@@ -11,12 +11,12 @@ from up_simulator.in_process.phone import InProcessPhone
 from up_simulator.in_process.raspilot import InProcessRaspilot
 from up_simulator.in_process.reactor import SimulatedReactor
 from up_simulator.scenario.line_board import LineBoard
-from up_simulator.scenario.participants import CrewCompanions
+from up_simulator.scenario.participants import DaemonParticipants
 from up_simulator.scenario.scenario import Scenario
 from up_simulator.scenario.workspace import Workspace
 
 
-class InProcessCompanions(CrewCompanions):
+class InProcessParticipants(DaemonParticipants):
     """All members on one ``SimulatedReactor``, in step with the board: a reproducible flight.
 
     ``settings`` are the airframe's configuration files; the scenario's own values override them.
@@ -56,7 +56,7 @@ class InProcessCompanions(CrewCompanions):
         """Pass bytes and let this time go by."""
         self._daemon.pump(self.board)
         self._reactor.advance(step_s)
-        self.look_after_raspilot()
+        self.check_raspilot()
 
     def plug_serial(self, is_in: bool) -> None:
         """Attach or remove the serial port."""

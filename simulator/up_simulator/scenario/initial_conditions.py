@@ -23,30 +23,30 @@ def _rate(comment: str) -> float:
 
 @dataclass(frozen=True, slots=True)
 class StartPart:
-    """How the flight begins: in the air, at the moment that counts as 0 s."""
+    """Initial state in the air, at 0 s."""
 
     height_m: float = key(120.0, "Above the ground.", unit="m", minimum=5, maximum=5000)
     airspeed_m_s: float | None = key(
-        None, "null: the airframe's cruise.", unit="m/s", minimum=3, maximum=80
+        None, "null: the cruise speed of the airframe.", unit="m/s", minimum=3, maximum=80
     )
     roll_deg: float = key(0.0, "Right wing down positive.", unit="deg", minimum=-180, maximum=180)
     pitch_deg: float | None = key(
-        None, "Nose up positive. null: the airframe's own.", unit="deg", minimum=-85, maximum=85
+        None, "Nose up positive. null: that of the airframe.", unit="deg", minimum=-85, maximum=85
     )
     heading_deg: float = key(0.0, "0 is north, 90 east.", unit="deg", minimum=0, maximum=360)
     climb_m_s: float | None = key(
         None,
-        "Through the air, up positive. null: as the airframe flies at this pitch.",
+        "Through the air, up positive. null: the climb of the airframe at this pitch.",
         unit="m/s",
         minimum=-60,
         maximum=30,
     )
-    roll_rate_deg_s: float = _rate("The rotation that it begins with, right wing down positive.")
-    pitch_rate_deg_s: float = _rate("The same, nose up positive.")
-    yaw_rate_deg_s: float = _rate("The same, clockwise from above positive.")
+    roll_rate_deg_s: float = _rate("Initial roll rate, right wing down positive.")
+    pitch_rate_deg_s: float = _rate("Initial pitch rate, nose up positive.")
+    yaw_rate_deg_s: float = _rate("Initial yaw rate, clockwise from above positive.")
     throttle: float | None = key(
         None,
-        "What the motor runs at already. null: what the throttle stick says at 0 s.",
+        "Initial motor throttle. null: that of the throttle stick at 0 s.",
         minimum=0,
         maximum=1,
     )
@@ -54,25 +54,25 @@ class StartPart:
 
 @dataclass(frozen=True, slots=True)
 class Gust:
-    """Air that moves for a while: it swells and fades as (1 - cos) does."""
+    """A gust: moving air that rises and fades as (1 - cos)."""
 
-    at_s: float = key(0.0, "When it begins.", unit="s", minimum=0, maximum=3600)
-    duration_s: float = key(1.0, "How long it lasts.", unit="s", minimum=0.02, maximum=600)
-    north_m_s: float = key(0.0, "Blows to the north.", unit="m/s", minimum=-30, maximum=30)
-    east_m_s: float = key(0.0, "Blows to the east.", unit="m/s", minimum=-30, maximum=30)
-    down_m_s: float = key(0.0, "Sinks.", unit="m/s", minimum=-30, maximum=30)
+    at_s: float = key(0.0, "Start time.", unit="s", minimum=0, maximum=3600)
+    duration_s: float = key(1.0, "Duration.", unit="s", minimum=0.02, maximum=600)
+    north_m_s: float = key(0.0, "Speed to the north.", unit="m/s", minimum=-30, maximum=30)
+    east_m_s: float = key(0.0, "Speed to the east.", unit="m/s", minimum=-30, maximum=30)
+    down_m_s: float = key(0.0, "Speed down.", unit="m/s", minimum=-30, maximum=30)
 
 
 @dataclass(frozen=True, slots=True)
 class WeatherPart:
-    """The air."""
+    """Wind, turbulence and gusts."""
 
-    wind_m_s: float = key(0.0, "How fast it blows.", unit="m/s", minimum=0, maximum=30)
+    wind_m_s: float = key(0.0, "Wind speed.", unit="m/s", minimum=0, maximum=30)
     wind_from_deg: float = key(
-        180.0, "Where it comes from: 0 is north.", unit="deg", minimum=0, maximum=360
+        180.0, "Direction that the wind comes from: 0 is north.", unit="deg", minimum=0, maximum=360
     )
     turbulence: Literal["none", "light", "moderate", "severe"] = key(
-        "none", "Of the military standard's spectrum (MIL-F-8785C), different for every seed."
+        "none", "Spectrum of MIL-F-8785C, different for every seed."
     )
     gusts: tuple[Gust, ...] = items(Gust, "Single gusts.", max_length=100)
 
@@ -81,15 +81,21 @@ class WeatherPart:
 class ReceiverPart:
     """The radio link between the pilot's sticks and the board's inputs."""
 
-    delay_ms: float = key(20.0, "From the stick to the pulses.", unit="ms", minimum=0, maximum=1000)
+    delay_ms: float = key(
+        20.0, "Delay from the stick to the pulses.", unit="ms", minimum=0, maximum=1000
+    )
     failsafe_throttle_us: float = key(
-        890.0, "Its own throttle when it hears no radio.", unit="us", minimum=800, maximum=2200
+        890.0,
+        "Throttle that it sends without radio reception.",
+        unit="us",
+        minimum=800,
+        maximum=2200,
     )
 
 
 @dataclass(frozen=True, slots=True)
 class ImuPart:
-    """What is wrong with the IMU although it works: noise, bias, warming up, vibration."""
+    """Errors of a working IMU: noise, bias, warm-up, vibration."""
 
     gyro_noise_deg_s: float = key(
         NOISE_DEG_S, "Standard deviation of each sample.", unit="deg/s", minimum=0, maximum=100
@@ -108,30 +114,29 @@ class ImuPart:
     )
     gyro_drift_deg_s: tuple[float, ...] = items(
         _RATE,
-        "What the bias changes by until the IMU is warm. Empty: up to 4 deg/s each, drawn by the"
-        " seed.",
+        "Change of the bias until the IMU is warm. Empty: up to 4 deg/s each, drawn by the seed.",
         max_length=3,
     )
     warm_up_s: float = key(
-        600.0, "Time constant of the warming, from power-on.", unit="s", minimum=0.1, maximum=3600
+        600.0, "Time constant of the warm-up, from power-on.", unit="s", minimum=0.1, maximum=3600
     )
     vibration_deg_s: float | None = key(
         None,
-        "Amplitude in the rates at full throttle; it goes with the square of the throttle. null:"
-        " the airframe's own.",
+        "Amplitude in the rates at full throttle, proportional to the square of the throttle. null:"
+        " that of the airframe.",
         unit="deg/s",
         minimum=0,
         maximum=500,
     )
     vibration_m_s2: float | None = key(
         None,
-        "Amplitude in the forces at full throttle. null: the airframe's own.",
+        "Amplitude in the forces at full throttle. null: that of the airframe.",
         unit="m/s^2",
         minimum=0,
         maximum=100,
     )
     vibration_hz: float = key(
-        150.0, "How fast it shakes at full throttle.", unit="Hz", minimum=1, maximum=1000
+        150.0, "Frequency at full throttle.", unit="Hz", minimum=1, maximum=1000
     )
 
     def problems(self) -> Iterator[tuple[str, str]]:
@@ -153,19 +158,19 @@ class ImuPart:
 class LinkSettingsPart:
     """One direction of the link between aircraft and ground."""
 
-    delay_ms: float = key(0.0, "How long each packet takes.", unit="ms", minimum=0, maximum=60_000)
+    delay_ms: float = key(0.0, "Transit time of each packet.", unit="ms", minimum=0, maximum=60_000)
     jitter_ms: float = key(
-        0.0, "How much longer at most, at random.", unit="ms", minimum=0, maximum=60_000
+        0.0, "Maximum random additional transit time.", unit="ms", minimum=0, maximum=60_000
     )
     loss_percent: float = key(
         0.0,
-        "How many packets are lost; TCP sends them again, later.",
+        "Share of lost packets; TCP retransmits them.",
         unit="%",
         minimum=0,
         maximum=100,
     )
     rate_bytes_s: float = key(
-        0.0, "How many bytes pass in a second; 0: any.", unit="B/s", minimum=0, maximum=1e9
+        0.0, "Maximum bytes per second; 0: unlimited.", unit="B/s", minimum=0, maximum=1e9
     )
 
     def settings(self) -> LinkSettings:
@@ -175,7 +180,7 @@ class LinkSettingsPart:
 
 @dataclass(frozen=True, slots=True)
 class LinkPart:
-    """The link between aircraft and ground, as a cellular network is one."""
+    """The link between aircraft and ground, such as a cellular network."""
 
     up: LinkSettingsPart = section(LinkSettingsPart, "From the aircraft to the ground.")
     down: LinkSettingsPart = section(LinkSettingsPart, "From the ground to the aircraft.")

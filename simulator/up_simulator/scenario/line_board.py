@@ -15,9 +15,9 @@ TO_BOARD, FROM_BOARD = "to the board", "from the board"
 
 
 class SerialWires:
-    """Passes bytes, corrupts them or drops them: the same seed corrupts the same bytes.
+    """Passes bytes, corrupts or drops them: the same seed corrupts the same bytes.
 
-    ``spoilt`` counts the bytes that were flipped, inserted or lost.
+    ``corrupted`` counts the bytes that were flipped, inserted or lost.
     """
 
     def __init__(self, seed: int) -> None:
@@ -25,7 +25,7 @@ class SerialWires:
         self._noise: SerialNoise | None = None
         self._noise_until_s = 0.0
         self.is_plugged = True
-        self.spoilt = 0
+        self.corrupted = 0
 
     def set_noise(self, noise: SerialNoise, now_s: float) -> None:
         """Begin to corrupt bytes, for the duration of the noise."""
@@ -44,22 +44,22 @@ class SerialWires:
             return data
         if noise.direction not in ("both", direction):
             return data
-        return self._spoil(data, noise)
+        return self._corrupt(data, noise)
 
-    def _spoil(self, data: bytes, noise: SerialNoise) -> bytes:
+    def _corrupt(self, data: bytes, noise: SerialNoise) -> bytes:
         arrived = bytearray()
         chance = self._random.random
         for byte in data:
             if chance() * 100 < noise.lost_percent:
-                self.spoilt += 1
+                self.corrupted += 1
                 continue
             if chance() * 100 < noise.flipped_percent:
                 byte ^= 1 << self._random.randrange(8)
-                self.spoilt += 1
+                self.corrupted += 1
             arrived.append(byte)
             if chance() * 100 < noise.inserted_percent:
                 arrived.append(self._random.randrange(256))
-                self.spoilt += 1
+                self.corrupted += 1
         return bytes(arrived)
 
 
@@ -82,8 +82,8 @@ class LineBoard:
         self.tap = BoardTap()
         self.after_slice: Callable[[], None] = lambda: None
         self.on_command: Callable[[Command], None] = lambda _command: None
-        self.stalest_us = 0.0
-        self._heard = CheckedReader()
+        self.max_pulse_age_us = 0.0
+        self._command_reader = CheckedReader()
         self._receiver_delay_us = receiver_delay_us
         self._sticks_us: dict[Channel, float] = {}
         self._has_radio = True
@@ -123,13 +123,16 @@ class LineBoard:
             while self._coming and self._coming[0][0] <= self.now_us:
                 self._board.set_stick(*self._coming.pop(0)[1:])
             self._board.run_us(slice_us)
-            self.stalest_us = max(self.stalest_us, *self._board.pulse_ages_us())
+            self.max_pulse_age_us = max(self.max_pulse_age_us, *self._board.pulse_ages_us())
             self.after_slice()
 
-    def take_stalest_us(self) -> float:
+    def take_max_pulse_age_us(self) -> float:
         """Return the greatest age of any output's pulse since the last call."""
-        stalest_us, self.stalest_us = self.stalest_us, max(self._board.pulse_ages_us())
-        return stalest_us
+        max_pulse_age_us, self.max_pulse_age_us = (
+            self.max_pulse_age_us,
+            max(self._board.pulse_ages_us()),
+        )
+        return max_pulse_age_us
 
     def set_stick(self, channel: Channel, width_us: float) -> None:
         """Move a stick: the receiver passes it on after its delay, unless its radio is off."""
@@ -142,7 +145,7 @@ class LineBoard:
         self._has_radio = False
         self._coming = [(self.now_us, "throttle", throttle_us)]
 
-    def find_radio(self) -> None:
+    def restore_radio(self) -> None:
         """Make the receiver pass all sticks on again."""
         self._has_radio = True
         for channel, width_us in self._sticks_us.items():
@@ -178,7 +181,7 @@ class LineBoard:
         """Put bytes on the serial line."""
         arrived = self.wires.pass_on(data, TO_BOARD, self.now_s)
         if arrived:
-            for found in self._heard.feed(arrived, self.now_s):
+            for found in self._command_reader.feed(arrived, self.now_s):
                 if isinstance(found, Command):
                     self.on_command(found)
             self._board.write(arrived)

@@ -1,4 +1,4 @@
-"""Finds a value's place in the tree of a file."""
+"""Locates a value in the tree of a file."""
 
 from __future__ import annotations
 
@@ -20,13 +20,13 @@ def items_of(node: Node | None, name: str) -> list[Node]:
     return found.items if isinstance(found, ListNode) else []
 
 
-def place(node: Node, *path: str | int) -> Node:
+def locate(node: Node, *path: str | int) -> Node:
     """Return the node that a path of keys and numbers leads to, or the deepest one on the way."""
     for step in path:
         below: Node | None
         if isinstance(step, int):
-            is_there = isinstance(node, ListNode) and step < len(node.items)
-            below = node.items[step] if is_there and isinstance(node, ListNode) else None
+            exists = isinstance(node, ListNode) and step < len(node.items)
+            below = node.items[step] if exists and isinstance(node, ListNode) else None
         else:
             below = child(node, step)
         if below is None:
@@ -35,7 +35,7 @@ def place(node: Node, *path: str | int) -> Node:
     return node
 
 
-def path_of(node: Node, wanted: Node) -> str:
+def path_of(node: Node, target: Node) -> str:
     """Return how problems call a node below ``node``: ``sticks[0].mode``; empty where it is not."""
     below: list[tuple[str, Node]] = []
     if isinstance(node, MapNode):
@@ -43,8 +43,8 @@ def path_of(node: Node, wanted: Node) -> str:
     elif isinstance(node, ListNode):
         below = [(f"[{at}]", item) for at, item in enumerate(node.items)]
     for name, inner in below:
-        if inner is wanted:
+        if inner is target:
             return name
-        if rest := path_of(inner, wanted):
+        if rest := path_of(inner, target):
             return f"{name}{rest}" if rest.startswith("[") else f"{name}.{rest}"
     return ""

@@ -1,4 +1,4 @@
-"""The aircraft's companions: the daemon, the phone and the ground station, or none."""
+"""The participants of a flight: daemon, ground station and phone, or none of them."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from types import MappingProxyType
 from typing import Protocol
 
-from up_simulator.harness.participants import CrewError, Ground, Phone, Raspilot
+from up_simulator.harness.participants import CrewError, Ground, Raspilot
 from up_simulator.harness.participants import Phone as PluggedPhone
 from up_simulator.link.model import LinkModel
 from up_simulator.phone.sensors import PhoneSensors
@@ -16,102 +16,28 @@ from up_simulator.scenario.initial_conditions import LinkPart
 from up_simulator.scenario.line_board import LineBoard
 from up_simulator.scenario.scenario import Scenario
 
-AGAIN_S = 0.5
-
-
-class Companions(Protocol):
-    """The crew of a flight as a whole; a missing member stays None."""
-
-    @property
-    def raspilot(self) -> Raspilot | None:
-        """Return the daemon."""
-
-    @property
-    def ground(self) -> Ground | None:
-        """Return the ground station."""
-
-    @property
-    def phone(self) -> Phone | None:
-        """Return the phone aboard."""
-
-    @property
-    def black_boxes(self) -> Mapping[str, bytes]:
-        """Return the files, by name, that a real daemon has recorded; there once all have ended."""
-
-    def start(self) -> None:
-        """Start all members; raises CrewError."""
-
-    def is_ready(self) -> bool:
-        """Return whether the flight may begin: all expected members have connected."""
-
-    def exchange(self, step_s: float) -> None:
-        """Pass bytes and let this time go by; raises CrewError when a member has died."""
-
-    def seconds(self) -> float:
-        """Return the crew's time."""
-
-    def carry_out(self, event: Event) -> None:
-        """Carry out an event that concerns the crew; raises CrewError."""
-
-    def stop(self) -> None:
-        """End all members."""
-
-
-class Nobody:
-    """No Raspberry Pi: a listener on the serial line requests the board's streams."""
-
-    raspilot: Raspilot | None = None
-    ground: Ground | None = None
-    phone: Phone | None = None
-    black_boxes: Mapping[str, bytes] = MappingProxyType({})
-
-    def __init__(self, board: LineBoard) -> None:
-        self._board = board
-        self._asked_s = -AGAIN_S
-
-    def start(self) -> None:
-        """Do nothing: no member has to start."""
-
-    def is_ready(self) -> bool:
-        """Return True: no member has to connect."""
-        return True
-
-    def exchange(self, step_s: float) -> None:
-        """Listen; request again after a reset, which ends the streams."""
-        board = self._board
-        board.read()
-        now_s = board.now_s
-        is_silent = now_s - board.tap.status_s > AGAIN_S
-        if is_silent and now_s - self._asked_s >= AGAIN_S:
-            self._asked_s = now_s
-            board.write(board.tap.start_bytes())
-
-    def seconds(self) -> float:
-        """Return the board's time."""
-        return self._board.now_s
-
-    def carry_out(self, event: Event) -> None:
-        """Do nothing: no member is affected."""
-
-    def stop(self) -> None:
-        """Do nothing: no member has to end."""
-
-
 PI_VETO = 1 << 4
-SETTLED_S = 1.0
+SETTLING_S = 1.0
+REQUEST_INTERVAL_S = 0.5
+
+
+class DaemonEndedError(CrewError):
+    """The daemon has ended although the scenario did not end it."""
+
+    code = "daemon_ended"
 
 
 class Daemon(Raspilot, Protocol):
     """A daemon that can be suspended."""
 
     def freeze(self) -> None:
-        """Stop it in its tracks."""
+        """Suspend it."""
 
     def thaw(self) -> None:
         """Resume it."""
 
 
-class AboardPhone(PluggedPhone, Protocol):
+class AirbornePhone(PluggedPhone, Protocol):
     """A phone whose battery and GPS can be set."""
 
     sensors: PhoneSensors
@@ -123,7 +49,54 @@ class AboardPhone(PluggedPhone, Protocol):
         """Switch it off."""
 
 
-class CrewCompanions(ABC):
+class Participants:
+    """The participants as a whole; a missing one stays None.
+
+    Here there is no Raspberry Pi: a listener on the serial line requests the board's streams.
+    """
+
+    raspilot: Daemon | None = None
+    ground: Ground | None = None
+    phone: AirbornePhone | None = None
+    black_boxes: Mapping[str, bytes] = MappingProxyType({})
+    """The files, by name, that a real daemon has recorded; available after ``stop``."""
+
+    def __init__(self, board: LineBoard) -> None:
+        self.board = board
+        self._requested_s = -REQUEST_INTERVAL_S
+
+    def start(self) -> None:
+        """Start all participants; raises CrewError."""
+
+    def is_ready(self) -> bool:
+        """Return whether the flight may begin: all expected participants have connected."""
+        return True
+
+    def exchange(self, step_s: float) -> None:
+        """Pass bytes and advance by this time; raises CrewError when a participant has died.
+
+        Here: listen, and request the streams again after a reset, which ends them.
+        """
+        board = self.board
+        board.read()
+        now_s = board.now_s
+        is_silent = now_s - board.tap.status_s > REQUEST_INTERVAL_S
+        if is_silent and now_s - self._requested_s >= REQUEST_INTERVAL_S:
+            self._requested_s = now_s
+            board.write(board.tap.start_bytes())
+
+    def seconds(self) -> float:
+        """Return the participants' time."""
+        return self.board.now_s
+
+    def dispatch(self, event: Event) -> None:
+        """Carry out an event that concerns the participants; raises CrewError."""
+
+    def stop(self) -> None:
+        """Stop all participants."""
+
+
+class DaemonParticipants(Participants, ABC):
     """Daemon, ground station and phone of a scenario, started, disturbed and stopped.
 
     Subclasses make them, move their bytes and their time. ``up`` is the link from the aircraft to
@@ -131,25 +104,22 @@ class CrewCompanions(ABC):
     """
 
     raspilot: Daemon
-    ground: Ground | None = None
-    phone: AboardPhone | None = None
-    black_boxes: Mapping[str, bytes] = MappingProxyType({})
 
     def __init__(self, scenario: Scenario, board: LineBoard) -> None:
+        super().__init__(board)
         self.scenario = scenario
-        self.board = board
         self.up = LinkModel(seed=scenario.seed)
         self.down = LinkModel(seed=scenario.seed + 1)
         self._ready_s: float | None = None
-        self._is_wanted = False
+        self._should_run = False
 
     @abstractmethod
     def seconds(self) -> float:
-        """Return the crew's time."""
+        """Return the participants' time."""
 
     @abstractmethod
     def exchange(self, step_s: float) -> None:
-        """Pass bytes and let this time go by; raises CrewError when a member has died."""
+        """Pass bytes and advance by this time; raises CrewError when a participant has died."""
 
     @abstractmethod
     def plug_serial(self, is_in: bool) -> None:
@@ -160,10 +130,16 @@ class CrewCompanions(ABC):
         """Simulate this load of the Raspberry Pi; raises CrewError where that is impossible."""
 
     def start(self) -> None:
-        """Start the daemon, the ground station and, where it is plugged in, the phone."""
+        """Start the daemon, the ground station and, if it is plugged in, the phone."""
         self.raspilot.start()
-        self._is_wanted = True
-        self._start_others()
+        self._should_run = True
+        if self.ground is not None:
+            self.ground.start()
+        part = self.scenario.phone
+        if self.phone is not None and part is not None:
+            self.phone.set_battery(part.battery_percent)
+            if part.plugged:
+                self.phone.plug()
 
     def is_ready(self) -> bool:
         """Return whether all have connected, the daemon has no veto, and a second has passed."""
@@ -173,20 +149,20 @@ class CrewCompanions(ABC):
         if self._ready_s is None:
             self._ready_s = self.seconds()
             self._set_up()
-        return self.seconds() - self._ready_s >= SETTLED_S
+        return self.seconds() - self._ready_s >= SETTLING_S
 
-    def carry_out(self, event: Event) -> None:
-        """Carry out an event that concerns the crew; raises CrewError."""
+    def dispatch(self, event: Event) -> None:
+        """Carry out an event that concerns the participants; raises CrewError."""
+        phone = self.phone
         match event.kinds[0]:
             case "serial":
                 self.plug_serial(event.serial == "back")
-            case "phone" if self.phone is not None:
-                move_cable = self.phone.plug if event.phone == "back" else self.phone.unplug
-                move_cable()
-            case "gps" if self.phone is not None:
-                self.phone.sensors.has_gps = event.gps == "back"
-            case "phone_battery" if self.phone is not None and event.phone_battery is not None:
-                self.phone.set_battery(event.phone_battery)
+            case "phone" if phone is not None:
+                (phone.plug if event.phone == "back" else phone.unplug)()
+            case "gps" if phone is not None:
+                phone.sensors.has_gps = event.gps == "back"
+            case "phone_battery" if phone is not None and event.phone_battery is not None:
+                phone.set_battery(event.phone_battery)
             case "link":
                 self._fail_link(event.link or "restore")
             case "link_settings" if event.link_settings is not None:
@@ -195,40 +171,29 @@ class CrewCompanions(ABC):
                 self._command_raspilot(event.raspilot or "started")
             case "cpu_load_percent" if event.cpu_load_percent is not None:
                 self.load(event.cpu_load_percent)
-            case _:
-                pass
 
     def stop(self) -> None:
-        """End all members."""
-        self._is_wanted = False
+        """Stop all participants."""
+        self._should_run = False
         if self.ground is not None:
             self.ground.stop()
         if self.phone is not None:
             self.phone.stop()
-        self.end_raspilot()
+        self.kill_raspilot()
 
-    def end_raspilot(self) -> None:
+    def kill_raspilot(self) -> None:
         """Kill the daemon."""
         self.raspilot.kill()
 
-    def ask_raspilot_to_stop(self) -> None:
+    def terminate_raspilot(self) -> None:
         """Send the daemon the signal to end, and do not wait for it."""
         self.raspilot.stop()
 
-    def look_after_raspilot(self) -> None:
-        """Raise CrewError where the daemon should run and does not."""
-        if self._is_wanted and not self.raspilot.is_running:
-            self._is_wanted = False
-            raise CrewError("the daemon has ended by itself")
-
-    def _start_others(self) -> None:
-        if self.ground is not None:
-            self.ground.start()
-        part = self.scenario.phone
-        if self.phone is not None and part is not None:
-            self.phone.set_battery(part.battery_percent)
-            if part.plugged:
-                self.phone.plug()
+    def check_raspilot(self) -> None:
+        """Raise DaemonEndedError if the daemon should run and does not."""
+        if self._should_run and not self.raspilot.is_running:
+            self._should_run = False
+            raise DaemonEndedError("the daemon ended unexpectedly")
 
     def _has_connected(self) -> bool:
         if self.ground is not None and not self.ground.frames:
@@ -249,22 +214,22 @@ class CrewCompanions(ABC):
         self.up.settings = link.up.settings()
         self.down.settings = link.down.settings()
 
-    def _fail_link(self, what: str) -> None:
+    def _fail_link(self, kind: str) -> None:
         for model in (self.up, self.down):
-            if what == "blackout":
+            if kind == "blackout":
                 model.black_out()
-            elif what == "stall":
+            elif kind == "stall":
                 model.stall(self.seconds())
             else:
                 model.restore()
                 model.resume(self.seconds())
 
-    def _command_raspilot(self, what: str) -> None:
-        if what == "hung":
+    def _command_raspilot(self, command: str) -> None:
+        if command == "hung":
             self.raspilot.freeze()
-        elif what == "awake":
+        elif command == "awake":
             self.raspilot.thaw()
         else:
-            self._is_wanted = what == "started"
-            end = self.raspilot.kill if what == "killed" else self.ask_raspilot_to_stop
-            (self.raspilot.start if what == "started" else end)()
+            self._should_run = command == "started"
+            end = self.raspilot.kill if command == "killed" else self.terminate_raspilot
+            (self.raspilot.start if command == "started" else end)()

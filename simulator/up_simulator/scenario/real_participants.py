@@ -16,7 +16,7 @@ from up_simulator.in_process.ground import InProcessGround
 from up_simulator.in_process.phone import InProcessPhone
 from up_simulator.scenario.event import Event
 from up_simulator.scenario.line_board import LineBoard
-from up_simulator.scenario.participants import CrewCompanions
+from up_simulator.scenario.participants import DaemonParticipants
 from up_simulator.scenario.real_reactor import LOOPBACK, RealReactor
 from up_simulator.scenario.runner_participants import RunnerDaemon, RunnerPhone, write_runner_config
 from up_simulator.scenario.scenario import Scenario
@@ -25,8 +25,14 @@ from up_simulator.scenario.workspace import Workspace
 FLIGHTS = "flights"
 
 
-class RealCompanions(CrewCompanions):
-    """``python main.py`` on a pty; phone and ground station are stand-ins on real sockets.
+class SerialLineError(CrewError):
+    """The serial line cannot be opened."""
+
+    code = "serial_line"
+
+
+class RealParticipants(DaemonParticipants):
+    """``python main.py`` on a pty; phone and ground station are stubs on real sockets.
 
     The link lies between the daemon and its peer: the ground station at its listener, or the
     proxy. The flight keeps real time, from the boot on. Raises CrewError.
@@ -80,20 +86,20 @@ class RealCompanions(CrewCompanions):
         if line is not None and sent:
             line.write(sent)
         self._reactor.advance(step_s)
-        self.look_after_raspilot()
+        self.check_raspilot()
 
-    def look_after_raspilot(self) -> None:
-        """Raise CrewError with the daemon's last words where it should run and does not."""
+    def check_raspilot(self) -> None:
+        """Raise CrewError with the last log lines of the daemon if it should run and does not."""
         if isinstance(self._real, RunnerDaemon):
             self._real.check()
-        elif self._is_wanted and not self._real.is_running:
-            self._is_wanted = False
+        elif self._should_run and not self._real.is_running:
+            self._should_run = False
             self._real.check()
 
-    def carry_out(self, event: Event) -> None:
+    def dispatch(self, event: Event) -> None:
         """Carry out an event that concerns the crew; raises CrewError."""
         if event.proxy is None:
-            super().carry_out(event)
+            super().dispatch(event)
         elif self._proxy is not None:
             if event.proxy == "killed":
                 self._proxy.kill()
@@ -109,8 +115,8 @@ class RealCompanions(CrewCompanions):
             self._line = self._open_line()
 
     def load(self, percent: float) -> None:
-        """Refuse: a real daemon measures the load of the whole machine."""
-        raise CrewError("a real machine's load is not set by a scenario: use 'runs: in process'")
+        """Raise CrewError: a real daemon measures the load of the whole machine."""
+        raise CrewError("a scenario cannot set the load of a real machine: use 'runs: in process'")
 
     def stop(self) -> None:
         """End all members, and remove the written files."""
@@ -126,14 +132,14 @@ class RealCompanions(CrewCompanions):
         self.black_boxes = {path.name: path.read_bytes() for path in found}
         self._workspace.close()
 
-    def end_raspilot(self) -> None:
+    def kill_raspilot(self) -> None:
         """End the daemon, or the runner and its instances."""
         if isinstance(self._real, RunnerDaemon):
             self._real.end()
         else:
             self._real.kill()
 
-    def ask_raspilot_to_stop(self) -> None:
+    def terminate_raspilot(self) -> None:
         """Send the daemon the signal to end, and do not wait for it."""
         if isinstance(self._real, RealRaspilot):
             self._real.ask_to_stop()
@@ -144,7 +150,7 @@ class RealCompanions(CrewCompanions):
         try:
             return PtyLine(self._folder / "board")
         except (PtyLineError, OSError) as error:
-            raise CrewError(f"no serial line: {error}") from error
+            raise SerialLineError(f"cannot open the serial line: {error}") from error
 
     def _make_daemon(self, files: dict[str, dict[str, Any]]) -> RealRaspilot | RunnerDaemon:
         """Write the configuration; make the daemon, or the runner that will start it."""

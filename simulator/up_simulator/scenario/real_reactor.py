@@ -1,4 +1,4 @@
-"""Twisted's own reactor, run in small pieces by the loop of a flight that keeps real time."""
+"""The reactor of Twisted, run in small steps by the loop of a flight in real time."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ LOOPBACK = "127.0.0.1"
 
 
 class RealReactor:
-    """Has the interface of the simulated reactor for the stand-ins of phone and ground.
+    """Has the interface of the simulated reactor for the stubs of phone and ground.
 
     ``link`` puts a relay before a port: connections to the port pass the link to its ``targets``
     entry.
@@ -42,7 +42,7 @@ class RealReactor:
         """Return the monotonic time."""
         return time.monotonic()
 
-    def machine(self, _name: str = "") -> Any:
+    def host(self, _name: str = "") -> Any:
         """Return the reactor: every program has the same one."""
         return self._reactor
 
@@ -82,7 +82,7 @@ class RealReactor:
             self._due_s -= left_s
 
     def stop(self) -> None:
-        """Take the relays away."""
+        """Stop the relays."""
         relays, self._relays = self._relays, []
         for relay in relays:
             # Each has closed all before it first waits for anything.

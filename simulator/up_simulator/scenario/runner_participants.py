@@ -1,4 +1,4 @@
-"""Black Box by runner: the phone requests a Raspilot on a server, and is its only source."""
+"""Black Box Mode through a runner: the phone requests a Raspilot on a server."""
 
 from __future__ import annotations
 
@@ -57,7 +57,7 @@ class RunnerDaemon:
         self._signal(signal.SIGKILL)
 
     def freeze(self) -> None:
-        """Stop it in its tracks: the runner's watchdog will find it."""
+        """Suspend it: the watchdog of the runner will detect it."""
         self._signal(signal.SIGSTOP)
 
     def thaw(self) -> None:
@@ -84,7 +84,7 @@ class RunnerDaemon:
     def _signal(self, number: int) -> None:
         pid = self._pid()
         if pid is None:
-            raise CrewError("the runner has started no Raspilot yet")
+            raise CrewError("the runner has not started a Raspilot yet")
         with suppress(ProcessLookupError):
             os.kill(pid, number)
 
@@ -123,7 +123,7 @@ class RunnerPhone(InProcessPhone):
     async def find(self) -> RaspberryPi:
         """Request an instance from the runner; return where the link to it begins."""
         runner = Runner(LOOPBACK, self._runner_port(), AIRCRAFT)
-        place = await spawn(self._real.machine(), runner)
+        place = await spawn(self._real.host(), runner)
         return RaspberryPi(
             LOOPBACK,
             self._by_link(place.general_port),

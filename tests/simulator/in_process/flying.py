@@ -23,7 +23,7 @@ CELLULAR = LinkSettings(delay_ms=40, jitter_ms=10)
 
 
 class TappedBoard:
-    """Lets the serial line of a board be read along, both ways with their times, and spoilt."""
+    """Lets the serial line of a board be read along, both ways with their times, and corrupted."""
 
     def __init__(self, board, wires):
         self._board = board

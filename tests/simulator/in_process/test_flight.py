@@ -189,7 +189,7 @@ def test_a_cable_that_tells_ends_the_phones_links_at_once(fly):
     flying = fly()
     flying.start()
     flying.fly(0.5)
-    flying.phone.unplug(is_told=True)
+    flying.phone.unplug(resets_links=True)
     flying.until(lambda: not flying.ground.telemetry["android"]["connected"], 0.3)
 
 
@@ -249,7 +249,7 @@ def test_noise_on_the_serial_line_is_dropped_and_counted_and_the_flight_goes_on(
     noise = SerialNoise(60, flipped_percent=0.2, inserted_percent=0.05, lost_percent=0.05)
     flying.board.wires.set_noise(noise, flying.board.now_s)
     flying.fly(4.0)
-    assert flying.board.wires.spoilt > 20
+    assert flying.board.wires.corrupted > 20
     counters = flying.ground.telemetry["counters"]["serial"]
     assert counters["crc_errors"] + counters["format_errors"] > 5
     assert not any("CRITICAL" in line for line in flying.raspilot.log)

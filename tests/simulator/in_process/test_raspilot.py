@@ -104,7 +104,7 @@ def test_a_wrong_configuration_is_told_in_the_daemons_own_sentences(tmp_path):
 
 def test_a_boot_that_stops_is_told_and_ends_it(tmp_path):
     bench = Bench(tmp_path)
-    another = bench.reactor.machine()
+    another = bench.reactor.host()
     for number in (50000, 50001):
         another.listenTCP(number, Factory())
     bench.raspilot.line.unplug()

@@ -18,11 +18,11 @@ def reactor():
 
 def test_time_moves_in_steps_and_does_not_drift(reactor):
     seen_s = []
-    machine = reactor.machine()
+    host = reactor.host()
 
     def look():
         seen_s.append(reactor.seconds())
-        machine.callLater(0.002, look)
+        host.callLater(0.002, look)
 
     look()
     for _ in range(20_000):
@@ -106,9 +106,9 @@ def test_a_call_that_raises_is_logged_and_ends_nothing(reactor):
 
 
 def test_threads_hand_calls_over_which_are_made_in_the_next_step(reactor):
-    machine, made_in = reactor.machine(), []
+    host, made_in = reactor.host(), []
     thread = threading.Thread(
-        target=machine.callFromThread, args=(lambda: made_in.append(threading.get_ident()),)
+        target=host.callFromThread, args=(lambda: made_in.append(threading.get_ident()),)
     )
     thread.start()
     thread.join()
@@ -141,19 +141,19 @@ class Descriptor:
 
 
 def test_a_descriptor_is_read_in_the_step_after_its_bytes_came(reactor):
-    machine = reactor.machine()
+    host = reactor.host()
     own, other = socket.socketpair()
     with own, other:
         descriptor = Descriptor(own.fileno())
-        machine.addReader(descriptor)
+        host.addReader(descriptor)
         reactor.advance(0.01)
         assert descriptor.read == b""
         other.send(b"abc")
         reactor.advance(0.002)
         assert descriptor.read == b"abc"
-        machine.addWriter(descriptor)
+        host.addWriter(descriptor)
         reactor.advance(0.004)
-        machine.removeWriter(descriptor)
+        host.removeWriter(descriptor)
         reactor.advance(0.004)
         assert descriptor.writes == 2
         other.close()
@@ -164,12 +164,12 @@ def test_a_descriptor_is_read_in_the_step_after_its_bytes_came(reactor):
 
 
 def test_a_descriptor_that_raises_loses_its_place_alone(reactor):
-    machine = reactor.machine()
+    host = reactor.host()
     own, other = socket.socketpair()
     with own, other:
         descriptor = Descriptor(own.fileno())
         descriptor.doRead = lambda: 1 / 0
-        machine.addReader(descriptor)
+        host.addReader(descriptor)
         other.send(b"abc")
         with capturedLogs():
             reactor.advance(0.01)
@@ -177,25 +177,25 @@ def test_a_descriptor_that_raises_loses_its_place_alone(reactor):
 
 
 def test_nothing_of_a_program_that_is_cut_off_is_called_again(reactor):
-    machine, other, called = reactor.machine(), reactor.machine(), []
-    for each in (machine, other):
+    host, other, called = reactor.host(), reactor.host(), []
+    for each in (host, other):
         each.callLater(0.01, called.append, each)
         each.callFromThread(called.append, each)
     own, theirs = socket.socketpair()
     with own, theirs:
         descriptor = Descriptor(own.fileno())
-        machine.addReader(descriptor)
+        host.addReader(descriptor)
         theirs.send(b"x")
-        machine.cut_off()
+        host.cut_off()
         reactor.advance(0.1)
         assert called == [other, other]
         assert descriptor.read == b""
 
 
 def test_many_timers_are_forgotten_when_they_are_over(reactor):
-    machine = reactor.machine()
+    host = reactor.host()
     for _ in range(5000):
-        machine.callLater(0.001, lambda: None)
+        host.callLater(0.001, lambda: None)
         reactor.advance(0.002)
-    assert machine.getDelayedCalls() == []
-    assert len(machine._calls) <= 257
+    assert host.getDelayedCalls() == []
+    assert len(host._calls) <= 257

@@ -152,10 +152,10 @@ def test_one_half_may_be_closed():
     bench.server.build = lambda: HalfCloseable(bench.reactor.seconds)
     bench.client.build = bench.server.build
     bench.connect()
-    bench.here.transport.write(b"question")
+    bench.here.transport.write(b"pending")
     bench.here.transport.loseWriteConnection()
     bench.reactor.advance(1.0)
-    assert bench.there.received == b"question"
+    assert bench.there.received == b"pending"
     assert bench.here.received == b"all read"
     assert bench.here.halves == "wr"
     assert bench.there.lost == "ConnectionDone"

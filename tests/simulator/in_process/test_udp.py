@@ -12,7 +12,7 @@ from up_simulator.link.model import LinkModel, LinkSettings
 class Bench:
     def __init__(self, link=None):
         self.reactor = SimulatedReactor()
-        self.pi, self.phone = self.reactor.machine(), self.reactor.machine()
+        self.pi, self.phone = self.reactor.host(), self.reactor.host()
         if link is not None:
             self.up, self.down = LinkModel(link, 1), LinkModel(link, 2)
             self.reactor.link(PORT, self.up, self.down)

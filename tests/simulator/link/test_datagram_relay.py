@@ -7,7 +7,7 @@ from twisted.internet.task import Clock
 
 from tests.simulator.link.peers import UdpPeer, flown, turn
 from tests.support.reactor import reactor
-from up_simulator.link.datagram_relay import MOST_CLIENTS, MOST_WAITING, DatagramRelay
+from up_simulator.link.datagram_relay import MAX_CLIENTS, MAX_QUEUED, DatagramRelay
 from up_simulator.link.model import LinkModel, LinkSettings
 from up_simulator.link.relay import LinkRelayError
 
@@ -161,11 +161,11 @@ def test_what_waits_is_bounded():
         async with Bench() as bench:
             client = bench.client()
             bench.up.stall(bench.clock.seconds())
-            for at in range(MOST_WAITING + 40):
+            for at in range(MAX_QUEUED + 40):
                 await bench.send(client, at.to_bytes(2))
             bench.up.resume(bench.clock.seconds())
             await bench.pass_s(1)
-            assert len(bench.arrived) == MOST_WAITING
+            assert len(bench.arrived) == MAX_QUEUED
             assert bench.relay.lost == 40
 
     flown(fly)
@@ -174,12 +174,12 @@ def test_what_waits_is_bounded():
 def test_of_too_many_clients_the_first_is_forgotten():
     async def fly():
         async with Bench() as bench:
-            clients = [bench.client() for _ in range(MOST_CLIENTS + 3)]
+            clients = [bench.client() for _ in range(MAX_CLIENTS + 3)]
             for at, client in enumerate(clients):
                 await bench.send(client, b"%d" % at)
                 await bench.pass_s(0)
             assert len(bench.arrived) == len(clients)
-            assert len(bench.relay._clients) == MOST_CLIENTS
+            assert len(bench.relay._clients) == MAX_CLIENTS
             data, address = bench.target.got[-1]
             bench.target.transport.write(data, address)
             await turn()

@@ -316,10 +316,10 @@ def test_one_way_may_end_before_the_other():
     async def fly():
         async with Bench(LinkSettings(delay_ms=10), LinkSettings(delay_ms=10)) as bench:
             client, target = await bench.pair()
-            client.send(b"question")
+            client.send(b"pending")
             client.transport.loseWriteConnection()
             await bench.pass_s(0.05)
-            assert (target.data, target.is_finished) == (b"question", True)
+            assert (target.data, target.is_finished) == (b"pending", True)
             target.send(b"answer")
             await bench.pass_s(0.05)
             assert (client.data, client.is_finished) == (b"answer", False)

@@ -42,9 +42,9 @@ def test_a_lost_receiver_asks_for_the_circle():
 def test_a_setpoint_is_what_the_raspberry_pi_sent():
     model = DemandModel({})
     assert model.at("SETPOINT", False, CENTRED) == Demand()
-    model.hear_setpoint(struct.pack(">hhhHH", 1250, -300, 0, 0, 250))
+    model.receive_setpoint(struct.pack(">hhhHH", 1250, -300, 0, 0, 250))
     assert model.at("SETPOINT", False, CENTRED) == Demand(12.5, -3.0)
-    model.hear_setpoint(b"short")
+    model.receive_setpoint(b"short")
     assert model.at("SETPOINT", False, CENTRED) == Demand(12.5, -3.0)
 
 

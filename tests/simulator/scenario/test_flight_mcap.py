@@ -20,7 +20,7 @@ from up_simulator.cli import main
 from up_simulator.scenario.event import CommandPart, Event
 from up_simulator.scenario.expectation import Verdict
 from up_simulator.scenario.flight_mcap import BEGIN_NS, write_flight
-from up_simulator.scenario.flight_record import FlightRecord, Question
+from up_simulator.scenario.flight_record import FlightRecord, PendingCommand
 from up_simulator.scenario.result import Result
 from up_simulator.scenario.sampler import columns_of
 
@@ -186,10 +186,12 @@ def test_an_arduino_that_is_silent_leaves_a_gap(tmp_path):
 def test_a_command_of_the_ground_is_there_if_it_was_carried_out(tmp_path):
     def asked(name, at_s, answer):
         command = CommandPart(name, {"mode": "FBW"})
-        return Question(Event(at_s=at_s, command=command), command, "1", at_s, answer)
+        return PendingCommand(Event(at_s=at_s, command=command), command, "1", at_s, answer)
 
-    questions = [asked("up.flight_mode.set", 0.5, ""), asked("up.arm", 0.2, "forbidden: no")]
-    log = read(tmp_path, {"truth.roll_deg": lambda _: 0.0}, PHONE, questions=questions)
+    pending_commands = [asked("up.flight_mode.set", 0.5, ""), asked("up.arm", 0.2, "forbidden: no")]
+    log = read(
+        tmp_path, {"truth.roll_deg": lambda _: 0.0}, PHONE, pending_commands=pending_commands
+    )
     ((time_s, data),) = log.messages["up.flight_mode.set"]
     assert (round(time_s, 6), data) == (0.5, {"mode": "FBW", "_origin": "ground (pilot)"})
     assert "up.arm" not in log.messages
@@ -216,7 +218,7 @@ def test_whatever_the_signals_are_the_file_is_whole(tmp_path_factory, rows):
     made = log_of({name: [None] for name in columns if name not in ("time_s", "event")}, 1)
     for at, (first, second, word) in enumerate(rows):
         values = {name: (first, second)[index % 2] for index, name in enumerate(columns)}
-        words = {name: word for name in columns if made.has_words(name)}
+        words = {name: word for name in columns if made.has_text(name)}
         made.append({**values, **words, "time_s": 0.02 * (at + 1)})
     write_flight("any", Result(FlightRecord(FLOWN_WITH_ALL, made), []), path)
     log = Read(path)

@@ -50,7 +50,6 @@ def test_the_daemon_is_killed_hung_and_comes_back_in_real_time(tmp_path):
         + "  - {name: f, signal: ground.latency_s, below: 2}\n",
     )
     assert done.returncode == 0, done.stdout + done.stderr
-    assert "real time, not repeatable to the digit" in done.stdout
     log = read_log(tmp_path / "run" / "flights" / "real" / "log.csv")
     assert max(log.numbers("ground.frames")) > 3
     first, second = black_boxes(tmp_path)
@@ -70,10 +69,9 @@ def test_a_daemon_that_dies_is_told_with_the_tail_of_its_log(tmp_path):
         + "expect: [{name: a, signal: time_s, above: 0}]\n",
     )
     assert done.returncode == 1
-    assert "raspilot ended by itself with status" in done.stdout
     assert "SerialProvider" in done.stdout
     summary = json.loads(Path(tmp_path, "run/flights/real/summary.json").read_text())
-    assert summary["held"] is False and "ended by itself" in summary["failure"]
+    assert summary["held"] is False and summary["failure_code"] == "participant_failed"
 
 
 def test_datagrams_of_the_phone_pass_its_cable(tmp_path):

@@ -27,15 +27,15 @@ def test_an_unplugged_line_passes_nothing_and_is_itself_again():
 def test_flipped_bytes_differ_in_one_bit():
     arrived, wires = spoil(SerialNoise(flipped_percent=5))
     wrong = [(a ^ b).bit_count() for a, b in zip(DATA, arrived, strict=True) if a != b]
-    assert set(wrong) == {1} and len(wrong) == wires.spoilt
+    assert set(wrong) == {1} and len(wrong) == wires.corrupted
     assert 0.04 < len(wrong) / len(DATA) < 0.06
 
 
 @pytest.mark.parametrize(("kind", "sign"), [("inserted_percent", 1), ("lost_percent", -1)])
 def test_bytes_are_inserted_and_lost(kind, sign):
     arrived, wires = spoil(SerialNoise(**{kind: 5}))
-    assert len(arrived) == len(DATA) + sign * wires.spoilt
-    assert 0.04 < wires.spoilt / len(DATA) < 0.06
+    assert len(arrived) == len(DATA) + sign * wires.corrupted
+    assert 0.04 < wires.corrupted / len(DATA) < 0.06
 
 
 def test_the_same_seed_spoils_the_same_bytes():
