@@ -11,13 +11,13 @@ import random
 from collections.abc import Iterable
 
 from bench.table import LeftOutError, Row
-from tools.tuning.workers import MOST_PROCESSES, Workers
+from tools.tuning.workers import MAX_PROCESSES, Workers
 from up_simulator.aircraft import FlightDynamics, Start, Weather, load_airframe
 from up_simulator.aircraft.flight import FlightUnavailableError
 from up_simulator.firmware.build import BoardUnavailableError, choose_board
 from up_simulator.firmware.imu_errors import ImuErrors, drawn_errors
-from up_simulator.firmware.line_monitor import BoardTap
-from up_simulator.firmware.preparation import PreparationError, prepared_eeprom
+from up_simulator.firmware.line_monitor import LineMonitor
+from up_simulator.firmware.preparation import PreparationError, cached_eeprom
 from up_simulator.harness.firmware_aircraft import FirmwareAircraft
 from up_simulator.radio.circling_pilot import CirclingPilot
 
@@ -32,7 +32,7 @@ def rows(quick: bool = False) -> Iterable[Row]:
     """Yield the worst of all flights; raises LeftOutError without the simulator."""
     flights, minutes = (2, 1) if quick else (FLIGHTS, MINUTES)
     try:
-        with Workers(MOST_PROCESSES) as workers:
+        with Workers(MAX_PROCESSES) as workers:
             found = workers.fly(fly, [(seed, minutes) for seed in range(1, flights + 1)])
     except (BoardUnavailableError, FlightUnavailableError, PreparationError) as error:
         raise LeftOutError(str(error)) from error
@@ -76,8 +76,8 @@ class ComparingLine:
 
     def __init__(self, flight: FlightDynamics) -> None:
         self._flight = flight
-        self._waiting = BoardTap().start_bytes()
-        self._tap = BoardTap()
+        self._waiting = LineMonitor().start_bytes()
+        self._tap = LineMonitor()
         self.worst_deg: Errors = (0.0, 0.0)
 
     def read(self, timeout_s: float, most: int) -> bytes:
@@ -114,7 +114,7 @@ def fly(
         vibration_m_s2=chance.uniform(1, 6),
         vibration_hz=chance.uniform(100, 300),
     )
-    eeprom = prepared_eeprom("host", airframe.profile, airframe.gains)
+    eeprom = cached_eeprom("host", airframe.profile, airframe.gains)
     board = choose_board("host", seed=seed, eeprom=eeprom, imu_errors=errors or drawn)
     clock, line = StarvedClock(seed, is_starved), ComparingLine(flight)
     pilot = CirclingPilot()
@@ -143,7 +143,7 @@ def main() -> None:
     errors = ImuErrors() if options.no_errors else None
     seeds = range(options.first, options.first + options.flights)
     flights = [(seed, options.minutes, options.starved, errors) for seed in seeds]
-    with Workers(MOST_PROCESSES) as workers:
+    with Workers(MAX_PROCESSES) as workers:
         found = workers.fly(fly, flights)
     for seed, flight in zip(seeds, found, strict=True):
         minutes = " ".join(f"{roll_deg:.1f}/{pitch_deg:.1f}" for roll_deg, pitch_deg in flight)

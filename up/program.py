@@ -113,7 +113,7 @@ class Program:
         # Runs after the reactor's next wait: the current turn belongs to the start.
         later = self._reactor.callLater
         later(0, later, 0, setattr, self._monitor, "has_started", True)
-        self.log.info("{count} modules run", count=len(self._life.started))
+        self.log.info("{count} modules run", code="modules_running", count=len(self._life.started))
         if self._up.vetoes.own:
             self.log.warn("arming is refused: {vetoes}", vetoes="; ".join(self._up.vetoes.own))
 

@@ -66,7 +66,12 @@ class Door:
     def open(self) -> None:
         """Start accepting."""
         self._poller.watch(self._listener.fileno(), self)
-        _log.info("{side} side listens on port {port}", side=self._side.value, port=self.port)
+        _log.info(
+            "{side} side listens on port {port}",
+            code="port_open",
+            side=self._side.value,
+            port=self.port,
+        )
 
     def close(self) -> None:
         """Stop accepting and end every connection."""

@@ -190,7 +190,14 @@ class RaspilotFlightController(BaseFlightController):
             text = f"does not fly: {owner or 'nobody'} has control"
         if text != self._logged:
             self._logged = text
-            self._log_info(text)
+            self.logger.info(
+                "{text}",
+                text=text,
+                code="control_changed",
+                flies=self._is_board_ready and self.is_flying,
+                permitted=self._is_board_ready,
+                owner=owner,
+            )
 
     def _ask_for_control(self, at_once: bool) -> None:
         """Request AUTO from the board: after a state change, and periodically in case of loss."""

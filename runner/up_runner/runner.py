@@ -97,7 +97,7 @@ class Runner:
                 "port in runner.yml or --port names another"
             ) from None
         self.instances.open()
-        self._log.info("listens on port {port}", port=self.port)
+        self._log.info("listens on port {port}", code="port_open", port=self.port)
         self._notifier.ready(self.instances.summary())
         self._pinger.start()
         if self._config.autostart.aircraft:

@@ -12,11 +12,11 @@ from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
+from up.cli.option_parser import OptionParser
 from up.config import ConfigErrors
 from up.version import VERSION
-from up_simulator.harness.option_parser import OptionParser
-from up_simulator.harness.signal_handling import ending_in_order
-from up_simulator.verbs.outcome import (
+from up_simulator.harness.signal_handling import orderly_exit
+from up_simulator.verbs.catalogue import (
     INTERRUPTED,
     NOT_HELD,
     WRONG_INPUT,
@@ -58,7 +58,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     SIGTERM, SIGHUP (a closed terminal), each in the same order.
     """
     _open_closed_streams()
-    with ending_in_order() as ending:
+    with orderly_exit() as ending:
         try:
             return ending.status(_main(list(sys.argv[1:] if arguments is None else arguments)))
         finally:
@@ -119,8 +119,6 @@ def _parser() -> argparse.ArgumentParser:
         usage="up-sim VERB ...",
         description=f"{DESCRIPTION}\n\nverbs:\n{verbs}",
         epilog=EPILOG,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-        allow_abbrev=False,
     )
     parser.add_argument("--version", action="version", version=f"up-sim {VERSION}")
     return parser

@@ -8,8 +8,8 @@ from typing import Any
 
 from tools.tuning.gain_set import Axis
 from up_rig.imu import Motion
-from up_simulator.aircraft.flight import FlightState
-from up_simulator.harness.world import STEP_S, Dynamics
+from up_simulator.aircraft.flight import Dynamics, FlightState
+from up_simulator.harness.world import STEP_S
 
 Pulses = tuple[float, float, float, float]
 NEUTRAL_US = 1500.0

@@ -24,7 +24,8 @@ from tools.tuning.report import log_lines, rough_lines, rules_lines, tuning_line
 from tools.tuning.response_picture import draw_log_steps, draw_tuning
 from tools.tuning.trial import TrialError
 from tools.tuning.tune import TuneError, try_rough_air, tune_axis, tune_yaw
-from tools.tuning.workers import MOST_PROCESSES, Workers
+from tools.tuning.workers import MAX_PROCESSES, Workers
+from up.cli.option_parser import OptionParser
 from up.config.writing import write_atomically
 from up.flight_controller.gains import Gains, GainSet
 from up.flight_controller.pids_file import PIDS, PidsConfig, gain_set_of
@@ -34,11 +35,10 @@ from up_simulator.firmware.board import BoardCrashedError
 from up_simulator.firmware.build import BoardUnavailableError
 from up_simulator.firmware.preparation import PreparationError
 from up_simulator.firmware.settings_wire import SettingsError
-from up_simulator.harness.option_parser import OptionParser
 from up_simulator.picture.canvas import PictureError
 from up_simulator.scenario.log import LogError, read_log
 from up_simulator.scenario.run import try_folder
-from up_simulator.verbs.outcome import HELD, NOT_HELD, UsageError
+from up_simulator.verbs.catalogue import HELD, NOT_HELD, UsageError
 
 FOLDER = Path("run") / "tuning"
 EPILOG = """\
@@ -84,8 +84,6 @@ def _parser() -> argparse.ArgumentParser:
         description="Flies steps with many gains, measures what is left before the loop rings, and"
         " proposes a set.",
         epilog=EPILOG,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-        allow_abbrev=False,
     )
     parser.add_argument(
         "--airframe", default=DEFAULT_AIRFRAME, help="name, folder or file (default: %(default)s)"
@@ -120,8 +118,8 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument(
         "--processes",
         type=int,
-        choices=range(1, MOST_PROCESSES + 1),
-        default=MOST_PROCESSES,
+        choices=range(1, MAX_PROCESSES + 1),
+        default=MAX_PROCESSES,
         help="how many flights at a time (default: %(default)s)",
     )
     return parser
@@ -178,7 +176,7 @@ def _all_axes(
             gains = with_axis(gains, "yaw", AxisGains(Gains(damper), Gains(0.0)))
             lines = yaw_lines(yaw)
         else:
-            tuning = tune_axis(bench, gains, axis, workers, is_quick=options.quick, say=_say)
+            tuning = tune_axis(bench, gains, axis, workers, is_quick=options.quick, log=_note)
             gains = with_axis(gains, axis, tuning.proposal.gains)
             is_good = is_good and tuning.keeps_the_rules
             lines = tuning_lines(tuning)
@@ -238,10 +236,10 @@ def _is_drawn(draw: Callable[[Path], None], path: Path) -> bool:
         path.parent.mkdir(parents=True, exist_ok=True)
         draw(path)
     except PictureError as error:
-        _say(str(error))
+        _note(str(error))
         return False
     except OSError as error:
-        _say(f"{path}: the picture cannot be written: {error.strerror or error}")
+        _note(f"{path}: the picture cannot be written: {error.strerror or error}")
         return False
     return True
 
@@ -258,7 +256,7 @@ def _clear() -> None:
         sys.stderr.flush()
 
 
-def _say(text: str) -> None:
+def _note(text: str, /, *, code: str = "", **_fields: object) -> None:
     _clear()
     sys.stderr.write(f"{text}\n")
 

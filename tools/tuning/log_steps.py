@@ -10,11 +10,11 @@ from tools.tuning.gain_set import Axis
 from up_simulator.picture.series import Log
 from up_simulator.scenario.step_response import StepError, StepResponse, analyse_step
 
-LEAST_STEP = {"deg": 5.0, "deg/s": 10.0}
+MIN_STEP = {"deg": 5.0, "deg/s": 10.0}
 QUICK_S = 0.25
 """A stick that takes longer to get there makes no step."""
 LONGEST_S = 5.0
-SHORTEST_S = 0.5
+MIN_DURATION_S = 0.5
 STEADY_S = 0.3
 SAME = 0.1
 """The demand stays within this part of the step, otherwise it does not count as a step."""
@@ -64,7 +64,7 @@ def steps_of(log: Log, axes: Sequence[Axis] = ("roll", "pitch")) -> list[LogStep
         if values is None:
             continue
         demands = log.numbers(f"demand.{name}")
-        for at, past in _jumps(times_s, demands, LEAST_STEP[unit]):
+        for at, past in _jumps(times_s, demands, MIN_STEP[unit]):
             found.append(_measured(axis, mode, unit, times_s, values, demands, at, past))
     return sorted(found, key=lambda step: (step.at_s, step.axis))
 
@@ -96,7 +96,7 @@ def _jumps(
             and times_s[past] - times_s[at] <= LONGEST_S
         ):
             past += 1
-        if times_s[past - 1] - times_s[at] >= SHORTEST_S and _was_steady(
+        if times_s[past - 1] - times_s[at] >= MIN_DURATION_S and _was_steady(
             times_s, demands, at, slack
         ):
             yield at, past

@@ -9,9 +9,9 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from statistics import fmean
 
-WIDEST_SPREAD = 0.35
+MAX_SPREAD = 0.35
 """The periods of a measurement agree within this part, or the frequency is left out."""
-MOST_OF_ITS_OWN = 0.7
+MAX_OWN_SHARE = 0.7
 """A servo that moves more than this part at unexcited frequencies oscillates on its own."""
 
 
@@ -72,7 +72,7 @@ def loop_response(
     if periods < 3 or len(given) != len(moved):
         raise MarginsError("three whole periods of excitation are needed to measure a loop")
     last = slice((periods - 1) * period, periods * period)
-    if _own_share(_level(moved[last], _slope(moved, last)), multisine) > MOST_OF_ITS_OWN:
+    if _own_share(_level(moved[last], _slope(moved, last)), multisine) > MAX_OWN_SHARE:
         raise MarginsError("the loop rings by itself, or the air is rough")
     parts = [slice(number * period, (number + 1) * period) for number in range(1, periods)]
     came_level = [_level(given[part], _slope(given, part)) for part in parts]
@@ -89,7 +89,7 @@ def loop_response(
         single = [-came / went_in for came, went_in in pairs]
         mean = -sum(came for came, _ in pairs) / sum(went_in for _, went_in in pairs)
         spread = max(abs(each - mean) for each in single) / max(abs(mean), 1e-9)
-        if spread <= WIDEST_SPREAD:
+        if spread <= MAX_SPREAD:
             points.append(LoopPoint(frequency_hz, mean))
     if all(abs(point.response) < 1e-6 for point in points):
         raise MarginsError("nothing comes back: the axis has no gains, or no servo")

@@ -10,7 +10,7 @@ from tools.tuning.log_steps import LogStep, advice
 from tools.tuning.margins import Margins
 from tools.tuning.tune import AxisTuning, Candidate, RoughAir, YawTuning
 
-MOST_ROWS = 12
+MAX_ROWS = 12
 WIDTH = 98
 
 
@@ -26,7 +26,7 @@ def tuning_lines(tuning: AxisTuning) -> list[str]:
         f" | {'dB':>5} {'ms':>6} {'peak':>6} | {'dB':>5} {'ms':>6} {'peak':>6}",
     ]
     best = sorted(tuning.candidates, key=lambda each: (len(each.broken), each.score))
-    shown = best[:MOST_ROWS]
+    shown = best[:MAX_ROWS]
     if tuning.proposal not in shown:
         shown[-1] = tuning.proposal
     lines.append(_row("was ", tuning.now))

@@ -38,7 +38,7 @@ COLUMNS = 5
 CELL_WIDTH_IN, CELL_HEIGHT_IN = 2.45, 1.25
 GAP_WIDTH_IN, GAP_HEIGHT_IN = 0.35, 0.62
 BIG_IN = 2.9
-MOST_CELLS = 40
+MAX_CELLS = 40
 SHOWN_STEPS = 2
 
 
@@ -99,7 +99,7 @@ def draw_log_steps(
     log: Log, steps: Sequence[LogStep], path: Path, *, title: str, subtitle: str = ""
 ) -> None:
     """Draw every step that was found in a log. Raises ``PictureError``."""
-    shown = list(steps)[:MOST_CELLS]
+    shown = list(steps)[:MAX_CELLS]
     if not shown:
         raise PictureError(f"{path}: no picture: there is no step to draw")
     times_s = log.numbers("time_s")

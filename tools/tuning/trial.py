@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
 from dataclasses import dataclass, field
 
 from tools.tuning.actuators import Actuators, Mix
@@ -13,9 +13,10 @@ from up_simulator.aircraft import Airframe, FlightDynamics, Start, Weather
 from up_simulator.firmware.board import BoardKind, FirmwareBoard
 from up_simulator.firmware.build import choose_board
 from up_simulator.firmware.imu_errors import ImuErrors
-from up_simulator.firmware.line_monitor import BoardTap
-from up_simulator.firmware.preparation import prepared_eeprom
+from up_simulator.firmware.line_monitor import LineMonitor
+from up_simulator.firmware.preparation import cached_eeprom
 from up_simulator.firmware.settings_wire import gains_bytes
+from up_simulator.harness.user_log import Log, no_log
 from up_simulator.harness.world import STEP_S, World
 
 SAMPLE_S = 0.01
@@ -77,17 +78,15 @@ class Trial:
         weather: Weather | None = None,
         airspeed_m_s: float | None = None,
         seed: int = 1,
-        say: Callable[[str], None] = lambda _text: None,
+        log: Log = no_log,
     ) -> None:
         profile = {**airframe.profile, "switch": _SWITCH}
         errors = ImuErrors(
             vibration_deg_s=airframe.imu.vibration_deg_s,
             vibration_m_s2=airframe.imu.vibration_m_s2,
         )
-        eeprom = prepared_eeprom(board, profile, airframe.gains, say)
-        self.board: FirmwareBoard = choose_board(
-            board, seed=seed, imu_errors=errors, eeprom=eeprom, say=lambda _text: None
-        )
+        eeprom = cached_eeprom(board, profile, airframe.gains, log)
+        self.board: FirmwareBoard = choose_board(board, seed=seed, imu_errors=errors, eeprom=eeprom)
         throttle = airframe.launch.level_throttle if airframe.has_motor else 0.0
         start = Start(
             height_m=START_HEIGHT_M,
@@ -106,7 +105,7 @@ class Trial:
         self.board.set_stick("throttle", 1000.0 + 1000.0 * throttle)
 
     def _send(self, gains: GainSet) -> None:
-        tap = BoardTap()
+        tap = LineMonitor()
         self.board.set_motion(motion_at(0.0, 0.0))
         self.board.run_us(BOOT_US)
         payload = gains_bytes(mapping_of(gains), bytes(_GAINS_SIZE))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 from tools.tuning.evaluation import Loop, Rules, try_loop, try_steps, worst
@@ -21,18 +21,18 @@ from tools.tuning.margins import Margins
 from tools.tuning.workers import Workers
 from up.flight_controller.gains import Gains, GainSet
 from up_simulator.aircraft import Weather
+from up_simulator.harness.user_log import Log, no_log
 
-Say = Callable[[str], None]
 STABILIZE_P = (2.0, 3.0, 4.0, 5.0, 6.0, 8.0)
 QUICK_STABILIZE_P = (4.0, 8.0)
-PARTS_OF_MOST = (1.0, 0.85, 0.7, 0.55, 0.4)
-QUICK_PARTS_OF_MOST = (0.85, 0.5)
+SHARES_OF_MAX = (1.0, 0.85, 0.7, 0.55, 0.4)
+QUICK_SHARES_OF_MAX = (0.85, 0.5)
 I_OF_P = (0.5, 1.0, 2.0)
 YAW_P = (0.0, 0.5, 1.0, 1.5, 2.0, 3.0, 4.0, 6.0)
 QUICK_YAW_P = (0.0, 2.0, 4.0)
 ROOM_FOR_I = 0.93
 """An integral part spends a little phase: the P beside it gives way."""
-MOST_RATE_P = 20.0
+MAX_RATE_P = 20.0
 GENTLE_SENSITIVITY = 3.5
 """A loop that is measured with a peak beyond this is measured again with half the gains."""
 DIVE_FACTOR = 1.6
@@ -101,7 +101,7 @@ def tune_axis(
     rules: Rules | None = None,
     loops: tuple[Loop, Loop] | None = None,
     is_quick: bool = False,
-    say: Say = lambda _text: None,
+    log: Log = no_log,
 ) -> AxisTuning:
     """Return the best gains for roll or pitch; the other axes keep their gains.
 
@@ -109,7 +109,7 @@ def tune_axis(
     ``TuneError``.
     """
     rules = rules or Rules()
-    cruise, dive = loops or measure_loops(bench, gains, axis, workers, say)
+    cruise, dive = loops or measure_loops(bench, gains, axis, workers, log)
     tried = [
         each
         for each in _grid(cruise, dive, rules, is_quick)
@@ -117,7 +117,7 @@ def tune_axis(
     ]
     if not tried:
         raise TuneError(f"{axis}: no gains keep the margins, whatever they are")
-    say(f"{axis}: {len(tried)} sets of gains keep their margins; flying steps with each")
+    log(f"{axis}: {len(tried)} sets of gains keep their margins; flying steps with each")
     candidates = _fly(bench, gains, axis, tried, (cruise, dive), rules, workers)
     best = choose(candidates)
     if not is_quick:
@@ -207,7 +207,7 @@ def _rank(candidate: Candidate) -> tuple[int, float]:
 
 
 def measure_loops(
-    bench: Bench, gains: GainSet, axis: Axis, workers: Workers, say: Say = lambda _text: None
+    bench: Bench, gains: GainSet, axis: Axis, workers: Workers, log: Log = no_log
 ) -> tuple[Loop, Loop]:
     """Return the loop at cruise and in the dive, measured with gains that do not ring.
 
@@ -222,7 +222,7 @@ def measure_loops(
     reason = ""
     for _ in range(5):
         sets = with_axis(gains, axis, own)
-        say(f"{axis}: measuring the loop at cruise and in a dive with {own}")
+        log(f"{axis}: measuring the loop at cruise and in a dive with {own}")
         cruise, dive = workers.fly(
             try_loop, [(bench, sets, axis, own, dives) for dives in (False, True)]
         )
@@ -243,7 +243,7 @@ def _grid(cruise: Loop, dive: Loop, rules: Rules, is_quick: bool) -> list[AxisGa
     found = []
     for stabilize in QUICK_STABILIZE_P if is_quick else STABILIZE_P:
         most = _most_rate_p(cruise, dive, rules, stabilize)
-        for part in QUICK_PARTS_OF_MOST if is_quick else PARTS_OF_MOST:
+        for part in QUICK_SHARES_OF_MAX if is_quick else SHARES_OF_MAX:
             rate = _round(part * most)
             if rate > 0:
                 found.append(AxisGains(Gains(rate), Gains(stabilize)))
@@ -252,7 +252,7 @@ def _grid(cruise: Loop, dive: Loop, rules: Rules, is_quick: bool) -> list[AxisGa
 
 def _most_rate_p(cruise: Loop, dive: Loop, rules: Rules, stabilize: float) -> float:
     """Return the greatest rate P that keeps the margins, found by halving."""
-    low, high = 0.0, MOST_RATE_P
+    low, high = 0.0, MAX_RATE_P
     for _ in range(10):
         middle = (low + high) / 2
         gains = AxisGains(Gains(middle), Gains(stabilize))

@@ -10,11 +10,11 @@ from concurrent.futures import ProcessPoolExecutor
 from types import TracebackType
 from typing import Any, TypeVar
 
-from up_simulator.harness.child import dying_wish
+from up_simulator.harness.child import request_death_signal
 from up_simulator.harness.signal_handling import SIGNALS
 
 T = TypeVar("T")
-MOST_PROCESSES = 2
+MAX_PROCESSES = 2
 
 
 class Workers:
@@ -33,7 +33,7 @@ class Workers:
             # A fresh interpreter: a fork would share the state of JSBSim and simavr.
             context = multiprocessing.get_context("spawn")
             self._pool = ProcessPoolExecutor(
-                min(processes, MOST_PROCESSES), context, _begin_worker, (os.getpid(),)
+                min(processes, MAX_PROCESSES), context, _begin_worker, (os.getpid(),)
             )
 
     def __enter__(self) -> Workers:
@@ -84,6 +84,6 @@ def _begin_worker(parent: int) -> None:
     for number in (signal.SIGINT, signal.SIGHUP):
         signal.signal(number, signal.SIG_IGN)
     signal.pthread_sigmask(signal.SIG_UNBLOCK, SIGNALS)
-    wish = dying_wish(signal.SIGKILL, parent)
+    wish = request_death_signal(signal.SIGKILL, parent)
     if wish is not None:
         wish()

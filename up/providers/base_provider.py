@@ -98,7 +98,12 @@ class BaseProvider(BaseStartedModule, Generic[_T]):
         if previous:
             self._log_warning(f"{self.READING} now comes from {source}, no longer from {previous}")
         else:
-            self._log_info(f"{self.READING} comes from {source}")
+            self.logger.info(
+                "{reading} comes from {source}",
+                code="source_selected",
+                reading=self.READING,
+                source=source,
+            )
 
     def _ages(self) -> dict[str, Any]:
         """Return the part of telemetry common to all readings."""

@@ -8,6 +8,7 @@ from typing import Any
 
 from twisted.internet.error import CannotListenError
 
+from up.log.user_line import user_line
 from up_ground.catalogue import Catalogue
 from up_ground.errand import EXIT_DONE, EXIT_NO_ANSWER, Errand, Say
 from up_ground.web.access import Access
@@ -102,7 +103,7 @@ class Server(Errand):
             yield f"  {aircraft.summary}"
         key = None if self._access.is_watch_only else self._access.key
         urls = self._listen.urls(port, key)
-        yield f"open {urls[0]}"
+        yield user_line(f"open {urls[0]}", "up_ground", code="page_open", url=urls[0])
         yield from (f"  or {url}" for url in urls[1:])
         if key:
             yield "the part after # lets a page control; without it a page only watches"

@@ -58,7 +58,7 @@ _READ = {
 
 
 class FlightDynamics:
-    """A flight in steps of 2 ms, launched in the air; satisfies ``Flight``.
+    """A flight in steps of 2 ms, launched in the air; satisfies ``FlightSource``.
 
     The same arguments and the same pulses at the same steps fly the same flight to the last
     digit. ``crash`` is one sentence about the end of the flight; after it only the time advances.

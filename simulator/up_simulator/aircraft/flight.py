@@ -3,7 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Protocol
+from typing import TYPE_CHECKING, Protocol
+
+from up_rig.imu import Motion
+
+if TYPE_CHECKING:
+    from up_simulator.aircraft.start import Start
 
 Servos = tuple[int, int, int, int]
 """Servo pulses, us: ailerons, elevator, throttle, rudder."""
@@ -56,19 +61,44 @@ class FlightState:
     wind_down_m_s: float = 0.0
 
 
-class Flight(Protocol):
-    """A flight that advances in steps of its simulated time."""
+class Dynamics(Protocol):
+    """The flight as a board moves and feels it; it advances in steps of its simulated time."""
 
     @property
     def state(self) -> FlightState:
         """Return the newest state."""
 
     @property
-    def servos(self) -> Servos:
-        """Return the present servo positions, us, which lag behind the commanded ones."""
+    def motion(self) -> Motion:
+        """Return the present motion for an IMU aboard."""
 
-    def set_servos(self, pulses_us: Servos) -> None:
+    @property
+    def crash(self) -> str | None:
+        """Return one sentence about the crash; None while it flies. After it the aircraft rests."""
+
+    def set_servos(self, pulses_us: tuple[float, float, float, float]) -> None:
         """Command the servos to these pulses."""
 
     def advance(self, duration_s: float) -> None:
         """Run all whole steps of the time requested so far."""
+
+
+class FlightSource(Dynamics, Protocol):
+    """A flight that can be repeated."""
+
+    @property
+    def servos(self) -> Servos:
+        """Return the present servo positions, us, which lag behind the commanded ones."""
+
+    def change_battery(self) -> None:
+        """Put a full battery in."""
+
+    def launch(self, start: Start) -> None:
+        """Put it back into the air."""
+
+
+class Clock(Protocol):
+    """A clock that only rises, such as a reactor's or a test's."""
+
+    def seconds(self) -> float:
+        """Return seconds since an arbitrary moment."""

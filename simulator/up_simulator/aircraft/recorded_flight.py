@@ -1,4 +1,4 @@
-"""A recorded flight, looped: the flight without JSBSim."""
+"""A recorded flight, looped, which is the flight without JSBSim; and the log that records one."""
 
 from __future__ import annotations
 
@@ -12,19 +12,24 @@ from dataclasses import MISSING, astuple, fields, replace
 from importlib import resources
 from pathlib import Path
 
+from up_rig.imu import Motion, motion_at
 from up_simulator.aircraft.flight import NEUTRAL, FlightState, FlightUnavailableError, Servos
 
 BLEND_S = 4.0
 SHIPPED = "recorded_flight.csv.gz"
 COLUMNS = tuple(field.name for field in fields(FlightState) if field.default is MISSING)
+SERVO_COLUMNS = ("ailerons_us", "elevator_us", "throttle_us", "rudder_us")
+DECIMALS = {"latitude_deg": 8, "longitude_deg": 8, "time_s": 3}
+LOG_PERIOD_S = 0.02
 ANGLES = ("roll_deg", "pitch_deg", "yaw_deg", "track_deg")
 
 
 class RecordedFlight:
-    """Plays a state log in a loop; the servo commands have no effect on it.
+    """Plays a state log in a loop; the servo commands have no effect on it, and it never crashes.
 
-    The last ``BLEND_S`` of the recording fade into its beginning, and each round starts where
-    the one before ended, so that neither attitude nor position jumps.
+    The IMU feels the recorded attitude and rates, and 1 g, whatever it felt then. The last
+    ``BLEND_S`` of the recording fade into its beginning, and each round starts where the one before
+    ended, so that neither attitude nor position jumps.
     """
 
     def __init__(self, states: list[FlightState]) -> None:
@@ -56,9 +61,28 @@ class RecordedFlight:
         """Return the last commanded pulses, us."""
         return self._servos
 
-    def set_servos(self, pulses_us: Servos) -> None:
-        """Remember the pulses; a recording does not follow them."""
-        self._servos = pulses_us
+    @property
+    def crash(self) -> str | None:
+        """Return None."""
+        return None
+
+    @property
+    def motion(self) -> Motion:
+        """Return an IMU's motion at this attitude."""
+        state = self._state
+        rates = (state.roll_rate_deg_s, state.pitch_rate_deg_s, state.yaw_rate_deg_s)
+        return motion_at(state.roll_deg, state.pitch_deg, rates)
+
+    def set_servos(self, pulses_us: tuple[float, float, float, float]) -> None:
+        """Store the pulses."""
+        ailerons, elevator, throttle, rudder = (round(each) for each in pulses_us)
+        self._servos = (ailerons, elevator, throttle, rudder)
+
+    def launch(self, start: object) -> None:
+        """Do nothing: it flies anyway."""
+
+    def change_battery(self) -> None:
+        """Do nothing: it has none."""
 
     def advance(self, duration_s: float) -> None:
         """Play on for ``duration_s``."""
@@ -112,7 +136,7 @@ def read_recording(path: Path | None) -> RecordedFlight:
     try:
         return RecordedFlight(_states(text, name))
     except csv.Error as error:
-        raise FlightUnavailableError(f"{name}: is no recorded flight: {error}") from error
+        raise FlightUnavailableError(f"{name}: not a recorded flight: {error}") from error
 
 
 def _states(text: str, name: str) -> list[FlightState]:
@@ -120,7 +144,7 @@ def _states(text: str, name: str) -> list[FlightState]:
     rows = csv.DictReader(io.StringIO(text))
     missing = [column for column in COLUMNS if column not in (rows.fieldnames or ())]
     if missing:
-        raise FlightUnavailableError(f"{name}:1: no recorded flight, no column {missing[0]}")
+        raise FlightUnavailableError(f"{name}:1: not a recorded flight, no column {missing[0]}")
     for row in rows:
         try:
             state = FlightState(*(float(row[column]) for column in COLUMNS))
@@ -147,3 +171,29 @@ def _between(left: FlightState, right: FlightState, share: float) -> FlightState
         value = start + share * way
         values.append(value % 360.0 if name in ("yaw_deg", "track_deg") else value)
     return FlightState(*values)
+
+
+class StateLog:
+    """A CSV line for every 20 ms of flight, flushed immediately.
+
+    Columns are ``COLUMNS``, then the four servo
+    positions (us). The file can be flown again with ``--replay``. Raises ``OSError`` when it cannot
+    be written.
+    """
+
+    def __init__(self, path: Path) -> None:
+        self._file = path.open("w", encoding="ascii", buffering=1)
+        self._file.write(",".join(COLUMNS + SERVO_COLUMNS) + "\n")
+        self._next_s = 0.0
+
+    def record(self, state: FlightState, servos_us: Servos) -> None:
+        """Write a line when the next 20 ms are over."""
+        if state.time_s < self._next_s - 1e-9:
+            return
+        self._next_s = state.time_s + LOG_PERIOD_S
+        values = [f"{getattr(state, name):.{DECIMALS.get(name, 3)}f}" for name in COLUMNS]
+        self._file.write(",".join([*values, *map(str, servos_us)]) + "\n")
+
+    def close(self) -> None:
+        """Close the file."""
+        self._file.close()

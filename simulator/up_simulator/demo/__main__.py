@@ -8,7 +8,6 @@ own folder.
 from __future__ import annotations
 
 import argparse
-import contextlib
 import fcntl
 import math
 import signal
@@ -16,10 +15,11 @@ import sys
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
+from up.cli.option_parser import WRONG_INPUT, OptionParser
 from up_simulator.aircraft import AirframeError, airframe_names
-from up_simulator.demo.flight import ShowcaseFlight
-from up_simulator.harness.option_parser import WRONG_INPUT, OptionParser
-from up_simulator.harness.participants import CrewError
+from up_simulator.demo.flight import DemoFlight
+from up_simulator.harness.participants import ParticipantError
+from up_simulator.harness.signal_handling import handle
 from up_simulator.harness.start_options import (
     BOARD_HELP,
     BOARDS,
@@ -27,7 +27,8 @@ from up_simulator.harness.start_options import (
     link_settings,
     wind_m_s,
 )
-from up_simulator.phone.choice import KINDS
+from up_simulator.harness.user_log import print_line
+from up_simulator.phone.java_program import KINDS
 
 ROOT = Path(__file__).resolve().parents[3]
 
@@ -39,9 +40,9 @@ class Stopped(Exception):  # noqa: N818 - a signal is not an error
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run everything; return 0 after Ctrl-C, 1 when a part failed, 2 for wrong input."""
     options = _options(arguments)
-    folder = (options.folder or ROOT / "run" / "showcase").resolve()
+    folder = (options.folder or ROOT / "run" / "demo").resolve()
     if not (ROOT / "main.py").is_file():
-        return _fail("the showcase runs from a clone of the project: make run", WRONG_INPUT)
+        return _fail("the demo runs from a clone of the project: make run", WRONG_INPUT)
     try:
         folder.mkdir(parents=True, exist_ok=True)
         lock = (folder / "lock").open("w")
@@ -63,37 +64,34 @@ def _fly(options: argparse.Namespace, folder: Path) -> int:
     # A shell starts background jobs with SIGINT ignored: one sent to this process is intended.
     signal.signal(signal.SIGINT, signal.default_int_handler)
     for number in (signal.SIGTERM, signal.SIGHUP):
-        # Signals that 'nohup' ignores stay ignored.
-        if signal.getsignal(number) != signal.SIG_IGN:
-            signal.signal(number, _raise_stopped)
-    last_words = ""
-    flight: ShowcaseFlight | None = None
+        handle(number, _raise_stopped)
+    failure = ""
+    flight: DemoFlight | None = None
     try:
-        flight = ShowcaseFlight(options, folder, ROOT, _say)
+        flight = DemoFlight(options, folder, ROOT, print_line)
         flight.start()
-        flight.stay()
+        flight.watch()
     except (KeyboardInterrupt, Stopped):
         pass
     except AirframeError as error:
         # Before anything was started.
         return _fail(f"make run: {error}", WRONG_INPUT)
-    except (CrewError, OSError) as error:
-        last_words = str(error)
+    except (ParticipantError, OSError) as error:
+        failure = str(error)
     finally:
         for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
             signal.signal(number, signal.SIG_IGN)
         if flight is not None:
             flight.stop()
-    if last_words:
-        # Only now: the picture of the ground station would have wiped it away.
-        _say(f"\n{last_words}")
-    return 1 if last_words else 0
+    if failure:
+        # Only now: the ground station's screen would have erased it.
+        print_line(f"\n{failure}")
+    return 1 if failure else 0
 
 
 def _options(arguments: Sequence[str] | None) -> argparse.Namespace:
     parser = OptionParser(
         prog="make run",
-        allow_abbrev=False,
         description="Flies the virtual aircraft with the real firmware, daemon, proxy and ground"
         " station. From make: make run CONTROLLER=raspberry RADIO=keyboard ARGS='--wind 6'",
     )
@@ -101,7 +99,7 @@ def _options(arguments: Sequence[str] | None) -> argparse.Namespace:
         "--controller",
         choices=("arduino", "raspberry"),
         default="arduino",
-        help="who holds the attitude: the firmware, or Raspilot on this machine; default arduino",
+        help="which holds the attitude: the firmware, or Raspilot on this machine; default arduino",
     )
     parser.add_argument("--airframe", default="glider", help=" or ".join(airframe_names()))
     parser.add_argument(
@@ -116,10 +114,10 @@ def _options(arguments: Sequence[str] | None) -> argparse.Namespace:
     )
     parser.add_argument(
         "--radio",
-        type=_who,
+        type=_radio,
         default="circle",
-        metavar="WHO",
-        help="who moves the sticks: circle (default), keyboard, js0",
+        metavar="RADIO",
+        help="what moves the sticks: circle (default), keyboard, js0",
     )
     parser.add_argument(
         "--board",
@@ -137,7 +135,7 @@ def _options(arguments: Sequence[str] | None) -> argparse.Namespace:
         "--phone",
         choices=KINDS,
         default="auto",
-        help="what the phone is: java, the app's own Up Library; python, a stand-in; default auto",
+        help="the phone: java, the app's own Up Library; python, a stub; default auto",
     )
     parser.add_argument("--folder", type=Path, help="for configuration and logs (run/demo)")
     parser.add_argument(
@@ -159,11 +157,11 @@ def _options(arguments: Sequence[str] | None) -> argparse.Namespace:
 def _text_of(read: Callable[[str], object]) -> Callable[[str], str]:
     """Return a parser that keeps a text unchanged, after a check by the aircraft's own parser."""
 
-    def take(text: str) -> str:
+    def check(text: str) -> str:
         read(text)
         return text
 
-    return take
+    return check
 
 
 def _seconds(text: str) -> float:
@@ -173,7 +171,7 @@ def _seconds(text: str) -> float:
     return seconds
 
 
-def _who(text: str) -> str:
+def _radio(text: str) -> str:
     if text not in ("circle", "keyboard") and not text.startswith(("js", "/")):
         raise argparse.ArgumentTypeError(f"{text!r} is not circle, keyboard or js0")
     return text
@@ -186,12 +184,6 @@ def _raise_stopped(number: int, frame: object) -> None:
 def _fail(text: str, status: int) -> int:
     sys.stderr.write(f"{text}\n")
     return status
-
-
-def _say(text: str) -> None:
-    # The terminal may be closed already.
-    with contextlib.suppress(OSError):
-        print(text, flush=True)  # noqa: T201
 
 
 if __name__ == "__main__":

@@ -1,4 +1,4 @@
-"""The configuration that the showcase writes: everything on this machine."""
+"""The configuration that the demo writes: everything on this machine."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ def write_config(
             "remote_server:\n"
             "  url: 127.0.0.1\n"
             f"  port: {uplink_port or ports.airborne}\n"
-            "# On loopback nobody else listens: the ground may arm and tune.\n"
+            "# Only this machine reaches loopback: the ground may arm and tune.\n"
             "role: pilot\n"
             "tune_in_flight: true\n"
         ),

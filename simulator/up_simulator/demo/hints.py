@@ -16,7 +16,7 @@ def hints(ports: Ports, folder: Path, page: str | None) -> list[str]:
     port = "" if ports.ground == 3004 else f" --port {ports.ground}"
     socket = "" if folder == Path.cwd() / "run/demo" else f" --socket {folder / 'radio'}"
     in_browser = [
-        f"Open {page} in a browser: everything that flies, live. 'Ask for control' there,",
+        f"Open {page} in a browser: the flight, live. 'Ask for control' there,",
         "then choose modes and change gains in flight, which this aircraft allows.",
     ]
     return [
@@ -27,8 +27,8 @@ def hints(ports: Ports, folder: Path, page: str | None) -> list[str]:
         f"  {ground} send{port} arduino.pids.tunings request=true   the gains; see the guide",
         f"  {ground} send{port} up.flight_mode.set mode=RATE        and mode=FBW",
         f"  {ground} send{port} android.speak text=hello",
-        f"  {sim} radio{socket}          the sticks on your keyboard: take them, q gives back",
-        f"  {sim} fly save       a scenario: the pilot's last resort",
+        f"  {sim} radio{socket}          the sticks on your keyboard; q releases them",
+        f"  {sim} fly save       a scenario: the pilot takes over",
         "Ctrl-C stops everything.",
     ]
 

@@ -2,19 +2,16 @@
 
 from __future__ import annotations
 
-import re
 import shlex
 import sys
-import time
 from pathlib import Path
 
 from up_simulator.demo.hints import program
 from up_simulator.harness.child import Child
+from up_simulator.harness.participants import ParticipantError
 from up_simulator.harness.ports import Ports
 
 LIMIT_S = 30.0
-LOOK_AGAIN_S = 0.05
-_ADDRESS = re.compile(r"http://\S+")
 
 
 class Page:
@@ -32,27 +29,20 @@ class Page:
         self.command = f"{program('up-ground')} {shlex.join(words)}"
 
     def wait_for_address(self) -> str | None:
-        """Return the page's address; None when it has ended or prints none in time."""
-        deadline_s = time.monotonic() + LIMIT_S
-        while time.monotonic() < deadline_s:
-            has_ended = self.child.poll() is not None
-            for line in self.child.lines():
-                found = _ADDRESS.search(line)
-                if found is not None:
-                    return found[0]
-            if has_ended:
-                return None
-            time.sleep(LOOK_AGAIN_S)
-        return None
+        """Return the page's address; None when it has ended or reports none in time."""
+        try:
+            return str(self.child.wait_for("page_open", LIMIT_S).fields["url"])
+        except ParticipantError:
+            return None
 
     @property
-    def why_not(self) -> str:
+    def reason(self) -> str:
         """Return in words why the page is missing."""
         status = self.child.poll()
         if status is None:
-            return f"it names no address within {LIMIT_S:.0f} s (its log: {self.child.log})"
-        said = [line.strip() for line in self.child.lines() if line.strip()]
-        if said and status >= 0:
-            return said[-1].removeprefix("up-ground: ").removeprefix("error: ")
+            return f"no address within {LIMIT_S:.0f} s (its log: {self.child.log})"
+        texts = [line.text.strip() for line in self.child.lines() if line.text.strip()]
+        if texts and status >= 0:
+            return texts[-1].removeprefix("up-ground: ").removeprefix("error: ")
         how = f"signal {-status}" if status < 0 else f"status {status}"
-        return f"it ended by itself with {how} (its log: {self.child.log})"
+        return f"it ended unexpectedly with {how} (its log: {self.child.log})"

@@ -14,6 +14,7 @@ from up_simulator.firmware.board import BoardKind, FirmwareBoard
 from up_simulator.firmware.direct_board import DirectBoard
 from up_simulator.firmware.imu_errors import ImuErrors
 from up_simulator.firmware.rig_board import RigBoard
+from up_simulator.harness.user_log import Log, no_log
 
 HOST_LIBRARY = ARDUINO / "build" / "libraspilot.so"
 FIRMWARE = ARDUINO / "build" / "raspilot.elf"
@@ -49,55 +50,55 @@ def choose_board(
     imu_errors: ImuErrors | None = None,
     eeprom: bytes = b"",
     elf: Path | None = None,
-    say: Callable[[str], None] = lambda _text: None,
+    log: Log = no_log,
 ) -> FirmwareBoard:
     """Return a freshly powered board.
 
     ``auto`` is the firmware on the simulated chip if the AVR tools and simavr are installed,
-    otherwise the same sources built for this computer, which ``say`` reports in one sentence.
+    otherwise the same sources built for this computer, which ``log`` reports in one sentence.
     ``elf`` is a built firmware that replaces the project's own. Raises ``BoardUnavailableError``.
     """
     if kind == "direct":
         return DirectBoard(seed=seed, imu_errors=imu_errors)
-    program = aboard("firmware" if elf else kind, say, elf)
+    program = aboard("firmware" if elf else kind, log, elf)
     return program.board(seed=seed, imu_errors=imu_errors, eeprom=eeprom)
 
 
 def aboard(
     kind: BoardKind,
-    say: Callable[[str], None] = lambda _text: None,
+    log: Log = no_log,
     elf: Path | None = None,
 ) -> Program:
     """Return the program for a kind of board, built if need be; raises as ``choose_board``.
 
-    If the build is impossible, an earlier build is used, which ``say`` reports.
+    If the build is impossible, an earlier build is used, which ``log`` reports.
     """
     if kind == "host":
-        return _host_program(say)
+        return _host_program(log)
     try:
         load_library()
-        return Program(elf or _firmware(say), RigBoard)
+        return Program(elf or _firmware(log), RigBoard)
     except BuildError as error:
         raise BoardUnavailableError(f"the firmware does not compile: {_reason(error)}") from error
     except RigUnavailableError as error:
         if kind == "firmware":
             raise BoardUnavailableError(str(error)) from error
-        program = _host_program(say)
-        say(f"the firmware's sources, built for this computer, fly instead: {error}")
+        program = _host_program(log)
+        log(f"the firmware's sources, built for this computer, fly instead: {error}")
         return program
 
 
-def _firmware(say: Callable[[str], None]) -> Path:
+def _firmware(log: Log) -> Path:
     try:
         return build_firmware()
     except RigUnavailableError as error:
         if not _is_ready(FIRMWARE):
             raise
-        say(f"the firmware {_NOT_REBUILT}: {error}")
+        log(f"the firmware {_NOT_REBUILT}: {error}")
         return FIRMWARE
 
 
-def _host_program(say: Callable[[str], None]) -> Program:
+def _host_program(log: Log) -> Program:
     try:
         make("host-library")
     except (RigUnavailableError, BuildError) as error:
@@ -109,7 +110,7 @@ def _host_program(say: Callable[[str], None]) -> Program:
         reason = reason[0].lower() + reason[1:]
         if not _is_ready(HOST_LIBRARY):
             raise BoardUnavailableError(reason) from error
-        say(f"the firmware for this computer {_NOT_REBUILT}: {reason}")
+        log(f"the firmware for this computer {_NOT_REBUILT}: {reason}")
     module = importlib.import_module("up_simulator.firmware.host_board")
     return Program(HOST_LIBRARY, module.HostBoard)
 

@@ -9,8 +9,7 @@ from up_rig.imu import Motion
 from up_rig.pins import CHANNELS, SERVOS
 from up_rig.receiver import NEUTRAL_US as RECEIVER_NEUTRAL_US
 from up_simulator.firmware.board import NEUTRAL_US, Channel, Pulses, ResetCause
-from up_simulator.firmware.board_imu import BoardImu
-from up_simulator.firmware.imu_errors import ImuErrors
+from up_simulator.firmware.imu_errors import BoardImu, ImuErrors
 
 FRAME_US = 20_000.0
 GAP_US = 10.0

@@ -8,7 +8,7 @@ from pathlib import Path
 from up_rig.library import library_path
 
 
-def kept_path(folder: str, name: str) -> Path:
+def cache_path(folder: str, name: str) -> Path:
     """Return where a file of this name is kept; it need not exist."""
     return library_path().parent / folder / name
 

@@ -7,7 +7,7 @@ from collections import Counter
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from up_simulator.firmware.wire import LONGEST_ENCODED, Command, checked_frame, open_frame
+from up_simulator.firmware.wire import MAX_ENCODED, Command, checked_frame, open_frame
 
 SIZES = {
     "r": 8, "i": 13, "O": 26, "x": 20, "K": 2, "!": 3, "m": 1, "T": 48, "G": 72, "C": 54,
@@ -62,7 +62,7 @@ class BoardStatus:
         return bool(self.flags & 16)
 
     @property
-    def has_heard(self) -> bool:
+    def is_linked(self) -> bool:
         """Return whether the board received from the Raspberry Pi within a second."""
         return bool(self.flags & 128)
 
@@ -93,7 +93,7 @@ class Inputs:
     validity: int
 
 
-class BoardTap:
+class LineMonitor:
     """Decodes the bytes that a board sends; each datum has the time at which it was complete.
 
     A datum that no longer arrives keeps its last value, and its ``_s`` shows the age. ``counts``
@@ -144,7 +144,7 @@ class BoardTap:
     def _messages(self, data: bytes) -> Iterator[Command]:
         *frames, self._buffer = (self._buffer + data).split(b"\0")
         # An overlong frame is counted when it ends; its length need not be kept.
-        self._buffer = self._buffer[: LONGEST_ENCODED + 1]
+        self._buffer = self._buffer[: MAX_ENCODED + 1]
         for encoded in frames:
             if not encoded:
                 continue

@@ -7,7 +7,7 @@ import struct
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-GREATEST_GAIN = 50.0
+MAX_GAIN = 50.0
 PROFILE = struct.Struct(">" + "BhHH" * 4 + "BB" + "3s" + "hhh" + "hh" + "HH" + "HHH" + "B")
 """The fields of a profile (protocols 2.6)."""
 MODES = {"ACRO": "a", "RATE": "r", "FBW": "f", "AUTO": "A"}
@@ -89,8 +89,8 @@ def gains_bytes(settings: Mapping[str, Any], held: bytes) -> bytes:
             raise SettingsError(f"there is no gain {key}")
         at = 9 * _LOOPS.index(loop) + 3 * _AXES.index(axis) + _TERMS.index(term)
         values[at] = _number(key, value)
-    if not all(math.isfinite(each) and 0.0 <= each <= GREATEST_GAIN for each in values):
-        raise SettingsError(f"a gain is not within 0 to {GREATEST_GAIN:g}")
+    if not all(math.isfinite(each) and 0.0 <= each <= MAX_GAIN for each in values):
+        raise SettingsError(f"a gain is not within 0 to {MAX_GAIN:g}")
     return _GAINS.pack(*values)
 
 

@@ -8,9 +8,9 @@ from dataclasses import dataclass
 from up.protocols import cobs
 from up.protocols.crc16 import crc16
 
-LONGEST_PAYLOAD = 96
-LONGEST_ENCODED = 101
-UNFINISHED_S = 0.1
+MAX_PAYLOAD = 96
+MAX_ENCODED = 101
+FRAME_TIMEOUT_S = 0.1
 
 COMMAND_SIZES = {
     "s": 0, "a": 0, "d": 0, "M": 1, "m": 0, "p": 3, "t": 48, "T": 0, "g": 72, "G": 0, "h": 2,
@@ -44,7 +44,7 @@ def cobs_decode(encoded: bytes) -> bytes | None:
 
 def open_frame(encoded: bytes) -> bytes | None:
     """Return sequence, type and payload of a frame without its end mark; None for a bad one."""
-    frame = cobs_decode(encoded) if len(encoded) <= LONGEST_ENCODED else None
+    frame = cobs_decode(encoded) if len(encoded) <= MAX_ENCODED else None
     if frame is None or len(frame) < 4 or crc16(frame):
         return None
     return frame[:-2]
@@ -65,7 +65,7 @@ class CheckedReader:
             if byte:
                 if not self._buffer:
                     self._first_s = now_s
-                if len(self._buffer) <= LONGEST_ENCODED:
+                if len(self._buffer) <= MAX_ENCODED:
                     self._buffer.append(byte)
             elif self._buffer:
                 found = _command_of(bytes(self._buffer))
@@ -77,7 +77,7 @@ class CheckedReader:
 
     def expire(self, now_s: float) -> None:
         """Drop a frame that is unfinished 100 ms after its first byte."""
-        if self._buffer and now_s - self._first_s >= UNFINISHED_S:
+        if self._buffer and now_s - self._first_s >= FRAME_TIMEOUT_S:
             self._buffer.clear()
             self.dropped += 1
 

@@ -5,16 +5,16 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from up_simulator.aircraft import Start
+from up_simulator.aircraft.flight import Clock, FlightSource
 from up_simulator.firmware.board import FirmwareBoard
-from up_simulator.harness.clock import Clock
-from up_simulator.harness.flight_source import Aloft
 from up_simulator.harness.real_time import RealTimeWorld, SerialLine
+from up_simulator.harness.user_log import Log
 from up_simulator.harness.world import World
-from up_simulator.radio.choice import is_armed_at_first
+from up_simulator.radio.choice import is_initially_armed
 from up_simulator.radio.sticks import Radio
 
-LIES_S = 3.0
-BATTERY_LEAST_PERCENT = 12.0
+RELAUNCH_DELAY_S = 3.0
+MIN_BATTERY_PERCENT = 12.0
 BATTERY_PERIOD_S = 1.0
 
 
@@ -23,48 +23,49 @@ class FirmwareAircraft:
 
     A crash is reported, and 3 s later the aircraft is in the air again with a freshly powered
     board. A nearly empty battery is replaced in flight, with a report: it would end every long
-    session. ``who`` returns the mode and the owner of the sticks for the crash report. ``say``
-    takes one line for the user. Raises ``BoardCrashedError``.
+    session. ``describe_pilot`` returns the mode and the owner of the sticks for the crash report.
+    Raises ``BoardCrashedError``.
     """
 
     def __init__(
         self,
-        flight: Aloft,
+        flight: FlightSource,
         board: FirmwareBoard,
         line: SerialLine,
         radio: Radio,
         clock: Clock,
         radio_name: str,
-        say: Callable[[str], None],
-        who: Callable[[], str] = lambda: "",
+        log: Log,
+        describe_pilot: Callable[[], str] = lambda: "",
     ) -> None:
         self._flight = flight
         self._clock = clock
-        self._say = say
-        self._arms = is_armed_at_first(radio_name)
+        self._log = log
+        self._arms = is_initially_armed(radio_name)
         self._crashed_s: float | None = None
         self._battery_s = 0.0
-        self._who = who
-        self._why = ""
+        self._describe_pilot = describe_pilot
+        self._cause = ""
         world = World(flight, board)
         world.boot(arms=self._arms)
-        self.real_time = RealTimeWorld(world, line, radio, clock, say)
+        self.real_time = RealTimeWorld(world, line, radio, clock, log)
 
-    def keep(self) -> None:
+    def advance(self) -> None:
         """Fly until now. Raises ``BoardCrashedError``."""
-        self.real_time.keep()
+        self.real_time.advance()
         if self._flight.crash is None:
             self._watch_battery()
             return
         now_s = self._clock.seconds()
         if self._crashed_s is None:
             self._crashed_s = now_s
-            self._why = f" ({self._who()})" if self._who() else ""
-            self._say(f"{self._flight.crash}{self._why}; in {LIES_S:.0f} s it flies again")
-        elif now_s - self._crashed_s >= LIES_S:
+            self._cause = f" ({self._describe_pilot()})" if self._describe_pilot() else ""
+            text = f"{self._flight.crash}{self._cause}; relaunch in {RELAUNCH_DELAY_S:.0f} s"
+            self._log(text, code="crashed", crash=self._flight.crash)
+        elif now_s - self._crashed_s >= RELAUNCH_DELAY_S:
             self._crashed_s = None
-            self.real_time.begin_again(self._launch)
-            self._say(f"launched again in the air, after the crash{self._why}")
+            self.real_time.relaunch(self._launch)
+            self._log(f"relaunched in the air after the crash{self._cause}", code="relaunched")
 
     def _watch_battery(self) -> None:
         # Reading the whole state costs more than a step of the flight.
@@ -72,10 +73,11 @@ class FirmwareAircraft:
             return
         self._battery_s = self.real_time.world.time_s + BATTERY_PERIOD_S
         state = self._flight.state
-        if state.battery_percent < BATTERY_LEAST_PERCENT:
+        if state.battery_percent < MIN_BATTERY_PERCENT:
             self._flight.change_battery()
             minutes = self.real_time.world.time_s / 60
-            self._say(f"the battery is empty after {minutes:.0f} min: changed in flight")
+            text = f"the battery is empty after {minutes:.0f} min: changed in flight"
+            self._log(text, code="battery_changed")
 
     def _launch(self, world: World) -> None:
         self._flight.launch(Start())

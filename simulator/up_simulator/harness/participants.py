@@ -18,7 +18,7 @@ class Raspilot(Protocol):
         """Return the newest lines that it logged, the oldest first."""
 
     def start(self) -> None:
-        """Start it, or start it again; raises CrewError with the daemon's own sentences."""
+        """Start it, or start it again; raises ParticipantError with the daemon's own sentences."""
 
     def stop(self) -> None:
         """Send it the signal to end, as a service manager does; ``is_running`` has the result."""
@@ -79,5 +79,5 @@ class Phone(Protocol):
         """Pull the cable: nothing passes, and neither side is notified."""
 
 
-class CrewError(Exception):
+class ParticipantError(Exception):
     """A member of the crew cannot begin or has died: the text is for the user, by lines."""

@@ -1,19 +1,20 @@
-"""Keeps a world in step with the clock on the wall, with a pty for its serial line."""
+"""Flights in real time, and a world with a pty for its serial line."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from typing import Protocol
 
-from up_simulator.harness.clock import Clock
+from up_simulator.aircraft.flight import Clock, FlightSource
+from up_simulator.harness.user_log import Log, no_log
 from up_simulator.harness.world import BYTES_A_STEP, STEP_S, World
 from up_simulator.radio.sticks import Radio, Sticks, Transmitter
 
-LATEST_S = 0.25
-SAY_AGAIN_S = 5.0
+MAX_LATE_S = 0.25
+REPORT_PERIOD_S = 5.0
 STICK_STEPS = 10
 """A receiver sends a frame every 20 ms: reading the sticks more often has no effect."""
-STEPS_MOST = 25
+MAX_STEPS = 25
 """Steps at a time: a world that has to catch up leaves the sockets their turn."""
 
 
@@ -27,48 +28,81 @@ class SerialLine(Protocol):
         """Send bytes, or drop them without a reader."""
 
 
-class RealTimeWorld:
-    """Flies a world in step with a clock, never ahead of it.
+class RealTime:
+    """Keeps a flight in step with a monotonic clock, never ahead of it.
 
-    A delay beyond 250 ms is skipped instead of flown in a burst: it is added to ``skipped_s`` and
-    reported at most every 5 s. Each step passes the serial line's bytes, every tenth moves the
-    sticks, then ``watchers`` are called. ``clock`` is monotonic; ``say`` takes one line for the
-    user.
+    A delay beyond 250 ms is skipped instead of flown in a burst, which would make the next call
+    late as well: it is added to ``skipped_s`` and reported at most every 5 s.
+    """
+
+    def __init__(self, clock: Clock, log: Log = no_log, flown_s: float = 0.0) -> None:
+        self.skipped_s = 0.0
+        self._clock = clock
+        self._log = log
+        self._reported_s = -REPORT_PERIOD_S
+        self.restart(flown_s)
+
+    def restart(self, flown_s: float) -> None:
+        """Continue from this time of the flight; the time since the last call is not a delay."""
+        self._start_s = self._clock.seconds() - flown_s - self.skipped_s
+
+    def late_s(self, flown_s: float) -> float:
+        """Return how far a flight of this duration is behind the clock."""
+        return self._clock.seconds() - self._start_s - self.skipped_s - flown_s
+
+    def skip(self, flown_s: float) -> float:
+        """Skip the delay beyond the limit, and return the remaining one."""
+        late_s = self.late_s(flown_s)
+        if late_s <= MAX_LATE_S:
+            return late_s
+        self.skipped_s += late_s - MAX_LATE_S
+        now_s = self._clock.seconds()
+        if now_s - self._reported_s >= REPORT_PERIOD_S:
+            self._reported_s = now_s
+            text = f"late by {late_s:.2f} s: the missed time is skipped, not flown"
+            self._log(text, code="late", late_s=round(late_s, 2))
+        return MAX_LATE_S
+
+
+class RealTimeFlight:
+    """A flight without a board in real time."""
+
+    def __init__(self, flight: FlightSource, clock: Clock, log: Log) -> None:
+        self.time = RealTime(clock, log)
+        self._flight = flight
+        self._flown_s = 0.0
+
+    def advance(self) -> None:
+        """Fly until now."""
+        late_s = self.time.skip(self._flown_s)
+        self._flown_s += late_s
+        self._flight.advance(late_s)
+
+
+class RealTimeWorld:
+    """A world in real time.
+
+    Each step passes the serial line's bytes, every tenth moves the sticks, then ``watchers`` are
+    called; ``on_sent`` gets the bytes that the board sends.
     """
 
     def __init__(
-        self,
-        world: World,
-        line: SerialLine,
-        radio: Radio,
-        clock: Clock,
-        say: Callable[[str], None] = lambda _text: None,
+        self, world: World, line: SerialLine, radio: Radio, clock: Clock, log: Log = no_log
     ) -> None:
         self.world = world
-        self.skipped_s = 0.0
         self.radio = radio
         self.watchers: list[Callable[[], None]] = []
-        self.heard: Callable[[bytes], None] | None = None
+        self.on_sent: Callable[[bytes], None] | None = None
+        self.time = RealTime(clock, log, world.time_s)
         self._line = line
-        self._clock = clock
-        self._say = say
-        self._said_s = -SAY_AGAIN_S
         self._steps = 0
         self._transmitter = Transmitter(world.board)
-        self._start_s = clock.seconds() - world.time_s
 
-    @property
-    def late_s(self) -> float:
-        """Return how far the world is behind the clock."""
-        return self._clock.seconds() - self._start_s - self.skipped_s - self.world.time_s
-
-    def keep(self) -> None:
+    def advance(self) -> None:
         """Fly until now, or for a bounded number of steps. Raises ``BoardCrashedError``."""
-        late_s = self.late_s
-        if late_s > LATEST_S:
-            self._skip(late_s)
-        for _ in range(STEPS_MOST):
-            if self.late_s < STEP_S - 1e-9:
+        self.time.skip(self.world.time_s)
+        for _ in range(MAX_STEPS):
+            if self.time.late_s(self.world.time_s) < STEP_S - 1e-9:
                 return
             self.step()
 
@@ -85,12 +119,12 @@ class RealTimeWorld:
         sent = world.board.read()
         if sent:
             self._line.write(sent)
-            if self.heard is not None:
-                self.heard(sent)
+            if self.on_sent is not None:
+                self.on_sent(sent)
         for watch in self.watchers:
             watch()
 
-    def begin_again(self, boot: Callable[[World], None]) -> None:
+    def relaunch(self, boot: Callable[[World], None]) -> None:
         """Let ``boot`` put the aircraft back into the air; its duration does not count as delay.
 
         Before it the sticks are in the positions for power-on.
@@ -99,11 +133,4 @@ class RealTimeWorld:
         boot(self.world)
         # Booting may have moved the switches.
         self._transmitter = Transmitter(self.world.board)
-        self._start_s = self._clock.seconds() - self.world.time_s - self.skipped_s
-
-    def _skip(self, late_s: float) -> None:
-        self.skipped_s += late_s - LATEST_S
-        now_s = self._clock.seconds()
-        if now_s - self._said_s >= SAY_AGAIN_S:
-            self._said_s = now_s
-            self._say(f"late by {late_s:.2f} s: the missed time is skipped, not flown")
+        self.time.restart(self.world.time_s)

@@ -9,19 +9,25 @@ from contextlib import contextmanager, suppress
 from types import FrameType
 
 SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
-AGAIN_S = 1.0
-FIRST_STATUS = 128
+SAME_SIGNAL_S = 1.0
+STATUS_OFFSET = 128
 Handler = Callable[[int, FrameType | None], object]
 
 
-class Ending:
+def handle(number: int, handler: Handler) -> None:
+    """Handle a signal, unless it is ignored, as after ``nohup``."""
+    if signal.getsignal(number) != signal.SIG_IGN:
+        signal.signal(number, handler)
+
+
+class FirstSignal:
     """The first signal received."""
 
     def __init__(self) -> None:
         self._number: int | None = None
-        self._heard_s = 0.0
+        self._received_s = 0.0
 
-    def hear(self, number: int, _frame: object) -> None:
+    def receive(self, number: int, _frame: object) -> None:
         """Raise KeyboardInterrupt.
 
         Signals within a second count as one: a terminal that closes sends two, from the kernel
@@ -30,68 +36,67 @@ class Ending:
         now_s = time.monotonic()
         if self._number is None:
             self._number = number
-        elif now_s - self._heard_s < AGAIN_S:
+        elif now_s - self._received_s < SAME_SIGNAL_S:
             return
-        self._heard_s = now_s
+        self._received_s = now_s
         raise KeyboardInterrupt
 
     def status(self, status: int) -> int:
         """Return the exit status: 128 plus the signal, as in a shell, after a signal."""
-        return status if self._number is None or status == 0 else FIRST_STATUS + self._number
+        return status if self._number is None or status == 0 else STATUS_OFFSET + self._number
 
 
 @contextmanager
-def ending_in_order() -> Iterator[Ending]:
+def orderly_exit() -> Iterator[FirstSignal]:
     """Make each of the signals raise KeyboardInterrupt, except ignored ones (``nohup``)."""
-    ending = Ending()
+    first = FirstSignal()
     before = {number: signal.getsignal(number) for number in SIGNALS}
-    for number, handler in before.items():
-        if handler != signal.SIG_IGN:
-            signal.signal(number, ending.hear)
+    for number in SIGNALS:
+        handle(number, first.receive)
     try:
-        yield ending
+        yield first
     finally:
         for number, handler in before.items():
             signal.signal(number, handler)
 
 
-class Interrupt:
+class PendingInterrupt:
     """Whether a signal has requested the end."""
 
     def __init__(self) -> None:
-        self.is_asked = False
+        self.is_requested = False
 
-    def look(self) -> None:
-        """Raise KeyboardInterrupt here when it was."""
-        if self.is_asked:
+    def check(self) -> None:
+        """Raise KeyboardInterrupt if so."""
+        if self.is_requested:
             raise KeyboardInterrupt
 
 
 @contextmanager
-def ending_between_steps() -> Iterator[Interrupt]:
+def interrupts_between_steps() -> Iterator[PendingInterrupt]:
     """Record the signals, to be checked between steps; a second Ctrl-C ends in any place.
 
     A KeyboardInterrupt from Python could arise inside a call from C, which would swallow it.
     Signals without a handler are left alone.
     """
-    interrupt = Interrupt()
+    interrupt = PendingInterrupt()
     before: dict[int, Handler] = {}
 
-    def note(number: int, frame: FrameType | None) -> None:
-        is_second, interrupt.is_asked = interrupt.is_asked, True
+    def record(number: int, frame: FrameType | None) -> None:
+        is_second, interrupt.is_requested = interrupt.is_requested, True
         with suppress(KeyboardInterrupt):
             before[number](number, frame)
             return
         if is_second and number == signal.SIGINT:
             raise KeyboardInterrupt
 
-    for number in SIGNALS:
-        handler = signal.getsignal(number)
+    for each in SIGNALS:
+        handler = signal.getsignal(each)
         if callable(handler):
-            before[number] = handler
-            signal.signal(number, note)
+            before[each] = handler
+            signal.signal(each, record)
     try:
         yield interrupt
     finally:
-        for heard, handler in before.items():
-            signal.signal(heard, handler)
+        for number, handler in before.items():
+            signal.signal(number, handler)

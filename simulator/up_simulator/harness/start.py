@@ -5,12 +5,11 @@ from __future__ import annotations
 import signal
 import sys
 import time
-from collections.abc import Callable
-from contextlib import suppress
 from typing import Any
 
 from twisted.internet.defer import Deferred
 
+from up.cli.option_parser import WRONG_INPUT
 from up.system.pid_file import service
 from up_rig.pty_line import PtyLineError
 from up_simulator.aircraft import AirframeError
@@ -18,9 +17,10 @@ from up_simulator.aircraft.flight import FlightUnavailableError
 from up_simulator.firmware.board import BoardCrashedError
 from up_simulator.firmware.build import BoardUnavailableError
 from up_simulator.firmware.preparation import PreparationError
-from up_simulator.harness.option_parser import WRONG_INPUT
-from up_simulator.harness.participants import CrewError
+from up_simulator.harness.participants import ParticipantError
+from up_simulator.harness.signal_handling import handle
 from up_simulator.harness.start_options import read_options
+from up_simulator.harness.user_log import print_line
 from up_simulator.harness.virtual_aircraft import VirtualAircraft
 from up_simulator.link.relay import LinkRelayError
 from up_simulator.radio.sticks import RadioError
@@ -29,7 +29,7 @@ FOR_THE_USER = (
     AirframeError,
     BoardCrashedError,
     BoardUnavailableError,
-    CrewError,
+    ParticipantError,
     FlightUnavailableError,
     LinkRelayError,
     OSError,
@@ -54,18 +54,18 @@ def main(arguments: list[str] | None = None) -> int:
         failures.append(failure)
         reactor.stop()
 
-    _hear(signal.SIGTERM, _end_early)
-    _hear(signal.SIGHUP, _end_early)
+    handle(signal.SIGTERM, _end_early)
+    handle(signal.SIGHUP, _end_early)
     # The reactor takes Ctrl-C over from Python's own handler, and from no other.
-    _hear(signal.SIGINT, signal.default_int_handler)
+    handle(signal.SIGINT, signal.default_int_handler)
     try:
         aircraft = VirtualAircraft(
-            reactor, options, say, lambda: reactor.callLater(0, reactor.stop)
+            reactor, options, print_line, lambda: reactor.callLater(0, reactor.stop)
         )
     except FOR_THE_USER as error:
         sys.stderr.write(f"up-sim: {error}\n")
         return WRONG_INPUT if isinstance(error, AirframeError) else 1
-    reactor.callWhenRunning(_hear_hangup, reactor)
+    reactor.callWhenRunning(_end_on_hangup, reactor)
     reactor.callWhenRunning(aircraft.start, fail)
     reactor.addSystemEventTrigger(
         "before", "shutdown", lambda: Deferred.fromCoroutine(aircraft.stop())
@@ -79,28 +79,15 @@ def main(arguments: list[str] | None = None) -> int:
     return 1 if failures else 0
 
 
-def _hear(number: int, handler: Callable[[int, Any], object]) -> None:
-    """Handle a signal, unless it is ignored, as after ``nohup``."""
-    if signal.getsignal(number) != signal.SIG_IGN:
-        signal.signal(number, handler)
-
-
 def _end_early(_number: int, _frame: object) -> None:
     """End during the construction, and release what exists so far."""
     raise SystemExit(0)
 
 
-def _hear_hangup(reactor: Any) -> None:
+def _end_on_hangup(reactor: Any) -> None:
     """End as for SIGTERM when the terminal is closed, so that the link to the pty goes, too."""
 
     def end(_number: int, _frame: object) -> None:
         reactor.callFromThread(reactor.stop)
 
-    _hear(signal.SIGHUP, end)
-
-
-def say(text: str) -> None:
-    """Write one line for the user; a closed standard output ends no flight."""
-    with suppress(BrokenPipeError):
-        sys.stdout.write(f"{text}\n")
-        sys.stdout.flush()
+    handle(signal.SIGHUP, end)

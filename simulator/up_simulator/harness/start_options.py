@@ -7,11 +7,11 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import TypeVar
 
+from up.cli.option_parser import OptionParser
 from up_rig.sticks import StickMove, SticksError, read_sticks
-from up_simulator.harness.option_parser import OptionParser
 from up_simulator.harness.uplink import UplinkError, read_link
 from up_simulator.link.model import LinkSettings
-from up_simulator.phone.choice import KINDS
+from up_simulator.phone.java_program import KINDS
 from up_simulator.radio.axis_map import AxisMap, read_axis_map
 from up_simulator.radio.sticks import RadioError
 
@@ -71,8 +71,6 @@ def read_options(arguments: list[str] | None = None) -> argparse.Namespace:
         prog="up-sim start",
         description=DESCRIPTION,
         epilog=EPILOG,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-        allow_abbrev=False,
     )
     _add_flight(parser.add_argument_group("flight"))
     _add_board(parser.add_argument_group("board"))

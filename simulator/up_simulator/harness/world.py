@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 import math
-from typing import Protocol
 
 from up_rig.imu import Motion, motion_at
-from up_simulator.aircraft.flight import FlightState
+from up_simulator.aircraft.flight import Dynamics, FlightState
 from up_simulator.firmware.board import FirmwareBoard, Pulses
 
 STEP_S = 0.002
@@ -17,28 +16,6 @@ STILL_S = 2.0
 TILT_S = 1.0
 SETTLE_S = 0.5
 THROTTLE, THROTTLE_LOW_US, THROTTLE_RANGE_US = 2, 1000.0, 1000.0
-
-
-class Dynamics(Protocol):
-    """The flight: the servos move it, and it feeds the IMU aboard."""
-
-    @property
-    def state(self) -> FlightState:
-        """Return the newest state."""
-
-    @property
-    def motion(self) -> Motion:
-        """Return the present motion for the IMU."""
-
-    @property
-    def crash(self) -> str | None:
-        """Return the cause of the flight's end; after it the aircraft lies still."""
-
-    def set_servos(self, pulses_us: Pulses) -> None:
-        """Command the servos to these pulses."""
-
-    def advance(self, duration_s: float) -> None:
-        """Fly on."""
 
 
 class World:

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from twisted.internet.defer import Deferred
 
-from up_simulator.aircraft.flight import Flight
+from up_simulator.aircraft.flight import FlightSource
+from up_simulator.harness.user_log import text_log
 from up_simulator.in_process.network import ADDRESS
 from up_simulator.in_process.reactor import SimulatedReactor
 from up_simulator.link.model import LinkModel, LinkSettings
@@ -29,7 +30,7 @@ class InProcessPhone:
     def __init__(
         self,
         reactor: SimulatedReactor,
-        flight: Flight,
+        flight: FlightSource,
         *,
         orientation: OrientationBy = "tcp",
         seed: int = 1,
@@ -47,7 +48,7 @@ class InProcessPhone:
             reactor.link(port, self.up, self.down)
         self._host = reactor.host("phone")
         self.handset = PythonHandset(
-            self._host, flight, self.find, orientation, self._say, seed=seed
+            self._host, flight, self.find, orientation, text_log(self._say), seed=seed
         )
         self.sensors = self.handset.sensors
         self._is_started = False

@@ -32,7 +32,7 @@ from up.protocols.serial_port import SerialPortError
 from up.up import Up
 from up.up_loader import UpLoader
 from up_simulator.firmware.board import FirmwareBoard
-from up_simulator.harness.participants import CrewError
+from up_simulator.harness.participants import ParticipantError
 from up_simulator.harness.world import BYTES_A_STEP
 from up_simulator.in_process.host import SimulatedHost
 from up_simulator.in_process.reactor import SimulatedReactor
@@ -146,9 +146,9 @@ class InProcessRaspilot:
         return {} if self.up is None else dict(self.up.ports)
 
     def start(self) -> None:
-        """Begin to boot; raises CrewError with every sentence that the program would print."""
+        """Begin to boot; raises ParticipantError with every error of the program."""
         if self.is_running:
-            raise CrewError("Raspilot runs already")
+            raise ParticipantError("Raspilot runs already")
         host = self._reactor.host("raspilot")
         application = None
         try:
@@ -170,7 +170,7 @@ class InProcessRaspilot:
                 context = make_context(application, host, self._config_folder, words)
                 problems += check_application(application, context).problems
             host.cut_off()
-            raise CrewError("\n".join(dict.fromkeys(problems))) from error
+            raise ParticipantError("\n".join(dict.fromkeys(problems))) from error
         self.boots += 1
         self._host, self.up, self._is_stopping = host, up, False
         self._beacons.append(up.beacons)

@@ -17,7 +17,7 @@ from up.system.addresses import is_private
 
 ANSWER_S = 1.5
 SPAWN_S = 20.0
-LONGEST_ANSWER = 65536
+MAX_ANSWER = 65536
 QUESTION = b"Where is Raspilot?"
 
 
@@ -147,7 +147,7 @@ class _Request(LineOnlyReceiver):
     """One request to a runner and its answer of one line."""
 
     delimiter = b"\n"
-    MAX_LENGTH = LONGEST_ANSWER
+    MAX_LENGTH = MAX_ANSWER
 
     def __init__(self) -> None:
         self.answer: Deferred[bytes] = Deferred()

@@ -4,9 +4,7 @@ from __future__ import annotations
 
 import json
 import os
-import select
 import signal
-import time
 from collections.abc import Mapping
 from typing import Any
 
@@ -14,34 +12,30 @@ from up_simulator.harness.child import Child
 from up_simulator.phone.java_program import JavaProgram
 from up_simulator.scenario.workspace import Workspace
 
-ANSWER_S = 30.0
-"""Limit of a step, for a very busy machine."""
 END_S = 2.0
-CHUNK = 65_536
-MOST_UNREAD = 1 << 20
+MAX_READ = 65_536
+MAX_UNREAD = 1 << 20
 
 
 class JavaPhoneProcess:
     """One JVM, started by the constructor, ended with us; its error output goes to a folder.
 
-    ``ask`` and ``answer`` are for one that answers every line, ``say`` and ``hear`` for one that
-    runs freely. Once it has ended, all of them do nothing, and ``last_words`` has the reason.
+    Once it has ended, ``send`` and ``receive`` do nothing, and ``exit_reason`` has the reason.
     """
 
     def __init__(self, program: JavaProgram, *options: str) -> None:
         self._workspace = Workspace()
         command = program.command(*options)
         folder = self._workspace.path
-        self._child = Child("phone", command, folder, talks=True, wish=signal.SIGKILL)
+        self._child = Child("phone", command, folder, is_piped=True, death_signal=signal.SIGKILL)
         self._unread = b""
         self._unwritten = b""
-        self._is_heard = True
+        self._is_open = True
         self._is_ended = False
-        self.last_words = ""
+        self.exit_reason = ""
         self.dropped = 0
+        os.set_blocking(self._child.input.fileno(), False)
         os.set_blocking(self._child.output.fileno(), False)
-        self._poll = select.poll()
-        self._poll.register(self._child.output.fileno(), select.POLLIN)
 
     @property
     def pid(self) -> int:
@@ -50,53 +44,24 @@ class JavaPhoneProcess:
 
     @property
     def is_running(self) -> bool:
-        """Return whether it can still be spoken with."""
-        return self._is_heard
+        """Return whether it still runs, as far as this end knows."""
+        return self._is_open
 
-    def step(self, line: Mapping[str, Any]) -> tuple[list[dict[str, Any]], dict[str, Any]]:
-        """Send a line and wait for its answer."""
-        self.ask(line)
-        return self.answer()
-
-    def ask(self, line: Mapping[str, Any]) -> None:
-        """Send a line; its answer must be taken before the next one."""
-        if self._is_heard:
-            self._write(line)
-
-    def answer(self) -> tuple[list[dict[str, Any]], dict[str, Any]]:
-        """Wait for the answer to a line: the events before it, and the answer itself.
-
-        An empty answer: it has ended.
-        """
-        deadline_s = time.monotonic() + ANSWER_S
-        events: list[dict[str, Any]] = []
-        while self._is_heard:
-            left_s = deadline_s - time.monotonic()
-            if left_s <= 0 or not self._poll.poll(left_s * 1000):
-                self._give_up(f"it has not answered for {ANSWER_S:g} s")
-                break
-            for found in self._read_lines():
-                if "due" in found:
-                    return events, found
-                events.append(found)
-        return events, {}
-
-    def say(self, line: Mapping[str, Any]) -> None:
+    def send(self, line: Mapping[str, Any]) -> None:
         """Send a line; one that the JVM does not take now is dropped and counted.
 
         A line partly sent is never dropped: its rest goes before the next.
         """
-        if self._is_heard:
-            os.set_blocking(self._child.input.fileno(), False)
+        if self._is_open:
             self._write(line)
 
-    def hear(self) -> list[dict[str, Any]]:
+    def receive(self) -> list[dict[str, Any]]:
         """Return the events since the last call."""
-        return list(self._read_lines()) if self._is_heard else []
+        return list(self._read_lines()) if self._is_open else []
 
     def end(self) -> None:
         """End it by closing its input."""
-        self._is_heard = False
+        self._is_open = False
         if self._is_ended:
             return
         self._is_ended = True
@@ -138,24 +103,24 @@ class JavaPhoneProcess:
 
     def _read_lines(self) -> list[dict[str, Any]]:
         try:
-            data = os.read(self._child.output.fileno(), CHUNK)
+            data = os.read(self._child.output.fileno(), MAX_READ)
         except BlockingIOError:
             data = None
         if data == b"":
-            self._note_end()
+            self._on_end()
         *lines, self._unread = (self._unread + (data or b"")).split(b"\n")
-        if len(self._unread) > MOST_UNREAD:
-            self._give_up("it says a line without an end")
+        if len(self._unread) > MAX_UNREAD:
+            self._give_up(f"a line of more than {MAX_UNREAD} bytes")
         return [_read(line) for line in lines]
 
-    def _note_end(self) -> None:
-        self._is_heard = False
-        self.last_words = self._child.last_words(self._child.wait(END_S))
+    def _on_end(self) -> None:
+        self._is_open = False
+        self.exit_reason = self._child.exit_report(self._child.wait(END_S))
 
     def _give_up(self, why: str) -> None:
         self._child.signal(signal.SIGKILL)
-        self._note_end()
-        self.last_words = f"the phone's JVM was ended: {why}"
+        self._on_end()
+        self.exit_reason = f"the phone's JVM was killed: {why}"
 
 
 def _read(line: bytes) -> dict[str, Any]:

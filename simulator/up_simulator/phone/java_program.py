@@ -1,4 +1,4 @@
-"""Finds the Java phone: a JVM and the jars, built from their sources where a JDK is."""
+"""Chooses the phone aboard; finds the Java one, built from its sources where a JDK is."""
 
 from __future__ import annotations
 
@@ -7,15 +7,19 @@ import fcntl
 import shutil
 import subprocess
 import zipfile
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Literal
+
+from up_simulator.harness.participants import ParticipantError
+from up_simulator.harness.user_log import Log, no_log
 
 ANDROID = Path(__file__).resolve().parents[3] / "android"
 JARS = ("up-core.jar", "virtual-phone.jar")
 SOURCES = ("core/src", "virtual/src")
 MAIN = "org.raspilot.up.virtual_phone.VirtualPhone"
-LONGEST_S = 300.0
+MAX_BUILD_S = 300.0
 QUICK_START = (
     "-Xshare:auto",
     "-XX:TieredStopAtLevel=1",
@@ -24,12 +28,18 @@ QUICK_START = (
     "-Xms16m",
     "-Xmx64m",
 )
-"""A JVM for a flight of seconds: there in a fifth of a second, with one collector's thread."""
+"""Starts the JVM in a fifth of a second, with one thread of the garbage collector."""
 PACKAGE = "default-jdk-headless"
 
 
+PhoneKind = Literal["auto", "java", "python"]
+KINDS = ("auto", "java", "python")
+IN_JAVA = "the app's own Up Library, on a Java virtual machine"
+IN_PYTHON = "a stub in Python"
+
+
 class JavaUnavailableError(Exception):
-    """The Java phone cannot be had here: the message is one sentence for the user."""
+    """The Java phone is unavailable: the message is one sentence for the user."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,16 +55,14 @@ class JavaProgram:
         return [self.java, *QUICK_START, "-cp", path, main, *options]
 
 
-def find_java_program(
-    say: Callable[[str], None] = lambda _text: None, android: Path = ANDROID
-) -> JavaProgram:
+def find_java_program(log: Log = no_log, android: Path = ANDROID) -> JavaProgram:
     """Return the Java phone, rebuilt if its sources are newer than its jars.
 
-    ``say`` reports in one sentence if outdated jars are used. Raises JavaUnavailableError.
+    ``log`` reports in one sentence if outdated jars are used. Raises JavaUnavailableError.
     """
     java = shutil.which("java")
     if java is None:
-        raise JavaUnavailableError(f"there is no java (Debian package {PACKAGE})")
+        raise JavaUnavailableError(f"java is not installed (Debian package {PACKAGE})")
     jars = tuple(android / "build" / name for name in JARS)
     if not _are_fresh(jars, android):
         try:
@@ -62,8 +70,33 @@ def find_java_program(
         except JavaUnavailableError as error:
             if not all(map(zipfile.is_zipfile, jars)) or not _lacks_tools():
                 raise
-            say(f"the Java phone was built before and is not built anew: {error}")
+            text = f"the Java phone is an earlier build, older than its sources: {error}"
+            log(text, code="phone_outdated")
     return JavaProgram(java, jars)
+
+
+@dataclass(frozen=True, slots=True)
+class PhoneChoice:
+    """The phone aboard; ``title`` names it, and the reason for the choice, to the user."""
+
+    title: str
+    java: JavaProgram | None = None
+
+
+def choose_phone(kind: PhoneKind = "auto", log: Log = no_log) -> PhoneChoice:
+    """Return the phone of that kind; auto is the Java one if it is available.
+
+    ``log`` reports a Java phone older than its sources. Raises ParticipantError if Java is required
+    but not available.
+    """
+    if kind == "python":
+        return PhoneChoice(IN_PYTHON)
+    try:
+        return PhoneChoice(IN_JAVA, find_java_program(log))
+    except JavaUnavailableError as error:
+        if kind == "java":
+            raise ParticipantError(f"the Java phone is unavailable: {error}") from error
+        return PhoneChoice(f"{IN_PYTHON}: {error}")
 
 
 def _are_fresh(jars: Iterable[Path], android: Path) -> bool:
@@ -83,7 +116,7 @@ def _lacks_tools() -> list[str]:
 
 def _build(android: Path) -> None:
     if not (android / "Makefile").is_file():
-        raise JavaUnavailableError(f"the Java phone's sources are not here: there is no {android}")
+        raise JavaUnavailableError(f"the sources of the Java phone are missing: {android}")
     lacking = _lacks_tools()
     if lacking:
         raise JavaUnavailableError(
@@ -99,11 +132,11 @@ def _build(android: Path) -> None:
                 ["make", "-C", str(android), "core", "virtual"],
                 capture_output=True,
                 text=True,
-                timeout=LONGEST_S,
+                timeout=MAX_BUILD_S,
                 check=False,
             )
         except subprocess.TimeoutExpired as error:
-            why = f"building the Java phone needs more than {LONGEST_S:g} s"
+            why = f"building the Java phone takes more than {MAX_BUILD_S:g} s"
             raise JavaUnavailableError(why) from error
         if done.returncode:
             reason = _reason(done.stdout + done.stderr)
@@ -120,15 +153,15 @@ def _lock(build: Path) -> Iterator[None]:
         build.mkdir(exist_ok=True)
         lock = (build / ".lock").open("w")
     except OSError as error:
-        why = f"{build} cannot be written: {error.strerror}"
+        why = f"cannot write {build}: {error.strerror}"
         raise JavaUnavailableError(why) from error
     with lock:
         fcntl.flock(lock, fcntl.LOCK_EX)
         yield
 
 
-def _reason(said: str) -> str:
+def _reason(output: str) -> str:
     """Return the most informative line of make's output: the first error, or the last line."""
-    lines = [line.strip() for line in said.splitlines() if line.strip()]
+    lines = [line.strip() for line in output.splitlines() if line.strip()]
     errors = [line for line in lines if "error:" in line or "needs" in line]
-    return (errors or lines[-1:] or ["make said nothing"])[0]
+    return (errors or lines[-1:] or ["make printed nothing"])[0]

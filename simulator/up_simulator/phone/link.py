@@ -9,14 +9,14 @@ from twisted.application.internet import ClientService
 from twisted.internet.defer import Deferred
 from twisted.internet.endpoints import TCP4ClientEndpoint
 from twisted.internet.error import ConnectError
-from twisted.internet.interfaces import IStreamClientEndpoint
+from twisted.internet.interfaces import IPushProducer, IStreamClientEndpoint
 from twisted.internet.protocol import DatagramProtocol, Factory, Protocol
 from twisted.protocols.basic import LineOnlyReceiver
 from zope.interface import implementer
 
+from up.protocols.line_decoder import LONGEST_LINE
+from up_simulator.harness.user_log import Log
 from up_simulator.phone.address import NotFoundError, RaspberryPi
-from up_simulator.phone.dropping_writer import Valve
-from up_simulator.phone.general_message import LONGEST_LINE
 from up_simulator.phone.phone import Phone
 
 CONNECT_S = 2.0
@@ -24,6 +24,40 @@ FIRST_RETRY_S, LAST_RETRY_S = 0.5, 2.0
 
 Find = Callable[[], Awaitable[RaspberryPi]]
 OrientationBy = Literal["off", "tcp", "udp"]
+
+
+@implementer(IPushProducer)
+class DroppingWriter:
+    """Writes to a TCP transport while it takes more; further data is dropped.
+
+    Without this a peer that does not read would fill the memory. ``dropped`` counts.
+    """
+
+    def __init__(self, transport: Any) -> None:
+        self._transport = transport
+        self._is_open = True
+        self.dropped = 0
+        transport.setTcpNoDelay(True)
+        transport.registerProducer(self, True)
+
+    def write(self, data: bytes) -> None:
+        """Write unless the transport is full."""
+        if self._is_open:
+            self._transport.write(data)
+        else:
+            self.dropped += 1
+
+    def pauseProducing(self) -> None:  # noqa: N802 - Twisted's name
+        """Close."""
+        self._is_open = False
+
+    def resumeProducing(self) -> None:  # noqa: N802 - Twisted's name
+        """Open."""
+        self._is_open = True
+
+    def stopProducing(self) -> None:  # noqa: N802 - Twisted's name
+        """Close permanently."""
+        self._is_open = False
 
 
 class PhoneLink:
@@ -40,13 +74,13 @@ class PhoneLink:
         phone: Phone,
         find: Find,
         orientation: OrientationBy,
-        say: Callable[[str], None],
+        log: Log,
     ) -> None:
         self._reactor = reactor
         self._phone = phone
         self._find = find
-        self._say = say
-        self._said = ""
+        self._log = log
+        self._last_text = ""
         self.live: set[Any] = set()
         self._place: RaspberryPi | None = None
         self._udp: Any = None
@@ -74,11 +108,11 @@ class PhoneLink:
         if self._udp is not None:
             await self._udp.stopListening()
 
-    def say(self, text: str) -> None:
-        """Report a state unless it was the last one reported."""
-        if text != self._said:
-            self._said = text
-            self._say(text)
+    def log(self, text: str, /, *, code: str = "", **fields: Any) -> None:
+        """Log a state unless it was the last one logged."""
+        if text != self._last_text:
+            self._last_text = text
+            self._log(text, code=code, **fields)
 
     async def _find_general(self) -> tuple[str, int]:
         self._place = await self._find()
@@ -86,7 +120,7 @@ class PhoneLink:
 
     async def _find_orientation(self) -> tuple[str, int]:
         if self._place is None:
-            raise NotFoundError("orientation: the Raspberry Pi is not found yet")
+            raise NotFoundError("orientation: no address of the Raspberry Pi yet")
         return self._place.host, self._place.orientation_port
 
     def _send_datagram(self, frame: bytes) -> None:
@@ -99,23 +133,23 @@ class PhoneLink:
         factory: Any = Factory()
         factory.noisy = False
         factory.protocol = build
-        endpoint: Any = _FoundEndpoint(self._reactor, find, self.say)
+        endpoint: Any = _FoundEndpoint(self._reactor, find, self.log)
         return ClientService(endpoint, factory, retryPolicy=_retry_s, clock=self._reactor)
 
 
 @implementer(IStreamClientEndpoint)
 class _FoundEndpoint:
-    """An endpoint whose address is looked for at every attempt."""
+    """An endpoint whose address is looked up at every attempt."""
 
     def __init__(
         self,
         reactor: Any,
         find: Callable[[], Awaitable[tuple[str, int]]],
-        say: Callable[[str], None],
+        log: Log,
     ) -> None:
         self._reactor = reactor
         self._find = find
-        self._say = say
+        self._log = log
 
     def connect(self, factory: Any) -> Deferred[Any]:
         """Find, then connect."""
@@ -125,13 +159,14 @@ class _FoundEndpoint:
         try:
             host, port = await self._find()
         except NotFoundError as error:
-            self._say(f"{error}; trying again")
+            self._log(f"{error}; trying again", code="phone_not_found")
             raise
         endpoint = TCP4ClientEndpoint(self._reactor, host, port, timeout=CONNECT_S)
         try:
             return await endpoint.connect(factory)
         except ConnectError as error:
-            self._say(f"no connection to {host}:{port} ({type(error).__name__}); trying again")
+            text = f"no connection to {host}:{port} ({type(error).__name__}); trying again"
+            self._log(text, code="phone_not_connected", host=host, port=port)
             raise
 
 
@@ -149,9 +184,10 @@ class _GeneralLink(LineOnlyReceiver):
         """Begin to send."""
         transport: Any = self.transport
         peer = transport.getPeer()
-        self._link.say(f"connected to {peer.host}:{peer.port}")
+        text = f"connected to {peer.host}:{peer.port}"
+        self._link.log(text, code="phone_connected", host=peer.host, port=peer.port)
         self._link.live.add(transport)
-        self._phone.connected(Valve(transport).write)
+        self._phone.connected(DroppingWriter(transport).write)
 
     def lineReceived(self, line: bytes) -> None:  # noqa: N802 - Twisted's name
         """Hand a line on."""
@@ -161,7 +197,7 @@ class _GeneralLink(LineOnlyReceiver):
         """Stop sending."""
         self._link.live.discard(self.transport)
         self._phone.disconnected()
-        self._link.say("connection lost")
+        self._link.log("connection lost", code="phone_disconnected")
 
 
 class _OrientationLink(Protocol):
@@ -174,7 +210,7 @@ class _OrientationLink(Protocol):
     def connectionMade(self) -> None:  # noqa: N802 - Twisted's name
         """Begin to send."""
         self._link.live.add(self.transport)
-        self._phone.send_orientation = Valve(self.transport).write
+        self._phone.send_orientation = DroppingWriter(self.transport).write
 
     def connectionLost(self, reason: Any = None) -> None:  # noqa: N802 - Twisted's name
         """Stop sending."""

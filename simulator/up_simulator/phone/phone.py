@@ -1,26 +1,21 @@
-"""The stand-in for the airborne phone: its messages and its answers."""
+"""The stub of the airborne phone: its messages and its answers."""
 
 from __future__ import annotations
 
+import struct
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
-from up_simulator.aircraft.flight import Flight, FlightState
+from up.protocols.general_message import GeneralMessage, MalformedMessage, decode, encode
+from up_simulator.aircraft.flight import Clock, FlightSource, FlightState
 from up_simulator.aircraft.truth import PERIOD_S as TRUTH_S
-from up_simulator.harness.clock import Clock
-from up_simulator.phone.general_message import (
-    GeneralMessage,
-    MalformedError,
-    read_message,
-    write_message,
-    write_orientation,
-)
+from up_simulator.harness.user_log import Log, no_log
 from up_simulator.phone.sensors import PhoneSensors
 
 ORIENTATION_S = 0.02
-LONGEST_SPEECH = 200
-LONGEST_DELAY_MS = 10_000
+MAX_SPEECH = 200
+MAX_DELAY_MS = 10_000
 SLACK_S = 1e-6
 PANICS = ("up.panic", "load_guard.panic")
 ACK, NACK = "up.ack", "up.nack"
@@ -49,17 +44,17 @@ class Phone:
 
     def __init__(
         self,
-        flight: Flight,
+        flight: FlightSource,
         clock: Clock,
         *,
         seed: int = 1,
         identity: str = "",
-        say: Callable[[str], None] = lambda _text: None,
+        log: Log = no_log,
         record: Callable[[FlightState], dict[str, Any]] | None = None,
     ) -> None:
         self._flight = flight
         self._clock = clock
-        self._say = say
+        self._log = log
         self._identity = identity or f"{seed & 0xFFFFFFFF:x}"
         self._connections = 0
         self._id: str | None = None
@@ -94,7 +89,7 @@ class Phone:
             stream.due_s = 0.0
 
     def disconnected(self) -> None:
-        """Stop sending; requests of a lost link are forgotten."""
+        """Stop sending; the end of a link ends Panic Mode."""
         self.send = None
         self.panic_s = 0.0
 
@@ -109,7 +104,7 @@ class Phone:
                     data = stream.data(self._flight.state)
                     if data is not None:
                         id_, self._id = self._id, None
-                        self.send(write_message(GeneralMessage(stream.name, data, id_)))
+                        self.send(encode(stream.name, data, id_))
         if self.send_orientation is not None and now_s >= self._orientation_due_s - SLACK_S:
             period_s = max(ORIENTATION_S, self.panic_s)
             self._orientation_due_s = _next(self._orientation_due_s, period_s, now_s)
@@ -120,36 +115,39 @@ class Phone:
         if not line.strip():
             return
         try:
-            message = read_message(line)
-        except MalformedError as error:
-            self._say(f"malformed line dropped: {error}")
+            message = decode(line)
+        except MalformedMessage as error:
+            self._log(f"malformed line dropped: {error}", code="phone_malformed_line")
             return
         if message.name == "android.speak":
             self._speak(message)
         elif message.name in PANICS:
             self._panic(message)
         elif message.name == NACK:
-            self._say(f"refused ({message.data.get('code')}): {message.data.get('reason')}")
+            reason = message.data.get("reason")
+            text = f"refused ({message.data.get('code')}): {reason}"
+            self._log(text, code="phone_refused", refusal=message.data.get("code"), reason=reason)
         elif message.name != ACK and message.name not in IGNORED:
-            self._answer(message, "unknown", f"the phone knows no {message.name[:64]}")
+            self._answer(message, "unknown", f"unknown Command {message.name[:64]}")
 
     def _speak(self, message: GeneralMessage) -> None:
         text = message.data.get("text")
-        if not isinstance(text, str) or not 1 <= len(text) <= LONGEST_SPEECH:
-            self._answer(message, "invalid", f"text: 1 to {LONGEST_SPEECH} characters")
+        if not isinstance(text, str) or not 1 <= len(text) <= MAX_SPEECH:
+            self._answer(message, "invalid", f"text: 1 to {MAX_SPEECH} characters")
             return
-        self._say(f"says: {text!r}")
+        self._log(f"says: {text!r}", code="phone_speech", speech=text)
         self._answer(message)
 
     def _panic(self, message: GeneralMessage) -> None:
         panic: Any = message.data.get("panic")
         delay_ms: Any = message.data.get("delay_ms")
         is_delay = type(delay_ms) in (int, float)
-        if not isinstance(panic, bool) or not is_delay or not 0 <= delay_ms <= LONGEST_DELAY_MS:
-            self._answer(message, "invalid", f"panic: bool, delay_ms: 0 to {LONGEST_DELAY_MS}")
+        if not isinstance(panic, bool) or not is_delay or not 0 <= delay_ms <= MAX_DELAY_MS:
+            self._answer(message, "invalid", f"panic: bool, delay_ms: 0 to {MAX_DELAY_MS}")
             return
         self.panic_s = delay_ms / 1000 if panic else 0.0
-        self._say(f"busy: nothing quicker than {delay_ms:g} ms" if panic else "not busy any more")
+        text = f"panic mode: periods of at least {delay_ms:g} ms" if panic else "panic mode is over"
+        self._log(text, code="phone_panic", panic=panic, delay_ms=delay_ms)
         self._answer(message)
 
     def _answer(self, message: GeneralMessage, code: str = "", reason: str = "") -> None:
@@ -160,7 +158,14 @@ class Phone:
         if code:
             data |= {"code": code, "reason": reason}
         name = NACK if code else ACK
-        self.send(write_message(GeneralMessage(name, data)))
+        self.send(encode(name, data))
+
+
+def write_orientation(state: FlightState) -> bytes:
+    """Return the 24 bytes of an Orientation Forward frame (protocols 3)."""
+    angles = (state.roll_deg, state.pitch_deg, state.yaw_deg)
+    rates = (state.roll_rate_deg_s, state.pitch_rate_deg_s, state.yaw_rate_deg_s)
+    return struct.pack(">6f", *angles, *rates)
 
 
 def _next(due_s: float, period_s: float, now_s: float) -> float:

@@ -1,31 +1,81 @@
-"""The measurements of a phone on board: raw sensors and derived values, with their noise."""
+"""The measurements of a phone on board, with their noise, and how it is mounted."""
 
 from __future__ import annotations
 
 import math
 import random
 from collections import deque
-from typing import Any
+from typing import Any, NamedTuple
 
 from up_simulator.aircraft.flight import FlightState
-from up_simulator.phone.mounting import MOUNTING, Quaternion, body_to_world
 
 METRES_PER_DEG = 111_320.0
 GPS_DELAY_S = (0.3, 1.5)
 GPS_WANDER_M = 1.5
 GPS_JITTER_M = 0.3
 GPS_ALTITUDE_M = 3.0
-GPS_MEMORY = 0.95
+GPS_CORRELATION = 0.95
 BAROMETER_M = 0.3
 COMPASS_DEG = 1.5
 COMPASS_S = 0.2
 """Correlation time of a compass error, which is the period of the heading."""
-BATTERY_FULL = 95.0
+INITIAL_BATTERY_PERCENT = 95.0
 BATTERY_PERCENT_PER_S = 0.01
 SEA_LEVEL_HPA, SEA_LEVEL_K, LAPSE_K_M = 1013.25, 288.15, 0.0065
 PRESSURE_POWER = 9.80665 * 0.0289644 / (8.31446 * LAPSE_K_M)
 """Of the standard atmosphere (ISO 2533) up to 11 km."""
 _TINY_S = 1e-6
+_HALF = math.sqrt(0.5)
+
+
+class Quaternion(NamedTuple):
+    """A rotation w + xi + yj + zk of length one (Hamilton)."""
+
+    w: float
+    x: float
+    y: float
+    z: float
+
+    def times(self, that: Quaternion) -> Quaternion:
+        """Return the rotation of ``that`` followed by this."""
+        return Quaternion(
+            self.w * that.w - self.x * that.x - self.y * that.y - self.z * that.z,
+            self.w * that.x + self.x * that.w + self.y * that.z - self.z * that.y,
+            self.w * that.y - self.x * that.z + self.y * that.w + self.z * that.x,
+            self.w * that.z + self.x * that.y - self.y * that.x + self.z * that.w,
+        )
+
+    def conjugate(self) -> Quaternion:
+        """Return the inverse rotation."""
+        return Quaternion(self.w, -self.x, -self.y, -self.z)
+
+    def turn(self, x: float, y: float, z: float) -> tuple[float, float, float]:
+        """Return a rotated vector."""
+        turned = self.times(Quaternion(0.0, x, y, z)).times(self.conjugate())
+        return turned.x, turned.y, turned.z
+
+
+def about(axis: int, angle_deg: float) -> Quaternion:
+    """Return the right-handed rotation about an axis: 0, 1 or 2 for x, y or z."""
+    half_rad = math.radians(angle_deg) / 2
+    parts = [math.cos(half_rad), 0.0, 0.0, 0.0]
+    parts[1 + axis] = math.sin(half_rad)
+    return Quaternion(*parts)
+
+
+SWAP = Quaternion(0.0, _HALF, _HALF, 0.0)
+"""Changes the first two axes for each other and turns the third over: north, east, down to east,
+north, up; nose, right wing, down to the axes of a flat phone with its top edge ahead."""
+
+MOUNTING = about(0, -5.0).times(about(2, 12.0)).times(about(1, 80.0)).times(SWAP)
+"""Aircraft (nose, right wing, down) to device (right edge, top edge, out of the screen): on its
+long edge in a narrow fuselage, and slightly crooked, as in a real installation."""
+
+
+def body_to_world(roll_deg: float, pitch_deg: float, yaw_deg: float) -> Quaternion:
+    """Return the rotation from the aircraft's axes to east, north, up."""
+    to_ned = about(2, yaw_deg).times(about(1, pitch_deg)).times(about(0, roll_deg))
+    return SWAP.times(to_ned)
 
 
 class PhoneSensors:
@@ -47,7 +97,7 @@ class PhoneSensors:
         self._wander_m = [0.0, 0.0, 0.0]
         self._compass_deg = 0.0
         self._compass_s = -math.inf
-        self.battery_percent = BATTERY_FULL
+        self.battery_percent = INITIAL_BATTERY_PERCENT
         self.battery_time_s = 0.0
 
     def location(self, state: FlightState) -> dict[str, Any] | None:
@@ -56,10 +106,10 @@ class PhoneSensors:
             return None
         self._remember(state)
         state = self._past[0]
-        grow = math.sqrt(1 - GPS_MEMORY**2)
+        grow = math.sqrt(1 - GPS_CORRELATION**2)
         spreads_m = (GPS_WANDER_M, GPS_WANDER_M, GPS_ALTITUDE_M)
         self._wander_m = [
-            GPS_MEMORY * wander + grow * self._noise.gauss(0.0, spread)
+            GPS_CORRELATION * wander + grow * self._noise.gauss(0.0, spread)
             for wander, spread in zip(self._wander_m, spreads_m, strict=True)
         ]
         north_m, east_m, up_m = (

@@ -16,7 +16,7 @@ ROW_IN = 0.19
 BAND_IN = 0.22
 GAP_IN = 0.08
 SIZE_PT = 8.5
-MOST_ROWS = 12
+MAX_ROWS = 12
 LONGEST = 60
 
 
@@ -63,7 +63,7 @@ def place_marks(
         line = (mark.at_s - begin_s) / seconds * width_in
         is_left = line + wide > width_in and line > wide
         low, high = (line - wide, line) if is_left else (line, line + wide)
-        row = next((row for row in range(MOST_ROWS) if _is_free(taken, row, low, high)), None)
+        row = next((row for row in range(MAX_ROWS) if _is_free(taken, row, low, high)), None)
         if row is None:
             left_out += 1
             continue

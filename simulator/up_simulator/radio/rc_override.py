@@ -3,38 +3,36 @@
 from __future__ import annotations
 
 import argparse
-import signal
 import socket
 import sys
 import time
 from collections.abc import Callable
 from pathlib import Path
 
-from up_simulator.harness.option_parser import OptionParser
+from up.cli.option_parser import OptionParser
+from up_simulator.harness.user_log import print_line
 from up_simulator.radio.axis_map import read_axis_map
 from up_simulator.radio.game_controller import GameController, controller_device
 from up_simulator.radio.keyboard_radio import KeyboardRadio, status_line
-from up_simulator.radio.remote_words import LONGEST, Seen, read_seen, write_sticks
+from up_simulator.radio.remote_messages import MAX_DATAGRAM, Snapshot, read_snapshot, write_sticks
 from up_simulator.radio.sticks import Radio, RadioError
 
 PERIOD_S = 0.02
-SILENT_S = 2.0
+TIMEOUT_S = 2.0
 SHOWN_S = 1.0
 DEFAULT_SOCKET = Path("run/demo/radio")
-OTHERS = "another radio has the sticks: q there gives them back"
+TAKEN = "another radio has the sticks; q there releases them"
 DESCRIPTION = """\
 Takes the sticks of the aircraft that 'make run' (or 'up-sim start --radio-socket PATH') flies, and
-gives them back at the end. The mode switch stays where it was: FBW by itself, or 3 for AUTO."""
+gives them back at the end. The mode switch stays where it was; 2 selects FBW, 3 AUTO."""
 
 
 def main(arguments: list[str] | None = None) -> int:
-    """Hold the sticks until the pilot leaves; return the exit status."""
+    """Send sticks until the pilot leaves; return the exit status."""
     options = _options(arguments)
-    signal.signal(signal.SIGTERM, _interrupt)
-    signal.signal(signal.SIGHUP, _interrupt)
     try:
         link = RadioLink(options.socket)
-        return _hold(link, options)
+        return _override(link, options)
     except RadioError as error:
         sys.stderr.write(f"up-sim radio: {error}\n")
         return 1
@@ -49,37 +47,37 @@ class RadioLink:
         self._path = path
         self._clock = clock
         self._socket = socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM)
-        # Linux finds a name for it, which leaves no file behind.
+        # Linux chooses a name, which leaves no file behind.
         self._socket.bind("")
-        self._socket.settimeout(SILENT_S)
+        self._socket.settimeout(TIMEOUT_S)
         try:
             self._send(write_sticks(None))
-            self.seen = read_seen(self._socket.recv(LONGEST))
+            self.snapshot = read_snapshot(self._socket.recv(MAX_DATAGRAM))
         except (OSError, ValueError, RadioError):
             self._socket.close()
-            raise self._nobody() from None
+            raise self._no_aircraft() from None
         self._socket.setblocking(False)
-        if self.seen.is_others:
+        if self.snapshot.is_taken_by_other:
             self._socket.close()
-            raise RadioError(OTHERS)
-        self._heard_s = clock()
+            raise RadioError(TAKEN, "sticks_taken")
+        self._last_rx_s = clock()
 
-    def exchange(self, datagram: bytes) -> Seen:
+    def exchange(self, datagram: bytes) -> Snapshot:
         """Send sticks and return the newest state."""
         self._send(datagram)
         while True:
             try:
-                self.seen = read_seen(self._socket.recv(LONGEST))
+                self.snapshot = read_snapshot(self._socket.recv(MAX_DATAGRAM))
             except BlockingIOError:
                 break
             except ValueError:
                 continue
-            self._heard_s = self._clock()
-        if self.seen.is_others:
-            raise RadioError(OTHERS)
-        if self._clock() - self._heard_s > SILENT_S:
-            raise RadioError("the aircraft does not answer any more")
-        return self.seen
+            self._last_rx_s = self._clock()
+        if self.snapshot.is_taken_by_other:
+            raise RadioError(TAKEN, "sticks_taken")
+        if self._clock() - self._last_rx_s > TIMEOUT_S:
+            raise RadioError("the aircraft no longer answers", "aircraft_silent")
+        return self.snapshot
 
     def close(self) -> None:
         """Give the sticks back."""
@@ -94,28 +92,29 @@ class RadioLink:
         try:
             self._socket.sendto(datagram, str(self._path))
         except BlockingIOError:
-            # It is busy; the next ones are newer anyway.
+            # The socket is full; the next sticks are newer.
             return
         except OSError:
-            raise self._nobody() from None
+            raise self._no_aircraft() from None
 
-    def _nobody(self) -> RadioError:
-        return RadioError(f"no aircraft listens to a radio at {self._path} (does 'make run' fly?)")
+    def _no_aircraft(self) -> RadioError:
+        text = f"no aircraft answers at {self._path}; is 'make run' running?"
+        return RadioError(text, "no_aircraft")
 
 
-def _hold(link: RadioLink, options: argparse.Namespace) -> int:
-    has_left: list[bool] = []
+def _override(link: RadioLink, options: argparse.Namespace) -> int:
+    is_over: list[bool] = []
     radio: Radio | None = None
     try:
-        radio = _radio(link, options, lambda: has_left.append(True))
+        radio = _radio(link, options, lambda: is_over.append(True))
         started_s = shown_s = time.monotonic()
-        while not has_left:
+        while not is_over:
             now_s = time.monotonic()
-            sticks = radio.sticks(now_s - started_s, link.seen.state)
+            sticks = radio.sticks(now_s - started_s, link.snapshot.state)
             link.exchange(write_sticks(sticks))
             if options.who != "keyboard" and now_s - shown_s >= SHOWN_S:
                 shown_s = now_s
-                _say(status_line(sticks, link.seen.state, link.seen.mode))
+                print_line(status_line(sticks, link.snapshot.state, link.snapshot.mode))
             time.sleep(PERIOD_S)
     except KeyboardInterrupt:
         pass
@@ -128,13 +127,15 @@ def _hold(link: RadioLink, options: argparse.Namespace) -> int:
 
 def _radio(link: RadioLink, options: argparse.Namespace, on_leave: Callable[[], None]) -> Radio:
     if options.who == "keyboard":
-        start = link.seen.sticks
-        return KeyboardRadio(on_leave, start=start, mode=lambda: link.seen.mode)
-    return GameController(controller_device(options.who), read_axis_map(options.controller), _say)
+        start = link.snapshot.sticks
+        return KeyboardRadio(on_leave, start=start, mode=lambda: link.snapshot.mode)
+    return GameController(
+        controller_device(options.who), read_axis_map(options.controller), print_line
+    )
 
 
 def _options(arguments: list[str] | None) -> argparse.Namespace:
-    parser = OptionParser(prog="up-sim radio", description=DESCRIPTION, allow_abbrev=False)
+    parser = OptionParser(prog="up-sim radio", description=DESCRIPTION)
     parser.add_argument("who", nargs="?", default="keyboard", help="keyboard (default), js0, ...")
     parser.add_argument("--socket", type=Path, default=DEFAULT_SOCKET, help="default %(default)s")
     parser.add_argument(
@@ -144,12 +145,3 @@ def _options(arguments: list[str] | None) -> argparse.Namespace:
         help="axes and buttons, as in 'up-sim start --help'",
     )
     return parser.parse_args(arguments)
-
-
-def _interrupt(_number: int, _frame: object) -> None:
-    raise KeyboardInterrupt
-
-
-def _say(text: str) -> None:
-    sys.stdout.write(f"{text}\n")
-    sys.stdout.flush()

@@ -19,6 +19,10 @@ CHANNELS: tuple[Channel, ...] = ("ailerons", "elevator", "throttle", "rudder", "
 class RadioError(Exception):
     """A radio cannot be used: the message is one sentence for the user."""
 
+    def __init__(self, text: str, code: str = "") -> None:
+        super().__init__(text)
+        self.code = code
+
 
 @dataclass(frozen=True, slots=True)
 class Sticks:

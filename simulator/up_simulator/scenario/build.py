@@ -9,7 +9,8 @@ from typing import Any
 from up_simulator.aircraft import Airframe, FlightDynamics, Start, Weather, load_airframe
 from up_simulator.aircraft import Gust as AirGust
 from up_simulator.firmware.build import choose_board
-from up_simulator.firmware.preparation import prepared_eeprom
+from up_simulator.firmware.preparation import cached_eeprom
+from up_simulator.harness.user_log import text_log
 from up_simulator.harness.world import World
 from up_simulator.in_process.config_folder import merge
 from up_simulator.scenario.demand import DemandModel
@@ -26,7 +27,7 @@ def build_flight(scenario: Scenario, notify: Notify = lambda _text: None) -> Sce
     """Return a flight that is ready to boot.
 
     Raises AirframeError, FlightUnavailableError, BoardUnavailableError, SettingsError,
-    PreparationError, BoardCrashedError and CrewError, each with one sentence for the user.
+    PreparationError, BoardCrashedError and ParticipantError, each with one sentence for the user.
     """
     airframe = load_airframe(scenario.airframe)
     dynamics = FlightDynamics(
@@ -52,7 +53,7 @@ def _board(scenario: Scenario, airframe: Airframe, notify: Notify) -> LineBoard:
     eeprom = b""
     if scenario.eeprom != "blank":
         profile, gains = profile_of(scenario, airframe.profile), gains_of(scenario, airframe.gains)
-        eeprom = prepared_eeprom(scenario.board, profile, gains, notify)
+        eeprom = cached_eeprom(scenario.board, profile, gains, text_log(notify))
     if scenario.eeprom == "spoiled":
         eeprom = corrupted(eeprom, scenario.seed)
     board = choose_board(
@@ -60,7 +61,7 @@ def _board(scenario: Scenario, airframe: Airframe, notify: Notify) -> LineBoard:
         seed=scenario.seed,
         imu_errors=scenario.imu.errors(airframe.imu, scenario.seed),
         eeprom=eeprom,
-        say=notify,
+        log=text_log(notify),
     )
     delay_us = scenario.receiver.delay_ms * 1000
     return LineBoard(board, SerialWires(scenario.seed), delay_us)

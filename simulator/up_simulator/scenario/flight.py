@@ -8,9 +8,10 @@ from typing import cast
 
 from up_rig.imu import motion_at
 from up_simulator.aircraft.airframe_file import ImuConfig
-from up_simulator.firmware.board import BoardCrashedError, Channel, ImuFault, ResetCause
+from up_simulator.firmware.board import BoardCrashedError, Channel, ResetCause
+from up_simulator.firmware.imu_errors import ImuFault
 from up_simulator.firmware.wire import Command
-from up_simulator.harness.participants import CrewError
+from up_simulator.harness.participants import ParticipantError
 from up_simulator.harness.world import STEP_S, World
 from up_simulator.scenario.demand import DemandModel
 from up_simulator.scenario.event import Event
@@ -108,7 +109,7 @@ class ScenarioFlight:
             self.participants.start()
             self._wait_until_ready(progress)
             self._world.boot(arms=is_armed)
-        except (BoardCrashedError, CrewError) as error:
+        except (BoardCrashedError, ParticipantError) as error:
             self._fail(error)
             return
         self._sticks_us["aux2"] = wanted_us["aux2"]
@@ -122,7 +123,7 @@ class ScenarioFlight:
         """Fly for 2 ms; a row is logged every 20 ms."""
         try:
             self._world.step()
-        except (BoardCrashedError, CrewError) as error:
+        except (BoardCrashedError, ParticipantError) as error:
             self._fail(error)
             return
         self._steps += 1
@@ -180,7 +181,7 @@ class ScenarioFlight:
             self.record.event_times.setdefault(event.title, time_s)
             try:
                 self._dispatch(event, time_s)
-            except CrewError as error:
+            except ParticipantError as error:
                 self._fail(error)
 
     def _dispatch(self, event: Event, time_s: float) -> None:
@@ -233,7 +234,7 @@ class ScenarioFlight:
             self.record.crash_s = time_s
             self._event_titles.append("crash")
 
-    def _fail(self, error: BoardCrashedError | CrewError) -> None:
+    def _fail(self, error: BoardCrashedError | ParticipantError) -> None:
         is_board = isinstance(error, BoardCrashedError)
         code = "board_crashed" if is_board else getattr(error, "code", "participant_failed")
         self.record.failure, self.record.failure_code = str(error), code

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from up_simulator.aircraft.flight import Flight
+from up_simulator.aircraft.flight import FlightSource
 from up_simulator.in_process.config_folder import GROUND_PORT, merge, write_config
 from up_simulator.in_process.ground import InProcessGround
 from up_simulator.in_process.phone import InProcessPhone
@@ -25,7 +25,7 @@ class InProcessParticipants(DaemonParticipants):
     def __init__(
         self,
         scenario: Scenario,
-        flight: Flight,
+        flight: FlightSource,
         board: LineBoard,
         settings: dict[str, dict[str, Any]],
     ) -> None:

@@ -6,8 +6,9 @@ import random
 from collections.abc import Callable
 
 from up_rig.imu import Motion
-from up_simulator.firmware.board import BoardImu, Channel, FirmwareBoard, Pulses, ResetCause
-from up_simulator.firmware.line_monitor import BoardTap
+from up_simulator.firmware.board import Channel, FirmwareBoard, Pulses, ResetCause
+from up_simulator.firmware.imu_errors import BoardImu
+from up_simulator.firmware.line_monitor import LineMonitor
 from up_simulator.firmware.wire import CheckedReader, Command
 from up_simulator.scenario.event import SerialNoise
 
@@ -79,7 +80,7 @@ class LineBoard:
     ) -> None:
         self._board = board
         self.wires = wires
-        self.tap = BoardTap()
+        self.tap = LineMonitor()
         self.after_slice: Callable[[], None] = lambda: None
         self.on_command: Callable[[Command], None] = lambda _command: None
         self.max_pulse_age_us = 0.0

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from types import MappingProxyType
 from typing import Protocol
 
-from up_simulator.harness.participants import CrewError, Ground, Raspilot
+from up_simulator.harness.participants import Ground, ParticipantError, Raspilot
 from up_simulator.harness.participants import Phone as PluggedPhone
 from up_simulator.link.model import LinkModel
 from up_simulator.phone.sensors import PhoneSensors
@@ -21,7 +21,7 @@ SETTLING_S = 1.0
 REQUEST_INTERVAL_S = 0.5
 
 
-class DaemonEndedError(CrewError):
+class DaemonEndedError(ParticipantError):
     """The daemon has ended although the scenario did not end it."""
 
     code = "daemon_ended"
@@ -66,14 +66,14 @@ class Participants:
         self._requested_s = -REQUEST_INTERVAL_S
 
     def start(self) -> None:
-        """Start all participants; raises CrewError."""
+        """Start all participants; raises ParticipantError."""
 
     def is_ready(self) -> bool:
         """Return whether the flight may begin: all expected participants have connected."""
         return True
 
     def exchange(self, step_s: float) -> None:
-        """Pass bytes and advance by this time; raises CrewError when a participant has died.
+        """Pass bytes and advance by this time; raises ParticipantError when one has died.
 
         Here: listen, and request the streams again after a reset, which ends them.
         """
@@ -90,7 +90,7 @@ class Participants:
         return self.board.now_s
 
     def dispatch(self, event: Event) -> None:
-        """Carry out an event that concerns the participants; raises CrewError."""
+        """Carry out an event that concerns the participants; raises ParticipantError."""
 
     def stop(self) -> None:
         """Stop all participants."""
@@ -119,7 +119,7 @@ class DaemonParticipants(Participants, ABC):
 
     @abstractmethod
     def exchange(self, step_s: float) -> None:
-        """Pass bytes and advance by this time; raises CrewError when a participant has died."""
+        """Pass bytes and advance by this time; raises ParticipantError when one has died."""
 
     @abstractmethod
     def plug_serial(self, is_in: bool) -> None:
@@ -127,7 +127,7 @@ class DaemonParticipants(Participants, ABC):
 
     @abstractmethod
     def load(self, percent: float) -> None:
-        """Simulate this load of the Raspberry Pi; raises CrewError where that is impossible."""
+        """Simulate this load of the Raspberry Pi; raises ParticipantError if impossible."""
 
     def start(self) -> None:
         """Start the daemon, the ground station and, if it is plugged in, the phone."""
@@ -152,7 +152,7 @@ class DaemonParticipants(Participants, ABC):
         return self.seconds() - self._ready_s >= SETTLING_S
 
     def dispatch(self, event: Event) -> None:
-        """Carry out an event that concerns the participants; raises CrewError."""
+        """Carry out an event that concerns the participants; raises ParticipantError."""
         phone = self.phone
         match event.kinds[0]:
             case "serial":
@@ -201,7 +201,7 @@ class DaemonParticipants(Participants, ABC):
         if self.scenario.board == "direct":
             return True
         status = self.board.tap.status
-        return status is not None and status.has_heard and not status.vetoes & PI_VETO
+        return status is not None and status.is_linked and not status.vetoes & PI_VETO
 
     def _set_up(self) -> None:
         """Make the initial requests; a bad link starts only now, with the flight."""

@@ -5,11 +5,10 @@ from __future__ import annotations
 from typing import Any
 
 from up_rig.pty_line import PtyLine, PtyLineError
-from up_simulator.aircraft.flight import Flight
-from up_simulator.harness.participants import CrewError
+from up_simulator.aircraft.flight import FlightSource
+from up_simulator.harness.participants import ParticipantError
 from up_simulator.harness.ports import choose_port_sets
-from up_simulator.harness.real_raspilot import RealRaspilot
-from up_simulator.harness.real_servers import RealProxy, RealRunner
+from up_simulator.harness.programs import RealProxy, RealRaspilot, RealRunner
 from up_simulator.harness.world import BYTES_A_STEP
 from up_simulator.in_process.config_folder import merge, write_config
 from up_simulator.in_process.ground import InProcessGround
@@ -25,7 +24,7 @@ from up_simulator.scenario.workspace import Workspace
 FLIGHTS = "flights"
 
 
-class SerialLineError(CrewError):
+class SerialLineError(ParticipantError):
     """The serial line cannot be opened."""
 
     code = "serial_line"
@@ -35,13 +34,13 @@ class RealParticipants(DaemonParticipants):
     """``python main.py`` on a pty; phone and ground station are stubs on real sockets.
 
     The link lies between the daemon and its peer: the ground station at its listener, or the
-    proxy. The flight keeps real time, from the boot on. Raises CrewError.
+    proxy. The flight keeps real time, from the boot on. Raises ParticipantError.
     """
 
     def __init__(
         self,
         scenario: Scenario,
-        flight: Flight,
+        flight: FlightSource,
         board: LineBoard,
         settings: dict[str, dict[str, Any]],
     ) -> None:
@@ -73,6 +72,7 @@ class RealParticipants(DaemonParticipants):
         """Start the proxy first, where there is one, then the others."""
         if self._proxy is not None:
             self._proxy.start()
+            self._proxy.wait_for_ports()
         super().start()
 
     def exchange(self, step_s: float) -> None:
@@ -89,7 +89,7 @@ class RealParticipants(DaemonParticipants):
         self.check_raspilot()
 
     def check_raspilot(self) -> None:
-        """Raise CrewError with the last log lines of the daemon if it should run and does not."""
+        """Raise ParticipantError with the daemon's last log lines if it should run and does not."""
         if isinstance(self._real, RunnerDaemon):
             self._real.check()
         elif self._should_run and not self._real.is_running:
@@ -97,14 +97,14 @@ class RealParticipants(DaemonParticipants):
             self._real.check()
 
     def dispatch(self, event: Event) -> None:
-        """Carry out an event that concerns the crew; raises CrewError."""
+        """Carry out an event that concerns the crew; raises ParticipantError."""
         if event.proxy is None:
             super().dispatch(event)
         elif self._proxy is not None:
             if event.proxy == "killed":
                 self._proxy.kill()
             else:
-                self._proxy.begin()
+                self._proxy.start()
 
     def plug_serial(self, is_in: bool) -> None:
         """Attach the pty, or remove it with all queued bytes."""
@@ -115,8 +115,10 @@ class RealParticipants(DaemonParticipants):
             self._line = self._open_line()
 
     def load(self, percent: float) -> None:
-        """Raise CrewError: a real daemon measures the load of the whole machine."""
-        raise CrewError("a scenario cannot set the load of a real machine: use 'runs: in process'")
+        """Raise ParticipantError: a real daemon measures the load of the whole machine."""
+        raise ParticipantError(
+            "no scenario sets the load of a real machine: use 'runs: in process'"
+        )
 
     def stop(self) -> None:
         """End all members, and remove the written files."""
@@ -142,7 +144,7 @@ class RealParticipants(DaemonParticipants):
     def terminate_raspilot(self) -> None:
         """Send the daemon the signal to end, and do not wait for it."""
         if isinstance(self._real, RealRaspilot):
-            self._real.ask_to_stop()
+            self._real.request_stop()
         else:
             self._real.stop()
 
@@ -216,7 +218,7 @@ class RealParticipants(DaemonParticipants):
             self._reactor.link(before.ground, up=self.down, down=self.up)
             self.ground = InProcessGround(reactor, before.ground, seed=seed)
 
-    def _make_phone(self, flight: Flight) -> None:
+    def _make_phone(self, flight: FlightSource) -> None:
         part = self.scenario.phone
         if part is None:
             return

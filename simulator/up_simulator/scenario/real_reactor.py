@@ -5,7 +5,7 @@ from __future__ import annotations
 import time
 from typing import Any
 
-from up_simulator.harness.participants import CrewError
+from up_simulator.harness.participants import ParticipantError
 from up_simulator.in_process.host import LiteralResolver
 from up_simulator.link.datagram_relay import DatagramRelay
 from up_simulator.link.model import LinkModel
@@ -47,7 +47,7 @@ class RealReactor:
         return self._reactor
 
     def link(self, port: int, up: LinkModel, down: LinkModel) -> None:
-        """Put a link before a port that has a target, for TCP and UDP; raises CrewError."""
+        """Put a link before a port that has a target, for TCP and UDP; raises ParticipantError."""
         if port in self.targets:
             self.relay(port, self.targets[port], up, down)
             self.relay(port, self.targets[port], up, down, is_datagram=True)
@@ -57,7 +57,7 @@ class RealReactor:
     ) -> int:
         """Listen on a port (0: any), carry everything to another one; return the port.
 
-        Raises CrewError.
+        Raises ParticipantError.
         """
         kind = DatagramRelay if is_datagram else LinkRelay
         relay = kind(self._reactor, port, LOOPBACK, target, up, down)
@@ -65,7 +65,7 @@ class RealReactor:
         try:
             return relay.start()
         except LinkRelayError as error:
-            raise CrewError(str(error)) from error
+            raise ParticipantError(str(error)) from error
 
     def advance(self, step_s: float) -> None:
         """Serve sockets and timers until this step's real time is over.

@@ -17,8 +17,8 @@ from up_simulator.firmware.board import BoardCrashedError
 from up_simulator.firmware.build import BoardUnavailableError
 from up_simulator.firmware.preparation import PreparationError
 from up_simulator.firmware.settings_wire import SettingsError
-from up_simulator.harness.participants import CrewError
-from up_simulator.harness.signal_handling import ending_between_steps
+from up_simulator.harness.participants import ParticipantError
+from up_simulator.harness.signal_handling import interrupts_between_steps
 from up_simulator.picture.flight_picture import Failure, PictureError, Wind, draw_flight
 from up_simulator.scenario.build import build_flight
 from up_simulator.scenario.flight_mcap import write_flight
@@ -50,7 +50,7 @@ _CODES: dict[type[Exception], str] = {
     SettingsError: "settings",
     BoardCrashedError: "board_crashed",
     BoardUnavailableError: "board_unavailable",
-    CrewError: "participant_failed",
+    ParticipantError: "participant_failed",
     FlightUnavailableError: "flight_model_unavailable",
     PreparationError: "eeprom_preparation",
 }
@@ -129,10 +129,10 @@ def _fly(
         raise CannotFlyError(error) from error
     else:
         show = _Paced(progress.show) if is_paced else progress.show
-        with ending_between_steps() as interrupt:
+        with interrupts_between_steps() as interrupt:
 
             def on_progress(time_s: float) -> None:
-                interrupt.look()
+                interrupt.check()
                 show(time_s)
 
             return flight.fly(on_progress)

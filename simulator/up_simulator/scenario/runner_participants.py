@@ -12,8 +12,8 @@ from typing import Any
 
 import yaml
 
-from up_simulator.harness.participants import CrewError
-from up_simulator.harness.real_servers import RealRunner
+from up_simulator.harness.participants import ParticipantError
+from up_simulator.harness.programs import RealRunner
 from up_simulator.in_process.phone import InProcessPhone
 from up_simulator.phone.address import RaspberryPi, Runner, spawn
 from up_simulator.scenario.real_reactor import LOOPBACK, RealReactor
@@ -47,6 +47,7 @@ class RunnerDaemon:
     def start(self) -> None:
         """Start the runner; the phone's request starts the instance."""
         self._runner.start()
+        self._runner.wait_for_port()
 
     def stop(self) -> None:
         """Send the instance the signal to end: the runner does not restart it."""
@@ -65,7 +66,7 @@ class RunnerDaemon:
         self._signal(signal.SIGCONT)
 
     def check(self) -> None:
-        """Raise CrewError if the runner has ended unexpectedly."""
+        """Raise ParticipantError if the runner has ended unexpectedly."""
         self._runner.check()
 
     def end(self) -> None:
@@ -84,7 +85,7 @@ class RunnerDaemon:
     def _signal(self, number: int) -> None:
         pid = self._pid()
         if pid is None:
-            raise CrewError("the runner has not started a Raspilot yet")
+            raise ParticipantError("the runner has not started a Raspilot yet")
         with suppress(ProcessLookupError):
             os.kill(pid, number)
 

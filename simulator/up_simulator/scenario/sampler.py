@@ -6,9 +6,10 @@ import dataclasses
 from collections.abc import Iterable, Mapping
 from typing import Any
 
-from up_simulator.firmware.line_monitor import BoardTap
+from up_simulator.aircraft.flight import Dynamics
+from up_simulator.firmware.line_monitor import LineMonitor
 from up_simulator.harness.participants import Ground
-from up_simulator.harness.world import Dynamics, World
+from up_simulator.harness.world import World
 from up_simulator.scenario.demand import DemandModel
 from up_simulator.scenario.line_board import LineBoard
 from up_simulator.scenario.participants import Participants
@@ -114,7 +115,7 @@ def _truth(dynamics: Dynamics) -> Iterable[tuple[str, Any]]:
     yield "truth.crashed", getattr(dynamics, "crash", None) is not None
 
 
-def _board(tap: BoardTap, now_s: float) -> Iterable[tuple[str, Any]]:
+def _board(tap: LineMonitor, now_s: float) -> Iterable[tuple[str, Any]]:
     yield "board.bad_frames", tap.bad_frames
     if (orientation := tap.orientation) is not None:
         for angle in ("roll", "pitch", "yaw"):
@@ -131,7 +132,7 @@ def _board(tap: BoardTap, now_s: float) -> Iterable[tuple[str, Any]]:
     yield "board.imu_valid", status.is_imu_valid
     yield "board.receiver_valid", status.is_receiver_valid
     yield "board.restored", status.is_restored
-    yield "board.pi_heard", status.has_heard
+    yield "board.pi_heard", status.is_linked
     yield "board.gains_valid", bool(status.flags & _GAINS_VALID)
     yield "board.switch", SWITCH.get(status.switch, "not known")
     cause = status.cause & ~_RESTORED

@@ -9,13 +9,13 @@ from dataclasses import dataclass
 from itertools import accumulate
 from statistics import fmean, median
 
-FEWEST_SAMPLES = 10
+MIN_SAMPLES = 10
 SETTLED_SHARE = 0.05
 TAIL_SHARE = 0.25
 """The last quarter of the window gives the final value of the response."""
 LEAD_S = 0.2
 """This time before the step gives the initial value of the response."""
-LEAST_WAY_SHARE = 0.1
+MIN_TRAVEL_SHARE = 0.1
 """A response below this part of the demanded step did not follow: it is measured by the demand."""
 STILL_SHARE = 0.01
 SMOOTHING_SHARE = 0.15
@@ -74,10 +74,10 @@ def analyse_step(
     _check(times_s, values, at_s, start, end, until_s)
     first = bisect_left(times_s, at_s)
     past = len(times_s) if until_s is None else bisect_left(times_s, until_s + 1e-9)
-    if past - first < FEWEST_SAMPLES:
+    if past - first < MIN_SAMPLES:
         raise StepError(
             f"only {max(0, past - first)} samples after the step at {at_s:g} s:"
-            f" {FEWEST_SAMPLES} are needed"
+            f" {MIN_SAMPLES} are needed"
         )
     lead = bisect_left(times_s, at_s - LEAD_S)
     after_s = [time_s - at_s for time_s in times_s[first:past]]
@@ -129,7 +129,7 @@ class _Shape:
     ) -> _Shape:
         final = fmean(curve[-max(3, math.ceil(TAIL_SHARE * len(curve))) :])
         asked = end - start
-        follows = (final - begin) / asked >= LEAST_WAY_SHARE
+        follows = (final - begin) / asked >= MIN_TRAVEL_SHARE
         way = final - begin if follows else asked
         parts = [(value - begin) / way for value in curve]
         greatest = max(parts)

@@ -15,15 +15,22 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TextIO
 
+from up.cli.option_parser import OptionParser
 from up.config import ConfigErrors
 from up.fields import printable
-from up_simulator.harness.child import dying_wish
-from up_simulator.harness.option_parser import OptionParser
+from up_simulator.harness.child import request_death_signal
 from up_simulator.scenario.file import read_scenario
 from up_simulator.scenario.run import FLIGHTS, REPORT, SUMMARY
-from up_simulator.verbs.catalogue import name_of, no_such_tag, shipped_paths
+from up_simulator.verbs.catalogue import (
+    HELD,
+    INTERRUPTED,
+    NOT_HELD,
+    WRONG_INPUT,
+    name_of,
+    no_such_tag,
+    shipped_paths,
+)
 from up_simulator.verbs.fly import try_output
-from up_simulator.verbs.outcome import HELD, INTERRUPTED, NOT_HELD, WRONG_INPUT
 
 WAIT_S = 0.05
 END_LIMIT_S = 30.0
@@ -65,7 +72,9 @@ class Job:
         command += ["--output", str(options.output)]
         command += [] if options.picture else ["--no-picture"]
         self.began_s = time.monotonic()
-        self.process = subprocess.Popen(command, stdin=subprocess.DEVNULL, preexec_fn=dying_wish())
+        self.process = subprocess.Popen(
+            command, stdin=subprocess.DEVNULL, preexec_fn=request_death_signal()
+        )
 
     def is_over(self) -> bool:
         """Return whether it has ended, and note how."""
@@ -240,8 +249,6 @@ def _parser() -> argparse.ArgumentParser:
         prog="up-sim all",
         description="Flies every scenario that is shipped and closes with how many held.",
         epilog=EPILOG,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-        allow_abbrev=False,
     )
     parser.add_argument("--tag", action="append", default=[], help="only those with this tag")
     parser.add_argument("--picture", action="store_true", help="draw pictures, too")

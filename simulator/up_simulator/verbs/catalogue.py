@@ -1,4 +1,4 @@
-"""The scenarios that are shipped, and how a name finds one."""
+"""The scenarios that are shipped, how a name finds one, and the outcomes of a verb."""
 
 from __future__ import annotations
 
@@ -6,10 +6,17 @@ import difflib
 from collections.abc import Iterable
 from pathlib import Path
 
-from up_simulator.verbs.outcome import UsageError
-
 SHIPPED = Path(__file__).resolve().parents[1] / "scenarios"
 SUFFIXES = (".yml", ".yaml")
+HELD, NOT_HELD, WRONG_INPUT, INTERRUPTED = 0, 1, 2, 130
+
+
+class FailedError(Exception):
+    """The request cannot be carried out here: one sentence, exit status 1."""
+
+
+class UsageError(Exception):
+    """The request names a missing thing: one sentence, exit status 2."""
 
 
 def shipped_paths() -> list[Path]:

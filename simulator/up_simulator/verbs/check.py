@@ -2,16 +2,14 @@
 
 from __future__ import annotations
 
-import argparse
 import sys
 from collections.abc import Sequence
 
+from up.cli.option_parser import OptionParser
 from up.config import ConfigErrors
 from up.fields import printable
-from up_simulator.harness.option_parser import OptionParser
 from up_simulator.scenario.file import read_scenario
-from up_simulator.verbs.catalogue import find
-from up_simulator.verbs.outcome import HELD, WRONG_INPUT
+from up_simulator.verbs.catalogue import HELD, WRONG_INPUT, find
 
 EPILOG = """\
 Every mistake is told with file, line, column and, where there is one, what was probably meant.
@@ -28,8 +26,6 @@ def main(arguments: Sequence[str]) -> int:
         prog="up-sim check",
         description="Reads scenario files and tells all their mistakes at once.",
         epilog=EPILOG,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-        allow_abbrev=False,
     )
     parser.add_argument("files", nargs="+", metavar="FILE", help="a file, or a shipped one's name")
     options = parser.parse_args(arguments)

@@ -8,8 +8,8 @@ from collections.abc import Iterable, Sequence
 from contextlib import suppress
 from pathlib import Path
 
+from up.cli.option_parser import OptionParser
 from up.fields import printable
-from up_simulator.harness.option_parser import OptionParser
 from up_simulator.scenario.file import read_scenario
 from up_simulator.scenario.override import Override
 from up_simulator.scenario.progress import ProgressLine
@@ -24,8 +24,15 @@ from up_simulator.scenario.run import (
     write_files,
 )
 from up_simulator.scenario.scenario import BOARDS, Scenario
-from up_simulator.verbs.catalogue import find, name_of
-from up_simulator.verbs.outcome import HELD, INTERRUPTED, NOT_HELD, FailedError, UsageError
+from up_simulator.verbs.catalogue import (
+    HELD,
+    INTERRUPTED,
+    NOT_HELD,
+    FailedError,
+    UsageError,
+    find,
+    name_of,
+)
 
 EPILOG = """\
 examples:
@@ -137,8 +144,6 @@ def _parser() -> argparse.ArgumentParser:
         prog="up-sim fly",
         description="Flies scenarios and reports whether what they expect is true.",
         epilog=EPILOG,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-        allow_abbrev=False,
     )
     parser.add_argument(
         "scenarios", nargs="+", metavar="SCENARIO", help="a shipped one's name, or a file"

@@ -2,17 +2,15 @@
 
 from __future__ import annotations
 
-import argparse
 import sys
 from collections.abc import Sequence
 from pathlib import Path
 
+from up.cli.option_parser import OptionParser
 from up.config import ConfigErrors
 from up.fields import printable
-from up_simulator.harness.option_parser import OptionParser
 from up_simulator.scenario.file import read_scenario
-from up_simulator.verbs.catalogue import name_of, no_such_tag, shipped_paths
-from up_simulator.verbs.outcome import HELD, WRONG_INPUT
+from up_simulator.verbs.catalogue import HELD, WRONG_INPUT, name_of, no_such_tag, shipped_paths
 
 EPILOG = """\
 examples:
@@ -27,8 +25,6 @@ def main(arguments: Sequence[str]) -> int:
         prog="up-sim list",
         description="Lists scenarios: name, how long, title, tags, and the rule that each guards.",
         epilog=EPILOG,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-        allow_abbrev=False,
     )
     parser.add_argument("folder", nargs="?", type=Path, help="another folder than the shipped one")
     parser.add_argument("--tag", action="append", default=[], help="only those with this tag")

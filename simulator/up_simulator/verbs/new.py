@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import argparse
 import importlib.resources
 import sys
 from collections.abc import Sequence
 from pathlib import Path
 
-from up_simulator.harness.option_parser import OptionParser
-from up_simulator.verbs.outcome import HELD, FailedError, UsageError
+from up.cli.option_parser import OptionParser
+from up_simulator.verbs.catalogue import HELD, FailedError, UsageError
 
 TEMPLATE = "template.yml"
 EPILOG = """\
@@ -26,8 +25,6 @@ def main(arguments: Sequence[str]) -> int:
         prog="up-sim new",
         description="Writes a scenario with a comment at every key that it uses.",
         epilog=EPILOG,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-        allow_abbrev=False,
     )
     parser.add_argument("name", metavar="NAME", help="of the scenario, or the path of its file")
     path = _path(parser.parse_args(arguments).name)

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import argparse
 import sys
 from collections.abc import Sequence
 
-from up_simulator.harness.option_parser import OptionParser
+from up.cli.option_parser import OptionParser
 from up_simulator.scenario.signals import SIGNALS, Kind
-from up_simulator.verbs.outcome import HELD, UsageError
+from up_simulator.verbs.catalogue import HELD, UsageError
 
 EPILOG = """\
 examples:
@@ -22,8 +21,6 @@ def main(arguments: Sequence[str]) -> int:
         prog="up-sim signals",
         description="Lists the names of everything that can be expected and logged.",
         epilog=EPILOG,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-        allow_abbrev=False,
     )
     parser.add_argument("groups", nargs="*", metavar="GROUP", help="what stands before the dot")
     options = parser.parse_args(arguments)

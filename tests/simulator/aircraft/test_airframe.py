@@ -114,7 +114,7 @@ def test_without_numpy_the_mass_is_known_and_nothing_flies(monkeypatch):
 
 def test_a_place_that_cannot_be_written_is_named(tmp_path, monkeypatch):
     (tmp_path / "file").touch()
-    monkeypatch.setattr(model_file, "kept_path", lambda *_: tmp_path / "file" / "x.xml")
+    monkeypatch.setattr(model_file, "cache_path", lambda *_: tmp_path / "file" / "x.xml")
     with pytest.raises(FlightUnavailableError, match=r"x\.xml: "):
         FlightDynamics(load_airframe("glider"))
 

@@ -9,7 +9,7 @@ from tests.support.firmware import build_firmware
 from tests.support.tools import unavailable
 from up_simulator.aircraft import FlightDynamics, Start, airframe_names, load_airframe
 from up_simulator.firmware.build import BoardUnavailableError, choose_board
-from up_simulator.firmware.preparation import prepared_eeprom
+from up_simulator.firmware.preparation import cached_eeprom
 from up_simulator.harness.world import World
 
 NAMES = airframe_names()
@@ -20,7 +20,7 @@ def aloft(name, aux1, **start):
     build_firmware()
     airframe = load_airframe(name)
     try:
-        eeprom = prepared_eeprom("firmware", airframe.profile, airframe.gains)
+        eeprom = cached_eeprom("firmware", airframe.profile, airframe.gains)
         board = choose_board("firmware", eeprom=eeprom)
     except BoardUnavailableError as error:
         unavailable(str(error))

@@ -1,4 +1,4 @@
-"""``make run`` in a terminal: its behaviour when its picture dies."""
+"""``make run`` in a terminal: its behaviour when its screen dies."""
 
 import os
 import pty
@@ -71,22 +71,24 @@ def terminal(tmp_path):
     os.close(made.other)
 
 
-def test_a_ground_station_that_is_killed_ends_no_flight(terminal):
-    started = terminal.wait_for("or with Enter; q leaves it.")
+def test_a_killed_ground_station_does_not_end_the_flight(terminal):
+    started = terminal.wait_for("or with Enter; q closes it.")
     os.write(terminal.own, b"\n")
     terminal.wait_for(ENTERS)
     os.kill(terminal.child("\0watch\0"), signal.SIGKILL)
     said = terminal.wait_for("Ctrl-C: stop all.")
-    assert said.index(LEAVES) < said.index("The ground station ended by itself with signal 9. It")
+    assert said.index(LEAVES) < said.index(
+        "The ground station ended unexpectedly with signal 9. The"
+    )
     assert SHOWS_CURSOR in said
     assert not re.search(r"its log|Traceback", said)
     assert termios.tcgetattr(terminal.other) == terminal.before
     assert terminal.child("up_simulator")
     os.kill(terminal.child("\0serve\0"), signal.SIGKILL)
-    terminal.wait_for("It flies on; this brings the page back: ")
+    terminal.wait_for("this starts it again: ")
     command = terminal.wait_for("\n").split()
     assert Path(command[0]).name == "up-ground"
-    # The same address as before: the pages that are open come back by themselves.
+    # The same address as before: the pages that are open reconnect.
     listen = re.search(r"http://(127\.0\.0\.1:[0-9]+)", started)[1]
     ground = command[command.index("--port") + 1]
     assert command[1:] == ["serve", "--port", ground, "--listen", listen]

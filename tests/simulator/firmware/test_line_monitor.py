@@ -7,8 +7,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.simulator.pi import vectors
-from up_simulator.firmware.line_monitor import SIZES, BoardTap
-from up_simulator.firmware.wire import LONGEST_PAYLOAD, CheckedReader, Command, checked_frame
+from up_simulator.firmware.line_monitor import SIZES, LineMonitor
+from up_simulator.firmware.wire import MAX_PAYLOAD, CheckedReader, Command, checked_frame
 
 # `o` comes in thesis framing only.
 FROM_BOARD = [
@@ -36,7 +36,7 @@ def test_there_are_vectors():
 
 @pytest.mark.parametrize("vector", FROM_BOARD)
 def test_it_reads_the_vectors(vector):
-    tap = BoardTap()
+    tap = LineMonitor()
     found = tap.feed(bytes.fromhex(vector["wire"]), 1.0)
     payload = bytes.fromhex(vector["payload"])
     assert found == [Command(vector["type"], payload, vector["sequence"])]
@@ -45,7 +45,7 @@ def test_it_reads_the_vectors(vector):
 
 @pytest.mark.parametrize("vector", vectors("serial_checked_bad.json"))
 def test_a_bad_frame_is_counted_and_the_next_one_read(vector):
-    tap = BoardTap()
+    tap = LineMonitor()
     tap.feed(bytes.fromhex(vector["wire"]) + b"\0", 0.0)
     bad = tap.bad_frames
     tap.feed(wire_of([("m", b"f")]), 0.0)
@@ -57,12 +57,12 @@ def test_status_has_the_fields_of_the_page():
     payload = struct.pack(
         ">BcBBBBHHHHHHH", 1, b"f", 2, 0b10001011, 5, 0x88, 2000, 54, 1, 2, 3, 4, 5
     )
-    tap = BoardTap()
+    tap = LineMonitor()
     tap.feed(wire_of([("x", payload)]), 7.5)
     status = tap.status
     assert tap.status_s == 7.5
     assert (status.version, status.mode, status.switch, status.vetoes) == (1, "f", 2, 5)
-    assert (status.is_armed, status.is_auto, status.is_imu_valid, status.has_heard) == (True,) * 4
+    assert (status.is_armed, status.is_auto, status.is_imu_valid, status.is_linked) == (True,) * 4
     assert not status.is_receiver_valid and not status.is_failsafe
     assert status.is_restored
     assert (status.loop_us, status.late_us, status.dropped, status.missing) == (2000, 54, 1, 2)
@@ -70,7 +70,7 @@ def test_status_has_the_fields_of_the_page():
 
 
 def test_orientation_outputs_and_inputs_are_kept_by_name():
-    tap = BoardTap()
+    tap = LineMonitor()
     tap.feed(
         wire_of(
             [
@@ -90,14 +90,14 @@ def test_orientation_outputs_and_inputs_are_kept_by_name():
 
 
 def test_answers_are_taken_once():
-    tap = BoardTap()
+    tap = LineMonitor()
     tap.feed(wire_of([("K", b"s\0"), ("!", b"a\1\x08"), ("r", bytes(8))]), 0.0)
     assert [each.type for each in tap.take_answers()] == ["K", "!"]
     assert tap.take_answers() == []
 
 
 def test_what_it_sends_is_what_a_firmware_reads():
-    tap = BoardTap()
+    tap = LineMonitor()
     wire = tap.start_bytes() + tap.command_bytes("M", b"f")
     found = list(CheckedReader().feed(wire, 0.0))
     assert found == [Command("s", b"", 0), Command("M", b"f", 1)]
@@ -107,7 +107,7 @@ def test_what_it_sends_is_what_a_firmware_reads():
 def test_however_the_bytes_are_cut_the_messages_are_the_same(sent, data):
     wire = wire_of(sent)
     cuts = sorted(data.draw(st.lists(st.integers(0, len(wire)), max_size=6)))
-    tap = BoardTap()
+    tap = LineMonitor()
     found = []
     for start, end in zip([0, *cuts], [*cuts, len(wire)], strict=True):
         found += tap.feed(wire[start:end], 0.0)
@@ -117,7 +117,7 @@ def test_however_the_bytes_are_cut_the_messages_are_the_same(sent, data):
 
 @given(st.binary(max_size=400), st.lists(messages(), min_size=1, max_size=3))
 def test_any_bytes_before_cost_no_more_than_the_frame_that_they_run_into(noise, sent):
-    tap = BoardTap()
+    tap = LineMonitor()
     tap.feed(noise, 0.0)
     tap.feed(b"\0", 0.0)
     before = sum(tap.counts.values())
@@ -127,15 +127,15 @@ def test_any_bytes_before_cost_no_more_than_the_frame_that_they_run_into(noise, 
 
 
 def test_lost_frames_are_counted_by_their_sequence():
-    tap = BoardTap()
+    tap = LineMonitor()
     tap.feed(checked_frame(254, "m", b"f") + checked_frame(3, "m", b"f"), 0.0)
     assert tap.missing == 4
 
 
 def test_a_stream_without_an_end_is_not_hoarded():
-    tap = BoardTap()
+    tap = LineMonitor()
     for _ in range(100):
         tap.feed(b"\1" * 1000, 0.0)
-    assert len(tap._buffer) <= 2 * LONGEST_PAYLOAD
+    assert len(tap._buffer) <= 2 * MAX_PAYLOAD
     assert tap.feed(b"\0" + wire_of([("m", b"a")]), 0.0)
     assert tap.bad_frames == 1

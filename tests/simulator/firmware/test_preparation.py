@@ -9,8 +9,8 @@ from tests.support.tools import unavailable
 from up_simulator.firmware import preparation
 from up_simulator.firmware.build import BoardUnavailableError, aboard
 from up_simulator.firmware.imu_errors import ImuErrors
-from up_simulator.firmware.line_monitor import BoardTap
-from up_simulator.firmware.preparation import PreparationError, prepare_eeprom, prepared_eeprom
+from up_simulator.firmware.line_monitor import LineMonitor
+from up_simulator.firmware.preparation import PreparationError, cached_eeprom, prepare_eeprom
 from up_simulator.firmware.rig_board import RigBoard
 from up_simulator.firmware.settings_wire import (
     PROFILE as FIELDS,
@@ -52,7 +52,7 @@ def board(elf, **options):
 
 
 def asked(aboard_now, letter):
-    tap = BoardTap()
+    tap = LineMonitor()
     aboard_now.write(tap.command_bytes(letter))
     aboard_now.run_us(60_000)
     tap.feed(aboard_now.read(), 0.0)
@@ -117,7 +117,7 @@ def test_a_board_with_the_prepared_eeprom_boots_with_the_settings(elf):
 
 
 def test_the_work_is_done_once_for_each_firmware_and_each_set(tmp_path, monkeypatch, elf):
-    monkeypatch.setattr(preparation, "kept_path", lambda *names: tmp_path.joinpath(*names))
+    monkeypatch.setattr(preparation, "cache_path", lambda *names: tmp_path.joinpath(*names))
     made = []
 
     def counted(*arguments):
@@ -126,17 +126,17 @@ def test_the_work_is_done_once_for_each_firmware_and_each_set(tmp_path, monkeypa
 
     monkeypatch.setattr(preparation, "prepare_eeprom", counted)
     try:
-        first = prepared_eeprom("firmware", {"motor": False}, {})
+        first = cached_eeprom("firmware", {"motor": False}, {})
     except BoardUnavailableError as error:
         unavailable(str(error))
-    assert prepared_eeprom("firmware", {"motor": False}, {}) == first
+    assert cached_eeprom("firmware", {"motor": False}, {}) == first
     assert len(made) == 1
-    assert prepared_eeprom("firmware", {"motor": True}, {}) != first
+    assert cached_eeprom("firmware", {"motor": True}, {}) != first
     assert len(made) == 2
 
 
 def test_no_flight_computer_needs_no_eeprom():
-    assert prepared_eeprom("direct", {}, {}) == b""
+    assert cached_eeprom("direct", {}, {}) == b""
 
 
 def test_a_refusal_says_what_and_why(elf):

@@ -5,7 +5,7 @@ from hypothesis import strategies as st
 from tests.simulator.pi import frame, vectors
 from up_simulator.firmware.wire import (
     COMMAND_SIZES,
-    LONGEST_ENCODED,
+    MAX_ENCODED,
     CheckedReader,
     Command,
     checked_frame,
@@ -92,7 +92,7 @@ def test_a_frame_in_time_is_not_dropped():
 def test_a_frame_that_is_too_long_is_dropped_once_and_holds_no_memory():
     reader = CheckedReader()
     assert list(reader.feed(b"\x01" * 1_000_000, 0.0)) == []
-    assert len(reader._buffer) <= LONGEST_ENCODED + 1
+    assert len(reader._buffer) <= MAX_ENCODED + 1
     assert list(reader.feed(b"\0", 0.0)) == []
     assert reader.dropped == 1
 

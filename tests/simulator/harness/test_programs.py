@@ -1,4 +1,4 @@
-"""Real programs: started, killed in mid-frame, started again, ended whatever happens."""
+"""Real programs: started, killed within a frame, restarted, ended in every case."""
 
 import os
 import signal
@@ -12,9 +12,8 @@ import pytest
 from up_rig.pty_line import PtyLine
 from up_simulator.firmware.wire import checked_frame
 from up_simulator.harness.child import Child
-from up_simulator.harness.participants import CrewError
-from up_simulator.harness.real_raspilot import RealRaspilot
-from up_simulator.harness.real_servers import RealProxy, RealRunner
+from up_simulator.harness.participants import ParticipantError
+from up_simulator.harness.programs import RealProxy, RealRaspilot, RealRunner
 
 DEADLINE_S = 60.0
 
@@ -31,47 +30,61 @@ def child(tmp_path, code):
     return Child("part", [sys.executable, "-c", code], tmp_path)
 
 
-def test_its_lines_are_those_of_this_life_and_new_ones_come_once(tmp_path):
-    (tmp_path / "part.log").write_text("of another life\n")
+def test_its_lines_are_those_of_this_process_and_new_ones_come_once(tmp_path):
+    (tmp_path / "part.log").write_text("of an earlier process\n")
     made = child(tmp_path, "print('one'); print('two'); print('half', end='')")
     assert made.wait() == 0
-    assert made.lines() == ["one", "two", "half"]
-    assert made.new_lines() == ["one", "two"]
+    assert [line.text for line in made.lines()] == ["one", "two", "half"]
+    assert [line.text for line in made.new_lines()] == ["one", "two"]
     assert made.new_lines() == []
-    assert "of another life" in made.log.read_text()
+    assert "of an earlier process" in made.log.read_text()
 
 
-def test_one_that_dies_before_it_is_ready_says_why(tmp_path):
+READY = (
+    "from up_simulator.harness.user_log import print_line; print_line('on 7', code='on', port=7)"
+)
+
+
+def test_a_line_is_awaited_by_its_code_and_fields(tmp_path):
+    made = child(tmp_path, f"print('half'); {READY}; print('after')")
+    passed = []
+    line = made.wait_for("on", DEADLINE_S, on_line=passed.append, port=7)
+    assert (line.text, line.fields["port"]) == ("on 7", 7)
+    assert [each.text for each in passed][:2] == ["half", "on 7"]
+    assert made.wait() == 0
+
+
+def test_one_that_ends_before_it_is_ready_is_reported_with_its_log(tmp_path):
     made = child(tmp_path, "import sys; print('no port is free'); sys.exit(3)")
-    with pytest.raises(CrewError) as caught:
-        made.wait_for_line("listens", DEADLINE_S)
-    said = str(caught.value)
-    assert said.startswith("part ended by itself with status 3; its log ")
-    assert said.endswith("ends:\n  no port is free")
+    with pytest.raises(ParticipantError) as caught:
+        made.wait_for("on", DEADLINE_S)
+    report = str(caught.value).splitlines()
+    assert "status 3" in report[0] and report[1:] == ["  no port is free"]
 
 
-def test_one_that_dies_without_a_word_is_one_line(tmp_path):
+def test_one_that_ends_without_a_log_is_one_line(tmp_path):
     made = child(tmp_path, "import sys; sys.exit(3)")
-    assert made.last_words(made.wait()) == "part ended by itself with status 3 and said nothing"
+    report = made.exit_report(made.wait())
+    assert "status 3" in report and "\n" not in report
 
 
-def test_one_that_never_gets_ready_is_given_up(tmp_path):
-    made = child(tmp_path, "import time; print('starting'); time.sleep(600)")
-    wait(made.lines, "its first words")
-    with pytest.raises(CrewError, match="no 'listens' within 0 s\n  starting"):
-        made.wait_for_line("listens", 0.1)
+def test_one_that_does_not_get_ready_times_out(tmp_path):
+    made = child(tmp_path, f"import time; {READY}; time.sleep(600)")
+    wait(made.lines, "its first line")
+    with pytest.raises(ParticipantError, match="port=8"):
+        made.wait_for("on", 0.1, port=8)
     assert made.end() == -signal.SIGTERM
 
 
-def test_one_that_does_not_want_to_end_is_forced(tmp_path):
-    code = "import signal, time; signal.signal(15, signal.SIG_IGN); print('here'); time.sleep(600)"
+def test_one_that_ignores_the_signal_is_killed(tmp_path):
+    code = f"import signal, time; signal.signal(15, signal.SIG_IGN); {READY}; time.sleep(600)"
     made = child(tmp_path, code)
-    made.wait_for_line("here", DEADLINE_S)
+    made.wait_for("on", DEADLINE_S)
     made.terminate()
     assert made.wait(0.2) == -signal.SIGKILL
 
 
-def test_when_we_are_killed_it_is_told_to_end(tmp_path):
+def test_it_ends_when_we_are_killed(tmp_path):
     code = (
         "from up_simulator.harness.child import Child; import sys, time, pathlib;"
         f"made = Child('part', [sys.executable, '-c', 'import time; time.sleep(600)'],"
@@ -116,30 +129,30 @@ def raspilot(tmp_path, line):
     made.stop()
 
 
-def test_the_daemon_is_killed_in_mid_frame_and_comes_back(raspilot, line):
+def test_the_daemon_is_killed_within_a_frame_and_restarted(raspilot, line, tmp_path):
     raspilot.start()
-    with pytest.raises(CrewError, match="runs already"):
+    with pytest.raises(ParticipantError, match="already"):
         raspilot.start()
-    raspilot.wait_for_line("modules run")
+    raspilot.wait_for("modules_running")
     assert raspilot.is_running
     whole = checked_frame(0, "x", bytes(20))
     line.write(whole[: len(whole) // 2])
     raspilot.kill()
     assert not raspilot.is_running
-    with pytest.raises(CrewError, match="raspilot ended by itself with signal 9; its log "):
+    with pytest.raises(ParticipantError, match="signal 9"):
         raspilot.check()
     raspilot.start()
-    raspilot.wait_for_line("opened")
+    raspilot.wait_for("modules_running")
     raspilot.check()
-    log = (line_ for line_ in Path(raspilot._folder / "raspilot.log").read_text().splitlines())
-    assert sum("modules run" in each for each in log) >= 1, "both lives are in one log"
+    log = (tmp_path / "raspilot.log").read_text()
+    assert log.count('"modules_running"') == 2, "both runs are in one log"
     raspilot.stop()
     assert not raspilot.is_running
 
 
-def test_a_frozen_daemon_stays_and_ends_when_it_is_asked_to(raspilot):
+def test_a_frozen_daemon_is_stopped(raspilot):
     raspilot.start()
-    raspilot.wait_for_line("modules run")
+    raspilot.wait_for("modules_running")
     raspilot.freeze()
     stat = Path(f"/proc/{raspilot.pid}/stat")
     wait(lambda: stat.read_text().rsplit(")", 1)[1].split()[0] == "T", "it stands still")
@@ -148,33 +161,31 @@ def test_a_frozen_daemon_stays_and_ends_when_it_is_asked_to(raspilot):
     assert not raspilot.is_running
 
 
-def test_a_daemon_with_a_wrong_configuration_says_so(raspilot, tmp_path):
+def test_a_daemon_with_a_wrong_configuration_is_reported(raspilot, tmp_path):
     (tmp_path / "config" / "config.yml").write_text("log levle: info\n")
     raspilot.start()
-    with pytest.raises(CrewError) as caught:
-        raspilot.wait_for_line("modules run")
-    assert "ended by itself with status 2" in str(caught.value)
-    assert "did you mean" in str(caught.value)
+    with pytest.raises(ParticipantError) as caught:
+        raspilot.wait_for("modules_running")
+    assert "status 2" in str(caught.value) and "config.yml" in str(caught.value)
     assert raspilot.log
 
 
-def test_a_proxy_and_a_runner_tell_their_ports(tmp_path, short_path):
+def test_a_proxy_and_a_runner_report_their_ports(tmp_path, short_path):
     (tmp_path / "proxy.yml").write_text("airborne port: 0\nground port: 0\nmetrics: false\n")
     (tmp_path / "runner.yml").write_text(
         f"port: 0\nrun folder: {short_path}\nstop instances on exit: true\ni_accept_root: true\n"
     )
-    for server in (RealProxy(tmp_path, tmp_path), RealRunner(tmp_path, tmp_path)):
-        server.start()
-        pid = server.pid
-        ports = (
-            (server.airborne_port, server.ground_port)
-            if isinstance(server, RealProxy)
-            else (server.port,)
-        )
-        assert all(1024 <= port <= 65535 for port in ports)
+    proxy, runner = RealProxy(tmp_path, tmp_path), RealRunner(tmp_path, tmp_path)
+    proxy.start()
+    runner.start()
+    proxy.wait_for_ports()
+    runner.wait_for_port()
+    for port in (proxy.airborne_port, proxy.ground_port, runner.port):
+        assert 1024 <= port <= 65535
+    for server in (proxy, runner):
         server.check()
         server.stop()
-        assert server.pid is None and not is_running(pid)
+        assert not server.is_running
 
 
 def test_a_proxy_that_is_killed_is_noticed(tmp_path):
@@ -182,7 +193,7 @@ def test_a_proxy_that_is_killed_is_noticed(tmp_path):
     proxy = RealProxy(tmp_path, tmp_path)
     proxy.start()
     os.kill(proxy.pid, signal.SIGKILL)
-    wait(lambda: proxy.pid is None, "its end")
-    with pytest.raises(CrewError, match="proxy ended by itself with signal 9"):
+    wait(lambda: not proxy.is_running, "its end")
+    with pytest.raises(ParticipantError, match="signal 9"):
         proxy.check()
     proxy.stop()

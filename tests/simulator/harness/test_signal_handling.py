@@ -14,7 +14,7 @@ from pathlib import Path
 import pytest
 
 from tests.support.firmware import build_firmware
-from up_simulator.phone.choice import choose_phone
+from up_simulator.phone.java_program import choose_phone
 
 LIMIT_S = 90.0
 LONG = """\

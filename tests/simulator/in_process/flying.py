@@ -6,8 +6,8 @@ from tests.support.firmware import build_firmware
 from up_simulator.aircraft.airframe import load_airframe
 from up_simulator.aircraft.dynamics import FlightDynamics, Start
 from up_simulator.firmware.imu_errors import ImuErrors
-from up_simulator.firmware.line_monitor import BoardTap
-from up_simulator.firmware.preparation import prepared_eeprom
+from up_simulator.firmware.line_monitor import LineMonitor
+from up_simulator.firmware.preparation import cached_eeprom
 from up_simulator.firmware.rig_board import RigBoard
 from up_simulator.harness.world import STEP_S, World
 from up_simulator.in_process.config_folder import GROUND_PORT, write_config
@@ -28,7 +28,7 @@ class TappedBoard:
     def __init__(self, board, wires):
         self._board = board
         self.wires = wires
-        self.tap = BoardTap()
+        self.tap = LineMonitor()
         self.digest = hashlib.sha256()
 
     def __getattr__(self, name):
@@ -68,7 +68,7 @@ class Flying:
         orientation="tcp",
     ):
         airframe = load_airframe("glider")
-        eeprom = prepared_eeprom("firmware", airframe.profile, airframe.gains)
+        eeprom = cached_eeprom("firmware", airframe.profile, airframe.gains)
         rig = RigBoard(build_firmware(), seed=seed, imu_errors=ImuErrors(), eeprom=eeprom)
         self.board = TappedBoard(rig, SerialWires(seed))
         dynamics = FlightDynamics(airframe, start or Start(), seed=seed)

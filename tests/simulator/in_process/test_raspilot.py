@@ -13,7 +13,7 @@ from tests.simulator.bench import StillFlight
 from tests.support.tools import unavailable
 from up_rig.imu import motion_at
 from up_simulator.firmware.build import BoardUnavailableError, choose_board
-from up_simulator.harness.participants import CrewError
+from up_simulator.harness.participants import ParticipantError
 from up_simulator.in_process.config_folder import GROUND_PORT, write_config
 from up_simulator.in_process.ground import InProcessGround
 from up_simulator.in_process.phone import InProcessPhone
@@ -93,7 +93,7 @@ def test_it_boots_speaks_with_the_board_and_sends_telemetry(tmp_path):
 def test_a_wrong_configuration_is_told_in_the_daemons_own_sentences(tmp_path):
     files = {"config.yml": {"log levl": "info"}, "arduino.yml": {"baud_rate": 12}}
     bench = Bench(tmp_path, files)
-    with pytest.raises(CrewError) as caught:
+    with pytest.raises(ParticipantError) as caught:
         bench.raspilot.start()
     first, second = str(caught.value).splitlines()
     assert "config.yml:1:1" in first and "log level" in first
@@ -247,7 +247,7 @@ def test_two_daemons_at_once_need_two_networks(tmp_path):
 def test_a_second_start_of_a_running_daemon_is_refused(tmp_path):
     bench = Bench(tmp_path)
     bench.raspilot.start()
-    with pytest.raises(CrewError, match="runs already"):
+    with pytest.raises(ParticipantError, match="runs already"):
         bench.raspilot.start()
     bench.raspilot.kill()
 

@@ -6,7 +6,7 @@ from twisted.internet.endpoints import TCP4ClientEndpoint
 from twisted.internet.protocol import Factory, Protocol
 
 from tests.support.reactor import reactor, run_in_reactor, until
-from up_simulator.phone.dropping_writer import Valve
+from up_simulator.phone.link import DroppingWriter
 
 PIECE = bytes(16_384)
 
@@ -20,7 +20,7 @@ def test_what_a_stalled_peer_does_not_take_is_dropped_until_it_reads_again():
             protocol = await endpoint.connect(factory)
             peer, _ = server.accept()
             transport = protocol.transport
-            valve = Valve(transport)
+            valve = DroppingWriter(transport)
             for _ in range(2000):
                 valve.write(PIECE)
             waiting = sum(map(len, transport._tempDataBuffer)) + len(transport.dataBuffer)

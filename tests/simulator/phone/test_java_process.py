@@ -43,15 +43,15 @@ def test_a_line_that_was_begun_is_finished_before_the_next(reader):
     said = 0
     while process.dropped < 3:
         # Not a divisor of the pipe's capacity: half of the last one fits.
-        process.say({"n": said, "content": "x" * 5000})
+        process.send({"n": said, "content": "x" * 5000})
         said += 1
     gate.touch()
     heard = []
     deadline_s = time.monotonic() + LIMIT_S
     while not heard or heard[-1].get("n", 0) < said:
         assert time.monotonic() < deadline_s, heard[-3:]
-        process.say({"n": said})
-        heard.extend(process.hear())
+        process.send({"n": said})
+        heard.extend(process.receive())
     assert all(each["event"] == "heard" for each in heard), heard
     numbers = [each["n"] for each in heard if each["n"] < said]
     # The started line arrived; the three after it were dropped, and counted.

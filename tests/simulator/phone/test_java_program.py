@@ -1,4 +1,4 @@
-"""The Java phone is found, built where its sources are newer, and done without where it must be."""
+"""The Java phone is found, rebuilt when its sources are newer, and replaced where unavailable."""
 
 import os
 import shutil
@@ -8,11 +8,14 @@ import pytest
 
 from tests.simulator.program import Program
 from tests.support.java import java_program, path_without
-from up_simulator.harness.participants import CrewError
-from up_simulator.phone.choice import IN_JAVA, IN_PYTHON, choose_phone
+from up_simulator.harness.participants import ParticipantError
 from up_simulator.phone.java_program import (
     ANDROID,
+    IN_JAVA,
+    IN_PYTHON,
+    PACKAGE,
     JavaUnavailableError,
+    choose_phone,
     find_java_program,
 )
 
@@ -37,7 +40,7 @@ def built_ns(program):
     return [jar.stat().st_mtime_ns for jar in program.jars]
 
 
-def test_it_is_built_once_and_anew_when_a_source_is_newer_or_gone(android):
+def test_it_is_rebuilt_when_a_source_is_newer_or_removed(android):
     first = built_ns(find_java_program(android=android))
     program = find_java_program(android=android)
     assert built_ns(program) == first
@@ -51,75 +54,68 @@ def test_it_is_built_once_and_anew_when_a_source_is_newer_or_gone(android):
     assert built_ns(find_java_program(android=android)) != second
 
 
-def test_a_jar_that_is_none_is_built_anew(android):
+def test_an_invalid_jar_is_rebuilt(android):
     program = find_java_program(android=android)
     for jar in program.jars:
-        jar.write_bytes(b"what a full disk left")
+        jar.write_bytes(b"a file cut by a full disk")
     assert all(map(zipfile.is_zipfile, find_java_program(android=android).jars))
 
 
-def test_what_does_not_compile_is_the_compilers_sentence(android):
+def test_a_compiler_error_is_reported_in_one_line(android):
     (android / "core" / "src" / "One.java").write_text(CORE.replace("class", "clasp"))
-    with pytest.raises(JavaUnavailableError) as caught:
+    with pytest.raises(JavaUnavailableError, match=r"One\.java:3: error:") as caught:
         find_java_program(android=android)
-    said = str(caught.value)
-    assert said.startswith("the Java phone does not compile: ")
-    assert "One.java:3: error:" in said and "\n" not in said
+    assert "\n" not in str(caught.value)
 
 
-def test_without_a_compiler_what_was_built_flies_and_it_is_said(android, tmp_path, monkeypatch):
+def test_without_a_compiler_an_earlier_build_is_used_and_reported(android, tmp_path, monkeypatch):
     find_java_program(android=android)
     newer_s = (android / "build" / "up-core.jar").stat().st_mtime + 2
     os.utime(android / "core" / "src" / "One.java", (newer_s, newer_s))
     monkeypatch.setenv("PATH", path_without(tmp_path / "bin", "javac"))
-    said = []
-    find_java_program(said.append, android)
-    (sentence,) = said
-    assert "was built before and is not built anew" in sentence and "needs javac" in sentence
+    logged = []
+    find_java_program(lambda _text, **fields: logged.append(fields), android)
+    assert logged == [{"code": "phone_outdated"}]
     shutil.rmtree(android / "build")
-    with pytest.raises(JavaUnavailableError, match=r"needs javac \(Debian packages make default"):
+    with pytest.raises(JavaUnavailableError, match="javac"):
         find_java_program(android=android)
 
 
-def test_without_sources_or_java_there_is_a_sentence(tmp_path, monkeypatch):
+def test_without_sources_or_java_it_is_unavailable(tmp_path, monkeypatch):
     java_program()
-    with pytest.raises(JavaUnavailableError, match="the Java phone's sources are not here"):
+    with pytest.raises(JavaUnavailableError, match="nowhere"):
         find_java_program(android=tmp_path / "nowhere")
     monkeypatch.setenv("PATH", path_without(tmp_path / "bin", "java"))
-    with pytest.raises(JavaUnavailableError, match=r"there is no java \(Debian package default"):
+    with pytest.raises(JavaUnavailableError, match=PACKAGE):
         find_java_program()
 
 
-def test_auto_is_java_where_it_can_be_had_and_else_python_with_the_reason(tmp_path, monkeypatch):
+def test_auto_is_java_where_available_and_otherwise_python(tmp_path, monkeypatch):
     java_program()
     assert choose_phone().java == choose_phone("java").java == find_java_program()
     assert choose_phone().title == IN_JAVA
     assert choose_phone("python").java is None and choose_phone("python").title == IN_PYTHON
     monkeypatch.setenv("PATH", path_without(tmp_path / "bin", "java"))
     choice = choose_phone()
-    assert choice.java is None
-    assert choice.title == f"{IN_PYTHON}: there is no java (Debian package default-jdk-headless)"
-    with pytest.raises(CrewError, match="the phone cannot be the Java one: there is no java"):
+    assert choice.java is None and PACKAGE in choice.title
+    with pytest.raises(ParticipantError, match=PACKAGE):
         choose_phone("java")
 
 
-@pytest.mark.parametrize(
-    ("kind", "sentence"),
-    [("auto", f"the phone is {IN_JAVA}\n"), ("python", f"the phone is {IN_PYTHON}\n")],
-)
-def test_the_aircraft_says_what_its_phone_is(kind, sentence):
+@pytest.mark.parametrize(("kind", "title"), [("auto", IN_JAVA), ("python", IN_PYTHON)])
+def test_the_aircraft_logs_its_phone(kind, title):
     java_program()
     with Program("--no-board", "--phone", kind, "--general-port", "1") as program:
-        program.wait_for(sentence)
+        program.wait_for("phone_selected", phone=title)
         assert program.end()[0] == 0
 
 
-def test_an_aircraft_without_java_says_so_and_flies_the_stand_in(tmp_path):
+def test_an_aircraft_without_java_flies_the_stub(tmp_path):
     path = {"PATH": path_without(tmp_path / "bin", "java")}
     with Program("--no-board", "--general-port", "1", environment=path) as program:
-        program.wait_for(f"the phone is {IN_PYTHON}: there is no java")
-        program.wait_for("phone: no connection to 127.0.0.1:1")
+        assert PACKAGE in program.wait_for("phone_selected").fields["phone"]
+        program.wait_for("phone_not_connected", port=1)
         assert program.end()[0] == 0
     with Program("--no-board", "--phone", "java", environment=path) as program:
         assert program.process.wait(60) == 1
-        assert program.error().startswith("up-sim: the phone cannot be the Java one: there is no")
+        assert PACKAGE in program.error()

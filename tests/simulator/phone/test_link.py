@@ -78,7 +78,7 @@ def test_it_sends_what_it_measures_and_answers(server):
             peer.wait_for(name)
         peer.send(b'{"name": "android.speak", "data": {"text": "Hello"}, "id": "42"}\n')
         assert peer.wait_for("up.ack")["data"] == {"id": "42"}
-        program.wait_for("phone: says: 'Hello'")
+        program.wait_for("phone_speech", speech="Hello")
         status, _, error = program.end()
     assert (status, error) == (0, "")
 
@@ -99,7 +99,7 @@ def test_it_waits_for_a_raspberry_pi_that_is_not_there_yet(server):
     port = port_of(server)
     server.close()
     with Program("--no-board", *PYTHON, "--general-port", port) as program:
-        program.wait_for(f"no connection to 127.0.0.1:{port}")
+        program.wait_for("phone_not_connected", port=port)
         with socket.create_server(("127.0.0.1", port)) as late:
             late.settimeout(DEADLINE_S)
             with Peer(late) as peer:
@@ -112,7 +112,7 @@ def test_garbage_and_endless_lines_end_no_phone(server):
         with Peer(server) as peer:
             peer.send(b"\xff\xfe{[\n" * 100)
             peer.wait_for("up.location.update")
-            program.wait_for("malformed line dropped")
+            program.wait_for("phone_malformed_line")
             try:
                 for _ in range(100):
                     peer.send(b"x" * 4096)
@@ -177,7 +177,7 @@ def test_it_finds_the_raspberry_pi_by_discovery(server, answer):
         with phone(server, *arguments) as program:
             # The first request is not answered: it is repeated.
             discovery.recvfrom(512)
-            program.wait_for("no answer from Discovery")
+            program.wait_for("phone_not_found")
             question, asker = discovery.recvfrom(512)
             assert len(question) <= 512
             discovery.sendto(answer, asker)
@@ -196,7 +196,7 @@ def test_it_asks_a_runner_and_goes_where_the_answer_says(server):
             with Peer(runner) as peer:
                 assert json.loads(peer.file.readline()) == {"aircraft": "glider-1"}
                 peer.send(b'{"running": false, "error": "no such aircraft", "ports": null}\n')
-                program.wait_for("the runner says: no such aircraft")
+                assert "no such aircraft" in program.wait_for("phone_not_found").text
             with Peer(runner) as peer:
                 peer.file.readline()
                 ports = {"general": port_of(server), "orientation": 50000}
@@ -214,7 +214,7 @@ def test_a_runner_that_hangs_up_is_asked_again():
             for _ in range(2):
                 with Peer(runner) as peer:
                     peer.file.readline()
-            program.wait_for("hung up without an answer")
+            program.wait_for("phone_not_found")
             status, took_s, error = program.end()
     assert (status, error) == (0, "")
     assert took_s < 5.0

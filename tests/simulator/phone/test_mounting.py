@@ -8,8 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.simulator.bench import StillFlight
-from up_simulator.phone.mounting import MOUNTING, SWAP, about, body_to_world
-from up_simulator.phone.sensors import COMPASS_S, PhoneSensors
+from up_simulator.phone.sensors import COMPASS_S, MOUNTING, SWAP, PhoneSensors, about, body_to_world
 
 ANGLES = st.tuples(st.floats(-179, 179), st.floats(-89, 89), st.floats(0, 359.9))
 NOSE, RIGHT, DOWN = (1, 0, 0), (0, 1, 0), (0, 0, 1)

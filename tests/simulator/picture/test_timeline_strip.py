@@ -5,7 +5,7 @@ import itertools
 from hypothesis import given
 from hypothesis import strategies as st
 
-from up_simulator.picture.timeline_strip import GAP_IN, MOST_ROWS, Mark, place_marks
+from up_simulator.picture.timeline_strip import GAP_IN, MAX_ROWS, Mark, place_marks
 
 WIDTH_IN, SECONDS = 8.6, 40.0
 
@@ -36,7 +36,7 @@ def test_no_label_covers_another(marks):
         if one.row == other.row:
             (low, high), (other_low, other_high) = extent(one), extent(other)
             assert high <= other_low + 1e-9 or other_high <= low + 1e-9
-    assert all(0 <= each.row < MOST_ROWS for each in placed)
+    assert all(0 <= each.row < MAX_ROWS for each in placed)
 
 
 @given(MARKS)

@@ -8,9 +8,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from up_simulator.radio.axis_map import MappedSticks, read_axis_map
+from up_simulator.radio.axis_map import JsEvent, JsEventReader, MappedSticks, read_axis_map
 from up_simulator.radio.game_controller import GameController, controller_device
-from up_simulator.radio.js_event import JsEvent, JsEventReader
 from up_simulator.radio.sticks import RadioError
 
 AXIS, BUTTON, INIT = 2, 1, 0x80
@@ -165,9 +164,11 @@ def test_its_bytes_move_the_sticks(plugged):
     controller.close()
 
 
-def test_unplugged_the_receiver_gets_nothing_until_it_is_back(plugged):
-    said = []
-    controller = GameController(plugged.path, read_axis_map("transmitter"), said.append)
+def test_an_unplugged_controller_stops_the_pulses_until_it_is_back(plugged):
+    logged = []
+    axis_map = read_axis_map("transmitter")
+    log = lambda _text, **fields: logged.append(fields["code"])  # noqa: E731
+    controller = GameController(plugged.path, axis_map, log)
     os.write(plugged.file, event(0, 32767))
     assert controller.sticks(0.0, None).is_on
     plugged.unplug()
@@ -176,22 +177,20 @@ def test_unplugged_the_receiver_gets_nothing_until_it_is_back(plugged):
     assert not controller.sticks(5.0, None).is_on
     plugged.plug()
     os.write(plugged.file, event(0, -32767))
-    assert not controller.sticks(5.5, None).is_on, "it looks once a second"
+    assert not controller.sticks(5.5, None).is_on, "it retries once a second"
     back = controller.sticks(6.1, None)
     assert (back.is_on, back.ailerons) == (True, 1000)
-    assert [line.split(" ", 1)[1] for line in said] == [
-        "was unplugged: the receiver gets no pulses until it is back",
-        "is back",
-    ]
+    assert logged == ["controller_lost", "controller_back"]
     controller.close()
 
 
-def test_a_missing_controller_is_one_sentence(tmp_path):
-    with pytest.raises(RadioError, match="is missing: "):
+def test_a_missing_controller_is_refused(tmp_path):
+    with pytest.raises(RadioError) as error:
         GameController(tmp_path / "js0", read_axis_map("transmitter"))
+    assert error.value.code == "controller_missing"
 
 
-def test_one_that_may_not_be_read_says_what_to_do(tmp_path, monkeypatch):
+def test_a_controller_without_permission_names_the_group(tmp_path, monkeypatch):
     def refuse(*_arguments):
         raise PermissionError(13, "Permission denied")
 

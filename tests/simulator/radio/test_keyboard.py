@@ -4,8 +4,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from up_simulator.radio.keyboard import HELD_S, KeyboardSticks
-from up_simulator.radio.keys import KeyReader
+from up_simulator.radio.keyboard import HOLD_S, KeyboardSticks, KeyReader
 from up_simulator.radio.sticks import Sticks
 
 
@@ -52,10 +51,10 @@ def test_a_stick_that_nobody_holds_goes_back_to_the_middle_and_the_throttle_stay
     keyboard = KeyboardSticks()
     for key in ("right", "right", "down", "w", "a"):
         keyboard.press(key, 0.0)
-    assert keyboard.sticks(HELD_S).ailerons == 1620, "a held key repeats: it stays meanwhile"
-    going = keyboard.sticks(HELD_S + 0.05)
+    assert keyboard.sticks(HOLD_S).ailerons == 1620, "a held key repeats: it stays meanwhile"
+    going = keyboard.sticks(HOLD_S + 0.05)
     assert 1500 < going.ailerons < 1620
-    at_rest = keyboard.sticks(HELD_S + 0.2)
+    at_rest = keyboard.sticks(HOLD_S + 0.2)
     assert (at_rest.ailerons, at_rest.elevator, at_rest.rudder) == (1500, 1500, 1500)
     assert at_rest.throttle == 1050
 

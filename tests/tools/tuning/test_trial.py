@@ -12,7 +12,7 @@ from tools.tuning.gain_set import ZERO, AxisGains, with_axis
 from tools.tuning.trial import StickMove
 from up.flight_controller.gains import Gains, GainSet, LoopGains
 from up_simulator.aircraft import Weather, load_airframe
-from up_simulator.firmware.line_monitor import BoardTap
+from up_simulator.firmware.line_monitor import LineMonitor
 from up_simulator.firmware.settings_wire import SettingsError
 
 ODD = GainSet(
@@ -23,7 +23,7 @@ ODD = GainSet(
 
 def test_the_board_flies_with_the_gains_on_trial(bench):
     trial = bench.trial(ODD)
-    tap = BoardTap()
+    tap = LineMonitor()
     trial.board.write(tap.command_bytes("G"))
     trial.fly(0.1)
     tap.feed(trial.board.read(), 0.0)

@@ -12,7 +12,7 @@ import pytest
 PROGRAM = """
 import os, pathlib, signal, sys
 from multiprocessing import util
-from up_simulator.harness.signal_handling import ending_in_order
+from up_simulator.harness.signal_handling import orderly_exit
 from tools.tuning.workers import Workers
 
 spawn = util.spawnv_passfds
@@ -31,7 +31,7 @@ def has_handler(pid):
 
 util.spawnv_passfds = spawn_and_signal
 if __name__ == "__main__":
-    with ending_in_order() as ending:
+    with orderly_exit() as ending:
         try:
             with Workers(2) as workers:
                 workers.fly(abs, [(-1,), (-2,)])

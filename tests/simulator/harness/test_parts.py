@@ -8,7 +8,8 @@ import pytest
 from up_simulator.aircraft import load_airframe
 from up_simulator.firmware import build
 from up_simulator.firmware.build import BoardUnavailableError
-from up_simulator.harness.board_aboard import board_aboard
+from up_simulator.harness.parts import make_board
+from up_simulator.harness.user_log import no_log
 
 OPTIONS = {"framing": "checked", "elf": None, "gains": None, "seed": 1}
 
@@ -25,7 +26,7 @@ def no_compiler(monkeypatch, tmp_path):
 def test_a_missing_compiler_names_the_package_and_the_option_to_leave_out(no_compiler):
     options = argparse.Namespace(board="host", **OPTIONS)
     with pytest.raises(BoardUnavailableError) as error:
-        board_aboard(options, load_airframe("glider"), lambda _text: None)
+        make_board(options, load_airframe("glider"), no_log)
     text = str(error.value)
     assert text.startswith("--board host: ") and "apt-get install g++" in text
     assert "leave --board out" in text

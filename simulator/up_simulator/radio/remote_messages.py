@@ -10,58 +10,66 @@ from typing import Any
 from up_simulator.aircraft.flight import FlightState
 from up_simulator.radio.sticks import CHANNELS, Sticks
 
-LONGEST = 2048
+MAX_DATAGRAM = 2048
 LOWEST_US, HIGHEST_US = 800, 2200
-SEEN = ("roll_deg", "pitch_deg", "height_m", "airspeed_m_s")
+STATE_FIELDS = ("roll_deg", "pitch_deg", "height_m", "airspeed_m_s")
 
 
 @dataclass(frozen=True, slots=True)
-class Seen:
+class Snapshot:
     """The aircraft's answer: the state visible to a pilot on the ground, and the sticks.
 
-    ``is_others``: another radio than the one that is answered moves them.
+    ``is_taken_by_other``: another radio than the one that is answered moves them.
     """
 
     state: FlightState
     sticks: Sticks
     mode: str = ""
-    is_others: bool = False
+    is_taken_by_other: bool = False
 
 
 def write_sticks(sticks: Sticks | None) -> bytes:
-    """Return the radio's datagram; None gives the sticks back and requests the state."""
+    """Return the radio's datagram; None releases the sticks and requests the state."""
     return json.dumps({"sticks": None if sticks is None else _sticks(sticks)}).encode("ascii")
 
 
 def read_sticks_of(datagram: bytes) -> Sticks | None:
-    """Return the sticks in a datagram, None for none; raises ``ValueError`` if invalid."""
+    """Return the sticks in a datagram, None if it releases them; raises ``ValueError``."""
     found = _object(datagram)["sticks"]
     return None if found is None else _read_sticks(found)
 
 
-def write_seen(seen: Seen) -> bytes:
+def write_snapshot(snapshot: Snapshot) -> bytes:
     """Return the aircraft's answer."""
-    values = {name: round(getattr(seen.state, name), 3) for name in SEEN}
-    words = {"sticks": _sticks(seen.sticks), "mode": seen.mode, "is_others": seen.is_others}
+    values: dict[str, Any] = {
+        name: round(getattr(snapshot.state, name), 3) for name in STATE_FIELDS
+    }
+    words = {
+        "sticks": _sticks(snapshot.sticks),
+        "mode": snapshot.mode,
+        "is_taken_by_other": snapshot.is_taken_by_other,
+    }
     return json.dumps({**values, **words}).encode("ascii")
 
 
-def read_seen(datagram: bytes) -> Seen:
+def read_snapshot(datagram: bytes) -> Snapshot:
     """Return an answer; raises ``ValueError`` if invalid."""
     found = _object(datagram)
     values: dict[str, Any] = {each.name: 0.0 for each in fields(FlightState)}
-    for name in SEEN:
+    for name in STATE_FIELDS:
         value = found[name]
         if type(value) not in (int, float) or not math.isfinite(value):
-            raise ValueError(f"{name} is no number")
+            raise ValueError(f"{name} is not a number")
         values[name] = float(value)
     mode = found["mode"]
     if not isinstance(mode, str) or not (mode.isascii() and mode.isprintable()):
-        raise ValueError("mode is no word")
-    is_others = found["is_others"]
-    if type(is_others) is not bool:
-        raise ValueError("whose the sticks are is not said")
-    return Seen(FlightState(**values), _read_sticks(found["sticks"]), mode[:20], is_others)
+        raise ValueError("mode is not a word")
+    is_taken_by_other = found["is_taken_by_other"]
+    if type(is_taken_by_other) is not bool:
+        raise ValueError("is_taken_by_other is not true or false")
+    return Snapshot(
+        FlightState(**values), _read_sticks(found["sticks"]), mode[:20], is_taken_by_other
+    )
 
 
 def _sticks(sticks: Sticks) -> dict[str, Any]:
@@ -70,12 +78,12 @@ def _sticks(sticks: Sticks) -> dict[str, Any]:
 
 def _read_sticks(found: Any) -> Sticks:
     if not isinstance(found, dict) or type(found.get("is_on")) is not bool:
-        raise ValueError("these are no sticks")
+        raise ValueError("sticks is not an object")
     pulses: dict[str, int] = {}
     for channel in CHANNELS:
         pulse_us = found.get(channel)
         if type(pulse_us) is not int or not LOWEST_US <= pulse_us <= HIGHEST_US:
-            raise ValueError(f"{channel} is no pulse")
+            raise ValueError(f"{channel} is not a pulse")
         pulses[channel] = pulse_us
     return Sticks(**pulses, is_on=found["is_on"])
 
@@ -86,11 +94,11 @@ def _object(datagram: bytes) -> dict[str, Any]:
     except RecursionError:
         raise ValueError("nested too deeply") from None
     if not isinstance(found, dict):
-        raise ValueError("it is no object")
-    return _Complete(found)
+        raise ValueError("not an object")
+    return _Required(found)
 
 
-class _Complete(dict[str, Any]):
+class _Required(dict[str, Any]):
     """A mapping in which a missing key is a wrong value, not a bug."""
 
     def __missing__(self, key: str) -> Any:
