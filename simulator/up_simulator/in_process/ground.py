@@ -26,7 +26,7 @@ from up_simulator.in_process.reactor import SimulatedReactor
 FrameAge = Callable[[GeneralMessage, float], float | None]
 """Takes a frame and its arrival time (s); returns its age (s), None: not known."""
 MAX_BEACON_GAP = 1_000_000
-"""Beacons of one life of the daemon are nearer: each life draws its first at random below 2**31."""
+"""Beacons of one run of the daemon are nearer: each run draws its first at random below 2**31."""
 
 
 @dataclass(slots=True)
@@ -44,7 +44,7 @@ class UptimeAges:
     """
 
     def __init__(self) -> None:
-        self._lives: list[_DaemonRun] = []
+        self._runs: list[_DaemonRun] = []
 
     def age_s(self, message: GeneralMessage, now_s: float) -> float | None:
         """Return the age of a frame that arrives now; None without a beacon or uptime."""
@@ -54,17 +54,17 @@ class UptimeAges:
             return None
         if not isinstance(uptime_s, int | float):
             return None
-        life = self._life(message.beacon, now_s - uptime_s)
-        life.origin_s = min(life.origin_s, now_s - uptime_s)
-        return now_s - uptime_s - life.origin_s
+        run = self._run_of(message.beacon, now_s - uptime_s)
+        run.origin_s = min(run.origin_s, now_s - uptime_s)
+        return now_s - uptime_s - run.origin_s
 
-    def _life(self, beacon: int, origin_s: float) -> _DaemonRun:
-        for life in self._lives:
-            if abs(beacon - life.beacon) < MAX_BEACON_GAP:
-                return life
-        life = _DaemonRun(beacon, origin_s)
-        self._lives.append(life)
-        return life
+    def _run_of(self, beacon: int, origin_s: float) -> _DaemonRun:
+        for run in self._runs:
+            if abs(beacon - run.beacon) < MAX_BEACON_GAP:
+                return run
+        run = _DaemonRun(beacon, origin_s)
+        self._runs.append(run)
+        return run
 
 
 MAX_ANSWERS = 256
@@ -72,7 +72,7 @@ MAX_OTHER_MESSAGES = 64
 
 
 class InProcessGround:
-    """Connects to the daemon's listener, takes the seat, keeps the newest telemetry, commands.
+    """Connects to the daemon's listener, takes control, keeps the newest telemetry, commands.
 
     Each Command echoes the newest beacon. A Command without a link is lost and never answered.
     ``others`` keeps the newest other message of each name, such as the aircraft's gains.
@@ -97,7 +97,7 @@ class InProcessGround:
         self._newest_s: float | None = None
         self._frame_age = frame_age or UptimeAges().age_s
         self._newest_age_s: float | None = None
-        self._worst_age_s: float | None = None
+        self._max_age_s: float | None = None
         self._sent = 0
         self._host: SimulatedHost | None = None
         self._link: GroundLink | None = None
@@ -124,8 +124,8 @@ class InProcessGround:
 
     def take_latency_s(self) -> float | None:
         """Return the maximum age of the data since the last call, otherwise the newest frame's."""
-        worst_s, self._worst_age_s = self._worst_age_s, None
-        found_s = self._newest_age_s if worst_s is None else worst_s
+        max_s, self._max_age_s = self._max_age_s, None
+        found_s = self._newest_age_s if max_s is None else max_s
         return None if found_s == math.inf else found_s
 
     @property
@@ -173,7 +173,7 @@ class InProcessGround:
             age_s = self._frame_age(message, now_s)
             # The age is unknown: it may have any value.
             self._newest_age_s = math.inf if age_s is None else age_s
-            self._worst_age_s = max(self._newest_age_s, self._worst_age_s or 0.0)
+            self._max_age_s = max(self._newest_age_s, self._max_age_s or 0.0)
         elif message.name in ("up.ack", "up.nack"):
             refused = message.name == "up.nack"
             reason = str(message.data.get("reason") or "refused") if refused else ""

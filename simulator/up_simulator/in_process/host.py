@@ -29,7 +29,7 @@ PRUNE_AT = 256
 
 
 class TimedCall(DelayedCall):
-    """A call later that knows whose it is."""
+    """A delayed call that knows its host."""
 
     host: SimulatedHost | None = None
 
@@ -40,7 +40,7 @@ class SimulatedHost:
 
     ``cut_off`` kills the program: no timer, descriptor or port of it is left. Between ``freeze``
     and ``thaw`` it is suspended like a stopped process: its system still acknowledges arriving
-    data, and the program finds all of it when it resumes.
+    data, and the program receives all of it when it resumes.
     """
 
     def __init__(self, reactor: SimulatedReactor, name: str) -> None:
@@ -107,7 +107,7 @@ class SimulatedHost:
         self.reactor.remove_writer(writer)
 
     def removeAll(self) -> list[Any]:  # noqa: N802 - Twisted's name
-        """Forget every descriptor and return them."""
+        """Stop watching all descriptors and return them."""
         descriptors, self._descriptors = list(self._descriptors), {}
         for each in descriptors:
             self.reactor.remove_reader(each)
@@ -187,8 +187,8 @@ class SimulatedHost:
             if call.active():
                 self.reactor.put_back(call)
         descriptors, self._suspended_descriptors = self._suspended_descriptors, []
-        for give_back in descriptors:
-            give_back()
+        for resume in descriptors:
+            resume()
         self.callLater(0, self._catch_up)
 
     def _catch_up(self) -> None:
@@ -213,7 +213,7 @@ class SimulatedHost:
 
 @implementer(IHostnameResolver)
 class LiteralResolver:
-    """Knows addresses alone: a name would have to be looked up outside this process."""
+    """Resolves addresses only: a name would have to be looked up outside this process."""
 
     def resolveHostName(  # noqa: N802 - Twisted's name
         self,
@@ -236,4 +236,4 @@ class LiteralResolver:
         return self
 
     def cancel(self) -> None:
-        """Everything is answered already."""
+        """Do nothing: every request is already answered."""

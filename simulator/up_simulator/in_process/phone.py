@@ -23,8 +23,7 @@ class InProcessPhone:
     """A phone at the daemon's ports by a cable, which both links share.
 
     ``plug`` and ``unplug`` move the cable: a connection without it hangs, as with USB tethering,
-    until its own timeouts end it. With ``resets_links`` both ends are reset immediately, as with
-    ``adb``. ``said`` has the phone's messages and notes.
+    until its own timeouts end it. ``messages`` has what the phone reports.
     """
 
     def __init__(
@@ -38,7 +37,7 @@ class InProcessPhone:
         orientation_port: int = ORIENTATION_PORT,
         cable: LinkSettings = CABLE,
     ) -> None:
-        self.said: list[str] = []
+        self.messages: list[str] = []
         self.up = LinkModel(cable, seed)
         self.down = LinkModel(cable, seed + 1)
         self._reactor = reactor
@@ -48,7 +47,7 @@ class InProcessPhone:
             reactor.link(port, self.up, self.down)
         self._host = reactor.host("phone")
         self.handset = PythonHandset(
-            self._host, flight, self.find, orientation, text_log(self._say), seed=seed
+            self._host, flight, self.find, orientation, text_log(self._note), seed=seed
         )
         self.sensors = self.handset.sensors
         self._is_started = False
@@ -67,13 +66,10 @@ class InProcessPhone:
             self.handset.start()
             self._tick()
 
-    def unplug(self, resets_links: bool = False) -> None:
+    def unplug(self) -> None:
         """Pull the cable."""
         self.up.black_out()
         self.down.black_out()
-        if resets_links:
-            for port in self._ports:
-                self._reactor.network.reset_connections(port)
 
     def set_battery(self, percent: float) -> None:
         """Set the level of its battery."""
@@ -93,6 +89,6 @@ class InProcessPhone:
             self._host.callLater(TICK_S, self._tick)
             self.handset.tick()
 
-    def _say(self, text: str) -> None:
-        if len(self.said) < MAX_MESSAGES:
-            self.said.append(f"{self._reactor.seconds():9.3f} {text}")
+    def _note(self, text: str) -> None:
+        if len(self.messages) < MAX_MESSAGES:
+            self.messages.append(f"{self._reactor.seconds():9.3f} {text}")

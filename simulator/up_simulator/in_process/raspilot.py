@@ -48,30 +48,30 @@ class DaemonLog:
     def __init__(self, seconds: Callable[[], float]) -> None:
         self.lines: deque[str] = deque(maxlen=MAX_LOG_LINES)
         self._seconds = seconds
-        self._least: NamedConstant | None = None
+        self._level: NamedConstant | None = None
 
-    def open(self, least: NamedConstant) -> None:
+    def open(self, level: NamedConstant) -> None:
         """Take every event of that level and above from now on."""
-        if self._least is None:
+        if self._level is None:
             globalLogPublisher.addObserver(cast(ILogObserver, self))
-        self._least = least
+        self._level = level
 
     def close(self) -> None:
         """Take no more events."""
-        if self._least is not None:
-            self._least = None
+        if self._level is not None:
+            self._level = None
             globalLogPublisher.removeObserver(cast(ILogObserver, self))
 
-    def say(self, text: str) -> None:
+    def add(self, text: str) -> None:
         """Add a line that is not an event."""
         self.lines.append(f"{self._seconds():9.3f} {text}")
 
     def __call__(self, event: LogEvent) -> None:
         """Keep an event that is severe enough."""
-        least = self._least
-        if least is not None and level_of(event) >= least:
-            self.say(f"{word_of(level_of(event)):<8} {source_of(event)}: {text_of(event)}")
-            self.lines.extend(f"    {line}" for line in traceback_of(event, least).splitlines())
+        level = self._level
+        if level is not None and level_of(event) >= level:
+            self.add(f"{word_of(level_of(event)):<8} {source_of(event)}: {text_of(event)}")
+            self.lines.extend(f"    {line}" for line in traceback_of(event, level).splitlines())
 
 
 ROOT = Path(__file__).resolve().parents[3]
@@ -98,10 +98,10 @@ class InProcessRaspilot:
 
     The application is found from ``root`` and configured by a folder (``write_config``). Its
     serial port is a socket in this process, whatever port its configuration names, which ``pump``
-    connects with a board; ``line`` can be unplugged. ``boot_s`` passes between the start and the
-    first module's. Its random numbers follow ``seed``. Signals, the process's priority, its
-    watchdogs and its garbage collector belong to the program, and are not part of this. A proxy
-    must be configured by its address: a name would be resolved by a thread.
+    connects with a board; ``line`` can be unplugged. Its random numbers follow ``seed``. Signals,
+    the process's priority, its watchdogs and its garbage collector belong to the program, and are
+    not part of this. A proxy must be configured by its address: a name would be resolved by a
+    thread.
     """
 
     log_source = Logger()
@@ -112,7 +112,6 @@ class InProcessRaspilot:
         config_folder: Path,
         *,
         seed: int = 1,
-        boot_s: float = 0.0,
         root: Path = ROOT,
     ) -> None:
         self.meter = SettableMeter()
@@ -122,7 +121,6 @@ class InProcessRaspilot:
         self._reactor = reactor
         self._config_folder = config_folder
         self._seed = seed
-        self._boot_s = boot_s
         self._root = root
         self._log = DaemonLog(reactor.seconds)
         self._host: SimulatedHost | None = None
@@ -146,9 +144,9 @@ class InProcessRaspilot:
         return {} if self.up is None else dict(self.up.ports)
 
     def start(self) -> None:
-        """Begin to boot; raises ParticipantError with every error of the program."""
+        """Begin to boot; raises ParticipantError with every error that the program would print."""
         if self.is_running:
-            raise ParticipantError("Raspilot runs already")
+            raise ParticipantError("Raspilot is already running")
         host = self._reactor.host("raspilot")
         application = None
         try:
@@ -177,7 +175,7 @@ class InProcessRaspilot:
         self._life = LifeCycle(up)
         up.command_executor.adopt_thread()
         up.command_executor.register_command(SystemStopCommand, lambda _: self.stop())
-        host.callLater(self._boot_s, self._begin)
+        host.callLater(0.0, self._begin)
 
     def stop(self) -> None:
         """Stop every module, as at a SIGTERM: it has ended after 2 s at the latest."""
@@ -234,7 +232,7 @@ class InProcessRaspilot:
         raise LookupError(f"no module {class_name} is loaded")
 
     def _substitute_modules(self, up: Up) -> None:
-        """Give the modules that would look outside what they find here instead."""
+        """Replace the parts of modules that would access the real machine."""
         for module in up.modules:
             each: Any = module
             if module.class_name == "SerialProvider":
@@ -253,7 +251,7 @@ class InProcessRaspilot:
 
     def _boot_failed(self, failure: Failure) -> None:
         if failure.check(BootStoppedError):
-            self._log.say(failure.getErrorMessage())
+            self._log.add(failure.getErrorMessage())
         else:
             self._failed(failure, "the boot failed")
         self.stop()

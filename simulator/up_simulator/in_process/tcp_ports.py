@@ -108,7 +108,6 @@ class _Attempt:
             self._end = TcpEnd(self._network.clock, self._up)
             peer = TcpEnd(self._network.clock, self._down)
             self._end.peer, peer.peer = peer, self._end
-            self._network.note_connection(self._port, (self._end, peer))
             # Before any data of the other side, which may cut the connection off immediately.
             self._down.carry(HEADER, self._on_syn_ack)
             port.accept(peer, self._own_port)

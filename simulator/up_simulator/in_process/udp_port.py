@@ -79,11 +79,11 @@ class UdpPort:
         self._host.opened.pop(self, None)
         self._host.network.udp.pop(self._number, None)
 
-    def take(self, packet: bytes, source: tuple[str, int]) -> None:
+    def receive(self, packet: bytes, source: tuple[str, int]) -> None:
         """Hand a datagram to the protocol."""
-        self._host.do(self._host.reactor.guarded, self._hear, packet, source)
+        self._host.do(self._host.reactor.guarded, self._on_datagram, packet, source)
 
-    def _hear(self, packet: bytes, source: tuple[str, int]) -> None:
+    def _on_datagram(self, packet: bytes, source: tuple[str, int]) -> None:
         if self._is_open:
             self.protocol.datagramReceived(packet, source)
 
@@ -91,4 +91,4 @@ class UdpPort:
 def _arrive(network: Any, port: int, packet: bytes, source: tuple[str, int]) -> None:
     listening = network.udp.get(port)
     if listening is not None:
-        listening.take(packet, source)
+        listening.receive(packet, source)

@@ -20,11 +20,11 @@ def test_time_moves_in_steps_and_does_not_drift(reactor):
     seen_s = []
     host = reactor.host()
 
-    def look():
+    def sample():
         seen_s.append(reactor.seconds())
-        host.callLater(0.002, look)
+        host.callLater(0.002, sample)
 
-    look()
+    sample()
     for _ in range(20_000):
         reactor.advance(0.002)
     assert reactor.seconds() == 40.0
@@ -64,7 +64,7 @@ def test_a_call_may_be_moved_and_cancelled(reactor):
     assert order == ["second", "first"]
 
 
-def test_what_a_call_asks_for_waits_for_the_next_step(reactor):
+def test_calls_made_in_a_step_run_in_the_next_one(reactor):
     made_s = []
 
     def again():
@@ -93,7 +93,7 @@ def test_a_due_call_may_be_cancelled_and_moved_by_one_before_it(reactor):
     assert order == ["first", "third"]
 
 
-def test_a_call_that_raises_is_logged_and_ends_nothing(reactor):
+def test_a_call_that_raises_is_logged(reactor):
     done = []
     reactor.callLater(0.01, lambda: 1 / 0)
     reactor.callLater(0.01, done.append, 1)
@@ -105,7 +105,7 @@ def test_a_call_that_raises_is_logged_and_ends_nothing(reactor):
     ]
 
 
-def test_threads_hand_calls_over_which_are_made_in_the_next_step(reactor):
+def test_calls_from_threads_run_in_the_next_step(reactor):
     host, made_in = reactor.host(), []
     thread = threading.Thread(
         target=host.callFromThread, args=(lambda: made_in.append(threading.get_ident()),)
@@ -140,7 +140,7 @@ class Descriptor:
         self.lost.append(reason.type.__name__)
 
 
-def test_a_descriptor_is_read_in_the_step_after_its_bytes_came(reactor):
+def test_a_descriptor_is_read_in_the_step_after_its_bytes(reactor):
     host = reactor.host()
     own, other = socket.socketpair()
     with own, other:
@@ -160,10 +160,10 @@ def test_a_descriptor_is_read_in_the_step_after_its_bytes_came(reactor):
         reactor.advance(0.002)
         assert descriptor.lost == ["ConnectionLost"]
         reactor.advance(0.1)
-        assert descriptor.lost == ["ConnectionLost"], "it is told once"
+        assert descriptor.lost == ["ConnectionLost"], "reported once"
 
 
-def test_a_descriptor_that_raises_loses_its_place_alone(reactor):
+def test_a_descriptor_that_raises_is_removed(reactor):
     host = reactor.host()
     own, other = socket.socketpair()
     with own, other:
@@ -176,7 +176,7 @@ def test_a_descriptor_that_raises_loses_its_place_alone(reactor):
         assert descriptor.lost == ["ZeroDivisionError"]
 
 
-def test_nothing_of_a_program_that_is_cut_off_is_called_again(reactor):
+def test_a_killed_program_is_never_called_again(reactor):
     host, other, called = reactor.host(), reactor.host(), []
     for each in (host, other):
         each.callLater(0.01, called.append, each)
@@ -192,7 +192,7 @@ def test_nothing_of_a_program_that_is_cut_off_is_called_again(reactor):
         assert descriptor.read == b""
 
 
-def test_many_timers_are_forgotten_when_they_are_over(reactor):
+def test_expired_timers_are_discarded(reactor):
     host = reactor.host()
     for _ in range(5000):
         host.callLater(0.001, lambda: None)
