@@ -94,7 +94,7 @@ class _Socket(DatagramProtocol):
 
 
 class DatagramRelay(ListeningRelay):
-    """Takes datagrams and carries them to the target, and its answers back to their senders.
+    """Takes datagrams and carries them to the target, and its answers to_client to their senders.
 
     Each client has its own socket towards the target; beyond 64 the oldest client loses its.
     ``target_host`` is an address, not a name. Otherwise as ``LinkRelay``.
@@ -115,7 +115,7 @@ class DatagramRelay(ListeningRelay):
         super().__init__(reactor, listen_port, (target_host, target_port), interface)
         self._up = _Direction(clock if clock is not None else reactor, up)
         self._down = _Direction(clock if clock is not None else reactor, down)
-        self._near = _Socket(self._on_client)
+        self._listening_socket = _Socket(self._on_client)
         self._clients: dict[Address, tuple[_Socket, Any]] = {}
 
     @property
@@ -135,7 +135,7 @@ class DatagramRelay(ListeningRelay):
             await closed
 
     def _listen(self) -> Any:
-        return self._open(self._listen_port, self._near)
+        return self._open(self._listen_port, self._listening_socket)
 
     def _open(self, number: int, protocol: DatagramProtocol) -> Any:
         port = listen_udp(self._reactor, number, protocol, self._interface)
@@ -160,10 +160,12 @@ class DatagramRelay(ListeningRelay):
             _socket, port = self._clients.pop(next(iter(self._clients)))
             port.stopListening()
 
-        def back(data: bytes, sender: Address) -> None:
+        def to_client(data: bytes, sender: Address) -> None:
             if sender == self._target:
-                self._down.send(data, lambda arrived: self._near.write(arrived, address))
+                self._down.send(
+                    data, lambda arrived: self._listening_socket.write(arrived, address)
+                )
 
-        fresh = _Socket(back)
+        fresh = _Socket(to_client)
         port = self._open(0, fresh)
         self._clients[address] = (fresh, port)

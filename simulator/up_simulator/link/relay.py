@@ -18,6 +18,8 @@ from up_simulator.link.stream import Clock
 class LinkRelayError(Exception):
     """The relay cannot listen: the message is one sentence for the user."""
 
+    code = "port_in_use"
+
 
 class ListeningRelay(ABC):
     """Listens on a local port for traffic to a target.
@@ -131,8 +133,8 @@ class LinkRelay(ListeningRelay):
         """Connect to the target."""
         return self._reactor.connectTCP(*self._target, factory, timeout=CONNECT_S)
 
-    def forget(self, connection: RelayedConnection) -> None:
-        """Forget a connection that is over."""
+    def discard(self, connection: RelayedConnection) -> None:
+        """Discard a connection that has ended."""
         self._connections.discard(connection)
         if self._idle is not None and not self._connections:
             idle, self._idle = self._idle, None

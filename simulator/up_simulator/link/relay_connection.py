@@ -32,7 +32,7 @@ class RelayContext(Interface):
     def connect(self, factory: ClientFactory) -> Any:
         """Connect to the target."""
 
-    def forget(self, connection: RelayedConnection) -> None:
+    def discard(self, connection: RelayedConnection) -> None:
         """Forget a connection that is over."""
 
 
@@ -46,7 +46,7 @@ class _End(Protocol):
     def __init__(self, connection: RelayedConnection) -> None:
         self._connection = connection
         self._has_finished = False
-        self._is_held = False
+        self._is_paused = False
         self.is_open = False
         self.is_gone = False
 
@@ -73,14 +73,14 @@ class _End(Protocol):
             return
         transport: Any = self.transport
         waiting, window = self.outgoing.waiting, self._connection.window
-        if self._is_held and self.is_open and waiting <= window // 2:
-            self._is_held = False
+        if self._is_paused and self.is_open and waiting <= window // 2:
+            self._is_paused = False
             transport.resumeProducing()
-        elif not self._is_held and (waiting >= window or not self.is_open):
-            self._is_held = True
+        elif not self._is_paused and (waiting >= window or not self.is_open):
+            self._is_paused = True
             transport.pauseProducing()
 
-    def take(self, content: bytes | Signal) -> None:
+    def receive(self, content: bytes | Signal) -> None:
         """Carry out a signal from the other end."""
         transport: Any = self.transport
         if not self.is_connected:
@@ -186,7 +186,7 @@ class RelayedConnection:
         if self.near.is_gone and self.far.is_gone:
             self.near.outgoing.stop()
             self.far.outgoing.stop()
-            self._relay.forget(self)
+            self._relay.discard(self)
 
     def abort(self) -> None:
         """End it here and now."""
@@ -215,7 +215,7 @@ class RelayedConnection:
         elif content is Signal.RESET and self.far.transport is None:
             self._cancel_far()
         else:
-            self.far.take(content)
+            self.far.receive(content)
         self.near.update_window()
 
     def _on_down(self, content: bytes | Signal) -> None:
@@ -223,7 +223,7 @@ class RelayedConnection:
             self.near.is_open = True
             self.near.update_window()
         else:
-            self.near.take(content)
+            self.near.receive(content)
         self.far.update_window()
 
     def _cancel_far(self) -> None:

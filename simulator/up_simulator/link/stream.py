@@ -105,7 +105,7 @@ class LinkStream:
             self._progress_s = self._clock.seconds()
         if isinstance(content, Signal):
             if content is Signal.RESET:
-                self._forget()
+                self._clear()
             self._append(content, 0)
         else:
             for at in range(0, len(content), SEGMENT):
@@ -114,9 +114,9 @@ class LinkStream:
         self._run()
 
     def stop(self) -> None:
-        """Forget everything and carry no more."""
+        """Drop all packets and carry no more."""
         self._is_stopped = True
-        self._forget()
+        self._clear()
         self._cancel()
 
     def _append(self, content: bytes | Signal, size: int) -> None:
@@ -130,7 +130,7 @@ class LinkStream:
         packet.due_s = self._model.send(packet.size + HEADER, now_s)
         packet.blackouts = self._model.blackouts
 
-    def _forget(self) -> None:
+    def _clear(self) -> None:
         self._packets.clear()
         self.waiting = 0
         self._retry_at_s = math.inf
