@@ -134,7 +134,7 @@ class AirframeFile:
     imu: ImuConfig = section(ImuConfig)
     limits: LimitsConfig = section(LimitsConfig)
     profile: AirframeProfile = section(
-        AirframeProfile, "What the Arduino is told, as in config/airframe.yml."
+        AirframeProfile, "Profile of the Arduino, as in config/airframe.yml."
     )
     gains: GainsConfig = section(GainsConfig)
 

@@ -150,7 +150,7 @@ class FlightDynamics:
             self._set_thrust(thrust_n * _NEWTON_LBS)
         else:
             self._battery.draw(0.0, self.STEP_S)
-        self._air.blow(self._steps * self.STEP_S - self._launched_s)
+        self._air.apply(self._steps * self.STEP_S - self._launched_s)
         self._motion = None
         try:
             is_flying = self._fdm.run()

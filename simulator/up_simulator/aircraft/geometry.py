@@ -45,7 +45,7 @@ class Surface:
     root_x_m: float = _metres("Leading edge at the root, aft positive.")
     root_y_m: float = _metres("The root, right positive; for fins at the tips.")
     root_z_m: float = _metres("The root, up positive.")
-    half_span_m: float = _metres("From root to tip along y; 0 is no such surface.", 0.0, 0.0)
+    half_span_m: float = _metres("From root to tip along y; 0: there is no such surface.", 0.0, 0.0)
     height_m: float = _metres("For fins: from root to tip along z.", 0.0, 0.0)
     root_chord_m: float = _metres("Chord at the root.", 0.2, 0.01)
     tip_chord_m: float = _metres("Chord at the tip.", 0.2, 0.01)
