@@ -74,12 +74,12 @@ def flown(tmp_path_factory):
     return folder
 
 
-def test_the_same_flight_is_the_same_file(flown):
+def test_the_same_flight_gives_the_same_file(flown):
     first, second = (flown / name / "flown/flight.mcap" for name in ("first", "second"))
     assert first.read_bytes() == second.read_bytes()
 
 
-def test_the_estimate_lies_beside_the_truth_at_equal_times(flown):
+def test_estimate_and_truth_have_equal_times(flown):
     log = Read(flown / "first/flown/flight.mcap")
     truth = dict(log.messages["simulator.truth"])
     told = log.messages["up.orientation.update"]
@@ -95,7 +95,7 @@ def test_the_estimate_lies_beside_the_truth_at_equal_times(flown):
     assert log.series("simulator.truth", "wind_east_m_s")[-1] == pytest.approx(5.0, abs=0.01)
 
 
-def test_the_lost_receiver_is_told_as_the_board_tells_it(flown):
+def test_a_lost_receiver_is_logged_as_the_board_reports_it(flown):
     log = Read(flown / "first/flown/flight.mcap")
     assert log.series("up.rx.update", "valid")[0] == 63
     assert log.series("up.rx.update", "valid")[-1] == 0
@@ -115,7 +115,7 @@ def test_the_lost_receiver_is_told_as_the_board_tells_it(flown):
     assert log.schemas["log"][0] == "foxglove.Log"
 
 
-def test_it_says_what_flew_and_what_was_true_of_it(flown):
+def test_metadata_name_aircraft_scenario_and_verdicts(flown):
     log = Read(flown / "first/flown/flight.mcap")
     assert log.metadata["flight"]["aircraft"] == "glider"
     assert log.metadata["scenario"]["title"] == "Flown"
@@ -123,7 +123,7 @@ def test_it_says_what_flew_and_what_was_true_of_it(flown):
     assert b"units: degrees per second" in log.attachments["config/pids.yml"]
 
 
-def test_what_went_wrong_and_its_telemetry_can_be_told_from_it(flown):
+def test_the_flight_log_finds_failures_and_telemetry_in_it(flown):
     log = FlightLog.read([flown / "first/flown/flight.mcap"])
     told = [wrong.text for wrong in wrongs(log)]
     assert any(text.startswith("the receiver was lost") for text in told), told
@@ -135,7 +135,7 @@ def test_what_went_wrong_and_its_telemetry_can_be_told_from_it(flown):
     assert newest["source"]["orientation"] == "arduino"
 
 
-def test_without_a_phone_the_place_is_the_true_one_and_says_so(flown):
+def test_without_a_phone_the_position_is_the_true_one_by_its_origin(flown):
     log = Read(flown / "first/flown/flight.mcap")
     places = log.messages["up.location.update"]
     assert len(places) == 21
@@ -145,7 +145,7 @@ def test_without_a_phone_the_place_is_the_true_one_and_says_so(flown):
         assert data["_origin"] == "simulator (sensor)"
 
 
-def test_with_a_phone_only_what_it_told_is_there(tmp_path):
+def test_with_a_phone_the_position_is_measured(tmp_path):
     columns = {
         "truth.latitude_deg": lambda _: 1.0,
         "truth.longitude_deg": lambda _: 2.0,
@@ -170,7 +170,7 @@ def test_with_a_phone_only_what_it_told_is_there(tmp_path):
     assert log.series("up.panic", "delay_ms") == [20, 300]
 
 
-def test_an_arduino_that_is_silent_leaves_a_gap(tmp_path):
+def test_a_silent_board_leaves_a_gap(tmp_path):
     def age_s(time_s):
         return 0.005 if time_s < 0.5 or time_s > 1.5 else time_s - 0.495
 
@@ -183,7 +183,7 @@ def test_an_arduino_that_is_silent_leaves_a_gap(tmp_path):
     assert sorted(gaps)[-2] < 0.021
 
 
-def test_a_command_of_the_ground_is_there_if_it_was_carried_out(tmp_path):
+def test_only_executed_commands_of_the_ground_are_logged(tmp_path):
     def asked(name, at_s, answer):
         command = CommandPart(name, {"mode": "FBW"})
         return PendingCommand(Event(at_s=at_s, command=command), command, "1", at_s, answer)
@@ -198,7 +198,7 @@ def test_a_command_of_the_ground_is_there_if_it_was_carried_out(tmp_path):
     assert log.series("log", "message") == ["up.arm from the ground: refused, forbidden: no"]
 
 
-def test_how_it_ended_is_its_last_word(tmp_path):
+def test_the_end_of_the_flight_is_the_last_log_entry(tmp_path):
     columns = {"truth.roll_deg": lambda _: 0.0}
     log = read(tmp_path, columns, crash="hit the ground", failure="raspilot died")
     assert [(data["level"], data["message"]) for _, data in log.messages["log"]] == [
@@ -212,7 +212,7 @@ FLOWN_WITH_ALL = scenario(PHONE)
 
 
 @given(st.lists(st.tuples(NUMBERS, NUMBERS, st.text(max_size=5)), min_size=1, max_size=4))
-def test_whatever_the_signals_are_the_file_is_whole(tmp_path_factory, rows):
+def test_any_signals_give_a_valid_file(tmp_path_factory, rows):
     path = tmp_path_factory.mktemp("any") / "flight.mcap"
     columns = columns_of(FLOWN_WITH_ALL)
     made = log_of({name: [None] for name in columns if name not in ("time_s", "event")}, 1)
@@ -226,7 +226,7 @@ def test_whatever_the_signals_are_the_file_is_whole(tmp_path_factory, rows):
     assert all(math.isfinite(time_s) for each in log.messages.values() for time_s, _ in each)
 
 
-def test_a_file_that_cannot_be_written_is_an_error_of_the_system():
+def test_a_full_disk_is_an_os_error():
     flown = FlightRecord(scenario(), log_of({"truth.roll_deg": lambda _: 0.0}, 5))
     with pytest.raises(OSError, match="No space left"):
         write_flight("full", Result(flown, []), Path("/dev/full"))

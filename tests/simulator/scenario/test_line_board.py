@@ -6,7 +6,7 @@ from up_simulator.scenario.line_board import FROM_BOARD, TO_BOARD, SerialWires
 DATA = bytes(range(256)) * 40
 
 
-def spoil(noise, direction=TO_BOARD, seed=1):
+def corrupt(noise, direction=TO_BOARD, seed=1):
     wires = SerialWires(seed)
     wires.set_noise(noise, 0.0)
     return wires.pass_on(DATA, direction, 0.0), wires
@@ -16,7 +16,7 @@ def test_without_noise_every_byte_arrives():
     assert SerialWires(1).pass_on(DATA, TO_BOARD, 0.0) == DATA
 
 
-def test_an_unplugged_line_passes_nothing_and_is_itself_again():
+def test_an_unplugged_line_passes_nothing():
     wires = SerialWires(1)
     wires.is_plugged = False
     assert wires.pass_on(DATA, TO_BOARD, 0.0) == b""
@@ -25,7 +25,7 @@ def test_an_unplugged_line_passes_nothing_and_is_itself_again():
 
 
 def test_flipped_bytes_differ_in_one_bit():
-    arrived, wires = spoil(SerialNoise(flipped_percent=5))
+    arrived, wires = corrupt(SerialNoise(flipped_percent=5))
     wrong = [(a ^ b).bit_count() for a, b in zip(DATA, arrived, strict=True) if a != b]
     assert set(wrong) == {1} and len(wrong) == wires.corrupted
     assert 0.04 < len(wrong) / len(DATA) < 0.06
@@ -33,14 +33,14 @@ def test_flipped_bytes_differ_in_one_bit():
 
 @pytest.mark.parametrize(("kind", "sign"), [("inserted_percent", 1), ("lost_percent", -1)])
 def test_bytes_are_inserted_and_lost(kind, sign):
-    arrived, wires = spoil(SerialNoise(**{kind: 5}))
+    arrived, wires = corrupt(SerialNoise(**{kind: 5}))
     assert len(arrived) == len(DATA) + sign * wires.corrupted
     assert 0.04 < wires.corrupted / len(DATA) < 0.06
 
 
-def test_the_same_seed_spoils_the_same_bytes():
+def test_the_same_seed_corrupts_the_same_bytes():
     noise = SerialNoise(flipped_percent=1, inserted_percent=1, lost_percent=1)
-    assert spoil(noise)[0] == spoil(noise)[0] != spoil(noise, seed=2)[0]
+    assert corrupt(noise)[0] == corrupt(noise)[0] != corrupt(noise, seed=2)[0]
 
 
 def test_noise_has_a_direction_and_an_end():

@@ -30,7 +30,7 @@ def black_boxes(folder):
     return [FlightLog.read([path]) for path in found]
 
 
-def test_the_daemon_is_killed_hung_and_comes_back_in_real_time(tmp_path):
+def test_a_killed_daemon_returns_in_real_time(tmp_path):
     done = fly(
         tmp_path,
         HEAD
@@ -59,7 +59,7 @@ def test_the_daemon_is_killed_hung_and_comes_back_in_real_time(tmp_path):
     assert "up.telemetry.frequency" in first.topics or "up.telemetry.frequency" in second.topics
 
 
-def test_a_daemon_that_dies_is_told_with_the_tail_of_its_log(tmp_path):
+def test_a_daemon_that_fails_is_reported_with_its_newest_log_lines(tmp_path):
     done = fly(
         tmp_path,
         HEAD
@@ -74,7 +74,7 @@ def test_a_daemon_that_dies_is_told_with_the_tail_of_its_log(tmp_path):
     assert summary["held"] is False and summary["failure_code"] == "participant_failed"
 
 
-def test_datagrams_of_the_phone_pass_its_cable(tmp_path):
+def test_datagrams_of_the_phone_use_its_cable(tmp_path):
     age = "signal: ground.age_ms.orientation"
     done = fly(
         tmp_path,
