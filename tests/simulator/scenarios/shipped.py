@@ -29,7 +29,7 @@ def fly(name):
     result = fly_scenario(name, scenario, ProgressLine(io.StringIO(), is_shown=False))
     record = result.record
     assert record.board_title == title
-    assert record.failure is None and record.notes == [], record.failure_log
+    assert record.failure is None and record.notes == {}, record.failure_log
     return [
         f"{verdict.name}: {verdict.figure} ({verdict.limit}) {verdict.why}".rstrip()
         for verdict in result.verdicts
