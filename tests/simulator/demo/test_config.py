@@ -22,7 +22,7 @@ def write(folder, controller="arduino", airframe="glider", **more):
     )
 
 
-def test_the_gains_are_the_airframes_and_saved_ones_stay(tmp_path):
+def test_saved_gains_replace_the_airframes(tmp_path):
     write(tmp_path)
     gains = yaml.safe_load((tmp_path / "pids.yml").read_text())
     assert gains == load_airframe("glider").gains
@@ -38,7 +38,7 @@ def test_another_airframe_begins_with_its_own_gains(tmp_path):
     assert yaml.safe_load((tmp_path / "pids.yml").read_text()) == load_airframe("wing").gains
 
 
-def test_the_controller_is_one_word_in_one_file(tmp_path):
+def test_the_controller_changes_one_file(tmp_path):
     one, other = tmp_path / "arduino", tmp_path / "raspberry"
     for folder in (one, other):
         write(folder, controller=folder.name)
@@ -51,35 +51,35 @@ def test_the_controller_is_one_word_in_one_file(tmp_path):
     assert differing == ["config.yml"]
 
 
-def test_a_bad_link_stands_between_aircraft_and_proxy(tmp_path):
+def test_a_bad_link_is_between_aircraft_and_proxy(tmp_path):
     write(tmp_path, uplink_port=4711)
     mission = yaml.safe_load((tmp_path / "mission_control.yml").read_text())
     assert mission["remote_server"]["port"] == 4711
     assert yaml.safe_load((tmp_path / "proxy.yml").read_text())["airborne port"] == 3003
 
 
-def test_two_showcases_do_not_share_a_folder(tmp_path, capsys):
+def test_two_demos_do_not_share_a_folder(tmp_path, capsys):
     import fcntl
 
     with (tmp_path / "lock").open("w") as lock:
         fcntl.flock(lock, fcntl.LOCK_EX)
         assert main(["--folder", str(tmp_path)]) == 1
-    said = capsys.readouterr().err
-    assert "another 'make run' flies with" in said and "make run ARGS='--folder " in said
+    error = capsys.readouterr().err
+    assert str(tmp_path) in error and "--folder" in error
 
 
 @pytest.mark.parametrize(
     "words",
     [["--folder", "/proc/x"], ["--folder", __file__], ["--seconds", "nan"], ["--seconds", "0"]],
 )
-def test_a_wrong_folder_or_time_is_one_sentence_and_status_2(words, capsys):
+def test_a_wrong_folder_or_time_ends_with_status_2(words, capsys):
     try:
         status = main(words)
     except SystemExit as end:
         status = end.code
     assert status == 2
-    told = capsys.readouterr().err
-    assert words[0] in told and told.count("\n") == 1
+    error = capsys.readouterr().err
+    assert words[0] in error and error.count("\n") == 1
 
 
 def test_the_flight_model_leaves_nothing_in_the_working_directory(tmp_path):
@@ -95,42 +95,27 @@ def test_the_flight_model_leaves_nothing_in_the_working_directory(tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("words", "what"),
-    [
-        (["--wind", "99"], "wind is 0 to 25 m/s"),
-        (["--radio", "script"], "is not circle, keyboard or js0"),
-        (["--board", "chip"], "invalid choice: 'chip'"),
-        (["--nowatch"], "unrecognized arguments: --nowatch, did you mean --no-watch?"),
-        (["--link", "dealy=5"], "'dealy=5' is not understood"),
-    ],
+    "words",
+    [["--wind", "99"], ["--radio", "script"], ["--board", "chip"], ["--link", "dealy=5"]],
 )
-def test_what_the_aircraft_would_refuse_is_refused_before_anything_starts(words, what, capsys):
+def test_a_wrong_option_of_the_aircraft_is_refused_before_anything_starts(words, capsys):
     with pytest.raises(SystemExit) as end:
         main(words)
+    error = capsys.readouterr().err
     assert end.value.code == 2
-    told = capsys.readouterr().err
-    assert what in told and told.count("\n") == 1
+    assert words[0] in error and words[1] in error and error.count("\n") == 1
 
 
-def test_the_help_describes_every_board_and_what_it_needs(capsys):
-    with pytest.raises(SystemExit):
-        main(["--help"])
-    told = " ".join(capsys.readouterr().out.split())
-    assert all(f"{board}: " in told for board in ("firmware", "host"))
-    assert "auto (default): " in told and "needs g++" in told
-
-
-def test_an_airframe_that_is_none_is_one_sentence_with_a_suggestion(tmp_path, capsys):
+def test_an_unknown_airframe_is_refused_with_a_suggestion(tmp_path, capsys):
     before = {number: signal.getsignal(number) for number in SIGNALS}
     try:
         assert main(["--folder", str(tmp_path), "--airframe", "glidr"]) == 2
     finally:
         for number, handler in before.items():
             signal.signal(number, handler)
-    told = capsys.readouterr()
-    assert told.err.startswith("make run: glidr: is no airframe (glider, wing)")
-    assert told.err.endswith("did you mean 'glider'?\n") and told.err.count("\n") == 1
-    assert told.out == ""
+    error = capsys.readouterr()
+    assert "glidr" in error.err and "'glider'" in error.err and error.err.count("\n") == 1
+    assert error.out == ""
 
 
 def test_the_black_box_writes_into_the_folder_of_the_run(tmp_path):

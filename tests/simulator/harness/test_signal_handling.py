@@ -24,8 +24,8 @@ sticks: [{at_s: 0, mode: FBW, arm: true, throttle: 0.5}]
 expect: [{name: It flies, signal: truth.height_m, above: 50}]
 """
 WITH_DAEMON = LONG.replace("Long", "Real") + "raspilot: {runs: real}\nphone: {}\nground: {}\n"
-SHELF = (
-    "import pathlib, sys; from up_simulator.verbs import shelf; shelf.SHIPPED = pathlib.Path();"
+CATALOGUE = (
+    "import pathlib, sys; from up_simulator.verbs import catalogue; catalogue.SHIPPED = pathlib.Path();"
     " from up_simulator.cli import main; sys.exit(main())"
 )
 ENDS = (signal.SIGTERM, signal.SIGHUP)
@@ -62,7 +62,7 @@ def ours(folder):
     return found
 
 
-def and_jvm(programs):
+def with_jvm(programs):
     """Return how many processes there are where a phone flies: one in Java has its own."""
     return programs + (choose_phone().java is not None)
 
@@ -128,33 +128,33 @@ def test_a_flight_ends_with_its_report_and_the_signals_status(in_a_folder, numbe
         os.close(other)
         wait_for_progress(own)
         process.send_signal(number)
-        told = process.communicate(timeout=LIMIT_S)[0].decode()
+        output = process.communicate(timeout=LIMIT_S)[0].decode()
         os.close(own)
     assert process.returncode == 128 + number
-    assert "long: NOT held" in told and "interrupted" in told and "Traceback" not in told
+    assert "long: NOT held" in output and "interrupted" in output and "Traceback" not in output
     assert (in_a_folder / "run/flights/long/log.csv").is_file()
 
 
 @pytest.mark.parametrize("number", ENDS)
-def test_real_programs_and_their_folder_go_with_the_flight(in_a_folder, number):
+def test_real_programs_and_their_folder_end_with_the_flight(in_a_folder, number):
     Path("real.yml").write_text(WITH_DAEMON)
     with program(in_a_folder, "fly", "real.yml", "--no-picture") as process:
-        wait(lambda: len(ours(in_a_folder)) == and_jvm(2) and left(in_a_folder), "the daemon")
+        wait(lambda: len(ours(in_a_folder)) == 2 and left(in_a_folder), "the daemon")
         process.send_signal(number)
         # The terminal's end is reported twice: by the kernel and by the shell.
         process.send_signal(number)
-        told = process.communicate(timeout=LIMIT_S)[0].decode()
+        output = process.communicate(timeout=LIMIT_S)[0].decode()
         assert ours(in_a_folder) == []
-    assert process.returncode == 128 + number, told
-    assert "Traceback" not in told
+    assert process.returncode == 128 + number, output
+    assert "Traceback" not in output
     assert left(in_a_folder) == []
 
 
 @pytest.mark.parametrize("number", [*ENDS, signal.SIGKILL])
-def test_all_takes_its_flights_along(in_a_folder, number):
+def test_all_ends_its_flights(in_a_folder, number):
     Path("one.yml").write_text(LONG)
     Path("two.yml").write_text(LONG)
-    with program(in_a_folder, "all", code=SHELF) as process:
+    with program(in_a_folder, "all", code=CATALOGUE) as process:
         wait(lambda: len(flights(in_a_folder)) == 2, "two flights")
         process.send_signal(number)
         process.wait(LIMIT_S)
@@ -184,7 +184,7 @@ def test_a_closed_terminal_ends_a_flight_with_its_report_in_the_file(in_a_folder
 def test_a_closed_terminal_ends_all_flights(in_a_folder):
     Path("one.yml").write_text(LONG)
     own, other = pty.openpty()
-    with program(in_a_folder, "all", code=SHELF, **on_its_terminal(other)) as process:
+    with program(in_a_folder, "all", code=CATALOGUE, **on_its_terminal(other)) as process:
         os.close(other)
         wait(lambda: flights(in_a_folder), "a flight")
         os.close(own)
@@ -192,7 +192,7 @@ def test_a_closed_terminal_ends_all_flights(in_a_folder):
         wait(lambda: not ours(in_a_folder), "the end of the flight")
 
 
-def test_a_frozen_daemon_goes_with_a_killed_flight(in_a_folder):
+def test_a_frozen_daemon_ends_with_a_killed_flight(in_a_folder):
     Path("real.yml").write_text(WITH_DAEMON + "events: [{at_s: 0, raspilot: hung}]\n")
 
     def is_frozen(pid):
@@ -205,14 +205,14 @@ def test_a_frozen_daemon_goes_with_a_killed_flight(in_a_folder):
         wait(lambda: not ours(in_a_folder), "its end")
 
 
-def test_what_a_killed_flight_left_is_swept_by_the_next(in_a_folder):
+def test_the_folder_of_a_killed_flight_is_removed_by_the_next(in_a_folder):
     Path("real.yml").write_text(WITH_DAEMON)
     Path("short.yml").write_text(WITH_DAEMON.replace("3000", "0.1").replace("real", "in process"))
     with program(in_a_folder, "fly", "real.yml", "--no-picture") as process:
-        wait(lambda: len(ours(in_a_folder)) == and_jvm(2), "the daemon")
+        wait(lambda: len(ours(in_a_folder)) == 2, "the daemon")
         process.kill()
         wait(lambda: not ours(in_a_folder), "the end of the daemon")
-        other = in_a_folder / "tmp" / "up-sim-of-somebody-else"
+        other = in_a_folder / "tmp" / "up-sim-of-another-user"
         other.mkdir()
         with program(in_a_folder, "fly", "short.yml", "--no-picture") as following:
             following.communicate(timeout=LIMIT_S)
@@ -220,7 +220,7 @@ def test_what_a_killed_flight_left_is_swept_by_the_next(in_a_folder):
 
 
 @pytest.mark.parametrize("number", [signal.SIGINT, *ENDS, signal.SIGKILL])
-def test_tuning_takes_its_workers_along(in_a_folder, number):
+def test_tuning_ends_its_workers(in_a_folder, number):
     with program(in_a_folder, "tune", "--quick", "--axis", "roll") as process:
         # Itself, what watches its semaphores, and two workers.
         wait(lambda: len(ours(in_a_folder)) == 4, "two workers")
@@ -228,29 +228,29 @@ def test_tuning_takes_its_workers_along(in_a_folder, number):
             # A worker whose parent is killed before it has started cannot be kept from complaining.
             wait(lambda: sum(map(ignores_interrupts, ours(in_a_folder))) == 3, "their handlers")
         process.send_signal(number)
-        told = process.communicate(timeout=LIMIT_S)[0].decode()
+        output = process.communicate(timeout=LIMIT_S)[0].decode()
         wait(lambda: not ours(in_a_folder), "the end of the workers")
     assert process.returncode == (-number if number == signal.SIGKILL else 128 + number)
-    assert "Traceback" not in told
+    assert "Traceback" not in output
     assert left(in_a_folder) == []
 
 
-def as_nohup_does():
+def ignore_hangup():
     signal.signal(signal.SIGHUP, signal.SIG_IGN)
 
 
 @pytest.mark.parametrize("module", ["up_simulator", "up_simulator.demo"])
-def test_what_is_in_the_air_after_nohup_ignores_the_hangup(in_a_folder, module):
+def test_an_aircraft_started_with_nohup_ignores_the_hangup(in_a_folder, module):
     own = ["start", "--no-phone", "--board", "host"]
     if module != "up_simulator":
         own = ["--any-ports", "--no-watch", "--folder", str(in_a_folder)]
     words = ("-m", module, *own)
-    with program(in_a_folder, *words, python=True, preexec_fn=as_nohup_does) as process:
-        told = b""
-        while not any(word in told for word in (b"board on", b"It flies")):
+    with program(in_a_folder, *words, python=True, preexec_fn=ignore_hangup) as process:
+        output = b""
+        while not any(word in output for word in (b"board on", b"It flies")):
             line = process.stdout.readline()
-            assert line, told
-            told += line
+            assert line, output
+            output += line
         ignored = [
             line
             for line in Path(f"/proc/{process.pid}/status").read_text().splitlines()
@@ -258,34 +258,34 @@ def test_what_is_in_the_air_after_nohup_ignores_the_hangup(in_a_folder, module):
         ]
         process.send_signal(signal.SIGTERM)
         assert process.wait(LIMIT_S) == 0
-        wait(lambda: not ours(in_a_folder), "the end of everybody")
+        wait(lambda: not ours(in_a_folder), "the end of all")
     assert int(ignored[0].split()[1], 16) >> (signal.SIGHUP - 1) & 1
     assert left(in_a_folder) == []
 
 
 @pytest.mark.parametrize("number", [signal.SIGINT, *ENDS, signal.SIGKILL])
-def test_a_showcase_takes_everything_along(in_a_folder, number):
+def test_the_demo_ends_all_its_processes(in_a_folder, number):
     words = ("--any-ports", "--no-watch", "--folder", str(in_a_folder))
     with program(in_a_folder, "-m", "up_simulator.demo", *words, python=True) as process:
-        told = b""
-        while b"It flies" not in told:
+        output = b""
+        while b"It flies" not in output:
             line = process.stdout.readline()
-            assert line, told
-            told += line
+            assert line, output
+            output += line
         # Itself, aircraft, proxy, daemon and the page.
-        assert len(ours(in_a_folder)) == and_jvm(5)
+        assert len(ours(in_a_folder)) == with_jvm(5)
         process.send_signal(number)
         assert process.wait(LIMIT_S) == (-number if number == signal.SIGKILL else 0)
-        wait(lambda: not ours(in_a_folder), "the end of everybody")
+        wait(lambda: not ours(in_a_folder), "the end of all")
     assert left(in_a_folder) == []
     assert not (in_a_folder / "board").is_symlink() and not (in_a_folder / "radio").exists()
 
 
-def test_without_a_hangup_wanted_it_flies_on(in_a_folder):
+def test_a_flight_started_with_nohup_ignores_the_hangup(in_a_folder):
     Path("long.yml").write_text(LONG.replace("3000", "20"))
     words = ("fly", "long.yml", "--no-picture")
-    with program(in_a_folder, *words, preexec_fn=as_nohup_does) as process:
+    with program(in_a_folder, *words, preexec_fn=ignore_hangup) as process:
         wait(lambda: flights(in_a_folder), "a flight")
         process.send_signal(signal.SIGHUP)
-        told = process.communicate(timeout=LIMIT_S)[0].decode()
-    assert process.returncode == 0, told
+        output = process.communicate(timeout=LIMIT_S)[0].decode()
+    assert process.returncode == 0, output
