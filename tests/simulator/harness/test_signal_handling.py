@@ -25,7 +25,8 @@ expect: [{name: It flies, signal: truth.height_m, above: 50}]
 """
 WITH_DAEMON = LONG.replace("Long", "Real") + "raspilot: {runs: real}\nphone: {}\nground: {}\n"
 CATALOGUE = (
-    "import pathlib, sys; from up_simulator.verbs import catalogue; catalogue.SHIPPED = pathlib.Path();"
+    "import pathlib, sys; from up_simulator.verbs import catalogue;"
+    " catalogue.SHIPPED = pathlib.Path();"
     " from up_simulator.cli import main; sys.exit(main())"
 )
 ENDS = (signal.SIGTERM, signal.SIGHUP)
