@@ -12,7 +12,7 @@ from up.log.json_lines import line_of
 from up.log.setup import FORMAT_VARIABLE
 
 
-def user_line(text: str, source: str, *, code: str = "", **fields: Any) -> str:
+def user_line(text: str, program: str, /, *, code: str = "", **fields: Any) -> str:
     """Return a line to print: the text, or JSON with code and fields if UP_LOG_FORMAT=json."""
     if os.environ.get(FORMAT_VARIABLE) != "json":
         return text
@@ -20,7 +20,7 @@ def user_line(text: str, source: str, *, code: str = "", **fields: Any) -> str:
         **fields,
         "code": code,
         "log_level": LogLevel.info,
-        "log_namespace": source,
+        "log_namespace": program,
         "log_format": "{log_text}",
         "log_text": text,
         "log_time": time.time(),
