@@ -90,7 +90,7 @@ def test_a_daemon_that_is_killed_leaves_a_log_to_its_last_second(flight):
     The truth has that time; what it is now and then told by is slowed in Panic Mode, and what the
     board says never.
     """
-    assert "raspilot ended by itself with signal 9" in flight.showcase.said()
+    assert "raspilot ended unexpectedly with signal 9" in flight.showcase.said()
     assert flight.log.is_cut, "nobody has finished it"
     for topic in ("simulator.truth", "up.orientation.update", "up.servo.update"):
         times_s = [time_s for time_s, _ in flight.log.messages[topic]]

@@ -26,10 +26,10 @@ from up_simulator.verbs.catalogue import (
 
 DESCRIPTION = """\
 The virtual aircraft: the firmware that goes on the Arduino and the daemon that goes on the
-Raspberry Pi, flown by a flight dynamics model, in flights that are written down and judged."""
+Raspberry Pi, flown by a flight dynamics model, in flights that are logged and evaluated."""
 EPILOG = """\
 A first flight in three commands:
-  up-sim list                        what is there to fly
+  up-sim list                        the scenarios
   up-sim fly level-flight-in-gusts   flies it; the picture is in run/flights/
   up-sim new first-flight            a scenario of your own, with a comment at every key
 
@@ -73,11 +73,11 @@ def _main(words: list[str]) -> int:
     verb = words[0]
     if verb.startswith("-"):
         parser.parse_args(words)
-        return _fail("which verb? 'up-sim --help' lists them", WRONG_INPUT)
+        return _fail("a verb is missing; 'up-sim --help' lists them", WRONG_INPUT)
     if verb not in VERBS:
         near = difflib.get_close_matches(verb[:60], VERBS, n=1)
         hint = f", did you mean '{near[0]}'?" if near else " ('up-sim --help' lists them)"
-        return _fail(f"there is no verb {verb[:60]!r}{hint}", WRONG_INPUT)
+        return _fail(f"unknown verb {verb[:60]!r}{hint}", WRONG_INPUT)
     try:
         carry_out: Callable[[list[str]], int] = _module(verb).main
         return carry_out(words[1:])

@@ -45,11 +45,11 @@ EPILOG = """\
 examples:
   up-sim tune                               both axes and the yaw damper of the glider
   up-sim tune --airframe wing --axis roll   one axis of another airframe
-  up-sim tune --write config/pids.yml       and keep what was proposed
+  up-sim tune --write config/pids.yml       and write the proposed gains
   up-sim tune --log run/flights/x/log.csv   how a flight followed its sticks, and what to change
 
-Exit status: 0 a set was proposed or steps were found, 1 not, 2 wrong input. docs/tuning.md tells
-what the figures mean. Gains go to the Raspberry Pi as config/pids.yml, and only then to the
+Exit status: 0 a set was proposed or steps were found, 1 not, 2 wrong input. docs/tuning.md explains
+the figures. Gains go to the Raspberry Pi as config/pids.yml, and only then to the
 Arduino, while it is disarmed."""
 _SENTENCES = (
     BoardCrashedError,
@@ -81,7 +81,7 @@ def main(arguments: Sequence[str]) -> int:
 def _parser() -> argparse.ArgumentParser:
     parser = OptionParser(
         prog="up-sim tune",
-        description="Flies steps with many gains, measures what is left before the loop rings, and"
+        description="Flies steps with many gains, measures the margins of the loop, and"
         " proposes a set.",
         epilog=EPILOG,
     )
@@ -103,7 +103,7 @@ def _parser() -> argparse.ArgumentParser:
         "--log", type=Path, metavar="FLIGHT.csv", help="look at this flight instead"
     )
     parser.add_argument(
-        "--write", type=Path, metavar="FILE", help="write what is proposed (pids.yml)"
+        "--write", type=Path, metavar="FILE", help="write the proposed gains (pids.yml)"
     )
     parser.add_argument(
         "--pictures", type=Path, default=FOLDER, metavar="DIR", help="default: %(default)s"
@@ -195,9 +195,7 @@ def _look_at_log(options: argparse.Namespace) -> int:
     axes: tuple[Axis, ...] = (options.axis,) if options.axis else ("roll", "pitch")
     steps = steps_of(log, axes)
     if not steps:
-        _out(
-            f"{options.log}: there is no step in it: a stick that goes somewhere within 0.25 s, in"
-        )
+        _out(f"{options.log}: no step in it: a stick that goes somewhere within 0.25 s, in")
         _out("FBW by 5 deg, in RATE by 10 deg/s or more, and stays there for half a second")
         return NOT_HELD
     for line in log_lines(steps):
@@ -211,7 +209,7 @@ def _look_at_log(options: argparse.Namespace) -> int:
 
 def _gains_in(path: Path) -> GainSet:
     if not path.is_file():
-        raise UsageError(f"{path}: there is no such file")
+        raise UsageError(f"{path}: no such file")
     return gain_set_of(PIDS.parse(path.read_bytes(), path))
 
 

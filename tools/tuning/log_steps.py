@@ -54,7 +54,7 @@ def steps_of(log: Log, axes: Sequence[Axis] = ("roll", "pitch")) -> list[LogStep
     """
     names = [each for each in _SIGNALS if each[0] in axes]
     if not any(f"demand.{name}" in log for _, _, name, _ in names):
-        raise LogStepsError("the log has no demand.* columns: nothing tells what was asked")
+        raise LogStepsError("the log has no demand.* columns: the demand is unknown")
     times_s = log.numbers("time_s")
     found: list[LogStep] = []
     for axis, mode, name, unit in names:
@@ -174,7 +174,7 @@ def _advice(mode: str, responses: Sequence[StepResponse]) -> str:
     never = sum(each.rise_time_s is None for each in responses)
     if never > half:
         return (
-            "it does not follow what is asked; look at the direction of the servo, at the mode and"
+            "it does not follow the demand; look at the direction of the servo, at the mode and"
             " at the airspeed before any gain"
         )
     if mode == "RATE":
@@ -188,7 +188,7 @@ def _advice(mode: str, responses: Sequence[StepResponse]) -> str:
         return "it overshoots: lower the stabilize P by a quarter, or raise the rate P a little"
     if short >= len(responses):
         return (
-            "it falls short of what is asked: raise the stabilize P, then the rate P; more throttle"
+            "it falls short of the demand: raise the stabilize P, then the rate P; more throttle"
             " where it sinks below its speed"
         )
     if slow > half:
@@ -205,5 +205,5 @@ def _rate_advice(rings: bool, over: bool, short: bool) -> str:
             " it, within the margins that 'up-sim tune' shows; FBW needs none of it"
         )
     if over:
-        return "it begins faster than it goes on: that is the aeroplane's own, leave it"
+        return "it begins faster than it continues: a property of the aeroplane, leave it"
     return "it follows well; leave it"

@@ -73,7 +73,7 @@ def loop_response(
         raise MarginsError("three whole periods of excitation are needed to measure a loop")
     last = slice((periods - 1) * period, periods * period)
     if _own_share(_level(moved[last], _slope(moved, last)), multisine) > MAX_OWN_SHARE:
-        raise MarginsError("the loop rings by itself, or the air is rough")
+        raise MarginsError("the loop oscillates, or the air is rough")
     parts = [slice(number * period, (number + 1) * period) for number in range(1, periods)]
     came_level = [_level(given[part], _slope(given, part)) for part in parts]
     went_level = [_level(moved[part], _slope(moved, part)) for part in parts]

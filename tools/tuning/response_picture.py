@@ -101,7 +101,7 @@ def draw_log_steps(
     """Draw every step that was found in a log. Raises ``PictureError``."""
     shown = list(steps)[:MAX_CELLS]
     if not shown:
-        raise PictureError(f"{path}: no picture: there is no step to draw")
+        raise PictureError(f"{path}: no picture: no step to draw")
     times_s = log.numbers("time_s")
     rows = math.ceil(len(shown) / COLUMNS)
     with sheet_for(path) as sheet:
@@ -175,7 +175,7 @@ def _draw_loop(size_axes: Axes, phase_axes: Axes, tuning: AxisTuning) -> None:
                 [at_hz, at_hz], [-180, phase_deg - 180], color=colour, lw=2.5, alpha=0.5
             )
     for axes, level, words, unit in (
-        (size_axes, 0.0, "Open loop: what comes round of what goes in", "dB"),
+        (size_axes, 0.0, "Open loop: gain around the loop", "dB"),
         (phase_axes, -180.0, "Its phase", "deg"),
     ):
         axes.axhline(level, color=INK, lw=0.8)

@@ -18,11 +18,11 @@ from up_simulator.harness.user_log import Log, no_log
 
 HOST_LIBRARY = ARDUINO / "build" / "libraspilot.so"
 FIRMWARE = ARDUINO / "build" / "raspilot.elf"
-_NOT_REBUILT = "was built before and is not built anew"
+_NOT_REBUILT = "is an earlier build, not rebuilt"
 
 
 class BoardUnavailableError(Exception):
-    """No such board can be had here: the message is one sentence for the user."""
+    """The board is unavailable here: the message is one sentence for the user."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -84,7 +84,8 @@ def aboard(
         if kind == "firmware":
             raise BoardUnavailableError(str(error)) from error
         program = _host_program(log)
-        log(f"the firmware's sources, built for this computer, fly instead: {error}")
+        text = f"the firmware's sources, built for this computer, fly instead: {error}"
+        log(text, code="board_substituted", reason=str(error))
         return program
 
 
@@ -94,7 +95,7 @@ def _firmware(log: Log) -> Path:
     except RigUnavailableError as error:
         if not _is_ready(FIRMWARE):
             raise
-        log(f"the firmware {_NOT_REBUILT}: {error}")
+        log(f"the firmware {_NOT_REBUILT}: {error}", code="board_outdated", reason=str(error))
         return FIRMWARE
 
 
@@ -110,7 +111,8 @@ def _host_program(log: Log) -> Program:
         reason = reason[0].lower() + reason[1:]
         if not _is_ready(HOST_LIBRARY):
             raise BoardUnavailableError(reason) from error
-        log(f"the firmware for this computer {_NOT_REBUILT}: {reason}")
+        text = f"the firmware for this computer {_NOT_REBUILT}: {reason}"
+        log(text, code="board_outdated", reason=reason)
     module = importlib.import_module("up_simulator.firmware.host_board")
     return Program(HOST_LIBRARY, module.HostBoard)
 
@@ -129,4 +131,4 @@ def _reason(error: Exception) -> str:
     """Return the most informative line of make's output: the first error, or the last line."""
     lines = [line.strip() for line in str(error).splitlines() if line.strip()]
     errors = [line for line in lines if "error:" in line or "needs" in line]
-    return (errors or lines[-1:] or ["make said nothing"])[0]
+    return (errors or lines[-1:] or ["make printed nothing"])[0]

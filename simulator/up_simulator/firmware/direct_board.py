@@ -66,7 +66,7 @@ class DirectBoard:
             self._silent.add(channel)
 
     def set_motion(self, motion: Motion) -> None:
-        """Ignore the motion: there is no IMU aboard."""
+        """Ignore the motion: this board has no IMU."""
 
     def pulses_us(self) -> Pulses:
         """Return the newest whole servo pulses; ``NEUTRAL_US`` before the first."""

@@ -22,15 +22,15 @@ phone on sockets."""
 
 EPILOG = """\
 The firmware is the one in arduino/, compiled for the Arduino and run instruction by instruction;
-where the AVR tools are missing the same sources run built for this computer, which is said.
+without the AVR tools the same sources run built for this computer, which is logged.
 
-Who moves the sticks (--radio):
+What moves the sticks (--radio):
   circle    a pilot who circles around the launch in FBW, switch at AUTO (default)
-  script    nobody but --sticks: AUX1 is high (AUTO), AUX2 goes high after 1 s (which arms)
+  script    --sticks alone: AUX1 is high (AUTO), AUX2 goes high after 1 s (which arms)
   keyboard  this terminal: arrows, w s, a d, 1 2 3, space; ? for help
   js0       a game controller, or a transmitter by USB (/dev/input/js0), see --controller
 
---sticks SCRIPT is what happens to the sticks of 'circle' and 'script':
+--sticks SCRIPT moves the sticks of 'circle' and 'script':
   t=SECONDS            when, since the start; holds for the words after it
   aileron=1600         also elevator, throttle, rudder, aux1, aux2: a pulse in us, from then on
   receiver=off         the receiver is lost (receiver=on: it is back)
@@ -38,7 +38,7 @@ Who moves the sticks (--radio):
 --controller MAP is 'transmitter' (default), 'gamepad', or names axes and buttons:
   "ailerons=0 elevator=1- throttle=2 rudder=3 aux1=b5 aux2=b4 dead=0.05"
   1- reverses axis 1; b5 is a button; ailerons=0:-30000..120..31000 calibrates; dead is the part
-  around the centre in which nothing moves. 'gamepad elevator=4-' changes what is ready-made.
+  around the centre without effect. 'gamepad elevator=4-' changes a preset.
 
 examples:
   up-sim start --pty-link /tmp/board
@@ -87,7 +87,7 @@ def read_options(arguments: list[str] | None = None) -> argparse.Namespace:
 
 def _add_flight(group: argparse._ArgumentGroup) -> None:
     group.add_argument(
-        "--airframe", default="glider", metavar="NAME", help="glider (default), wing, or one's own"
+        "--airframe", default="glider", metavar="NAME", help="glider (default), wing, or your own"
     )
     group.add_argument(
         "--wind", type=wind_m_s, default=3.0, metavar="M_S", help="from the south, default 3"
@@ -112,7 +112,7 @@ def _add_board(group: argparse._ArgumentGroup) -> None:
         default="auto",
         help=BOARD_HELP,
     )
-    group.add_argument("--elf", type=Path, metavar="FILE", help="a firmware that is built already")
+    group.add_argument("--elf", type=Path, metavar="FILE", help="a built firmware")
     group.add_argument(
         "--gains", type=Path, metavar="FILE", help="pids.yml that the Arduino's EEPROM holds"
     )
@@ -130,7 +130,7 @@ def _add_pilot(group: argparse._ArgumentGroup) -> None:
         help="circle, script, keyboard or js0",
     )
     group.add_argument(
-        "--sticks", type=_sticks, default=[], metavar="SCRIPT", help="what happens to the sticks"
+        "--sticks", type=_sticks, default=[], metavar="SCRIPT", help="a script of stick moves"
     )
     group.add_argument(
         "--controller",
@@ -153,8 +153,8 @@ def _add_phone(group: argparse._ArgumentGroup) -> None:
         "--phone",
         choices=KINDS,
         default="auto",
-        help="what it is: java, the app's own Up Library on a Java virtual machine; python, a"
-        " stand-in; auto (default): java where there is one",
+        help="the phone: java, the app's own Up Library on a Java virtual machine; python, a"
+        " stub; auto (default): java where available",
     )
     group.add_argument(
         "--phone-host",
@@ -177,7 +177,7 @@ def _add_phone(group: argparse._ArgumentGroup) -> None:
     group.add_argument(
         "--truth",
         action="store_true",
-        help="let it have the true state written into the flight's log, 20 times a second",
+        help="record the true state in the flight's log, 20 times a second",
     )
     group.add_argument(
         "--discover",
@@ -188,10 +188,10 @@ def _add_phone(group: argparse._ArgumentGroup) -> None:
         help="find Raspilot's host by Discovery (default 127.0.0.1:3001)",
     )
     group.add_argument(
-        "--runner", type=_place, metavar="HOST:PORT", help="ask this runner to spawn Raspilot first"
+        "--runner", type=_place, metavar="HOST:PORT", help="request Raspilot from this runner first"
     )
     group.add_argument(
-        "--aircraft-name", default="default", metavar="NAME", help="what to ask the runner for"
+        "--aircraft-name", default="default", metavar="NAME", help="the name that the runner gets"
     )
 
 

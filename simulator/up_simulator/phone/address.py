@@ -96,13 +96,15 @@ def read_spawn_answer(line: bytes, host: str) -> RaspberryPi:
     try:
         answer = json.loads(line)
         if answer["running"] is not True:
-            raise NotFoundError(f"the runner says: {answer.get('error') or answer.get('message')}")
+            raise NotFoundError(
+                f"refused by the runner: {answer.get('error') or answer.get('message')}"
+            )
         ports = answer["ports"]
         general, orientation = ports["general"], ports["orientation"]
     except (ValueError, RecursionError, KeyError, TypeError, AttributeError) as error:
-        raise NotFoundError(f"the runner's answer is not understood: {line[:80]!r}") from error
+        raise NotFoundError(f"the runner's answer is invalid: {line[:80]!r}") from error
     if not all(type(each) is int and 1 <= each <= 65535 for each in (general, orientation)):
-        raise NotFoundError(f"the runner's ports are none: {ports}")
+        raise NotFoundError(f"the runner's ports are invalid: {ports}")
     return RaspberryPi(host, general, orientation)
 
 
@@ -160,4 +162,6 @@ class _Request(LineOnlyReceiver):
     def connectionLost(self, reason: Any = None) -> None:  # noqa: N802 - Twisted's name
         """End an unanswered request."""
         if not self.answer.called:
-            self.answer.errback(Failure(NotFoundError("the runner hung up without an answer")))
+            self.answer.errback(
+                Failure(NotFoundError("the runner closed the connection without an answer"))
+            )

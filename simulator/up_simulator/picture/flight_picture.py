@@ -69,7 +69,7 @@ def draw_flight(
         raise PictureError(f"{path}: no picture of a log with {len(times_s)} rows")
     chosen = [(panel, known) for panel in PANELS if (known := panel.known(log))]
     if not chosen:
-        raise PictureError(f"{path}: no picture: the log has none of the signals that are drawn")
+        raise PictureError(f"{path}: no picture: the log has no signal to draw")
     if marks is None:
         marks = [Mark(at_s, name) for at_s, name in log.events]
     with sheet_for(path) as sheet:

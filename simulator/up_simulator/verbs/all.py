@@ -37,8 +37,8 @@ END_LIMIT_S = 30.0
 SHOWN_S = 0.5
 _MIB = 1024.0
 EPILOG = """\
-Fast scenarios fly two at a time, each in a process of its own; those with real programs after them
-and one at a time, because they keep real time.
+Fast scenarios fly two at a time, each in its own process; those with real programs follow
+one at a time, because they run in real time.
 
 examples:
   up-sim all

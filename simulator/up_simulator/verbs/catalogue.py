@@ -33,17 +33,17 @@ def find(name: str) -> Path:
     if path.suffix in SUFFIXES or path.is_file():
         if path.exists():
             return path
-        raise UsageError(f"there is no file {name}{_hint(path.stem)}")
+        raise UsageError(f"no file {name}{_hint(path.stem)}")
     known = {each.stem: each for each in shipped_paths()}
     if name in known:
         return known[name]
-    raise UsageError(f"there is no scenario {name[:80]!r}{_hint(name)}")
+    raise UsageError(f"unknown scenario {name[:80]!r}{_hint(name)}")
 
 
 def _hint(name: str) -> str:
     names = [each.stem for each in shipped_paths()]
     near = difflib.get_close_matches(name[:80], names, n=1, cutoff=0.5)
-    return f", did you mean '{near[0]}'?" if near else " ('up-sim list' names them)"
+    return f", did you mean '{near[0]}'?" if near else " ('up-sim list' lists them)"
 
 
 def no_such_tag(wanted: Iterable[str], known: Iterable[str]) -> UsageError:

@@ -12,8 +12,8 @@ from up_simulator.scenario.file import read_scenario
 from up_simulator.verbs.catalogue import HELD, WRONG_INPUT, find
 
 EPILOG = """\
-Every mistake is told with file, line, column and, where there is one, what was probably meant.
-Exit status: 0 no mistake, 2 mistakes.
+Every error is reported with file, line, column and, if possible, a suggestion.
+Exit status: 0 no error, 2 errors.
 
 examples:
   up-sim check my-flight.yml
@@ -24,7 +24,7 @@ def main(arguments: Sequence[str]) -> int:
     """Check files; return the exit status."""
     parser = OptionParser(
         prog="up-sim check",
-        description="Reads scenario files and tells all their mistakes at once.",
+        description="Reads scenario files and reports all their errors.",
         epilog=EPILOG,
     )
     parser.add_argument("files", nargs="+", metavar="FILE", help="a file, or a shipped one's name")
@@ -39,6 +39,6 @@ def main(arguments: Sequence[str]) -> int:
             continue
         count = len(scenario.expect)
         title = printable(scenario.title.strip())
-        what = f"{title}: {scenario.duration_s:g} s, {count} expectations, no mistake"
+        what = f"{title}: {scenario.duration_s:g} s, {count} expectations, no error"
         sys.stdout.write(f"{path}: {what}\n")
     return status

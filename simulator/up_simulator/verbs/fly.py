@@ -37,16 +37,15 @@ from up_simulator.verbs.catalogue import (
 EPILOG = """\
 examples:
   up-sim fly level-flight-in-gusts
-      a scenario that is shipped; 'up-sim list' names them all
+      a shipped scenario; 'up-sim list' lists them
   up-sim fly my-flight.yml --seed 7 --duration 20
       a file of your own, in other turbulence, for 20 s
   up-sim fly level-flight-in-gusts --set weather.turbulence=severe --set airframe=wing
-      what would happen if: any key of the file, by its dotted name
+      any key of the file, by its dotted name
   up-sim fly receiver-lost fbw-roll-step --no-picture --output /tmp/flights
 
-Log, picture and report of each are written into run/flights/NAME/. Ctrl-C ends a flight; what has
-been flown until then is reported. Exit status: 0 all held, 1 something did not,
-2 wrong input."""
+Log, picture and report of each are written into run/flights/NAME/. Ctrl-C ends a flight, which is
+reported so far. Exit status: 0 all held, 1 something did not, 2 wrong input."""
 
 
 def main(arguments: Sequence[str]) -> int:
@@ -76,7 +75,7 @@ def try_output(output: Path, names: Iterable[str]) -> None:
             try_folder(output / name)
         except OSError as error:
             why = error.strerror or error
-            raise UsageError(f"--output {output}: nothing can be written there: {why}") from error
+            raise UsageError(f"--output {output}: cannot write there: {why}") from error
 
 
 def _read(path: Path, options: argparse.Namespace) -> Scenario:
@@ -155,7 +154,7 @@ def _parser() -> argparse.ArgumentParser:
         choices=("fast", "real"),
         help="fast: as fast as it goes (default); real: no faster than real time",
     )
-    parser.add_argument("--board", choices=BOARDS, help="what flies (default: the scenario's)")
+    parser.add_argument("--board", choices=BOARDS, help="the board (default: the scenario's)")
     parser.add_argument(
         "--set",
         action="append",

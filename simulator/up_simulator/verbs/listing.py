@@ -14,7 +14,7 @@ from up_simulator.verbs.catalogue import HELD, WRONG_INPUT, name_of, no_such_tag
 
 EPILOG = """\
 examples:
-  up-sim list                 every scenario that is shipped
+  up-sim list                 every shipped scenario
   up-sim list --tag faults    those that have this tag
   up-sim list my-flights/     those of a folder of your own"""
 
@@ -34,7 +34,7 @@ def main(arguments: Sequence[str]) -> int:
     elif options.folder.is_dir():
         paths = sorted(options.folder.glob("*.yml"))
     else:
-        parser.error(f"{options.folder} is no folder")
+        parser.error(f"{options.folder} is not a folder")
     tags: set[str] = set()
     is_empty = True
     width = max((len(name_of(path)) for path in paths), default=0)

@@ -12,11 +12,11 @@ from up_simulator.verbs.catalogue import HELD, FailedError, UsageError
 
 TEMPLATE = "template.yml"
 EPILOG = """\
-The file flies and passes as it is: change it from there.
+The file flies and passes without a change.
 
 examples:
   up-sim new first-flight             writes first-flight.yml
-  up-sim new flights/steep-turns.yml  into a folder that is there"""
+  up-sim new flights/steep-turns.yml  into an existing folder"""
 
 
 def main(arguments: Sequence[str]) -> int:
@@ -33,14 +33,14 @@ def main(arguments: Sequence[str]) -> int:
     try:
         path.open("x").close()
     except FileExistsError:
-        raise UsageError(f"{path} is there already: choose another name") from None
+        raise UsageError(f"{path} exists: choose another name") from None
     except FileNotFoundError:
-        raise UsageError(f"there is no folder {path.parent}") from None
+        raise UsageError(f"{path.parent} is not a folder") from None
     try:
         path.write_text(text, encoding="utf-8")
     except OSError as error:
         path.unlink()
-        raise FailedError(f"{path} is not written: {error.strerror}") from None
+        raise FailedError(f"cannot write {path}: {error.strerror}") from None
     sys.stdout.write(f"{path} is written. Fly it:\n  up-sim fly {path}\n")
     return HELD
 
@@ -50,7 +50,7 @@ def _path(name: str) -> Path:
     if path.suffix not in (".yml", ".yaml"):
         path = path.with_name(f"{path.name}.yml") if path.name else path
     if not path.stem.replace("-", "").replace("_", "").isalnum():
-        raise UsageError(f"{name[:80]!r} is no name for a file: use letters, digits, - and _")
+        raise UsageError(f"{name[:80]!r} cannot name a file: use letters, digits, - and _")
     return path
 
 

@@ -1,4 +1,4 @@
-"""The host build alone: every flight repeats, boards are independent, and what is missing."""
+"""The host build alone: every flight repeats, boards are independent, and missing tools are reported."""
 
 import _ctypes
 import random

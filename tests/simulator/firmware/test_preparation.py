@@ -96,8 +96,8 @@ def test_a_wrong_profile_is_a_sentence(settings, said):
 @pytest.mark.parametrize(
     ("settings", "said"),
     [
-        ({"rate": {"flaps": {"p": 1}}}, "there is no gain rate.flaps.p"),
-        ({"rate": {"ailerons": {"q": 1}}}, "there is no gain rate.ailerons.q"),
+        ({"rate": {"flaps": {"p": 1}}}, "unknown gain rate.flaps.p"),
+        ({"rate": {"ailerons": {"q": 1}}}, "unknown gain rate.ailerons.q"),
         ({"rate": {"ailerons": {"p": 50.5}}}, "a gain is not within 0 to 50"),
         ({"rate": {"ailerons": {"p": float("nan")}}}, "a gain is not within 0 to 50"),
     ],

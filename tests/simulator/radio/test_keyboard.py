@@ -51,7 +51,7 @@ def test_a_stick_that_nobody_holds_goes_back_to_the_middle_and_the_throttle_stay
     keyboard = KeyboardSticks()
     for key in ("right", "right", "down", "w", "a"):
         keyboard.press(key, 0.0)
-    assert keyboard.sticks(HOLD_S).ailerons == 1620, "a held key repeats: it stays meanwhile"
+    assert keyboard.sticks(HOLD_S).ailerons == 1620, "a held key repeats: it stays"
     going = keyboard.sticks(HOLD_S + 0.05)
     assert 1500 < going.ailerons < 1620
     at_rest = keyboard.sticks(HOLD_S + 0.2)
