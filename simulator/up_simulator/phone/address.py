@@ -162,6 +162,4 @@ class _Request(LineOnlyReceiver):
     def connectionLost(self, reason: Any = None) -> None:  # noqa: N802 - Twisted's name
         """End an unanswered request."""
         if not self.answer.called:
-            self.answer.errback(
-                Failure(NotFoundError("the runner closed the connection without an answer"))
-            )
+            self.answer.errback(Failure(NotFoundError("the runner closed the connection")))

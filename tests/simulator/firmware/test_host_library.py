@@ -1,4 +1,4 @@
-"""The host build alone: every flight repeats, boards are independent, and missing tools are reported."""
+"""The host build alone: every flight repeats, boards are independent, missing tools are named."""
 
 import _ctypes
 import random
