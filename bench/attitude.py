@@ -19,6 +19,7 @@ from up_simulator.firmware.imu_errors import ImuErrors, drawn_errors
 from up_simulator.firmware.line_monitor import LineMonitor
 from up_simulator.firmware.preparation import PreparationError, cached_eeprom
 from up_simulator.harness.firmware_aircraft import FirmwareAircraft
+from up_simulator.harness.user_log import no_log
 from up_simulator.radio.circling_pilot import CirclingPilot
 
 FLIGHTS, MINUTES = 20, 10
@@ -118,12 +119,12 @@ def fly(
     board = choose_board("host", seed=seed, eeprom=eeprom, imu_errors=errors or drawn)
     clock, line = StarvedClock(seed, is_starved), ComparingLine(flight)
     pilot = CirclingPilot()
-    aircraft = FirmwareAircraft(flight, board, line, pilot, clock, "circle", lambda _text: None)
+    aircraft = FirmwareAircraft(flight, board, line, pilot, clock, "circle", no_log)
     found: list[Errors] = []
     for minute in range(1, minutes + 1):
         while aircraft.real_time.world.time_s < 60.0 * minute:
             clock.tick()
-            aircraft.keep()
+            aircraft.advance()
             if flight.crash is not None:
                 return [*found, (math.inf, math.inf)]
         found.append(line.worst_deg)

@@ -10,6 +10,7 @@ from pathlib import Path
 
 from bench.processes import cpu_s, running, tree, wait_until
 from bench.table import Row, compared
+from up_simulator.demo.hints import LAST_HINT
 
 SETTLE_S = 10.0
 SECONDS, QUICK_SECONDS = 5.0, 1.0
@@ -25,15 +26,15 @@ def rows(quick: bool = False) -> Iterable[Row]:
         folder = Path(name)
         log = folder / "log"
         command = (sys.executable, "-m", "up_simulator.demo", "--folder", folder, *OPTIONS)
-        with log.open("w") as stream, running(command, stream, folder) as showcase:
+        with log.open("w") as stream, running(command, stream, folder) as program:
             wait_until(
-                lambda: showcase.poll() is not None or "Ctrl-C stops" in log.read_text(),
+                lambda: program.poll() is not None or LAST_HINT in log.read_text(),
                 "the flight of make run",
             )
-            if showcase.poll() is not None:
+            if program.poll() is not None:
                 raise RuntimeError(f"make run ended: {log.read_text().strip()}")
             time.sleep(SETTLE_S)
-            titles = {pid: _title(pid) for pid in tree(showcase.pid)}
+            titles = {pid: _title(pid) for pid in tree(program.pid)}
             shares: dict[int, list[float]] = {pid: [] for pid in titles}
             for _ in range(ROUNDS):
                 began_s, before = time.monotonic(), {pid: cpu_s(pid) for pid in titles}

@@ -15,7 +15,7 @@ from up_simulator.firmware.line_monitor import LineMonitor
 from up_simulator.firmware.preparation import PreparationError, cached_eeprom
 from up_simulator.harness.world import World
 
-CHIP_TARGET, HOST_TARGET = (Limit(value, is_least=True) for value in (8.0, 30.0))
+CHIP_TARGET, HOST_TARGET = (Limit(value, is_minimum=True) for value in (8.0, 30.0))
 ROUNDS = 3
 MIDDLE_US = 1500.0
 BEAT_S = 0.02

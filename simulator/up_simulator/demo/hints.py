@@ -9,6 +9,9 @@ from pathlib import Path
 
 from up_simulator.harness.ports import Ports
 
+LAST_HINT = "Ctrl-C stops everything."
+"""The last line of the start-up."""
+
 
 def hints(ports: Ports, folder: Path, page: str | None) -> list[str]:
     """Return the suggestions; ``page`` is the address of the ground station for a browser."""
@@ -29,7 +32,7 @@ def hints(ports: Ports, folder: Path, page: str | None) -> list[str]:
         f"  {ground} send{port} android.speak text=hello",
         f"  {sim} radio{socket}          the sticks on your keyboard; q releases them",
         f"  {sim} fly save       a scenario: the pilot takes over",
-        "Ctrl-C stops everything.",
+        LAST_HINT,
     ]
 
 
