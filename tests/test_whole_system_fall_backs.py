@@ -63,7 +63,7 @@ def clone_with_nothing_built(folder):
     return [folder, folder / "simulator", folder / "arduino" / "bench"]
 
 
-def test_without_any_compiler_one_sentence_names_what_to_install(tmp_path):
+def test_without_any_compiler_the_error_names_the_packages(tmp_path):
     """Where neither avr-gcc nor g++ is found; the search path leads to make alone."""
     tools = tmp_path / "bin"
     tools.mkdir()

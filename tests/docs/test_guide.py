@@ -65,7 +65,7 @@ def test_the_steps_in_the_page(flight):
 
 def _marks(flight):
     """Return the marks of the newest flight, that one that is still recorded."""
-    parts = sorted((flight.tree / "run" / "showcase" / "flights").glob("*.mcap"))
+    parts = sorted((flight.tree / "run" / "demo" / "flights").glob("*.mcap"))
     return [each.data["text"] for each in FlightLog.read(parts).messages("black_box.mark")]
 
 
@@ -87,7 +87,7 @@ def test_the_remark_is_in_the_log(flight):
     (line,) = lines_of(PAGE, "remark")
     done = flight.run(line)
     assert (done.returncode, "ack after" in done.stdout) == (0, True), done.stdout + done.stderr
-    log = flight.tree / "run" / "showcase" / "raspilot.log"
+    log = flight.tree / "run" / "demo" / "raspilot.log"
     flight.wait_for(lambda: "remark: lovely" in log.read_text())
 
 

@@ -40,7 +40,7 @@ class Ground(Protocol):
 
     @property
     def newest_s(self) -> float | None:
-        """Return the arrival of the newest frame, in the crew's time; None before the first."""
+        """Return the arrival of the newest frame, in the participants' time; None before the first."""
 
     def take_latency_s(self) -> float | None:
         """Return the maximum age of the data since the last call, s; None if unknown.
@@ -80,4 +80,4 @@ class Phone(Protocol):
 
 
 class ParticipantError(Exception):
-    """A member of the crew cannot begin or has died: the text is for the user, by lines."""
+    """A participant cannot start or has ended: the text is for the user, in lines."""

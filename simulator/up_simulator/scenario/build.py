@@ -1,4 +1,4 @@
-"""Builds the participants of a scenario: aircraft, board, crew."""
+"""Builds the participants of a scenario: aircraft, board, participants."""
 
 from __future__ import annotations
 

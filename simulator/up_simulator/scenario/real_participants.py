@@ -97,7 +97,7 @@ class RealParticipants(DaemonParticipants):
             self._real.check()
 
     def dispatch(self, event: Event) -> None:
-        """Carry out an event that concerns the crew; raises ParticipantError."""
+        """Carry out an event of the participants; raises ParticipantError."""
         if event.proxy is None:
             super().dispatch(event)
         elif self._proxy is not None:

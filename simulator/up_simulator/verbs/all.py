@@ -104,14 +104,14 @@ def main(arguments: Sequence[str]) -> int:
         return WRONG_INPUT
     try_output(options.output, [job.name for job in jobs])
     began_s = time.monotonic()
-    fleet = Fleet(jobs, options, sys.stderr)
+    batch = Batch(jobs, options, sys.stderr)
     is_interrupted = False
     try:
-        fleet.fly()
+        batch.fly()
     except KeyboardInterrupt:
         is_interrupted = True
-        fleet.end()
-    _say_table(fleet.done, time.monotonic() - began_s, len(jobs))
+        batch.end()
+    _print_table(batch.done, time.monotonic() - began_s, len(jobs))
     if is_interrupted:
         return INTERRUPTED
     return HELD if all(job.status == HELD for job in jobs) else NOT_HELD
@@ -140,7 +140,7 @@ def _jobs(options: argparse.Namespace) -> list[Job] | None:
     return None if has_mistakes else [job for _, job in jobs]
 
 
-class Fleet:
+class Batch:
     """Flies jobs, ``options.processes`` at a time; real programs have the machine to themselves."""
 
     def __init__(self, jobs: list[Job], options: argparse.Namespace, stream: TextIO) -> None:
@@ -203,7 +203,7 @@ class Fleet:
             self._stream.flush()
 
 
-def _say_table(jobs: list[Job], took_s: float, count: int) -> None:
+def _print_table(jobs: list[Job], took_s: float, count: int) -> None:
     width = max((len(job.name) for job in jobs), default=4)
     write = sys.stdout.write
     write(
@@ -221,14 +221,14 @@ def _say_table(jobs: list[Job], took_s: float, count: int) -> None:
         )
     for job in jobs:
         if job.status != HELD:
-            _say_failure(job)
+            _print_failure(job)
     held = sum(job.status == HELD for job in jobs)
     most = max((job.memory_mib for job in jobs), default=0.0)
     write(f"{took_s:.0f} s, at most {most:.0f} MiB in one process\n")
     write(f"{held} of {count} scenarios held\n")
 
 
-def _say_failure(job: Job) -> None:
+def _print_failure(job: Job) -> None:
     summary = job.summary()
     expectations = summary.get("expectations", [])
     for verdict in expectations if isinstance(expectations, list) else []:

@@ -62,7 +62,7 @@ def main(arguments: Sequence[str]) -> int:
         if result.record.is_interrupted or (result.control and result.control.is_interrupted):
             break
     if len(flights) > 1:
-        _say_table(results, len(flights))
+        _print_table(results, len(flights))
     if any(result.record.is_interrupted for _, result in results):
         return INTERRUPTED
     return HELD if is_whole and all(result.is_held for _, result in results) else NOT_HELD
@@ -127,7 +127,7 @@ def _note(text: str) -> None:
         sys.stderr.write(f"up-sim: {text}\n")
 
 
-def _say_table(results: list[tuple[str, Result]], count: int) -> None:
+def _print_table(results: list[tuple[str, Result]], count: int) -> None:
     sys.stdout.write("\n")
     for name, result in results:
         held = sum(verdict.is_held for verdict in result.verdicts)

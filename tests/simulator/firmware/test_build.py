@@ -44,7 +44,7 @@ def test_without_the_avr_tools_the_host_build_flies(no_avr):
     assert code == "board_substituted" and "gcc-avr" in reason
 
 
-def test_who_asks_for_the_firmware_gets_no_other(no_avr):
+def test_the_firmware_is_not_substituted_on_request(no_avr):
     with pytest.raises(BoardUnavailableError, match="Debian packages make gcc-avr avr-libc"):
         choose_board("firmware")
 

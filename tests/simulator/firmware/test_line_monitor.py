@@ -96,7 +96,7 @@ def test_answers_are_taken_once():
     assert tap.take_answers() == []
 
 
-def test_what_it_sends_is_what_a_firmware_reads():
+def test_its_commands_are_read_by_a_firmware():
     tap = LineMonitor()
     wire = tap.start_bytes() + tap.command_bytes("M", b"f")
     found = list(CheckedReader().feed(wire, 0.0))

@@ -88,7 +88,7 @@ def test_named_gains_change_their_places_and_no_others():
         ({"fly_by_wire": {"roll_deg": 1e9}}, "a value of the profile is out of range"),
     ],
 )
-def test_a_wrong_profile_is_a_sentence(settings, said):
+def test_an_invalid_profile_is_refused(settings, said):
     with pytest.raises(SettingsError, match=said):
         profile_bytes(settings, HELD)
 
@@ -102,7 +102,7 @@ def test_a_wrong_profile_is_a_sentence(settings, said):
         ({"rate": {"ailerons": {"p": float("nan")}}}, "a gain is not within 0 to 50"),
     ],
 )
-def test_a_wrong_gain_is_a_sentence(settings, said):
+def test_an_invalid_gain_is_refused(settings, said):
     with pytest.raises(SettingsError, match=said):
         gains_bytes(settings, HELD_GAINS)
 
@@ -139,7 +139,7 @@ def test_no_flight_computer_needs_no_eeprom():
     assert cached_eeprom("direct", {}, {}) == b""
 
 
-def test_a_refusal_says_what_and_why(elf):
+def test_a_refusal_names_setting_and_reason(elf):
     armed = board(elf)
     armed.set_stick("aux2", 1000)
     armed.run_us(2_000_000)
@@ -151,7 +151,7 @@ def test_a_refusal_says_what_and_why(elf):
         prepare_eeprom(armed, {"motor": False}, {})
 
 
-def test_a_board_that_does_not_answer_is_a_sentence():
+def test_a_board_without_an_answer_is_reported():
     silent = aboard("firmware").board()
     silent.write = lambda _data: None
     with pytest.raises(PreparationError, match="the board does not answer to c"):

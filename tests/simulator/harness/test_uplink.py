@@ -25,13 +25,13 @@ def test_words_become_a_link():
         ("rate=-1", "rate=-1: rate is 0 to 1e+09"),
     ],
 )
-def test_a_wrong_word_is_one_sentence(text, says):
+def test_an_invalid_link_is_refused(text, says):
     with pytest.raises(UplinkError) as caught:
         read_link(text)
     assert says in str(caught.value) and "\n" not in str(caught.value)
 
 
 @given(st.text(max_size=40) | st.from_regex(r"(delay|loss|rate)=[-+.eEinf0-9_]{0,9}"))
-def test_any_text_is_a_link_or_one_sentence(text):
+def test_any_text_is_a_link_or_refused(text):
     with suppress(UplinkError):
         assert isinstance(read_link(text), LinkSettings)

@@ -190,7 +190,7 @@ def test_without_a_flight_computer_the_sticks_move_the_servos():
     assert flown.world.state.roll_deg > 5
 
 
-def test_a_board_that_crashes_says_so_in_one_sentence():
+def test_a_crash_of_the_board_is_reported():
     flown = Flown(boots=False)
     flown.world.advance(0.1)
     # From the reset vector on, a jump to where no flash is.

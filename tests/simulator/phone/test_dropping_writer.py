@@ -11,7 +11,7 @@ from up_simulator.phone.link import DroppingWriter
 PIECE = bytes(16_384)
 
 
-def test_what_a_stalled_peer_does_not_take_is_dropped_until_it_reads_again():
+def test_data_for_a_stalled_peer_is_dropped_until_it_reads():
     async def scenario():
         with socket.create_server(("127.0.0.1", 0)) as server:
             endpoint = TCP4ClientEndpoint(reactor, "127.0.0.1", server.getsockname()[1])

@@ -69,7 +69,7 @@ def phone(general, *arguments):
     return Program("--no-board", *PYTHON, "--general-port", port_of(general), *arguments)
 
 
-def test_it_sends_what_it_measures_and_answers(server):
+def test_it_sends_its_measurements_and_answers(server):
     with phone(server) as program, Peer(server) as peer:
         place = peer.wait_for("up.location.update")["data"]
         assert (place["latitude"], place["longitude"]) == pytest.approx((50.0, 14.5), abs=0.01)
@@ -156,7 +156,7 @@ def test_orientation_over_udp(server):
             assert program.end()[0] == 0
 
 
-def test_orientation_is_off_unless_it_is_asked_for(server):
+def test_orientation_is_off_by_default(server):
     with (
         socket.create_server(("127.0.0.1", 0)) as orientation,
         phone(server, "--orientation-port", port_of(orientation)) as program,
@@ -207,7 +207,7 @@ def test_it_asks_a_runner_and_goes_where_the_answer_says(server):
             assert program.end()[0] == 0
 
 
-def test_a_runner_that_hangs_up_is_asked_again():
+def test_a_runner_that_disconnects_is_retried():
     with socket.create_server(("127.0.0.1", 0)) as runner:
         runner.settimeout(DEADLINE_S)
         with Program("--no-board", *PYTHON, "--runner", f"127.0.0.1:{port_of(runner)}") as program:
@@ -236,7 +236,7 @@ def test_a_runner_that_hangs_up_is_asked_again():
         b"[" * 100_000,
     ],
 )
-def test_a_runners_wrong_answer_is_one_sentence(line):
+def test_an_invalid_answer_of_a_runner_is_refused(line):
     with pytest.raises(NotFoundError):
         read_spawn_answer(line, "127.0.0.1")
 
@@ -261,7 +261,7 @@ def test_a_public_address_is_no_answer():
 
 
 @given(st.binary(max_size=100))
-def test_any_answer_is_a_place_or_one_sentence(answer):
+def test_any_answer_is_an_address_or_refused(answer):
     assert read_discovery_answer(answer, "10.0.0.1") in ("10.0.0.1", None)
     with pytest.raises(NotFoundError):
         read_spawn_answer(answer, "127.0.0.1")

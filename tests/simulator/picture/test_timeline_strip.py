@@ -49,7 +49,7 @@ def test_no_label_reaches_beyond_the_panels(marks):
         assert high <= WIDTH_IN + 1e-9 or each.mark.at_s / SECONDS * WIDTH_IN <= wide
 
 
-def test_one_label_needs_one_row_and_what_is_not_in_the_flight_none():
+def test_one_label_needs_one_row_and_marks_outside_the_flight_need_none():
     placed, left_out = place_marks(
         [Mark(10, "gust"), Mark(-1, "before"), Mark(99, "after")], 0, SECONDS, WIDTH_IN, measure
     )
@@ -64,7 +64,7 @@ def test_the_earlier_of_two_stands_higher_so_that_no_line_crosses_it():
     assert [each.row for each in placed] == [1, 0]
 
 
-def test_what_is_too_long_is_cut():
+def test_long_labels_are_cut():
     placed, _ = place_marks([Mark(1, "x" * 300)], 0, SECONDS, WIDTH_IN, measure)
     assert len(placed[0].text) == 60
     assert placed[0].text.endswith("…")

@@ -107,7 +107,7 @@ class Board:
         self.told.append(("receiver", is_on))
 
 
-def test_only_what_moves_is_told_and_a_receiver_is_on_by_itself():
+def test_only_changes_are_sent_and_a_receiver_starts_switched_on():
     board = Board()
     transmitter = Transmitter(board)
     transmitter.send(Sticks())

@@ -112,7 +112,7 @@ def test_a_preset_can_be_changed():
         ("ailerons=0:-40000..0..9", "rise"),
     ],
 )
-def test_a_wrong_map_is_one_sentence(text, says):
+def test_an_invalid_map_is_refused(text, says):
     with pytest.raises(RadioError) as caught:
         read_axis_map(text)
     assert says in str(caught.value)
@@ -120,7 +120,7 @@ def test_a_wrong_map_is_one_sentence(text, says):
 
 
 @given(st.text(max_size=60) | st.from_regex(r"(ailerons|aux1|dead)=b?-?\d{0,6}[-:.0-9]{0,20}"))
-def test_any_text_is_a_map_or_one_sentence(text):
+def test_any_text_is_a_map_or_refused(text):
     with suppress(RadioError):
         axis_map = read_axis_map(text)
         sticks = MappedSticks(axis_map)
@@ -199,6 +199,6 @@ def test_a_controller_without_permission_names_the_group(tmp_path, monkeypatch):
         GameController(tmp_path / "js0", read_axis_map("transmitter"))
 
 
-def test_a_name_is_a_device_and_a_path_itself():
+def test_a_name_is_a_device_and_a_path_is_unchanged():
     assert str(controller_device("js1")) == "/dev/input/js1"
     assert str(controller_device("/tmp/mine")) == "/tmp/mine"

@@ -47,7 +47,7 @@ def test_space_moves_the_arming_switch_there_and_back():
     assert not pressed(" ", " ").is_armed
 
 
-def test_a_stick_that_nobody_holds_goes_back_to_the_middle_and_the_throttle_stays():
+def test_a_released_stick_recentres_and_the_throttle_stays():
     keyboard = KeyboardSticks()
     for key in ("right", "right", "down", "w", "a"):
         keyboard.press(key, 0.0)
@@ -65,7 +65,7 @@ def test_x_centres_at_once():
     assert sticks.throttle == 1050
 
 
-def test_it_takes_over_what_another_pilot_had_set():
+def test_it_starts_with_the_sticks_of_the_other_pilot():
     start = Sticks(throttle=1600, aux1=2000, aux2=2000)
     assert pressed("left", start=start) == start.moved("ailerons", 1440)
 

@@ -280,7 +280,7 @@ def test_any_object_is_read_or_refused(found):
             continue
 
 
-def test_what_is_written_is_read():
+def test_written_messages_are_read_back():
     assert read_sticks_of(write_sticks(OTHER)) == OTHER
     assert read_sticks_of(write_sticks(None)) is None
     assert read_snapshot(write_snapshot(Snapshot(STATE, OTHER, "FBW"))).sticks == OTHER

@@ -54,7 +54,7 @@ def test_a_log_is_looked_at_without_flying(log, tmp_path, capsys):
     assert picture.read_bytes().startswith(b"\x89PNG")
 
 
-def test_a_picture_that_cannot_be_written_is_a_sentence_and_leaves_nothing(log, tmp_path, capsys):
+def test_an_unwritable_picture_is_reported_and_removed(log, tmp_path, capsys):
     (tmp_path / "file").write_text("no folder")
     assert tune("--log", log, "--pictures", tmp_path / "file") == 0
     told = capsys.readouterr()
@@ -68,14 +68,14 @@ def test_a_picture_that_cannot_be_written_is_a_sentence_and_leaves_nothing(log, 
     assert "-steps.png: the picture cannot be written: File too large" in done.stderr
 
 
-def test_a_log_without_steps_is_said_to_have_none(tmp_path, capsys):
+def test_a_log_without_steps_is_reported(tmp_path, capsys):
     path = tmp_path / "flight.csv"
     made_up(8.0).write(path)
     assert tune("--log", path, "--pictures", tmp_path) == 1
     assert "no step in it" in capsys.readouterr().out
 
 
-def test_without_matplotlib_the_figures_are_told_all_the_same(log, tmp_path, capsys, monkeypatch):
+def test_without_matplotlib_the_figures_are_still_printed(log, tmp_path, capsys, monkeypatch):
     monkeypatch.setitem(__import__("sys").modules, "matplotlib", None)
     assert tune("--log", log, "--pictures", tmp_path) == 0
     told = capsys.readouterr()
@@ -93,14 +93,14 @@ def test_without_matplotlib_the_figures_are_told_all_the_same(log, tmp_path, cap
         (["--from", "none.yml"], "none.yml"),
     ],
 )
-def test_wrong_input_is_one_sentence(arguments, sentence, capsys):
+def test_wrong_input_ends_with_one_line(arguments, sentence, capsys):
     assert tune(*arguments) == 2
     said = capsys.readouterr().err
     assert sentence in said
     assert said.count("\n") == 1
 
 
-def test_gains_that_are_no_gains_are_told_with_their_place(tmp_path, capsys):
+def test_invalid_gains_are_reported_with_their_place(tmp_path, capsys):
     path = tmp_path / "pids.yml"
     path.write_text("rate:\n  ailerons: {p: 99}\n")
     assert tune("--from", path) == 2

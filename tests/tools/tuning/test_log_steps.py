@@ -69,7 +69,7 @@ def test_a_rate_is_a_step_of_rate():
     ],
     ids=["too small", "too slow", "too short", "never still", "not known"],
 )
-def test_what_is_no_step_is_none(demands):
+def test_other_moves_are_not_steps(demands):
     assert steps_of(flight(demands)) == []
 
 
@@ -89,13 +89,13 @@ def test_a_step_ends_when_the_next_begins_or_after_five_seconds():
     assert other.until_s - other.at_s == pytest.approx(5, abs=0.05)
 
 
-def test_what_the_log_lacks_is_one_sentence():
+def test_missing_columns_of_the_log_are_reported():
     log = FlightLog(["time_s", "truth.roll_deg"])
     with pytest.raises(LogStepsError, match=r"no demand\.\* columns"):
         steps_of(log)
 
 
-def test_an_axis_that_is_not_asked_for_is_left_out():
+def test_an_axis_without_a_demand_is_left_out():
     log = FlightLog(
         ["time_s", *(f"{part}.{axis}_deg" for part in ("demand", "truth") for axis in AXES)]
     )

@@ -19,7 +19,7 @@ RUNS = re.findall(r"<!-- run: up-sim -->\n```\n(.*?)```", TEXT, re.DOTALL)
 
 @pytest.mark.usefixtures("bench")
 @pytest.mark.parametrize("lines", RUNS)
-def test_the_commands_of_the_page_do_what_they_say(lines, tmp_path, monkeypatch, capsys):
+def test_the_commands_of_the_page_work(lines, tmp_path, monkeypatch, capsys):
     build_firmware()
     monkeypatch.chdir(tmp_path)
     for line in lines.splitlines():

@@ -32,7 +32,7 @@ def test_the_board_flies_with_the_gains_on_trial(bench):
     assert flown == (2.5, 0.5, 0.125, 1.5, 0, 0, 0.75, 0, 0, 4, 0, 0, 3, 0, 0, 0, 0, 0)
 
 
-def test_gains_out_of_range_are_one_sentence(bench):
+def test_gains_out_of_range_are_refused(bench):
     wild = with_axis(FIRM, "roll", AxisGains(Gains(51.0), Gains(1.0)))
     with pytest.raises(SettingsError, match="not within 0 to 50"):
         bench.trial(wild)
@@ -79,7 +79,7 @@ def test_rates_are_followed_in_rate(bench):
     assert max(steps.recording["truth.roll_rate_deg_s"]) > 30
 
 
-def test_a_crash_ends_a_trial_and_is_told(bench):
+def test_a_crash_ends_a_trial_and_is_reported(bench):
     trial = bench.trial(FIRM)
     dive = [StickMove(0, "elevator", 1000.0), StickMove(0, "throttle", 2000.0)]
     trial.board.set_stick("aux1", 1000.0)
@@ -98,7 +98,7 @@ def test_rough_air_and_a_kicked_rudder_tell_firm_gains_from_none(bench):
 
 
 @pytest.mark.parametrize("mix", ["none", "elevon", "V-tail"])
-def test_a_mix_taken_apart_and_put_together_is_itself(mix):
+def test_a_mix_and_its_inverse_cancel(mix):
     profile = {"mix": mix, "ailerons": {"reversed": True}, "rudder": {"reversed": True}}
     pulses = (1620.0, 1450.0, 1333.0, 1700.0)
     both = Mix(profile)

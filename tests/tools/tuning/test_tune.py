@@ -22,7 +22,7 @@ def roll(bench):
         return tune_axis(bench, BEGIN, "roll", workers, is_quick=True)
 
 
-def test_what_is_proposed_keeps_the_rules_when_it_is_measured(bench, roll):
+def test_proposed_gains_keep_the_rules_when_measured(bench, roll):
     assert roll.keeps_the_rules
     gains = roll.proposal.gains
     for dives in (False, True):
@@ -68,7 +68,7 @@ def test_a_stricter_rule_gives_gentler_gains(bench, roll):
     assert gentle.proposal.dive.gain_margin_db >= 14.0
 
 
-def test_a_rule_that_nothing_keeps_is_one_sentence(bench, roll):
+def test_a_rule_without_a_solution_is_reported(bench, roll):
     with pytest.raises(TuneError, match="roll: no gains keep the margins"):
         retune(bench, roll, Rules(gain_margin_db=200.0))
 
@@ -94,7 +94,7 @@ def test_the_damper_is_the_weakest_that_halves_the_swing(bench):
     assert all(swing > 0.5 * swings[0.0] for gain, swing in swings.items() if gain < yaw.proposal)
 
 
-def test_two_processes_fly_what_one_flies():
+def test_two_processes_give_the_result_of_one():
     counts = []
     with Workers(2, lambda done, asked: counts.append((done, asked))) as workers:
         assert workers.fly(divmod, [(17, 5), (9, 4), (8, 3)]) == [(3, 2), (2, 1), (2, 2)]
