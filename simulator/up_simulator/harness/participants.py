@@ -40,7 +40,7 @@ class Ground(Protocol):
 
     @property
     def newest_s(self) -> float | None:
-        """Return the arrival of the newest frame, in the participants' time; None before the first."""
+        """Return the participants' time of the newest frame; None before the first."""
 
     def take_latency_s(self) -> float | None:
         """Return the maximum age of the data since the last call, s; None if unknown.
