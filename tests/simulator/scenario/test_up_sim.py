@@ -197,7 +197,7 @@ def test_a_new_scenario_that_cannot_be_written_is_removed(in_a_folder):
     words = ["sh", "-c", command]
     done = subprocess.run(words, capture_output=True, text=True, timeout=LIMIT_S, check=False)
     assert done.returncode == 1
-    assert done.stderr.startswith("up-sim: first-flight.yml") and done.stderr.count("\n") == 1
+    assert "first-flight.yml" in done.stderr and done.stderr.count("\n") == 1
     assert list(in_a_folder.iterdir()) == []
 
 
