@@ -57,7 +57,6 @@ class DaemonLog:
         self._level = level
 
     def close(self) -> None:
-        """Take no more events."""
         if self._level is not None:
             self._level = None
             globalLogPublisher.removeObserver(cast(ILogObserver, self))
@@ -85,7 +84,6 @@ class SettableMeter:
         self.memory = 20.0
 
     def load_percent(self) -> float:
-        """Return the load."""
         return self.load
 
     def memory_percent(self) -> float:
@@ -203,7 +201,6 @@ class InProcessRaspilot:
             self._host.freeze()
 
     def thaw(self) -> None:
-        """Resume a frozen one."""
         if self._host is not None:
             self._host.thaw()
 
