@@ -165,7 +165,7 @@ class InProcessGround:
 
     def on_message(self, message: GeneralMessage) -> None:
         now_s = self._reactor.seconds()
-        if self._received.take(message, now_s):
+        if self._received.update(message, now_s):
             self._newest_s = now_s
             age_s = self._frame_age(message, now_s)
             # The age is unknown: it may have any value.

@@ -20,8 +20,7 @@ from up.commands.system_commands import SystemStopCommand
 from up.config import load_all
 from up.life_cycle import BootStoppedError, LifeCycle
 from up.loading.application import Application
-from up.loading.checking import check_application
-from up.loading.files import config_files
+from up.loading.checking import check_application, config_files
 from up.log.levels import level_named, level_of, word_of
 from up.log.text import source_of, text_of, traceback_of
 from up.mode import Mode
