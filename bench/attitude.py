@@ -61,7 +61,6 @@ class StarvedClock:
         self._next_s = STARVED_EVERY_S if is_starved else math.inf
 
     def seconds(self) -> float:
-        """Return the time."""
         return self._now_s
 
     def tick(self) -> None:
@@ -87,7 +86,6 @@ class ComparingLine:
         return waiting
 
     def write(self, data: bytes) -> None:
-        """Receive the board's data."""
         if any(each.type == "O" for each in self._tap.feed(data, 0.0)):
             told, true = self._tap.orientation, self._flight.state
             assert told is not None

@@ -8,10 +8,10 @@ from pathlib import Path
 
 from raspilot.main import main
 from up import program
-from up.system.garbage import QuietCollector
+from up.system.gc_scheduler import GcScheduler
 
 
-class DefaultCollector(QuietCollector):
+class DefaultCollector(GcScheduler):
     """Uses Python's defaults: nothing is frozen, the automatic collector stays on."""
 
     def start(self) -> None:
@@ -19,5 +19,5 @@ class DefaultCollector(QuietCollector):
 
 
 if __name__ == "__main__":
-    program.QuietCollector = DefaultCollector  # type: ignore[attr-defined]
+    program.GcScheduler = DefaultCollector  # type: ignore[attr-defined]
     sys.exit(main(sys.argv[1:], Path(__file__).resolve().parents[1]))

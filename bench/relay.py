@@ -132,7 +132,6 @@ class Load:
         self.tell(job)
 
     def tell(self, what: object) -> None:
-        """Write one JSON line to it."""
         assert self._process.stdin is not None
         self._process.stdin.write(json.dumps(what) + "\n")
         self._process.stdin.flush()

@@ -2,30 +2,27 @@
 
 from __future__ import annotations
 
-import argparse
 from collections.abc import Sequence
 from pathlib import Path
 
+from up.cli.option_parser import OptionParser
+from up.cli.parser import add_config_option, add_defaults_option
 from up.program import run_application
 from up.version import VERSION
 
 
 def main(arguments: Sequence[str], start: Path) -> int:
     """Run Raspilot from the folder ``start``; return the exit status."""
-    parser = argparse.ArgumentParser(
+    parser = OptionParser(
         prog="main.py",
-        description="Runs Raspilot, the autopilot: reads the Arduino and the phone, talks to the"
-        " ground. Stop it with Ctrl-C.",
+        description="Runs Raspilot, the autopilot: reads the Arduino and the phone, connects"
+        " to the ground. Ctrl-C stops it.",
         epilog="The mode comes from config.yml or the environment variable UP_MODE (auto, flight"
-        " controller, black box). 'up check' finds mistakes in the configuration without starting,"
-        " 'up modules' shows what would be loaded.",
+        " controller, black box). 'up check' finds configuration mistakes without starting,"
+        " 'up modules' lists the loaded modules.",
     )
-    parser.add_argument(
-        "--config", type=Path, metavar="DIR", help="folder with the YAML files (default: config)"
-    )
-    parser.add_argument(
-        "--defaults", action="store_true", help="start with the defaults where no file is found"
-    )
+    add_config_option(parser)
+    add_defaults_option(parser)
     parser.add_argument("--version", action="version", version=f"Raspilot {VERSION}")
     values = parser.parse_args(arguments)
     return run_application(start, values.config, use_defaults=values.defaults)

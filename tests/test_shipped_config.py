@@ -8,9 +8,7 @@ from android_cog.config import ANDROID, AndroidConfig
 from load_guard_cog.config import LOAD_GUARD
 from mission_control_cog.config import MISSION_CONTROL
 
-from up.config.application import APPLICATION, ApplicationConfig
-from up.config.disabled_modules import DISABLED_MODULES
-from up.config.providers import PROVIDERS
+from up.config.application import APPLICATION, DISABLED_MODULES, PROVIDERS, ApplicationConfig
 from up_proxy.config import PROXY
 
 CONFIG = Path(__file__).parents[1] / "config"

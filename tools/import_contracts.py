@@ -7,6 +7,7 @@ the directions between the programs are the table below.
 from __future__ import annotations
 
 import ast
+import re
 import subprocess
 import sys
 import tempfile
@@ -27,7 +28,38 @@ ARROWS: dict[str, set[str]] = {
     "up_rig": set(),
 }
 # The parts of Up for a program on another machine: the proxy uses no modules and no bus.
-PROXY_MAY_USE = {"config", "log", "system", "fields", "version"}
+PROXY_MAY_USE = {"config", "log", "protocols", "system", "fields", "version"}
+
+# The layers of Up, from the highest to the lowest: a part imports only from the lines below it.
+LAYERS = (
+    "cli | (flight_log) | testing",
+    "program",
+    "registrar",
+    "cogs",
+    "up_loader",
+    "loading",
+    "builtin_modules | life_cycle",
+    "up",
+    "telemetry_controller | mode_monitor | flight_controller",
+    "providers",
+    "base_thread_module",
+    "base_started_module",
+    "base_module",
+    "needs | vetoes | merge | earth",
+    "commands",
+    "cleanup | protocols | context",
+    "config | mode",
+    "log",
+    "system",
+    "fields | version",
+)
+# Imports that still go upwards, each with the change that removes it.
+EXCEPTIONS = (
+    # The gains are plain values; they move to the Commands that carry them.
+    ("commands.pid_tunings_commands", "flight_controller.gains"),
+    # `up.registrar` is the thesis's path of the old Registrar.
+    ("cogs.registration", "registrar"),
+)
 
 
 def cogs() -> dict[str, set[str]]:
@@ -57,6 +89,8 @@ def contracts() -> str:
     arrows = {**ARROWS, **cogs()}
     lines = ["[importlinter]", "root_packages ="]
     lines += [f"    {name}" for name in arrows]
+    lines += ["exclude_type_checking_imports = True"]
+    lines += _layers()
     for name, allowed in arrows.items():
         forbidden = sorted(set(arrows) - allowed - {name})
         if name == "up_proxy":
@@ -70,6 +104,17 @@ def _parts_of_up_the_proxy_may_not_use() -> Iterator[str]:
         is_package = (path / "__init__.py").is_file()
         if (is_package or path.suffix == ".py") and path.stem not in {*PROXY_MAY_USE, "__init__"}:
             yield f"up.{path.stem}"
+
+
+def _layers() -> Iterator[str]:
+    yield "[importlinter:contract:layers]"
+    yield "name = each part of up imports only from the layers below it"
+    yield "type = layers"
+    yield "layers ="
+    for layer in LAYERS:
+        yield "    " + re.sub(r"(?=\b[a-z])", "up.", layer)
+    yield "ignore_imports ="
+    yield from (f"    up.{importer} -> up.{imported}" for importer, imported in EXCEPTIONS)
 
 
 def _contract(name: str, forbidden: list[str]) -> list[str]:

@@ -13,8 +13,7 @@ import sys
 from pathlib import Path
 
 try:
-    from up_ground.catalogue import Catalogue
-    from up_ground.web.catalogue_message import catalogue_message
+    from up_ground.catalogue import Catalogue, catalogue_message
 except ModuleNotFoundError as error:
     sys.exit(
         f"{error}: tools/phone_commands.py wants the project's own Python, which make run sets up:"

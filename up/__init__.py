@@ -1,1 +1,99 @@
-"""Up: a modular framework for autopilots that can be changed."""
+"""Up: a modular framework for autopilots that can be changed.
+
+The public names, for applications and cogs; ``docs/api.md`` describes them. They are imported on
+first use, because programs such as the proxy use only parts of the package.
+"""
+
+from __future__ import annotations
+
+import sys
+from importlib import import_module
+from types import ModuleType
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from up.base_module import BaseModule as Module
+    from up.base_started_module import BaseStartedModule as StartedModule
+    from up.base_started_module import StartFailedError, StartResult
+    from up.base_thread_module import BaseThreadModule as ThreadModule
+    from up.commands.base_command_handler import BaseCommandHandler as CommandHandler
+    from up.commands.command import BaseCommand as Command
+    from up.commands.command import value
+    from up.commands.refusal import Code, CommandRefusedError
+    from up.commands.roles import Role
+    from up.config import ConfigErrors, ConfigFile, items, key, mapping, section
+    from up.flight_controller.base_flight_controller import BaseFlightController as FlightController
+    from up.mode import Mode
+    from up.needs import needs, wants
+    from up.providers.base_provider import BaseProvider as Provider
+    from up.providers.base_provider import Reading
+
+_PLACES = {
+    "Code": "commands.refusal",
+    "Command": "commands.command:BaseCommand",
+    "CommandHandler": "commands.base_command_handler:BaseCommandHandler",
+    "CommandRefusedError": "commands.refusal",
+    "ConfigErrors": "config",
+    "ConfigFile": "config",
+    "FlightController": "flight_controller.base_flight_controller:BaseFlightController",
+    "Mode": "mode",
+    "Module": "base_module:BaseModule",
+    "Provider": "providers.base_provider:BaseProvider",
+    "Reading": "providers.base_provider",
+    "Role": "commands.roles",
+    "StartFailedError": "base_started_module",
+    "StartResult": "base_started_module",
+    "StartedModule": "base_started_module:BaseStartedModule",
+    "ThreadModule": "base_thread_module:BaseThreadModule",
+    "items": "config",
+    "key": "config",
+    "mapping": "config",
+    "needs": "needs",
+    "section": "config",
+    "value": "commands.command",
+    "wants": "needs",
+}
+
+__all__ = [
+    "Code",
+    "Command",
+    "CommandHandler",
+    "CommandRefusedError",
+    "ConfigErrors",
+    "ConfigFile",
+    "FlightController",
+    "Mode",
+    "Module",
+    "Provider",
+    "Reading",
+    "Role",
+    "StartFailedError",
+    "StartResult",
+    "StartedModule",
+    "ThreadModule",
+    "items",
+    "key",
+    "mapping",
+    "needs",
+    "section",
+    "value",
+    "wants",
+]
+
+
+def __getattr__(name: str) -> Any:
+    if name not in _PLACES:
+        raise AttributeError(f"module 'up' has no attribute {name!r}")
+    module, _, attribute = _PLACES[name].partition(":")
+    found = globals()[name] = getattr(import_module(f"up.{module}"), attribute or name)
+    return found
+
+
+class _Package(ModuleType):
+    def __setattr__(self, name: str, value: Any) -> None:
+        # The import of the module `up.needs` must not replace the public function.
+        if not (name in _PLACES and isinstance(value, ModuleType)):
+            super().__setattr__(name, value)
+
+
+sys.modules[__name__].__class__ = _Package

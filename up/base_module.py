@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 class BaseModule:
     """A part of the system with one function; built without arguments by the loader.
 
-    Override ``_execute_initialization`` to take references and subscribe, ``load`` to decide
+    Override ``on_init`` to take references and subscribe, ``load`` to decide
     whether to be loaded, ``telemetry_content`` to contribute to telemetry. Declare used modules
     with ``needs`` and ``wants``, configuration with ``CONFIG``, and with ``MODES`` the modes in
     which the loader instantiates the class. ``LOAD_ORDER`` breaks ties, lower first.
@@ -30,6 +30,10 @@ class BaseModule:
 
     up: Up
     context: Context
+
+    def __init_subclass__(cls, **options: Any) -> None:
+        super().__init_subclass__(**options)
+        _alias_hooks(cls)
 
     def bind(self, context: Context) -> None:
         """Set the module's context; the loader calls this before ``load``."""
@@ -45,17 +49,17 @@ class BaseModule:
         Raises TypeError when the hook is ``async def``: the framework does not await it.
         """
         self.up = up
-        hook: Callable[[], Any] = self._execute_initialization
+        hook: Callable[[], Any] = self.on_init
         outcome = hook()
         if isinstance(outcome, Awaitable):
             if isinstance(outcome, Coroutine):
                 outcome.close()
             raise TypeError(
-                f"{self.class_name}._execute_initialization must be done when it returns: what"
-                " takes time belongs into _execute_start, which may be async"
+                f"{self.class_name}.on_init must be done when it returns: what"
+                " takes time belongs into on_start, which may be async"
             )
 
-    def _execute_initialization(self) -> None:
+    def on_init(self) -> None:
         """Take references, subscribe to Commands, read configuration. No sockets, no ports."""
 
     @property
@@ -81,25 +85,51 @@ class BaseModule:
         return f"{type(self).__module__}.{type(self).__qualname__}"
 
     @property
-    def logger(self) -> Logger:
-        """Return a logger with this module's name."""
+    def log(self) -> Logger:
         return Logger(namespace=self.class_name)
 
     def is_a(self, name: str) -> bool:
         """Return whether this module's class or one of its base classes has that name."""
         return any(base.__name__ == name for base in type(self).__mro__)
 
+    # Deprecated: the thesis's names of `log` and its methods.
+
+    @property
+    def logger(self) -> Logger:
+        return self.log
+
     def _log_debug(self, text: str) -> None:
-        self.logger.debug("{text}", text=text)
+        self.log.debug("{text}", text=text)
 
     def _log_info(self, text: str) -> None:
-        self.logger.info("{text}", text=text)
+        self.log.info("{text}", text=text)
 
     def _log_warning(self, text: str) -> None:
-        self.logger.warn("{text}", text=text)
+        self.log.warn("{text}", text=text)
 
     def _log_error(self, text: str) -> None:
-        self.logger.error("{text}", text=text)
+        self.log.error("{text}", text=text)
 
     def _log_critical(self, text: str) -> None:
-        self.logger.critical("{text}", text=text)
+        self.log.critical("{text}", text=text)
+
+
+_DEPRECATED_HOOKS = {
+    "_execute_initialization": "on_init",
+    "_execute_start": "on_start",
+    "_execute_stop": "on_stop",
+}
+
+
+def _alias_hooks(cls: type[Any]) -> None:
+    """Give every hook of a class and its mixins both names, the thesis's and today's.
+
+    Both names in every class of the hierarchy: ``super()`` then works with either of them.
+    """
+    for each in cls.__mro__[:-1]:
+        own = vars(each)
+        for old, new in _DEPRECATED_HOOKS.items():
+            if old in own and new not in own:
+                setattr(each, new, own[old])
+            elif new in own and old not in own:
+                setattr(each, old, own[new])

@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Awaitable
+from enum import Enum
 from typing import Any, ClassVar
 
 from up.base_module import BaseModule
-from up.start_result import StartResult
 
 
 class BaseStartedModule(BaseModule):
     """A module with ports, links or timers.
 
-    Override ``_execute_start`` and ``_execute_stop``; both may be ``async def``. A start returns a
+    Override ``on_start`` and ``on_stop``; both may be ``async def``. A start returns a
     StartResult, True (or nothing) for started, or False for failed; an exception also means failed.
     A failed start stops the boot if the class is ``REQUIRED``. An absent peer is not a failure.
     """
@@ -28,7 +28,6 @@ class BaseStartedModule(BaseModule):
 
     @property
     def started(self) -> bool:
-        """Return whether the module is started and not stopped."""
         return self._started
 
     @property
@@ -43,7 +42,7 @@ class BaseStartedModule(BaseModule):
 
     async def start(self) -> StartResult:
         """Enter the start phase; the framework calls this once."""
-        outcome = self._execute_start()
+        outcome = self.on_start()
         if isinstance(outcome, Awaitable):
             outcome = await outcome
         result = self._judge(outcome)
@@ -53,15 +52,15 @@ class BaseStartedModule(BaseModule):
     async def stop(self) -> None:
         """Enter the stop phase; the framework calls this once, also after a failed start."""
         self._started = False
-        outcome = self._execute_stop()
+        outcome = self.on_stop()
         if isinstance(outcome, Awaitable):
             await outcome
 
-    def _execute_start(self) -> Any:
+    def on_start(self) -> Any:
         """Open ports and connect links."""
         return True
 
-    def _execute_stop(self) -> Any:
+    def on_stop(self) -> Any:
         """Close what the start opened, also after a partial start."""
 
     def _judge(self, outcome: Any) -> StartResult:
@@ -71,9 +70,21 @@ class BaseStartedModule(BaseModule):
             return StartResult.STARTED
         if outcome is False:
             return self.failure_result
-        raise TypeError(f"{self.class_name}._execute_start returned {outcome!r}")
+        raise TypeError(f"{self.class_name}.on_start returned {outcome!r}")
 
     @property
     def failure_result(self) -> StartResult:
         """Return how a failed start of this class affects the boot."""
         return StartResult.FAILED_STOP if self.REQUIRED else StartResult.FAILED_GO_ON
+
+
+class StartResult(Enum):
+    """How the boot continues after a module's start."""
+
+    STARTED = "started"
+    FAILED_GO_ON = "failed, go on"
+    FAILED_STOP = "failed, stop"
+
+
+class StartFailedError(Exception):
+    """Raised by a start that failed for a reason that a user can fix; the text is one sentence."""

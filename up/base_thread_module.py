@@ -57,11 +57,10 @@ class BaseThreadModule(BaseStartedModule):
             except CancelledError:
                 break
         if self._is_thread_alive:
-            self._log_warning("its thread did not end in time and is left behind")
+            self.log.warn("its thread did not end in time and is left behind")
         await super().stop()
 
     def call_in_reactor(self, call: Callable[..., Any], *arguments: Any) -> None:
-        """Call a function on the reactor thread."""
         self.context.reactor.callFromThread(call, *arguments)
 
     def _loop(self) -> None:
@@ -79,7 +78,7 @@ class BaseThreadModule(BaseStartedModule):
 
     def _log_fault(self, fault: Failure) -> None:
         self.up.command_executor.limited.log(
-            self.logger.failure,
+            self.log.failure,
             "{name} failed in its thread",
             key=(self.path, repr(fault.type)),
             failure=fault,

@@ -39,5 +39,4 @@ class Context:
 
     @property
     def application(self) -> ApplicationConfig:
-        """Return the values of config.yml."""
         return self.config(APPLICATION)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import difflib
 import math
 import sys
 from collections.abc import Callable, Iterable
@@ -26,6 +27,7 @@ _LENGTH_KEYWORDS: dict[type, str] = {
 _NOUNS: dict[type, str] = {str: "text", dict: "a map", list: "a list"}
 _INT_LIMIT = 2**63
 _SHOWN_CHARACTERS = 40
+_GUESSED_CHARACTERS = 60
 
 
 @dataclass(frozen=True, slots=True)
@@ -134,6 +136,13 @@ def show(value: object) -> str:
     if isinstance(value, list | tuple):
         return "a list"
     return f"a {type(value).__name__}"
+
+
+def suggestion(word: str, known: Iterable[str]) -> str:
+    """Return ", did you mean 'x'?" for the known word closest to a wrong one; empty if none is."""
+    by_lower = {each.lower(): each for each in known}
+    close = difflib.get_close_matches(word.lower()[:_GUESSED_CHARACTERS], by_lower, n=1)
+    return f", did you mean {by_lower[close[0]]!r}?" if close else ""
 
 
 def printable(text: str) -> str:

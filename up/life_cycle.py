@@ -10,9 +10,8 @@ from twisted.logger import Logger, LogLevel
 from twisted.python.failure import Failure
 
 from up.base_module import BaseModule
-from up.base_started_module import BaseStartedModule
+from up.base_started_module import BaseStartedModule, StartFailedError, StartResult
 from up.config import ConfigErrors
-from up.start_result import StartFailedError, StartResult
 from up.up import Up
 
 START_LIMIT_S = 10.0
@@ -111,7 +110,7 @@ class LifeCycle:
         reason = ""
         self._unfinished = module
         try:
-            with self._up.registrations_of(module).noted():
+            with self._up.cleanup_of(module).recording():
                 self._starting = self._bounded(module.start(), START_LIMIT_S)
             result: StartResult = await self._starting
         except CancelledError:
@@ -129,7 +128,7 @@ class LifeCycle:
             self._starting = self._unfinished = None
         if result is StartResult.STARTED:
             self.started.append(module)
-            self._up.registrations_of(module).keep()
+            self._up.cleanup_of(module).discard()
         else:
             self._note_failure(module, reason or "its start says that it failed")
             if not self._is_stopping:

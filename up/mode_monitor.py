@@ -38,23 +38,22 @@ class ModeMonitor(BaseStartedModule):
 
     @property
     def telemetry_content(self) -> Mapping[str, Any]:
-        """Return the mode, and where the control loop runs."""
         controller = self.context.application.flight_controller
         return {
             "mode": self.shown,
             "flight_controller": controller if self.context.mode.may_control else None,
         }
 
-    def _execute_initialization(self) -> None:
+    def on_init(self) -> None:
         if self.context.mode is Mode.AUTO:
             self.up.command_executor.register_command(LinkStateCommand, self._on_link)
 
-    def _execute_start(self) -> bool:
+    def on_start(self) -> bool:
         if self.context.mode is Mode.AUTO:
             self._wait()
         return True
 
-    def _execute_stop(self) -> None:
+    def on_stop(self) -> None:
         self._is_over = True
         self._forget()
 
@@ -67,7 +66,7 @@ class ModeMonitor(BaseStartedModule):
         self._forget()
         if self.is_provisional:
             self.is_provisional = False
-            self._log_warning("the Arduino answers: back in Flight Controller Mode")
+            self.log.warn("the Arduino answers: back in Flight Controller Mode")
 
     def _wait(self) -> None:
         if self._timer is None and not self.is_provisional and not self._is_over:
@@ -81,7 +80,8 @@ class ModeMonitor(BaseStartedModule):
     def _give_up(self) -> None:
         self._timer = None
         self.is_provisional = True
-        self._log_error(
-            f"no frame from the Arduino for {PATIENCE_S:.0f} s: provisionally in Black Box Mode,"
-            " orientation from the phone; nothing is controlled from here"
+        self.log.error(
+            "no frame from the Arduino for {patience_s:.0f} s: provisionally in Black Box Mode,"
+            " orientation from the phone; nothing is controlled from here",
+            patience_s=PATIENCE_S,
         )

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Container
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, TypeVar, cast
 
@@ -29,7 +30,7 @@ class Need:
             return instance.__dict__["_references"][self.attribute]
         except KeyError:
             raise AttributeError(
-                f"{owner.__name__}.{self.attribute} is there from initialization on"
+                f"{owner.__name__}.{self.attribute} is available from initialization on"
             ) from None
 
 
@@ -53,3 +54,20 @@ def declared_needs(cls: type) -> tuple[Need, ...]:
     for base in reversed(cls.__mro__):
         found.update({n: each for n, each in vars(base).items() if isinstance(each, Need)})
     return tuple(found.values())
+
+
+def needed_by(module: BaseModule) -> list[BaseModule]:
+    """Return the modules that a filled-in module needs."""
+    return [
+        getattr(module, need.attribute)
+        for need in declared_needs(type(module))
+        if not need.optional
+    ]
+
+
+def discard_wanted(module: BaseModule, failed: Container[BaseModule]) -> None:
+    """Clear a module's optional reference to a module that has failed."""
+    references = vars(module).get("_references", {})
+    for need in declared_needs(type(module)):
+        if need.optional and references.get(need.attribute) in failed:
+            references[need.attribute] = None

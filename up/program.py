@@ -12,20 +12,21 @@ from typing import Any
 from twisted.internet.defer import Deferred
 from twisted.logger import Logger
 
+from up.base_module import BaseModule
+from up.commands.base_command_handler import BaseCommandHandler
 from up.config import ConfigErrors, load_all
-from up.config.writing import remove_unfinished
+from up.config.atomic_writer import remove_unfinished
 from up.context import Context
 from up.life_cycle import BootStoppedError, LifeCycle
 from up.loading.application import Application, NoApplicationError
-from up.loading.checking import check_application
+from up.loading.checking import check_application, config_files, no_configuration
 from up.loading.discovery import CogImportError
-from up.loading.files import config_files, no_configuration
 from up.loading.plan import BootError
 from up.log import start_logging
 from up.mode import Mode
 from up.system.aircraft_name import AIRCRAFT_NAME, AIRCRAFT_NAME_RULE
-from up.system.forced_end import ForcedEnd
-from up.system.garbage import QuietCollector
+from up.system.exit_watchdog import ExitWatchdog
+from up.system.gc_scheduler import GcScheduler
 from up.system.notify import Notifier, WatchdogPinger
 from up.system.pid_file import service
 from up.system.reactor_monitor import ReactorMonitor
@@ -55,10 +56,10 @@ class Program:
         self._watchdog = WatchdogPinger(
             self._reactor, lambda: self._life.is_healthy, self._notifier, environ
         )
-        self._collector = QuietCollector(self._reactor)
-        self._monitor = ReactorMonitor(self._reactor)
-        up.count("reactor", self._monitor.culprits)
-        self._forced_end = ForcedEnd(FORCED_AFTER_S)
+        self._gc_scheduler = GcScheduler(self._reactor)
+        self._monitor = ReactorMonitor(self._reactor, (BaseModule, BaseCommandHandler))
+        up.count("reactor", self._monitor.blocking_calls)
+        self._exit_watchdog = ExitWatchdog(FORCED_AFTER_S)
         self._exit_status = EXIT_OK
         self._stopping = False
         self._running = False
@@ -73,7 +74,7 @@ class Program:
             SystemStopCommand, lambda _: self.stop("a module asked for it")
         )
         self._monitor.start()
-        self._forced_end.start()
+        self._exit_watchdog.start()
         for number in (signal.SIGTERM, signal.SIGINT):
             signal.signal(number, self._on_signal)
         SignalWakeup(self._reactor).start()
@@ -86,15 +87,15 @@ class Program:
         if self._stopping:
             return
         self._stopping = True
-        self.log.info("stopping: {why}", why=why)
+        self.log.info("stopping: {why}", why=why, code="stopping")
         self._notifier.stopping(why)
-        self._forced_end.ask(self._exit_status or EXIT_STOPPED)
+        self._exit_watchdog.request(self._exit_status or EXIT_STOPPED)
         done = Deferred.fromCoroutine(self._end())
         done.addErrback(lambda failure: self.log.failure("stopping failed", failure))
         done.addCallback(self._ended)
 
     def _ended(self, result: None) -> None:
-        self._forced_end.call_off()
+        self._exit_watchdog.cancel()
         self._reactor.stop()
 
     def _begin(self) -> None:
@@ -109,11 +110,11 @@ class Program:
         self._up.on_ports_changed = self._tell_ports
         self._tell_ports()
         self._notifier.ready(f"{len(self._life.started)} modules run")
-        self._collector.start()
+        self._gc_scheduler.start()
         # Runs after the reactor's next wait: the current turn belongs to the start.
         later = self._reactor.callLater
         later(0, later, 0, setattr, self._monitor, "has_started", True)
-        self.log.info("{count} modules run", code="modules_running", count=len(self._life.started))
+        self.log.info("{count} modules run", count=len(self._life.started), code="started")
         if self._up.vetoes.own:
             self.log.warn("arming is refused: {vetoes}", vetoes="; ".join(self._up.vetoes.own))
 
@@ -135,14 +136,14 @@ class Program:
         await self._life.stop()
         self._monitor.stop()
         if self._running:
-            self._collector.stop()
+            self._gc_scheduler.stop()
 
     def _on_signal(self, number: int, frame: object) -> None:
         self._signals += 1
         if self._signals > 1:
             _force(128 + number)
         # Requested here, because a blocked event loop could not do it.
-        self._forced_end.ask(EXIT_STOPPED)
+        self._exit_watchdog.request(EXIT_STOPPED)
         self._reactor.callFromThread(self.stop, signal.Signals(number).name)
 
 

@@ -10,11 +10,10 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from up.cogs.cog_error import CogError
+from up.cogs.cog import CogError, echo
 from up.cogs.manifest import load_manifest
 from up.cogs.registry import Registry, Source
-from up.cogs.say import say
-from up.config.writing import create_text
+from up.config.atomic_writer import create_text
 from up.loading.application import Application
 from up.loading.external_modules import EXTERNAL_MODULES_FILE as _FILE
 from up.loading.external_modules import ModuleEntry
@@ -80,6 +79,6 @@ class UpRegistrar:
         return True
 
     def _print_info(self, text: str) -> None:
-        say(f"{self.cog_name}: {text}")
+        echo(f"{self.cog_name}: {text}")
 
     _print_ok = _print_success = _print_warning = _print_error = _print_critical = _print_info

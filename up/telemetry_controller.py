@@ -45,12 +45,10 @@ class TelemetryController(BaseStartedModule):
 
     @property
     def period_ms(self) -> float:
-        """Return the current period."""
         return max(self.wanted_period_ms, float(self.panic_delay_ms))
 
     @property
     def telemetry_content(self) -> Mapping[str, Any]:
-        """Return the period and the counters of telemetry itself."""
         counters = {"frames": self.frames, "conflicts": self.conflicts, "faults": self.faults}
         return {
             "counters": {"telemetry": counters},
@@ -66,21 +64,20 @@ class TelemetryController(BaseStartedModule):
         )
 
     def collect(self) -> dict[str, Any]:
-        """Return the merged content of this moment."""
         return merge(self._contents(), self._on_conflict)
 
-    def _execute_initialization(self) -> None:
+    def on_init(self) -> None:
         executor = self.up.command_executor
         executor.register_command(TelemetryFrequencyCommand, self._on_period)
         executor.register_command(PanicCommand, self._on_panic)
         executor.register_command(LinkStateCommand, self._on_link)
 
-    def _execute_start(self) -> bool:
+    def on_start(self) -> bool:
         self._sent_s = self.context.reactor.seconds()
         self._schedule()
         return True
 
-    def _execute_stop(self) -> None:
+    def on_stop(self) -> None:
         if self._timer is not None and self._timer.active():
             self._timer.cancel()
 
@@ -92,7 +89,7 @@ class TelemetryController(BaseStartedModule):
                 Code.OVERLOADED,
             )
         self.wanted_period_ms = command.period_ms
-        self._log_info(f"telemetry every {command.period_ms:.0f} ms")
+        self.log.info("telemetry every {period_ms:.0f} ms", period_ms=command.period_ms)
         self._reschedule()
 
     def _on_panic(self, command: PanicCommand) -> None:
@@ -146,7 +143,7 @@ class TelemetryController(BaseStartedModule):
         except (Exception, SystemExit):  # noqa: BLE001 - a fault costs one module's part only
             self.faults += 1
             if self._said.first(module.path):
-                self.logger.failure("the telemetry of {name} failed", name=module.class_name)
+                self.log.failure("the telemetry of {name} failed", name=module.class_name)
             return None
 
     def _on_conflict(self, key: str, first: str, later: str) -> None:
@@ -154,9 +151,16 @@ class TelemetryController(BaseStartedModule):
         if not self._said.first((key, first, later)):
             return
         if first == later:
-            self._log_error(f"{later} gives telemetry {key} a value that JSON does not have")
+            self.log.error(
+                "{later} gives telemetry {key} a value that JSON does not have",
+                later=later,
+                key=key,
+            )
         else:
-            self._log_error(
-                f"telemetry {key}: {first} and {later} give it different values; the one of"
-                f" {later} is dropped"
+            self.log.error(
+                "telemetry {key}: {first} and {later} give it different values; the one of"
+                " {later} is dropped",
+                key=key,
+                first=first,
+                later=later,
             )

@@ -70,15 +70,12 @@ class Bench:
         return found
 
     def start(self) -> None:
-        """Start all modules."""
         self._finish(self._life.start())
 
     def stop(self) -> None:
-        """Stop all modules."""
         self._finish(self._life.stop())
 
     def advance(self, *steps_s: float) -> None:
-        """Advance time in steps."""
         self.clock.pump(steps_s)
 
     def _finish(self, work: Coroutine[Any, Any, None]) -> None:

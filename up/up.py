@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from typing import Any, TypeVar, cast
+from typing import TYPE_CHECKING, Any, TypeVar, cast
 
 from twisted.logger import Logger
 
 from up.base_module import BaseModule
+from up.cleanup import CleanupStack, add_cleanup
 from up.commands.base_command_handler import BaseCommandHandler
 from up.commands.beacon import Beacons
 from up.commands.builtin import BUILTIN_COMMANDS
@@ -16,16 +17,17 @@ from up.commands.command_link import CommandLink
 from up.commands.command_receiver import CommandReceiver
 from up.commands.command_registry import CommandRegistry
 from up.context import Context
-from up.loading.order import forget_wanted, needed_by
-from up.loading.plan import Plan
 from up.log.limits import Limited
-from up.registrations import Registrations, note_undo
+from up.needs import discard_wanted, needed_by
 from up.vetoes import Vetoes
 
 LOG_INTERVAL_S = 30.0
 """A refused Command or a thread's fault is logged immediately, then as a count per interval."""
 
 _M = TypeVar("_M")
+
+if TYPE_CHECKING:
+    from up.loading.plan import Plan
 
 
 class Up:
@@ -55,7 +57,7 @@ class Up:
         self._counted: dict[str, Mapping[str, int]] = {}
         self.on_ports_changed: Callable[[], object] = lambda: None
         self._modules = list(plan.modules)
-        self._registrations = {id(module): Registrations() for module in self._modules}
+        self._cleanups = {id(module): CleanupStack() for module in self._modules}
         self._excluded: list[BaseModule] = []
         self._handlers: Sequence[BaseCommandHandler] = plan.handlers
         self.started_at_s = context.reactor.seconds()
@@ -65,7 +67,6 @@ class Up:
 
     @property
     def modules(self) -> Sequence[BaseModule]:
-        """Return the loaded modules in their order."""
         return self._modules
 
     def get_module(self, cls: type[_M]) -> _M | None:
@@ -73,12 +74,10 @@ class Up:
         return next((cast(_M, each) for each in self._modules if isinstance(each, cls)), None)
 
     def get_modules(self, cls: type[_M]) -> list[_M]:
-        """Return every module that is an instance of a class."""
         return [cast(_M, each) for each in self._modules if isinstance(each, cls)]
 
     @property
     def telemetry_controller(self) -> Any:
-        """Return the telemetry controller, or None."""
         from up.telemetry_controller import TelemetryController
 
         return self.get_module(TelemetryController)
@@ -92,7 +91,6 @@ class Up:
 
     @property
     def rx_provider(self) -> Any:
-        """Return the provider of the receiver's inputs, or None."""
         from up.providers.base_rx_provider import BaseRXProvider
 
         return self.get_module(BaseRXProvider)
@@ -106,7 +104,6 @@ class Up:
 
     @property
     def telemetry_content(self) -> Mapping[str, Any]:
-        """Return the system's own part of telemetry."""
         executor = self.command_executor
         now_s = self.context.reactor.seconds()
         return {
@@ -127,8 +124,8 @@ class Up:
     def advertise_port(self, name: str, port: int) -> None:
         """Set the port that a module bound; it is logged and reported to the supervisor."""
         self.ports[name] = port
-        note_undo(lambda: self._take_port_back(name, port))
-        self.log.info("{name} listens on port {port}", name=name, port=port)
+        add_cleanup(lambda: self._take_port_back(name, port))
+        self.log.info("{name} listens on port {port}", name=name, port=port, code="port_open")
         self.on_ports_changed()
 
     def count(self, part: str, counters: Mapping[str, int]) -> None:
@@ -150,7 +147,7 @@ class Up:
                 self.exclude(module, f"needs {missing.class_name}, which failed")
                 continue
             try:
-                with self.registrations_of(module).noted():
+                with self.cleanup_of(module).recording():
                     module.initialize(self)
             except (Exception, SystemExit) as error:  # noqa: BLE001 - a fault costs one module
                 self.log.failure("{name} failed to initialize", name=module.path)
@@ -158,9 +155,8 @@ class Up:
         for handler in self._handlers:
             self._register(handler)
 
-    def registrations_of(self, module: BaseModule) -> Registrations:
-        """Return the registrations of a module."""
-        return self._registrations[id(module)]
+    def cleanup_of(self, module: BaseModule) -> CleanupStack:
+        return self._cleanups[id(module)]
 
     def missing_need(self, module: BaseModule) -> BaseModule | None:
         """Return an excluded module that this one needs, or None."""
@@ -173,11 +169,11 @@ class Up:
         it to None. The caller must exclude the modules that need it.
         """
         self._excluded.append(module)
-        self.registrations_of(module).undo()
+        self.cleanup_of(module).unwind()
         self.command_executor.control.release(module.class_name)
         self._modules = [each for each in self._modules if each is not module]
         for each in self._modules:
-            forget_wanted(each, self._excluded)
+            discard_wanted(each, self._excluded)
         self.log.error("{name} is left out: {reason}", name=module.path, reason=reason)
         self.vetoes.set(module.path, reason)
 

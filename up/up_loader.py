@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from up.builtin_modules import BUILTIN_MODULES
-from up.config.disabled_modules import DISABLED_MODULES
+from up.config.application import DISABLED_MODULES
 from up.context import Context
 from up.loading.application import Application
 from up.loading.commands import take_commands
@@ -37,7 +37,6 @@ class UpLoader:
         return plan
 
     def create(self) -> Up:
-        """Return the system, initialized and ready to start."""
         up = Up(self.plan(), self._context)
         up.initialize()
         return up

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from up.registrations import note_undo
+from up.cleanup import add_cleanup
 
 
 class Vetoes:
@@ -32,7 +32,7 @@ class Vetoes:
             if self._on_changed == call:
                 self._on_changed = before
 
-        note_undo(take_back)
+        add_cleanup(take_back)
 
     def set(self, name: str, reason: str) -> None:
         """Forbid arming under a name until it is cleared."""
@@ -41,7 +41,6 @@ class Vetoes:
             self.on_changed()
 
     def clear(self, name: str) -> None:
-        """Remove a veto; an unknown name is harmless."""
         if self._own.pop(name, None) is not None:
             self.on_changed()
 
@@ -51,7 +50,6 @@ class Vetoes:
 
     @property
     def own(self) -> dict[str, str]:
-        """Return this program's vetoes: name to reason."""
         return dict(self._own)
 
     @property

@@ -49,7 +49,7 @@ public final class Signatures {
     }
 
     private static void build(String signature, List<String> jars) throws IOException {
-        Told told = new Told(new HashSet<String>());
+        Told told = new Told(new HashSet<>());
         SignatureBuilder builder = new SignatureBuilder(new FileOutputStream(signature), told);
         for (String jar : jars) {
             builder.process(new File(jar));
@@ -59,16 +59,16 @@ public final class Signatures {
 
     private static boolean check(String signature, String ignored, String allowed,
             List<String> jars) throws IOException {
-        Set<String> packages = new HashSet<String>();
+        Set<String> packages = new HashSet<>();
         for (String each : ignored.split(",")) {
             packages.add(each + ".*");
         }
-        Told told = new Told(allowed.equals("-") ? new HashSet<String>() : lines(allowed));
+        Told told = new Told(allowed.equals("-") ? new HashSet<>() : lines(allowed));
         for (String jar : jars) {
             InputStream opened = new FileInputStream(signature);
             try {
                 SignatureChecker checker = new SignatureChecker(opened, packages, told);
-                checker.setSourcePath(Collections.<File>emptyList());
+                checker.setSourcePath(Collections.emptyList());
                 checker.process(new File(jar));
             } finally {
                 opened.close();
@@ -78,7 +78,7 @@ public final class Signatures {
     }
 
     private static Set<String> lines(String file) throws IOException {
-        Set<String> found = new HashSet<String>();
+        Set<String> found = new HashSet<>();
         BufferedReader reader = new BufferedReader(
                 new InputStreamReader(new FileInputStream(file), Charset.forName("UTF-8")));
         try {
@@ -97,7 +97,7 @@ public final class Signatures {
     /** The findings of Animal Sniffer, without the allowed ones. */
     private static final class Told implements Logger {
         private final Set<String> allowed;
-        private final Set<String> met = new HashSet<String>();
+        private final Set<String> met = new HashSet<>();
         private boolean clean = true;
 
         Told(Set<String> allowed) {

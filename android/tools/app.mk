@@ -67,11 +67,27 @@ APP_CODE := $(APP) $(R_JAVA)
 $(APP_JAR): $(APP_CODE) $(CORE_JAR) $(NEWER_JARS) $(BOOT) $(BUILD)/APP_CODE.list $(JARS)/.stubs
 	$(call compile,$@,$(APP_CODE),$(APP_PATH))
 
+# The sources are Java 8; API 16 knows Java 7. ProGuard turns lambdas into classes and does nothing
+# else; the checks and Robolectric read its result.
+JAVA7 := $(BUILD)/java7
+COMPILED := $(CORE_JAR) $(APP_JAR) $(NEWER_JARS)
+BACKPORTED := $(COMPILED:$(BUILD)/%=$(JAVA7)/%)
+$(JAVA7)/.done: $(COMPILED) $(BOOT) $(JARS)/.proguard $(JARS)/.level-29
+	@echo 'translate to Java 7'
+	@rm -rf $(JAVA7) && mkdir -p $(JAVA7)
+	@$(JVM) -jar $(JARS)/proguard-base-6.2.2.jar \
+		$(foreach each,$(COMPILED),-injars $(each) -outjars $(JAVA7)/$(notdir $(each))) \
+		-libraryjars $(BOOT) -libraryjars $(FRAMEWORK_29) -target 1.7 -dontshrink -dontoptimize -dontobfuscate \
+		-dontpreverify -keepattributes '*' -dontwarn 'android.**,java.lang.invoke.**' -dontnote '**' \
+		> $@.log || { grep -v "^Note" $@.log | head -9 >&2; exit 1; }
+	@touch $@
+$(BACKPORTED): $(JAVA7)/.done ;
+
 # Before anything is packed: no call may be newer than its guard.
-$(DEX): $(APP_JAR) $(NEWER_JARS) $(CORE_JAR) $(BUILD)/.guarded $(JARS)/.dx
+$(DEX): $(BACKPORTED) $(BUILD)/.guarded $(JARS)/.dx
 	@echo 'translate to dex'
 	@$(JVM) -cp $(JARS)/dalvik-dx-16.0.1.jar com.android.dx.command.Main --dex \
-		--min-sdk-version=$(LEAST) --no-locals --output=$@ $(CORE_JAR) $(APP_JAR) $(NEWER_JARS)
+		--min-sdk-version=$(LEAST) --no-locals --output=$@ $(BACKPORTED)
 
 $(BUILD)/unsigned.apk: $(RESOURCES) $(DEX) tools/assemble.py | $(BUILD)/debian-tools
 	@$(PYTHON) tools/assemble.py $(RESOURCES) $(DEX) $@.loose

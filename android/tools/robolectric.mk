@@ -14,7 +14,7 @@ ROBO_AARS := $(filter %.aar,$(ROBO_FILES))
 ROBO_AAR_JARS := $(ROBO_AARS:$(JARS)/%.aar=$(ROBO_SET)/%.jar)
 
 join := $(empty) $(empty)
-ROBO_PATH = $(subst $(join),:,$(strip $(APP_JAR) $(NEWER_JARS) $(CORE_JAR) $(ROBO_LIBS) \
+ROBO_PATH = $(subst $(join),:,$(strip $(BACKPORTED) $(ROBO_LIBS) \
 	$(ROBO_AAR_JARS))):$(JUNIT):$(FRAMEWORK_29):$(NEWEST)
 
 $(ROBO_SET)/%.jar: $(JARS)/.robolectric
@@ -34,8 +34,7 @@ $(ROBO_SET)/com/android/tools/test_config.properties: tools/robolectric.mk
 		'android_custom_package=org.raspilot.app' \
 		'android_resource_apk=$(abspath $(RESOURCES))' > $@
 
-# Tests run on this computer alone, so their language may be newer than the app's.
-$(ROBO_JAR): $(ROBO_TESTS) $(APP_JAR) $(NEWER_JARS) $(ROBO_AAR_JARS) $(BUILD)/ROBO_TESTS.list \
+$(ROBO_JAR): $(ROBO_TESTS) $(BACKPORTED) $(ROBO_AAR_JARS) $(BUILD)/ROBO_TESTS.list \
 		$(JARS)/.junit $(JARS)/.robolectric $(JARS)/.platforms $(JARS)/.level-29
 	@echo 'compile $@'
 	@out=$$(mktemp -d $@.XXXXXX) && trap 'rm -rf "$$out"' EXIT && \

@@ -12,50 +12,50 @@ from up_ground.page_options import add_page_options
 from up_ground.replay.verb import EPILOG, add_arguments
 from up_ground.settings import DEFAULT_AIRCRAFT, DEFAULT_HOST, DEFAULT_PORT, Seat, Settings
 
-_LONGEST_S = 1e7
+_MAX_S = 1e7
 
 _EPILOG = """\
 examples
   up-ground watch                                      live picture; q quits
-  up-ground --aircraft glider-1 watch --once           one picture, then end
+  up-ground --aircraft glider-1 watch --once           one picture, then exit
   up-ground watch --json --count 10                    ten telemetry messages for a script
-  up-ground commands                                   what can be sent
+  up-ground commands                                   Commands that can be sent
   up-ground send up.flight_mode.set mode=FBW
-  up-ground send arduino.pids.tunings request=true     prints the gains that fly
+  up-ground send arduino.pids.tunings request=true     prints the active gains
   up-ground serve                                      the page for browsers, on this machine
   up-ground replay last                                a recorded flight in that page
-  up-ground seat request                               asks whoever commands to hand over
+  up-ground control request                            requests control of its owner
 
 environment
   UP_GROUND_HOST, UP_GROUND_PORT, UP_GROUND_AIRCRAFT, UP_GROUND_DIRECT=1 stand for the options
 """
 _WATCH_EPILOG = """\
-On a terminal: a picture of the aircraft, at most ten times a second. Numbers that are old are dim
-and their age is beside them; when the aircraft is silent everything is dim. '--' is not known.
-Keys: q quits, c asks for the seat that commands, g hands it to the listener that asks, r leaves it.
+On a terminal: a picture of the aircraft, at most ten times a second. Stale numbers are dim,
+with their age beside them; when the aircraft is silent everything is dim. '--' is unknown.
+Keys: q quits, c requests control, g hands it to the listener that requests it, r releases it.
 Elsewhere (a pipe, a file): one line a second.
 """
 _SEND_EPILOG = """\
-A value is JSON where it is JSON (2, true, null, "2") and text otherwise; dots open an object.
-The newest beacon is echoed, so that a Command that a bad link holds back is not carried out late.
+A value is parsed as JSON if possible (2, true, null, "2"), otherwise as text; dots open an object.
+The newest beacon is echoed, so that a Command delayed by a bad link is refused.
 
 examples
   up-ground send up.telemetry.frequency frequency=200
   up-ground send up.arm
 
 exit status
-  0 carried out; 1 refused, with the reason; 2 mistake in the command line, nothing was sent;
+  0 carried out; 1 refused, with the reason; 2 error in the command line, nothing was sent;
   3 no connection, no aircraft or no answer
 """
 
 
 _SERVE_EPILOG = """\
 The page shows everything that 'watch' shows, and a map, charts, events and gains; a page that has
-control sends Commands. One page controls an aircraft, the others watch. Several aircraft are
-chosen from in the page. A proxy that is not there is tried for ever.
+control sends Commands. One page controls an aircraft, the others watch. The page selects one of
+several aircraft. An unreachable proxy is retried without end.
 
-On another address than loopback a page controls only when it was opened with the key that is
-printed as part of the address; whoever opens the address without it watches.
+On an address other than loopback only a page opened with the key, which is printed as part of the
+address, can control; without the key it only watches.
 
 examples
   up-ground serve                                        the aircraft 'default' of a proxy here
@@ -90,8 +90,8 @@ def make_parser(environ: Mapping[str, str]) -> argparse.ArgumentParser:
     verbs = parser.add_subparsers(dest="verb", metavar="VERB", parser_class=_Parser)
     _add_watch(verbs)
     _add_send(verbs)
-    _add_seat(verbs)
-    for verb in verbs.choices.values():
+    _add_control(verbs)
+    for verb in dict.fromkeys(verbs.choices.values()):
         # People write them behind the verb as well; there an absent one must change nothing.
         _add_connection(verb, *(argparse.SUPPRESS,) * 4)
     _add_serve(verbs)
@@ -109,10 +109,12 @@ def _add_connection(
     aircraft: object = None,
 ) -> None:
     """Add the options for the peer's address and the names, with their defaults."""
-    now = "" if host is argparse.SUPPRESS else " (now %(default)s)"
-    group = parser.add_argument_group("whom to talk to")
+    now = "" if host is argparse.SUPPRESS else " (default %(default)s)"
+    group = parser.add_argument_group("peer")
     group.add_argument(
-        "--host", default=host, help=f"the Ground Station Proxy, or the aircraft itself{now}"
+        "--host",
+        default=host,
+        help=f"the Ground Station Proxy, or the aircraft itself{now}",
     )
     group.add_argument(
         "--port",
@@ -133,7 +135,7 @@ def _add_connection(
         "--direct",
         action="store_true",
         default=direct,
-        help="say no hello: for a proxy of the thesis and for an old aircraft on the same LAN",
+        help="send no hello: for a legacy proxy or an old aircraft on the same LAN",
     )
 
 
@@ -158,16 +160,18 @@ def _add_watch(verbs: argparse._SubParsersAction[_Parser]) -> None:
         epilog=_WATCH_EPILOG,
     )
     form = watch.add_mutually_exclusive_group()
-    form.add_argument("--once", action="store_true", help="print one picture and end")
+    form.add_argument("--once", action="store_true", help="print one picture and exit")
     form.add_argument("--json", action="store_true", help="print the telemetry messages")
     form.add_argument("--plain", action="store_true", help="one line a second, on a terminal too")
-    watch.add_argument("--count", type=_count, metavar="N", help="end after N lines")
-    watch.add_argument("--for", type=_seconds, dest="for_s", metavar="SECONDS", help="end after")
+    watch.add_argument("--count", type=_count, metavar="N", help="stop after N lines")
+    watch.add_argument(
+        "--for", type=_seconds, dest="for_s", metavar="SECONDS", help="stop after this time"
+    )
     watch.add_argument(
         "--seat",
         choices=("command", "listen"),
         default="listen",
-        help="command: hold the seat as long as this runs (default listen)",
+        help="command: hold control as long as this runs (default %(default)s)",
     )
 
 
@@ -189,21 +193,26 @@ def _add_send(verbs: argparse._SubParsersAction[_Parser]) -> None:
     )
 
 
-def _add_seat(verbs: argparse._SubParsersAction[_Parser]) -> None:
-    seat = verbs.add_parser(
-        "seat",
-        help="ask for, hand over or leave the seat that commands",
-        description="One ground commands an aircraft, the others listen. This asks for the seat,"
-        " hands it to the listener with a number, or leaves it free.",
+def _add_control(verbs: argparse._SubParsersAction[_Parser]) -> None:
+    control = verbs.add_parser(
+        "control",
+        aliases=["seat"],
+        help="request, hand over or release control",
+        description="One ground has control of an aircraft, the others listen. This requests"
+        " control, hands it to the listener with a number, or releases it.",
     )
-    actions = seat.add_subparsers(dest="action", metavar="ACTION", required=True)
-    request = actions.add_parser("request", help="ask whoever commands; a free seat is yours")
+    actions = control.add_subparsers(dest="action", metavar="ACTION", required=True)
+    request = actions.add_parser("request", help="request control of its owner; free: granted")
     request.add_argument(
-        "--wait", type=_seconds, default=30.0, metavar="SECONDS", help="for so long (default 30)"
+        "--wait",
+        type=_seconds,
+        default=30.0,
+        metavar="SECONDS",
+        help="how long to request (default %(default)g)",
     )
-    give = actions.add_parser("give", help="hand the seat to a listener")
+    give = actions.add_parser("give", help="hand control to a listener")
     give.add_argument("to", type=_count, metavar="N", help="the listener's number")
-    actions.add_parser("release", help="leave the seat free")
+    actions.add_parser("release", help="release control")
 
 
 def _add_serve(verbs: argparse._SubParsersAction[_Parser]) -> None:
@@ -263,6 +272,6 @@ def _seconds(text: str) -> float:
         seconds = float(text)
     except ValueError:
         seconds = math.nan
-    if not 0 < seconds <= _LONGEST_S:
+    if not 0 < seconds <= _MAX_S:
         raise argparse.ArgumentTypeError(f"must be a number of seconds above 0, not {text!r}")
     return seconds

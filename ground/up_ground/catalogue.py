@@ -1,10 +1,11 @@
-"""The Commands that this installation knows, as a ground sees them."""
+"""The Commands that this installation knows, as a ground and its pages see them."""
 
 from __future__ import annotations
 
 import dataclasses
 import difflib
 import importlib
+import json
 import pkgutil
 import typing
 from collections.abc import Iterable, Iterator, Mapping
@@ -18,6 +19,8 @@ from up.commands.roles import Role
 
 # An aircraft answers with them; a ground has nothing to answer.
 _ANSWERS = ("up.ack", "up.nack")
+GAINS = "arduino.pids.tunings"
+_CONTENT_OF = {GAINS: "arduino.pids.values", "arduino.profile.request": "arduino.profile.values"}
 _GROUND_ROLES = (Role.OBSERVER, Role.OPERATOR, Role.PILOT, Role.ADMIN)
 
 
@@ -97,6 +100,12 @@ def wire_name(field: dataclasses.Field[Any]) -> str:
     return str(field.metadata.get("key") or field.name)
 
 
+def requested_content(name: str, data: Mapping[str, Any]) -> str:
+    """Return the message that a Command requests besides its ack; empty: none."""
+    is_request = name != GAINS or data.get("request") is True
+    return _CONTENT_OF.get(name, "") if is_request else ""
+
+
 def fault_of(cls: type[BaseCommand], data: Mapping[str, Any]) -> str:
     """Return why the data do not fit the Command, one sentence; empty if they do."""
     known = {wire_name(field) for field in dataclasses.fields(cls)}
@@ -144,3 +153,60 @@ def _command_modules(cog: str, problems: list[str]) -> Iterator[Any]:
             yield importlib.import_module(f"{package}.{info.name}")
         except Exception as error:  # noqa: BLE001 - as above
             problems.append(f"{package}.{info.name} is left out: {type(error).__name__}: {error}")
+
+
+BYTES_LIMIT = 1 << 18
+"""A page for which more waits is cut off; this must never do that."""
+MAX_TEXT = 400
+_TYPES = {
+    bool: "boolean",
+    int: "integer",
+    float: "number",
+    str: "text",
+    dict: "object",
+    list: "list",
+}
+
+
+def catalogue_message(catalogue: Catalogue) -> dict[str, Any]:
+    """Return the message ``catalogue``: every Command that some ground may send, by name."""
+    commands: list[dict[str, Any]] = []
+    size = 0
+    for cls in catalogue.sendable():
+        told = _command(cls)
+        size += len(json.dumps(told))
+        if size > BYTES_LIMIT:
+            break
+        commands.append(told)
+    return {"type": "catalogue", "commands": commands}
+
+
+def _command(cls: type[BaseCommand]) -> dict[str, Any]:
+    hints = typing.get_type_hints(cls)
+    return {
+        "name": cls.NAME,
+        "aliases": list(cls.ALIASES),
+        # "depends": a field decides who may send it, checked by the aircraft and the server.
+        "role": role_of(cls),
+        "text": about(cls)[:MAX_TEXT],
+        "needs_beacon": cls.NEEDS_BEACON,
+        "fields": [_field(each, hints) for each in dataclasses.fields(cls)],
+    }
+
+
+def _field(field: dataclasses.Field[Any], hints: dict[str, Any]) -> dict[str, Any]:
+    constraint = constraint_of(field, hints)
+    missing = dataclasses.MISSING
+    choices = constraint.choices
+    return {
+        "name": wire_name(field),
+        "type": _TYPES[constraint.type_],
+        "unit": constraint.unit,
+        "minimum": constraint.minimum,
+        "maximum": constraint.maximum,
+        "choices": None if choices is None else list(choices),
+        "max_length": constraint.max_length,
+        "nullable": constraint.nullable,
+        "required": field.default is missing and field.default_factory is missing,
+        "text": constraint.describe()[:MAX_TEXT],
+    }

@@ -21,7 +21,7 @@ def parse_fields(words: Iterable[str]) -> dict[str, Any]:
     for word in words:
         key, equals, text = word.partition("=")
         if not equals or not key:
-            raise FieldError(f"{word!r} is no field: write key=value")
+            raise FieldError(f"{word!r} is not a field: write key=value")
         _put(data, key, _value(text))
     return data
 
@@ -46,7 +46,7 @@ def _put(data: dict[str, Any], key: str, value: Any) -> None:
             raise FieldError(f"{key}: {name} already has a value and can hold no fields")
         place = inner
     if not last or not all(path):
-        raise FieldError(f"{key!r} is no key: a part between its dots is empty")
+        raise FieldError(f"{key!r} is not a key: a part between its dots is empty")
     if last in place:
         raise FieldError(f"{key} is given twice")
     place[last] = value

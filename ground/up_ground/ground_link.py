@@ -12,18 +12,25 @@ from twisted.internet.protocol import Factory
 from twisted.python.failure import Failure
 
 from up.protocols.general_message import GeneralMessage, MalformedMessage, decode
+from up.protocols.proxy_lines import (
+    Accepted,
+    Access,
+    AircraftPresence,
+    ControlGive,
+    ControlGranted,
+    ControlLost,
+    ControlOwner,
+    ControlRelease,
+    ControlRequest,
+    ControlRequested,
+    GroundLine,
+    Hello,
+    ProxyLine,
+    Refused,
+    parse_line,
+)
 from up.system.backoff import Backoff
 from up.system.clock import Timer
-from up_ground import control_line
-from up_ground.control_line import (
-    Accepted,
-    AircraftPresence,
-    Rejected,
-    SeatAsked,
-    SeatGained,
-    SeatHolder,
-    SeatLost,
-)
 from up_ground.ground_protocol import GroundProtocol
 from up_ground.link_status import LinkState, LinkStatus
 from up_ground.settings import Seat, Settings
@@ -100,15 +107,15 @@ class GroundLink:
         """Request the seat; a free one is granted immediately. Return False if not sent."""
         self._wanted = Seat.COMMAND
         self._tokens.hold()
-        return not self._settings.direct and self.send(control_line.SEAT_REQUEST)
+        return not self._settings.direct and self.send(ControlRequest().encode())
 
     def give_seat(self, to: int) -> bool:
         """Hand the seat to the listener with that number."""
-        return self.status.seat is Seat.COMMAND and self.send(control_line.give_line(to))
+        return self.status.seat is Seat.COMMAND and self.send(ControlGive(to).encode())
 
     def release_seat(self) -> bool:
         """Leave the seat free."""
-        return self.status.seat is Seat.COMMAND and self.send(control_line.SEAT_RELEASE)
+        return self.status.seat is Seat.COMMAND and self.send(ControlRelease().encode())
 
     def reconnect(self, seat: Seat) -> None:
         """Repeat the hello for another seat: an aircraft's own listener grants it only that way."""
@@ -120,7 +127,7 @@ class GroundLink:
             self._tokens.forget()
         self._backoff.reset()
         if self._connection is not None:
-            self._connection.give_up("another seat is asked for")
+            self._connection.abort("reconnecting to request control", "reconnect")
 
     def measure(self) -> None:
         """Read the link's own delay and drops."""
@@ -138,9 +145,10 @@ class GroundLink:
     def on_line(self, connection: GroundProtocol, line: bytes) -> None:
         """Take a relayed line: a General Message, or something to drop and count."""
         if not self._is_greeted:
-            connection.give_up(
-                "the other side does not answer a hello: it is no Ground Station Proxy of this"
-                " version (--direct says no hello)"
+            connection.abort(
+                "the other side does not answer a hello: not a Ground Station Proxy of this"
+                " version (--direct sends no hello)",
+                "no_proxy",
             )
             return
         self.status.too_long = self._too_long + connection.dropped_too_long
@@ -153,15 +161,15 @@ class GroundLink:
 
     def on_control(self, connection: GroundProtocol, line: bytes) -> None:
         """Take a line of the proxy."""
-        said = None if self._settings.direct else control_line.parse_proxy_line(line)
-        is_due = isinstance(said, Rejected) or isinstance(said, Accepted) is not self._is_greeted
-        if said is None or not is_due:
+        said = None if self._settings.direct else parse_line(line)
+        is_due = isinstance(said, Refused) or isinstance(said, Accepted) is not self._is_greeted
+        if said is None or isinstance(said, GroundLine) or not is_due:
             self.status.strange_control += 1
             return
         self._obey(connection, said)
         self._listener.on_link()
 
-    def on_lost(self, connection: GroundProtocol, reason: str) -> None:
+    def on_lost(self, connection: GroundProtocol, reason: str, code: str) -> None:
         """Wait a little and connect again."""
         self._too_long += connection.dropped_too_long
         self.status.too_long = self._too_long
@@ -170,31 +178,31 @@ class GroundLink:
             gone, self._gone = self._gone, None
             if gone is not None:
                 gone.callback(None)
-            self._retry(reason)
+            self._retry(reason, code)
 
-    def _obey(self, connection: GroundProtocol, said: control_line.ProxyLine) -> None:
+    def _obey(self, connection: GroundProtocol, said: ProxyLine) -> None:
         status = self.status
         if isinstance(said, Accepted):
             self._is_greeted = True
             connection.accept()
             self._opened()
-            status.seat = said.seat
-            if said.seat is Seat.COMMAND:
+            status.seat = Seat.COMMAND if said.access is Access.COMMAND else Seat.LISTEN
+            if status.seat is Seat.COMMAND:
                 self._keep(said.token)
-        elif isinstance(said, Rejected):
+        elif isinstance(said, Refused):
             status.rejection = said.code
-            connection.give_up(f"the proxy refuses: {said.reason} ({said.code})")
-        elif isinstance(said, SeatGained):
+            connection.abort(f"the proxy refuses: {said.reason} ({said.code})", "rejected")
+        elif isinstance(said, ControlGranted):
             status.seat = self._wanted = Seat.COMMAND
             self._tokens.hold()
             self._keep(said.token)
-        elif isinstance(said, SeatLost):
+        elif isinstance(said, ControlLost):
             status.seat = self._wanted = Seat.LISTEN
             status.asked_by = self._token = None
             self._tokens.forget()
-        elif isinstance(said, SeatAsked):
+        elif isinstance(said, ControlRequested):
             status.asked_by = said.by
-        elif isinstance(said, SeatHolder):
+        elif isinstance(said, ControlOwner):
             status.holder = said.number
             status.is_holder_known = True
         elif isinstance(said, AircraftPresence):
@@ -217,7 +225,8 @@ class GroundLink:
         hello = None
         if not self._settings.direct:
             token = self._token if self._wanted is Seat.COMMAND else None
-            hello = control_line.hello_line(self._settings.aircraft, self._wanted, token)
+            access = Access(self._wanted.value)
+            hello = Hello(self._settings.aircraft, access, token).encode()
         factory: Any = Factory.forProtocol(lambda: GroundProtocol(self._reactor, self, hello))
         factory.noisy = False
         endpoint = HostnameEndpoint(
@@ -232,12 +241,12 @@ class GroundLink:
     def _failed(self, failure: Failure) -> None:
         self._attempt = None
         if self.status.state is not LinkState.STOPPED:
-            self._retry(f"cannot reach {self._settings.address}: {_why(failure)}")
+            self._retry(f"cannot reach {self._settings.address}: {_why(failure)}", "unreachable")
 
-    def _retry(self, reason: str) -> None:
+    def _retry(self, reason: str, code: str) -> None:
         if self.status.state is LinkState.STOPPED:
             return
-        self.status.disconnected(LinkState.WAITING, self._reactor.seconds(), reason)
+        self.status.disconnected(LinkState.WAITING, self._reactor.seconds(), reason, code)
         self.status.failures += 1
         self._timer = self._reactor.callLater(self._backoff.pause_s(), self._connect)
         self._listener.on_link()

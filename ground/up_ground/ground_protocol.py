@@ -11,9 +11,9 @@ from twisted.internet.protocol import Protocol, connectionDone
 from twisted.python.failure import Failure
 
 from up.protocols.line_decoder import LineDecoder
+from up.protocols.proxy_lines import PREFIX
 from up.protocols.tcp_options import watch_peer
 from up.system.clock import Clock, Timer
-from up_ground.control_line import PREFIX
 
 USER_TIMEOUT_MS = 1500
 HEARTBEAT_S = 1.0
@@ -33,8 +33,8 @@ class ConnectionOwner(Interface):
     def on_made(self, connection: GroundProtocol) -> None:
         """Handle a new connection."""
 
-    def on_lost(self, connection: GroundProtocol, reason: str) -> None:
-        """Handle the loss of the connection and its reason."""
+    def on_lost(self, connection: GroundProtocol, reason: str, code: str) -> None:
+        """Handle the loss of the connection, with its reason and the reason's code."""
 
 
 class GroundProtocol(Protocol):
@@ -55,7 +55,7 @@ class GroundProtocol(Protocol):
         self._told_s = 0.0
         self._timer: Timer | None = None
         self._is_open = False
-        self._why = ""
+        self._reason = ("", "")
 
     @property
     def dropped_too_long(self) -> int:
@@ -74,9 +74,9 @@ class GroundProtocol(Protocol):
         """Accept the answer to the hello: heartbeats begin."""
         self._schedule(HEARTBEAT_S, self._beat)
 
-    def give_up(self, why: str) -> None:
-        """Abort the connection; the owner gets ``why`` as the reason."""
-        self._why = self._why or why
+    def abort(self, reason: str, code: str) -> None:
+        """Abort the connection; the owner gets the first reason and its code."""
+        self._reason = self._reason if self._reason[0] else (reason, code)
         self._is_open = False
         self.transport.abortConnection()
 
@@ -121,12 +121,14 @@ class GroundProtocol(Protocol):
         self._is_open = False
         self._lines.reset()
         self._cancel()
-        self._owner.on_lost(self, self._why or reason.getErrorMessage())
+        text, code = self._reason if self._reason[0] else (reason.getErrorMessage(), "lost")
+        self._owner.on_lost(self, text, code)
 
     def _on_no_answer(self) -> None:
-        self.give_up(
+        self.abort(
             f"no answer to the hello within {HELLO_TIMEOUT_S:g} s: is this the ground port of a"
-            " Ground Station Proxy? (--direct says no hello)"
+            " Ground Station Proxy? (--direct sends no hello)",
+            "no_hello_answer",
         )
 
     def _beat(self) -> None:

@@ -1,4 +1,4 @@
-"""State of the link to the aircraft."""
+"""State of the link to the aircraft, and of control over it."""
 
 from __future__ import annotations
 
@@ -29,6 +29,8 @@ class LinkStatus:
     since_s: float = 0.0
     reason: str = ""
     """Why the link is down, one sentence."""
+    code: str = ""
+    """The code of ``reason``: unreachable, no_proxy, no_hello_answer, rejected, lost, ..."""
     rejection: str = ""
     """The code with which the proxy refused the hello."""
     seat: Seat | None = None
@@ -58,11 +60,44 @@ class LinkStatus:
         """Return how many lines were dropped."""
         return self.malformed + self.too_long + self.strange_control
 
-    def disconnected(self, state: LinkState, now_s: float, reason: str = "") -> None:
+    def disconnected(
+        self, state: LinkState, now_s: float, reason: str = "", code: str = ""
+    ) -> None:
         """Reset the fields that only a connection can fill."""
         self.state = state
         self.since_s = now_s
         self.reason = reason
+        self.code = code
         self.seat = self.holder = self.asked_by = self.is_aircraft_online = None
         self.is_holder_known = False
         self.round_trip_ms = None
+
+
+ASK_INTERVAL_S = 1.1
+"""The proxy passes one request a second on."""
+KEPT_S = 4.0
+"""Longer than a proxy reserves the seat of a ground that has disconnected (3 s)."""
+
+
+class ControlStatus(Enum):
+    """State of the seat as seen by this ground."""
+
+    UNKNOWN = "unknown"
+    OURS = "ours"
+    FREE = "free"
+    HELD = "held"
+    LATER = "later"
+
+
+def control_status(status: LinkStatus, is_direct: bool) -> ControlStatus:
+    """Return who owns the seat; a direct link has no seats, so every peer may send there.
+
+    FREE: the proxy reports no owner; it may still reserve the seat for a token.
+    """
+    if not status.is_open:
+        return ControlStatus.UNKNOWN
+    if is_direct or status.seat is Seat.COMMAND:
+        return ControlStatus.OURS
+    if not status.is_holder_known:
+        return ControlStatus.LATER
+    return ControlStatus.FREE if status.holder is None else ControlStatus.HELD

@@ -14,35 +14,30 @@ from up.fields import printable
 from up.protocols.general_message import encode
 from up_ground.arguments import parse_arguments, settings_of
 from up_ground.catalogue import Catalogue, describe, fault_of
-from up_ground.errand import (
+from up_ground.control_task import LeaveControl, RequestControl
+from up_ground.field_values import FieldError, parse_fields
+from up_ground.one_shot_task import (
     EXIT_DONE,
     EXIT_INTERRUPTED,
     EXIT_USAGE,
-    Errand,
-    complain,
-    say,
+    OneShotTask,
+    echo,
+    print_error,
+    run,
 )
-from up_ground.field_values import FieldError, parse_fields
-from up_ground.run_errand import run
-from up_ground.seat import LeaveSeat, RequestSeat
 from up_ground.send import Send
 from up_ground.settings import Seat
 from up_ground.terminal import Terminal
 from up_ground.token_store import TokenStore, state_folder
 from up_ground.watch import JSONWatch, OnceWatch, PlainWatch, ScreenWatch, Watch, is_terminal
-from up_ground.web.serve import PageOptions, ServeError, fleet_of, make_stations
+from up_ground.web.serve import PageOptions, ServeError, fleet_of, make_sessions
 
 
 def watch(options: argparse.Namespace) -> int:
     """Show an aircraft in the requested form."""
     settings = settings_of(options, Seat(options.seat))
     tokens = TokenStore(state_folder(os.environ), settings)
-    more: dict[str, Any] = {
-        "say": say,
-        "complain": complain,
-        "for_s": options.for_s,
-        "count": options.count,
-    }
+    more: dict[str, Any] = {"for_s": options.for_s, "count": options.count}
     form: type[Watch] = PlainWatch
     if options.once or options.json:
         form = OnceWatch if options.once else JSONWatch
@@ -66,12 +61,14 @@ def send(options: argparse.Namespace) -> int:
         data = parse_fields(options.fields)
         encode(options.name, data)
     except ValueError as error:
-        kind = "" if isinstance(error, FieldError) else "cannot be sent: "
-        return _usage([f"{kind}{printable(str(error))}"])
+        is_field = isinstance(error, FieldError)
+        text = printable(str(error) if is_field else f"cannot be sent: {error}")
+        return _usage([text], "invalid_field" if is_field else "not_encodable")
     if not options.force:
-        fault = _unknown(catalogue, options.name) if cls is None else _mistake(cls, data)
-        if fault:
-            return _usage(fault)
+        if cls is None:
+            return _usage(_unknown(catalogue, options.name), "unknown_command")
+        if fault := fault_of(cls, data):
+            return _usage([printable(fault), *describe(cls)], "invalid_data")
     settings = settings_of(options, Seat.COMMAND)
     tokens = TokenStore(state_folder(os.environ), settings)
     return run(
@@ -82,26 +79,22 @@ def send(options: argparse.Namespace) -> int:
             options.name,
             data,
             needs_beacon=cls is not None and cls.NEEDS_BEACON,
-            say=say,
-            complain=complain,
         )
     )
 
 
-def seat(options: argparse.Namespace) -> int:
-    """Request the seat, hand it over or release it."""
+def control(options: argparse.Namespace) -> int:
+    """Request control, hand it over or release it."""
     if options.direct:
-        return _usage(["a direct link has no seats"])
+        return _usage(["a direct link has no control to request"], "direct")
     settings = settings_of(options, Seat.COMMAND)
     tokens = TokenStore(state_folder(os.environ), settings)
 
-    def make(reactor: Any) -> Errand:
+    def make(reactor: Any) -> OneShotTask:
         if options.action == "request":
-            return RequestSeat(
-                reactor, settings, tokens, say=say, complain=complain, wait_s=options.wait
-            )
+            return RequestControl(reactor, settings, tokens, wait_s=options.wait)
         to = options.to if options.action == "give" else None
-        return LeaveSeat(reactor, settings, tokens, say=say, complain=complain, to=to)
+        return LeaveControl(reactor, settings, tokens, to=to)
 
     return run(make)
 
@@ -113,15 +106,15 @@ def commands(options: argparse.Namespace) -> int:
     if options.name is not None:
         cls = catalogue.get(options.name)
         if cls is None:
-            return _usage(_unknown(catalogue, options.name))
+            return _usage(_unknown(catalogue, options.name), "unknown_command")
         chosen = [cls]
     for place, cls in enumerate(chosen):
         if place:
-            say("")
+            echo("")
         for line in describe(cls):
-            say(line)
+            echo(line)
     for problem in catalogue.problems:
-        complain(printable(problem))
+        print_error(printable(problem), "cog_left_out")
     return EXIT_DONE
 
 
@@ -130,15 +123,13 @@ def serve(options: argparse.Namespace) -> int:
     try:
         page, chosen = PageOptions.of(options, os.environ), fleet_of(options)
     except ServeError as error:
-        return _usage([printable(str(error))])
+        return _usage([printable(str(error))], error.code)
     catalogue = Catalogue.installed()
     return run(
         lambda reactor: page.server(
             reactor,
-            lambda audience: make_stations(reactor, chosen, os.environ, audience, catalogue),
+            lambda subscribers: make_sessions(reactor, chosen, os.environ, subscribers, catalogue),
             catalogue=catalogue,
-            say=say,
-            complain=complain,
         )
     )
 
@@ -150,32 +141,27 @@ def replay(options: argparse.Namespace) -> int:
     try:
         return play(options)
     except CliError as error:
-        complain(str(error))
+        print_error(str(error), getattr(error, "code", "") or "replay")
         return error.status
 
 
 def _unknown(catalogue: Catalogue, name: str) -> list[str]:
-    lines = [f"no Command is called {printable(name)}"]
-    near = catalogue.suggestions(name)
-    if near:
-        lines[0] += f"; did you mean {' or '.join(near)}?"
-        for each in near:
+    lines = [f"unknown Command {printable(name)}"]
+    similar = catalogue.suggestions(name)
+    if similar:
+        lines[0] += f"; did you mean {' or '.join(similar)}?"
+        for each in similar:
             cls = catalogue.get(each)
             lines += [] if cls is None else describe(cls)
     else:
-        lines[0] += "; there are:"
+        lines[0] += "; known Commands:"
         lines += [f"    {cls.NAME}" for cls in catalogue.sendable()]
     return [*lines, "--force sends a name that this version does not know"]
 
 
-def _mistake(cls: Any, data: dict[str, Any]) -> list[str]:
-    fault = fault_of(cls, data)
-    return [printable(fault), *describe(cls)] if fault else []
-
-
-def _usage(lines: Iterable[str]) -> int:
+def _usage(lines: Iterable[str], code: str) -> int:
     first, *rest = lines
-    complain(first)
+    print_error(first, code)
     for line in rest:
         sys.stderr.write(f"{line}\n")
     return EXIT_USAGE
@@ -183,14 +169,15 @@ def _usage(lines: Iterable[str]) -> int:
 
 def _refuse_closed() -> int:
     if sys.stderr is not None:
-        complain("stdout is closed, so there is nowhere to write: send it to /dev/null instead")
+        print_error("stdout is closed; redirect it to /dev/null instead", "stdout_closed")
     return EXIT_USAGE
 
 
 _VERBS: dict[str, Callable[[argparse.Namespace], int]] = {
     "watch": watch,
     "send": send,
-    "seat": seat,
+    "control": control,
+    "seat": control,
     "commands": commands,
     "serve": serve,
     "replay": replay,

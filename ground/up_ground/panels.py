@@ -4,32 +4,31 @@ from __future__ import annotations
 
 import textwrap
 
-from up_ground.canvas import Style
-from up_ground.pen import Pen
-from up_ground.wording import UNKNOWN, busy_text, flag_text, number_text
+from up_ground.screen_buffer import PanelWriter, Style
+from up_ground.status_text import UNKNOWN, busy_text, flag_text, number_text
 
 PANEL_COLUMNS = 38
 _CHANNELS = ("ailerons", "elevator", "throttle", "rudder", "aux1", "aux2")
 _BAR_COLUMNS = 19
-_LEAST_US = 1000.0
+_MIN_US = 1000.0
 _SPAN_US = 1000.0
 
 
-def draw_flight(pen: Pen, row: int, column: int) -> int:
+def draw_flight(writer: PanelWriter, row: int, column: int) -> int:
     """Draw who flies and whether the motor may turn; return the row below."""
-    telemetry = pen.telemetry
-    pen.title(row, column, "FLIGHT")
+    telemetry = writer.telemetry
+    writer.title(row, column, "FLIGHT")
     mode = telemetry.text("mode", limit=26) or UNKNOWN
     controller = telemetry.text("flight_controller", limit=9)
-    pen.value(row + 1, column, mode + (f" ({controller})" if controller else ""))
+    writer.value(row + 1, column, mode + (f" ({controller})" if controller else ""))
     flown = telemetry.text("flight_mode", limit=10) or UNKNOWN
-    switch = _word(pen, "arduino", "switch")
-    end = pen.value(row + 2, column, f"flight mode {flown}  switch {switch}")
+    switch = _word(writer, "arduino", "switch")
+    end = writer.value(row + 2, column, f"flight mode {flown}  switch {switch}")
     if telemetry.flag("arduino", "failsafe"):
-        pen.value(row + 2, end + 1, "FAILSAFE", style=Style.BAD)
+        writer.value(row + 2, end + 1, "FAILSAFE", style=Style.BAD)
     armed = telemetry.flag("armed")
     style = Style.PLAIN if armed is None else (Style.BAD if armed else Style.GOOD)
-    pen.value(row + 3, column, flag_text(armed, "ARMED", "disarmed"), style=style)
+    writer.value(row + 3, column, flag_text(armed, "ARMED", "disarmed"), style=style)
     vetoes = telemetry.texts("vetoes")
     # In the air a veto is information, not an alarm: it names the condition for arming again.
     text = "against arming again: " if armed else "vetoes "
@@ -37,57 +36,57 @@ def draw_flight(pen: Pen, row: int, column: int) -> int:
     alarm = Style.WARNING if vetoes and not armed else Style.PLAIN
     lines = textwrap.wrap(text, PANEL_COLUMNS, max_lines=2, placeholder=" ...") or [""]
     for line, part in enumerate(lines, row + 4):
-        pen.value(line, column, part, style=alarm)
+        writer.value(line, column, part, style=alarm)
     return row + 6
 
 
-def draw_position(pen: Pen, row: int, column: int) -> int:
+def draw_position(writer: PanelWriter, row: int, column: int) -> int:
     """Draw where the aircraft is; return the row below."""
-    number = pen.telemetry.number
-    pen.title(row, column, "LOCATION", "location")
+    number = writer.telemetry.number
+    writer.title(row, column, "LOCATION", "location")
     latitude = number_text(number("location", "latitude"), 6, 11)
     longitude = number_text(number("location", "longitude"), 6, 11)
-    pen.value(row + 1, column, f"{latitude} {longitude} deg", "location")
+    writer.value(row + 1, column, f"{latitude} {longitude} deg", "location")
     distance = number_text(number("home", "distance"), 0)
     bearing = number_text(number("home", "bearing"), 0)
-    pen.value(row + 2, column, f"home {distance} m, bearing {bearing} deg", "location")
-    end = pen.value(
+    writer.value(row + 2, column, f"home {distance} m, bearing {bearing} deg", "location")
+    end = writer.value(
         row + 3, column, f"altitude {number_text(number('altitude'), 1, 8)} m", "altitude"
     )
-    pen.canvas.put(row + 3, end + 1, pen.age("altitude"), Style.DIM)
+    writer.screen.put(row + 3, end + 1, writer.age("altitude"), Style.DIM)
     actual = number_text(number("heading", "actual"), 0)
-    end = pen.value(row + 4, column, f"heading {actual} deg", "heading")
-    pen.canvas.put(row + 4, end + 1, pen.age("heading"), Style.DIM)
+    end = writer.value(row + 4, column, f"heading {actual} deg", "heading")
+    writer.screen.put(row + 4, end + 1, writer.age("heading"), Style.DIM)
     return row + 5
 
 
-def draw_power(pen: Pen, row: int, column: int) -> int:
+def draw_power(writer: PanelWriter, row: int, column: int) -> int:
     """Draw battery, phone and load; return the row below."""
-    telemetry = pen.telemetry
+    telemetry = writer.telemetry
     level = telemetry.number("android", "batteryLevel")
     style = Style.BAD if level is not None and level < 20 else Style.PLAIN
     text = f"battery {number_text(level, 0)} %"
-    end = pen.value(row, column, text, "battery", style)
+    end = writer.value(row, column, text, "battery", style)
     connected = flag_text(telemetry.flag("android", "connected"), "connected", "absent")
     is_contested = telemetry.text("android", "competitor") is not None
     phone = "2nd phone refused" if is_contested else f"phone {connected}"
-    pen.value(row, end + 1, phone, style=Style.WARNING if is_contested else Style.PLAIN)
+    writer.value(row, end + 1, phone, style=Style.WARNING if is_contested else Style.PLAIN)
     cpu = number_text(telemetry.number("load", "cpu"), 0)
     ram = number_text(telemetry.number("load", "ram"), 0)
-    pen.value(row + 1, column, f"load {cpu} % memory {ram} %")
+    writer.value(row + 1, column, f"load {cpu} % memory {ram} %")
     if telemetry.flag("load", "panic"):
-        pen.value(row + 1, column, busy_text(telemetry))
+        writer.value(row + 1, column, busy_text(telemetry))
     return row + 2
 
 
-def draw_channels(pen: Pen, row: int, column: int, reading: str, title: str) -> int:
+def draw_channels(writer: PanelWriter, row: int, column: int, reading: str, title: str) -> int:
     """Draw one bar for each channel that the aircraft reports; return the row below."""
-    pen.title(row, column, title, reading)
-    shown = [name for name in _CHANNELS if pen.telemetry.number(reading, name) is not None]
+    writer.title(row, column, title, reading)
+    shown = [name for name in _CHANNELS if writer.telemetry.number(reading, name) is not None]
     for line, name in enumerate(shown or _CHANNELS[:4], row + 1):
-        pulse_us = pen.telemetry.number(reading, name)
+        pulse_us = writer.telemetry.number(reading, name)
         text = f"{name:9}{number_text(pulse_us, 0, 5)} {bar(pulse_us)}"
-        pen.value(line, column, text, reading)
+        writer.value(line, column, text, reading)
     return row + 1 + len(shown or _CHANNELS[:4])
 
 
@@ -96,7 +95,7 @@ def bar(pulse_us: float | None, columns: int = _BAR_COLUMNS) -> str:
     cells = [" "] * columns
     middle = columns // 2
     if pulse_us is not None:
-        place = (pulse_us - _LEAST_US) / _SPAN_US * (columns - 1)
+        place = (pulse_us - _MIN_US) / _SPAN_US * (columns - 1)
         end = max(0, min(columns - 1, round(place)))
         for cell in range(min(middle, end), max(middle, end) + 1):
             cells[cell] = "#"
@@ -107,30 +106,30 @@ def bar(pulse_us: float | None, columns: int = _BAR_COLUMNS) -> str:
     return f"[{''.join(cells)}]"
 
 
-def draw_board(pen: Pen, row: int, column: int) -> int:
+def draw_board(writer: PanelWriter, row: int, column: int) -> int:
     """Draw the Arduino and its line; return the row below."""
-    telemetry = pen.telemetry
+    telemetry = writer.telemetry
     connected = flag_text(telemetry.flag("arduino", "connected"), "connected", "absent")
     errors = number_text(telemetry.number("arduino", "frame_errors"), 0)
     style = Style.BAD if telemetry.flag("arduino", "connected") is False else Style.PLAIN
-    framing = _word(pen, "arduino", "framing")
+    framing = _word(writer, "arduino", "framing")
     text = f"Arduino {connected}, {framing}, errors {errors}"
-    pen.value(row, column, text, style=style)
+    writer.value(row, column, text, style=style)
     loop = number_text(telemetry.number("arduino", "loop_us"), 0)
     late = number_text(telemetry.number("arduino", "late_us"), 0)
-    end = pen.value(row + 1, column, f"loop {loop} us, late {late} us")
+    end = writer.value(row + 1, column, f"loop {loop} us, late {late} us")
     if telemetry.flag("arduino", "imu_valid") is False:
-        pen.value(row + 1, end + 1, "NO IMU", style=Style.BAD)
+        writer.value(row + 1, end + 1, "NO IMU", style=Style.BAD)
     elif telemetry.flag("arduino", "restored"):
-        pen.value(row + 1, end + 1, "was reset", style=Style.WARNING)
+        writer.value(row + 1, end + 1, "was reset", style=Style.WARNING)
     elif telemetry.flag("arduino", "bias_stored"):
-        pen.value(row + 1, end + 1, "old bias", style=Style.WARNING)
+        writer.value(row + 1, end + 1, "old bias", style=Style.WARNING)
     return row + 2
 
 
-def _word(pen: Pen, *path: str) -> str:
-    text = pen.telemetry.text(*path, limit=10)
+def _word(writer: PanelWriter, *path: str) -> str:
+    text = writer.telemetry.text(*path, limit=10)
     if text is not None:
         return text
-    number = pen.telemetry.number(*path)
+    number = writer.telemetry.number(*path)
     return UNKNOWN if number is None else f"{number:g}"

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
-from up_ground.canvas import Canvas, Style
-from up_ground.horizon import draw_horizon
 from up_ground.link_status import LinkStatus
 from up_ground.panels import (
     draw_board,
@@ -14,17 +13,64 @@ from up_ground.panels import (
     draw_position,
     draw_power,
 )
-from up_ground.pen import Pen
-from up_ground.safe_text import safe_text
+from up_ground.sanitize_text import sanitize_text
+from up_ground.screen_buffer import PanelWriter, ScreenBuffer, Style
 from up_ground.settings import Seat, Settings
+from up_ground.status_text import age_text, control_text, flag_text, link_text, number_text
 from up_ground.telemetry import Telemetry
-from up_ground.wording import age_text, flag_text, link_text, number_text, seat_text
+
+PITCH_RANGE_DEG = 60.0
+"""From the upper edge of the picture to the lower one."""
+_LETTER_ASPECT = 2.0
+"""A character is about twice as high as it is wide."""
+
+
+def draw_horizon(
+    screen: ScreenBuffer,
+    row: int,
+    column: int,
+    size: tuple[int, int],
+    attitude: tuple[float | None, float | None],
+    dim: bool,
+) -> None:
+    """Draw the horizon as the pilot sees it.
+
+    ``size`` is (columns, rows), ``attitude`` (roll, pitch) in degrees: right wing down and nose up
+    are positive, so roll to the right raises the earth on the right. Unknown: an empty frame.
+    """
+    columns, rows = size
+    roll_deg, pitch_deg = attitude
+    if roll_deg is None or pitch_deg is None:
+        for line in range(rows):
+            screen.put(row + line, column, "." * columns, Style.DIM)
+        screen.put(row + rows // 2, column + columns // 2 - 3, "  --  ", Style.DIM)
+        return
+    roll = math.radians(math.fmod(roll_deg, 360))
+    pitch_rows = max(-90.0, min(90.0, pitch_deg)) * rows / PITCH_RANGE_DEG
+    for line in range(rows):
+        up = (rows - 1) / 2 - line
+        for place in range(columns):
+            right = (place - (columns - 1) / 2) / _LETTER_ASPECT
+            height = up * math.cos(roll) - right * math.sin(roll) + pitch_rows
+            letter, style = _letter(height)
+            screen.put(row + line, column + place, letter, Style.DIM if dim else style)
+    style = Style.DIM if dim else Style.BOLD
+    screen.put(row + rows // 2, column + columns // 2 - 4, "--(", style)
+    screen.put(row + rows // 2, column + columns // 2, "+", style)
+    screen.put(row + rows // 2, column + columns // 2 + 2, ")--", style)
+
+
+def _letter(height_rows: float) -> tuple[str, Style]:
+    if abs(height_rows) < 0.5:
+        return "=", Style.BOLD
+    return (" ", Style.SKY) if height_rows > 0 else (":", Style.EARTH)
+
 
 RIGHT_COLUMN = 41
 WIDE = 76
 _HORIZON_COLUMNS = 37
-_LEAST_HORIZON_ROWS = 3
-_MOST_HORIZON_ROWS = 15
+_MIN_HORIZON_ROWS = 3
+_MAX_HORIZON_ROWS = 15
 
 
 @dataclass(slots=True)
@@ -38,17 +84,17 @@ class State:
     keys: str = ""
 
 
-def draw(state: State, now_s: float, size: tuple[int, int]) -> Canvas:
+def draw(state: State, now_s: float, size: tuple[int, int]) -> ScreenBuffer:
     """Return the picture for a terminal of ``size`` (columns, rows) at a moment."""
-    canvas = Canvas(*size)
-    pen = Pen(canvas, state.telemetry, now_s)
-    _draw_header(canvas, state, now_s)
-    if canvas.columns >= WIDE:
-        _draw_wide(pen, canvas.rows)
+    screen = ScreenBuffer(*size)
+    writer = PanelWriter(screen, state.telemetry, now_s)
+    _draw_header(screen, state, now_s)
+    if screen.columns >= WIDE:
+        _draw_wide(writer, screen.rows)
     else:
-        _draw_narrow(pen)
-    _draw_footer(canvas, state)
-    return canvas
+        _draw_narrow(writer)
+    _draw_footer(screen, state)
+    return screen
 
 
 def render(state: State, now_s: float, size: tuple[int, int]) -> str:
@@ -56,24 +102,24 @@ def render(state: State, now_s: float, size: tuple[int, int]) -> str:
     return draw(state, now_s, size).ansi()
 
 
-def _draw_header(canvas: Canvas, state: State, now_s: float) -> None:
+def _draw_header(screen: ScreenBuffer, state: State, now_s: float) -> None:
     status, telemetry, settings = state.status, state.telemetry, state.settings
-    canvas.fill(0, Style.HEADER)
+    screen.fill(0, Style.HEADER)
     words = f" {settings.aircraft} at {settings.address}  {link_text(status, now_s)}"
-    column = canvas.put(0, 0, safe_text(words), Style.HEADER)
+    column = screen.put(0, 0, sanitize_text(words), Style.HEADER)
     if status.is_open and not settings.direct:
-        canvas.put(0, column, f"  seat {seat_text(status)}", Style.HEADER)
+        screen.put(0, column, f"  control {control_text(status)}", Style.HEADER)
     online = flag_text(status.is_aircraft_online, "online", "offline")
     is_silent = telemetry.is_silent(now_s)
     style = Style.PLAIN
     if is_silent and telemetry.frames:
         style = Style.BAD
     age = age_text(telemetry.age_s(now_s))
-    column = canvas.put(1, 1, f"aircraft {online}", _presence_style(status))
-    column = canvas.put(1, column + 2, f"{'SILENT ' if is_silent else ''}age {age}", style)
+    column = screen.put(1, 1, f"aircraft {online}", _presence_style(status))
+    column = screen.put(1, column + 2, f"{'SILENT ' if is_silent else ''}age {age}", style)
     way = number_text(status.round_trip_ms, 1)
     rate = number_text(telemetry.rate_hz(now_s))
-    canvas.put(
+    screen.put(
         1,
         column + 2,
         f"{rate} Hz  proxy {way} ms  lost {telemetry.lost}  dropped {status.dropped}",
@@ -85,60 +131,60 @@ def _presence_style(status: LinkStatus) -> Style:
     return Style.BAD if status.is_aircraft_online is False else Style.PLAIN
 
 
-def _draw_wide(pen: Pen, rows: int) -> None:
+def _draw_wide(writer: PanelWriter, rows: int) -> None:
     spare = max(0, rows - 24)
-    horizon_rows = max(_LEAST_HORIZON_ROWS, min(_MOST_HORIZON_ROWS, 8 + min(spare, rows - 16)))
-    _draw_attitude(pen, 3, 1)
+    horizon_rows = max(_MIN_HORIZON_ROWS, min(_MAX_HORIZON_ROWS, 8 + min(spare, rows - 16)))
+    _draw_attitude(writer, 3, 1)
     draw_horizon(
-        pen.canvas,
+        writer.screen,
         7,
         1,
         (_HORIZON_COLUMNS, horizon_rows),
-        _attitude(pen),
-        pen.is_old("orientation"),
+        _attitude(writer),
+        writer.is_old("orientation"),
     )
     below = 8 + horizon_rows
-    draw_channels(pen, below, 1, "rx", "RECEIVER us")
-    row = draw_flight(pen, 3, RIGHT_COLUMN)
-    row = draw_position(pen, row, RIGHT_COLUMN)
-    draw_power(pen, row, RIGHT_COLUMN)
-    row = draw_channels(pen, below, RIGHT_COLUMN, "servo", "SERVOS us")
-    draw_board(pen, row, RIGHT_COLUMN)
+    draw_channels(writer, below, 1, "rx", "RECEIVER us")
+    row = draw_flight(writer, 3, RIGHT_COLUMN)
+    row = draw_position(writer, row, RIGHT_COLUMN)
+    draw_power(writer, row, RIGHT_COLUMN)
+    row = draw_channels(writer, below, RIGHT_COLUMN, "servo", "SERVOS us")
+    draw_board(writer, row, RIGHT_COLUMN)
 
 
-def _draw_narrow(pen: Pen) -> None:
-    row = draw_flight(pen, 3, 1)
-    _draw_attitude(pen, row, 1)
-    row = draw_position(pen, row + 4, 1)
-    row = draw_power(pen, row, 1)
-    row = draw_channels(pen, row, 1, "servo", "SERVOS us")
-    row = draw_channels(pen, row, 1, "rx", "RECEIVER us")
-    draw_board(pen, row, 1)
+def _draw_narrow(writer: PanelWriter) -> None:
+    row = draw_flight(writer, 3, 1)
+    _draw_attitude(writer, row, 1)
+    row = draw_position(writer, row + 4, 1)
+    row = draw_power(writer, row, 1)
+    row = draw_channels(writer, row, 1, "servo", "SERVOS us")
+    row = draw_channels(writer, row, 1, "rx", "RECEIVER us")
+    draw_board(writer, row, 1)
 
 
-def _attitude(pen: Pen) -> tuple[float | None, float | None]:
-    telemetry = pen.telemetry
+def _attitude(writer: PanelWriter) -> tuple[float | None, float | None]:
+    telemetry = writer.telemetry
     return telemetry.number("orientation", "roll"), telemetry.number("orientation", "pitch")
 
 
-def _draw_attitude(pen: Pen, row: int, column: int) -> None:
-    pen.title(row, column, "ATTITUDE", "orientation")
+def _draw_attitude(writer: PanelWriter, row: int, column: int) -> None:
+    writer.title(row, column, "ATTITUDE", "orientation")
     for line, axis in enumerate(("roll", "pitch", "yaw"), row + 1):
-        angle = number_text(pen.telemetry.number("orientation", axis), 1, 7, axis != "yaw")
-        rate = number_text(pen.telemetry.number("rates", axis), 1, 7, True)
-        pen.value(line, column, f"{axis:6}{angle} deg {rate} deg/s", "orientation")
+        angle = number_text(writer.telemetry.number("orientation", axis), 1, 7, axis != "yaw")
+        rate = number_text(writer.telemetry.number("rates", axis), 1, 7, True)
+        writer.value(line, column, f"{axis:6}{angle} deg {rate} deg/s", "orientation")
 
 
-def _draw_footer(canvas: Canvas, state: State) -> None:
+def _draw_footer(screen: ScreenBuffer, state: State) -> None:
     status = state.status
-    row = canvas.rows - 1
-    canvas.put(row, 0, " " * canvas.columns)
+    row = screen.rows - 1
+    screen.put(row, 0, " " * screen.columns)
     if not status.is_open and status.reason:
-        canvas.put(row, 1, safe_text(status.reason), Style.BAD)
+        screen.put(row, 1, sanitize_text(status.reason), Style.BAD)
         return
     if status.seat is Seat.COMMAND and status.asked_by is not None:
-        text = f"ground {status.asked_by} asks for the seat: press g to hand it over"
-        canvas.put(row, 1, text, Style.WARNING)
+        text = f"ground {status.asked_by} requests control: press g to hand it over"
+        screen.put(row, 1, text, Style.WARNING)
         return
-    column = canvas.put(row, 1, safe_text(state.keys), Style.DIM)
-    canvas.put(row, column + 2, safe_text(state.notice), Style.WARNING)
+    column = screen.put(row, 1, sanitize_text(state.keys), Style.DIM)
+    screen.put(row, column + 2, sanitize_text(state.notice), Style.WARNING)

@@ -8,11 +8,10 @@ from typing import Any
 
 from up.commands.telemetry_commands import SLOWEST_MS
 from up.protocols.general_message import GeneralMessage, encode
-from up_ground.errand import EXIT_DONE, EXIT_NO_ANSWER, EXIT_REFUSED, Errand, Say
-from up_ground.ground_link import GroundLink
-from up_ground.link_status import LinkState
-from up_ground.safe_text import safe_text
-from up_ground.seat_wait import ASK_INTERVAL_S, KEPT_S, Standing, standing
+from up_ground.catalogue import requested_content
+from up_ground.link_status import KEPT_S, ControlStatus, control_status
+from up_ground.one_shot_task import EXIT_DONE, EXIT_NO_ANSWER, EXIT_REFUSED, LinkTask
+from up_ground.sanitize_text import sanitize_text
 from up_ground.settings import Settings
 from up_ground.telemetry import NAME as TELEMETRY
 from up_ground.telemetry import Telemetry
@@ -23,21 +22,14 @@ TELEMETRY_LIMIT_S = SLOWEST_MS / 1000 + 1.0
 OFFLINE_LIMIT_S = 5.0
 ANSWER_LIMIT_S = 3.0
 CONTENT_LIMIT_S = 2.0
-_CONTENT_OF = {
-    "arduino.pids.tunings": "arduino.pids.values",
-    "arduino.profile.request": "arduino.profile.values",
-}
-"""Data besides the ack, for a Command that requests something."""
-_MAY_SET = ("arduino.pids.tunings",)
-"""Requests something only with ``request=true``."""
 _QUIET = (TELEMETRY, "up.system.state")
 
 
-class Send(Errand):
-    """Waits for the seat and for one telemetry frame, sends, waits for the answer.
+class Send(LinkTask):
+    """Waits for control and for one telemetry frame, sends, waits for the answer.
 
     Nothing is sent twice, and nothing without the beacon of a frame; an aircraft whose frames have
-    none, such as the thesis's, gets only Commands that need none (``needs_beacon``).
+    no beacon, such as the thesis's, gets only Commands that need none (``needs_beacon``).
     """
 
     def __init__(
@@ -49,80 +41,60 @@ class Send(Errand):
         data: dict[str, Any],
         *,
         needs_beacon: bool,
-        say: Say,
-        complain: Say,
     ) -> None:
-        super().__init__(say, complain)
-        self.link = GroundLink(reactor, settings, self, tokens)
-        self._reactor = reactor
-        self._settings = settings
+        super().__init__(reactor, settings, tokens)
         self._name = name
         self._data = data
         self._needs_beacon = needs_beacon
         self._telemetry = Telemetry()
         self._id = secrets.token_hex(8)
         self._sent_s: float | None = None
-        is_asking = name not in _MAY_SET or data.get("request") is True
-        self._awaited = _CONTENT_OF.get(name, "") if is_asking else ""
+        self._awaited = requested_content(name, data)
         self._is_acked = False
 
     def start(self) -> None:
         """Begin."""
-        self.after(self._reactor, "connect", CONNECT_LIMIT_S, self._on_no_seat)
+        self.after(self._reactor, "connect", CONNECT_LIMIT_S, self._on_no_control)
         self.link.start()
 
     def on_message(self, message: GeneralMessage) -> None:
         """Take telemetry for its beacon, and the answers to us."""
         if self.is_finished:
             return
-        if self._telemetry.take(message, self._reactor.seconds()):
+        if self._telemetry.update(message, self._reactor.seconds()):
             self._try_to_send()
         elif self._sent_s is not None:
             self._on_answer(message, self._sent_s)
 
-    def on_link(self) -> None:
+    def on_control(self, control: ControlStatus) -> None:
         """Continue as far as the link permits."""
-        if self.is_finished:
-            return
         status = self.link.status
-        if status.state is LinkState.WAITING:
-            self._fail(status.reason, EXIT_REFUSED if status.rejection else EXIT_NO_ANSWER)
-            return
-        seat = standing(status, self._settings.direct)
-        if seat is Standing.HELD:
-            self._fail(
-                f"ground {status.holder} commands this aircraft; 'up-ground seat request' asks it"
-                " for the seat",
-                EXIT_REFUSED,
-            )
-        elif seat is Standing.FREE:
+        if control is ControlStatus.HELD:
+            text = f"ground {status.holder} has control; 'up-ground control request' requests it"
+            self.fail(text, "control_held", EXIT_REFUSED, owner=status.holder)
+        elif control is ControlStatus.FREE:
             # Reserved for a token for a moment; then the first request gets it.
-            self.after(self._reactor, "connect", KEPT_S, self._on_no_seat)
-            self._ask()
-        elif seat is Standing.OURS:
-            self.forget("connect")
-            self.forget("ask")
+            self.after(self._reactor, "connect", KEPT_S, self._on_no_control)
+            self.request_control()
+        elif control is ControlStatus.OURS:
+            self.cancel_timer("connect")
+            self.cancel_timer("request")
             if self._sent_s is None and not self._telemetry.frames:
                 is_offline = status.is_aircraft_online is False
                 limit_s = OFFLINE_LIMIT_S if is_offline else TELEMETRY_LIMIT_S
                 self.after(self._reactor, "telemetry", limit_s, self._on_no_telemetry)
             self._try_to_send()
 
-    def _ask(self) -> None:
-        self.link.request_seat()
-        self.after(self._reactor, "ask", ASK_INTERVAL_S, self._ask)
-
     def _try_to_send(self) -> None:
         if self._sent_s is not None or not self._telemetry.frames:
             return
-        if standing(self.link.status, self._settings.direct) is not Standing.OURS:
+        control = control_status(self.link.status, self._settings.direct)
+        if control is not ControlStatus.OURS:
             return
-        self.forget("telemetry")
+        self.cancel_timer("telemetry")
         if self._needs_beacon and self._telemetry.beacon is None:
-            self._fail(
-                f"{self._name} is only taken with a beacon, and this aircraft's telemetry has none",
-                EXIT_REFUSED,
-            )
+            text = f"{self._name} needs a beacon, and this aircraft's telemetry has none"
+            self.fail(text, "no_beacon", EXIT_REFUSED)
             return
         self.link.send(encode(self._name, self._data, self._id, self._telemetry.beacon))
         self._sent_s = self._reactor.seconds()
@@ -131,53 +103,42 @@ class Send(Errand):
     def _on_answer(self, message: GeneralMessage, sent_s: float) -> None:
         data = message.data
         if message.name == "up.ack" and data.get("id") == self._id:
-            self.say(f"ack after {(self._reactor.seconds() - sent_s) * 1000:.0f} ms")
+            self.echo(f"ack after {(self._reactor.seconds() - sent_s) * 1000:.0f} ms", "ack")
             self._is_acked = True
-            self.forget("answer")
+            self.cancel_timer("answer")
             if not self._awaited:
                 self.finish(EXIT_DONE)
                 return
             self.after(self._reactor, "content", CONTENT_LIMIT_S, self._on_no_content)
         elif message.name == "up.nack" and data.get("id") == self._id:
-            reason = safe_text(data.get("reason") or "no reason given", 500)
-            self._fail(f"refused: {reason} ({safe_text(data.get('code'), 32)})", EXIT_REFUSED)
+            reason = sanitize_text(data.get("reason") or "no reason given", 500)
+            code = sanitize_text(data.get("code"), 32)
+            self.fail(f"refused: {reason} ({code})", code, EXIT_REFUSED)
         elif message.name not in (*_QUIET, "up.ack", "up.nack"):
-            self.say(f"{safe_text(message.name, 128)} {_shown(data)}")
+            shown = json.dumps(data).replace("\x7f", "\\u007f")
+            name = sanitize_text(message.name, 128)
+            self.echo(f"{name} {shown}", "message", name=name, data=data)
             if message.name == self._awaited:
                 self._awaited = ""
                 if self._is_acked:
                     self.finish(EXIT_DONE)
 
-    def _on_no_seat(self) -> None:
-        self._fail("no seat: another ground has just left it or takes it", EXIT_NO_ANSWER)
+    def _on_no_control(self) -> None:
+        text = "no control: another ground has just released it or is taking it"
+        self.fail(text, "no_control", EXIT_NO_ANSWER)
 
     def _on_no_telemetry(self) -> None:
         if self.link.status.is_aircraft_online is False:
-            self._fail(
-                f"the aircraft {self._settings.aircraft} is not connected to the proxy",
-                EXIT_NO_ANSWER,
-            )
+            text = f"the aircraft {self._settings.aircraft} is not connected to the proxy"
+            self.fail(text, "aircraft_offline", EXIT_NO_ANSWER)
         else:
-            self._fail(
-                f"no telemetry within {TELEMETRY_LIMIT_S:g} s, and {self._name} is only sent with"
-                " its beacon",
-                EXIT_NO_ANSWER,
-            )
+            text = f"no telemetry within {TELEMETRY_LIMIT_S:g} s, and {self._name} needs its beacon"
+            self.fail(text, "no_telemetry", EXIT_NO_ANSWER)
 
     def _on_no_answer(self) -> None:
-        self._fail(
-            f"no answer within {ANSWER_LIMIT_S:g} s; it is not known whether {self._name} was"
-            " carried out",
-            EXIT_NO_ANSWER,
-        )
+        text = f"no answer within {ANSWER_LIMIT_S:g} s; the outcome of {self._name} is unknown"
+        self.fail(text, "no_answer", EXIT_NO_ANSWER)
 
     def _on_no_content(self) -> None:
-        self._fail(f"no {self._awaited} within {CONTENT_LIMIT_S:g} s", EXIT_NO_ANSWER)
-
-    def _fail(self, sentence: str, status: int) -> None:
-        self.complain(safe_text(sentence, 600))
-        self.finish(status)
-
-
-def _shown(data: dict[str, Any]) -> str:
-    return json.dumps(data).replace("\x7f", "\\u007f")
+        text = f"no {self._awaited} within {CONTENT_LIMIT_S:g} s"
+        self.fail(text, "no_content", EXIT_NO_ANSWER)

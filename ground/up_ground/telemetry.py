@@ -7,8 +7,8 @@ from collections import deque
 from typing import Any
 
 from up.protocols.general_message import GeneralMessage
-from up_ground.delay import Delay
-from up_ground.safe_text import safe_text
+from up_ground.one_way_delay import OneWayDelayEstimator
+from up_ground.sanitize_text import sanitize_text
 
 NAME = "up.telemetry.update"
 SILENT_S = 0.9
@@ -18,10 +18,10 @@ LATE_FOR_S = 1.0
 """Late frames followed by a newer one are dropped for this time; then the path itself is late."""
 _STALE_S = {"location": 1.9, "altitude": 1.9, "heading": 1.9, "battery": 120.0}
 """Sources with a period of a second or more become stale later than SILENT_S."""
-_LARGEST_GAP = 1000
-_ONE_LIFE = 1_000_000
+_MAX_GAP = 1000
+_MAX_BEACON_STEP = 1_000_000
 """Beacons of one life of an aircraft are nearer: each life draws its first at random."""
-_GREATEST = 1e12
+_MAX_NUMBER = 1e12
 
 
 class Telemetry:
@@ -39,7 +39,7 @@ class Telemetry:
         self.beacon: int | None = None
         self.data: dict[str, Any] = {}
         self._received_s: float | None = None
-        self._delay = Delay()
+        self._delay = OneWayDelayEstimator()
         self._held_s: float | None = None
         self._stamp_ms: float | None = None
         self._late_since_s: float | None = None
@@ -47,20 +47,20 @@ class Telemetry:
         self._least_trip_s: float | None = None
         self._times_s: deque[float] = deque(maxlen=32)
 
-    def take(self, message: GeneralMessage, now_s: float) -> bool:
+    def update(self, message: GeneralMessage, now_s: float) -> bool:
         """Take a frame; False: it is another message, or a newer frame follows it."""
         if message.name != NAME:
             return False
         gap = 0
         if message.beacon is not None and self.beacon is not None:
             gap = message.beacon - self.beacon
-            if abs(gap) > _ONE_LIFE:
-                self._delay.forget()
+            if abs(gap) > _MAX_BEACON_STEP:
+                self._delay.reset()
         stamp_ms = _number(_at(message.data, ("system", "clock_ms")))
-        held_s = self._delay.take(stamp_ms, now_s)
+        held_s = self._delay.update(stamp_ms, now_s)
         if self._is_superseded(stamp_ms, held_s, now_s):
             return False
-        if 1 < gap <= _LARGEST_GAP:
+        if 1 < gap <= _MAX_GAP:
             self.lost += gap - 1
         self.beacon = message.beacon
         self.data = message.data
@@ -142,14 +142,14 @@ class Telemetry:
     def text(self, *path: str, limit: int = 40) -> str | None:
         """Return a text at that key path, safe for a terminal; None: unknown."""
         found = _at(self.data, path)
-        return safe_text(found, limit) if isinstance(found, str) else None
+        return sanitize_text(found, limit) if isinstance(found, str) else None
 
     def texts(self, *path: str, limit: int = 80) -> list[str] | None:
         """Return a list of texts, safe for a terminal; None: unknown."""
         found = _at(self.data, path)
         if not isinstance(found, list):
             return None
-        return [safe_text(each, limit) for each in found[:32] if isinstance(each, str)]
+        return [sanitize_text(each, limit) for each in found[:32] if isinstance(each, str)]
 
 
 def _at(found: Any, path: tuple[str, ...]) -> Any:
@@ -163,4 +163,4 @@ def _at(found: Any, path: tuple[str, ...]) -> Any:
 def _number(found: Any) -> float | None:
     if isinstance(found, bool) or not isinstance(found, int | float):
         return None
-    return float(found) if math.isfinite(found) and abs(found) < _GREATEST else None
+    return float(found) if math.isfinite(found) and abs(found) < _MAX_NUMBER else None

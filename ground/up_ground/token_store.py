@@ -10,7 +10,7 @@ import secrets
 from collections.abc import Mapping
 from pathlib import Path
 
-from up_ground.control_line import is_token
+from up.protocols.proxy_lines import is_token
 from up_ground.settings import Settings
 
 _UNSAFE = re.compile(r"[^A-Za-z0-9_.-]")

@@ -6,13 +6,12 @@ import os
 from typing import Any
 
 from up.protocols.general_message import GeneralMessage, encode
-from up_ground.errand import EXIT_DONE, EXIT_NO_ANSWER, Errand, Say
-from up_ground.ground_link import GroundLink
 from up_ground.link_status import LinkState
-from up_ground.plain_line import plain_line
-from up_ground.safe_text import safe_text
+from up_ground.one_shot_task import EXIT_DONE, EXIT_NO_ANSWER, LinkTask, print_error
+from up_ground.sanitize_text import sanitize_text
 from up_ground.screen import State, draw, render
 from up_ground.settings import Settings
+from up_ground.status_text import plain_line
 from up_ground.telemetry import NAME, Telemetry
 from up_ground.terminal import Terminal
 from up_ground.token_store import TokenStore
@@ -22,10 +21,10 @@ LINE_S = 1.0
 MEASURE_S = 1.0
 ONCE_LIMIT_S = 5.0
 PRINTED_SIZE = (80, 24)
-KEYS = "q quit  c ask for the seat  g give it  r release it"
+KEYS = "q quit  c request control  g give it  r release it"
 
 
-class Watch(Errand):
+class Watch(LinkTask):
     """Follows one aircraft until the user ends it; subclasses show it.
 
     Painted by the clock, not by telemetry, so that ages advance without new frames.
@@ -39,15 +38,11 @@ class Watch(Errand):
         settings: Settings,
         tokens: TokenStore,
         *,
-        say: Say,
-        complain: Say,
         for_s: float | None = None,
         count: int | None = None,
     ) -> None:
-        super().__init__(say, complain)
-        self.link = GroundLink(reactor, settings, self, tokens)
+        super().__init__(reactor, settings, tokens)
         self.state = State(settings, self.link.status, Telemetry())
-        self._reactor = reactor
         self._for_s = for_s
         self._left = count
         self._measured_s = 0.0
@@ -64,10 +59,12 @@ class Watch(Errand):
         if self.is_finished:
             return
         if message.name == NAME:
-            if self.state.telemetry.take(message, self._reactor.seconds()):
+            if self.state.telemetry.update(message, self._reactor.seconds()):
                 self.on_frame(message)
         elif message.name != "up.system.state":
-            self.state.notice = f"{safe_text(message.name, 40)} {safe_text(message.data, 120)}"
+            self.state.notice = (
+                f"{sanitize_text(message.name, 40)} {sanitize_text(message.data, 120)}"
+            )
 
     def on_link(self) -> None:
         """Handle a change of the link."""
@@ -111,29 +108,29 @@ class PlainWatch(Watch):
 
     def on_tick(self, now_s: float) -> None:
         """Print a line."""
-        self.say(plain_line(self.state.status, self.state.telemetry, now_s))
+        self.echo(plain_line(self.state.status, self.state.telemetry, now_s))
         self.shown_one()
 
 
 class JSONWatch(Watch):
     """The telemetry messages themselves, one per line; errors go to stderr."""
 
-    _told = ""
+    _reported = ""
 
     def on_frame(self, message: GeneralMessage) -> None:
         """Print the message in the form in which it travels, harmless for a terminal."""
         line = encode(NAME, message.data, message.id, message.beacon).decode("ascii")
-        self.say(line.rstrip("\n").replace("\x7f", "\\u007f"))
+        self.echo(line.rstrip("\n").replace("\x7f", "\\u007f"))
         self.shown_one()
 
     def on_link(self) -> None:
         """Print once why there is no output."""
         status = self.link.status
-        if status.state is LinkState.WAITING and status.reason != self._told:
-            self._told = status.reason
-            self.complain(safe_text(status.reason))
+        if status.state is LinkState.WAITING and status.reason != self._reported:
+            self._reported = status.reason
+            print_error(sanitize_text(status.reason), status.code)
         elif status.is_open:
-            self._told = ""
+            self._reported = ""
 
 
 class OnceWatch(Watch):
@@ -148,17 +145,17 @@ class OnceWatch(Watch):
     def on_frame(self, message: GeneralMessage) -> None:
         """Print the picture."""
         self.link.measure()
-        self.say(draw(self.state, self._reactor.seconds(), PRINTED_SIZE).plain())
+        self.echo(draw(self.state, self._reactor.seconds(), PRINTED_SIZE).plain())
         self.finish(EXIT_DONE)
 
     def on_time_over(self) -> None:
         """Print the reason for the missing telemetry."""
         status = self.link.status
-        reason = status.reason
+        reason, code = status.reason or "no telemetry", status.code or "no_telemetry"
         if status.is_aircraft_online is False:
-            reason = f"the aircraft {self.state.settings.aircraft} is not connected to the proxy"
-        self.complain(safe_text(reason or "no telemetry came"))
-        self.finish(EXIT_NO_ANSWER)
+            aircraft = self.state.settings.aircraft
+            reason, code = f"{aircraft} is not connected to the proxy", "aircraft_offline"
+        self.fail(reason, code, EXIT_NO_ANSWER)
 
 
 class ScreenWatch(Watch):
@@ -217,12 +214,12 @@ class ScreenWatch(Watch):
             self.finish(EXIT_DONE)
         elif key == "c":
             asked = self.link.request_seat()
-            self.state.notice = "asked for the seat" if asked else "there is nobody to ask"
+            self.state.notice = "requested control" if asked else "no link to request control"
         elif key == "g" and status.asked_by is not None:
             self.link.give_seat(status.asked_by)
             status.asked_by = None
         elif key == "r":
-            self.state.notice = "" if self.link.release_seat() else "no seat to release"
+            self.state.notice = "" if self.link.release_seat() else "no control to release"
 
 
 def is_terminal(descriptor: int) -> bool:

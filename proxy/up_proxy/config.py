@@ -7,7 +7,7 @@ from up.config import ConfigFile, key, section
 
 @dataclass(frozen=True, slots=True)
 class LimitsConfig:
-    """What the proxy bounds, so that no peer harms another."""
+    """Limits, so that one peer cannot disturb the others."""
 
     connections: int = key(
         2000, "Connections on each side.", name="connections per side", minimum=1, maximum=100000
@@ -24,14 +24,14 @@ class LimitsConfig:
     )
     listeners: int = key(
         64,
-        "Grounds that listen to one aircraft, beside the one that commands.",
+        "Grounds that listen to one aircraft, in addition to the one in control.",
         name="listeners per aircraft",
         minimum=0,
         maximum=10000,
     )
     queue_bytes: int = key(
         65536,
-        "What waits for one slow ground before its oldest lines are dropped.",
+        "Bytes that wait for one slow ground before its oldest lines are dropped.",
         name="queue (bytes)",
         unit="bytes",
         minimum=4096,
@@ -39,7 +39,7 @@ class LimitsConfig:
     )
     user_timeout_ms: int = key(
         3000,
-        "A peer that acknowledges nothing for this long is gone (TCP_USER_TIMEOUT).",
+        "A peer that acknowledges nothing for this long is disconnected (TCP_USER_TIMEOUT).",
         name="user timeout (ms)",
         unit="ms",
         minimum=500,
@@ -53,14 +53,14 @@ class ProxyConfig:
 
     airborne_port: int = key(
         3003,
-        "TCP port for aircraft. 0: any free port, said in the log.",
+        "TCP port for aircraft. 0: any free port, which is logged.",
         name="airborne port",
         minimum=0,
         maximum=65535,
     )
     ground_port: int = key(
         3004,
-        "TCP port for ground stations. 0: any free port, said in the log.",
+        "TCP port for ground stations. 0: any free port, which is logged.",
         name="ground port",
         minimum=0,
         maximum=65535,
@@ -73,21 +73,21 @@ class ProxyConfig:
     )
     i_accept_plain: bool = key(
         False,
-        "The proxy speaks the plain protocol: whoever reaches its ports can listen, and can take a "
-        "free seat and command. Peers with public addresses are refused until this is true. Set it "
-        "only when a firewall or VPN decides who reaches the ports, or when you accept the risk.",
+        "The proxy uses the plain protocol: every host that reaches its ports can listen, and can "
+        "take control when it is free. Peers with public addresses are refused until this is true. "
+        "Set it only when a firewall or VPN protects the ports, or when you accept the risk.",
     )
     metrics_port: int = key(
         9303,
-        "TCP port of the metrics page on 127.0.0.1. 0: any free port, said in the log.",
+        "TCP port of the metrics page on 127.0.0.1. 0: any free port, which is logged.",
         name="metrics port",
         minimum=0,
         maximum=65535,
     )
-    metrics: bool = key(True, "Whether there is a metrics page.")
+    metrics: bool = key(True, "Whether the metrics page is served.")
     log_level: str = key(
         "info",
-        "What is logged.",
+        "Minimum level of log lines.",
         name="log level",
         choices=("debug", "info", "warning", "error"),
         ignore_case=True,

@@ -3,35 +3,35 @@
 import select
 import socket
 from collections.abc import Callable
-from typing import Protocol
 
-from up_proxy.half_line import LINE_MAX_BYTES, HalfLine
-from up_proxy.line_queue import LineQueue
+from up_proxy.buffers import LINE_MAX_BYTES, LineBuffer, SendBuffer
 from up_proxy.poller import PAUSED, READ, WRITE, Poller
 
 IDLE_S = 15.0
 """A connection without a byte in either direction for this long is closed."""
-PACE_BYTES = 65536
+HIGH_WATER_BYTES = 65536
 """When a paced peer has more than this waiting, its senders are paused."""
 
 _READ_BYTES = 65536
 _KEPT_MAX_BYTES = LINE_MAX_BYTES + 4096
 
 
-class Owner(Protocol):
+class Owner:
     """The owner of a connection, which handles its data."""
 
-    def on_lines(self, connection: "Connection", lines: bytes) -> None:
-        """Take whole lines; never empty, the last byte is LF."""
+    __slots__ = ()
 
-    def on_half_line(self, connection: "Connection") -> None:
-        """Check `connection.half`, a partial line that has grown."""
+    def on_lines(self, connection: "Connection", lines: bytes) -> None:
+        """Handle whole lines; never empty, the last byte is LF."""
+
+    def on_partial_line(self, connection: "Connection") -> None:
+        """Check `connection.partial`, a partial line that has grown."""
 
     def on_drained(self, connection: "Connection") -> None:
-        """Called when the send queue is empty again."""
+        """Handle an empty send buffer."""
 
     def on_end(self, connection: "Connection", reason: str) -> None:
-        """Called when the connection is closed; the reason is for people."""
+        """Handle the closed connection; the reason is for people."""
 
 
 class Connection:
@@ -47,18 +47,18 @@ class Connection:
         "_poller",
         "_queue",
         "_socket",
-        "asked_s",
         "failure",
-        "half",
-        "heard_s",
         "host",
+        "last_rx_s",
+        "last_tx_s",
         "number",
         "owner",
+        "partial",
         "paused_s",
         "queue_bytes",
+        "requested_s",
         "speaks_hello",
         "token",
-        "told_s",
     )
 
     def __init__(
@@ -73,15 +73,15 @@ class Connection:
         self._socket = sock
         self._closed = closed
         self._poller = poller
-        self._queue: LineQueue | None = None
+        self._queue: SendBuffer | None = None
         self._events = READ
         self.host = host
         self.owner = owner
         self.queue_bytes = queue_bytes
-        self.heard_s = self.told_s = poller.now_s
-        self.asked_s = 0.0
+        self.last_rx_s = self.last_tx_s = poller.now_s
+        self.requested_s = 0.0
         self.paused_s: float | None = None
-        self.half: HalfLine | None = None
+        self.partial: LineBuffer | None = None
         self.failure: str | None = None
         self.number = 0
         self.speaks_hello = False
@@ -95,7 +95,7 @@ class Connection:
 
     def is_idle(self, now_s: float) -> bool:
         """Return whether neither direction has carried a byte for IDLE_S."""
-        return now_s - self.heard_s > IDLE_S and now_s - self.told_s > IDLE_S
+        return now_s - self.last_rx_s > IDLE_S and now_s - self.last_tx_s > IDLE_S
 
     def on_ready(self, events: int) -> None:
         """Read or write as far as the socket permits."""
@@ -111,8 +111,8 @@ class Connection:
         if not chunk:
             self.fail("closed by the peer")
             return
-        self.heard_s = self._poller.now_s
-        if self.half is None and chunk[-1] == 0x0A:
+        self.last_rx_s = self._poller.now_s
+        if self.partial is None and chunk[-1] == 0x0A:
             self.owner.on_lines(self, chunk)
         else:
             self._assemble(chunk)
@@ -138,19 +138,19 @@ class Connection:
         return 0
 
     def _assemble(self, chunk: bytes) -> None:
-        if self.half is None:
-            self.half = HalfLine()
-        half = self.half
-        lines = half.take(chunk)
-        if not half:
-            self.half = None
+        if self.partial is None:
+            self.partial = LineBuffer()
+        partial = self.partial
+        lines = partial.feed(chunk)
+        if not partial:
+            self.partial = None
         if lines:
             self.owner.on_lines(self, lines)
-        if self.half is half and self.failure is None:
-            if len(half) > LINE_MAX_BYTES:
+        if self.partial is partial and self.failure is None:
+            if len(partial) > LINE_MAX_BYTES:
                 self.fail(f"a line longer than {LINE_MAX_BYTES} bytes")
             else:
-                self.owner.on_half_line(self)
+                self.owner.on_partial_line(self)
 
     def relay(self, lines: bytes) -> int:
         """Send whole lines; return how many old ones were dropped to make room."""
@@ -161,7 +161,7 @@ class Connection:
             except OSError as error:
                 sent = self._on_error(error)
             if sent == len(lines):
-                self.told_s = self._poller.now_s
+                self.last_tx_s = self._poller.now_s
                 return 0
             self._keep(lines[sent:], sent)
             return 0
@@ -178,15 +178,15 @@ class Connection:
             except OSError as error:
                 sent = self._on_error(error)
             if sent == len(lines):
-                self.told_s = self._poller.now_s
+                self.last_tx_s = self._poller.now_s
                 return True
             self._keep(lines[sent:], sent)
             queue = self._queue
         else:
             queue.put(lines)
-        return queue is None or len(queue) < PACE_BYTES
+        return queue is None or len(queue) < HIGH_WATER_BYTES
 
-    def tell(self, line: bytes) -> None:
+    def send(self, line: bytes) -> None:
         """Send a control line, between relayed lines."""
         queue = self._queue
         if queue is None:
@@ -200,8 +200,8 @@ class Connection:
         """Queue the bytes that the socket did not take."""
         if self.failure is None:
             if sent:
-                self.told_s = self._poller.now_s
-            self._queue = LineQueue(self.queue_bytes)
+                self.last_tx_s = self._poller.now_s
+            self._queue = SendBuffer(self.queue_bytes)
             self._queue.put_rest(rest)
             self._watch()
 
@@ -214,7 +214,7 @@ class Connection:
         except OSError as error:
             self._on_error(error)
             return
-        self.told_s = self._poller.now_s
+        self.last_tx_s = self._poller.now_s
         queue.sent(sent)
         if not queue:
             self._queue = None
@@ -262,9 +262,9 @@ class Connection:
 
     def end(self) -> None:
         """Close the socket and notify the owner."""
-        self._poller.forget(self._socket.fileno())
+        self._poller.discard(self._socket.fileno())
         self._socket.close()
         self._queue = None
-        self.half = None
+        self.partial = None
         self._closed(self)
         self.owner.on_end(self, self.failure or "closed")

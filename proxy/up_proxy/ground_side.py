@@ -1,162 +1,161 @@
 """Relays data from the ground in control to the aircraft, and handles control lines."""
 
-from up_proxy.aircraft import Aircraft
-from up_proxy.connection import IDLE_S, Connection
-from up_proxy.control import (
-    LISTEN,
+from typing import TYPE_CHECKING
+
+from up.protocols.control_lease import ControlLease
+from up.protocols.proxy_lines import (
     PREFIX,
-    Control,
-    SeatGive,
-    SeatRelease,
-    SeatRequest,
-    asked_line,
-    command_line,
-    parse_control,
+    Access,
+    ControlGive,
+    ControlGranted,
+    ControlLost,
+    ControlRelease,
+    ControlRequest,
+    ControlRequested,
+    GroundLine,
+    parse_line,
 )
-from up_proxy.hello import SeatKind
+from up_proxy.connection import IDLE_S, Connection, Owner
 from up_proxy.poller import Poller
 
-ASK_INTERVAL_S = 1.0
-"""Minimum time between two requests of one listener that reach the holder."""
+if TYPE_CHECKING:
+    from up_proxy.aircraft import AircraftSession
+
+REQUEST_INTERVAL_S = 1.0
+"""Minimum time between two requests of one listener that reach the owner of control."""
 
 
-class GroundSide:
+class GroundSide(Owner):
     """Owns the ground connections of one aircraft.
 
-    A line is checked when its end arrives, against the seat's holder at that moment.
+    A line is checked when its end arrives, against the owner of control at that moment.
+    `connections` is replaced, never changed in place, so that iteration over it stays valid.
     """
 
-    __slots__ = ("_aircraft", "_poller")
+    __slots__ = ("_aircraft", "_next_number", "_poller", "connections", "lease")
 
-    def __init__(self, aircraft: Aircraft, poller: Poller) -> None:
+    def __init__(self, aircraft: "AircraftSession", poller: Poller) -> None:
         self._aircraft = aircraft
         self._poller = poller
+        self._next_number = 1
+        self.lease: ControlLease[Connection] = ControlLease()
+        self.connections: tuple[Connection, ...] = ()
 
-    def admit(self, ground: Connection, asks: SeatKind, token: str | None) -> SeatKind:
-        """Add a ground and return its seat; a resume token takes the seat immediately."""
-        aircraft = self._aircraft
-        aircraft.add_ground(ground)
-        seat = aircraft.command_seat
-        if asks is not SeatKind.COMMAND:
-            return SeatKind.LISTEN
-        if seat.is_resumed_by(token):
-            assert seat.token is not None
-            ground.token = seat.token
-            displaced = seat.take(ground, ground.token)
+    def admit(self, ground: Connection, access: Access | None, token: str | None) -> Access:
+        """Add a ground and return its access; a resume token gains control immediately."""
+        ground.owner = self
+        ground.number = self._next_number
+        self._next_number += 1
+        self.connections = (*self.connections, ground)
+        lease = self.lease
+        if access is not Access.COMMAND:
+            return Access.LISTEN
+        if lease.is_resumed_by(token):
+            assert lease.token is not None
+            ground.token = lease.token
+            displaced = lease.acquire(ground, ground.token)
             if displaced is not None:
-                displaced.fail("its seat was taken over with its token")
-            return SeatKind.COMMAND
-        if seat.is_free(self._poller.now_s):
-            self._seat(ground)
-            return SeatKind.COMMAND
-        return SeatKind.LISTEN
+                displaced.fail("control was resumed with its token")
+            return Access.COMMAND
+        if lease.is_free(self._poller.now_s):
+            self._grant(ground)
+            return Access.COMMAND
+        return Access.LISTEN
 
     def on_lines(self, connection: Connection, lines: bytes) -> None:
-        """Relay the holder's lines, handle control lines, drop and count the rest."""
-        aircraft = self._aircraft
-        aircraft.ground_bytes += len(lines)
+        """Relay the owner's lines, handle control lines, reject and count the rest."""
+        self._aircraft.ground_bytes += len(lines)
         if PREFIX in lines:
             self._relay_mixed(connection, lines)
-        elif connection is aircraft.command_seat.occupant:
+        elif connection is self.lease.owner:
             self._relay(connection, lines)
         else:
             self._from_listener(connection, lines)
 
-    def on_half_line(self, connection: Connection) -> None:
-        """Wait for the rest of the line."""
-
-    def on_drained(self, connection: Connection) -> None:
-        """Do nothing: the ground's send queue is empty."""
-
     def on_end(self, connection: Connection, reason: str) -> None:
-        """Keep the holder's seat for its token; a thesis client has none and frees it."""
-        aircraft = self._aircraft
-        aircraft.remove_ground(connection)
-        seat = aircraft.command_seat
-        if seat.occupant is connection:
-            seat.leave()
-            if seat.token is None:
-                seat.release()
-        aircraft.announce(self._poller.tick())
+        """Reserve the owner's lease for its token; a legacy client has none and frees it."""
+        self.connections = tuple(each for each in self.connections if each is not connection)
+        if self.lease.owner is connection:
+            self.lease.disconnect()
+        self._poller.tick()
+        self._aircraft.announce()
 
-    def keep_paused_alive(self, ground: Connection, now_s: float) -> None:
-        """Count a ground whose reading is paused as alive, for a limited time."""
-        if ground.paused_s is not None and now_s - ground.paused_s < IDLE_S:
-            ground.heard_s = now_s
+    def keep_paused_alive(self, now_s: float) -> None:
+        """Count an owner whose reading is paused as alive, for a limited time."""
+        owner = self.lease.owner
+        if owner is not None and owner.paused_s is not None and now_s - owner.paused_s < IDLE_S:
+            owner.last_rx_s = now_s
 
     def _relay(self, connection: Connection, lines: bytes) -> None:
-        aircraft = self._aircraft
-        air = aircraft.air_seat.occupant
+        air = self._aircraft.air_lease.owner
         if air is None:
-            aircraft.unheard_lines += lines.count(b"\n")
+            self._aircraft.rejected_lines += lines.count(b"\n")
         elif not air.relay_paced(lines):
             connection.pause()
 
     def _from_listener(self, connection: Connection, lines: bytes) -> None:
-        seat = self._aircraft.command_seat
-        if not connection.speaks_hello and seat.is_free(self._poller.now_s):
-            # A thesis client cannot request the seat: it takes a free one by sending.
-            self._seat(connection)
-            self._aircraft.announce(self._poller.now_s)
+        if not connection.speaks_hello and self.lease.is_free(self._poller.now_s):
+            # A legacy client cannot request control: it takes free control by sending.
+            self._grant(connection)
+            self._aircraft.announce()
             self._relay(connection, lines)
         else:
-            self._aircraft.unheard_lines += lines.count(b"\n")
+            self._aircraft.rejected_lines += lines.count(b"\n")
 
     def _relay_mixed(self, connection: Connection, lines: bytes) -> None:
-        """Handle lines one by one: a control line may change the seat in between."""
+        """Handle lines one by one: a control line may change the owner in between."""
         for line in lines.split(b"\n")[:-1]:
-            if not line.startswith(PREFIX):
-                if connection is self._aircraft.command_seat.occupant:
-                    self._relay(connection, line + b"\n")
-                else:
-                    self._from_listener(connection, line + b"\n")
-                continue
-            control = parse_control(line) if connection.speaks_hello else None
-            if control is None:
-                self._aircraft.unheard_lines += 1
+            if line.startswith(PREFIX):
+                control = parse_line(line) if connection.speaks_hello else None
+                if not isinstance(control, GroundLine) or not self._apply(connection, control):
+                    self._aircraft.rejected_lines += 1
+            elif connection is self.lease.owner:
+                self._relay(connection, line + b"\n")
             else:
-                self._obey(connection, control)
+                self._from_listener(connection, line + b"\n")
 
-    def _obey(self, connection: Connection, control: Control) -> None:
-        now_s = self._poller.now_s
-        aircraft = self._aircraft
-        holds = aircraft.command_seat.occupant is connection
-        if isinstance(control, SeatRequest):
-            self._on_request(connection, now_s)
-        elif holds and isinstance(control, SeatRelease):
-            aircraft.command_seat.release()
+    def _apply(self, connection: Connection, control: GroundLine) -> bool:
+        """Handle a control line; False: it is rejected."""
+        if isinstance(control, ControlRequest):
+            self._on_request(connection)
+        elif self.lease.owner is not connection:
+            return False
+        elif isinstance(control, ControlRelease):
+            self.lease.release()
             connection.resume()
-            connection.tell(LISTEN)
-        elif holds and isinstance(control, SeatGive):
-            heir = aircraft.ground(control.to)
+            connection.send(ControlLost().encode())
+        elif isinstance(control, ControlGive):
+            heir = self._find(control.to)
             if heir is None:
-                aircraft.unheard_lines += 1
-            else:
-                self._seat(heir, tell=True)
-        else:
-            aircraft.unheard_lines += 1
-        aircraft.announce(now_s)
+                return False
+            self._grant(heir, notify=True)
+        self._aircraft.announce()
+        return True
 
-    def _on_request(self, connection: Connection, now_s: float) -> None:
-        seat = self._aircraft.command_seat
-        if seat.occupant is connection:
-            connection.tell(command_line(connection.token))
-        elif seat.is_free(now_s):
-            self._seat(connection, tell=True)
-        elif now_s - connection.asked_s >= ASK_INTERVAL_S:
-            connection.asked_s = now_s
-            holder = seat.occupant
-            if holder is not None and holder.speaks_hello:
-                holder.tell(asked_line(connection.number))
+    def _on_request(self, connection: Connection) -> None:
+        now_s = self._poller.now_s
+        owner = self.lease.owner
+        if owner is connection:
+            connection.send(ControlGranted(connection.token).encode())
+        elif self.lease.is_free(now_s):
+            self._grant(connection, notify=True)
+        elif now_s - connection.requested_s >= REQUEST_INTERVAL_S:
+            connection.requested_s = now_s
+            if owner is not None and owner.speaks_hello:
+                owner.send(ControlRequested(connection.number).encode())
 
-    def _seat(self, ground: Connection, tell: bool = False) -> None:
-        """Give a ground control, and notify the previous holder."""
-        displaced = self._aircraft.command_seat.take(ground, ground.token or None)
-        if displaced is ground:
-            displaced = None
+    def _find(self, number: int) -> Connection | None:
+        for ground in self.connections:
+            if ground.number == number and ground.failure is None:
+                return ground
+        return None
+
+    def _grant(self, ground: Connection, notify: bool = False) -> None:
+        """Give a ground control, and notify the previous owner."""
+        displaced = self.lease.acquire(ground, ground.token or None)
         if displaced is not None:
             displaced.resume()
             if displaced.speaks_hello:
-                displaced.tell(LISTEN)
-        if tell and ground.speaks_hello:
-            ground.tell(command_line(ground.token))
+                displaced.send(ControlLost().encode())
+        if notify and ground.speaks_hello:
+            ground.send(ControlGranted(ground.token).encode())

@@ -11,21 +11,26 @@ KEEPALIVE_INTERVAL_S = 2
 KEEPALIVE_PROBES = 3
 
 
-class ListenError(OSError):
-    """A port could not be opened; the text is one sentence."""
+class StartError(Exception):
+    """The proxy cannot start: a code, one sentence and the exit status of the program."""
+
+    def __init__(self, code: str, reason: str, status: int = 1) -> None:
+        super().__init__(reason)
+        self.code = code
+        self.status = status
 
 
-def cannot_listen(label: str, port: int, error: OSError) -> ListenError:
-    """Return a sentence with the reason why a port could not be opened."""
-    what = os.strerror(error.errno) if error.errno else str(error)
-    return ListenError(f"cannot listen on {label} {port}: {what.lower()}")
+def cannot_listen(label: str, port: int, error: OSError) -> StartError:
+    """Return the error of a port that cannot be opened."""
+    reason = os.strerror(error.errno) if error.errno else str(error)
+    return StartError("cannot_listen", f"cannot listen on {label} {port}: {reason.lower()}")
 
 
 def listen(label: str, address: str, port: int, user_timeout_ms: int) -> socket.socket:
     """Return a listening, non-blocking TCP socket; accepted sockets inherit its options.
 
     An empty address listens on every interface, IPv4 and IPv6. `user_timeout_ms` bounds how long
-    sent data may stay unacknowledged (RFC 5482). Raises ListenError.
+    sent data may stay unacknowledged (RFC 5482). Raises StartError.
     """
     family, host = _family(address)
     listener = socket.socket(family, socket.SOCK_STREAM | socket.SOCK_NONBLOCK)

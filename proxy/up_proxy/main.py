@@ -8,7 +8,7 @@ import sys
 from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, cast
+from typing import Any
 
 from up.config import ConfigErrors
 from up.log import UpLogger, start_logging
@@ -17,12 +17,8 @@ from up.system.notify import Notifier, WatchdogPinger
 from up.system.pid_file import service
 from up.version import VERSION
 from up_proxy.config import PROXY, ProxyConfig
-from up_proxy.listener import ListenError
+from up_proxy.listener import StartError
 
-if TYPE_CHECKING:
-    from up_proxy.proxy import ProxyReactor
-
-EXIT_CANNOT_START = 1
 EXIT_CONFIGURATION = 2
 _SPARE_DESCRIPTORS = 64
 _log = UpLogger.get_logger("proxy")
@@ -74,24 +70,22 @@ def raise_descriptor_limit(config: ProxyConfig) -> None:
     if granted < wanted:
         _log.warn(
             "{granted} open files are allowed, the configured limits need {wanted}",
+            code="descriptor_limit",
             granted=granted,
             wanted=wanted,
         )
 
 
-def run(reactor: "ProxyReactor", config: ProxyConfig) -> int:
+def run(reactor: Any, config: ProxyConfig) -> int:
     """Serve until SIGTERM, SIGINT or SIGHUP; return the exit status."""
-    from up_proxy.proxy import PlainRefusedError, Proxy
+    from up_proxy.proxy import Proxy
 
     proxy = Proxy(reactor, config)
     try:
         proxy.start()
-    except ListenError as error:
-        _say(str(error))
-        return EXIT_CANNOT_START
-    except PlainRefusedError as error:
-        _say(str(error))
-        return EXIT_CONFIGURATION
+    except StartError as error:
+        sys.stderr.write(f"up-proxy: {error}\n")
+        return error.status
     notifier = Notifier.from_environment()
     pinger = WatchdogPinger(reactor, proxy.is_healthy, notifier)
 
@@ -107,7 +101,7 @@ def run(reactor: "ProxyReactor", config: ProxyConfig) -> int:
         notifier.stopping()
         pinger.stop()
         proxy.stop()
-        _log.info("stopped")
+        _log.info("stopped", code="stopped")
 
     reactor.callWhenRunning(on_running)
     reactor.addSystemEventTrigger("before", "shutdown", on_stop)
@@ -117,10 +111,6 @@ def run(reactor: "ProxyReactor", config: ProxyConfig) -> int:
             signal.signal(number, lambda *_: reactor.callFromThread(reactor.stop))
     reactor.run(installSignalHandlers=False)
     return 0
-
-
-def _say(text: str) -> None:
-    sys.stderr.write(f"up-proxy: {text}\n")
 
 
 @service()
@@ -140,7 +130,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     from twisted.internet import reactor
 
     use_monotonic_time(reactor)
-    return run(cast("ProxyReactor", reactor), config)
+    return run(reactor, config)
 
 
 if __name__ == "__main__":

@@ -1,7 +1,7 @@
 """Serves the metrics page to the local machine."""
 
 from collections.abc import Callable
-from typing import Any, Protocol
+from typing import Any
 
 from twisted.internet.error import CannotListenError
 from twisted.internet.protocol import connectionDone
@@ -15,7 +15,7 @@ from twisted.web.server import Site
 from up.system.clock import Clock
 from up.system.http_host import names_this_machine
 from up_proxy.listener import cannot_listen
-from up_proxy.metrics_page import CONTENT_TYPE
+from up_proxy.metrics import CONTENT_TYPE
 
 HOST = "127.0.0.1"
 MAX_CONNECTIONS = 16
@@ -126,19 +126,10 @@ class MetricsFactory(WrappingFactory):
         self.protocols.pop(p, None)
 
 
-class TcpReactor(Clock, Protocol):
-    """The part of the reactor that serving uses."""
-
-    def listenTCP(  # noqa: N802 - Twisted's name
-        self, port: int, factory: Any, backlog: int = 50, interface: str = ""
-    ) -> Any:
-        """Listen on a TCP port."""
-
-
-def serve_metrics(reactor: TcpReactor, port: int, page: Callable[[], str]) -> Any:
+def serve_metrics(reactor: Any, port: int, page: Callable[[], str]) -> Any:
     """Serve `page()` at http://127.0.0.1:port/metrics and return the listening port.
 
-    Raises ListenError.
+    Raises StartError.
     """
     try:
         return reactor.listenTCP(port, MetricsFactory(reactor, page), interface=HOST)

@@ -7,7 +7,7 @@ an idle connection no entry in the reactor.
 import select
 import time
 from collections.abc import Callable
-from typing import Protocol
+from typing import Any, Protocol
 
 from twisted.internet.interfaces import IReadDescriptor
 from zope.interface import implementer
@@ -20,7 +20,7 @@ PAUSED = select.EPOLLRDHUP
 """Does not read, but detects a closed peer."""
 
 _BATCH = 256
-STAY_S = 0.01
+BUSY_POLL_S = 0.01
 """Longer than a tick of the kernel: a shorter timeout would cost a timer interrupt per line."""
 _log = UpLogger.get_logger("proxy")
 
@@ -38,27 +38,17 @@ class Handler(Protocol):
         """Request the end, with its reason."""
 
 
-class Reactor(Protocol):
-    """The part of the reactor that the poller uses."""
-
-    def addReader(self, reader: object) -> None:  # noqa: N802 - Twisted's name
-        """Watch a descriptor."""
-
-    def removeReader(self, reader: object) -> object:  # noqa: N802
-        """Stop watching it."""
-
-
 @implementer(IReadDescriptor)
 class Poller:
     """Dispatches socket events; `now_s` is the monotonic time at which the batch began."""
 
-    def __init__(self, reactor: Reactor, seconds: Callable[[], float] = time.monotonic) -> None:
+    def __init__(self, reactor: Any, seconds: Callable[[], float] = time.monotonic) -> None:
         self._reactor = reactor
         self._seconds = seconds
         self._epoll = select.epoll()
         self._handlers: dict[int, Handler] = {}
         self._ending: list[Handler] = []
-        self.stay_s = STAY_S
+        self.busy_poll_s = BUSY_POLL_S
         self.now_s = seconds()
 
     def start(self) -> None:
@@ -79,7 +69,7 @@ class Poller:
         """Watch a descriptor for other events."""
         self._epoll.modify(descriptor, events)
 
-    def forget(self, descriptor: int) -> None:
+    def discard(self, descriptor: int) -> None:
         """Stop watching a descriptor; call it before closing the descriptor."""
         if self._handlers.pop(descriptor, None) is not None:
             self._epoll.unregister(descriptor)
@@ -118,16 +108,16 @@ class Poller:
         """Handle the current events, and those that follow closely.
 
         Under load the next line arrives before the reactor has finished its round: waiting for it
-        here saves that round; the reactor's other work waits for at most twice `stay_s`.
+        here saves that round; the reactor's other work waits for at most twice `busy_poll_s`.
         """
         poll = self._epoll.poll
         events = poll(0, _BATCH)
-        leave_s = self._seconds() + self.stay_s
+        leave_s = self._seconds() + self.busy_poll_s
         while events:
             self._handle(events)
             if self.now_s >= leave_s:
                 return
-            events = poll(self.stay_s, _BATCH)
+            events = poll(self.busy_poll_s, _BATCH)
 
     def _handle(self, events: list[tuple[int, int]]) -> None:
         handlers = self._handlers
@@ -139,7 +129,7 @@ class Poller:
             try:
                 handler.on_ready(what)
             except Exception:  # noqa: BLE001 - a bug costs one connection, never the relay
-                _log.failure("A connection failed on a bug of the proxy")
+                _log.failure("a connection failed on a bug of the proxy", code="proxy_bug")
                 handler.fail("internal error")
         if self._ending:
             self.reap()

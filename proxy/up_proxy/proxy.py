@@ -1,78 +1,51 @@
 """The Ground Station Proxy as a whole: two ports, the aircraft between them, its tick."""
 
-from typing import Any, Protocol
+from typing import Any
 
 from up.log import UpLogger
+from up.protocols.proxy_lines import Side
 from up.system.addresses import is_private, is_wildcard
+from up_proxy.acceptor import Acceptor, AcceptorLimits
 from up_proxy.config import ProxyConfig
-from up_proxy.door import Door, DoorLimits
-from up_proxy.fleet import Fleet
-from up_proxy.heartbeat import Heartbeat
-from up_proxy.hello import Side
-from up_proxy.journal import Journal
-from up_proxy.listener import ListenError, listen
-from up_proxy.metrics import door_metrics, fleet_metrics, process_metrics
-from up_proxy.metrics_page import render
-from up_proxy.metrics_server import TcpReactor, serve_metrics
-from up_proxy.opening import Opening
+from up_proxy.handshake import Handshake
+from up_proxy.listener import StartError, listen
+from up_proxy.loop_tick import LoopTick
+from up_proxy.metrics import render
+from up_proxy.metrics_server import serve_metrics
 from up_proxy.poller import Poller
-from up_proxy.poller import Reactor as SocketReactor
+from up_proxy.registry import AircraftRegistry
 
 _log = UpLogger.get_logger("proxy")
-
-
-class PlainRefusedError(Exception):
-    """The configured address is public, and plain traffic on it was not accepted."""
-
-
-class ProxyReactor(TcpReactor, SocketReactor, Protocol):
-    """The part of the reactor that the program uses."""
-
-    def callWhenRunning(self, callable: Any) -> Any:  # noqa: N802 - Twisted's name
-        """Call when the reactor runs."""
-
-    def addSystemEventTrigger(self, phase: str, event: str, callable: Any) -> Any:  # noqa: N802
-        """Call when the reactor stops."""
-
-    def callFromThread(self, callable: Any) -> Any:  # noqa: N802 - Twisted's name
-        """Call soon, also from a signal handler."""
-
-    def stop(self) -> None:
-        """End `run`."""
-
-    def run(self, installSignalHandlers: bool = True) -> None:  # noqa: N803 - Twisted's name
-        """Serve until stopped."""
 
 
 class Proxy:
     """Relays between airborne and ground side; `start` and `stop` do not wait."""
 
-    def __init__(self, reactor: ProxyReactor, config: ProxyConfig) -> None:
+    def __init__(self, reactor: Any, config: ProxyConfig) -> None:
         self._reactor = reactor
         self._config = config
         self._poller = Poller(reactor, reactor.seconds)
         limits = config.limits
-        self._journal = Journal(reactor)
-        self.fleet = Fleet(self._poller, self._journal, limits.aircraft, limits.listeners)
-        self._doors: list[Door] = []
+        self.registry = AircraftRegistry(reactor, self._poller, limits.aircraft, limits.listeners)
+        self._acceptors: list[Acceptor] = []
         self._metrics_port: Any = None
-        self._heartbeat = Heartbeat(reactor, self._tick)
+        self._loop_tick = LoopTick(reactor, self._tick)
 
     @property
     def airborne_port(self) -> int:
         """The port that aircraft connect to."""
-        return self._doors[0].port
+        return self._acceptors[0].port
 
     @property
     def ground_port(self) -> int:
         """The port that grounds connect to."""
-        return self._doors[1].port
+        return self._acceptors[1].port
 
     def start(self) -> None:
         """Open the ports.
 
-        Raises ListenError if a port cannot be opened, PlainRefusedError if the address is public
-        and `i_accept_plain` is false; no port stays open then.
+        Raises StartError with code `cannot_listen`, `bad_address` or, if the address is public and
+        `i_accept_plain` is false, `public_address`; no port stays open then.
         """
         config = self._config
         self._check_address()
@@ -81,76 +54,76 @@ class Proxy:
                 (Side.AIRBORNE, config.airborne_port),
                 (Side.GROUND, config.ground_port),
             ):
-                self._doors.append(self._door(side, port))
+                self._acceptors.append(self._acceptor(side, port))
             if config.metrics:
                 self._metrics_port = serve_metrics(self._reactor, config.metrics_port, self.page)
-        except ListenError:
-            for door in self._doors:
-                door.end()
-            self._doors.clear()
+        except StartError:
+            for acceptor in self._acceptors:
+                acceptor.end()
+            self._acceptors.clear()
             raise
-        for door in self._doors:
-            door.open()
+        for acceptor in self._acceptors:
+            acceptor.open()
         if self._metrics_port is not None:
-            _log.info("metrics page listens on port {port}", port=self._metrics_port.getHost().port)
+            _log.info(
+                "metrics page listens on port {port}",
+                code="port_open",
+                side="metrics",
+                port=self._metrics_port.getHost().port,
+            )
         self._poller.start()
-        self._heartbeat.start()
+        self._loop_tick.start()
 
     def stop(self) -> None:
         """Close every port and connection."""
-        self._heartbeat.stop()
+        self._loop_tick.stop()
         if self._metrics_port is not None:
             self._metrics_port.stopListening()
-        for door in self._doors:
-            door.close()
+        for acceptor in self._acceptors:
+            acceptor.close()
         self._poller.reap()
         self._poller.stop()
-        self._journal.stop()
+        self.registry.stop()
 
     def is_healthy(self) -> bool:
         """Return whether both ports are open."""
-        return len(self._doors) == 2 and all(door.is_open() for door in self._doors)
+        return len(self._acceptors) == 2 and all(acceptor.is_open() for acceptor in self._acceptors)
 
     def page(self) -> str:
         """Return the metrics page."""
-        air, ground = self._doors
-        now_s = self._poller.tick()
-        return render(
-            [
-                *door_metrics(air, ground),
-                *fleet_metrics(self.fleet, now_s),
-                *process_metrics(self._heartbeat),
-            ]
-        )
+        air, ground = self._acceptors
+        return render(air, ground, self.registry, self._loop_tick, self._poller.tick())
 
-    def _door(self, side: Side, port: int) -> Door:
+    def _acceptor(self, side: Side, port: int) -> Acceptor:
         config = self._config
         limits = config.limits
         label = f"{side.value} port"
         listener = listen(label, config.address, port, limits.user_timeout_ms)
         # The queue of an aircraft is bounded by pausing the ground, never by dropping lines.
         queue_bytes = limits.queue_bytes if side is Side.GROUND else 0
-        door_limits = DoorLimits(
+        acceptor_limits = AcceptorLimits(
             limits.connections, limits.per_address, queue_bytes, config.i_accept_plain
         )
-        opening = Opening(side, self.fleet, self._poller)
-        return Door(listener, opening, self._poller, self._reactor, side, door_limits)
+        handshake = Handshake(side, self.registry, self._poller)
+        return Acceptor(listener, handshake, self._poller, self._reactor, side, acceptor_limits)
 
     def _check_address(self) -> None:
         address = self._config.address
         try:
             public = not is_wildcard(address) and not is_private(address)
         except ValueError:
-            raise ListenError(f"cannot listen on address {address!r}: not an address") from None
+            reason = f"cannot listen on address {address!r} (proxy.yml: address): not an address"
+            raise StartError("bad_address", reason) from None
         if public and not self._config.i_accept_plain:
-            raise PlainRefusedError(
-                f"address {address} is public and the proxy speaks the plain protocol: set "
+            reason = (
+                f"address {address} is public and the proxy uses the plain protocol: set "
                 "'i_accept_plain: true' in proxy.yml to accept that"
             )
+            raise StartError("public_address", reason, status=2)
 
     def _tick(self) -> None:
         now_s = self._poller.tick()
-        for door in self._doors:
-            door.sweep(now_s)
-        self.fleet.sweep(now_s)
+        for acceptor in self._acceptors:
+            acceptor.sweep(now_s)
+        self.registry.sweep(now_s)
         self._poller.reap()

@@ -62,7 +62,6 @@ class Cascade:
     def hold_angle(
         self, wanted_deg: float, angle_deg: float, rate_deg_s: float, dt_s: float
     ) -> float:
-        """Return the servo deflection, us, that leads to an angle."""
         return self.hold_rate(self.rate_towards(wanted_deg, angle_deg, dt_s), rate_deg_s, dt_s)
 
     def rate_towards(self, wanted_deg: float, angle_deg: float, dt_s: float) -> float:
@@ -71,6 +70,32 @@ class Cascade:
         return self._stabilize(angle_deg, dt=dt_s) or 0.0
 
     def hold_rate(self, wanted_deg_s: float, rate_deg_s: float, dt_s: float) -> float:
-        """Return the servo deflection, us, that leads to a rotation rate."""
         self._rate.setpoint = wanted_deg_s
         return US_PER_UNIT * (self._rate(rate_deg_s, dt=dt_s) or 0.0)
+
+
+WASHOUT_S = 2.0
+
+
+class YawDamper:
+    """A Rate PID on the washed-out yaw rate: passes a steady turn, damps oscillation."""
+
+    __slots__ = ("_pid", "_steady_deg_s")
+
+    def __init__(self, gains: Gains) -> None:
+        self._pid = limited_pid(gains, OUTPUT_LIMIT)
+        self._steady_deg_s: float | None = None
+
+    def tune(self, gains: Gains) -> None:
+        self._pid.tunings = tuple(gains)
+
+    def reset(self) -> None:
+        self._pid.reset()
+        self._steady_deg_s = None
+
+    def deflection_us(self, yaw_rate_deg_s: float, dt_s: float) -> float:
+        """Return the rudder deflection, us, against the oscillating part of a yaw rate."""
+        if self._steady_deg_s is None:
+            self._steady_deg_s = yaw_rate_deg_s
+        self._steady_deg_s += (yaw_rate_deg_s - self._steady_deg_s) * min(1.0, dt_s / WASHOUT_S)
+        return US_PER_UNIT * (self._pid(yaw_rate_deg_s - self._steady_deg_s, dt=dt_s) or 0.0)

@@ -9,11 +9,12 @@ from twisted.internet.defer import Deferred
 from twisted.python.failure import Failure
 
 from raspilot.flight_controller import sticks
-from raspilot.flight_controller.cascade import Cascade, pitch_rate_in_turn
-from raspilot.flight_controller.yaw_damper import YawDamper
-from up.commands.flight_mode_command import FlightModeCommand
-from up.commands.flight_state_command import FlightStateCommand
-from up.commands.fly_by_wire_limits_command import FlyByWireLimitsCommand
+from raspilot.flight_controller.cascade import Cascade, YawDamper, pitch_rate_in_turn
+from up.commands.flight_state_command import (
+    FlightModeCommand,
+    FlightStateCommand,
+    FlyByWireLimitsCommand,
+)
 from up.commands.orientation_command import OrientationCommand
 from up.commands.output_command import OutputCommand
 from up.commands.pid_tunings_commands import PIDTuningsCommand, PIDTuningsValuesCommand
@@ -21,7 +22,7 @@ from up.commands.refusal import Code, CommandRefusedError
 from up.commands.roles import Role
 from up.flight_controller.base_flight_controller import BaseFlightController
 from up.flight_controller.gains import Gains, GainSet
-from up.flight_controller.gains_keeper import GainsKeeper, refuse_unused
+from up.flight_controller.gains_store import GainsStore, refuse_unused
 from up.flight_controller.pids_file import PidsFile
 from up.mode import WITH_ARDUINO, Mode
 from up.needs import wants
@@ -89,13 +90,13 @@ class RaspilotFlightController(BaseFlightController):
         owner = self.up.command_executor.control.owner
         return self._is_board_ready and owner == self.class_name
 
-    def _execute_initialization(self) -> None:
-        super()._execute_initialization()
+    def on_init(self) -> None:
+        super().on_init()
         pids = PidsFile(self.context.config_folder)
-        self._keeper = GainsKeeper(pids, self.context.reactor)
+        self._keeper = GainsStore(pids, self.context.reactor)
         self.gains, problem = pids.load()
         if problem:
-            self._log_error(problem)
+            self.log.error("{reason}", reason=problem)
             self.up.vetoes.set("pids.yml", problem)
         self._build(self.gains)
         executor = self.up.command_executor
@@ -117,10 +118,10 @@ class RaspilotFlightController(BaseFlightController):
         if self.up.command_executor.origin.role is not Role.BOARD:
             # A phone's frame could carry a sequence too; only the board's is valid.
             return
-        rx = self.rx.usable(self.FLIGHT_MODES["ACRO"]["rx"])
+        rx = self.rx.fresh(self.FLIGHT_MODES["ACRO"]["rx"])
         if rx is None:
             return
-        reading = self.orientation.usable(self.FLIGHT_MODES["FBW"]["orientation"])
+        reading = self.orientation.fresh(self.FLIGHT_MODES["FBW"]["orientation"])
         if reading is None or reading.value is not command:
             return
         now_s = reading.time_s
@@ -190,7 +191,7 @@ class RaspilotFlightController(BaseFlightController):
             text = f"does not fly: {owner or 'nobody'} has control"
         if text != self._logged:
             self._logged = text
-            self.logger.info(
+            self.log.info(
                 "{text}",
                 text=text,
                 code="control_changed",
@@ -222,7 +223,7 @@ class RaspilotFlightController(BaseFlightController):
             self._roll.tune(self.gains.rate.ailerons, self.gains.stabilize.ailerons)
             self._pitch.tune(self.gains.rate.elevator, self.gains.stabilize.elevator)
             self._yaw.tune(self.gains.rate.rudder or _NO_GAINS)
-            self._log_info("flies with other gains")
+            self.log.info("flies with other gains")
             return self._keeper.save(self.gains).addCallbacks(self._on_saved, self._on_unsaved)
         if self.mission_control is None:
             raise CommandRefusedError("no ground station is configured", Code.UNAVAILABLE)
@@ -234,7 +235,7 @@ class RaspilotFlightController(BaseFlightController):
         self.up.vetoes.clear("pids.yml")
 
     def _on_unsaved(self, failure: Failure) -> Failure:
-        self._log_error(failure.getErrorMessage())
+        self.log.error("{reason}", reason=failure.getErrorMessage())
         return failure
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
-from up.commands.fly_by_wire_limits_command import FlyByWireLimitsCommand
+from up.commands.flight_state_command import FlyByWireLimitsCommand
 
 CENTRE_US = 1500
 HALF_TRAVEL_US = 500
@@ -20,7 +20,6 @@ class Limits:
 
     @classmethod
     def of(cls, command: FlyByWireLimitsCommand) -> Limits:
-        """Return the configured limits, with defaults for missing ones."""
         said = {name: value for name, value in command.data.items() if value is not None}
         return replace(cls(), **said)
 

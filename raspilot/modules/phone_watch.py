@@ -26,14 +26,14 @@ class PhoneWatch(BaseStartedModule):
         """Return whether a runner gave the instance its name."""
         return bool(self.context.instance)
 
-    def _execute_initialization(self) -> None:
+    def on_init(self) -> None:
         self.up.command_executor.register_command(LinkStateCommand, self._on_link)
 
-    def _execute_start(self) -> bool:
+    def on_start(self) -> bool:
         self._repeat()
         return True
 
-    def _execute_stop(self) -> None:
+    def on_stop(self) -> None:
         if self._timer is not None and self._timer.active():
             self._timer.cancel()
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 from up.config import ConfigFile, items, key, mapping, section
-from up.config.shape import ListOf
+from up.config.schema import ListOf
 from up.fields import Constraint
 from up_runner.request import NAME
 
@@ -25,13 +25,13 @@ NEVER_SETTABLE_KEY = re.compile(
 
 
 @dataclass(frozen=True, slots=True)
-class ProxyPlace:
-    """The proxy between the instances and the ground: they use it, and the answers name it."""
+class ProxyAddress:
+    """The proxy between the instances and the ground: they use it, and responses name it."""
 
     host: str = key(
         "",
         "Name or address of the proxy, for instances (in place of mission_control.yml: "
-        "remote_server) and grounds. Empty: remote_server holds, and the answers name no proxy.",
+        "remote_server) and grounds. Empty: remote_server applies, and responses name no proxy.",
         max_length=255,
     )
     airborne_port: int = key(
@@ -44,7 +44,7 @@ class ProxyPlace:
 
 @dataclass(frozen=True, slots=True)
 class Autostart:
-    """An instance that is started with the runner, as on an aeroplane that nobody asks."""
+    """An instance that starts with the runner, without a request from a phone."""
 
     aircraft: str = key("", "Name of the aircraft. Empty: wait for requests.", max_length=32)
     profile: str = key("", "Its profile. Empty: the plain configuration.", max_length=32)
@@ -52,11 +52,11 @@ class Autostart:
 
 @dataclass(frozen=True, slots=True)
 class Logs:
-    """Bounds of what instances write to their standard output and error."""
+    """Limits of the logs: the standard output and error of the instances."""
 
     size: int = key(
         1_000_000,
-        "Size at which an instance's log is moved aside. It is looked at twice a second.",
+        "Size at which an instance's log is rotated; checked twice a second.",
         unit="bytes",
         minimum=1000,
         maximum=1_000_000_000,
@@ -66,24 +66,24 @@ class Logs:
 
 @dataclass(frozen=True, slots=True)
 class Restarts:
-    """What happens when an instance that was running ends by itself."""
+    """Restarts of an instance that ended unexpectedly."""
 
     delay_s: float = key(
         0.25, "First delay; each further one is doubled.", name="delay", unit="s", minimum=0
     )
-    longest_delay_s: float = key(
-        10.0, "Longest delay.", name="longest delay", unit="s", minimum=0, maximum=3600
+    max_delay_s: float = key(
+        10.0, "Maximum delay.", name="longest delay", unit="s", minimum=0, maximum=3600
     )
     limit: int = key(
         5,
-        "Restarts within the period after which a black box is given up; 0 means never start "
-        "again. A flight controller is never given up.",
+        "Restarts within the period; after more the runner gives up a black box. 0: no restart. "
+        "It never gives up a flight controller.",
         minimum=0,
         maximum=1000,
     )
     period_s: float = key(
         60.0,
-        "The period, and the time after which all is well.",
+        "The period; ends before it do not count.",
         name="period",
         unit="s",
         minimum=1,
@@ -97,20 +97,20 @@ class Connections:
 
     limit: int = key(
         256,
-        "Connections at once. When all are taken the one that was silent longest makes room.",
+        "Maximum number of connections. A further one displaces the one silent for longest.",
         minimum=1,
         maximum=100_000,
     )
     address_limit: int = key(
         32,
-        "Connections at once from one address (IPv6: from one /64 network).",
+        "Maximum number of connections from one address (IPv6: from one /64 network).",
         name="address limit",
         minimum=1,
         maximum=100_000,
     )
     idle_s: float = key(
         15.0,
-        "A connection that says nothing for so long is closed.",
+        "A connection that is silent for this time is closed.",
         name="idle",
         unit="s",
         minimum=1,
@@ -120,7 +120,7 @@ class Connections:
 
 @dataclass(frozen=True, slots=True)
 class RunnerConfig:
-    """The runner: it spawns Raspilot when a phone asks, and watches what it spawned."""
+    """The runner: spawns a Raspilot when a phone requests it, and supervises it."""
 
     port: int = key(3002, "TCP port of requests. 0: any free port.", minimum=0, maximum=65535)
     address: str = key(
@@ -128,23 +128,23 @@ class RunnerConfig:
     )
     i_accept_plain: bool = key(
         False,
-        "Requests are not authenticated: anybody who reaches the port can start instances. Peers "
-        "with public addresses are therefore turned away; true lets them in (a server that phones "
-        "reach over the mobile network needs it).",
+        "Requests are not authenticated: every host that reaches the port can start instances. "
+        "Peers with public addresses are therefore rejected; true accepts them (for a server that "
+        "phones reach over the mobile network).",
     )
     i_accept_root: bool = key(
         False,
-        "The runner refuses to run as root: its instances would be root too, and anybody who "
-        "reaches the port starts them. true lets it.",
+        "The runner refuses to run as root: its instances would be root too, and every host that "
+        "reaches the port can start them. true permits it.",
     )
     mode: Literal["black box", "flight controller", "auto"] = key(
         "black box",
-        "The mode of the instances. A phone that is gone stops an instance in black box mode "
-        "only: the others may be flying.",
+        "The mode of the instances. A lost phone stops an instance in black box mode only: the "
+        "others may be flying.",
     )
     application_root: str = key(
         "",
-        "Folder of the application. Empty: the one that this program came with.",
+        "Folder of the application. Empty: the one that contains this program.",
         name="application root",
         max_length=4096,
     )
@@ -159,8 +159,8 @@ class RunnerConfig:
     )
     instance_config: str = key(
         "",
-        "Configuration folder that every instance starts from. Empty: the folder blackbox/ beside "
-        "this file in black box mode, else this file's own folder.",
+        "Base configuration folder of every instance. Empty: the folder blackbox/ beside this file "
+        "in black box mode, otherwise the folder of this file.",
         name="instance config",
         max_length=4096,
     )
@@ -173,35 +173,35 @@ class RunnerConfig:
     )
     run_folder: str = key(
         "",
-        "Folder for sockets and state, private to this user. Empty: RUNTIME_DIRECTORY, else "
-        "XDG_RUNTIME_DIR/up-runner, else /tmp/up-runner-<user id>.",
+        "Folder for sockets and state, private to this user. Empty: RUNTIME_DIRECTORY, "
+        "otherwise XDG_RUNTIME_DIR/up-runner, otherwise /tmp/up-runner-<user id>.",
         name="run folder",
         max_length=4096,
     )
     instances_folder: str = key(
         "",
-        "Folder for the instances' configuration, with what they learned. Empty: STATE_DIRECTORY, "
-        "else the run folder.",
+        "Folder for the instances' configuration and persisted files. Empty: STATE_DIRECTORY, "
+        "otherwise the run folder.",
         name="instances folder",
         max_length=4096,
     )
     logs_folder: str = key(
         "",
-        "Folder for the instances' logs. Empty: LOGS_DIRECTORY, else .logs/ in the run folder.",
+        "Folder for the instances' logs. Empty: LOGS_DIRECTORY, otherwise .logs in the run folder.",
         name="logs folder",
         max_length=4096,
     )
-    instances: int = key(8, "Instances at once.", minimum=1, maximum=1000)
+    instances: int = key(8, "Maximum number of instances.", minimum=1, maximum=1000)
     kept_instances: int = key(
         32,
-        "Ended instances whose configuration and logs are kept, the latest ones.",
+        "Number of ended instances, the latest ones, whose configuration and logs are kept.",
         name="kept instances",
         minimum=0,
         maximum=10_000,
     )
     start_limit_s: float = key(
         10.0,
-        "Time in which an instance must have bound its ports.",
+        "Time limit for an instance to bind its ports.",
         name="start limit",
         unit="s",
         minimum=0.1,
@@ -209,7 +209,7 @@ class RunnerConfig:
     )
     watchdog_s: float = key(
         2.0,
-        "An instance that gives no sign of life for so long is killed. 0: never.",
+        "An instance without a sign of life for this time is killed. 0: never.",
         name="watchdog",
         unit="s",
         minimum=0,
@@ -220,7 +220,7 @@ class RunnerConfig:
     )
     exit_delay_s: float = key(
         60.0,
-        "How long the phone may be gone.",
+        "Time that the phone may be gone.",
         name="exit delay",
         unit="s",
         minimum=0,
@@ -228,11 +228,11 @@ class RunnerConfig:
     )
     stop_instances_on_exit: bool | None = key(
         None,
-        "Whether the instances end with the runner. null: no under a service manager, where the "
-        "runner may be restarted in flight; yes when a person started it.",
+        "Whether the instances end with the runner. null: no under a service manager, which may "
+        "restart the runner in flight; yes when it was started by hand.",
         name="stop instances on exit",
     )
-    proxy: ProxyPlace = section(ProxyPlace)
+    proxy: ProxyAddress = section(ProxyAddress)
     autostart: Autostart = section(Autostart)
     restarts: Restarts = section(Restarts)
     logs: Logs = section(Logs)
@@ -240,7 +240,7 @@ class RunnerConfig:
     dynamic_ports: dict[str, tuple[str, ...]] = mapping(
         FILE_NAME,
         ListOf(KEY_NAME, 16),
-        "Ports of a black box that are 0, any free one, unless its configuration names another.",
+        "Ports of a black box that are 0 (any free port) unless its configuration sets them.",
         default={"android.yml": ("general port", "orientation port")},
         name="dynamic ports",
         max_length=32,
@@ -248,8 +248,8 @@ class RunnerConfig:
     settable: dict[str, tuple[str, ...]] = mapping(
         FILE_NAME,
         ListOf(KEY_NAME, 64),
-        "Which keys of which files a request may set. Anybody who reaches the port may set them: "
-        "only harmless ones belong here, never paths, commands or what is loaded.",
+        "Files and keys that a request may set. Every host that reaches the port may set them: "
+        "list only harmless keys, never paths, commands or modules.",
         default={
             "android.yml": ("forward interval for onboard device (ms)",),
             "load_guard.yml": ("interval",),
@@ -259,14 +259,14 @@ class RunnerConfig:
     environment: tuple[str, ...] = items(
         KEY_NAME,
         "Environment variables that an instance inherits; LC_* stands for all that begin with LC_. "
-        "No other one reaches it, so that it sees no secret of the runner's.",
+        "It inherits no others, and so no secrets of the runner.",
         default=("PATH", "HOME", "LANG", "LANGUAGE", "LC_*", "TZ", "XDG_STATE_HOME"),
         max_length=64,
     )
-    learned_files: tuple[str, ...] = items(
+    persisted_files: tuple[str, ...] = items(
         FILE_NAME,
-        "Files that an instance learns. They are kept from run to run, as long as the profile is "
-        "the same.",
+        "Files that an instance writes. They are kept from run to run while the profile is the "
+        "same.",
         default=("pids.yml",),
         name="learned files",
         max_length=32,
@@ -277,7 +277,7 @@ class RunnerConfig:
         for attribute, names in (
             ("settable", self.settable),
             ("dynamic_ports", self.dynamic_ports),
-            ("learned_files", self.learned_files),
+            ("persisted_files", self.persisted_files),
         ):
             for name in names:
                 if not PLAIN_FILE.fullmatch(name):

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import enum
 import os
 import signal
 
@@ -11,383 +10,390 @@ from twisted.logger import Logger
 from twisted.python.failure import Failure
 
 from up.system.clock import Clock, Timer
-from up_runner.answer import Answer
-from up_runner.backoff import Backoff
-from up_runner.deadline import Deadline
-from up_runner.house import Child, Ear, House, Policy
 from up_runner.instance_config import ConfigurationRefused
-from up_runner.notification import Notification
-from up_runner.process import describe_status
-from up_runner.record import Record
+from up_runner.instance_host import InstanceHost
+from up_runner.instance_machine import TRANSITIONS, Input, State
+from up_runner.instance_state import InstanceState
+from up_runner.notify_listener import Notification, NotifyListener
+from up_runner.policy import Backoff, Policy
+from up_runner.process import Process, describe_status
 from up_runner.request import Request
+from up_runner.response import BUG, Problem, Response
+from up_runner.watchdog import Watchdog
 
-PORT_LOOK_S = 0.1
-
-
-class State(enum.Enum):
-    """The life cycle state of an instance."""
-
-    STARTING = "starting"
-    RUNNING = "running"
-    STOPPING = "stopping"
-    WAITING = "waiting to start again"
-    ENDED = "ended"
+PORT_CHECK_S = 0.1
 
 
 class Instance:
-    """Starts, watches, restarts and stops one process; `keep`: even if the first start fails."""
+    """Starts, watches, restarts and stops one process; `keep`: even if the first start fails.
+
+    Only `_feed` changes the state, as `TRANSITIONS` lists; the other methods decide which input an
+    event is, or are the outputs.
+    """
 
     def __init__(
-        self, request: Request, clock: Clock, policy: Policy, house: House, *, keep: bool = False
+        self,
+        request: Request,
+        clock: Clock,
+        policy: Policy,
+        host: InstanceHost,
+        *,
+        keep: bool = False,
     ) -> None:
         self.name = request.aircraft
         self.request = request
         self.state = State.ENDED
         self.ports: dict[str, int] | None = None
         self.phone: bool | None = None
-        self.last_end: str | None = None
-        self.unheard = 0
+        self.last_end: Problem | None = None
+        self.rejected = 0
         """Notifications from another process than the instance's."""
         self._clock = clock
         self._policy = policy
-        self._house = house
-        self._keep = keep
+        self._host = host
+        self._is_kept = keep
         self._log = Logger(namespace=f"runner.{self.name}")
         self._backoff = Backoff(policy.restarts)
-        self._child: Child | None = None
-        self._ear: Ear | None = None
-        self._said_ready = False
-        self._said_stopping = False
-        self._was_ready = False
-        self._detached = False
-        self._why: str | None = None
+        self._child: Process | None = None
+        self._listener: NotifyListener | None = None
+        self._is_ready = False
+        self._is_stopping = False
+        self._reason: Problem | None = None
         self._timer: Timer | None = None
-        self._missing: list[str] = []
-        self._waiting: list[Deferred[str | None]] = []
-        self._mourners: list[Deferred[None]] = []
-        self._start_limit = Deadline(clock, policy.start_limit_s, self._on_start_limit)
-        self._watchdog = Deadline(clock, policy.watchdog_s or 0.0, self._on_silence)
-        self._exit_delay = Deadline(clock, policy.exit_delay_s or 0.0, self._on_phone_gone)
+        self._restart_delay_s = 0.0
+        self._unbound: list[str] = []
+        self._waiters: list[Deferred[Problem | None]] = []
+        self._exit_waiters: list[Deferred[None]] = []
+        self._start_limit = Watchdog(clock, policy.start_limit_s, self._on_start_limit)
+        self._watchdog = Watchdog(clock, policy.watchdog_s or 0.0, self._on_silence)
+        self._exit_delay = Watchdog(clock, policy.exit_delay_s or 0.0, self._on_phone_gone)
 
     @property
     def pid(self) -> int | None:
         """Return the process number, None without a process."""
         return None if self._child is None else self._child.pid
 
-    def start(self) -> Deferred[str | None]:
+    def start(self) -> Deferred[Problem | None]:
         """Start; fires with None once it runs with its ports bound, or with the failure."""
         outcome = self.outcome()
-        self._begin()
+        self._feed(Input.START)
         return outcome
 
-    def adopt(self, child: Child, record: Record) -> None:
+    def adopt(self, child: Process, saved: InstanceState) -> None:
         """Adopt the process of an earlier runner; raises OSError."""
         self._listen()
         self._take(child)
-        self.ports, self.phone = record.ports, record.phone
-        self._was_ready = record.keep
-        if record.ready:
-            self._log.info("took over process {pid}, which runs", pid=child.pid)
-            self._on_running()
-        else:
-            self._log.info("took over process {pid}, which was starting", pid=child.pid)
-            self._set(State.STARTING)
-            self._start_limit.touch()
+        self.ports, self.phone, self._is_kept = saved.ports, saved.phone, saved.keep
+        text = "took over process {pid}, which is {state}"
+        self._feed(Input.READY if saved.ready else Input.TAKE_OVER)
+        self._log.info(text, code="taken_over", pid=child.pid, state=self.state.value)
 
     def resume(self) -> None:
         """Restart a process that ended while no runner watched it."""
-        self._was_ready = True
-        self._go_on("ended while no runner was there to see it")
+        self._is_kept = True
+        self._retry(Problem("ended_unwatched", "ended while no runner was watching"))
 
-    def outcome(self) -> Deferred[str | None]:
-        """Wait for the start: None once it runs, or one sentence if it fails."""
-        waiting: Deferred[str | None] = Deferred()
-        self._waiting.append(waiting)
-        return waiting
+    def outcome(self) -> Deferred[Problem | None]:
+        """Wait for the start: None once it runs, or its failure."""
+        waiter: Deferred[Problem | None] = Deferred()
+        self._waiters.append(waiter)
+        return waiter
 
     def when_ended(self) -> Deferred[None]:
         """Fire when it has ended permanently."""
-        ended: Deferred[None] = Deferred()
-        self._mourners.append(ended)
-        return ended
+        waiter: Deferred[None] = Deferred()
+        self._exit_waiters.append(waiter)
+        return waiter
 
-    def stop(self, why: str) -> None:
+    def stop(self, reason: Problem) -> None:
         """Request the end of the process, and kill it after `kill_delay_s`."""
-        if self.state in (State.STOPPING, State.ENDED):
-            return
-        self._log.info("stops: {why}", why=why)
-        self._why = why
-        waited, child = self.state is State.WAITING, self._child
-        self._set(State.STOPPING)
-        self._rest()
-        if child is not None:
-            child.terminate()
-            self._timer = self._clock.callLater(self._policy.kill_delay_s, child.kill)
-        elif waited:
-            self._end(why)
+        if (self.state, Input.STOP) in TRANSITIONS:
+            self._log.info(
+                "stops: {reason}", code="stopping", cause=reason.code, reason=str(reason)
+            )
+            self._reason = self.last_end = reason
+            self._feed(Input.STOP)
 
     def detach(self) -> None:
         """Leave the process to the next runner."""
-        self._detached = True
-        self._rest()
-        if self._child is not None:
-            self._child.close()
-        if self._ear is not None:
-            self._ear.close(remove=False)
+        self._feed(Input.DETACH)
 
-    def answer(self, *, spawned: bool, error: str | None = None) -> Answer:
-        """Return the current state."""
+    def response(self, *, spawned: bool, error: Problem | None = None) -> Response:
+        """Return the current state for a client."""
         if self.state is State.RUNNING:
-            return Answer(self.name, self.pid, self.ports, spawned and error is None, error)
-        return Answer(self.name, error=error)
+            return Response(self.name, self.pid, self.ports, spawned and error is None, error)
+        return Response(self.name, error=error)
 
-    def on_notification(self, pid: int, said: Notification) -> None:
+    def waiting_problem(self) -> Problem:
+        """Return what a client receives while the instance waits for its restart."""
+        return Problem("restarting", f"{self.last_end}; it is being restarted")
+
+    def on_notification(self, pid: int, notification: Notification) -> None:
         """Handle a notification of process `pid`."""
         if self._child is None or pid != self._child.pid:
-            self.unheard += 1
+            self.rejected += 1
             return
         before = (self.ports, self.phone)
-        if said.ports is not None:
-            self.ports = dict(said.ports)
-        if said.phone is not None:
-            self.phone = said.phone
-        self._said_ready |= said.ready
-        if said.stopping:
-            self._on_stopping()
-        elif self.state is State.STARTING and self._said_ready:
-            self._confirm()
+        if notification.ports is not None:
+            self.ports = dict(notification.ports)
+        if notification.phone is not None:
+            self.phone = notification.phone
+        self._is_ready |= notification.ready
+        if notification.stopping:
+            self._on_stopping(self._child)
+        elif self.state is State.STARTING and self._is_ready:
+            self._check_ports()
         elif self.state is State.RUNNING:
-            if said.alive or said.ready:
-                self._touch_watchdog()
+            if notification.alive or notification.ready:
+                self._reset_watchdog()
             if before != (self.ports, self.phone):
                 self._watch_phone()
                 self._save()
 
-    def _begin(self) -> None:
-        self._set(State.STARTING)
-        self._why = None
+    def _feed(self, input_: Input) -> None:
+        """Change the state and cause the outputs; every transition cancels the timers."""
+        transition = TRANSITIONS.get((self.state, input_))
+        if transition is not None:
+            self._cancel_timers()
+            self.state, outputs = transition
+            for output in outputs:
+                getattr(self, f"_{output}")()
+
+    def _retry(self, problem: Problem) -> None:
+        """Restart after a delay, unless it ended too often."""
+        self.last_end = problem
+        delay_s = self._backoff.next_delay_s(self._clock.seconds())
+        if delay_s is None:
+            count = self._backoff.count - 1
+            self._end(Problem("gave_up", f"{problem}; gave up after {count} restarts"))
+            return
+        text = "{error}; restarts in {delay:g} s"
+        self._log.error(
+            text, code="restarting", cause=problem.code, error=str(problem), delay=delay_s
+        )
+        self._restart_delay_s = delay_s
+        self._feed(Input.RETRY)
+
+    def _end(self, problem: Problem) -> None:
+        self.last_end = problem
+        self._log.info("ended: {error}", code="ended", cause=problem.code, error=str(problem))
+        self._feed(Input.END)
+
+    def _notify(self) -> None:
+        self._host.on_change(self.name)
+
+    def _start_process(self) -> None:
+        self._reason = None
         Deferred.fromCoroutine(self._spawn()).addErrback(self._on_bug)
 
     async def _spawn(self) -> None:
         try:
-            config, log = await self._house.prepare(self.request)
-            if self.state is not State.STARTING or self._detached:
+            config, log = await self._host.prepare(self.request)
+            if self.state is not State.STARTING:
                 os.close(log)
-                self._on_stopped_early()
+                if self.state is State.STOPPING:
+                    self._end(self._reason or BUG)
                 return
             self._listen()
-            self._take(self._house.spawn(self.name, config, log))
+            self._take(self._host.spawn(self.name, config, log))
         except ConfigurationRefused as refused:
-            self._on_failure(str(refused))
+            self._on_failure(refused.problem)
         except OSError as error:
-            self._on_failure(f"Raspilot cannot be started: {error}")
+            self._on_failure(Problem("cannot_spawn", f"Raspilot cannot be started: {error}"))
         else:
             self._save()
-            self._log.info("starts as process {pid}", pid=self.pid)
-            self._start_limit.touch()
-
-    def _on_stopped_early(self) -> None:
-        """The stop arrived before anything was started."""
-        if not self._detached:
-            self._end(self._why or "stopped")
+            self._log.info("starts as process {pid}", code="spawned", pid=self.pid)
+            self._start_limit.reset()
 
     def _listen(self) -> None:
-        if self._ear is None:
-            self._ear = self._house.listen(self.name, self.on_notification)
+        if self._listener is None:
+            self._listener = self._host.listen(self.name, self.on_notification)
 
-    def _take(self, child: Child) -> None:
+    def _take(self, child: Process) -> None:
         self._child = child
         child.on_end = self._on_end
         self.ports = self.phone = None
-        self._said_ready = self._said_stopping = False
+        self._is_ready = self._is_stopping = False
 
-    def _confirm(self) -> None:
+    def _check_ports(self) -> None:
         """Accept a process's report of bound ports if the kernel confirms it."""
         if self._timer is None and self._child is not None:
-            looking = self._house.open_ports(self._child.pid)
-            looking.addCallback(self._on_ports, self._child)
-            looking.addErrback(self._on_bug)
+            checking = self._host.open_ports(self._child.pid)
+            checking.addCallback(self._on_ports, self._child)
+            checking.addErrback(self._on_bug)
 
-    def _on_ports(self, found: frozenset[int] | None, child: Child) -> None:
+    def _on_ports(self, found: frozenset[int] | None, child: Process) -> None:
         if self.state is not State.STARTING or child is not self._child:
             return
         ports = self.ports or {}
-        missing = [name for name in self._policy.needed_ports if name not in ports]
+        self._unbound = [name for name in self._policy.needed_ports if name not in ports]
         if found is not None:
-            missing += [f"{name} {port}" for name, port in ports.items() if port not in found]
-        self._missing = missing
-        if not missing:
-            self._on_running()
+            self._unbound += [f"{name} {port}" for name, port in ports.items() if port not in found]
+        if not self._unbound:
+            self._feed(Input.READY)
         elif self._timer is None:
-            self._timer = self._clock.callLater(PORT_LOOK_S, self._look_again)
+            self._timer = self._clock.callLater(PORT_CHECK_S, self._recheck_ports)
 
-    def _look_again(self) -> None:
+    def _recheck_ports(self) -> None:
         self._timer = None
-        self._confirm()
+        self._check_ports()
 
-    def _on_running(self) -> None:
-        self._rest()
-        self._was_ready = True
-        self._set(State.RUNNING)
-        self._touch_watchdog()
-        self._watch_phone()
-        self._save()
-        self._log.info("runs as process {pid}, ports {ports}", pid=self.pid, ports=self.ports)
-        self._tell(None)
+    def _keep(self) -> None:
+        """Restart it from now on when it ends."""
+        self._is_kept = True
+        text = "runs as process {pid}, ports {ports}"
+        self._log.info(text, code="running", pid=self.pid, ports=str(self.ports))
 
-    def _touch_watchdog(self) -> None:
+    def _reset_start_limit(self) -> None:
+        self._start_limit.reset()
+
+    def _reset_watchdog(self) -> None:
         if self._policy.watchdog_s is not None:
-            self._watchdog.touch()
+            self._watchdog.reset()
 
     def _watch_phone(self) -> None:
         if self.phone:
             self._exit_delay.stop()
         elif self._policy.exit_delay_s is not None and not self._exit_delay.running:
             # From the loss on; an instance that repeats the report gains no time.
-            self._exit_delay.touch()
+            self._exit_delay.reset()
 
     def _on_start_limit(self) -> None:
         self._drain()
         if self.state is not State.STARTING:
             return
-        missing = "did not say that it is ready"
-        if self._said_ready and self._missing:
-            missing = f"said that it is ready but has not bound its port {self._missing[0]}"
-        self._kill(f"Raspilot {missing} within {self._policy.start_limit_s:g} s")
+        limit = f"within {self._policy.start_limit_s:g} s"
+        if self._is_ready and self._unbound:
+            missing = f"reported ready but has not bound its port {self._unbound[0]}"
+            self._kill_for(Problem("port_not_bound", f"Raspilot {missing} {limit}"))
+        else:
+            self._kill_for(Problem("not_ready", f"Raspilot did not report ready {limit}"))
 
     def _on_silence(self) -> None:
-        # The runner itself may have been blocked: first process the socket's waiting notifications.
+        # The runner itself may have been blocked: first process the waiting notifications.
         self._drain()
         if not self._watchdog.running and self.state is State.RUNNING:
-            self._kill(f"Raspilot hung: no sign of life for {self._policy.watchdog_s:g} s")
+            limit = f"{self._policy.watchdog_s:g} s"
+            self._kill_for(Problem("hung", f"Raspilot hung: no sign of life for {limit}"))
 
     def _on_phone_gone(self) -> None:
         self._drain()
         if not self.phone and self.state is State.RUNNING:
-            self.stop(f"its phone was gone for {self._policy.exit_delay_s:g} s")
+            delay = f"{self._policy.exit_delay_s:g} s"
+            self.stop(Problem("phone_gone", f"its phone was gone for {delay}"))
 
-    def _on_stopping(self) -> None:
+    def _on_stopping(self, child: Process) -> None:
         """Limit the time of a process that announced its end."""
-        self._said_stopping = True
-        if self.state is State.RUNNING and self._timer is None and self._child is not None:
-            self._rest()
-            self._timer = self._clock.callLater(self._policy.kill_delay_s, self._child.kill)
+        self._is_stopping = True
+        if self.state is State.RUNNING and self._timer is None:
+            self._cancel_timers()
+            self._timer = self._clock.callLater(self._policy.kill_delay_s, child.kill)
 
-    def _kill(self, why: str) -> None:
-        self._why = why
-        self._log.error("{why}; it is killed", why=why)
+    def _kill_for(self, reason: Problem) -> None:
+        self._reason = reason
+        self._log.error("{reason}; it is killed", code=reason.code, reason=str(reason))
+        self._kill()
+
+    def _kill(self) -> None:
         if self._child is not None:
             self._child.kill()
 
+    def _terminate(self) -> None:
+        if self._child is not None:
+            self._child.terminate()
+            self._timer = self._clock.callLater(self._policy.kill_delay_s, self._child.kill)
+
     def _on_end(self, status: int | None) -> None:
+        """Decide what follows the end of the process."""
         self._drain()
-        self._rest()
-        state, self._child = self.state, None
+        self._cancel_timers()
+        self._child = None
         how = describe_status(status)
-        if state is State.STOPPING:
-            self._end(f"{self._why} ({how})")
-        elif state is State.RUNNING:
-            clean = self._said_stopping or status in (0, -signal.SIGTERM)
+        exited = Problem("exited", f"Raspilot {how}")
+        if self.state is State.STOPPING:
+            reason = self._reason or BUG
+            self._end(Problem(reason.code, f"{reason} ({how})"))
+        elif self.state is State.RUNNING:
+            clean = self._is_stopping or status in (0, -signal.SIGTERM)
             if clean and not self._policy.always_restart:
-                self._end(f"Raspilot {how}")
+                self._end(exited)
             else:
-                self._go_on(self._why or f"Raspilot {how}")
-        elif self._why is not None:
-            self._on_failure(self._why)
+                self._retry(self._reason or exited)
+        elif self._reason is not None:
+            self._on_failure(self._reason)
         else:
-            explaining = self._house.last_words(self.name)
-            explaining.addCallback(self._explain, how)
-            explaining.addErrback(self._on_bug)
+            reading = self._host.last_log_line(self.name)
+            reading.addCallback(self._on_last_log_line, how)
+            reading.addErrback(self._on_bug)
 
-    def _explain(self, line: str | None, how: str) -> None:
-        said = f"; its log says: {line}" if line else ""
-        self._on_failure(f"Raspilot {how} while starting{said}")
+    def _on_last_log_line(self, line: str | None, how: str) -> None:
+        cause = f"; its log ends: {line}" if line else ""
+        self._on_failure(Problem("start_failed", f"Raspilot {how} while starting{cause}"))
 
-    def _on_failure(self, error: str) -> None:
-        """A start failed."""
-        self._rest()
-        if self.state is State.STARTING and (self._was_ready or self._keep):
-            self._go_on(error)
+    def _on_failure(self, problem: Problem) -> None:
+        """Handle a failed start."""
+        if self.state is State.STARTING and self._is_kept:
+            self._retry(problem)
         else:
-            self._end(error)
+            self._end(problem)
 
-    def _go_on(self, error: str) -> None:
-        """Restart after a delay, unless it ended too often."""
-        self.last_end = error
-        delay_s = self._backoff.next_delay_s(self._clock.seconds())
-        if delay_s is None:
-            self._end(f"{error}; given up after {self._backoff.count - 1} restarts")
-            return
-        self._log.error("{error}; starts again in {delay:g} s", error=error, delay=delay_s)
+    def _schedule_restart(self) -> None:
         self.ports = self.phone = None
-        self._set(State.WAITING)
-        self._timer = self._clock.callLater(delay_s, self._restart)
-        self._save()
-        self._tell(self.waiting_text())
+        self._timer = self._clock.callLater(self._restart_delay_s, self._feed, Input.START)
 
-    def waiting_text(self) -> str:
-        """Return the sentence for a client while the instance waits for its restart."""
-        return f"{self.last_end}; it is being started again"
+    def _close_child(self) -> None:
+        if self._child is not None:
+            self._child.close()
 
-    def _restart(self) -> None:
-        self._timer = None
-        self._begin()
+    def _leave_listener(self) -> None:
+        if self._listener is not None:
+            self._listener.close(remove=False)
 
-    def _end(self, error: str) -> None:
-        self._rest()
-        self.last_end = error
-        self._log.info("ended: {error}", error=error)
-        if self._ear is not None:
-            self._ear.close(remove=True)
-            self._ear = None
-        self._house.forget(self.name)
-        self._set(State.ENDED)
-        self._tell(error)
-        mourners, self._mourners = self._mourners, []
-        for mourner in mourners:
-            mourner.callback(None)
+    def _remove_traces(self) -> None:
+        listener, self._listener = self._listener, None
+        if listener is not None:
+            listener.close(remove=True)
+        self._host.forget(self.name)
 
-    def _tell(self, error: str | None) -> None:
-        waiting, self._waiting = self._waiting, []
-        for each in waiting:
-            each.callback(error)
+    def _resolve_waiters(self) -> None:
+        problem = self.waiting_problem() if self.state is State.WAITING else self.last_end
+        waiters, self._waiters = self._waiters, []
+        for waiter in waiters:
+            waiter.callback(None if self.state is State.RUNNING else problem)
 
-    def _rest(self) -> None:
-        """Cancel all timers."""
-        for deadline in (self._start_limit, self._watchdog, self._exit_delay):
-            deadline.stop()
+    def _resolve_exit_waiters(self) -> None:
+        waiters, self._exit_waiters = self._exit_waiters, []
+        for waiter in waiters:
+            waiter.callback(None)
+
+    def _cancel_timers(self) -> None:
+        for watchdog in (self._start_limit, self._watchdog, self._exit_delay):
+            watchdog.stop()
         timer, self._timer = self._timer, None
         if timer is not None and timer.active():
             timer.cancel()
 
     def _drain(self) -> None:
-        if self._ear is not None:
-            self._ear.drain()
+        if self._listener is not None:
+            self._listener.drain()
 
     def _save(self) -> None:
-        identity = None if self._child is None else self._child.identity
-        self._house.save(
-            Record(
+        self._host.save(
+            InstanceState(
                 self.request,
-                identity,
-                keep=self._was_ready or self._keep,
+                None if self._child is None else self._child.identity,
+                keep=self._is_kept,
                 ready=self.state is State.RUNNING,
                 ports=self.ports,
                 phone=self.phone,
             )
         )
 
-    def _set(self, state: State) -> None:
-        self.state = state
-        self._house.on_change(self.name)
-
     def _on_bug(self, failure: Failure) -> None:
         """Kill a process that would be left unwatched."""
-        self._log.failure("a bug in the runner", failure)
+        self._log.failure("a bug in the runner", failure, code="runner_bug")
+        self._reason = BUG
         if self._child is None:
-            self._end("the runner failed, see its log")
+            self._end(BUG)
         else:
-            self._rest()
-            self._why = "the runner failed, see its log"
-            self._set(State.STOPPING)
-            self._child.kill()
+            self._feed(Input.KILL)

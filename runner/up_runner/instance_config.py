@@ -9,9 +9,10 @@ from typing import Any
 
 import yaml
 
-from up.config.reading import read_text
-from up.config.writing import write_atomically
+from up.config.atomic_writer import write_atomically
+from up.config.loader import read_text
 from up_runner.request import Request, Scalar
+from up_runner.response import Problem
 
 FOLDER = "config"
 _PROFILE_NOTE = "profile"
@@ -22,7 +23,11 @@ Settings = dict[str, Any]
 
 
 class ConfigurationRefused(ValueError):  # noqa: N818 - it names the outcome
-    """A request or a file that is refused; the text is one sentence."""
+    """A request or a file that is refused."""
+
+    def __init__(self, code: str, text: str) -> None:
+        super().__init__(text)
+        self.problem = Problem(code, text)
 
 
 @dataclass(frozen=True, slots=True)
@@ -30,15 +35,15 @@ class InstanceConfig:
     """The rules for building configuration folders.
 
     `settable` and `dynamic_ports` map a file to keys: those that a request may set, and those that
-    are 0 unless base or profile set a port. `learned` files are kept while the profile is the same.
-    `imposed` maps a file to values of the runner itself, over base and profile.
+    are 0 unless base or profile set a port. `persisted` files are kept while the profile is the
+    same. `imposed` maps a file to values of the runner itself, over base and profile.
     """
 
     base: Path
     profiles: Path
     settable: Mapping[str, Sequence[str]] = field(default_factory=dict)
     dynamic_ports: Mapping[str, Sequence[str]] = field(default_factory=dict)
-    learned: Sequence[str] = ()
+    persisted: Sequence[str] = ()
     imposed: Mapping[str, Mapping[str, Any]] = field(default_factory=dict)
 
     def check(self, request: Request) -> None:
@@ -46,12 +51,18 @@ class InstanceConfig:
         for file, settings in request.configuration.items():
             allowed = self.settable.get(file)
             if allowed is None:
-                raise ConfigurationRefused(f"a request may not set anything of {file!a}")
+                raise ConfigurationRefused(
+                    "not_settable", f"a request may not set anything of {file!a}"
+                )
             for key in settings:
                 if key not in allowed:
-                    raise ConfigurationRefused(f"a request may not set {key!a} of {file}")
+                    raise ConfigurationRefused(
+                        "not_settable", f"a request may not set {key!a} of {file}"
+                    )
         if request.profile is not None and not (self.profiles / request.profile).is_dir():
-            raise ConfigurationRefused(f"there is no profile {request.profile} on this host")
+            raise ConfigurationRefused(
+                "unknown_profile", f"this host has no profile {request.profile}"
+            )
 
     def build(self, request: Request, folder: Path) -> Path:
         """Write the configuration for a request into the instance's folder and return its path.
@@ -64,14 +75,14 @@ class InstanceConfig:
             sources.append(self.profiles / request.profile)
         target = folder / FOLDER
         target.mkdir(mode=0o700, parents=True, exist_ok=True)
-        learned = set(self.learned) if self._same_profile(request, folder) else set()
+        persisted = set(self.persisted) if self._same_profile(request, folder) else set()
         names = {name for source in sources for name in _files(source)}
         names |= set(request.configuration) | set(self.dynamic_ports) | set(self.imposed)
         for name in sorted(names - _NOT_FOR_INSTANCES):
-            if name in learned and (target / name).is_file():
+            if name in persisted and (target / name).is_file():
                 continue
             write_atomically(target / name, self._content(name, sources, request))
-        self._remove_others(target, names, learned)
+        self._remove_others(target, names, persisted)
         write_atomically(folder / _PROFILE_NOTE, f"{request.profile or ''}\n".encode())
         return target
 
@@ -101,10 +112,10 @@ class InstanceConfig:
             return False
         return note == f"{request.profile or ''}\n"
 
-    def _remove_others(self, target: Path, names: set[str], learned: set[str]) -> None:
-        good = {f"{name}.good" for name in learned}
+    def _remove_others(self, target: Path, names: set[str], persisted: set[str]) -> None:
+        good = {f"{name}.good" for name in persisted}
         for path in target.iterdir():
-            if path.name in names | learned | good:
+            if path.name in names | persisted | good:
                 continue
             if path.is_file() or path.is_symlink():
                 path.unlink()
@@ -120,7 +131,7 @@ def _read(path: Path) -> str | None:
     problems: list[str] = []
     text = read_text(path, lambda line, column, what: problems.append(what))
     if problems:
-        raise ConfigurationRefused(f"the configuration file {path} {problems[0]}")
+        raise ConfigurationRefused("bad_file", f"the configuration file {path} {problems[0]}")
     return text
 
 
@@ -131,12 +142,14 @@ def _parsed(text: str, path: Path) -> Settings:
         mark = getattr(error, "problem_mark", None)
         line = f" in line {mark.line + 1}" if mark else ""
         raise ConfigurationRefused(
-            f"the configuration file {path} is not valid YAML{line}"
+            "bad_file", f"the configuration file {path} is not valid YAML{line}"
         ) from None
     if found is None:
         return {}
     if not isinstance(found, dict):
-        raise ConfigurationRefused(f"the configuration file {path} is not a map of keys")
+        raise ConfigurationRefused(
+            "bad_file", f"the configuration file {path} is not a map of keys"
+        )
     return found
 
 
@@ -157,8 +170,8 @@ def _like(present: object, value: Scalar, what: str) -> Scalar:
             # Python counts bool as a number; a configuration file does not.
             fits = isinstance(value, kind) and (kind is bool or not isinstance(value, bool))
             if not fits:
-                raise ConfigurationRefused(f"{what} must be {noun}")
+                raise ConfigurationRefused("wrong_type", f"{what} must be {noun}")
             return value
     if isinstance(present, dict | list):
-        raise ConfigurationRefused(f"{what} cannot be set by a request")
+        raise ConfigurationRefused("wrong_type", f"{what} cannot be set by a request")
     return value

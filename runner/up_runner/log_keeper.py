@@ -69,7 +69,7 @@ class LogKeeper:
             self._begins.pop(name, None)
         return True
 
-    def last_words(self, name: str) -> str | None:
+    def last_log_line(self, name: str) -> str | None:
         """Return the reason for an instance's end, from the log since it was last opened."""
         begin = self._begins.get(name, 0)
         try:
@@ -80,7 +80,7 @@ class LogKeeper:
                 text = file.read().decode("utf-8", "replace")
         except OSError:
             return None
-        return last_words(text)
+        return last_log_line(text)
 
     def newest_s(self, name: str) -> float:
         """Return the wall clock time of the last write to an instance's log; 0 without a log."""
@@ -114,7 +114,7 @@ class LogKeeper:
         return path.with_name(f"{path.name}.{number}")
 
 
-def last_words(text: str) -> str | None:
+def last_log_line(text: str) -> str | None:
     """Return the most informative part of a log's end, in one bounded line.
 
     Plain sentences come first (consecutive ones are joined), then the last error, then the last

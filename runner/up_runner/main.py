@@ -18,7 +18,7 @@ from up.system.clock import use_monotonic_time
 from up.system.pid_file import service
 from up.version import VERSION
 from up_runner.config import RUNNER
-from up_runner.places import own_root
+from up_runner.paths import own_root
 
 EXIT_CANNOT_START = 1
 EXIT_CONFIGURATION = 2
@@ -28,8 +28,8 @@ def parse_arguments(arguments: Sequence[str] | None = None) -> argparse.Namespac
     """Return the command line's options."""
     parser = argparse.ArgumentParser(
         prog="up-runner",
-        description="Starts a Raspilot for every aircraft whose phone asks for one, on TCP port "
-        "3002, and watches it.",
+        description="Starts and supervises a Raspilot for each aircraft whose phone requests one "
+        "on TCP port 3002.",
         epilog='Try it: echo \'{"aircraft": "glider-1"}\' | nc 127.0.0.1 3002',
     )
     parser.add_argument(

@@ -1,4 +1,4 @@
-"""One connection to the request port: JSON lines, or a thesis client that sends any bytes."""
+"""One connection to the request port: JSON lines, or a legacy client that sends any bytes."""
 
 from __future__ import annotations
 
@@ -15,16 +15,16 @@ from twisted.python.failure import Failure
 from zope.interface import implementer
 
 from up.system.clock import Clock, Timer
-from up_runner.answer import Answer
-from up_runner.deadline import Deadline
 from up_runner.request import MAX_LINE, MalformedRequest, Request, parse
+from up_runner.response import BUG, Problem, Response
+from up_runner.watchdog import Watchdog
 
 SILENCE_S = 1.0
 UNFINISHED_S = 10.0
 CLOSE_S = 1.0
 
 
-class Desk(typing.Protocol):
+class Port(typing.Protocol):
     """The services of the port for a connection."""
 
     clock: Clock
@@ -32,22 +32,22 @@ class Desk(typing.Protocol):
     counts: Counter[str]
     log: Logger
 
-    def ask(self, connection: RequestConnection, request: Request) -> Deferred[Answer]:
+    def ask(self, connection: RequestConnection, request: Request) -> Deferred[Response]:
         """Start answering a request."""
 
-    def encode(self, answer: Answer, host: str) -> bytes:
+    def encode(self, response: Response, host: str) -> bytes:
         """Return the line for the client."""
 
     def on_gone(self, connection: RequestConnection) -> None:
         """Remove a connection."""
 
 
-class Speech(enum.Enum):
+class Dialect(enum.Enum):
     """The protocol of a connection, determined by its first byte."""
 
     UNKNOWN = "unknown"
     LINES = "lines"
-    THESIS = "thesis"
+    LEGACY = "legacy"
 
 
 @implementer(IHalfCloseableProtocol)
@@ -56,29 +56,29 @@ class RequestConnection(Protocol):
 
     transport: Any
 
-    def __init__(self, desk: Desk, host: str) -> None:
+    def __init__(self, port: Port, host: str) -> None:
         self.host = host
-        self.heard_s = 0.0
+        self.last_rx_s = 0.0
         self.busy = False
-        self._desk = desk
-        self._speech = Speech.UNKNOWN
+        self._port = port
+        self._dialect = Dialect.UNKNOWN
         self._buffer = bytearray()
         self._searched = 0
         """Bytes of the buffer known to hold no line feed."""
         self._closing = False
         self._answered = False
-        self._idle = Deadline(desk.clock, desk.idle_s, self._on_idle)
-        self._unfinished = Deadline(desk.clock, UNFINISHED_S, self._on_unfinished)
+        self._idle = Watchdog(port.clock, port.idle_s, self._on_idle)
+        self._unfinished = Watchdog(port.clock, UNFINISHED_S, self._on_unfinished)
         self._silence: Timer | None = None
-        self._reader_full = False
-        self._taking = False
-        self._heard_all = False
+        self._output_full = False
+        self._parsing = False
+        self._input_ended = False
 
     def connectionMade(self) -> None:  # noqa: N802 - Twisted's name
         """Start waiting for the first byte."""
         self.transport.setTcpNoDelay(True)
         self.transport.registerProducer(self, True)
-        self._touch()
+        self._on_activity()
 
     def connectionLost(self, reason: Failure = connectionDone) -> None:  # noqa: N802
         """Remove the client; its request continues."""
@@ -86,26 +86,26 @@ class RequestConnection(Protocol):
         self._idle.stop()
         self._unfinished.stop()
         self._cancel_silence()
-        self._desk.on_gone(self)
+        self._port.on_gone(self)
 
     def dataReceived(self, data: bytes) -> None:  # noqa: N802 - Twisted's name
         """Handle received data."""
         if self._closing:
             return
-        self._touch()
-        if self._speech is Speech.UNKNOWN:
-            self._speech = Speech.LINES if data.startswith(b"{") else Speech.THESIS
-        if self._speech is Speech.THESIS:
+        self._on_activity()
+        if self._dialect is Dialect.UNKNOWN:
+            self._dialect = Dialect.LINES if data.startswith(b"{") else Dialect.LEGACY
+        if self._dialect is Dialect.LEGACY:
             # Whatever it sends, it requests the one nameless instance.
             if not self.busy:
-                self._ask(Request())
+                self._handle(Request())
             return
         self._buffer += data
-        self._take_lines()
+        self._handle_lines()
 
     def readConnectionLost(self) -> None:  # noqa: N802 - Twisted's name
-        """Answer a client that sends no more but still reads, as `nc -N` does."""
-        self._heard_all = True
+        """Response a client that sends no more but still reads, as `nc -N` does."""
+        self._input_ended = True
         self._set_reading()
         if self.busy or self._closing:
             return
@@ -120,12 +120,12 @@ class RequestConnection(Protocol):
 
     def pauseProducing(self) -> None:  # noqa: N802 - Twisted's name
         """Stop reading from a client that does not read our answers."""
-        self._reader_full = True
+        self._output_full = True
         self._set_reading()
 
     def resumeProducing(self) -> None:  # noqa: N802 - Twisted's name
         """Resume reading."""
-        self._reader_full = False
+        self._output_full = False
         self._set_reading()
 
     def stopProducing(self) -> None:  # noqa: N802 - Twisted's name
@@ -136,16 +136,16 @@ class RequestConnection(Protocol):
         self._closing = True
         self.transport.abortConnection()
 
-    def _take_lines(self) -> None:
-        if self._taking:
+    def _handle_lines(self) -> None:
+        if self._parsing:
             return
-        self._taking = True
+        self._parsing = True
         self._cancel_silence()
         while not self.busy and not self._closing:
             end = self._buffer.find(b"\n", self._searched)
             self._searched = len(self._buffer) if end < 0 else 0
             if max(end, self._searched) > MAX_LINE:
-                self._refuse(f"the request is longer than {MAX_LINE} bytes")
+                self._reject("too_long", f"the request is longer than {MAX_LINE} bytes")
                 self._close()
             elif end < 0:
                 self._wait_for_more()
@@ -154,28 +154,28 @@ class RequestConnection(Protocol):
                 self._unfinished.stop()
                 line = bytes(self._buffer[:end])
                 del self._buffer[: end + 1]
-                self._take(line)
-        self._taking = False
+                self._handle_line(line)
+        self._parsing = False
 
-    def _take(self, line: bytes) -> None:
+    def _handle_line(self, line: bytes) -> None:
         if not line.strip():
             return
         try:
             request = parse(line)
         except MalformedRequest as error:
-            self._refuse(str(error))
+            self._reject("malformed_request", str(error))
         else:
-            self._ask(request)
+            self._handle(request)
 
     def _wait_for_more(self) -> None:
-        """An incomplete first line belongs to a thesis client; a later one is ignored."""
+        """An incomplete first line belongs to a legacy client; a later one is ignored."""
         if not self._buffer:
             return
         if not self._unfinished.running:
             # Counted from its first byte: sending byte by byte gains no time.
-            self._unfinished.touch()
+            self._unfinished.reset()
         if not self._answered:
-            self._silence = self._desk.clock.callLater(SILENCE_S, self._on_silence)
+            self._silence = self._port.clock.callLater(SILENCE_S, self._on_silence)
 
     def _on_silence(self) -> None:
         self._silence = None
@@ -184,43 +184,43 @@ class RequestConnection(Protocol):
             # A complete request without its line feed is still a request.
             request = parse(line)
         except MalformedRequest:
-            self._speech = Speech.THESIS
+            self._dialect = Dialect.LEGACY
             request = Request()
-        self._ask(request)
+        self._handle(request)
 
     def _on_unfinished(self) -> None:
-        self._refuse(f"the request was not finished within {UNFINISHED_S:g} s")
+        self._reject("unfinished", f"the request was not finished within {UNFINISHED_S:g} s")
         self._close()
 
-    def _ask(self, request: Request) -> None:
+    def _handle(self, request: Request) -> None:
         self.busy = True
         self._idle.stop()
         self._unfinished.stop()
         self._set_reading()
-        self._desk.ask(self, request).addBoth(self._on_answer, request)
+        self._port.ask(self, request).addBoth(self._on_response, request)
 
-    def _on_answer(self, answer: Answer | Failure, request: Request) -> None:
+    def _on_response(self, response: Response | Failure, request: Request) -> None:
         self.busy = False
-        if isinstance(answer, Failure):
-            self._desk.log.failure("a bug in the runner", answer)
-            answer = Answer(request.aircraft, error="the runner failed, see its log")
+        if isinstance(response, Failure):
+            self._port.log.failure("a bug in the runner", response, code="runner_bug")
+            response = Response(request.aircraft, error=BUG)
         if self._closing:
             return
-        self._touch()
-        self._write(answer)
+        self._on_activity()
+        self._write(response)
         self._set_reading()
-        if self._speech is Speech.LINES:
-            self._take_lines()
-        if self._heard_all and not self.busy and not self._taking:
+        if self._dialect is Dialect.LINES:
+            self._handle_lines()
+        if self._input_ended and not self.busy and not self._parsing:
             self.transport.loseConnection()
 
-    def _refuse(self, error: str) -> None:
-        self._desk.counts["malformed"] += 1
-        self._write(Answer(None, error=error))
+    def _reject(self, code: str, text: str) -> None:
+        self._port.counts["malformed"] += 1
+        self._write(Response(None, error=Problem(code, text)))
 
-    def _write(self, answer: Answer) -> None:
+    def _write(self, response: Response) -> None:
         self._answered = True
-        self.transport.write(self._desk.encode(answer, self.host))
+        self.transport.write(self._port.encode(response, self.host))
 
     def _close(self) -> None:
         """Send the answer, read nothing more, and close soon."""
@@ -233,20 +233,20 @@ class RequestConnection(Protocol):
         self._set_reading()
         self.transport.unregisterProducer()
         self.transport.loseWriteConnection()
-        self._silence = self._desk.clock.callLater(CLOSE_S, self.drop)
+        self._silence = self._port.clock.callLater(CLOSE_S, self.drop)
 
     def _set_reading(self) -> None:
-        if self.busy or self._reader_full or self._closing or self._heard_all:
+        if self.busy or self._output_full or self._closing or self._input_ended:
             self.transport.pauseProducing()
         else:
             self.transport.resumeProducing()
 
-    def _touch(self) -> None:
-        self.heard_s = self._desk.clock.seconds()
-        self._idle.touch()
+    def _on_activity(self) -> None:
+        self.last_rx_s = self._port.clock.seconds()
+        self._idle.reset()
 
     def _on_idle(self) -> None:
-        self._desk.counts["idle"] += 1
+        self._port.counts["idle"] += 1
         self.drop()
 
     def _cancel_silence(self) -> None:

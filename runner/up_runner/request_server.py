@@ -13,12 +13,12 @@ from twisted.logger import Logger
 from up.log import Limited
 from up.system.addresses import is_private, neighbourhood, plain
 from up.system.clock import Clock
-from up_runner.answer import Answer
 from up_runner.request import Request
 from up_runner.request_connection import RequestConnection
+from up_runner.response import Response
 
-SAID_AGAIN_S = 10.0
-Ask = Callable[[Request], Deferred[Answer]]
+LOG_INTERVAL_S = 10.0
+Ask = Callable[[Request], Deferred[Response]]
 
 
 class RequestServer(Factory):
@@ -33,7 +33,7 @@ class RequestServer(Factory):
         self,
         clock: Clock,
         ask: Ask,
-        encode: Callable[[Answer, str], bytes],
+        encode: Callable[[Response, str], bytes],
         *,
         limit: int,
         address_limit: int,
@@ -49,7 +49,7 @@ class RequestServer(Factory):
         self._limit = limit
         self._address_limit = address_limit
         self._accept_public = accept_public
-        self._limited = Limited(cast(Any, clock), SAID_AGAIN_S)
+        self._limited = Limited(cast(Any, clock), LOG_INTERVAL_S)
         self._connections: set[RequestConnection] = set()
         self._by_source: Counter[str] = Counter()
 
@@ -60,16 +60,15 @@ class RequestServer(Factory):
         """Return a connection for a peer, or None to reject it."""
         host = plain(addr.host)
         if not self._accept_public and not is_private(host):
-            self._turn_away(
-                "public", host, "is a public address; i_accept_plain: true in runner.yml lets it in"
-            )
+            reason = "it is a public address; i_accept_plain: true in runner.yml permits it"
+            self._reject("public_address", host, reason)
             return None
         source = neighbourhood(host)
         if self._by_source[source] >= self._address_limit:
-            self._turn_away("address limit", host, "has too many connections")
+            self._reject("address_limit", host, "it has too many connections")
             return None
         if len(self._connections) >= self._limit and not self._make_room():
-            self._turn_away("limit", host, "comes when all connections are taken")
+            self._reject("connection_limit", host, "all connections are in use")
             return None
         connection = RequestConnection(self, host)
         connection.factory = self
@@ -77,7 +76,7 @@ class RequestServer(Factory):
         self._by_source[source] += 1
         return connection
 
-    def ask(self, connection: RequestConnection, request: Request) -> Deferred[Answer]:
+    def ask(self, connection: RequestConnection, request: Request) -> Deferred[Response]:
         """Start answering a request."""
         self._limited.log(
             self.log.info,
@@ -89,7 +88,7 @@ class RequestServer(Factory):
         )
         return self._ask(request)
 
-    def encode(self, answer: Answer, host: str) -> bytes:
+    def encode(self, answer: Response, host: str) -> bytes:
         """Return the line for the client at `host`."""
         return self._encode(answer, host)
 
@@ -113,14 +112,19 @@ class RequestServer(Factory):
         silent = [each for each in self._connections if not each.busy]
         if not silent:
             return False
-        oldest = min(silent, key=lambda each: each.heard_s)
-        self.counts["made room"] += 1
+        oldest = min(silent, key=lambda each: each.last_rx_s)
+        self.counts["displaced"] += 1
         self.on_gone(oldest)
         oldest.drop()
         return True
 
-    def _turn_away(self, why: str, host: str, what: str) -> None:
-        self.counts[why] += 1
+    def _reject(self, code: str, host: str, reason: str) -> None:
+        self.counts[code] += 1
         self._limited.log(
-            self.log.warn, "turned away {host}: it {what}", key=why, host=host, what=what
+            self.log.warn,
+            "rejected {host}: {reason}",
+            key=code,
+            code=code,
+            host=host,
+            reason=reason,
         )

@@ -12,11 +12,15 @@ from up.system.pid_file import PidFile, PidFileHeld
 PID_FILE = ".runner.pid"
 """Begins with a dot, unlike the names of instances."""
 # sun_path holds 108 bytes with the closing zero; the longest path is <folder>/<32>/notify.
-LONGEST = 107 - len("/notify") - 33
+MAX_PATH_BYTES = 107 - len("/notify") - 33
 
 
 class RunFolderError(Exception):
-    """The folder cannot be used; the text is one sentence for the user."""
+    """The folder cannot be used: a code and one sentence."""
+
+    def __init__(self, code: str, text: str) -> None:
+        super().__init__(text)
+        self.code = code
 
 
 def default_run_folder(environ: Mapping[str, str], uid: int) -> Path:
@@ -43,10 +47,11 @@ class RunFolder:
         Raises RunFolderError when its path is too long for a socket, when it belongs to another
         user or is open to others, or when another runner holds it.
         """
-        if len(os.fsencode(self.path)) > LONGEST:
+        if len(os.fsencode(self.path)) > MAX_PATH_BYTES:
             raise RunFolderError(
-                f"the run folder {self.path} has a longer path than {LONGEST} bytes, too long for "
-                "the sockets in it"
+                "path_too_long",
+                f"the path of the run folder {self.path} is longer than {MAX_PATH_BYTES} bytes: "
+                "too long for the sockets in it",
             )
         try:
             self.path.mkdir(mode=0o700, parents=True, exist_ok=True)
@@ -54,12 +59,12 @@ class RunFolder:
             self._pid_file.take()
         except PidFileHeld as held:
             raise RunFolderError(
-                f"another runner (process {held.holder}) uses the run folder {self.path}"
+                "run_folder_in_use",
+                f"another runner (process {held.holder}) uses the run folder {self.path}",
             ) from None
         except OSError as error:
-            raise RunFolderError(
-                f"the run folder {self.path} cannot be used: {error.strerror or error}"
-            ) from None
+            text = f"the run folder {self.path} cannot be used: {error.strerror or error}"
+            raise RunFolderError("run_folder_unusable", text) from None
 
     def instance(self, name: str) -> Path:
         """Return the folder of one instance; `name` is a checked name and has no leading dot."""
@@ -80,10 +85,10 @@ class RunFolder:
     def _check_owner(self) -> None:
         found = os.lstat(self.path)
         if not stat.S_ISDIR(found.st_mode):
-            raise RunFolderError(f"the run folder {self.path} is not a folder")
+            raise RunFolderError("not_a_folder", f"the run folder {self.path} is not a folder")
         if found.st_uid != os.geteuid():
-            raise RunFolderError(f"the run folder {self.path} belongs to user {found.st_uid}")
+            text = f"the run folder {self.path} belongs to user {found.st_uid}"
+            raise RunFolderError("foreign_folder", text)
         if found.st_mode & 0o077:
-            raise RunFolderError(
-                f"the run folder {self.path} is open to other users; chmod 700 closes it"
-            )
+            text = f"the run folder {self.path} is open to other users; chmod 700 closes it"
+            raise RunFolderError("open_folder", text)

@@ -15,17 +15,16 @@ from twisted.python.failure import Failure
 
 from up.system.addresses import is_private, is_wildcard
 from up.system.notify import Notifier, WatchdogPinger
-from up_runner.answer import Answer
-from up_runner.backoff import RestartPolicy
 from up_runner.config import RunnerConfig
-from up_runner.host import Application, Host
-from up_runner.house import Policy
 from up_runner.instance_config import InstanceConfig
+from up_runner.instance_host import Application, InstanceHost
 from up_runner.instances import Instances
 from up_runner.log_keeper import LogKeeper
-from up_runner.places import Places
+from up_runner.paths import Paths
+from up_runner.policy import Policy, RestartPolicy
 from up_runner.request import Request
 from up_runner.request_server import RequestServer
+from up_runner.response import Response
 from up_runner.run_folder import RunFolder, RunFolderError
 
 KILL_DELAY_S = 5.0
@@ -33,7 +32,11 @@ _SUPERVISED = ("NOTIFY_SOCKET", "INVOCATION_ID", "UPSTART_JOB")
 
 
 class CannotStart(Exception):  # noqa: N818 - the text is the message
-    """The runner cannot start; the text is one sentence for the user."""
+    """The runner cannot start: a code and one sentence."""
+
+    def __init__(self, code: str, text: str) -> None:
+        super().__init__(text)
+        self.code = code
 
 
 class Runner:
@@ -48,14 +51,14 @@ class Runner:
     ) -> None:
         self._reactor = reactor
         self._config = config
-        self._places = Places.of(config, config_folder, environ, os.geteuid())
+        self._paths = Paths.of(config, config_folder, environ, os.geteuid())
         self._stops_instances = config.stop_instances_on_exit
         if self._stops_instances is None:
             self._stops_instances = not any(environ.get(name) for name in _SUPERVISED)
         self._log = Logger(namespace="runner")
         self._notifier = Notifier.from_environment(environ)
         self._pinger = WatchdogPinger(reactor, lambda: True, self._notifier, environ)
-        self._run_folder = RunFolder(self._places.run)
+        self._run_folder = RunFolder(self._paths.run)
         self.instances = Instances(
             self._host(environ),
             policy_of(config),
@@ -85,7 +88,7 @@ class Runner:
         try:
             self._run_folder.take()
         except RunFolderError as error:
-            raise CannotStart(str(error)) from None
+            raise CannotStart(error.code, str(error)) from None
         try:
             self._port = self._reactor.listenTCP(
                 self._config.port, self.server, interface=self._config.address
@@ -93,8 +96,9 @@ class Runner:
         except CannotListenError as error:
             self._run_folder.release()
             raise CannotStart(
-                f"port {self._config.port} cannot be listened on: {error.socketError}; "
-                "port in runner.yml or --port names another"
+                "cannot_listen",
+                f"cannot listen on port {self._config.port}: {error.socketError}; "
+                "set another port in runner.yml or with --port",
             ) from None
         self.instances.open()
         self._log.info("listens on port {port}", code="port_open", port=self.port)
@@ -110,35 +114,36 @@ class Runner:
             await self._port.stopListening()
             self.server.close()
             if self._stops_instances and len(self.instances):
-                self._log.info("stops its instances")
+                self._log.info("stops its instances", code="stopping_instances")
                 await self.instances.stop_all()
             elif len(self.instances):
-                self._log.info("leaves its instances running: {all}", all=self.instances.summary())
+                text = "leaves its instances running: {all}"
+                self._log.info(text, code="leaving_instances", all=self.instances.summary())
             self.instances.close()
         self._pinger.stop()
         self._run_folder.release()
 
-    def _host(self, environ: Mapping[str, str]) -> Host:
-        config, places = self._config, self._places
+    def _host(self, environ: Mapping[str, str]) -> InstanceHost:
+        config, paths = self._config, self._paths
         black_box = config.mode == "black box"
         application = Application(
-            places.python, places.script, places.root, config.mode, config.watchdog_s or None
+            paths.python, paths.script, paths.root, config.mode, config.watchdog_s or None
         )
         instance_config = InstanceConfig(
-            places.base,
-            places.profiles,
+            paths.base,
+            paths.profiles,
             config.settable,
             # In the aircraft, the phone expects the default ports of its Raspberry Pi.
             config.dynamic_ports if black_box else {},
-            config.learned_files,
+            config.persisted_files,
             self._proxy_settings(),
         )
-        logs = LogKeeper(places.logs, config.logs.size, config.logs.keep)
-        return Host(
+        logs = LogKeeper(paths.logs, config.logs.size, config.logs.keep)
+        return InstanceHost(
             self._reactor,
             application,
             self._run_folder,
-            places.instances,
+            paths.instances,
             instance_config,
             logs,
             {
@@ -159,26 +164,32 @@ class Runner:
         try:
             public = not is_wildcard(address) and not is_private(address)
         except ValueError:
-            raise CannotStart(f"address in runner.yml is no address: {address!r}") from None
+            raise CannotStart(
+                "bad_address", f"address in runner.yml is not an IP address: {address!r}"
+            ) from None
         if public and not self._config.i_accept_plain:
             raise CannotStart(
+                "public_address",
                 f"{address} is a public address and requests are not authenticated; "
-                "i_accept_plain: true in runner.yml accepts that"
+                "i_accept_plain: true in runner.yml accepts that",
             )
         if os.geteuid() == 0 and not self._config.i_accept_root:
             raise CannotStart(
+                "root",
                 "it runs as root, and so would every instance; start it as another user, or set "
-                "i_accept_root: true in runner.yml"
+                "i_accept_root: true in runner.yml",
             )
-        if not self._places.script.is_file():
+        if not self._paths.script.is_file():
             raise CannotStart(
-                f"there is no script {self._places.script}; "
-                "application root and script path in runner.yml name it"
+                "no_script",
+                f"no such script: {self._paths.script}; "
+                "application root and script path in runner.yml name it",
             )
-        if not self._places.base.is_dir():
+        if not self._paths.base.is_dir():
             self._log.warn(
-                "there is no folder {base}: instances start with their defaults",
-                base=self._places.base,
+                "no such folder: {base}; instances start with their defaults",
+                code="no_base",
+                base=str(self._paths.base),
             )
 
     def _autostart(self) -> None:
@@ -187,28 +198,33 @@ class Runner:
         starting = Deferred.fromCoroutine(self.instances.spawn(request, keep=True))
         starting.addCallbacks(self._on_autostart, self._on_bug)
 
-    def _on_autostart(self, answer: Answer) -> None:
-        if answer.error:
-            self._log.error("{name}: {error}", name=answer.instance, error=answer.error)
+    def _on_autostart(self, response: Response) -> None:
+        if response.error:
+            self._log.error(
+                "{name}: {error}",
+                code=response.error.code,
+                name=response.instance,
+                error=str(response.error),
+            )
 
     def _on_bug(self, failure: Failure) -> None:
-        self._log.failure("a bug in the runner", failure)
+        self._log.failure("a bug in the runner", failure, code="runner_bug")
 
-    def _ask(self, request: Request) -> Deferred[Answer]:
+    def _ask(self, request: Request) -> Deferred[Response]:
         if request.action == "status":
-            answered: Deferred[Answer] = Deferred()
-            answered.callback(self.instances.status(request.aircraft))
-            return answered
+            response: Deferred[Response] = Deferred()
+            response.callback(self.instances.status(request.aircraft))
+            return response
         return Deferred.fromCoroutine(self.instances.spawn(request))
 
-    def _encode(self, answer: Answer, host: str) -> bytes:
+    def _encode(self, response: Response, host: str) -> bytes:
         proxy = self._config.proxy
         where = {
             "host": proxy.host,
             "airborne": proxy.airborne_port,
             "ground": proxy.ground_port,
         }
-        return answer.encode(host, where if proxy.host else None)
+        return response.encode(host, where if proxy.host else None)
 
     def _on_change(self) -> None:
         self._notifier.status(self.instances.summary())
@@ -230,7 +246,7 @@ def policy_of(config: RunnerConfig) -> Policy:
         kill_delay_s=KILL_DELAY_S,
         restarts=RestartPolicy(
             restarts.delay_s,
-            restarts.longest_delay_s,
+            restarts.max_delay_s,
             restarts.limit if black_box else None,
             restarts.period_s,
         ),

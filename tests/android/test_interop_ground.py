@@ -148,13 +148,14 @@ def test_gains_with_ack_fly_in_the_firmware_and_an_undo_brings_the_old_back(syst
     console.until(lambda: console.all("gains")[-1]["flying"] == before, "the old ones")
     too_much = {**wanted, "ratePIDs": {**wanted["ratePIDs"], "ailerons": {"p": 51, "i": 0, "d": 0}}}
     console.say(gains=too_much, tag="much")
-    console.until(lambda: any("50" in each["text"] for each in console.all("notice")), "the bound")
+    console.until(lambda: console.all("notice"), "the bound")
+    assert console.all("notice")[-1]["code"] == "invalid_input"
 
 
 def test_arming_with_the_beacon_and_no_gains_in_flight(system, console):
     board, ground = system.board, system.daemon.ground
     refused = console.ask("up.arm")
-    assert refused["outcome"] == "NACK" and "AUX2 is low" in refused["reason"]
+    assert (refused["outcome"], refused["code"]) == ("NACK", "refused")
     # The firmware arms on an edge that follows 300 ms of low.
     board.pass_us(400_000)
     board.move(aux2=2000)
@@ -163,7 +164,6 @@ def test_arming_with_the_beacon_and_no_gains_in_flight(system, console):
     refused = console.gains({**flying, "ratePIDs": {
         axis: {**pid, "p": pid["p"] + 1} for axis, pid in flying["ratePIDs"].items()}})  # fmt: skip
     assert (refused["outcome"], refused["code"]) == ("NACK", "forbidden")
-    assert "tune_in_flight" in refused["reason"]
     board.pass_us(2_300_000)
     assert console.ask("up.disarm")["outcome"] == "ACK"
     console.sees("disarmed by the ground", armed=False)
@@ -199,7 +199,7 @@ def test_ages_are_honest_behind_a_slow_link(system, console):
             far.until(lambda: len(far.frames) > begun + 40, "frames of the slower link")
             slow = compare(near, far, 15)
             assert all(frame["way_ms"] >= 1000 * WAY_S for frame in far.frames)
-            assert far.ask("up.disarm")["code"] == "no_seat"
+            assert far.ask("up.disarm")["code"] == "no_control"
     assert quick[0] >= 1000 * WAY_S and slow[0] >= 500
     for true_ms, told_ms in (quick, slow):
         assert told_ms == pytest.approx(true_ms, abs=120), (quick, slow)
@@ -228,7 +228,7 @@ def test_gains_over_a_link_of_300_ms(system, console):
         console.say(seat={"give": console.status["asked_by"]})
         far.holds()
         console.until(lambda: console.status["seat"] == "listen", "that it listens now")
-        assert console.ask("up.disarm")["code"] == "no_seat"
+        assert console.ask("up.disarm")["code"] == "no_control"
         far.until(lambda: far.all("gains"), "the gains by themselves")
         flying = far.all("gains")[-1]["flying"]
         rate = {axis: {**pid, "d": 0.25} for axis, pid in flying["ratePIDs"].items()}

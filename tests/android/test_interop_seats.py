@@ -82,7 +82,7 @@ def test_the_seat_goes_to_the_python_ground_and_back(proxy, daemon, tmp_path):
             assert await python.ask("up.telemetry.frequency", "p1", frequency=50) == "up.ack"
             refused = java.ask_later("up.telemetry.frequency", frequency=70)
             await until(lambda: java.answer(refused), what="Java's refusal")
-            assert java.answer(refused)["code"] == "no_seat"
+            assert java.answer(refused)["code"] == "no_control"
 
             java.say(seat="request")
             await until(lambda: python.link.status.asked_by, what="that Python is asked")

@@ -10,9 +10,9 @@ from importlib import import_module
 import pytest
 
 from bench import __main__ as program
-from bench import bus, cascade, codecs, firmware, latency, page, relay
+from bench import bus, codecs, firmware, latency, page, relay
 from bench.board import Board, Latency, terminal
-from bench.table import LeftOutError, Row, compared, figure, format_table
+from bench.table import Row, compared, figure, format_table
 from bench.timing import Limit, Spread, rounds_ns
 from tests.support.firmware import build_firmware
 from tests.support.tools import need_tool
@@ -48,11 +48,6 @@ def test_the_spread_is_the_median_between_the_quartiles():
 )
 def test_a_limit_is_met_missed_or_cannot_be_judged(spread, limit, met):
     assert spread.meets(limit) is met
-
-
-def test_one_round_alone_cannot_be_judged():
-    assert Spread.of([1.0]).meets(AT_MOST_2) is None
-    assert compared("a", "us", [1.0], "peer", [1.0], AT_MOST_2).is_noisy
 
 
 def test_the_ratio_is_the_median_of_the_rounds_ratios():
@@ -226,19 +221,6 @@ def test_a_failed_subject_does_not_affect_others(monkeypatch, capsys, error):
     assert "no daemon" in printed.out
     assert "cascade of 6 PIDs" in printed.out
     assert "cascade of 6 PIDs" in printed.err
-
-
-def test_a_subject_left_out_halfway_keeps_its_rows(monkeypatch):
-    def partly(quick):
-        yield Row("before", "1")
-        raise LeftOutError("no JSBSim")
-
-    monkeypatch.setattr(cascade, "rows", partly)
-    rows = program.measure(["cascade"], True, lambda _: None)
-    assert [(row.what, row.ours, row.left_out) for row in rows] == [
-        ("before", "1", ""),
-        ("cascade", "", "no JSBSim"),
-    ]
 
 
 def test_missing_answers_are_counted():

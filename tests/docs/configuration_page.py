@@ -7,12 +7,11 @@ from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import Any
 
-from up.cli.system import cog_files, system_of
+from up.cli.verbs import cog_files, system_of
 from up.config import ConfigFile
-from up.config.disabled_modules import DISABLED_MODULES
-from up.config.shape import Entry, ListOf, MapOf, Shape
+from up.config.application import DISABLED_MODULES
+from up.config.schema import Entry, ListOf, MapOf, Schema, plain_value
 from up.config.template import yaml_scalar
-from up.config.values import plain_value
 from up.fields import Constraint, number_text
 from up.flight_controller.pids_file import PIDS
 from up.loading.application import UP_FILE_CONFIG
@@ -41,20 +40,20 @@ def tables() -> str:
     return "\n".join(line for file in configuration_files() for line in _table(file))
 
 
-def keys_of(shape: Shape, above: str = "") -> Iterator[str]:
+def keys_of(schema: Schema, above: str = "") -> Iterator[str]:
     """Yield every key of a file, those of sections as ``section: key``."""
-    for entry in shape.entries:
+    for entry in schema.entries:
         yield above + entry.name
-        if isinstance(entry.spec, Shape):
+        if isinstance(entry.spec, Schema):
             yield from keys_of(entry.spec, f"{above}{entry.name}: ")
 
 
 def _table(file: ConfigFile[Any]) -> Iterator[str]:
     yield f"## {file.filename}\n"
-    yield f"{' '.join(file.shape.comment.split())}\n"
+    yield f"{' '.join(file.schema.comment.split())}\n"
     yield "| key | default | unit, range | |"
     yield "|---|---|---|---|"
-    yield from _rows(file.shape.entries, "")
+    yield from _rows(file.schema.entries, "")
     yield ""
 
 
@@ -62,7 +61,7 @@ def _rows(entries: Iterable[Entry], above: str) -> Iterator[str]:
     for entry in entries:
         comment = " ".join(entry.comment.split()).replace("|", "\\|")
         name = f"`{above}{entry.name}`"
-        if isinstance(entry.spec, Shape):
+        if isinstance(entry.spec, Schema):
             yield f"| {name} | | | {comment} |"
             yield from _rows(entry.spec.entries, f"{above}{entry.name}: ")
         else:

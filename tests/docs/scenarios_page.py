@@ -6,8 +6,8 @@ from collections.abc import Iterable, Iterator
 from pathlib import Path
 
 from tests.docs.configuration_page import BEGIN, END, _bounds, _default
-from up.config.shape import Entry, ListOf, Shape
-from up_simulator.scenario.file import SHAPE
+from up.config.schema import Entry, ListOf, Schema
+from up_simulator.scenario.file import SCHEMA
 from up_simulator.scenario.signals import SIGNALS, Kind
 
 PAGE = Path(__file__).parents[2] / "docs" / "scenarios.md"
@@ -35,29 +35,29 @@ def _key_tables() -> Iterator[str]:
     yield "## Keys\n"
     yield "| key | default | unit, range | |"
     yield "|---|---|---|---|"
-    lists: list[tuple[str, Shape]] = []
-    yield from _rows(SHAPE.entries, "", lists)
+    lists: list[tuple[str, Schema]] = []
+    yield from _rows(SCHEMA.entries, "", lists)
     yield ""
-    for name, shape in lists:
+    for name, schema in lists:
         yield f"### An item of `{name}`\n"
-        if shape.comment:
-            yield f"{' '.join(shape.comment.split())}\n"
+        if schema.comment:
+            yield f"{' '.join(schema.comment.split())}\n"
         yield "| key | default | unit, range | |"
         yield "|---|---|---|---|"
-        yield from _rows(shape.entries, "", [])
+        yield from _rows(schema.entries, "", [])
         yield ""
 
 
-def _rows(entries: Iterable[Entry], above: str, lists: list[tuple[str, Shape]]) -> Iterator[str]:
+def _rows(entries: Iterable[Entry], above: str, lists: list[tuple[str, Schema]]) -> Iterator[str]:
     for entry in entries:
         comment = " ".join(entry.comment.split()).replace("|", "\\|")
         name = f"`{above}{entry.name}`"
-        if isinstance(entry.spec, Shape):
+        if isinstance(entry.spec, Schema):
             absent = "" if entry.default is not None else "absent"
             yield f"| {name} | {absent} | | {comment} |"
             yield from _rows(entry.spec.entries, f"{above}{entry.name}.", lists)
             continue
-        if isinstance(entry.spec, ListOf) and isinstance(entry.spec.item, Shape):
+        if isinstance(entry.spec, ListOf) and isinstance(entry.spec.item, Schema):
             lists.append((above + entry.name, entry.spec.item))
         default = "required" if entry.name == "at_s" else _default(entry)
         yield f"| {name} | {default} | {_bounds(entry)} | {comment} |"

@@ -32,7 +32,7 @@ from up_ground.catalogue import Catalogue
 from up_ground.settings import Settings
 from up_ground.web.access import Access
 from up_ground.web.listen_address import ListenAddress
-from up_ground.web.serve import make_stations
+from up_ground.web.serve import make_sessions
 from up_ground.web.server import Server
 
 PAGE = (REPOSITORY / "docs" / "architecture.md").read_text(encoding="utf-8")
@@ -194,10 +194,8 @@ def in_a_page(proxy, folder, act):
             reactor,
             ListenAddress("127.0.0.1", 0),
             Access(frozenset(), None, False),
-            lambda pages: make_stations(reactor, [settings], environ, pages, catalogue),
+            lambda pages: make_sessions(reactor, [settings], environ, pages, catalogue),
             catalogue=catalogue,
-            say=lambda text: None,
-            complain=pytest.fail,
         )
         server.start()
         try:

@@ -163,7 +163,7 @@ def named_keys(text):
 def test_the_keys_that_it_names_exist(page):
     for file, key in named_keys(text_of(page)):
         if file in FILES:
-            known = set(configuration_page.keys_of(FILES[file].shape))
+            known = set(configuration_page.keys_of(FILES[file].schema))
             assert key in known, f"{file}: {key}"
 
 

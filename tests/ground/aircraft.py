@@ -12,6 +12,8 @@ from pathlib import Path
 
 DEADLINE_S = 30.0
 UP_GROUND = Path(sys.executable).with_name("up-ground")
+NAME = "default"
+"""The aircraft of the running test: the fixture `proxy` gives each test its own."""
 
 
 def frame(**more):
@@ -47,7 +49,7 @@ class Aircraft:
     a Command without one is acked.
     """
 
-    def __init__(self, port, answers=None, data=None, hello=b"UP1 aircraft=default\n"):
+    def __init__(self, port, answers=None, data=None, hello=None):
         self.received = []
         self.data = data or frame()
         self.is_quiet = False
@@ -56,7 +58,7 @@ class Aircraft:
         self._ended = threading.Event()
         self._lock = threading.Lock()
         self._socket = socket.create_connection(("127.0.0.1", port), timeout=DEADLINE_S)
-        self.say(hello)
+        self.send(f"UP1 aircraft={NAME}\n".encode() if hello is None else hello)
         self._threads = [
             threading.Thread(target=each, daemon=True) for each in (self._read, self._tell)
         ]
@@ -74,17 +76,17 @@ class Aircraft:
             thread.join(DEADLINE_S)
         self._socket.close()
 
-    def say(self, line):
+    def send(self, line):
         with self._lock, contextlib.suppress(OSError):
             self._socket.sendall(line)
 
     def tell(self, name, data, **more):
-        self.say((json.dumps({"name": name, "data": data, **more}) + "\n").encode())
+        self.send((json.dumps({"name": name, "data": data, **more}) + "\n").encode())
 
     def _tell(self):
         while not self._ended.wait(0.03):
             if self.is_quiet:
-                self.say(b"\n")
+                self.send(b"\n")
             else:
                 self.beacon += 1
                 self.tell("up.telemetry.update", self.data, beacon=self.beacon)
@@ -120,9 +122,20 @@ def environment(folder, port, **more):
         **{key: value for key, value in os.environ.items() if not key.startswith("UP_GROUND_")},
         "XDG_STATE_HOME": str(folder / "state"),
         "UP_GROUND_PORT": str(port),
+        "UP_GROUND_AIRCRAFT": NAME,
+        "UP_LOG_FORMAT": "json",
         "PYTHONWARNINGS": "error",
         **more,
     }
+
+
+def coded(text):
+    """Return the fields of the lines that have a code, one dictionary each."""
+    return [json.loads(line)["fields"] for line in text.splitlines() if '"fields": {"code"' in line]
+
+
+def codes(text):
+    return [each["code"] for each in coded(text)]
 
 
 def ground(folder, port, *arguments, **more):
@@ -139,11 +152,11 @@ def ground(folder, port, *arguments, **more):
 
 
 class Ground:
-    """A running up-ground; `said` and `complained` grow while it runs."""
+    """A running up-ground; `said` and `stderr` grow while it runs."""
 
     def __init__(self, folder, port, *arguments):
         self.said = ""
-        self.complained = ""
+        self.stderr = ""
         self.process = subprocess.Popen(
             [str(UP_GROUND), *arguments],
             env=environment(folder, port),
@@ -154,7 +167,7 @@ class Ground:
         )
         self._threads = [
             threading.Thread(target=self._read, args=pair, daemon=True)
-            for pair in ((self.process.stdout, "said"), (self.process.stderr, "complained"))
+            for pair in ((self.process.stdout, "said"), (self.process.stderr, "stderr"))
         ]
         for thread in self._threads:
             thread.start()
@@ -174,12 +187,16 @@ class Ground:
             thread.join(DEADLINE_S)
         self.process.stdout.close()
         self.process.stderr.close()
-        assert "Traceback" not in self.complained, self.complained
+        assert "Traceback" not in self.stderr, self.stderr
         return status
 
     def expect(self, text):
-        """Wait until it prints a text."""
-        until(lambda: text in self.said, f"{text!r} in {self.said!r} {self.complained!r}")
+        """Wait until it prints a text, or a line with that code."""
+        until(lambda: text in self.said, f"{text!r} in {self.said!r} {self.stderr!r}")
+
+    def event(self, code):
+        """Return the fields of the newest printed line with a code; None: there is none."""
+        return next((each for each in reversed(coded(self.said)) if each["code"] == code), None)
 
     def _read(self, pipe, name):
         for line in pipe:

@@ -26,8 +26,8 @@ class Connection:
     def accept(self):
         self.is_accepted = True
 
-    def give_up(self, why):
-        self.given_up = why
+    def abort(self, reason, code):
+        self.given_up = code
 
     def round_trip_ms(self):
         return 4.0
@@ -74,7 +74,7 @@ def test_the_hello_must_be_answered_first(bench):
     assert not bench.status.is_open
     assert not bench.link.send(b"early\n")
     bench.hear(b'{"name": "a"}')
-    assert "does not answer a hello" in bench.connection.given_up
+    assert bench.connection.given_up == "no_proxy"
     assert bench.messages == []
 
 
@@ -119,9 +119,9 @@ def test_a_lost_connection_leaves_nothing_known(bench):
     bench.hear(ok("command"), b"UP1 aircraft online", b"UP1 seat holder=1")
     bench.link.measure()
     assert bench.status.round_trip_ms == 4.0
-    bench.link.on_lost(bench.connection, "gone")
+    bench.link.on_lost(bench.connection, "gone", "lost")
     status = bench.status
-    assert (status.state, status.reason, status.failures) == (LinkState.WAITING, "gone", 1)
+    assert (status.state, status.code, status.failures) == (LinkState.WAITING, "lost", 1)
     assert (status.seat, status.holder, status.is_aircraft_online) == (None, None, None)
     assert status.round_trip_ms is None
     assert not bench.link.send(b"late\n")
@@ -130,7 +130,7 @@ def test_a_lost_connection_leaves_nothing_known(bench):
 def test_a_refusal_is_kept_for_people(bench):
     bench.hear(b'UP1 error code=full reason="no room"')
     assert bench.status.rejection == "full"
-    assert bench.connection.given_up == "the proxy refuses: no room (full)"
+    assert bench.connection.given_up == "rejected"
 
 
 def test_a_direct_link_obeys_no_control_lines(tmp_path):

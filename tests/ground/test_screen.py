@@ -8,15 +8,13 @@ from hypothesis import strategies as st
 
 from tests.ground.aircraft import frame
 from up.protocols.general_message import GeneralMessage
-from up_ground.canvas import MOST_COLUMNS, MOST_ROWS, Canvas, Style
-from up_ground.horizon import draw_horizon
 from up_ground.link_status import LinkState, LinkStatus
 from up_ground.panels import bar
-from up_ground.plain_line import plain_line
-from up_ground.screen import State, draw, render
+from up_ground.screen import State, draw, draw_horizon, render
+from up_ground.screen_buffer import MAX_COLUMNS, MAX_ROWS, ScreenBuffer, Style
 from up_ground.settings import Seat, Settings
+from up_ground.status_text import age_text, number_text, plain_line
 from up_ground.telemetry import NAME, Telemetry
-from up_ground.wording import age_text, number_text
 
 SGR = re.compile(r"\x1b\[[0-9;]*m")
 OURS = {f"\x1b[0;{style.value}m" for style in Style} | {"\x1b[0m"}
@@ -26,7 +24,7 @@ def state(data=None, now_s=100.0, **status):
     known = LinkStatus(LinkState.OPEN, now_s, is_aircraft_online=True, **status)
     telemetry = Telemetry()
     if data is not None:
-        telemetry.take(GeneralMessage(NAME, data, None, 1), now_s)
+        telemetry.update(GeneralMessage(NAME, data, None, 1), now_s)
     return State(Settings(), known, telemetry)
 
 
@@ -152,10 +150,10 @@ def test_a_broken_link_says_why_and_since_when():
 
 def test_the_seat_and_who_asks_for_it():
     holder = state(frame(), seat=Seat.COMMAND, holder=1, is_holder_known=True, asked_by=3)
-    assert "seat command" in text_of(holder)
-    assert "ground 3 asks for the seat: press g" in text_of(holder)
+    assert "control ours" in text_of(holder)
+    assert "ground 3 requests control: press g" in text_of(holder)
     listener = state(frame(), seat=Seat.LISTEN, holder=2, is_holder_known=True)
-    assert "seat listen (ground 2 commands)" in text_of(listener)
+    assert "control ground 2" in text_of(listener)
 
 
 @pytest.mark.parametrize(
@@ -163,8 +161,8 @@ def test_the_seat_and_who_asks_for_it():
 )
 def test_every_size_is_kept(size):
     rows = text_of(state(frame()), size=size).split("\n")
-    assert len(rows) == max(1, min(size[1], MOST_ROWS))
-    assert max(map(len, rows)) <= max(1, min(size[0], MOST_COLUMNS))
+    assert len(rows) == max(1, min(size[1], MAX_ROWS))
+    assert max(map(len, rows)) <= max(1, min(size[0], MAX_COLUMNS))
 
 
 HOSTILE = st.recursive(
@@ -205,9 +203,9 @@ def test_nothing_from_the_air_reaches_the_terminal_raw(data, size, notice):
 
 
 def horizon(roll_deg, pitch_deg):
-    canvas = Canvas(37, 9)
-    draw_horizon(canvas, 0, 0, (37, 9), (roll_deg, pitch_deg), False)
-    return canvas.plain().split("\n")
+    screen = ScreenBuffer(37, 9)
+    draw_horizon(screen, 0, 0, (37, 9), (roll_deg, pitch_deg), False)
+    return screen.plain().split("\n")
 
 
 def earth(rows, columns):

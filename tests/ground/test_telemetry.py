@@ -11,7 +11,7 @@ from up_ground.telemetry import LATE_S, NAME, Telemetry
 
 def told(data=None, now_s=100.0, beacon=None):
     telemetry = Telemetry()
-    telemetry.take(GeneralMessage(NAME, frame() if data is None else data, None, beacon), now_s)
+    telemetry.update(GeneralMessage(NAME, frame() if data is None else data, None, beacon), now_s)
     return telemetry
 
 
@@ -34,7 +34,7 @@ def test_the_age_of_a_reading_is_that_on_board_and_on_the_way_and_since():
 def clocked(telemetry, clock_ms, now_s, beacon=None):
     """Take a frame with the aircraft's clock; return its age."""
     data = frame(system={"clock_ms": clock_ms})
-    telemetry.take(GeneralMessage(NAME, data, None, beacon), now_s)
+    telemetry.update(GeneralMessage(NAME, data, None, beacon), now_s)
     return telemetry.age_s(now_s)
 
 
@@ -60,7 +60,7 @@ def test_after_a_cut_what_it_held_up_is_dropped():
     shown = []
     for number, (clock_ms, now_s) in enumerate(came_s.items()):
         message = GeneralMessage(NAME, frame(system={"clock_ms": clock_ms}), None, number)
-        if telemetry.take(message, now_s):
+        if telemetry.update(message, now_s):
             shown.append(clock_ms)
             assert telemetry.way_s <= LATE_S + 0.001
     assert shown == [1000, 2100, 2200, 2300, 2400, 2500]
@@ -135,14 +135,14 @@ def test_a_dead_source_on_a_live_aircraft_is_stale(reading, fresh_ms, stale_ms):
 def test_frames_that_did_not_come_are_counted():
     telemetry = told(beacon=10)
     for beacon in (11, 14, 5, 6, 5000):
-        telemetry.take(GeneralMessage(NAME, {}, None, beacon), 101)
+        telemetry.update(GeneralMessage(NAME, {}, None, beacon), 101)
     assert (telemetry.frames, telemetry.lost, telemetry.beacon) == (6, 2, 5000)
 
 
 def test_the_rate_is_measured_and_falls_in_silence():
     telemetry = Telemetry()
     for place in range(21):
-        telemetry.take(GeneralMessage(NAME, {}), place / 10)
+        telemetry.update(GeneralMessage(NAME, {}), place / 10)
     assert telemetry.rate_hz(2.0) == pytest.approx(10)
     assert telemetry.rate_hz(4.0) == pytest.approx(5)
     assert telemetry.rate_hz(20.0) is None
@@ -150,7 +150,7 @@ def test_the_rate_is_measured_and_falls_in_silence():
 
 def test_another_message_is_no_telemetry():
     telemetry = Telemetry()
-    assert not telemetry.take(GeneralMessage("up.system.state"), 1)
+    assert not telemetry.update(GeneralMessage("up.system.state"), 1)
     assert telemetry.frames == 0
 
 

@@ -13,6 +13,7 @@ import time
 
 import pytest
 
+from tests.ground import aircraft
 from tests.ground.aircraft import DEADLINE_S, UP_GROUND, Aircraft, environment, until
 from tests.proxy.program import Client
 
@@ -147,12 +148,14 @@ def test_a_silent_aircraft_is_said_to_be_silent(proxy, tmp_path):
 
 def test_the_seat_is_asked_for_and_handed_over_by_keys(screen, proxy):
     screen.press(b"c")
-    screen.expect("seat command")
-    with Client(proxy.ground_port, "UP1 aircraft=default seat=listen\nUP1 seat request\n") as other:
-        screen.expect("asks for the seat")
+    screen.expect("control ours")
+    with Client(
+        proxy.ground_port, f"UP1 aircraft={aircraft.NAME} seat=listen\nUP1 seat request\n"
+    ) as other:
+        screen.expect("requests control")
         screen.press(b"g")
         other.expect("UP1 seat command token=")
-        screen.expect("commands)")
+        screen.expect("control ground")
     screen.press(b"q")
     assert screen.ends() == 0
 
@@ -162,9 +165,9 @@ def test_a_terminal_that_stands_still_does_not_stop_the_station(proxy, tmp_path)
         Aircraft(proxy.airborne_port),
         Screen(tmp_path, proxy.ground_port, "--seat", "command") as screen,
     ):
-        screen.expect("seat command")
+        screen.expect("control ours")
         screen.is_reading.clear()
-        with Client(proxy.ground_port, "UP1 aircraft=default seat=listen\n") as other:
+        with Client(proxy.ground_port, f"UP1 aircraft={aircraft.NAME} seat=listen\n") as other:
             other.expect("UP1 seat holder=")
             # Longer than a holder that sends no heartbeat would keep the seat.
             end_s = time.monotonic() + 5

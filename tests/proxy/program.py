@@ -1,7 +1,7 @@
 """The program `up-proxy` as a user starts it, and plain blocking clients for it."""
 
+import json
 import os
-import re
 import signal
 import socket
 import subprocess
@@ -23,7 +23,7 @@ def until(condition, what, deadline_s=DEADLINE_S):
 
 
 class Program:
-    """A running up-proxy; `log` grows while it runs. Ends it when the test ends."""
+    """A running up-proxy; `log` and `events` grow while it runs. Ends it when the test ends."""
 
     def __init__(
         self,
@@ -43,13 +43,16 @@ class Program:
         ):
             if port is not None:
                 command += [option, str(port)]
-        self.last = "ground side" if "metrics: false" in text else "metrics page"
+        # The last port of the start.
+        self.last = "ground" if "metrics: false" in text else "metrics"
         self.log = ""
+        self.events = []
+        """The fields of each log line."""
         self.process = subprocess.Popen(
             [*command, *arguments],
             stderr=subprocess.PIPE,
             text=True,
-            env={**os.environ, **(environ or {})},
+            env={**os.environ, "UP_LOG_FORMAT": "json", **(environ or {})},
         )
         self._reader = threading.Thread(target=self._read, daemon=True)
         self._reader.start()
@@ -57,6 +60,8 @@ class Program:
     def _read(self):
         for line in self.process.stderr:
             self.log += line
+            if line.startswith("{"):
+                self.events.append(json.loads(line).get("fields", {}))
 
     def __enter__(self):
         until(self.is_up, f"the start of up-proxy; log {self.log}")
@@ -66,25 +71,29 @@ class Program:
         self.end()
 
     def is_up(self):
-        assert self.process.poll() is None or "listens" in self.log, self.log
-        # The last line of the start is the one of the metrics page, where there is one.
+        assert self.process.poll() is None or self.events, self.log
         return self._port(self.last)
 
-    def _port(self, who):
-        found = re.search(rf"{who} listens on port (\d+)\n", self.log)
-        return int(found[1]) if found else 0
+    def codes(self):
+        return [fields.get("code") for fields in self.events]
+
+    def _port(self, side):
+        for fields in list(self.events):
+            if fields.get("code") == "port_open" and fields["side"] == side:
+                return fields["port"]
+        return 0
 
     @property
     def airborne_port(self):
-        return self._port("airborne side")
+        return self._port("airborne")
 
     @property
     def ground_port(self):
-        return self._port("ground side")
+        return self._port("ground")
 
     @property
     def metrics_port(self):
-        return self._port("metrics page")
+        return self._port("metrics")
 
     @property
     def pid(self):
@@ -138,15 +147,15 @@ class Client:
             return ""
 
     def expect(self, text):
-        """Read lines until one contains `text`; heartbeats and news in between are skipped."""
+        """Read lines until one contains `text`; heartbeats and control lines are skipped."""
         while text not in (line := self.line()):
             assert line, f"closed before {text!r} came"
         return line
 
 
-def accepted(port, hello):
+def accepted(port, hello, host="127.0.0.1"):
     """Return a client whose hello was accepted, and its token."""
-    client = Client(port, hello)
+    client = Client(port, hello, host)
     answer = client.line()
     assert answer.startswith("UP1 ok "), answer
     return client, answer.split("token=")[1].strip()

@@ -1,51 +1,239 @@
-"""Control lines, and how they differ from relayed ones."""
+"""The commanding ground, the listeners, and how the seat changes hands."""
 
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
 
-from up_proxy import control
-from up_proxy.control import SeatGive, SeatRelease, SeatRequest, parse_control, without_control
+from tests.proxy.virtual import Bench
 
 
-@pytest.mark.parametrize(
-    ("line", "meaning"),
-    [
-        (b"UP1 seat request\n", SeatRequest()),
-        (b"UP1 seat request\r\n", SeatRequest()),
-        (b"UP1 seat release\n", SeatRelease()),
-        (b"UP1 seat give to=12\n", SeatGive(12)),
-        (b"UP1 seat give to=\n", None),
-        (b"UP1 seat give to=-1\n", None),
-        (b"UP1 seat give to=1234567890\n", None),
-        (b"UP1 seat give to=1 2\n", None),
-        (b"UP1 seat command token=0\n", None),
-        (b"UP1 \n", None),
-    ],
-)
-def test_what_a_ground_may_ask(line, meaning):
-    assert parse_control(line) == meaning
+@pytest.fixture
+def bench():
+    with Bench() as bench:
+        yield bench
 
 
-def test_lines_of_the_proxy():
-    assert control.asked_line(3) == b"UP1 seat asked by=3\n"
-    assert control.command_line("ab") == b"UP1 seat command token=ab\n"
-    assert control.holder_line(4) == b"UP1 seat holder=4\n"
-    assert control.holder_line(None) == b"UP1 seat holder=none\n"
+def command_token(peer):
+    line = peer.line()
+    assert line.startswith("UP1 seat command token="), line
+    return line.removeprefix("UP1 seat command token=").strip()
 
 
-@given(st.binary(max_size=100))
-def test_parsing_never_raises(line):
-    parse_control(line)
+def test_the_first_ground_commands_and_a_newcomer_listens(bench):
+    air, _ = bench.hello_air()
+    first, _ = bench.hello_ground()
+    second, _ = bench.hello_ground(gets="listen")
+    assert first.number == "UP1 seat holder=1\n" == second.number
+    second.say('{"name": "steal"}\n')
+    first.say('{"name": "fly"}\n')
+    assert air.line() == '{"name": "fly"}\n'
+    assert b"steal" not in air.heard
+    assert bench.aircraft().rejected_lines == 1
 
 
-PIECES = st.sampled_from([b"UP1 ", b"UP1", b"\r", b"\n", b"x UP1 ", b"{}", b""])
+def test_everybody_hears_the_aircraft(bench):
+    air, _ = bench.hello_air()
+    grounds = [bench.hello_ground()[0]] + [bench.hello_ground(asks="listen")[0] for _ in range(3)]
+    air.say('{"name": "telemetry"}\n')
+    for ground in grounds:
+        assert ground.line() == '{"name": "telemetry"}\n'
 
 
-@given(st.lists(PIECES | st.binary(max_size=5)).map(b"".join))
-def test_lines_are_told_apart_by_their_beginning_alone(text):
-    lines = text + b"\n"
-    relayed, found = without_control(lines)
-    every = [line + b"\n" for line in lines.split(b"\n")[:-1]]
-    assert found == [line for line in every if line.startswith(b"UP1 ")]
-    assert relayed == b"".join(line for line in every if not line.startswith(b"UP1 "))
+def test_aircraft_are_apart(bench):
+    one, _ = bench.hello_air("one")
+    two, _ = bench.hello_air("two")
+    ground_one, _ = bench.hello_ground("one")
+    ground_two, _ = bench.hello_ground("two")
+    one.say("from one\n")
+    two.say("from two\n")
+    ground_one.say("to one\n")
+    ground_two.say("to two\n")
+    assert ground_one.line() == "from one\n"
+    assert ground_two.line() == "from two\n"
+    assert one.line() == "to one\n"
+    assert two.line() == "to two\n"
+    bench.settle()
+    assert not any(peer.heard for peer in bench.peers)
+
+
+def test_handing_over(bench):
+    air, _ = bench.hello_air()
+    holder, old_token = bench.hello_ground()
+    asker, _ = bench.hello_ground(gets="listen")
+    asker.say("UP1 seat request\n")
+    assert holder.line() == "UP1 seat asked by=2\n"
+    holder.say("before\nUP1 seat give to=2\nafter\n")
+    assert holder.line() == "UP1 seat listen\n"
+    assert holder.line() == "UP1 seat holder=2\n"
+    token = command_token(asker)
+    assert token != old_token
+    assert asker.line() == "UP1 seat holder=2\n"
+    asker.say("mine\n")
+    assert air.line() == "before\n"
+    assert air.line() == "mine\n"
+    bench.settle()
+    assert air.heard == b""
+
+
+def test_releasing_leaves_the_seat_free_to_who_asks(bench):
+    bench.hello_air()
+    holder, old_token = bench.hello_ground()
+    other, _ = bench.hello_ground(gets="listen")
+    holder.say("UP1 seat release\n")
+    assert holder.line() == "UP1 seat listen\n"
+    assert holder.line() == other.line() == "UP1 seat holder=none\n"
+    other.say("UP1 seat request\n")
+    command_token(other)
+    assert other.line() == holder.line() == "UP1 seat holder=2\n"
+    thief = bench.ground(f"UP1 aircraft=a seat=command token={old_token}\n")
+    assert "seat=listen" in thief.line()
+
+
+def test_only_the_holder_gives_and_releases(bench):
+    air, _ = bench.hello_air()
+    holder, _ = bench.hello_ground()
+    thief, _ = bench.hello_ground(gets="listen")
+    thief.say("UP1 seat give to=2\nUP1 seat release\nUP1 seat command token=0\nUP1 nonsense\n")
+    holder.say("still here\n")
+    assert air.line() == "still here\n"
+    assert bench.aircraft().rejected_lines == 4
+    holder.say("UP1 seat give to=77\nstill\n")
+    assert air.line() == "still\n"
+
+
+def test_requests_reach_the_holder_once_a_second(bench):
+    holder, _ = bench.hello_ground()
+    asker, _ = bench.hello_ground(gets="listen")
+    asker.say("UP1 seat request\n" * 1000)
+    assert holder.line() == "UP1 seat asked by=2\n"
+    bench.settle()
+    assert holder.heard == b""
+    bench.pass_time(1, heartbeats=(holder, asker))
+    asker.say("UP1 seat request\n")
+    assert holder.line() == "UP1 seat asked by=2\n"
+
+
+def test_a_silent_holder_keeps_its_seat_for_three_seconds(bench):
+    air, _ = bench.hello_air()
+    holder, _ = bench.hello_ground()
+    bench.pass_time(2.75, heartbeats=(air,))
+    bench.hello_ground(gets="listen")[0].close()
+    bench.pass_time(0.5, heartbeats=(air,))
+    holder.expect("UP1 seat holder=none\n")
+    taker, _ = bench.hello_ground(gets="command")
+    holder.expect("UP1 seat listen\n")
+    holder.say("too late\n")
+    taker.say("new\n")
+    air.expect("new\n")
+    assert b"too late" not in air.heard
+
+
+def test_a_holder_that_comes_back_before_anybody_took_its_seat_has_it_still(bench):
+    air, _ = bench.hello_air()
+    holder, _ = bench.hello_ground()
+    bench.pass_time(5, heartbeats=(air,))
+    holder.expect("UP1 seat holder=none\n")
+    holder.say("back\n")
+    bench.pass_time(0.25)
+    holder.expect("UP1 seat holder=1\n")
+    air.expect("back\n")
+
+
+def test_heartbeats_keep_the_seat(bench):
+    holder, _ = bench.hello_ground()
+    bench.pass_time(60, heartbeats=(holder,))
+    bench.hello_ground(gets="listen")
+    assert not holder.closed
+
+
+def test_the_resume_token_takes_the_seat_at_once(bench):
+    air, _ = bench.hello_air()
+    holder, token = bench.hello_ground()
+    again, same = bench.hello_ground(extra=f" token={token}")
+    assert same == token
+    holder.expect_closed()
+    again.say("resumed\n")
+    assert air.line() == "resumed\n"
+
+
+def test_a_closed_connection_leaves_its_seat_to_its_token_for_three_seconds(bench):
+    holder, token = bench.hello_ground()
+    holder.close()
+    thief, _ = bench.hello_ground(gets="listen")
+    again, _ = bench.hello_ground(extra=f" token={token}")
+    again.close()
+    bench.pass_time(3.25, heartbeats=(thief,))
+    bench.hello_ground(gets="command")
+
+
+def test_a_thousand_guesses_and_newcomers_hijack_nothing(bench):
+    air, air_token = bench.hello_air()
+    holder, token = bench.hello_ground()
+    for number in range(200):
+        guess = f"{number:032x}"
+        for line in (
+            f"UP1 aircraft=a seat=command token={guess}\nUP1 seat release\nstolen\n",
+            f"UP1 aircraft=a seat=command token={token[:-1] + 'g'}\nstolen\n",
+            f"UP1 aircraft=a seat=command token={air_token}\nstolen\n",
+            "UP1 aircraft=a seat=command\nUP1 seat give to=2\nstolen\n",
+        ):
+            bench.ground(line).close()
+        bench.air(f"UP1 aircraft=a token={guess}\nforged\n").close()
+    holder.say("mine\n")
+    assert air.line() == "mine\n"
+    assert b"forged" not in holder.heard
+    assert not holder.closed
+    assert not air.closed
+
+
+def test_the_aircraft_of_a_name_is_not_displaced_while_it_lives(bench):
+    air, token = bench.hello_air()
+    second = bench.air("UP1 aircraft=a\n")
+    assert second.line().startswith("UP1 error code=taken ")
+    second.expect_closed()
+    wrong = bench.air("UP1 aircraft=a token=" + "0" * 32 + "\n")
+    assert wrong.line().startswith("UP1 error code=token ")
+    wrong.expect_closed()
+    again, same = bench.hello_air(extra=f" token={token}")
+    assert same == token
+    air.expect_closed()
+    bench.pass_time(3.5)
+    successor, _ = bench.hello_air()
+    again.expect_closed()
+    assert not successor.closed
+
+
+def test_grounds_are_told_when_the_aircraft_comes_and_goes(bench):
+    ground = bench.ground("UP1 aircraft=a seat=command\n")
+    ground.expect("UP1 aircraft offline\nUP1 seat holder=1\n")
+    air, token = bench.hello_air()
+    assert ground.line() == "UP1 aircraft online\n"
+    air.close()
+    assert ground.line() == "UP1 aircraft offline\n"
+    air, _ = bench.hello_air(extra=f" token={token}")
+    assert ground.line() == "UP1 aircraft online\n"
+    bench.pass_time(3.5, heartbeats=(ground,))
+    assert ground.line() == "UP1 aircraft offline\n"
+    air.say("\n")
+    bench.pass_time(0.25)
+    ground.expect("UP1 aircraft online\n")
+
+
+def test_commands_for_an_absent_aircraft_are_counted_not_kept(bench):
+    ground, _ = bench.hello_ground()
+    ground.say("one\ntwo\n")
+    air, _ = bench.hello_air()
+    ground.say("three\n")
+    assert air.line() == "three\n"
+    assert bench.aircraft().rejected_lines == 2
+
+
+def test_an_aircraft_that_all_have_left_is_forgotten_but_its_counts_stay(bench):
+    air, _ = bench.hello_air()
+    ground, _ = bench.hello_ground()
+    air.say("12345678\n")
+    ground.expect("12345678\n")
+    air.close()
+    ground.close()
+    assert len(bench.proxy.registry) == 1
+    bench.pass_time(3.5)
+    assert len(bench.proxy.registry) == 0
+    assert bench.proxy.registry.totals().air_bytes == 9

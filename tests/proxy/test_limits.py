@@ -16,7 +16,7 @@ def test_aircraft_names_are_bounded():
         assert refusal(bench.ground("UP1 aircraft=d\n")) == "UP1 error code=full"
         assert refusal(bench.air("UP1 aircraft=d\n")) == "UP1 error code=full"
         bench.hello_air("a")
-        assert len(bench.proxy.fleet) == 3
+        assert len(bench.proxy.registry) == 3
 
 
 def test_listeners_are_bounded():

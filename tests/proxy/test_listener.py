@@ -4,7 +4,7 @@ import socket
 
 import pytest
 
-from up_proxy.listener import SEND_BUFFER_BYTES, ListenError, listen
+from up_proxy.listener import SEND_BUFFER_BYTES, StartError, listen
 
 
 def option(sock, name):
@@ -25,14 +25,7 @@ def test_accepted_sockets_inherit_what_the_relay_needs():
             assert SEND_BUFFER_BYTES <= buffer <= 2 * SEND_BUFFER_BYTES
 
 
-def test_an_address_of_another_machine_is_one_sentence():
-    expected = "cannot listen on test port 0: cannot assign requested address"
-    with pytest.raises(ListenError, match=expected):
+def test_an_address_of_another_machine_cannot_be_listened_on():
+    with pytest.raises(StartError) as error:
         listen("test port", "203.0.113.1", 0, 1500)
-
-
-def test_a_port_in_use_is_one_sentence():
-    with listen("first", "127.0.0.1", 0, 1500) as first:
-        port = first.getsockname()[1]
-        with pytest.raises(ListenError, match=f"second {port}: address already in use"):
-            listen("second", "127.0.0.1", port, 1500)
+    assert error.value.code == "cannot_listen"

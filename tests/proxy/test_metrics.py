@@ -13,7 +13,7 @@ from twisted.internet.testing import StringTransport
 from twisted.python.failure import Failure
 
 from tests.proxy.program import Client, Program, accepted, until
-from up_proxy.metrics_page import CONTENT_TYPE, Metric, Sample, render
+from up_proxy.metrics import CONTENT_TYPE, page
 from up_proxy.metrics_server import CONNECTION_LIMIT_S, MAX_CONNECTIONS, MetricsFactory
 
 LINE = re.compile(r'[a-z_]+(\{[a-z]+="(\\.|[^"\\\n])*"(,[a-z]+="(\\.|[^"\\\n])*")*\})? \S+')
@@ -25,54 +25,54 @@ def scrape(proxy):
         return answer.read().decode("utf-8")
 
 
-def value(page, name):
-    for line in page.splitlines():
+def value(text, name):
+    for line in text.splitlines():
         if line.startswith(name + " "):
             return float(line.rpartition(" ")[2])
-    raise AssertionError(f"{name} is not in\n{page}")
+    raise AssertionError(f"{name} is not in\n{text}")
 
 
 @given(st.text())
 def test_labels_are_escaped(text):
-    page = render([Metric("m", "gauge", "Help.", (Sample(1, {"aircraft": text}),))])
-    line = page.split("\n", 2)[2].removesuffix("\n")
+    shown = page([("m", "gauge", "Help.", [({"aircraft": text}, 1)])])
+    line = shown.split("\n", 2)[2].removesuffix("\n")
     assert LINE.fullmatch(line)
     quoted = line[line.index('"') + 1 : line.rindex('"')]
     unescaped = re.sub(r"\\(.)", lambda m: {"n": "\n"}.get(m[1], m[1]), quoted)
     assert unescaped == text
 
 
-def test_what_the_page_tells(tmp_path):
+def test_the_figures_of_the_page(tmp_path):
     with Program(tmp_path, "limits:\n  connections per side: 3\n") as proxy:
         air, _ = accepted(proxy.airborne_port, "UP1 aircraft=g\n")
         ground, _ = accepted(proxy.ground_port, "UP1 aircraft=g seat=command\n")
         listener, _ = accepted(proxy.ground_port, "UP1 aircraft=g seat=listen\n")
-        listener.say("unheard\n")
+        listener.say("rejected\n")
         refused = Client(proxy.ground_port, "nonsense\n")
         assert "code=malformed" in refused.line()
         over = Client(proxy.ground_port)
         assert "code=full" in over.line()
         air.say("x" * 99 + "\n")
         ground.expect("xxx")
-        page = scrape(proxy)
-        for line in page.splitlines():
+        shown = scrape(proxy)
+        for line in shown.splitlines():
             assert line.startswith("#") or LINE.fullmatch(line), line
-        assert value(page, 'up_proxy_connections{side="airborne"}') == 1
-        assert value(page, 'up_proxy_connections{side="ground"}') == 3
-        assert value(page, 'up_proxy_aircraft_online{aircraft="g"}') == 1
-        assert value(page, 'up_proxy_aircraft_commanded{aircraft="g"}') == 1
-        assert value(page, 'up_proxy_aircraft_grounds{aircraft="g"}') == 2
-        assert value(page, 'up_proxy_aircraft_bytes_total{aircraft="g",side="airborne"}') == 100
-        assert value(page, 'up_proxy_bytes_total{side="airborne"}') == 100
-        assert value(page, "up_proxy_unheard_lines_total") == 1
-        assert value(page, 'up_proxy_refused_total{side="ground",code="malformed"}') == 1
-        assert value(page, 'up_proxy_over_limit_total{side="ground"}') == 1
-        assert value(page, "up_proxy_uptime_seconds") >= 0
-        assert value(page, "process_resident_memory_bytes") > 1_000_000
-        assert value(page, "up_proxy_loop_lag_seconds") >= 0
+        assert value(shown, 'up_proxy_connections{side="airborne"}') == 1
+        assert value(shown, 'up_proxy_connections{side="ground"}') == 3
+        assert value(shown, 'up_proxy_aircraft_online{aircraft="g"}') == 1
+        assert value(shown, 'up_proxy_aircraft_commanded{aircraft="g"}') == 1
+        assert value(shown, 'up_proxy_aircraft_grounds{aircraft="g"}') == 2
+        assert value(shown, 'up_proxy_aircraft_bytes_total{aircraft="g",side="airborne"}') == 100
+        assert value(shown, 'up_proxy_bytes_total{side="airborne"}') == 100
+        assert value(shown, "up_proxy_rejected_lines_total") == 1
+        assert value(shown, 'up_proxy_refused_total{side="ground",code="malformed"}') == 1
+        assert value(shown, 'up_proxy_over_limit_total{side="ground"}') == 1
+        assert value(shown, "up_proxy_uptime_seconds") >= 0
+        assert value(shown, "process_resident_memory_bytes") > 1_000_000
+        assert value(shown, "up_proxy_loop_lag_seconds") >= 0
         for client in (air, ground, listener, refused, over):
             client.close()
-        until(lambda: value(scrape(proxy), "up_proxy_aircraft") == 0, "everybody forgotten")
+        until(lambda: value(scrape(proxy), "up_proxy_aircraft") == 0, "no aircraft left")
         assert value(scrape(proxy), 'up_proxy_bytes_total{side="airborne"}') == 100
 
 
@@ -145,5 +145,5 @@ def test_slow_connections_do_not_keep_another_one_out():
 
 def test_the_page_can_be_switched_off(tmp_path):
     with Program(tmp_path, "metrics: false\n") as proxy:
-        assert "metrics" not in proxy.log
         proxy.end()
+    assert proxy.metrics_port == 0

@@ -7,7 +7,7 @@ import pytest
 from twisted.logger import globalLogPublisher
 
 from tests.proxy.virtual import Bench
-from up_proxy.poller import STAY_S, Poller
+from up_proxy.poller import BUSY_POLL_S, Poller
 
 
 @pytest.fixture
@@ -35,7 +35,7 @@ def test_a_bug_costs_one_connection_and_is_logged(failures):
         air, _ = bench.hello_air()
         ground, _ = bench.hello_ground()
         victim, _ = bench.hello_ground("b")
-        owner = bench.aircraft("b").grounds[0].owner = Broken()
+        owner = bench.aircraft("b").grounds.connections[0].owner = Broken()
         victim.say("trouble\n")
         victim.expect_closed()
         assert owner.reason == "internal error"
@@ -74,8 +74,8 @@ def test_it_returns_to_the_reactor_under_unending_load():
         poller.watch(there.fileno(), deaf)
         here.send(b"x")
         poller.doRead()
-        assert 1 < deaf.calls < 2 * STAY_S * 1000
-        poller.forget(there.fileno())
-        poller.forget(there.fileno())
+        assert 1 < deaf.calls < 2 * BUSY_POLL_S * 1000
+        poller.discard(there.fileno())
+        poller.discard(there.fileno())
         poller.doRead()
     poller.stop()

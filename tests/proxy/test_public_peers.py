@@ -35,4 +35,4 @@ def test_a_public_peer_is_let_in_only_when_plain_traffic_is_accepted(tmp_path, a
         if not accepts:
             assert private.count("UP1 ok ") == 2
         proxy.end()
-    assert proxy.log.count("'i_accept_plain: true'") == (0 if accepts else 2)
+    assert proxy.codes().count("public_peer_refused") == (0 if accepts else 2)

@@ -3,8 +3,8 @@
 import pytest
 
 from tests.proxy.virtual import Bench
-from up_proxy.connection import PACE_BYTES
-from up_proxy.half_line import LINE_MAX_BYTES
+from up_proxy.buffers import LINE_MAX_BYTES
+from up_proxy.connection import HIGH_WATER_BYTES
 from up_proxy.listener import SEND_BUFFER_BYTES
 
 
@@ -39,7 +39,7 @@ def test_the_aircraft_never_sees_the_halves_of_two_grounds_glued(bench):
     assert air.line() == '"new"}\n'
 
 
-def test_a_half_line_of_a_broken_connection_is_never_relayed(bench):
+def test_a_buffers_of_a_broken_connection_is_never_relayed(bench):
     air, token = bench.hello_air()
     ground, _ = bench.hello_ground()
     air.say("torn")
@@ -96,7 +96,7 @@ def test_a_stalled_listener_loses_old_lines_and_the_good_ones_lose_nothing(bench
         lines = numbered(first, 100)
         expected += lines
         air.say(lines)
-        ground = next(g for g in bench.aircraft().grounds if g.number == 2)
+        ground = next(g for g in bench.aircraft().grounds.connections if g.number == 2)
         assert ground.waiting_bytes <= 65536
     bench.until(lambda: good.heard == expected, "every line at the good ground")
     assert bench.aircraft().dropped_lines > 0
@@ -142,10 +142,10 @@ def test_a_slow_aircraft_slows_the_ground_that_commands_and_loses_nothing(bench)
         if count < len(lines):
             break
         assert len(sent) < 50_000_000
-    waiting = bench.aircraft().air_seat.occupant.waiting_bytes
-    assert PACE_BYTES <= waiting <= 3 * PACE_BYTES
+    waiting = bench.aircraft().air_lease.owner.waiting_bytes
+    assert HIGH_WATER_BYTES <= waiting <= 3 * HIGH_WATER_BYTES
     bench.pass_time(10)
-    assert bench.aircraft().command_seat.holder(bench.reactor.seconds()) is not None
+    assert bench.aircraft().grounds.lease.live_owner(bench.reactor.seconds()) is not None
     bench.peers.append(air)
     whole = sent[: sent.rfind(b"\n") + 1]
     bench.until(lambda: len(air.heard) >= len(whole), "every line at the aircraft")
@@ -163,4 +163,4 @@ def test_a_listener_may_flood_without_being_relayed_or_kept(bench):
     holder.say("good\n")
     assert air.line() == "good\n"
     assert air.heard == b""
-    assert bench.aircraft().unheard_lines == 50
+    assert bench.aircraft().rejected_lines == 50

@@ -6,7 +6,7 @@ import time
 import pytest
 
 from tests.proxy.namespace import THERE, blackhole, figure, light, network
-from tests.proxy.program import Client, Program, until
+from tests.proxy.program import Program, accepted, until
 
 
 @pytest.fixture
@@ -17,8 +17,8 @@ def proxy(tmp_path):
 
 
 def test_a_vanished_aircraft_and_holder_are_noticed_and_replaced(proxy):
-    air, token = accepted_at(proxy.airborne_port, "UP1 aircraft=a\n")
-    ground, _ = accepted_at(proxy.ground_port, "UP1 aircraft=a seat=command\n")
+    air, token = accepted(proxy.airborne_port, "UP1 aircraft=a\n", THERE)
+    ground, _ = accepted(proxy.ground_port, "UP1 aircraft=a seat=command\n", THERE)
     assert figure(proxy.inside, proxy, 'up_proxy_aircraft_online{aircraft="a"}') == 1
     blackhole(proxy.inside)
     begin_s = time.monotonic()
@@ -33,8 +33,8 @@ def test_a_vanished_aircraft_and_holder_are_noticed_and_replaced(proxy):
     assert time.monotonic() - begin_s > 2
     light(proxy.inside)
     # Half-open: neither old connection has ended, the new ones take their places.
-    successor, _ = accepted_at(proxy.ground_port, "UP1 aircraft=a seat=command\n")
-    again, same = accepted_at(proxy.airborne_port, f"UP1 aircraft=a token={token}\n")
+    successor, _ = accepted(proxy.ground_port, "UP1 aircraft=a seat=command\n", THERE)
+    again, same = accepted(proxy.airborne_port, f"UP1 aircraft=a token={token}\n", THERE)
     assert same == token
     again.say("telemetry\n")
     successor.expect("telemetry")
@@ -45,7 +45,7 @@ def test_a_vanished_aircraft_and_holder_are_noticed_and_replaced(proxy):
 
 
 def test_what_is_sent_to_a_vanished_peer_ends_its_connection(proxy):
-    listener, _ = accepted_at(proxy.ground_port, "UP1 aircraft=local seat=listen\n")
+    listener, _ = accepted(proxy.ground_port, "UP1 aircraft=local seat=listen\n", THERE)
     connections = 'up_proxy_connections{side="ground"}'
     assert figure(proxy.inside, proxy, connections) == 1
     feeder = subprocess.Popen(
@@ -71,10 +71,3 @@ def test_what_is_sent_to_a_vanished_peer_ends_its_connection(proxy):
         feeder.kill()
         feeder.wait()
         listener.close()
-
-
-def accepted_at(port, hello):
-    client = Client(port, hello, THERE)
-    answer = client.line()
-    assert answer.startswith("UP1 ok "), answer
-    return client, answer.split("token=")[1].strip()

@@ -94,7 +94,7 @@ class Bench:
             limits=LimitsConfig(**limits),
         )
         self.proxy = Proxy(self.reactor, config)
-        self.proxy._poller.stay_s = 0.001
+        self.proxy._poller.busy_poll_s = 0.001
         self.proxy.start()
 
     def __enter__(self):
@@ -134,7 +134,7 @@ class Bench:
         self.settle()
 
     def pass_time(self, seconds, heartbeats=()):
-        """Move the clock; the peers named send their heartbeat every second."""
+        """Move the clock; the peers named send their tick every second."""
         for _ in range(round(seconds * 4)):
             self.reactor.advance(0.25)
             self.pump()
@@ -164,7 +164,7 @@ class Bench:
         return peer, token
 
     def aircraft(self, name="a"):
-        return next(each for each in self.proxy.fleet.aircraft() if each.name == name)
+        return next(each for each in self.proxy.registry.aircraft() if each.name == name)
 
 
 def token_of(line, name, seat):

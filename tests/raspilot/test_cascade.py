@@ -11,11 +11,12 @@ from raspilot.flight_controller import sticks
 from raspilot.flight_controller.cascade import (
     OUTPUT_LIMIT,
     US_PER_UNIT,
+    WASHOUT_S,
     Cascade,
+    YawDamper,
     pitch_rate_in_turn,
 )
-from raspilot.flight_controller.yaw_damper import WASHOUT_S, YawDamper
-from up.commands.fly_by_wire_limits_command import FlyByWireLimitsCommand
+from up.commands.flight_state_command import FlyByWireLimitsCommand
 from up.flight_controller.gains import Gains
 from up.flight_controller.pids_file import PidsConfig, gain_set_of
 

@@ -10,9 +10,11 @@ from raspilot.flight_controller.raspilot_flight_controller import RaspilotFlight
 from tests.support.reactor import reactor, run_in_reactor, until
 from tests.support.system import build_up
 from tests.up.commands.samples import Log
-from up.commands.flight_mode_command import FlightModeCommand
-from up.commands.flight_state_command import FlightStateCommand
-from up.commands.fly_by_wire_limits_command import FlyByWireLimitsCommand
+from up.commands.flight_state_command import (
+    FlightModeCommand,
+    FlightStateCommand,
+    FlyByWireLimitsCommand,
+)
 from up.commands.orientation_command import OrientationCommand
 from up.commands.origin import Origin
 from up.commands.output_command import OutputCommand
@@ -21,7 +23,7 @@ from up.commands.refusal import CommandRefusedError
 from up.commands.roles import Role
 from up.commands.rx_command import ALL_VALID, RXCommand
 from up.flight_controller.gains import Gains, GainSet, LoopGains, gain_set_to_data
-from up.flight_controller.gains_keeper import GainsKeeper
+from up.flight_controller.gains_store import GainsStore
 from up.flight_controller.pids_file import PidsFile
 from up.mode import Mode
 from up.providers.base_mission_control_provider import BaseMissionControlProvider
@@ -98,7 +100,7 @@ class Rig:
 
     def outcome(self, command, origin=GROUND):
         got = []
-        self.bus.execute_for_outcome(command, origin).addBoth(got.append)
+        self.bus.execute_and_wait(command, origin).addBoth(got.append)
         return got
 
 
@@ -313,28 +315,36 @@ class TestModes:
                 rig.frame()
                 if number % 10 == 9:
                     rig.state()
-            return log.events[-1]["text"]
+            return state()
+
+        def state():
+            event = changes()[-1]
+            return event["permitted"], event["flies"], event["owner"]
+
+        def changes():
+            return [event for event in log.events if event.get("code") == "control_changed"]
 
         def counted():
             return rig.controller.telemetry_content["counters"]["flight_control"]["outputs"]
 
+        controller = rig.controller.class_name
         with Log() as log:
-            assert fly() == "flies"
+            assert fly() == (True, True, controller)
             delivered = counted()
             assert delivered == len(rig.outputs) == 40
             rig.clock.advance(1)
-            assert fly(other) == "does not fly: Thermal has control"
+            assert fly(other) == (True, False, "Thermal")
             assert counted() == delivered
             rig.clock.advance(1)
-            assert fly() == "flies"
+            assert fly() == (True, True, controller)
             rig.clock.advance(1)
             rig.state()
-            assert "nobody" in log.events[-1]["text"]
+            assert state() == (True, False, None)
             rig.state(FBW_MODE)
-            assert "the board" in log.events[-1]["text"]
+            assert not state()[0]
             rig.state(FBW_MODE)
             rig.state()
-            assert len([event for event in log.events if "fl" in event.get("text", "")[:11]]) == 5
+            assert len(changes()) == 5
 
     def test_it_asks_for_auto_only_at_auto_and_while_the_ground_wants_it(self, tmp_path):
         rig = Rig(tmp_path)
@@ -412,7 +422,7 @@ class TestGains:
                 saved.append(gains)
 
         async def scenario():
-            keeper = GainsKeeper(SlowFile(), reactor)
+            keeper = GainsStore(SlowFile(), reactor)
             done = [keeper.save("first"), keeper.save("second"), keeper.save("third")]
             assert not saved
             disk.set()

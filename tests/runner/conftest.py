@@ -1,5 +1,9 @@
 """Fixtures of the runner's tests."""
 
+import shutil
+import tempfile
+from pathlib import Path
+
 import pytest
 
 from tests.runner.runners import RunnerProcess
@@ -18,3 +22,19 @@ def runners(short_path):
     yield make
     for runner in made:
         runner.clean()
+
+
+@pytest.fixture(scope="module")
+def shared_runner():
+    folder = Path(tempfile.mkdtemp(prefix="upr-"))
+    runner = RunnerProcess(folder, restarts={"delay": 0.05, "limit": 3}).start()
+    yield runner
+    runner.clean()
+    shutil.rmtree(folder)
+
+
+@pytest.fixture
+def runner(shared_runner):
+    """One real runner for the tests of a module; each test finds it without instances."""
+    yield shared_runner
+    shared_runner.reset()

@@ -1,10 +1,11 @@
 """A real runner in its own process, and ways to talk to it and to its instances."""
 
 import contextlib
+import itertools
 import json
 import os
-import re
 import select
+import shutil
 import signal
 import socket
 import subprocess
@@ -16,6 +17,7 @@ import yaml
 
 APPLICATION = Path(__file__).parents[1] / "fixtures" / "runner" / "application.py"
 LIMIT_S = 30.0
+_NUMBERS = itertools.count(2)
 
 
 def wait_until(condition, what, limit_s=LIMIT_S):
@@ -104,7 +106,8 @@ class RunnerProcess:
         self.prefix = []
         self.process = None
         self.port = None
-        self.pids = set()
+        self.name = "glider-1"
+        """The aircraft of requests that name none."""
         self._talks = []
 
     def write(self, name, settings):
@@ -116,6 +119,7 @@ class RunnerProcess:
     def close_gate(self):
         """Let every instance wait, before it binds its ports, for the file that is returned."""
         gate = self.folder / "gate"
+        gate.unlink(missing_ok=True)
         self.write("blackbox/behaviour.yml", {"waits for": str(gate)})
         return gate
 
@@ -127,6 +131,7 @@ class RunnerProcess:
             for name, value in os.environ.items()
             if name not in ("NOTIFY_SOCKET", "INVOCATION_ID", "UPSTART_JOB", "WATCHDOG_USEC")
         }
+        environ["UP_LOG_FORMAT"] = "json"
         if under_systemd:
             environ["INVOCATION_ID"] = "0" * 32
         self.process = subprocess.Popen(
@@ -141,16 +146,13 @@ class RunnerProcess:
             stderr=subprocess.PIPE,
         )
         os.set_blocking(self.process.stderr.fileno(), False)
-        self.said = ""
+        self.printed = ""
         return self
 
     def start(self, *options, under_systemd=True):
         """Start the program and wait until it listens."""
         self.launch(*options, under_systemd=under_systemd)
-        match = wait_until(
-            lambda: re.search(r"listens on port (\d+)", self.output()), "the runner listens"
-        )
-        self.port = int(match[1])
+        self.port = self.logs("port_open")["port"]
         return self
 
     def output(self):
@@ -159,12 +161,20 @@ class RunnerProcess:
             data = self.process.stderr.read()
             if not data:
                 break
-            self.said += data.decode()
-        return self.said
+            self.printed += data.decode()
+        return self.printed
 
-    def says(self, text):
-        """Wait until the program has printed a text."""
-        return wait_until(lambda: text in self.output(), f"the runner says {text!r}")
+    def events(self):
+        """Return the fields of each log line so far."""
+        lines = self.output().splitlines(keepends=True)
+        parsed = [json.loads(line) for line in lines if line[0] == "{" and line[-1] == "\n"]
+        return [line.get("fields", {}) for line in parsed]
+
+    def logs(self, code, **fields):
+        """Wait until the program has logged a line with this code and these fields; return all."""
+        wanted = {"code": code, **fields}.items()
+        find = lambda: next((each for each in self.events() if wanted <= each.items()), None)  # noqa: E731
+        return wait_until(find, f"the runner logs {code}")
 
     def talk(self, port=None, source="127.0.0.1"):
         talk = Talk(port or self.port, source)
@@ -175,21 +185,18 @@ class RunnerProcess:
         """Send a request on its own connection."""
         talk = Talk(self.port)
         try:
-            answer = talk.ask(request)
+            return talk.ask({"aircraft": self.name, **request})
         finally:
             talk.close()
-        if answer["pid"]:
-            self.pids.add(answer["pid"])
-        return answer
 
-    def spawn(self, aircraft="glider-1", **request):
+    def spawn(self, aircraft=None, **request):
         """Ask for an instance that must come to run."""
-        answer = self.ask(aircraft=aircraft, **request)
-        assert answer["running"], answer
-        return answer
+        response = self.ask(aircraft=aircraft or self.name, **request)
+        assert response["running"], response
+        return response
 
-    def status(self, aircraft="glider-1"):
-        return self.ask(aircraft=aircraft, action="status")
+    def status(self, aircraft=None):
+        return self.ask(aircraft=aircraft or self.name, action="status")
 
     def kill(self):
         """End the runner as a crash would."""
@@ -212,8 +219,12 @@ class RunnerProcess:
         self.process = None
         return status
 
-    def log(self, name="glider-1"):
-        return (self.logs_folder / f"{name}.log").read_text()
+    def log(self):
+        return (self.logs_folder / f"{self.name}.log").read_text()
+
+    def config(self, file):
+        """Return a file of the instance's configuration."""
+        return yaml.safe_load((self.run_folder / self.name / "config" / file).read_text())
 
     def instances(self):
         """Return the processes that carry this run folder in their environment."""
@@ -226,6 +237,18 @@ class RunnerProcess:
                     if any(word.startswith(wanted) for word in environ):
                         found.append(int(entry.name))
         return [pid for pid in found if is_alive(pid)]
+
+    def reset(self):
+        """End all instances and remove their base configuration; the next ones have new names."""
+        for talk in self._talks:
+            talk.close()
+        del self._talks[:]
+        for pid in self.instances():
+            os.kill(pid, signal.SIGTERM)
+        wait_until(lambda: not self.instances(), "all instances ended")
+        for folder in ("blackbox", "profiles"):
+            shutil.rmtree(self.config_folder / folder, ignore_errors=True)
+        self.name = f"glider-{next(_NUMBERS)}"
 
     def clean(self):
         for talk in self._talks:

@@ -9,17 +9,19 @@ import pytest
 from twisted.internet.defer import Deferred, fail, succeed
 from twisted.internet.task import Clock
 
-from up_runner.backoff import RestartPolicy
-from up_runner.house import Policy
-from up_runner.instance import Instance, State
+from up_runner.instance import Instance
 from up_runner.instance_config import ConfigurationRefused
-from up_runner.notification import Notification
+from up_runner.instance_machine import TRANSITIONS, State
+from up_runner.instance_state import InstanceState
+from up_runner.notify_listener import Notification
+from up_runner.policy import Policy, RestartPolicy
 from up_runner.process import Identity
-from up_runner.record import Record
 from up_runner.request import Request
+from up_runner.response import Problem
 
 BLACK_BOX = Policy(10.0, 2.0, 60.0, 5.0, RestartPolicy(0.25, 10.0, 5, 60.0), False)
 AIRBORNE = Policy(10.0, 2.0, None, 5.0, RestartPolicy(0.25, 10.0, None, 60.0), True)
+STOPPING = Problem("stopping", "the runner is stopping")
 PORTS = {"general": 50001, "orientation": 50000}
 
 
@@ -43,7 +45,7 @@ class RecordedChild:
         self.watched = False
 
 
-class RecordingHouse:
+class RecordingHost:
     """The machine around an instance, under the test's control."""
 
     def __init__(self):
@@ -53,9 +55,9 @@ class RecordingHouse:
         self.states = []
         self.ports = frozenset(PORTS.values())
         self.failing = None
-        self.unheard = []
-        self.hearing = None
-        self.ear = None
+        self.waiting = []
+        self.notify = None
+        self.listener = None
         self.preparing = None
         self.instance = None
 
@@ -67,16 +69,16 @@ class RecordingHouse:
         return succeed((Path("config"), os.open(os.devnull, os.O_WRONLY)))
 
     def listen(self, name, on_notification):
-        self.hearing, self.ear = on_notification, "open"
+        self.notify, self.listener = on_notification, "open"
         return self
 
     def drain(self):
-        waiting, self.unheard = self.unheard, []
+        waiting, self.waiting = self.waiting, []
         for said in waiting:
-            self.hearing(*said)
+            self.notify(*said)
 
     def close(self, *, remove):
-        self.ear = "removed" if remove else "left"
+        self.listener = "removed" if remove else "left"
 
     def spawn(self, name, config, log):
         os.close(log)
@@ -86,8 +88,8 @@ class RecordingHouse:
     def open_ports(self, pid):
         return succeed(self.ports)
 
-    def last_words(self, name):
-        return succeed("the last words")
+    def last_log_line(self, name):
+        return succeed("the last line")
 
     def save(self, record):
         self.records.append(record)
@@ -108,7 +110,7 @@ class RecordingHouse:
         return self.instance
 
     def say(self, **words):
-        self.hearing(self.child.pid, Notification(**words))
+        self.notify(self.child.pid, Notification(**words))
 
     def run(self, policy=BLACK_BOX, **options):
         """Bring an instance to run and return it."""
@@ -126,300 +128,311 @@ class RecordingHouse:
 
     def result(self, deferred):
         found = []
-        deferred.addCallback(found.append)
+        deferred.addCallback(lambda result: found.append(result) or result)
         assert found, "there is no result yet"
         return found[0]
 
 
 @pytest.fixture
-def house():
-    made = RecordingHouse()
+def host():
+    made = RecordingHost()
     yield made
     if made.instance is not None and made.instance.state is not State.ENDED:
         made.instance.detach()
     assert made.clock.getDelayedCalls() == []
 
 
-def test_it_runs_when_it_is_ready_and_its_ports_are_bound(house):
-    instance = house.make()
+def test_it_runs_when_it_is_ready_and_its_ports_are_bound(host):
+    instance = host.make()
     outcome = instance.start()
     assert instance.state is State.STARTING and not outcome.called
-    house.say(ready=True, ports=PORTS)
-    assert house.result(outcome) is None
-    answer = instance.answer(spawned=True)
-    assert (answer.pid, answer.ports, answer.spawned) == (1000, PORTS, True)
-    assert house.records[-1] == Record(
-        Request("glider-1"), house.child.identity, keep=True, ready=True, ports=PORTS
+    host.say(ready=True, ports=PORTS)
+    assert host.result(outcome) is None
+    response = instance.response(spawned=True)
+    assert (response.pid, response.ports, response.spawned) == (1000, PORTS, True)
+    assert host.records[-1] == InstanceState(
+        Request("glider-1"), host.child.identity, keep=True, ready=True, ports=PORTS
     )
 
 
-def test_ready_without_the_ports_is_not_yet_ready(house):
-    house.ports = frozenset([50001])
-    instance = house.make()
+def test_ready_without_the_ports_is_not_yet_ready(host):
+    host.ports = frozenset([50001])
+    instance = host.make()
     outcome = instance.start()
-    house.say(ready=True, ports=PORTS)
-    house.clock.advance(1)
+    host.say(ready=True, ports=PORTS)
+    host.clock.advance(1)
     assert not outcome.called
-    house.ports = frozenset(PORTS.values())
-    house.clock.advance(0.1)
-    assert instance.state is State.RUNNING and house.result(outcome) is None
+    host.ports = frozenset(PORTS.values())
+    host.clock.advance(0.1)
+    assert instance.state is State.RUNNING and host.result(outcome) is None
 
 
-def test_a_port_that_a_phone_needs_must_be_announced(house):
-    instance = house.make(replace(BLACK_BOX, needed_ports=("general",)))
+def test_a_port_that_a_phone_needs_must_be_announced(host):
+    instance = host.make(replace(BLACK_BOX, needed_ports=("general",)))
     outcome = instance.start()
-    house.say(ready=True, ports={"orientation": 50000})
-    house.clock.advance(1)
+    host.say(ready=True, ports={"orientation": 50000})
+    host.clock.advance(1)
     assert instance.state is State.STARTING
-    house.clock.advance(9)
-    house.child.on_end(-signal.SIGKILL)
-    assert house.result(outcome) == (
-        "Raspilot said that it is ready but has not bound its port general within 10 s"
-    )
+    host.clock.advance(9)
+    host.child.on_end(-signal.SIGKILL)
+    assert host.result(outcome).code == "port_not_bound"
+    assert "general" in host.result(outcome).text
 
 
-def test_where_the_kernel_does_not_tell_its_word_is_taken(house):
-    house.ports = None
-    instance = house.make()
+def test_without_the_kernels_answer_its_report_is_accepted(host):
+    host.ports = None
+    instance = host.make()
     instance.start()
-    house.say(ready=True, ports=PORTS)
+    host.say(ready=True, ports=PORTS)
     assert instance.state is State.RUNNING
 
 
-def test_signs_of_life_are_no_readiness(house):
-    instance = house.make()
+def test_signs_of_life_do_not_make_it_ready(host):
+    instance = host.make()
     outcome = instance.start()
     for _ in range(9):
-        house.say(alive=True, ports=PORTS, status="soon")
-        house.clock.advance(1)
+        host.say(alive=True, ports=PORTS, status="soon")
+        host.clock.advance(1)
     assert instance.state is State.STARTING
-    house.clock.advance(1.5)
-    assert house.child.signals == ["KILL"]
-    house.child.on_end(-signal.SIGKILL)
-    assert house.result(outcome) == "Raspilot did not say that it is ready within 10 s"
-    assert instance.state is State.ENDED and house.records[-1] is None
+    host.clock.advance(1.5)
+    assert host.child.signals == ["KILL"]
+    host.child.on_end(-signal.SIGKILL)
+    assert host.result(outcome).code == "not_ready"
+    assert instance.state is State.ENDED and host.records[-1] is None
 
 
-def test_a_readiness_that_waits_in_the_socket_counts(house):
-    instance = house.make()
+def test_a_readiness_that_waits_in_the_socket_counts(host):
+    instance = host.make()
     instance.start()
-    house.unheard.append((1000, Notification(ready=True, ports=PORTS)))
-    house.clock.advance(10)
-    assert instance.state is State.RUNNING and house.child.signals == []
+    host.waiting.append((1000, Notification(ready=True, ports=PORTS)))
+    host.clock.advance(10)
+    assert instance.state is State.RUNNING and host.child.signals == []
 
 
-def test_another_process_is_not_heard(house):
-    instance = house.make()
+def test_notifications_of_another_process_are_ignored(host):
+    instance = host.make()
     instance.start()
-    house.hearing(999, Notification(ready=True, ports={"general": 1}))
-    assert instance.state is State.STARTING and instance.ports is None and instance.unheard == 1
+    host.notify(999, Notification(ready=True, ports={"general": 1}))
+    assert instance.state is State.STARTING and instance.ports is None and instance.rejected == 1
 
 
-@pytest.mark.parametrize("error", [ConfigurationRefused("no profile"), OSError("disk full")])
-def test_what_cannot_be_prepared_is_told(house, error):
-    house.failing = error
-    instance = house.make()
-    assert str(error) in house.result(instance.start())
-    assert instance.state is State.ENDED and house.children == []
+@pytest.mark.parametrize(
+    ("error", "code"),
+    [
+        (ConfigurationRefused("unknown_profile", "no profile"), "unknown_profile"),
+        (OSError("disk full"), "cannot_spawn"),
+    ],
+)
+def test_a_failed_preparation_is_the_outcome(host, error, code):
+    host.failing = error
+    instance = host.make()
+    assert host.result(instance.start()).code == code
+    assert instance.state is State.ENDED and host.children == []
 
 
-def test_the_exit_delay_of_minutes_runs_only_while_the_phone_is_gone(house):
-    instance = house.run()
-    house.live(59)
-    house.say(phone=True)
-    house.live(7200)
+def test_the_exit_delay_of_minutes_runs_only_while_the_phone_is_gone(host):
+    instance = host.run()
+    host.live(59)
+    host.say(phone=True)
+    host.live(7200)
     assert instance.state is State.RUNNING
-    house.say(phone=False)
+    host.say(phone=False)
     for _ in range(58):
         # Repeated, it gains no time.
-        house.say(alive=True, phone=False)
-        house.clock.advance(1)
+        host.say(alive=True, phone=False)
+        host.clock.advance(1)
     assert instance.state is State.RUNNING
-    house.live(3)
-    assert instance.state is State.STOPPING and house.child.signals == ["TERM"]
-    house.child.on_end(0)
+    host.live(3)
+    assert instance.state is State.STOPPING and host.child.signals == ["TERM"]
+    host.child.on_end(0)
     assert instance.state is State.ENDED
-    assert instance.last_end == "its phone was gone for 60 s (ended with exit status 0)"
+    assert instance.last_end.code == "phone_gone"
 
 
-def test_a_phone_that_came_back_in_the_last_moment_counts(house):
-    instance = house.run()
-    house.live(59)
-    house.unheard.append((1000, Notification(phone=True, alive=True)))
-    house.clock.advance(1)
-    house.live(300)
-    assert instance.state is State.RUNNING and house.child.signals == []
+def test_a_waiting_report_of_the_phone_counts(host):
+    instance = host.run()
+    host.live(59)
+    host.waiting.append((1000, Notification(phone=True, alive=True)))
+    host.clock.advance(1)
+    host.live(300)
+    assert instance.state is State.RUNNING and host.child.signals == []
 
 
-def test_a_phone_gone_for_a_day_never_stops_one_that_may_be_flying(house):
-    instance = house.run(AIRBORNE)
-    house.say(phone=True)
-    house.say(phone=False)
-    house.live(86_400, step_s=1.5)
-    assert instance.state is State.RUNNING and house.child.signals == []
+def test_a_phone_gone_for_a_day_never_stops_one_that_may_be_flying(host):
+    instance = host.run(AIRBORNE)
+    host.say(phone=True)
+    host.say(phone=False)
+    host.live(86_400, step_s=1.5)
+    assert instance.state is State.RUNNING and host.child.signals == []
 
 
-def test_one_that_does_not_obey_is_killed_after_five_seconds(house):
-    instance = house.run()
-    instance.stop("a reason")
-    instance.stop("another")
-    house.clock.advance(4.9)
-    assert house.child.signals == ["TERM"]
-    house.clock.advance(0.2)
-    assert house.child.signals == ["TERM", "KILL"]
-    house.child.on_end(-signal.SIGKILL)
-    assert instance.last_end == "a reason (was ended by SIGKILL)"
+def test_a_process_that_ignores_sigterm_is_killed_after_five_seconds(host):
+    instance = host.run()
+    instance.stop(Problem("first", ""))
+    instance.stop(Problem("second", ""))
+    host.clock.advance(4.9)
+    assert host.child.signals == ["TERM"]
+    host.clock.advance(0.2)
+    assert host.child.signals == ["TERM", "KILL"]
+    host.child.on_end(-signal.SIGKILL)
+    assert instance.last_end.code == "first"
 
 
-def test_silence_is_a_hang(house):
-    instance = house.run()
-    house.live(30)
-    house.clock.advance(2)
-    assert house.child.signals == ["KILL"]
-    house.child.on_end(-signal.SIGKILL)
+def test_a_silent_process_hangs_and_is_restarted(host):
+    instance = host.run()
+    host.live(30)
+    host.clock.advance(2)
+    assert host.child.signals == ["KILL"]
+    host.child.on_end(-signal.SIGKILL)
     assert instance.state is State.WAITING
-    assert instance.last_end == "Raspilot hung: no sign of life for 2 s"
-    house.clock.advance(0.25)
-    assert instance.state is State.STARTING and len(house.children) == 2
+    assert instance.last_end.code == "hung"
+    host.clock.advance(0.25)
+    assert instance.state is State.STARTING and len(host.children) == 2
 
 
-def test_a_sign_of_life_that_waits_in_the_socket_counts(house):
-    instance = house.run()
-    house.clock.advance(1.9)
-    house.unheard.append((1000, Notification(alive=True)))
-    house.clock.advance(0.2)
-    assert house.child.signals == [] and instance.state is State.RUNNING
+def test_a_sign_of_life_that_waits_in_the_socket_counts(host):
+    instance = host.run()
+    host.clock.advance(1.9)
+    host.waiting.append((1000, Notification(alive=True)))
+    host.clock.advance(0.2)
+    assert host.child.signals == [] and instance.state is State.RUNNING
 
 
-def test_without_a_watchdog_silence_is_golden(house):
-    instance = house.run(replace(AIRBORNE, watchdog_s=None))
-    house.clock.advance(86_400)
-    assert instance.state is State.RUNNING and house.child.signals == []
+def test_without_a_watchdog_silence_is_allowed(host):
+    instance = host.run(replace(AIRBORNE, watchdog_s=None))
+    host.clock.advance(86_400)
+    assert instance.state is State.RUNNING and host.child.signals == []
 
 
-def test_restarts_back_off_and_give_up(house):
-    instance = house.run()
+def test_restarts_back_off_and_give_up(host):
+    instance = host.run()
     for delay_s in (0.25, 0.5, 1.0, 2.0, 4.0):
-        house.child.on_end(1)
+        host.child.on_end(1)
         assert instance.state is State.WAITING
-        assert house.records[-1] == Record(Request("glider-1"), None, keep=True)
-        count = len(house.children)
-        house.clock.advance(delay_s - 0.01)
-        assert len(house.children) == count
-        house.clock.advance(0.02)
-        assert len(house.children) == count + 1
-        house.say(ready=True, ports=PORTS)
-    house.child.on_end(1)
+        assert host.records[-1] == InstanceState(Request("glider-1"), None, keep=True)
+        count = len(host.children)
+        host.clock.advance(delay_s - 0.01)
+        assert len(host.children) == count
+        host.clock.advance(0.02)
+        assert len(host.children) == count + 1
+        host.say(ready=True, ports=PORTS)
+    host.child.on_end(1)
     assert instance.state is State.ENDED
-    assert instance.last_end == "Raspilot ended with exit status 1; given up after 5 restarts"
+    assert instance.last_end.code == "gave_up"
 
 
-def test_one_that_may_be_flying_is_never_given_up(house):
-    instance = house.run(AIRBORNE)
+def test_one_that_may_be_flying_is_restarted_without_limit(host):
+    instance = host.run(AIRBORNE)
     for _ in range(200):
-        house.child.on_end(-signal.SIGSEGV)
+        host.child.on_end(-signal.SIGSEGV)
         assert instance.state is State.WAITING
-        house.clock.advance(10)
-        house.say(ready=True, ports=PORTS)
-    assert instance.state is State.RUNNING and len(house.children) == 201
+        host.clock.advance(10)
+        host.say(ready=True, ports=PORTS)
+    assert instance.state is State.RUNNING and len(host.children) == 201
 
 
-def test_a_restart_that_fails_is_tried_again(house):
-    instance = house.run()
-    house.child.on_end(1)
-    house.clock.advance(0.25)
+def test_a_restart_that_fails_is_tried_again(host):
+    instance = host.run()
+    host.child.on_end(1)
+    host.clock.advance(0.25)
     asked = instance.outcome()
-    house.child.on_end(2)
-    assert "the last words; it is being started again" in house.result(asked)
-    house.clock.advance(0.5)
-    house.say(ready=True, ports=PORTS)
+    host.child.on_end(2)
+    assert host.result(asked).code == "restarting"
+    assert "the last line" in host.result(asked).text
+    host.clock.advance(0.5)
+    host.say(ready=True, ports=PORTS)
     assert instance.state is State.RUNNING
 
 
-def test_a_first_start_that_fails_is_not_tried_again(house):
-    instance = house.make()
+def test_a_first_start_that_fails_is_not_tried_again(host):
+    instance = host.make()
     outcome = instance.start()
-    house.child.on_end(2)
+    host.child.on_end(2)
     assert instance.state is State.ENDED
-    assert house.result(outcome) == (
-        "Raspilot ended with exit status 2 while starting; its log says: the last words"
-    )
+    assert host.result(outcome).code == "start_failed"
+    assert "the last line" in host.result(outcome).text
 
 
-def test_unless_it_shall_be_kept(house):
-    instance = house.make(AIRBORNE, keep=True)
+def test_a_first_start_that_fails_is_retried_with_keep(host):
+    instance = host.make(AIRBORNE, keep=True)
     instance.start()
-    house.child.on_end(2)
-    assert instance.state is State.WAITING and house.records[-1].keep
+    host.child.on_end(2)
+    assert instance.state is State.WAITING and host.records[-1].keep
 
 
-def test_one_that_says_that_it_ends_has_time_to_and_is_not_started_again(house):
-    instance = house.run()
-    house.say(stopping=True)
-    house.clock.advance(4)
-    assert house.child.signals == []
-    house.clock.advance(2)
-    assert house.child.signals == ["KILL"]
-    house.child.on_end(-signal.SIGKILL)
+def test_a_process_that_reports_stopping_has_time_and_is_not_restarted(host):
+    instance = host.run()
+    host.say(stopping=True)
+    host.clock.advance(4)
+    assert host.child.signals == []
+    host.clock.advance(2)
+    assert host.child.signals == ["KILL"]
+    host.child.on_end(-signal.SIGKILL)
     assert instance.state is State.ENDED
 
 
-def test_stopped_while_it_waits_it_does_not_come_back(house):
-    instance = house.run()
-    house.child.on_end(1)
+def test_stopped_while_it_waits_it_does_not_come_back(host):
+    instance = host.run()
+    host.child.on_end(1)
     ended = instance.when_ended()
-    instance.stop("the runner stops")
+    instance.stop(STOPPING)
     assert ended.called and instance.state is State.ENDED
-    house.clock.advance(100)
-    assert len(house.children) == 1
+    host.clock.advance(100)
+    assert len(host.children) == 1
 
 
-def test_stopped_while_it_is_prepared_no_process_is_started(house):
-    house.preparing = Deferred()
-    instance = house.make()
+def test_stopped_while_it_is_prepared_no_process_is_started(host):
+    host.preparing = Deferred()
+    instance = host.make()
     outcome, ended = instance.start(), instance.when_ended()
-    instance.stop("the runner stops")
+    instance.stop(STOPPING)
     assert not ended.called
-    house.preparing.callback((Path("config"), os.open(os.devnull, os.O_WRONLY)))
-    assert ended.called and house.children == []
-    assert house.result(outcome) == "the runner stops"
+    host.preparing.callback((Path("config"), os.open(os.devnull, os.O_WRONLY)))
+    assert ended.called and host.children == []
+    assert host.result(outcome) == STOPPING
 
 
-def test_detached_it_touches_nothing(house):
-    instance = house.run()
-    before = list(house.records)
+def test_detached_it_changes_nothing(host):
+    instance = host.run()
+    before = list(host.records)
     instance.detach()
-    assert house.child.signals == [] and not house.child.watched
-    assert house.ear == "left" and house.records == before
+    assert host.child.signals == [] and not host.child.watched
+    assert host.listener == "left" and host.records == before
 
 
-def test_adopted_it_gets_one_period_to_give_a_sign(house):
-    instance = house.make()
-    record = Record(instance.request, keep=True, ready=True, ports=PORTS, phone=True)
-    house.children.append(RecordedChild(77))
-    instance.adopt(house.child, record)
-    assert instance.state is State.RUNNING and instance.answer(spawned=False).pid == 77
-    house.live(300)
+def test_adopted_it_has_one_watchdog_period(host):
+    instance = host.make()
+    saved = InstanceState(instance.request, keep=True, ready=True, ports=PORTS, phone=True)
+    host.children.append(RecordedChild(77))
+    instance.adopt(host.child, saved)
+    assert instance.state is State.RUNNING and instance.response(spawned=False).pid == 77
+    host.live(300)
     assert instance.state is State.RUNNING
-    house.clock.advance(2)
-    assert house.child.signals == ["KILL"]
+    host.clock.advance(2)
+    assert host.child.signals == ["KILL"]
 
 
-def test_adopted_without_word_of_the_phone_the_delay_begins(house):
-    instance = house.make()
-    house.children.append(RecordedChild(77))
-    instance.adopt(house.child, Record(instance.request, keep=True, ready=True, ports=PORTS))
-    house.live(61)
+def test_adopted_without_a_report_of_the_phone_the_delay_begins(host):
+    instance = host.make()
+    host.children.append(RecordedChild(77))
+    instance.adopt(host.child, InstanceState(instance.request, keep=True, ready=True, ports=PORTS))
+    host.live(61)
     assert instance.state is State.STOPPING
 
 
-def test_a_bug_leaves_no_process_unwatched(house):
-    instance = house.make()
+def test_a_bug_leaves_no_process_unwatched(host):
+    instance = host.make()
     outcome = instance.start()
     looking = Deferred()
-    house.open_ports = lambda pid: looking
-    house.say(ready=True, ports=PORTS)
+    host.open_ports = lambda pid: looking
+    host.say(ready=True, ports=PORTS)
     looking.errback(ZeroDivisionError("a bug"))
-    assert house.child.signals == ["KILL"] and instance.state is State.STOPPING
-    house.child.on_end(-signal.SIGKILL)
-    assert "the runner failed" in house.result(outcome)
+    assert host.child.signals == ["KILL"] and instance.state is State.STOPPING
+    host.child.on_end(-signal.SIGKILL)
+    assert host.result(outcome).code == "runner_bug"
+
+
+def test_every_output_of_the_table_exists():
+    outputs = {output for _, listed in TRANSITIONS.values() for output in listed}
+    assert all(callable(getattr(Instance, f"_{output}")) for output in outputs)
+    assert {state for state, _ in TRANSITIONS} == set(State) - {State.DETACHED}

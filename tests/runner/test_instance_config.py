@@ -1,5 +1,6 @@
 """Base, profile and request make one configuration folder."""
 
+import contextlib
 from dataclasses import replace
 
 import pytest
@@ -20,8 +21,16 @@ def config(tmp_path):
         tmp_path / "profiles",
         settable={"load_guard.yml": ("interval",), "new.yml": ("name",)},
         dynamic_ports={"android.yml": ("general port",)},
-        learned=("pids.yml",),
+        persisted=("pids.yml",),
     )
+
+
+@contextlib.contextmanager
+def refused(code, part=""):
+    with pytest.raises(ConfigurationRefused) as error:
+        yield
+    assert error.value.problem.code == code
+    assert part in str(error.value)
 
 
 def build(config, tmp_path, *arguments):
@@ -93,19 +102,12 @@ def test_a_request_sets_what_it_may(config, tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("present", "wanted", "refused"),
-    [
-        ("0.5", True, "must be a number"),
-        ("0.5", "1", "must be a number"),
-        ("true", 1, "must be true or false"),
-        ("word", 1, "must be a text"),
-        ("[1]", 1, "cannot be set by a request"),
-        ("{a: 1}", 1, "cannot be set by a request"),
-    ],
+    ("present", "wanted"),
+    [("0.5", True), ("0.5", "1"), ("true", 1), ("word", 1), ("[1]", 1), ("{a: 1}", 1)],
 )
-def test_another_kind_of_value_is_refused(config, tmp_path, present, wanted, refused):
+def test_a_value_of_another_type_is_refused(config, tmp_path, present, wanted):
     (config.base / "load_guard.yml").write_text(f"interval: {present}\n")
-    with pytest.raises(ConfigurationRefused, match=f"'interval' of load_guard.yml {refused}"):
+    with refused("wrong_type", "'interval' of load_guard.yml"):
         build(config, tmp_path, None, {"load_guard.yml": {"interval": wanted}})
 
 
@@ -119,13 +121,13 @@ def test_another_kind_of_value_is_refused(config, tmp_path, present, wanted, ref
     ],
 )
 def test_what_is_not_listed_is_refused_and_nothing_is_written(config, tmp_path, configuration):
-    with pytest.raises(ConfigurationRefused, match="a request may not set"):
+    with refused("not_settable"):
         build(config, tmp_path, None, configuration)
     assert not (tmp_path / "a").exists()
 
 
 def test_a_profile_that_is_not_there_is_refused(config, tmp_path):
-    with pytest.raises(ConfigurationRefused, match="no profile ufo"):
+    with refused("unknown_profile", "ufo"):
         build(config, tmp_path, "ufo")
 
 
@@ -138,11 +140,11 @@ def test_a_file_that_cannot_be_merged_is_named(config, tmp_path, text):
 
 def test_a_file_that_cannot_be_read_is_named(config, tmp_path):
     (config.base / "load_guard.yml").write_bytes(b"\xff\xfe")
-    with pytest.raises(ConfigurationRefused, match=r"load_guard.yml is not UTF-8"):
+    with refused("bad_file", "load_guard.yml"):
         build(config, tmp_path)
 
 
-def test_what_was_learned_stays_with_its_good_copy(config, tmp_path):
+def test_a_persisted_file_stays_with_its_good_copy(config, tmp_path):
     (config.base / "pids.yml").write_text("p: 1\n")
     build(config, tmp_path)
     folder = tmp_path / "a" / "config"

@@ -4,8 +4,8 @@ import os
 
 import pytest
 
-from up_runner.keeping import prune
 from up_runner.log_keeper import LogKeeper
+from up_runner.log_maintenance import prune
 
 BOOT = b"12:00:00.000 INFO     Program: boots\n"
 WARNING = b"12:00:00.001 WARNING  Load: high\n"
@@ -17,7 +17,7 @@ def files(folder):
     return {path.name: path.read_bytes() for path in folder.iterdir()}
 
 
-def test_a_writer_goes_on_at_the_beginning_after_a_rotation(tmp_path):
+def test_after_a_rotation_the_log_starts_empty(tmp_path):
     keeper = LogKeeper(tmp_path, 10, 2)
     log = keeper.open("a")
     assert keeper.rotate("a") is False
@@ -39,7 +39,7 @@ def test_with_none_to_keep_the_log_is_only_cut(tmp_path):
     assert files(tmp_path) == {"a.log": b""}
 
 
-def test_a_disk_that_takes_no_copy_still_gets_its_room_back(tmp_path):
+def test_a_full_disk_gets_its_space_back(tmp_path):
     keeper = LogKeeper(tmp_path, 10, 1)
     os.write(log := keeper.open("a"), b"x" * 10)
     os.close(log)
@@ -75,13 +75,13 @@ def test_a_log_that_is_a_link_is_not_followed(tmp_path):
         (b"\x1b[31mred\xff", "?[31mred\ufffd"),
     ],
 )
-def test_the_last_words_are_for_people_and_tell_the_cause(tmp_path, text, line):
+def test_the_last_log_line_is_the_cause(tmp_path, text, line):
     (tmp_path / "a.log").write_bytes(text)
-    assert LogKeeper(tmp_path, 10, 1).last_words("a") == line
+    assert LogKeeper(tmp_path, 10, 1).last_log_line("a") == line
 
 
-def test_no_log_has_no_last_words(tmp_path):
-    assert LogKeeper(tmp_path / "nowhere", 10, 1).last_words("a") is None
+def test_without_a_log_there_is_no_last_line(tmp_path):
+    assert LogKeeper(tmp_path / "nowhere", 10, 1).last_log_line("a") is None
 
 
 def test_names_with_dots_are_told_apart(tmp_path):
@@ -92,7 +92,7 @@ def test_names_with_dots_are_told_apart(tmp_path):
     assert sorted(files(tmp_path)) == ["a.b.log", "a.log.1.log", "a.log.log.2", "other.txt"]
 
 
-def test_the_oldest_traces_are_removed_those_in_use_stay(tmp_path):
+def test_the_files_of_the_oldest_ended_instances_are_removed(tmp_path):
     run, state, logs = tmp_path / "run", tmp_path / "state", LogKeeper(tmp_path / "logs", 10, 1)
     for age, name in enumerate(["a", "b", "c", "d", "e"]):
         os.close(logs.open(name))
@@ -109,7 +109,7 @@ def test_the_oldest_traces_are_removed_those_in_use_stay(tmp_path):
     assert prune([run, state], logs, {"a", "c"}, 1) == []
 
 
-def test_what_others_keep_in_the_same_folders_is_never_removed(tmp_path):
+def test_foreign_files_in_the_same_folders_are_never_removed(tmp_path):
     logs = LogKeeper(tmp_path, 10, 1)
     (tmp_path / "photos").mkdir()
     (tmp_path / "photos" / "state.json").write_text("")

@@ -10,8 +10,8 @@ from twisted.internet.defer import Deferred, succeed
 from twisted.internet.task import Clock
 from twisted.internet.testing import StringTransport
 
-from up_runner.answer import Answer
 from up_runner.request_server import RequestServer
+from up_runner.response import Response
 
 
 class Line(StringTransport):
@@ -41,14 +41,14 @@ class Port:
         self.server = RequestServer(
             self.clock,
             self.ask,
-            lambda answer, host: answer.encode(host, None),
+            lambda response, host: response.encode(host, None),
             **(defaults | limits),
         )
 
     def ask(self, request):
         self.asked.append(request)
         if self.at_once:
-            return succeed(Answer(request.aircraft))
+            return succeed(Response(request.aircraft))
         self.waiting.append(Deferred())
         return self.waiting[-1]
 
@@ -69,7 +69,7 @@ def instances(port):
     return [request.aircraft for request in port.asked]
 
 
-def test_an_unfinished_first_line_is_a_thesis_client_after_one_second():
+def test_an_unfinished_first_line_is_a_legacy_client_after_one_second():
     port = Port()
     connection = port.connect()
     connection.dataReceived(b'{"aircraft"')
@@ -93,7 +93,7 @@ def test_after_a_request_an_unfinished_line_asks_for_nothing():
         connection.dataReceived(b" ")
     assert instances(port) == ["a"]
     port.clock.advance(1)
-    assert "was not finished within 10 s" in answers(connection)[-1]["error"]
+    assert answers(connection)[-1]["code"] == "unfinished"
     assert connection.transport.half_closed
     port.clock.advance(1)
     assert connection.transport.aborted and instances(port) == ["a"]
@@ -110,23 +110,23 @@ def test_a_byte_now_and_then_does_not_hold_a_connection():
     assert connection.transport.half_closed and port.clock.seconds() < 12
 
 
-def test_while_one_request_is_worked_on_nothing_is_read():
+def test_nothing_is_read_while_a_request_is_handled():
     port = Port(at_once=False)
     connection = port.connect()
     connection.dataReceived(b'{"aircraft": "a"}\n{"aircraft": "b"}\n')
     assert instances(port) == ["a"] and connection.transport.producerState == "paused"
     port.clock.advance(3600)
     assert not connection.transport.aborted
-    port.waiting[0].callback(Answer("a"))
+    port.waiting[0].callback(Response("a"))
     assert instances(port) == ["a", "b"]
-    port.waiting[1].callback(Answer("b"))
+    port.waiting[1].callback(Response("b"))
     assert [answer["instance"] for answer in answers(connection)] == ["a", "b"]
     assert connection.transport.producerState == "producing"
     port.clock.advance(15)
     assert connection.transport.aborted
 
 
-def test_one_who_does_not_read_is_not_read_either():
+def test_a_client_that_does_not_read_is_not_read():
     port = Port()
     connection = port.connect()
     connection.pauseProducing()
@@ -135,23 +135,23 @@ def test_one_who_does_not_read_is_not_read_either():
     assert connection.transport.producerState == "producing"
 
 
-def test_an_answer_for_one_who_left_is_thrown_away():
+def test_the_response_for_a_client_that_left_is_dropped():
     port = Port(at_once=False)
     connection = port.connect()
     connection.dataReceived(b"x")
     connection.connectionLost()
-    port.waiting[0].callback(Answer("default"))
+    port.waiting[0].callback(Response("default"))
     assert answers(connection) == [] and len(port.server) == 0
     port.server.close()
     assert port.clock.getDelayedCalls() == []
 
 
-def test_a_bug_is_answered_as_one():
+def test_a_bug_has_its_code():
     port = Port(at_once=False)
     connection = port.connect()
     connection.dataReceived(b"x")
     port.waiting[0].errback(ZeroDivisionError())
-    assert answers(connection)[0]["error"] == "the runner failed, see its log"
+    assert answers(connection)[0]["code"] == "runner_bug"
 
 
 @pytest.mark.parametrize(
@@ -167,14 +167,14 @@ def test_a_bug_is_answered_as_one():
         ("2001:db8::1", False),
     ],
 )
-def test_public_peers_are_judged_when_they_come(host, in_):
+def test_public_peers_are_rejected_on_connect(host, in_):
     assert (Port().connect(host) is not None) is in_
     assert Port(accept_public=True).connect(host) is not None
     if not in_:
         port = Port()
         for _ in range(100):
             port.connect(host)
-        assert port.server.counts["public"] == 100
+        assert port.server.counts["public_address"] == 100
         port.server.close()
 
 
@@ -199,13 +199,13 @@ def test_an_ipv6_network_is_one_source(hosts, is_one_source):
     first, second = (port.connect(host) for host in hosts)
     assert first is not None
     assert (second is None) == is_one_source
-    assert port.server.counts["address limit"] == is_one_source
+    assert port.server.counts["address_limit"] == is_one_source
     port.server.on_gone(first)
     # A source whose connections have ended may connect again.
     assert port.connect(hosts[0]) is not None
 
 
-def test_the_one_that_was_silent_longest_makes_room():
+def test_the_connection_silent_for_longest_is_displaced():
     port = Port(limit=3)
     lines = []
     for _ in range(3):
@@ -235,7 +235,7 @@ lines_and_garbage = st.lists(
 
 @settings(max_examples=500)
 @given(lines_and_garbage, st.data())
-def test_however_it_is_cut_the_same_is_asked_and_answered(lines, data):
+def test_the_cut_of_the_stream_changes_nothing(lines, data):
     stream = b'{"aircraft": "first"}\n' + b"".join(lines)
     whole, cut = Port(), Port()
     one, other = whole.connect(), cut.connect()

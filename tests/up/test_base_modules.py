@@ -10,6 +10,7 @@ from tests.support.system import build_up, started
 from tests.up.commands.samples import Log, NumberCommand
 from up import base_thread_module
 from up.base_module import BaseModule
+from up.base_started_module import BaseStartedModule
 from up.base_thread_module import BaseThreadModule
 from up.needs import declared_needs, needs, wants
 
@@ -58,7 +59,7 @@ def test_declarations_are_inherited_and_can_be_replaced():
 class Worker(BaseThreadModule):
     """Publishes from its thread."""
 
-    def _execute_initialization(self):
+    def on_init(self):
         self.rounds = 0
 
     def _loop(self):
@@ -84,7 +85,7 @@ class Stuck(Worker):
         self.rounds += 1
         self.let_go.wait(120)
 
-    def _execute_stop(self):
+    def on_stop(self):
         self.is_closed = True
 
 
@@ -156,3 +157,40 @@ def test_a_thread_without_a_loop_is_named(tmp_path):
     up = build_up((Empty,), Clock(), tmp_path, builtins=False)
     with pytest.raises(NotImplementedError, match="Empty does not say"):
         up.get_module(Empty)._loop()
+
+
+class OldBase(BaseStartedModule):
+    """Overrides a hook by its deprecated name, as in the thesis."""
+
+    def __init__(self):
+        super().__init__()
+        self.calls = []
+
+    def _execute_start(self):
+        super()._execute_start()
+        self.calls.append("OldBase")
+
+
+class NewMiddle(OldBase):
+    def on_start(self):
+        super().on_start()
+        self.calls.append("NewMiddle")
+
+
+class OldMixin:
+    def _execute_start(self):
+        super()._execute_start()
+        self.calls.append("OldMixin")
+
+
+class OldHeir(OldMixin, NewMiddle):
+    def _execute_start(self):
+        super()._execute_start()
+        self.calls.append("OldHeir")
+
+
+@pytest.mark.parametrize("name", ["on_start", "_execute_start"])
+def test_deprecated_and_current_hook_names_can_be_mixed_in_one_hierarchy(name):
+    module = OldHeir()
+    getattr(module, name)()
+    assert module.calls == ["OldBase", "NewMiddle", "OldMixin", "OldHeir"]

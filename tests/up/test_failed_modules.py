@@ -15,7 +15,7 @@ from up.telemetry_controller import TelemetryController
 class Controller(BaseStartedModule):
     """Flies on every orientation, as a flight controller does."""
 
-    def _execute_initialization(self):
+    def on_init(self):
         self.up.command_executor.register_command(OrientationCommand, self._on_orientation)
         self.up.command_receiver.register_route("servo", lambda *_: None)
         self.up.vetoes.on_changed = lambda: self.up.command_executor.execute_command(
@@ -33,7 +33,7 @@ class Controller(BaseStartedModule):
 class Raising(Controller):
     """Raises in its start."""
 
-    def _execute_start(self):
+    def on_start(self):
         self.up.command_executor.register_command(NumberCommand, self._on_orientation)
         self.up.advertise_port("servo", 4000)
         raise RuntimeError("boom")
@@ -42,7 +42,7 @@ class Raising(Controller):
 class RaisingLater(Controller):
     """Subscribes and raises after a pause."""
 
-    async def _execute_start(self):
+    async def on_start(self):
         pause = Deferred()
         self.context.reactor.callLater(1, pause.callback, None)
         await pause
@@ -54,7 +54,7 @@ class RaisingLater(Controller):
 class Stubborn(Controller):
     """Subscribes when its start was given up already."""
 
-    async def _execute_start(self):
+    async def on_start(self):
         try:
             await Deferred()
         except CancelledError:
@@ -64,8 +64,8 @@ class Stubborn(Controller):
 class Uninitialized(Controller):
     """Raises at the end of its initialization."""
 
-    def _execute_initialization(self):
-        super()._execute_initialization()
+    def on_init(self):
+        super().on_init()
         self.up.command_executor.register_command(NumberCommand, self._on_orientation)
         raise SystemExit(1)
 
@@ -73,7 +73,7 @@ class Uninitialized(Controller):
 class Broken(BaseStartedModule):
     """Is needed and does not start."""
 
-    def _execute_start(self):
+    def on_start(self):
         return False
 
 
@@ -88,7 +88,7 @@ class Wanting(BaseStartedModule):
 
     controller = wants(Controller)
 
-    def _execute_start(self):
+    def on_start(self):
         self.seen = self.controller
 
 
@@ -128,7 +128,7 @@ def test_a_controller_that_starts_flies(tmp_path):
 
 def test_what_a_module_that_runs_subscribes_later_stays(tmp_path):
     class Late(BaseStartedModule):
-        def _execute_start(self):
+        def on_start(self):
             self.heard = []
             self.context.reactor.callLater(1, self._subscribe)
 

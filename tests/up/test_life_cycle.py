@@ -7,11 +7,10 @@ from twisted.internet.task import Clock
 from tests.support.system import build_up
 from tests.up.commands.samples import Log, NumberCommand
 from up.base_module import BaseModule
-from up.base_started_module import BaseStartedModule
+from up.base_started_module import BaseStartedModule, StartFailedError, StartResult
 from up.commands.base_command_handler import BaseCommandHandler
 from up.life_cycle import BootStoppedError, LifeCycle
 from up.needs import needs, wants
-from up.start_result import StartFailedError, StartResult
 
 calls = []
 
@@ -24,10 +23,10 @@ def forget():
 class Noted(BaseStartedModule):
     """Records the calls of its life cycle."""
 
-    def _execute_start(self):
+    def on_start(self):
         calls.append(f"{self.class_name} starts")
 
-    def _execute_stop(self):
+    def on_stop(self):
         calls.append(f"{self.class_name} stops")
 
 
@@ -95,7 +94,7 @@ def failing(name, outcome, **more):
             raise outcome
         return outcome
 
-    return type(name, (Noted,), {"_execute_start": start, **more})
+    return type(name, (Noted,), {"on_start": start, **more})
 
 
 async def raising_later():
@@ -164,7 +163,7 @@ def test_a_start_that_fails_later(tmp_path):
 
 def test_what_needs_a_failed_module_is_not_started_however_far(tmp_path):
     class Broken(First):
-        def _execute_start(self):
+        def on_start(self):
             raise RuntimeError("boom")
 
     class Fourth(BaseModule):
@@ -184,14 +183,14 @@ def test_what_needs_a_failed_module_is_not_started_however_far(tmp_path):
 class Hanging(Noted):
     """Never reports that it started."""
 
-    def _execute_start(self):
+    def on_start(self):
         return Deferred()
 
 
 class Stubborn(Noted):
     """Ignores every request to stop."""
 
-    async def _execute_start(self):
+    async def on_start(self):
         while True:
             try:
                 await Deferred()
@@ -236,7 +235,7 @@ class BadStop(Noted):
 
     LOAD_ORDER = 1
 
-    def _execute_stop(self):
+    def on_stop(self):
         raise RuntimeError("bad stop")
 
 
@@ -245,7 +244,7 @@ class ExitingStop(Noted):
 
     LOAD_ORDER = 2
 
-    def _execute_stop(self):
+    def on_stop(self):
         raise SystemExit
 
 
@@ -254,7 +253,7 @@ class HangingStop(Noted):
 
     LOAD_ORDER = 3
 
-    async def _execute_stop(self):
+    async def on_stop(self):
         while True:
             try:
                 await Deferred()
@@ -335,7 +334,7 @@ class TestInitialization:
     @pytest.mark.parametrize("fault", [RuntimeError("boom"), SystemExit(1)])
     def test_a_module_that_raises_is_out_with_what_needs_it(self, tmp_path, fault):
         class Broken(First):
-            def _execute_initialization(self):
+            def on_init(self):
                 self.up.command_executor.register_command(NumberCommand, self.on_number)
                 raise fault
 
@@ -355,21 +354,18 @@ class TestInitialization:
 
     def test_one_that_is_async_is_named_and_not_left_undone(self, tmp_path):
         class Later(First):
-            async def _execute_initialization(self):
+            async def on_init(self):
                 calls.append("never")
 
         class Waiting(Noted):
-            def _execute_initialization(self):
+            def on_init(self):
                 return Deferred()
 
         system = System(tmp_path, Later, Waiting, Second)
         system.start()
         assert system.running == []
-        assert (
-            "TypeError: Later._execute_initialization must be done when it returns"
-            in system.reason(Later)
-        )
-        assert "TypeError: Waiting._execute_initialization" in system.reason(Waiting)
+        assert "TypeError: Later.on_init must be done when it returns" in system.reason(Later)
+        assert "TypeError: Waiting.on_init" in system.reason(Waiting)
         assert calls == []
 
     def test_a_handler_that_cannot_be_registered_is_a_veto(self, tmp_path):

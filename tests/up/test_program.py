@@ -1,5 +1,6 @@
 """The whole program in real processes: failures, hangs and requests to stop."""
 
+import json
 import os
 import queue
 import signal
@@ -61,6 +62,11 @@ class Daemon:
             line = self._words.get(timeout=max(0.1, deadline_s - time.monotonic()))
             assert line is not None, f"ended without {words!r}:\n{self.text}"
             self.text += line
+
+    def events(self, code):
+        """Return the log events with a code, of a program that was started with JSON lines."""
+        events = [json.loads(line) for line in self.text.splitlines() if line.startswith("{")]
+        return [each for each in events if each.get("fields", {}).get("code") == code]
 
     def end(self, number=signal.SIGTERM):
         """Send a signal; return the exit status and how long the end took, s."""
@@ -191,18 +197,20 @@ def test_a_second_signal_forces():
         assert daemon.end(signal.SIGTERM)[0] == 128 + signal.SIGTERM
 
 
-def test_the_module_that_holds_the_reactor_is_named():
-    with Daemon("run holds") as daemon:
-        daemon.expect("trouble.hold holds the reactor for more than 20 ms, and")
+def test_the_module_that_blocks_the_event_loop_is_named():
+    with Daemon("run holds", UP_LOG_FORMAT="json") as daemon:
+        daemon.expect('trouble.hold"')
+    assert daemon.events("event_loop_blocked")[-1]["level"] == "error"
 
 
-def test_what_holds_the_reactor_during_the_start_is_no_error():
-    with Daemon("start is slow") as daemon:
-        daemon.expect("Troubled holds the reactor for more than 20 ms during start-up")
-        daemon.expect("modules run")
+def test_blocking_the_event_loop_during_the_start_is_not_an_error():
+    with Daemon("start is slow", UP_LOG_FORMAT="json") as daemon:
+        daemon.expect("event_loop_blocked")
+        daemon.expect('"started"')
         assert daemon.end()[0] == 0
-    levels = {line.split()[1] for line in daemon.text.splitlines() if "ReactorMonitor" in line}
-    assert levels == {"INFO"}, daemon.text
+    events = daemon.events("event_loop_blocked")
+    assert "Troubled" in {each["fields"]["call"] for each in events}
+    assert {each["level"] for each in events} == {"info"}
 
 
 def test_a_folder_without_configuration_is_refused_unless_the_defaults_are_wanted(tmp_path):

@@ -7,11 +7,10 @@ from twisted.internet.defer import CancelledError, Deferred
 
 from tests.up.commands.samples import Log
 from tests.up.test_life_cycle import System
-from up.base_started_module import BaseStartedModule
+from up.base_started_module import BaseStartedModule, StartFailedError
 from up.base_thread_module import BaseThreadModule
 from up.life_cycle import STOP_LIMIT_S
 from up.program import FORCED_AFTER_S
-from up.start_result import StartFailedError
 
 STEP_S = 0.001
 
@@ -21,11 +20,11 @@ class Opening(BaseStartedModule):
 
     is_open = False
 
-    def _execute_start(self):
+    def on_start(self):
         self.is_open = True
         return self.fail()
 
-    def _execute_stop(self):
+    def on_stop(self):
         self.is_open = False
 
     def fail(self):
@@ -86,7 +85,7 @@ def test_a_stop_during_the_start_closes_what_the_start_opened(tmp_path):
 
 @pytest.mark.parametrize("stop", [fail_by(RuntimeError("half open")), fail_by(SystemExit(1))])
 def test_a_fault_of_the_stop_after_a_failed_start_is_only_a_detail(tmp_path, stop):
-    cls = type("Failing", (Opening,), {"fail": lambda self: False, "_execute_stop": stop})
+    cls = type("Failing", (Opening,), {"fail": lambda self: False, "on_stop": stop})
     system = System(tmp_path, cls)
     with Log() as log:
         assert system.start() == [None]
@@ -99,7 +98,7 @@ def test_a_stop_that_hangs_after_a_failed_start_does_not_end_the_boot(tmp_path):
     class Later(Opening):
         LOAD_ORDER = 1
 
-    stop = {"_execute_stop": lambda self: Deferred()}
+    stop = {"on_stop": lambda self: Deferred()}
     cls = type("Failing", (Opening,), {"fail": lambda self: False, **stop})
     system = System(tmp_path, cls, Later)
     done = system.start()
@@ -125,11 +124,11 @@ def test_however_many_hang_the_stop_is_done_before_it_is_forced(tmp_path, count)
     class Fine(BaseStartedModule):
         LOAD_ORDER = -1
 
-        def _execute_stop(self):
+        def on_stop(self):
             calls.append("stops")
 
     hanging = [
-        type(f"Hanging{number}", (BaseStartedModule,), {"_execute_stop": lambda self: _hang()})
+        type(f"Hanging{number}", (BaseStartedModule,), {"on_stop": lambda self: _hang()})
         for number in range(count)
     ]
     system = System(tmp_path, Fine, *hanging)
@@ -151,14 +150,14 @@ def test_a_thread_that_does_not_end_is_left_behind_and_its_module_closed(tmp_pat
         def _loop(self):
             release.wait(60)
 
-        def _execute_stop(self):
+        def on_stop(self):
             calls.append("closed")
 
     others = [
         type(
             f"Hanging{number}",
             (BaseStartedModule,),
-            {"LOAD_ORDER": 1, "_execute_stop": lambda self: _hang()},
+            {"LOAD_ORDER": 1, "on_stop": lambda self: _hang()},
         )
         for number in range(hanging)
     ]

@@ -123,7 +123,7 @@ def test_panic_refuses_a_shorter_period_and_keeps_the_one_before(rig):
 
     def ask(period_ms):
         origin = Origin("ground", Role.OPERATOR)
-        done = bus.execute_for_outcome(TelemetryFrequencyCommand(period_ms), origin)
+        done = bus.execute_and_wait(TelemetryFrequencyCommand(period_ms), origin)
         done.addErrback(lambda failure: failure.value.code)
         done.addCallback(answers.append)
 

@@ -14,14 +14,14 @@ from up.testing import Bench, StillClock
 
 
 class Line(BaseStartedModule):
-    async def _execute_start(self):
+    async def on_start(self):
         return True
 
 
 class User(BaseStartedModule):
     line = needs(Line)
 
-    def _execute_start(self):
+    def on_start(self):
         assert self.line.started
         return True
 

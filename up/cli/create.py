@@ -13,12 +13,12 @@ from up.builtin_modules import BUILTIN_MODULES
 from up.cli.cli_error import CliError
 from up.cli.explore import package_at
 from up.cli.names import Name, check_identifier
+from up.cogs.cog import echo
 from up.cogs.manifest import MANIFEST_FILE, write_manifest
-from up.cogs.say import say
 from up.config import write_template
 from up.loading.application import Application
+from up.loading.checking import config_files
 from up.loading.external_modules import ModuleEntry
-from up.loading.files import config_files
 
 _APPLICATION = {
     "__init__.py": "application_init",
@@ -94,8 +94,8 @@ def _create_application(values: argparse.Namespace) -> int:
         _write(root / target, template, example if "heartbeat" in target else words)
     for file in config_files(BUILTIN_MODULES):
         write_template(file, root / "config")
-    say(f"created {root}")
-    say(f"next: cd {name.snake}; up check; up start (Ctrl-C stops it)")
+    echo(f"created {root}")
+    echo(f"next: cd {name.snake}; up check; up start (Ctrl-C stops it)")
     return 0
 
 
@@ -112,8 +112,8 @@ def _create_cog(values: argparse.Namespace) -> int:
     (inner / "py.typed").write_text("")
     module = ModuleEntry(f"{name.camel}Module", f"{package}.modules.{name.snake}_module")
     write_manifest(inner / MANIFEST_FILE, [module])
-    say(f"created {root}")
-    say(f"next: list it in an application's Cogfile.yml ({package}: {{path: ...}}); up gather")
+    echo(f"created {root}")
+    echo(f"next: list it in an application's Cogfile.yml ({package}: {{path: ...}}); up gather")
     return 0
 
 
@@ -137,11 +137,11 @@ def _create_part(values: argparse.Namespace) -> int:
     if (path.exists() or path.is_symlink()) and not may_overwrite(path, values.yes):
         return 0
     _write(path, template, words)
-    say(f"created {path}")
+    echo(f"created {path}")
     if place is not None:
         _write_test(place, file_name, f"{template}_test", words)
         if is_module and (place.root / MANIFEST_FILE).is_file():
-            say(f"next: 'up explore -w' lists it in {MANIFEST_FILE}")
+            echo(f"next: 'up explore -w' lists it in {MANIFEST_FILE}")
     return 0
 
 
@@ -152,7 +152,7 @@ def _write_test(
         path = folder / f"test_{file_name}"
         if folder.is_dir() and not path.exists():
             _write(path, template, words)
-            say(f"created {path}")
+            echo(f"created {path}")
             return
 
 

@@ -8,9 +8,9 @@ from pathlib import Path
 
 from up.base_module import BaseModule
 from up.cli.cli_error import CliError
+from up.cogs.cog import echo
 from up.cogs.manifest import MANIFEST_FILE, write_manifest
 from up.cogs.registration import REGISTRANT_MODULE
-from up.cogs.say import say
 from up.loading.application import UP_FILE, Application
 from up.loading.discovery import MODULE_FOLDERS, Discovered, discover_folder
 from up.loading.external_modules import ModuleEntry
@@ -20,7 +20,9 @@ def run(values: argparse.Namespace) -> int:
     """List the module classes, and write the manifest on request."""
     start = Path(values.file) if values.file else Path.cwd()
     if values.type == "recorders":
-        say("there are no recorders: they are Thread Modules now, see 'up create module -t thread'")
+        echo(
+            "there are no recorders: they are Thread Modules now, see 'up create module -t thread'"
+        )
         return 0
     package = package_at(start.resolve())
     found = Discovered()
@@ -29,18 +31,18 @@ def run(values: argparse.Namespace) -> int:
         discover_folder(found, package, folder, frozenset())
     entries = [_entry(cls) for cls in found.modules]
     for entry in entries:
-        say(entry.path)
+        echo(entry.path)
     for problem in found.problems:
         print(problem, file=sys.stderr)  # noqa: T201 - the user's answer
     if found.problems:
         raise CliError(f"mend them first; {MANIFEST_FILE} is as it was")
     if not entries:
-        say(
+        echo(
             f"no module class in {' or '.join(str(package.root / each) for each in MODULE_FOLDERS)}"
         )
     if values.write:
         write_manifest(package.root / MANIFEST_FILE, entries)
-        say(f"wrote {package.root / MANIFEST_FILE}")
+        echo(f"wrote {package.root / MANIFEST_FILE}")
     return 0
 
 

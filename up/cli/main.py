@@ -6,15 +6,11 @@ import sys
 from collections.abc import Sequence
 
 from up.cli.cli_error import CliError
+from up.cli.option_parser import EXIT_FAILED, EXIT_INTERRUPTED, EXIT_USAGE
 from up.cli.parser import make_parser
-from up.cogs.cog_error import CogError
+from up.cogs.cog import CogError
 from up.config import ConfigErrors
 from up.loading.application import NoApplicationError
-
-EXIT_OK = 0
-EXIT_FAILED = 1
-EXIT_CONFIG = 2
-EXIT_INTERRUPTED = 130
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -31,7 +27,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     try:
         status: int = values.carry_out(values)
     except ConfigErrors as errors:
-        return _fail(str(errors), EXIT_CONFIG)
+        return _fail(str(errors), EXIT_USAGE)
     except CliError as error:
         return _fail(str(error), error.status)
     except (CogError, NoApplicationError) as error:

@@ -57,7 +57,6 @@ class Name:
         return " ".join(self.words).capitalize()
 
     def check_free(self) -> None:
-        """Raise CliError if a package of that name would hide another."""
         if self.snake in _TAKEN or self.snake in sys.stdlib_module_names:
             raise CliError(f"{self.snake} is the name of another Python package: choose one more")
 

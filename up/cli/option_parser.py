@@ -1,55 +1,49 @@
-"""The parser base of the programs: one-sentence errors with a suggestion, exit status 2."""
+"""The argument parser of every command line: suggestions, width 80, exit status 0, 1 or 2."""
 
 from __future__ import annotations
 
 import argparse
-import difflib
 import functools
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from typing import Any, NoReturn
 
-WRONG_INPUT = 2
-WIDTH = 80
-_MAX_COMPARED = 80
+from up.fields import suggestion
 
-
-def suggestion(wrong: str, known: Iterable[str], otherwise: str = "", cutoff: float = 0.6) -> str:
-    """Return "did you mean 'NAME'?" with the nearest known name, or ``otherwise``."""
-    near = difflib.get_close_matches(wrong[:_MAX_COMPARED], list(known), n=1, cutoff=cutoff)
-    return f"did you mean {near[0]!r}?" if near else otherwise
+EXIT_OK = 0
+EXIT_FAILED = 1
+EXIT_USAGE = 2
+"""A mistake in the arguments or the configuration."""
+EXIT_INTERRUPTED = 130
 
 
 class OptionParser(argparse.ArgumentParser):
-    """Ends the program with status 2 and one sentence on standard error at a wrong option.
+    """Reports a wrong argument in one sentence, with the probable intention, and exits with 2.
 
-    Options are not abbreviated; description and epilog keep their lines.
+    Descriptions and epilogs keep their line breaks. Parsers of verbs are of the same class.
     """
 
-    def __init__(self, **settings: Any) -> None:
-        formatter = functools.partial(argparse.RawDescriptionHelpFormatter, width=WIDTH)
-        settings = {"formatter_class": formatter, "allow_abbrev": False, **settings}
-        super().__init__(**settings)
+    def __init__(self, *args: Any, **options: Any) -> None:
+        formatter = functools.partial(argparse.RawDescriptionHelpFormatter, width=80)
+        options.setdefault("formatter_class", formatter)
+        super().__init__(*args, **options)
+
+    def parse_args(self, args: Any = None, namespace: Any = None) -> Any:
+        """Return the values; ends the program at a mistake."""
+        values, unknown = self.parse_known_args(args, namespace)
+        if unknown:
+            parser = getattr(values, "parser", None) or self
+            options = (each for each in parser._option_string_actions if each.startswith("--"))
+            word = unknown[0].partition("=")[0]
+            parser.error(f"unrecognized argument {word!r}{suggestion(word, options)}")
+        return values
 
     def error(self, message: str) -> NoReturn:
-        """Report the error."""
-        self.exit(WRONG_INPUT, f"{self.prog}: {message}\n")
-
-    def parse_args(  # type: ignore[override]
-        self, args: Sequence[str] | None = None, namespace: argparse.Namespace | None = None
-    ) -> argparse.Namespace:
-        """Parse, with a suggestion for an unknown option."""
-        options, unknown = self.parse_known_args(args, namespace)
-        if unknown:
-            known = [each for each in self._option_string_actions if each.startswith("--")]
-            help_ = f"'{self.prog} --help' lists the options"
-            hint = suggestion(unknown[0].partition("=")[0], known, help_, cutoff=0.7)
-            self.error(f"unrecognized arguments: {' '.join(unknown)}; {hint}")
-        return options
+        """Print the error and how to get help; exit with EXIT_USAGE."""
+        self.exit(EXIT_USAGE, f"{self.prog}: {message} ('{self.prog} --help' explains)\n")
 
     def _check_value(self, action: argparse.Action, value: Any) -> None:
-        if action.choices is None or value in action.choices:
-            return
-        choices = [str(each) for each in action.choices]
-        hint = suggestion(str(value), choices)
-        text = f"invalid choice: {str(value)[:_MAX_COMPARED]!r} (choose from {', '.join(choices)})"
-        raise argparse.ArgumentError(action, f"{text}; {hint}" if hint else text)
+        choices: Iterable[Any] | None = action.choices
+        if choices is not None and value not in choices:
+            known = [str(each) for each in choices]
+            hint = suggestion(str(value), known) or f" (choose from {', '.join(known)})"
+            raise argparse.ArgumentError(action, f"invalid choice {str(value)[:60]!r}{hint}")

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
+from up.cli.option_parser import OptionParser
 from up.cli.plugin_verbs import UP_VERBS, add_plugin_verbs, verb_of
 from up.cli.verb import add_verb
 from up.mode import Mode
@@ -14,28 +15,50 @@ from up.version import VERSION
 
 _EPILOG = """\
 A first application in four commands:
-  up create new -n my_plane     folder with UpFile, configuration, an example module and its test
+  up create new -n my_plane      folder with UpFile, configuration, example, test
   cd my_plane
-  up create module -n Altimeter  a module in modules/; it is loaded by itself
+  up create module -n Altimeter  a module in modules/, loaded automatically
   up start                       Ctrl-C stops it
 
 Plug-ins (cogs) are listed in Cogfile.yml; 'up gather' installs and registers them.
-Nothing starts, or a module is missing?  up check    what is wrong, with file and line
-                                         up modules  what would be loaded, and why the rest not
+Nothing starts, or a module is missing?
+  up check     reports every mistake, with file and line
+  up modules   lists the loaded modules, and why others are left out
 'up VERB --help' explains a verb.
+"""
+_CREATE_EPILOG = """\
+examples:
+  up create new -n my_plane
+  up create module -n Altimeter
+  up create module -n Camera -t thread
+  up create handler -n OpenBay -i my_plane.bay.open
+  up create cog -n Lidar
+"""
+_GATHER_EPILOG = """\
+Installs missing cogs into the environment of this Python, registers every cog of
+the Cogfile, and unregisters those that have left it. Missing configuration files
+are created; existing ones are never changed.
+
+Cogfile.yml, each cog from exactly one source:
+  my_cog: {path: ../cogs/my_cog}
+  my_cog: {pypi: my-cog, version: "1.2.3"}
+  my_cog: {url: https://example.org/my_cog.git, revision: v1}
+"""
+_EXPLORE_EPILOG = """\
+In a cog's folder, 'up explore -w' writes registered_modules.yml, the list of the
+modules that the cog adds to an application.
 """
 
 
-def make_parser(arguments: Sequence[str] | None = None) -> argparse.ArgumentParser:
+def make_parser(arguments: Sequence[str] | None = None) -> OptionParser:
     """Return the parser of the whole command line.
 
     Only the plug-in verb that ``arguments`` name is loaded; built-in verbs load no plug-ins.
     """
-    parser = argparse.ArgumentParser(
+    parser = OptionParser(
         prog="up",
         description="Creates, checks and starts applications on Up, and manages their cogs.",
         epilog=_EPILOG,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     parser.add_argument("--version", action="version", version=f"Up {VERSION}")
     parser.add_argument(
@@ -47,17 +70,57 @@ def make_parser(arguments: Sequence[str] | None = None) -> argparse.ArgumentPars
     )
     verbs = parser.add_subparsers(title="verbs", metavar="VERB")
     _add_create(verbs)
-    _add_start(verbs)
-    _add_gather(verbs)
-    _add_register(verbs)
+    start = _add(verbs, "start", "run the application until Ctrl-C", "s")
+    gather = _add(verbs, "gather", "install and register the cogs of Cogfile.yml", "g")
+    gather.epilog = _GATHER_EPILOG
+    gather.add_argument(
+        "--no-install", action="store_true", help="register only; fail if a cog is missing"
+    )
+    register = _add(verbs, "register", "register an installed cog that no Cogfile lists", "r")
+    register.epilog = "example: up register -n my_cog"
+    register.set_defaults(remove=False)
+    unregister = add_verb(verbs, "unregister", "up.cli.verbs:register", "remove a registered cog")
+    unregister.set_defaults(remove=True)
+    for each in (register, unregister):
+        each.add_argument("-n", "--name", required=True, help="the cog's Python package")
     _add_explore(verbs)
-    _add_checks(verbs)
+    check = _add(verbs, "check", "find every mistake in configuration and modules without starting")
+    check.epilog = "exit status: 0 it would start; 2 mistakes, each with its place"
+    modules = _add(verbs, "modules", "list the modules in order, and why others are left out")
+    modules.epilog = 'example: up modules --mode "black box"'
+    schemas = _add(verbs, "schemas", "write the JSON Schema of each configuration file for editors")
+    schemas.add_argument("folder", type=Path, metavar="DIR", help="created if missing")
     update = add_verb(verbs, "update", "up.cli.update", "upgrade the framework", aliases=("u",))
     update.add_argument("--dry-run", action="store_true", help="only show the pip command")
+    for each in (start, check):
+        add_defaults_option(each)
+    for each in (start, check, modules):
+        add_config_option(each)
+    for each in (check, modules):
+        modes = [mode.value for mode in Mode]
+        each.add_argument("--mode", choices=modes, help="as if this mode were configured")
     asked = None if arguments is None else verb_of(arguments)
     if asked not in verbs.choices:
         add_plugin_verbs(verbs, UP_VERBS, asked)
     return parser
+
+
+def add_defaults_option(parser: argparse.ArgumentParser) -> None:
+    """Add ``--defaults``."""
+    parser.add_argument(
+        "--defaults", action="store_true", help="use the defaults if no configuration file exists"
+    )
+
+
+def add_config_option(parser: argparse.ArgumentParser) -> None:
+    """Add ``--config``."""
+    parser.add_argument(
+        "--config", type=Path, metavar="DIR", help="folder with the YAML files (default: config)"
+    )
+
+
+def _add(verbs: Any, name: str, text: str, *aliases: str) -> argparse.ArgumentParser:
+    return add_verb(verbs, name, f"up.cli.verbs:{name}", text, aliases=aliases)
 
 
 def _add_create(verbs: Any) -> None:
@@ -65,10 +128,7 @@ def _add_create(verbs: Any) -> None:
         "create",
         aliases=["c"],
         help="write a new application, module, handler or cog",
-        epilog="examples:\n  up create new -n my_plane\n  up create module -n Altimeter\n"
-        "  up create module -n Camera -t thread\n"
-        "  up create handler -n OpenBay -i my_plane.bay.open\n  up create cog -n Lidar",
-        formatter_class=argparse.RawDescriptionHelpFormatter,
+        epilog=_CREATE_EPILOG,
     )
     create.set_defaults(parser=create)
     kinds = create.add_subparsers(title="what", metavar="WHAT")
@@ -81,7 +141,7 @@ def _add_create(verbs: Any) -> None:
         kind = add_verb(kinds, name, "up.cli.create", text, aliases=aliases)
         kind.set_defaults(kind=name)
         kind.add_argument("-n", "--name", required=True, help="its name, like FuelGauge")
-        kind.add_argument("-y", "--yes", action="store_true", help="overwrite without asking")
+        kind.add_argument("-y", "--yes", action="store_true", help="overwrite without a prompt")
         if name == "module":
             kind.add_argument(
                 "-t",
@@ -96,50 +156,6 @@ def _add_create(verbs: Any) -> None:
             )
 
 
-def _add_start(verbs: Any) -> None:
-    start = add_verb(
-        verbs, "start", "up.cli.start", "run the application until Ctrl-C", aliases=("s",)
-    )
-    _take_config(start)
-    _take_defaults(start)
-
-
-def _add_gather(verbs: Any) -> None:
-    gather = add_verb(
-        verbs,
-        "gather",
-        "up.cli.gather",
-        "install and register the cogs that Cogfile.yml asks for",
-        aliases=("g",),
-        epilog="Installs what is missing into the environment of this Python, registers every cog\n"
-        "of the Cogfile, and unregisters those that have left it. Configuration files are created\n"
-        "where there are none and never changed. Nothing to do is fast.\n\n"
-        "Cogfile.yml, each cog from exactly one of:\n"
-        "  my_cog: {path: ../cogs/my_cog}\n"
-        '  my_cog: {pypi: my-cog, version: "1.2.3"}\n'
-        "  my_cog: {url: https://example.org/my_cog.git, revision: v1}",
-    )
-    gather.add_argument(
-        "--no-install", action="store_true", help="register only; fail where a cog is missing"
-    )
-
-
-def _add_register(verbs: Any) -> None:
-    register = add_verb(
-        verbs,
-        "register",
-        "up.cli.register",
-        "register an installed cog that no Cogfile lists",
-        aliases=("r",),
-        epilog="example: up register -n my_cog",
-    )
-    register.set_defaults(remove=False)
-    unregister = add_verb(verbs, "unregister", "up.cli.register", "take a registered cog out")
-    unregister.set_defaults(remove=True)
-    for each in (register, unregister):
-        each.add_argument("-n", "--name", required=True, help="the cog's Python package")
-
-
 def _add_explore(verbs: Any) -> None:
     explore = add_verb(
         verbs,
@@ -147,58 +163,13 @@ def _add_explore(verbs: Any) -> None:
         "up.cli.explore",
         "list the module classes in ./modules",
         aliases=("e",),
-        epilog="In a cog's folder, 'up explore -w' writes registered_modules.yml, the list of\n"
-        "what the cog brings into an application.",
+        epilog=_EXPLORE_EPILOG,
     )
     explore.add_argument(
         "-t",
         "--type",
         choices=("modules", "recorders", "all"),
         default="all",
-        help="recorders are no more: they are Thread Modules now",
+        help="recorders were replaced by Thread Modules",
     )
     explore.add_argument("-w", "--write", action="store_true", help="write registered_modules.yml")
-
-
-def _add_checks(verbs: Any) -> None:
-    check = add_verb(
-        verbs,
-        "check",
-        "up.cli.check",
-        "find every mistake in configuration and modules, without starting",
-        epilog="Exit status 0: would start; 2: mistakes, each with its place.",
-    )
-    _take_defaults(check)
-    modules = add_verb(
-        verbs,
-        "modules",
-        "up.cli.modules",
-        "what would be loaded, in which order, and why the rest would not",
-        epilog='example: up modules --mode "black box"',
-    )
-    for each in (check, modules):
-        _take_config(each)
-        each.add_argument(
-            "--mode",
-            choices=[mode.value for mode in Mode],
-            help="as if this mode were configured",
-        )
-    schemas = add_verb(
-        verbs,
-        "schemas",
-        "up.cli.schemas",
-        "write the JSON Schema of every configuration file, for editors",
-    )
-    schemas.add_argument("folder", type=Path, metavar="DIR", help="where to; made if need be")
-
-
-def _take_defaults(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument(
-        "--defaults", action="store_true", help="start with the defaults where no file is found"
-    )
-
-
-def _take_config(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument(
-        "--config", type=Path, metavar="DIR", help="folder with the YAML files (default: config)"
-    )

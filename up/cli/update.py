@@ -12,7 +12,7 @@ from typing import Any
 
 from up.cli.cli_error import CliError
 from up.cogs import pip
-from up.cogs.say import say
+from up.cogs.cog import echo
 from up.version import VERSION
 
 
@@ -20,12 +20,12 @@ def run(values: argparse.Namespace) -> int:
     """Upgrade the distribution that contains this command."""
     command = [sys.executable, "-P", "-m", "pip", "install", *_what()]
     if values.dry_run:
-        say(shlex.join(command))
+        echo(shlex.join(command))
         return 0
     pip.check_environment()
-    say(f"Up {VERSION} in {sys.prefix}: {shlex.join(command[2:])}")
-    pip.run_pip([*command, "--no-input", "--disable-pip-version-check"], say)
-    say("done; 'up --version' tells the version")
+    echo(f"Up {VERSION} in {sys.prefix}: {shlex.join(command[2:])}")
+    pip.run_pip([*command, "--no-input", "--disable-pip-version-check"], echo)
+    echo("done; 'up --version' tells the version")
     return 0
 
 
@@ -47,7 +47,7 @@ def _what() -> list[str]:
     folder = urllib.parse.unquote(urllib.parse.urlsplit(url).path)
     if "dir_info" not in origin:
         raise CliError(f"Up was installed from the file {folder}: install a newer file with pip")
-    say(f"Up is installed from the folder {folder}: bring that up to date first (git pull)")
+    echo(f"Up is installed from the folder {folder}: bring that up to date first (git pull)")
     if origin["dir_info"].get("editable"):
         return ["--no-build-isolation", "--editable", folder]
     return ["--no-build-isolation", "--upgrade", folder]

@@ -21,8 +21,9 @@ def add_verb(
 ) -> argparse.ArgumentParser:
     """Add a verb to the return value of ``add_subparsers``; return its parser, for its options.
 
-    ``module`` is a module's name; its ``run(values) -> exit status`` carries the verb out. It is
-    imported only then, which keeps ``up --help`` fast. ``text`` is one line of help.
+    ``module`` names a module, whose ``run(values) -> exit status`` carries the verb out, or another
+    function as ``module:function``. It is imported only then, which keeps ``up --help`` fast.
+    ``text`` is one line of help.
     """
     parser: argparse.ArgumentParser = verbs.add_parser(
         name,
@@ -30,16 +31,17 @@ def add_verb(
         help=text,
         description=f"{text[0].upper()}{text[1:]}.",
         epilog=epilog,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
     )
-    parser.set_defaults(carry_out=_from(module, name))
+    parser.set_defaults(carry_out=_from(module, name), parser=parser)
     return parser
 
 
 def _from(module: str, verb: str) -> Callable[[argparse.Namespace], int]:
+    name, _, function = module.partition(":")
+
     def carry_out(values: argparse.Namespace) -> int:
         try:
-            run = importlib.import_module(module).run
+            run = getattr(importlib.import_module(name), function or "run")
         except ModuleNotFoundError as error:
             raise CliError(f"'{verb}' needs {error.name}, which is not installed") from error
         status: int = run(values)

@@ -7,15 +7,14 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
-from up.cogs.cog_error import CogError
-from up.cogs.package_name import package_name
+from up.cogs.cog import CogError, package_name
 from up.cogs.source_tree import is_distribution_name
 from up.config import key
+from up.config.loader import read_text
 from up.config.nodes import MapNode, Node, Report, ScalarNode, compose
 from up.config.problems import Problems
-from up.config.reading import read_text
 from up.config.scalars import is_null
-from up.config.shape import shape_of
+from up.config.schema import schema_of
 from up.config.validator import Validator
 
 COGFILE = "Cogfile.yml"
@@ -36,7 +35,6 @@ class CogSpec:
     revision: str = key("", "Branch, tag or commit of the repository.", max_length=200)
 
     def problems(self) -> Iterator[tuple[str, str]]:
-        """Yield invalid values and contradictions."""
         if not self.path.isprintable():
             yield "path", "must be the path of a folder"
         if self.pypi and not is_distribution_name(self.pypi):
@@ -62,7 +60,7 @@ class WantedCog:
     folder: Path | None
 
 
-_SHAPE = shape_of(CogSpec)
+_SCHEMA = schema_of(CogSpec)
 
 
 def load_cogfile(root: Path) -> list[WantedCog]:
@@ -106,7 +104,7 @@ class _Entry:
         if cog and cog in seen:
             self._refuse(f"{self.label} stands here twice, first as {seen[cog]}")
         seen[cog] = self.label
-        spec = CogSpec() if is_null(value) else Validator(self.report, {}).read(_SHAPE, value)
+        spec = CogSpec() if is_null(value) else Validator(self.report, {}).read(_SCHEMA, value)
         if not isinstance(spec, CogSpec):
             return None
         folder = self._folder(spec)

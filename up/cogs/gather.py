@@ -7,17 +7,16 @@ import sys
 from collections.abc import Sequence
 
 from up.cogs import pip
-from up.cogs.cog_error import CogError
+from up.cogs.cog import CogError, Echo, echo
 from up.cogs.cogfile import COGFILE, WantedCog, load_cogfile
 from up.cogs.installed import is_installed
 from up.cogs.registration import register, unregister
 from up.cogs.registry import Registry
-from up.cogs.say import Say, say
 from up.config import ConfigErrors
 from up.loading.application import Application
 
 
-def gather(application: Application, *, may_install: bool = True, tell: Say = say) -> None:
+def gather(application: Application, *, may_install: bool = True, echo: Echo = echo) -> None:
     """Install missing cogs, register all, unregister those that left the Cogfile.
 
     Raises CogError with one sentence per problem, ConfigErrors for errors in the Cogfile or the
@@ -31,24 +30,24 @@ def gather(application: Application, *, may_install: bool = True, tell: Say = sa
         if entry.source == "cogfile" and cog not in {each.cog for each in wanted}
     ]
     for cog in sorted(left):
-        tell(f"{cog}: has left {COGFILE}")
-        unregister(cog, application, tell)
+        echo(f"{cog}: has left {COGFILE}")
+        unregister(cog, application, echo)
     missing = [each for each in wanted if not is_installed(each)]
     if missing and may_install:
-        _install(missing, wanted, tell)
+        _install(missing, wanted, echo)
         _register_anew(application)
         return
     if missing:
         names = ", ".join(each.cog for each in missing)
         raise CogError(f"not installed as {COGFILE} says: {names}")
-    _register_all(wanted, application, tell)
+    _register_all(wanted, application, echo)
 
 
-def _install(missing: Sequence[WantedCog], wanted: Sequence[WantedCog], tell: Say) -> None:
+def _install(missing: Sequence[WantedCog], wanted: Sequence[WantedCog], echo: Echo) -> None:
     for each in missing:
-        tell(f"{each.cog}: to be installed from {_origin(each)}")
-    pip.install(missing, [each for each in wanted if each.folder is not None], tell)
-    tell(f"installed {len(missing)} {'cog' if len(missing) == 1 else 'cogs'}")
+        echo(f"{each.cog}: to be installed from {_origin(each)}")
+    pip.install(missing, [each for each in wanted if each.folder is not None], echo)
+    echo(f"installed {len(missing)} {'cog' if len(missing) == 1 else 'cogs'}")
 
 
 def _register_anew(application: Application) -> None:
@@ -60,17 +59,17 @@ def _register_anew(application: Application) -> None:
         raise CogError("the cogs are installed but not all of them are registered")
 
 
-def _register_all(wanted: Sequence[WantedCog], application: Application, tell: Say) -> None:
+def _register_all(wanted: Sequence[WantedCog], application: Application, echo: Echo) -> None:
     failed: list[str] = []
     for each in wanted:
         try:
-            register(each.cog, application, "cogfile", tell)
+            register(each.cog, application, "cogfile", echo)
         except (CogError, ConfigErrors) as error:
             failed.append(str(error))
     if failed:
         raise CogError("\n".join(failed))
     count = len(wanted)
-    tell(f"{count} {'cog' if count == 1 else 'cogs'} of {COGFILE} installed and registered")
+    echo(f"{count} {'cog' if count == 1 else 'cogs'} of {COGFILE} installed and registered")
 
 
 def _origin(wanted: WantedCog) -> str:

@@ -6,9 +6,9 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
 
-from up.cogs.cog_error import CogError
+from up.cogs.cog import CogError
 from up.config import ConfigFile, items
-from up.config.writing import write_atomically
+from up.config.atomic_writer import write_atomically
 from up.loading.external_modules import ModuleEntry
 
 MANIFEST_FILE = "registered_modules.yml"

@@ -11,10 +11,9 @@ import tempfile
 from collections.abc import Sequence
 from pathlib import Path
 
-from up.cogs.cog_error import CogError
+from up.cogs.cog import CogError, Echo
 from up.cogs.cogfile import WantedCog
 from up.cogs.installed import distribution_of
-from up.cogs.say import Say
 from up.cogs.source_tree import (
     builds_with_setuptools,
     distribution_name,
@@ -26,7 +25,7 @@ FRAMEWORK = "raspilot"
 _SHOWN_LINES = 12
 
 
-def install(missing: Sequence[WantedCog], in_tree: Sequence[WantedCog], tell: Say) -> None:
+def install(missing: Sequence[WantedCog], in_tree: Sequence[WantedCog], echo: Echo) -> None:
     """Install cogs; raises CogError with pip's last lines and one sentence.
 
     All folders go to one pip call, which resolves their dependencies on each other. ``in_tree`` are
@@ -61,10 +60,10 @@ def install(missing: Sequence[WantedCog], in_tree: Sequence[WantedCog], tell: Sa
         ):
             if cogs:
                 wanted = [word for each in cogs for word in _arguments(each)]
-                run_pip([*command, *options, *wanted], tell)
+                run_pip([*command, *options, *wanted], echo)
 
 
-def run_pip(command: Sequence[str], tell: Say) -> None:
+def run_pip(command: Sequence[str], echo: Echo) -> None:
     """Run a pip command; raises CogError with its last lines and one sentence."""
     environ = {**os.environ, "PIP_NO_COLOR": "1", "GIT_TERMINAL_PROMPT": "0"}
     try:
@@ -82,7 +81,7 @@ def run_pip(command: Sequence[str], tell: Say) -> None:
         raise CogError(f"pip cannot be run: {error}") from error
     if done.returncode != 0:
         for line in done.stdout.rstrip().splitlines()[-_SHOWN_LINES:]:
-            tell(f"  pip: {line}")
+            echo(f"  pip: {line}")
         raise CogError(f"pip could not install what is missing (exit status {done.returncode})")
 
 

@@ -8,9 +8,8 @@ import importlib.util
 import inspect
 from typing import Any
 
-from up.cogs.cog_error import CogError
+from up.cogs.cog import CogError, Echo, echo
 from up.cogs.registry import Registry, Source
-from up.cogs.say import Say, say
 from up.cogs.up_registrant import UpRegistrant
 from up.config import ConfigErrors
 from up.loading.application import Application
@@ -20,7 +19,7 @@ REGISTRANT_MODULE = "registrar"
 REGISTRANT_CLASSES = ("Registrant", "Registrar")
 
 
-def register(cog: str, application: Application, source: Source, tell: Say = say) -> None:
+def register(cog: str, application: Application, source: Source, echo: Echo = echo) -> None:
     """Register an installed cog with an application.
 
     Raises CogError with one sentence or ConfigErrors with the place of every error.
@@ -28,11 +27,11 @@ def register(cog: str, application: Application, source: Source, tell: Say = say
     found = find_registrant(cog)
     try:
         if issubclass(found, UpRegistrant):
-            registrant = found(tell)
+            registrant = found(echo)
             _check_importable(registrant, application)
             registrant.register(application, source)
         else:
-            _register_old(found, cog, application, source, tell)
+            _register_old(found, cog, application, source, echo)
     except (CogError, ConfigErrors, BrokenPipeError):
         raise
     except OSError as error:
@@ -43,10 +42,10 @@ def register(cog: str, application: Application, source: Source, tell: Say = say
         ) from error
 
 
-def unregister(cog: str, application: Application, tell: Say = say) -> bool:
+def unregister(cog: str, application: Application, echo: Echo = echo) -> bool:
     """Unregister a cog, installed or not; return whether it was registered."""
     changed = Registry(application.root).remove(cog)
-    tell(f"{cog}: {'unregistered' if changed else 'was not registered'}")
+    echo(f"{cog}: {'unregistered' if changed else 'was not registered'}")
     return changed
 
 
@@ -89,7 +88,7 @@ def _check_importable(registrant: UpRegistrant, application: Application) -> Non
 
 
 def _register_old(
-    found: type[Any], cog: str, application: Application, source: Source, tell: Say
+    found: type[Any], cog: str, application: Application, source: Source, echo: Echo
 ) -> None:
     # Old Registrars search for the application in the current directory.
     with contextlib.chdir(application.root):
@@ -98,4 +97,4 @@ def _register_old(
         if registrar.register() is False:
             raise CogError(f"the Registrar of the cog {cog} says that it failed")
         changed = registrar.finish()
-    tell(f"{cog}: {'registered' if changed else 'is registered'}")
+    echo(f"{cog}: {'registered' if changed else 'is registered'}")

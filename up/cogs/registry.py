@@ -10,9 +10,9 @@ from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import Literal
 
-from up.cogs.cog_error import CogError
+from up.cogs.cog import CogError
 from up.cogs.manifest import entry_lines
-from up.config.writing import write_atomically
+from up.config.atomic_writer import write_atomically
 from up.loading.external_modules import (
     EXTERNAL_MODULES,
     EXTERNAL_MODULES_FILE,
@@ -42,7 +42,6 @@ class Registry:
         self._root = root
 
     def entries(self) -> dict[str, CogEntry]:
-        """Return the registered cogs by package name."""
         return EXTERNAL_MODULES.load(self._root)
 
     def add(self, cog: str, modules: Iterable[ModuleEntry], source: Source) -> bool:
@@ -63,7 +62,6 @@ class Registry:
             return True
 
     def remove(self, cog: str) -> bool:
-        """Unregister a cog; return whether it was registered."""
         with self._locked():
             entries = self.entries()
             if entries.pop(cog, None) is None:

@@ -6,9 +6,9 @@ import inspect
 from pathlib import Path
 from typing import Any, ClassVar
 
+from up.cogs.cog import Echo, echo
 from up.cogs.manifest import MANIFEST_FILE, Manifest, load_manifest
 from up.cogs.registry import Registry, Source
-from up.cogs.say import Say, say
 from up.config import ConfigFile, write_template
 from up.loading.application import Application
 
@@ -24,8 +24,8 @@ class UpRegistrant:
 
     CONFIG_FILES: ClassVar[tuple[ConfigFile[Any], ...]] = ()
 
-    def __init__(self, tell: Say = say) -> None:
-        self.tell = tell
+    def __init__(self, echo: Echo = echo) -> None:
+        self.echo = echo
 
     @property
     def cog_name(self) -> str:
@@ -34,7 +34,6 @@ class UpRegistrant:
 
     @property
     def folder(self) -> Path:
-        """Return the folder of the cog's package."""
         return Path(inspect.getfile(type(self))).resolve().parent
 
     @property
@@ -49,27 +48,25 @@ class UpRegistrant:
         """
         manifest = self.manifest
         if manifest.recorders:
-            self.tell(
+            self.echo(
                 f"{self.cog_name}: {MANIFEST_FILE} lists recorders; they are ignored, make them"
                 " Thread Modules"
             )
         changed = Registry(application.root).add(self.cog_name, manifest.modules, source)
-        self.tell(f"{self.cog_name}: {'registered' if changed else 'is registered'}")
+        self.echo(f"{self.cog_name}: {'registered' if changed else 'is registered'}")
         self.create_configuration(application)
         self.prepare(application)
         return changed
 
     def unregister(self, application: Application) -> bool:
-        """Remove the cog; return whether it was registered. Its configuration stays."""
         changed = Registry(application.root).remove(self.cog_name)
-        self.tell(f"{self.cog_name}: {'unregistered' if changed else 'was not registered'}")
+        self.echo(f"{self.cog_name}: {'unregistered' if changed else 'was not registered'}")
         return changed
 
     def create_configuration(self, application: Application) -> None:
-        """Create the cog's missing configuration files."""
         for file in self.CONFIG_FILES:
             if write_template(file, application.config_folder):
-                self.tell(f"{self.cog_name}: created {application.config_folder / file.filename}")
+                self.echo(f"{self.cog_name}: created {application.config_folder / file.filename}")
 
     def prepare(self, application: Application) -> None:
         """Create everything else that the cog needs."""

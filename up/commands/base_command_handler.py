@@ -20,9 +20,12 @@ class BaseCommandHandler(ABC):
     COMMAND: type[BaseCommand] | str = ""
 
     @property
-    def logger(self) -> Logger:
-        """Return a logger with this handler's name."""
+    def log(self) -> Logger:
         return Logger(namespace=type(self).__name__)
+
+    @property
+    def logger(self) -> Logger:
+        return self.log
 
     @abstractmethod
     def run_action(self, command: Any) -> Any:

@@ -6,18 +6,19 @@ from up.commands.altitude_command import AltitudeCommand
 from up.commands.answer_commands import AckCommand, CommandAnsweredCommand, NackCommand
 from up.commands.arming_commands import ArmCommand, DisarmCommand
 from up.commands.command import BaseCommand
-from up.commands.flight_mode_command import FlightModeCommand
-from up.commands.flight_state_command import FlightStateCommand
-from up.commands.fly_by_wire_limits_command import FlyByWireLimitsCommand
+from up.commands.flight_state_command import (
+    FlightModeCommand,
+    FlightStateCommand,
+    FlyByWireLimitsCommand,
+)
 from up.commands.heading_command import HeadingCommand
 from up.commands.location_command import LocationCommand
 from up.commands.orientation_command import OrientationCommand
-from up.commands.output_command import OutputCommand
+from up.commands.output_command import OutputCommand, SetpointCommand
 from up.commands.panic_command import PanicCommand
 from up.commands.pid_tunings_commands import PIDTuningsCommand, PIDTuningsValuesCommand
 from up.commands.rx_command import RXCommand
 from up.commands.servo_command import ServoCommand
-from up.commands.setpoint_command import SetpointCommand
 from up.commands.system_commands import (
     LinkStateCommand,
     SourceSelectedCommand,

@@ -48,12 +48,10 @@ class BaseCommand:
 
     @property
     def name(self) -> str:
-        """Return the name on the wire."""
         return self.NAME
 
     @property
     def data(self) -> dict[str, Any]:
-        """Return the fields by their names on the wire."""
         return {key: _plain(getattr(self, name)) for name, key, _ in wire_fields(type(self))}
 
     @classmethod

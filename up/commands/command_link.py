@@ -82,7 +82,6 @@ class CommandLink:
             self._answer(command_id, encode("up.ack", {"id": command_id}))
 
     def nack(self, command_id: str | None, code: Code, reason: str) -> None:
-        """Reject the Command, with the reason."""
         if command_id is not None:
             data = {"id": command_id, "code": code.value, "reason": reason[:_REASON_LIMIT]}
             self._answer(command_id, encode("up.nack", data))

@@ -10,6 +10,7 @@ from twisted.internet.defer import Deferred, TimeoutError
 from twisted.logger import Logger
 from twisted.python.failure import Failure
 
+from up.cleanup import add_cleanup
 from up.commands.answer_reports import AnswerReports
 from up.commands.beacon import Beacons
 from up.commands.command import BaseCommand, InvalidCommandError
@@ -18,7 +19,6 @@ from up.commands.command_link import CommandLink
 from up.commands.origin import INTERNAL, Origin
 from up.commands.refusal import Code, CommandRefusedError, UnhandledCommandError
 from up.protocols.general_message import GeneralMessage, MalformedMessage
-from up.registrations import note_undo
 
 OUTCOME_LIMIT_S = 2.0
 _FAILED = "carrying it out failed; the log says where"
@@ -51,7 +51,7 @@ class CommandReceiver:
         if name in self._routes:
             raise ValueError(f"the route {name!r} is taken")
         self._routes[name] = route
-        note_undo(lambda: self._routes.pop(name, None))
+        add_cleanup(lambda: self._routes.pop(name, None))
 
     def receive(self, message: GeneralMessage, link: CommandLink) -> None:
         """Handle one message from a link: publish it, route it, or refuse it.
@@ -131,7 +131,7 @@ class CommandReceiver:
             self._executor.execute_command(command, link.origin)
             return
         else:
-            done = self._executor.execute_for_outcome(command, link.origin)
+            done = self._executor.execute_and_wait(command, link.origin)
         if done is None:
             return
         done.addTimeout(OUTCOME_LIMIT_S, self._clock)

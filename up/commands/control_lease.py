@@ -32,7 +32,6 @@ class ControlLease:
 
     @property
     def owner(self) -> str | None:
-        """Return the publisher that has control, or None."""
         is_held = self._seconds() - self._renewed_at_s <= SILENCE_S
         return self._owner if is_held else None
 
@@ -56,7 +55,6 @@ class ControlLease:
         return reason
 
     def release(self, publisher: str) -> None:
-        """Take control from a publisher that stops."""
         if publisher == self._owner:
             self._renewed_at_s = float("-inf")
 

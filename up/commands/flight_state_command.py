@@ -1,4 +1,4 @@
-"""The flight mode and authority that the board reports."""
+"""The flight mode: what the board reports, what the ground requests, its limits."""
 
 from __future__ import annotations
 
@@ -23,3 +23,25 @@ class FlightStateCommand(BaseCommand):
     is_auto: bool = value(key="auto")
     is_failsafe: bool = value(key="failsafe")
     is_in_flight: bool | None = value(None, key="in_flight")
+
+
+@dataclass(frozen=True, slots=True)
+class FlightModeCommand(BaseCommand):
+    """A flight mode; taken only while the pilot's switch stands at AUTO, and never ACRO."""
+
+    NAME: ClassVar[str] = "up.flight_mode.set"
+    ROLES: ClassVar[frozenset[Role]] = frozenset({Role.OPERATOR})
+    mode: str = value(choices=("RATE", "FBW", "AUTO"))
+
+
+@dataclass(frozen=True, slots=True)
+class FlyByWireLimitsCommand(BaseCommand):
+    """What the airframe's configuration says of the limits; None: it says nothing.
+
+    Published whenever a board answers that may be another one, before it lets anybody fly.
+    """
+
+    NAME: ClassVar[str] = "up.flight.limits"
+    roll_deg: float | None = value(None, minimum=0, maximum=90, unit="deg")
+    pitch_up_deg: float | None = value(None, minimum=0, maximum=90, unit="deg")
+    pitch_down_deg: float | None = value(None, minimum=0, maximum=90, unit="deg")

@@ -1,4 +1,4 @@
-"""The servo positions that a flight controller on the Raspberry Pi computes."""
+"""What a flight controller on the Raspberry Pi sends: servo positions or an attitude to hold."""
 
 from __future__ import annotations
 
@@ -22,3 +22,16 @@ class OutputCommand(BaseCommand):
     throttle_us: int = value(key="throttle", minimum=0, maximum=2000, unit="us")
     rudder_us: int = value(key="rudder", minimum=1000, maximum=2000, unit="us")
     sequence: int = value(minimum=0, maximum=65535)
+
+
+@dataclass(frozen=True, slots=True)
+class SetpointCommand(BaseCommand):
+    """An attitude asked of the Arduino; after ``lifetime_ms`` it holds level by itself."""
+
+    NAME: ClassVar[str] = "up.setpoint.set"
+    NEEDS_CONTROL: ClassVar[bool] = True
+    roll_deg: float = value(key="roll", minimum=-90, maximum=90, unit="deg")
+    pitch_deg: float = value(key="pitch", minimum=-90, maximum=90, unit="deg")
+    yaw_rate_deg_s: float = value(0.0, key="yaw_rate", minimum=-300, maximum=300, unit="deg/s")
+    throttle_us: int | None = value(None, key="throttle", minimum=1000, maximum=2000, unit="us")
+    lifetime_ms: int = value(250, minimum=1, maximum=250, unit="ms")

@@ -31,7 +31,6 @@ class PIDTuningsCommand(BaseCommand):
 
     @property
     def gains(self) -> GainSet | None:
-        """Return the gains to use, or None for a request."""
         if self.request or self.pids is None:
             return None
         return gain_set_from_data(self.pids)
@@ -49,7 +48,6 @@ class PIDTuningsValuesCommand(BaseCommand):
 
     @classmethod
     def of(cls, gains: GainSet) -> PIDTuningsValuesCommand:
-        """Return a Command with a set of gains."""
         return cls(gain_set_to_data(replace(gains, navigation=None)))
 
     @property

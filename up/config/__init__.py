@@ -4,17 +4,17 @@ A file is declared as a frozen dataclass whose fields are `key`, `section`, `map
 and named by a `ConfigFile`.
 """
 
+from up.config.atomic_writer import write_schemas, write_template
 from up.config.file import ConfigFile, load_all, unknown_files
-from up.config.learned import LearnedFile
+from up.config.persisted import PersistedFile
 from up.config.problems import ConfigErrors, ConfigProblem
-from up.config.shape import items, key, mapping, section
-from up.config.writing import write_schemas, write_template
+from up.config.schema import items, key, mapping, section
 
 __all__ = [
     "ConfigErrors",
     "ConfigFile",
     "ConfigProblem",
-    "LearnedFile",
+    "PersistedFile",
     "items",
     "key",
     "load_all",

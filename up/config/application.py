@@ -6,7 +6,8 @@ from dataclasses import dataclass
 from typing import Literal
 
 from up.config.file import ConfigFile
-from up.config.shape import key
+from up.config.schema import items, key
+from up.fields import Constraint
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,3 +45,49 @@ class ApplicationConfig:
 
 
 APPLICATION = ConfigFile("config.yml", ApplicationConfig)
+
+
+@dataclass(frozen=True, slots=True)
+class DisabledModulesConfig:
+    """Modules that are not loaded, built-in ones included."""
+
+    disabled_modules: tuple[str, ...] = items(
+        Constraint(str, max_length=255),
+        "Full names, like package.modules.altitude.AltitudeModule, one a line after a dash.",
+        name="disabled modules",
+    )
+
+
+DISABLED_MODULES = ConfigFile("disabled_modules.yml", DisabledModulesConfig)
+
+
+_SOURCE = Constraint(str, max_length=64)
+
+
+def _order(reading: str) -> tuple[str, ...]:
+    made: tuple[str, ...] = items(
+        _SOURCE,
+        f"Sources of the {reading}, the preferred first. Empty: as the links say (the Arduino "
+        "before the phone).",
+        max_length=16,
+    )
+    return made
+
+
+@dataclass(frozen=True, slots=True)
+class ProvidersConfig:
+    """Which sources the providers prefer, by the names of their links (arduino, android, ...)."""
+
+    orientation: tuple[str, ...] = _order("orientation")
+    location: tuple[str, ...] = _order("location")
+    altitude: tuple[str, ...] = _order("altitude")
+    heading: tuple[str, ...] = _order("heading")
+    rx: tuple[str, ...] = _order("receiver inputs")
+
+    def order_of(self, reading: str) -> tuple[str, ...]:
+        """Return the preferred sources of a reading; empty for a reading without a key."""
+        order: tuple[str, ...] = getattr(self, reading, ())
+        return order
+
+
+PROVIDERS = ConfigFile("providers.yml", ProvidersConfig)

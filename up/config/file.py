@@ -1,4 +1,4 @@
-"""A configuration file: its name, its shape, and how it is read and written."""
+"""A configuration file: its name, its schema, and how it is read and written."""
 
 from __future__ import annotations
 
@@ -7,14 +7,14 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Generic, TypeVar
 
+from up.config.loader import decode, read_text
 from up.config.nodes import compose
 from up.config.problems import ConfigErrors, ConfigProblem, Problems
-from up.config.reading import decode, read_text
 from up.config.scalars import is_null
-from up.config.schema import schema_of
-from up.config.shape import Shape, shape_of
+from up.config.schema import Entry, ListOf, MapOf, Schema, Spec, plain_value, schema_of
 from up.config.template import template_of
 from up.config.validator import Validator
+from up.fields import Constraint
 
 T = TypeVar("T")
 
@@ -31,10 +31,10 @@ class ConfigFile(Generic[T]):
     filename: str
     cls: type[T]
     removed: Mapping[str, str] = field(default_factory=dict)
-    shape: Shape = field(init=False, repr=False)
+    schema: Schema = field(init=False, repr=False)
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "shape", shape_of(self.cls))
+        object.__setattr__(self, "schema", schema_of(self.cls))
 
     def load(self, folder: Path) -> T:
         """Return the values of the file in `folder`, or the defaults if it does not exist.
@@ -62,16 +62,14 @@ class ConfigFile(Generic[T]):
         return value  # type: ignore[return-value]
 
     def template(self) -> str:
-        """Return the commented file whose values are the defaults."""
         return self.render(self.cls())
 
     def render(self, values: T) -> str:
-        """Return the commented file that holds `values`."""
-        return template_of(self.shape, values)
+        return template_of(self.schema, values)
 
     def json_schema(self) -> dict[str, Any]:
         """Return the JSON Schema (draft 2020-12) of the file, for editors."""
-        return schema_of(self.filename, self.shape)
+        return json_schema_of(self.filename, self.schema)
 
     def _parse(self, text: str, problems: Problems, whole: bool) -> T:
         root = compose(text, problems.report)
@@ -79,7 +77,7 @@ class ConfigFile(Generic[T]):
             if whole and not problems.found:
                 problems.report(1, 1, "is empty")
             return self.cls()
-        value: T = Validator(problems.report, dict(self.removed), whole).read(self.shape, root)
+        value: T = Validator(problems.report, dict(self.removed), whole).read(self.schema, root)
         return value
 
 
@@ -105,3 +103,71 @@ def unknown_files(folder: Path, files: Iterable[ConfigFile[Any]]) -> list[Path]:
     except OSError:
         return []
     return [path for path in found if path.suffix in (".yml", ".yaml") and path.name not in known]
+
+
+_DRAFT = "https://json-schema.org/draft/2020-12/schema"
+
+
+def json_schema_of(filename: str, schema: Schema) -> dict[str, Any]:
+    """Return the schema (draft 2020-12) of a file with this schema."""
+    return {"$schema": _DRAFT, "title": filename, **_schema(schema)}
+
+
+def _schema(spec: Spec) -> dict[str, Any]:
+    if isinstance(spec, Constraint):
+        return spec.json_schema()
+    if isinstance(spec, ListOf):
+        schema: dict[str, Any] = {"type": "array", "items": _schema(spec.item)}
+        if spec.max_length is not None:
+            schema["maxItems"] = spec.max_length
+        return schema
+    if isinstance(spec, MapOf):
+        schema = {"type": "object", "additionalProperties": _schema(spec.value)}
+        schema["propertyNames"] = spec.key.json_schema()
+        if spec.max_length is not None:
+            schema["maxProperties"] = spec.max_length
+        return schema
+    schema = {"type": "object", "additionalProperties": False}
+    if spec.comment:
+        schema["description"] = spec.comment
+    schema["properties"] = {entry.name: _entry_schema(entry) for entry in spec.entries}
+    return schema
+
+
+def _entry_schema(entry: Entry) -> dict[str, Any]:
+    schema = _schema(entry.spec)
+    if entry.comment:
+        schema["description"] = entry.comment
+    if entry.default is not None or (isinstance(entry.spec, Constraint) and entry.spec.nullable):
+        schema["default"] = plain_value(entry.spec, entry.default)
+    return schema
+
+
+V = TypeVar("V")
+_GREATEST_LENGTH = 1000
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class MapFile(Generic[V]):
+    """A file that maps names to entries, each read into the frozen dataclass ``cls``."""
+
+    filename: str
+    cls: type[V]
+    key: Constraint = field(default_factory=lambda: Constraint(str, max_length=100))
+
+    def load(self, folder: Path) -> dict[str, V]:
+        """Return the entries in the order of the file; none for a missing or empty file.
+
+        Raises ConfigErrors with every problem of the file.
+        """
+        path = Path(folder) / self.filename
+        problems = Problems(path)
+        text = read_text(path, problems.report)
+        entries: dict[str, V] = {}
+        if text is not None:
+            root = compose(text, problems.report)
+            if root is not None and not is_null(root):
+                spec: Any = MapOf(self.key, schema_of(self.cls), _GREATEST_LENGTH)
+                entries = Validator(problems.report, {}).read(spec, root)
+        problems.raise_if_any()
+        return entries

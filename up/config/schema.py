@@ -1,46 +1,260 @@
-"""The JSON Schema of a configuration file, so that editors complete and check it."""
+"""The schema of a configuration file, declared as frozen dataclasses.
+
+`key`, `section`, `mapping` and `items` take the place of a dataclass field's default; `schema_of`
+reads them back as a tree for the validator, the template and the schema.
+"""
 
 from __future__ import annotations
 
-from typing import Any
+import dataclasses
+import inspect
+import sys
+import types
+import typing
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from typing import Any, TypeVar, cast
 
-from up.config.shape import Entry, ListOf, MapOf, Shape, Spec
-from up.config.values import plain_value
-from up.fields import Constraint
+from up.fields import Constraint, show
 
-_DRAFT = "https://json-schema.org/draft/2020-12/schema"
-
-
-def schema_of(filename: str, shape: Shape) -> dict[str, Any]:
-    """Return the schema (draft 2020-12) of a file with this shape."""
-    return {"$schema": _DRAFT, "title": filename, **_schema(shape)}
+T = TypeVar("T")
+V = TypeVar("V")
+_METADATA = "up.config"
 
 
-def _schema(spec: Spec) -> dict[str, Any]:
+@dataclass(frozen=True, slots=True)
+class Schema:
+    """A map with known keys, read into an instance of the dataclass `cls`."""
+
+    cls: type[Any]
+    comment: str
+    entries: tuple[Entry, ...]
+
+    def defaults(self) -> Any:
+        return self.cls()
+
+
+@dataclass(frozen=True, slots=True)
+class MapOf:
+    """A map with free keys, read into a dict."""
+
+    key: Constraint
+    value: Spec
+    max_length: int | None
+
+
+@dataclass(frozen=True, slots=True)
+class ListOf:
+    """A list, read into a tuple."""
+
+    item: Spec
+    max_length: int | None
+
+
+Spec = Constraint | Schema | MapOf | ListOf
+
+
+@dataclass(frozen=True, slots=True)
+class Entry:
+    """One key of a Schema: its attribute, its constraint and its description."""
+
+    attribute: str
+    name: str
+    comment: str
+    spec: Spec
+    default: Any
+    replaced: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class _Declared:
+    """The declaration of a dataclass field before its annotation is known."""
+
+    kind: str
+    comment: str
+    name: str | None
+    replaced: tuple[str, ...]
+    bounds: Mapping[str, Any]
+
+
+def key(
+    default: T,
+    comment: str,
+    *,
+    name: str | None = None,
+    unit: str = "",
+    minimum: float | None = None,
+    maximum: float | None = None,
+    choices: tuple[Any, ...] | None = None,
+    max_length: int | None = None,
+    nullable: bool = False,
+    ignore_case: bool = False,
+    replaced: tuple[str, ...] = (),
+) -> T:
+    """Declare a key with one value, whose type is the field's annotation (`X | None`: nullable).
+
+    In the file its name is `name`, otherwise the attribute's. `replaced` lists its former names:
+    they are refused with a sentence that gives the new one.
+    """
+    bounds = {
+        "unit": unit,
+        "minimum": minimum,
+        "maximum": maximum,
+        "choices": choices,
+        "max_length": max_length,
+        "nullable": nullable,
+        "ignore_case": ignore_case,
+    }
+    declared = _Declared("key", comment, name, replaced, bounds)
+    return dataclasses.field(default=default, metadata={_METADATA: declared})
+
+
+def section(
+    cls: type[T],
+    comment: str = "",
+    *,
+    name: str | None = None,
+    optional: bool = False,
+    replaced: tuple[str, ...] = (),
+) -> T:
+    """Declare a map with known keys, itself a dataclass; an absent `optional` one reads as None."""
+    declared = _Declared("section", comment, name, replaced, {"cls": cls})
+    factory: Any = (lambda: None) if optional else cls
+    return cast(T, dataclasses.field(default_factory=factory, metadata={_METADATA: declared}))
+
+
+def mapping(
+    key: Constraint,
+    value: Constraint | type[V] | MapOf | ListOf,
+    comment: str,
+    *,
+    default: Mapping[str, Any] | None = None,
+    name: str | None = None,
+    max_length: int | None = 1000,
+    replaced: tuple[str, ...] = (),
+) -> Any:
+    """Declare a map with free keys, read into a dict; in a file it replaces the whole default."""
+    spec = MapOf(key, _spec_of(value), max_length)
+    declared = _Declared("free", comment, name, replaced, {"spec": spec})
+    start = dict(default or {})
+    return dataclasses.field(default_factory=lambda: dict(start), metadata={_METADATA: declared})
+
+
+def items(
+    item: Constraint | type[V] | MapOf | ListOf,
+    comment: str,
+    *,
+    default: Iterable[Any] = (),
+    name: str | None = None,
+    max_length: int | None = 1000,
+    replaced: tuple[str, ...] = (),
+) -> Any:
+    """Declare a list, read into a tuple; in a file it replaces the whole default."""
+    spec = ListOf(_spec_of(item), max_length)
+    declared = _Declared("free", comment, name, replaced, {"spec": spec})
+    return dataclasses.field(default=tuple(default), metadata={_METADATA: declared})
+
+
+def schema_of(cls: type[Any]) -> Schema:
+    """Return the schema that a frozen dataclass declares.
+
+    Raises TypeError for an invalid declaration and ValueError for a default that violates its own
+    constraint: both are programming errors.
+    """
+    if not dataclasses.is_dataclass(cls):
+        raise TypeError(f"{cls.__qualname__} is not a dataclass")
+    entries = tuple(_entry_of(cls, field) for field in dataclasses.fields(cls))
+    names = [name for entry in entries for name in (entry.name, *entry.replaced)]
+    if len(names) != len(set(names)):
+        raise TypeError(f"{cls.__qualname__} gives one name to two keys")
+    return Schema(cls, _doc_of(cls), entries)
+
+
+def _entry_of(cls: type[Any], field: dataclasses.Field[Any]) -> Entry:
+    where = f"{cls.__qualname__}.{field.name}"
+    declared = field.metadata.get(_METADATA)
+    if not isinstance(declared, _Declared):
+        raise TypeError(f"{where} is not declared with key, section, mapping or items")
+    if isinstance(field.default_factory, type) or callable(field.default_factory):
+        default = field.default_factory()
+    else:
+        default = field.default
+    spec: Spec
+    comment = declared.comment
+    if declared.kind == "section":
+        spec = schema_of(declared.bounds["cls"])
+        comment = comment or spec.comment
+    elif declared.kind == "key":
+        spec = _constraint_of(cls, field, declared.bounds, where)
+    else:
+        spec = declared.bounds["spec"]
+    if not isinstance(spec, Schema):
+        try:
+            _check_default(spec, default)
+        except ValueError as error:
+            raise ValueError(f"the default of {where} {error}") from None
+    return Entry(field.name, declared.name or field.name, comment, spec, default, declared.replaced)
+
+
+def _check_default(spec: Spec, value: Any) -> None:
     if isinstance(spec, Constraint):
-        return spec.json_schema()
-    if isinstance(spec, ListOf):
-        schema: dict[str, Any] = {"type": "array", "items": _schema(spec.item)}
-        if spec.max_length is not None:
-            schema["maxItems"] = spec.max_length
-        return schema
+        spec.check(value)
+    elif isinstance(spec, Schema):
+        if not isinstance(value, spec.cls):
+            raise ValueError(f"must be a {spec.cls.__name__}, not {show(value)}")
+    elif isinstance(spec, MapOf):
+        for name, inner in value.items():
+            spec.key.check(name)
+            _check_default(spec.value, inner)
+    else:
+        for inner in value:
+            _check_default(spec.item, inner)
+
+
+def _constraint_of(
+    cls: type[Any], field: dataclasses.Field[Any], bounds: Mapping[str, Any], where: str
+) -> Constraint:
+    annotation: Any = field.type
+    if isinstance(annotation, str):
+        holder = types.SimpleNamespace(__annotations__={field.name: annotation})
+        scope = vars(sys.modules[cls.__module__])
+        annotation = typing.get_type_hints(holder, globalns=scope)[field.name]
+    arguments = dict(bounds)
+    members = typing.get_args(annotation)
+    if types.NoneType in members:
+        arguments["nullable"] = True
+        rest = [member for member in members if member is not types.NoneType]
+        annotation = rest[0] if len(rest) == 1 else annotation
+    if typing.get_origin(annotation) is typing.Literal:
+        choices = typing.get_args(annotation)
+        arguments["choices"] = choices
+        annotation = type(choices[0])
+    if annotation not in (bool, int, float, str):
+        raise TypeError(f"{where}: a key is a bool, int, float or str, not {annotation!r}")
+    return Constraint(annotation, **arguments)
+
+
+def _spec_of(value: Constraint | type[Any] | MapOf | ListOf) -> Spec:
+    return schema_of(value) if isinstance(value, type) else value
+
+
+def _doc_of(cls: type[Any]) -> str:
+    # A dataclass without a docstring gets its signature as one; that is not a comment.
+    doc = inspect.cleandoc(cls.__doc__ or "")
+    return "" if doc.startswith(f"{cls.__name__}(") else doc
+
+
+def plain_value(spec: Spec, value: Any) -> Any:
+    """Return a value as JSON and YAML types, with the file's key names; None stays None."""
+    if value is None:
+        return None
+    if isinstance(spec, Schema):
+        return {
+            entry.name: plain_value(entry.spec, getattr(value, entry.attribute))
+            for entry in spec.entries
+        }
     if isinstance(spec, MapOf):
-        schema = {"type": "object", "additionalProperties": _schema(spec.value)}
-        schema["propertyNames"] = spec.key.json_schema()
-        if spec.max_length is not None:
-            schema["maxProperties"] = spec.max_length
-        return schema
-    schema = {"type": "object", "additionalProperties": False}
-    if spec.comment:
-        schema["description"] = spec.comment
-    schema["properties"] = {entry.name: _entry_schema(entry) for entry in spec.entries}
-    return schema
-
-
-def _entry_schema(entry: Entry) -> dict[str, Any]:
-    schema = _schema(entry.spec)
-    if entry.comment:
-        schema["description"] = entry.comment
-    if entry.default is not None or (isinstance(entry.spec, Constraint) and entry.spec.nullable):
-        schema["default"] = plain_value(entry.spec, entry.default)
-    return schema
+        return {name: plain_value(spec.value, inner) for name, inner in value.items()}
+    if isinstance(spec, ListOf):
+        return [plain_value(spec.item, inner) for inner in value]
+    return value

@@ -1,4 +1,4 @@
-"""Writes a commented configuration file from a shape and its values."""
+"""Writes a commented configuration file from a schema and its values."""
 
 from __future__ import annotations
 
@@ -9,8 +9,7 @@ from collections.abc import Iterator
 from typing import Any
 
 from up.config.scalars import needs_quotes
-from up.config.shape import Entry, ListOf, MapOf, Shape, Spec
-from up.config.values import plain_value
+from up.config.schema import Entry, ListOf, MapOf, Schema, Spec, plain_value
 from up.fields import Constraint, number_text
 
 _WIDTH = 78
@@ -18,12 +17,12 @@ _PLAIN = re.compile(r"[A-Za-z_/]([\w ./()+-]*[\w/)+-])?", re.ASCII)
 _INDENT = "  "
 
 
-def template_of(shape: Shape, values: Any) -> str:
+def template_of(schema: Schema, values: Any) -> str:
     """Return the file: the head comment, then every key with its comment."""
-    lines = [*_comment(shape.comment, "")]
-    if not shape.entries:
+    lines = [*_comment(schema.comment, "")]
+    if not schema.entries:
         lines.append("{}")
-    for entry in shape.entries:
+    for entry in schema.entries:
         lines.extend(["", *_entry(entry, getattr(values, entry.attribute), "")])
     return "\n".join(lines).lstrip("\n") + "\n"
 
@@ -46,7 +45,7 @@ def _entry(entry: Entry, value: Any, indent: str) -> Iterator[str]:
     yield from _comment(entry.comment, indent)
     yield from _comment(_allowed(entry), indent)
     name = yaml_scalar(entry.name)
-    if isinstance(entry.spec, Shape):
+    if isinstance(entry.spec, Schema):
         yield from _section(name, entry.spec, value, indent)
         return
     if isinstance(entry.spec, MapOf | ListOf):
@@ -54,16 +53,16 @@ def _entry(entry: Entry, value: Any, indent: str) -> Iterator[str]:
     yield from _pair(name, plain_value(entry.spec, value), indent)
 
 
-def _section(name: str, shape: Shape, value: Any, indent: str) -> Iterator[str]:
-    if value is None or not shape.entries:
+def _section(name: str, schema: Schema, value: Any, indent: str) -> Iterator[str]:
+    if value is None or not schema.entries:
         # An absent optional section appears as a comment, ready to be uncommented.
         mark = "# " if value is None else ""
-        for line in _pair(name, plain_value(shape, shape.defaults()), ""):
+        for line in _pair(name, plain_value(schema, schema.defaults()), ""):
             yield f"{indent}{mark}{line}"
         return
     yield f"{indent}{name}:"
     inner = indent + _INDENT
-    for number, entry in enumerate(shape.entries):
+    for number, entry in enumerate(schema.entries):
         if number:
             yield ""
         yield from _entry(entry, getattr(value, entry.attribute), inner)
@@ -95,7 +94,7 @@ def _flow(value: Any) -> str:
 def _example(spec: MapOf | ListOf, indent: str) -> Iterator[str]:
     """Yield an example entry of a free map or a list of maps, as a comment."""
     inner = spec.value if isinstance(spec, MapOf) else spec.item
-    if isinstance(inner, Shape):
+    if isinstance(inner, Schema):
         example = _flow(plain_value(inner, inner.defaults()))
         head = "name: " if isinstance(spec, MapOf) else "- "
         yield f"{indent}# For example  {head}{example}"
@@ -122,7 +121,7 @@ def _allowed(entry: Entry) -> str:
 
 
 def _bounds(spec: Spec) -> Iterator[str]:
-    if isinstance(spec, Shape):
+    if isinstance(spec, Schema):
         return
     if not isinstance(spec, Constraint):
         if spec.max_length is not None:

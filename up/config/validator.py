@@ -1,17 +1,14 @@
-"""Converts a tree of nodes to the values that a shape declares, with every problem's place."""
+"""Converts a tree of nodes to the values that a schema declares, with every problem's place."""
 
 from __future__ import annotations
 
-import difflib
 from collections.abc import Iterable
 from typing import Any, Protocol, runtime_checkable
 
 from up.config.nodes import ListNode, MapNode, Node, Report, ScalarNode
 from up.config.scalars import is_null, read_scalar
-from up.config.shape import Entry, ListOf, MapOf, Shape, Spec
-from up.fields import Constraint, show
-
-_LONGEST_GUESSED_KEY = 60
+from up.config.schema import ListOf, MapOf, Schema, Spec
+from up.fields import Constraint, show, suggestion
 
 
 @runtime_checkable
@@ -30,7 +27,7 @@ _REFUSED = _Refused()
 
 
 class Validator:
-    """Reads nodes according to a shape.
+    """Reads nodes according to a schema.
 
     With `whole` the file must have all its sections, and every map in it all its keys.
 
@@ -58,8 +55,8 @@ class Validator:
         return self._value(spec, node, "")
 
     def _value(self, spec: Spec, node: Node, path: str) -> Any:
-        if isinstance(spec, Shape):
-            return self._shape(spec, node, path)
+        if isinstance(spec, Schema):
+            return self._schema(spec, node, path)
         if isinstance(spec, MapOf):
             return self._map(spec, node, path)
         if isinstance(spec, ListOf):
@@ -72,17 +69,17 @@ class Validator:
         except ValueError as error:
             return self._refuse(node, path, str(error))
 
-    def _shape(self, shape: Shape, node: Node, path: str) -> Any:
+    def _schema(self, schema: Schema, node: Node, path: str) -> Any:
         if not isinstance(node, MapNode):
             return self._refuse(node, path, f"must be a map of keys, not {_found(node)}")
         before = self._refused
-        entries = {entry.name: entry for entry in shape.entries}
+        entries = {entry.name: entry for entry in schema.entries}
         places: dict[str, Node] = {}
         values: dict[str, Any] = {}
         for name, key_node, value_node in self._pairs(node, path):
             entry = entries.get(name)
             if entry is None:
-                self._unknown(shape, name, key_node, path)
+                self._unknown(schema, name, key_node, path)
                 continue
             places[entry.attribute] = value_node
             inner = _join(path, name)
@@ -93,25 +90,27 @@ class Validator:
             elif self._whole or (self._valued and isinstance(entry.spec, Constraint)):
                 self._refuse(value_node, inner, "must have a value")
         if self._whole:
-            self._check_whole(shape, node, places, path)
+            self._check_whole(schema, node, places, path)
         if self._refused > before:
             return _REFUSED
-        value = shape.cls(**values)
-        return value if self._fits(shape, value, node, places, path) else _REFUSED
+        value = schema.cls(**values)
+        return value if self._fits(schema, value, node, places, path) else _REFUSED
 
-    def _check_whole(self, shape: Shape, node: MapNode, places: dict[str, Node], path: str) -> None:
-        for entry in shape.entries:
+    def _check_whole(
+        self, schema: Schema, node: MapNode, places: dict[str, Node], path: str
+    ) -> None:
+        for entry in schema.entries:
             # A nested section (an axis) may be absent as a whole, a top-level section may not.
             is_part = isinstance(entry.spec, Constraint) or (not path and entry.default is not None)
             if is_part and entry.attribute not in places:
                 self._refuse(node, path, f"the key {show(entry.name)} is missing")
 
     def _fits(
-        self, shape: Shape, value: Any, node: MapNode, places: dict[str, Node], path: str
+        self, schema: Schema, value: Any, node: MapNode, places: dict[str, Node], path: str
     ) -> bool:
         before = self._refused
         if isinstance(value, ChecksItself):
-            names = {entry.attribute: entry.name for entry in shape.entries}
+            names = {entry.attribute: entry.name for entry in schema.entries}
             for attribute, what in value.problems():
                 self._refuse(places.get(attribute, node), _join(path, names[attribute]), what)
         return self._refused == before
@@ -129,7 +128,7 @@ class Validator:
             except ValueError as error:
                 self._refuse(key_node, inner, f"as a key {error}")
                 continue
-            if is_null(value_node) and isinstance(spec.value, Shape) and not self._whole:
+            if is_null(value_node) and isinstance(spec.value, Schema) and not self._whole:
                 values[checked_name] = spec.value.defaults()
             else:
                 values[checked_name] = self._value(spec.value, value_node, inner)
@@ -162,17 +161,18 @@ class Validator:
             lines[name] = key_node.line
             yield name, key_node, value_node
 
-    def _unknown(self, shape: Shape, name: str, node: Node, path: str) -> None:
+    def _unknown(self, schema: Schema, name: str, node: Node, path: str) -> None:
         sentence = self._removed.get(_join(path, name))
         if sentence is not None:
             self._refuse(node, path, f"the key {show(name)} is no longer used: {sentence}")
             return
-        for entry in shape.entries:
+        for entry in schema.entries:
             if name in entry.replaced:
                 new = show(entry.name)
                 self._refuse(node, path, f"the key {show(name)} is now called {new}")
                 return
-        self._refuse(node, path, f"unknown key {show(name)}{_guess(name, shape.entries)}")
+        guess = suggestion(name, (entry.name for entry in schema.entries))
+        self._refuse(node, path, f"unknown key {show(name)}{guess}")
 
     def _refuse(self, node: Node, path: str, what: str) -> _Refused:
         self._refused += 1
@@ -194,11 +194,3 @@ def _found(node: Node) -> str:
 
 def _join(path: str, name: str) -> str:
     return f"{path}.{name}" if path else name
-
-
-def _guess(name: str, entries: Iterable[Entry]) -> str:
-    if len(name) > _LONGEST_GUESSED_KEY:
-        return ""
-    names = {entry.name.lower(): entry.name for entry in entries}
-    near = difflib.get_close_matches(name.lower(), names, n=1)
-    return f", did you mean '{names[near[0]]}'?" if near else ""

@@ -33,7 +33,6 @@ class Servo:
     highest_us: int | None = _pulse("Longest pulse that it gets. A new Arduino has 2000.")
 
     def problems(self) -> Iterator[tuple[str, str]]:
-        """Yield contradictions between the keys."""
         if (
             self.lowest_us is not None
             and self.highest_us is not None

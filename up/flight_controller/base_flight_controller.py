@@ -28,7 +28,7 @@ class BaseFlightController(BaseStartedModule):
         super().__init__(config, silent)
         self.flight_mode: str | None = None
 
-    def _execute_initialization(self) -> None:
+    def on_init(self) -> None:
         self._providers: dict[str, BaseProvider[Any]] = {
             provider.READING: provider for provider in self.up.get_modules(BaseProvider)
         }
@@ -42,14 +42,14 @@ class BaseFlightController(BaseStartedModule):
         """Return whether a mode's readings are valid and fresh; False for an unknown mode."""
         wanted = self.FLIGHT_MODES.get(mode)
         return wanted is not None and all(
-            self._is_usable(reading, max_age_s) for reading, max_age_s in wanted.items()
+            self._is_fresh(reading, max_age_s) for reading, max_age_s in wanted.items()
         )
 
     def missing_for(self, mode: str) -> list[str]:
         """Return the readings that keep a mode from being offered."""
         wanted = self.FLIGHT_MODES.get(mode, {})
-        return [each for each, max_age_s in wanted.items() if not self._is_usable(each, max_age_s)]
+        return [each for each, max_age_s in wanted.items() if not self._is_fresh(each, max_age_s)]
 
-    def _is_usable(self, reading: str, max_age_s: float) -> bool:
+    def _is_fresh(self, reading: str, max_age_s: float) -> bool:
         provider = self._providers.get(reading)
-        return provider is not None and provider.usable(max_age_s) is not None
+        return provider is not None and provider.fresh(max_age_s) is not None

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from pathlib import Path
 
-from up.config import ConfigFile, LearnedFile, key, section
+from up.config import ConfigFile, PersistedFile, key, section
 from up.flight_controller.gains import GREATEST, Gains, GainSet, LoopGains
 
 _RATE_UNIT = "1.25 us per deg/s"
@@ -107,7 +107,7 @@ class PidsFile:
     """Loads and saves a GainSet; a corrupt file never stops a flight."""
 
     def __init__(self, folder: Path) -> None:
-        self._file = LearnedFile(folder / PIDS.filename, PIDS)
+        self._file = PersistedFile(folder / PIDS.filename, PIDS)
 
     def load(self) -> tuple[GainSet, str | None]:
         """Return the saved set, or the last good one, or the defaults, and the reason."""

@@ -10,9 +10,10 @@ from typing import Any
 
 from up.flight_log.json_message import decode, number_at
 from up.flight_log.log_files import LogFiles
-from up.flight_log.log_index import MOST_PARTS, LogIndex
-from up.flight_log.log_parts import Attachment, PartReader, TopicNotes
+from up.flight_log.log_index import MAX_PARTS, LogIndex
+from up.flight_log.log_parts import Attachment, PartReader, TopicInfo
 from up.flight_log.mcap_format import FlightLogError
+from up.flight_log.problems import LogProblem
 
 _NS = 1e-9
 
@@ -43,8 +44,8 @@ class FlightLog:
         self.is_complete = all(part.is_complete for part in parts)
         self._index = index
         self._names = list(index.topics)
-        self._notes: dict[str, TopicNotes] = {}
-        self._file_problems: list[str] = []
+        self._infos: dict[str, TopicInfo] = {}
+        self._file_problems: list[LogProblem] = []
         for part in parts:
             self._add(part)
         times = index.times_ns
@@ -60,44 +61,41 @@ class FlightLog:
         one is. Raises FlightLogError (one sentence) when none can be read.
         """
         if not paths:
-            raise FlightLogError("no flight log is named")
-        if len(paths) > MOST_PARTS:
-            raise FlightLogError(f"one flight has {MOST_PARTS} files at most, not {len(paths)}")
+            raise FlightLogError("no flight log is named", "no_file")
+        if len(paths) > MAX_PARTS:
+            text = f"one flight has {MAX_PARTS} files at most, not {len(paths)}"
+            raise FlightLogError(text, "too_many_files")
         index, parts = LogIndex(), []
         for number, path in enumerate(paths):
             part = PartReader(path, number)
             part.read(index)
             parts.append(part)
-        if all(part.fault for part in parts):
-            raise FlightLogError(parts[0].fault)
-        for number, count in index.put_strays_aside().items():
-            parts[number].note_strays(count)
+        faults = [part.fault for part in parts if part.fault is not None]
+        if len(faults) == len(parts):
+            raise faults[0]
+        for number, count in index.drop_outliers().items():
+            parts[number].report_outliers(count)
         index.finish()
         return cls(paths, index, parts)
 
     @property
-    def problems(self) -> list[str]:
-        """Return one sentence for each kind of fault; decoding may add to them."""
-        told = list(self._file_problems)
+    def problems(self) -> list[LogProblem]:
+        """Return one problem for each kind of fault; decoding may add to them."""
+        found = list(self._file_problems)
         for topic in self.topics:
-            told += self._notes[topic].sentences(topic) if topic in self._notes else []
-        return told
+            found += self._infos[topic].problems(topic) if topic in self._infos else []
+        return found
 
     def schema(self, topic: str) -> dict[str, Any] | None:
         """Return the JSON Schema of a topic; None without a readable one."""
-        notes = self._notes.get(topic)
-        if notes is None or notes.schema is None:
+        info = self._infos.get(topic)
+        if info is None or info.schema is None:
             return None
         try:
-            schema = json.loads(notes.schema.data)
+            schema = json.loads(info.schema.data)
         except (ValueError, RecursionError):
             return None
         return schema if isinstance(schema, dict) else None
-
-    def schema_name(self, topic: str) -> str:
-        """Return the name of a topic's schema; empty without one."""
-        notes = self._notes.get(topic)
-        return notes.schema.name if notes is not None and notes.schema is not None else ""
 
     def messages(self, *topics: str, since_s: float = 0.0) -> Iterator[LoggedMessage]:
         """Yield the messages of these topics (default: all) in the order of time.
@@ -151,7 +149,7 @@ class FlightLog:
         index = self._index
         since_ns = self._start_ns + round(since_s / _NS) if since_s > 0 else 0
         unread: list[Callable[[int, str], None] | None] = [None] * len(self._names)
-        encodings = [self._notes[name].is_json for name in self._names]
+        encodings = [self._infos[name].is_json for name in self._names]
         with LogFiles(self.paths) as files:
             for position in index.positions(topics, since_ns):
                 number = index.name_of(position)
@@ -160,10 +158,10 @@ class FlightLog:
                 try:
                     yield position, number, decode(files.read(*index.place_of(position)))
                 except ValueError as error:
-                    note = unread[number]
-                    if note is None:
-                        note = unread[number] = self._notes[self._names[number]].note
-                    note(position, str(error))
+                    add = unread[number]
+                    if add is None:
+                        add = unread[number] = self._infos[self._names[number]].add_unread
+                    add(position, str(error))
 
     def _add(self, part: PartReader) -> None:
         self._file_problems += part.problems
@@ -172,5 +170,5 @@ class FlightLog:
             self.metadata[name] = {**values, **self.metadata.get(name, {})}
         for name, attachment in part.attachments.items():
             self.attachments.setdefault(name, attachment)
-        for topic, notes in part.topics.items():
-            self._notes.setdefault(topic, notes)
+        for topic, info in part.topics.items():
+            self._infos.setdefault(topic, info)

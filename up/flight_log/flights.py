@@ -15,8 +15,8 @@ from up.flight_log.mcap_format import FlightLogError
 
 SUFFIX = ".mcap"
 LAST = "last"
-_LONGEST_NUMBER = 9
-_LONGEST_SHOWN = 300
+_MAX_DIGITS = 9
+_MAX_SHOWN = 300
 
 
 class FlightNotFoundError(FlightLogError):
@@ -50,81 +50,82 @@ def flights_in(folder: Path) -> list[Flight]:
     try:
         files = flight_files(folder)
     except OSError as error:
-        raise FlightNotFoundError(f"{folder}: {error.strerror or error}") from error
+        text = f"{folder}: {error.strerror or error}"
+        raise FlightNotFoundError(text, "unreadable") from error
     return [
         Flight(tuple(file.path for file in parts), number, aircraft)
         for (number, _, aircraft), parts in groupby(files, lambda file: file.flight)
     ]
 
 
-def find_flight(named: str, folder: Callable[[], Path]) -> Flight:
+def find_flight(name: str, folder: Callable[[], Path]) -> Flight:
     """Return the flight that a user names; raises FlightNotFoundError with one sentence.
 
-    ``named`` is a number or ``last``, looked up in the folder that ``folder`` returns, or the path
+    ``name`` is a number or ``last``, looked up in the folder that ``folder`` returns, or the path
     of a file or folder.
     """
-    if named == LAST:
-        return _those_in(folder())[-1]
-    if named.isascii() and named.isdigit() and len(named) <= _LONGEST_NUMBER:
-        return _numbered(int(named), folder())
-    path = Path(named)
+    if name == LAST:
+        return _flights_of(folder())[-1]
+    if name.isascii() and name.isdigit() and len(name) <= _MAX_DIGITS:
+        return _numbered(int(name), folder())
+    path = Path(name)
     # A text that the system refuses as a path (too long, a NUL inside) is not a path here either.
     with contextlib.suppress(OSError, ValueError):
         if path.is_dir():
             return _only_one(path)
         if path.exists():
             return _with_its_parts(path)
-    named = named if len(named) <= _LONGEST_SHOWN else f"{named[:_LONGEST_SHOWN]}..."
-    raise FlightNotFoundError(f"{printable(named)}: no such flight{_hint(named)}")
+    name = name if len(name) <= _MAX_SHOWN else f"{name[:_MAX_SHOWN]}..."
+    hint = f" ('{LAST}', a number from 'up log list', a file or a folder)"
+    if difflib.SequenceMatcher(None, name, LAST).ratio() > 0.7:
+        hint = f", did you mean '{LAST}'?"
+    raise FlightNotFoundError(f"{printable(name)}: no such flight{hint}", "no_such_flight")
 
 
-def find_flight_of(words: Sequence[str], folder: Callable[[], Path]) -> Flight:
-    """Return the flight that one word names, as ``find_flight`` does, or that several files form.
+def find_flight_of(names: Sequence[str], folder: Callable[[], Path]) -> Flight:
+    """Return the flight that one name selects, as ``find_flight`` does, or that files form.
 
-    Files named by the black box are put in their order, others stay in the order of ``words``.
+    Files named by the black box are put in their order, others stay in the order of ``names``.
     Raises FlightNotFoundError.
     """
-    if len(words) == 1:
-        return find_flight(words[0], folder)
-    paths = [Path(word) for word in words]
+    if len(names) == 1:
+        return find_flight(names[0], folder)
+    paths = [Path(name) for name in names]
     for path in paths:
         if not path.is_file():
-            raise FlightNotFoundError(
-                f"{printable(str(path))} is no file: name one flight, or the files of one"
-            )
+            text = f"{printable(str(path))} is not a file: name one flight, or the files of one"
+            raise FlightNotFoundError(text, "not_a_file")
     files = [file for file in map(FlightFile.of, paths) if file is not None]
     if len({file.flight for file in files}) > 1:
-        raise FlightNotFoundError(f"{_listed(paths)} are of several flights: name one")
+        listed = printable(" and ".join(path.name for path in paths))
+        text = f"{listed} belong to several flights: name one"
+        raise FlightNotFoundError(text, "several_flights")
     if len(files) < len(paths):
         return Flight(tuple(paths), None, "")
     files.sort(key=lambda file: file.part)
     return Flight(tuple(file.path for file in files), files[0].number, files[0].aircraft)
 
 
-def _those_in(folder: Path) -> list[Flight]:
+def _flights_of(folder: Path) -> list[Flight]:
     if not folder.is_dir():
-        raise FlightNotFoundError(f"no flight has been recorded: there is no folder {folder}")
+        raise FlightNotFoundError(f"no flight recorded: no folder {folder}", "no_folder")
     flights = flights_in(folder)
     if not flights:
-        raise FlightNotFoundError(f"no flight is in {folder}")
+        raise FlightNotFoundError(f"no flight in {folder}", "no_flights")
     return flights
 
 
 def _numbered(number: int, folder: Path) -> Flight:
-    flights = _those_in(folder)
+    flights = _flights_of(folder)
     found = [flight for flight in flights if flight.number == number]
     if not found:
-        numbers = [flight.number for flight in flights]
-        raise FlightNotFoundError(
-            f"there is no flight {number} in {folder}: the newest is {numbers[-1]}, the"
-            f" oldest {numbers[0]}"
-            if len(numbers) > 1
-            else f"there is no flight {number} in {folder}: it has {numbers[0]} only"
-        )
-    if len(found) > 1:
-        raise FlightNotFoundError(
-            f"{len(found)} flights have the number {number}: name {_files(found)}"
-        )
+        first, last = flights[0].number, flights[-1].number
+        known = f"the newest is {last}, the oldest {first}" if flights[1:] else f"only {first}"
+        raise FlightNotFoundError(f"no flight {number} in {folder}: {known}", "no_such_flight")
+    if found[1:]:
+        files = " or ".join(str(flight.paths[0]) for flight in found)
+        text = f"{len(found)} flights have the number {number}: name {files}"
+        raise FlightNotFoundError(text, "several_flights")
     return found[0]
 
 
@@ -133,39 +134,22 @@ def _only_one(folder: Path) -> Flight:
     if len(flights) == 1:
         return flights[0]
     if flights:
-        raise FlightNotFoundError(
-            f"{folder} has {len(flights)} flights: say --folder {folder} and a number"
-        )
+        text = f"{folder} has {len(flights)} flights: use --folder {folder} and a number"
+        raise FlightNotFoundError(text, "several_flights")
     # Renamed parts still belong to one flight, in the order of their names.
     paths = sorted(folder.glob(f"*{SUFFIX}"))
     if not paths:
-        raise FlightNotFoundError(f"no flight is in {folder}: it has no file that ends in {SUFFIX}")
+        text = f"no flight in {folder}: no file ends in {SUFFIX}"
+        raise FlightNotFoundError(text, "no_flights")
     return Flight(tuple(paths), None, "")
 
 
 def _with_its_parts(path: Path) -> Flight:
     """Return the flight that begins with a file; a later part named alone is read alone."""
-    named = FlightFile.of(path)
-    if named is None:
+    file = FlightFile.of(path)
+    if file is None:
         return Flight((path,), None, "")
-    if named.part > 1:
-        return Flight((path,), named.number, named.aircraft)
-    flights = flights_in(path.parent)
-    return next(
-        (flight for flight in flights if path in flight.paths),
-        Flight((path,), named.number, named.aircraft),
-    )
-
-
-def _listed(paths: Sequence[Path]) -> str:
-    return printable(" and ".join(path.name for path in paths))
-
-
-def _files(flights: Sequence[Flight]) -> str:
-    return " or ".join(str(flight.paths[0]) for flight in flights)
-
-
-def _hint(named: str) -> str:
-    if difflib.SequenceMatcher(None, named, LAST).ratio() > 0.7:
-        return f", did you mean '{LAST}'?"
-    return f" ('{LAST}', a number that 'up log list' tells, a file or a folder)"
+    alone = Flight((path,), file.number, file.aircraft)
+    if file.part > 1:
+        return alone
+    return next((flight for flight in flights_in(path.parent) if path in flight.paths), alone)

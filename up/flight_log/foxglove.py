@@ -37,9 +37,11 @@ LOG_SCHEMA: dict[str, Any] = {
             "description": "0 unknown, 1 debug, 2 info, 3 warning, 4 error, 5 fatal",
         },
         "message": {"type": "string"},
-        "name": {"type": "string", "description": "who says it"},
+        "name": {"type": "string", "description": "the logger"},
         "file": {"type": "string"},
         "line": {"type": "integer", "minimum": 0},
+        "code": {"type": "string", "description": "the kind of event, for programs"},
+        "fields": {"type": "object", "properties": {}, "description": "the values of the event"},
     },
     "required": ["timestamp", "level", "message"],
 }

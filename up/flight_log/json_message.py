@@ -6,7 +6,7 @@ import json
 import math
 from typing import Any, NoReturn
 
-DEEPEST = 32
+MAX_DEPTH = 32
 _INFINITY = math.inf
 _TOO_LARGE = "a number that is too large"
 
@@ -20,19 +20,19 @@ def decode(data: bytes) -> dict[str, Any]:
     try:
         text = str(data, "utf-8")
     except UnicodeDecodeError:
-        raise ValueError("no UTF-8") from None
+        raise ValueError("not UTF-8") from None
     try:
         fields = _DECODER.decode(text)
     except (json.JSONDecodeError, RecursionError):
-        raise ValueError("no JSON") from None
+        raise ValueError("not JSON") from None
     if not isinstance(fields, dict):
-        raise ValueError("no JSON object")
+        raise ValueError("not a JSON object")
     if text.count("{") + text.count("[") > 1:
-        _refuse_strange(fields, DEEPEST)
+        _reject_nested(fields, MAX_DEPTH)
     elif _INFINITY in fields.values() or -_INFINITY in fields.values():
         raise ValueError(_TOO_LARGE)
     if "\\u" in text:
-        _refuse_surrogates(fields)
+        _reject_surrogates(fields)
     return fields
 
 
@@ -52,26 +52,26 @@ def number_at(data: Any, path: tuple[str, ...]) -> float | None:
         return None
 
 
-def _refuse_strange(value: Any, left: int) -> None:
+def _reject_nested(value: Any, left: int) -> None:
     if left == 0:
-        raise ValueError(f"nested deeper than {DEEPEST}")
+        raise ValueError(f"nested deeper than {MAX_DEPTH}")
     items = value.values() if isinstance(value, dict) else value
     if _INFINITY in items or -_INFINITY in items:
         raise ValueError(_TOO_LARGE)
     for each in items:
         if type(each) in (dict, list):
-            _refuse_strange(each, left - 1)
+            _reject_nested(each, left - 1)
 
 
-def _refuse_surrogates(fields: dict[str, Any]) -> None:
+def _reject_surrogates(fields: dict[str, Any]) -> None:
     try:
         json.dumps(fields, ensure_ascii=False).encode("utf-8")
     except UnicodeEncodeError:
         raise ValueError("text with a lone surrogate") from None
 
 
-def _refuse(text: str) -> NoReturn:
-    raise ValueError(f"{text}, which is no JSON")
+def _reject(text: str) -> NoReturn:
+    raise ValueError(f"{text}, which is not JSON")
 
 
-_DECODER = json.JSONDecoder(parse_constant=_refuse)
+_DECODER = json.JSONDecoder(parse_constant=_reject)

@@ -11,7 +11,7 @@ from typing import Self
 from up.flight_log.mcap_format import FlightLogError
 
 _WINDOW = 64 * 1024
-_MOST_OPEN = 16
+_MAX_OPEN = 16
 _NEAR = 4 * 1024
 """Messages at most this far apart are read together."""
 
@@ -25,7 +25,7 @@ class LogFiles:
     def __init__(self, paths: Sequence[Path]) -> None:
         self._paths = paths
         self._descriptors: dict[int, int] = {}
-        self._part = -1
+        self._segment = -1
         self._begin = 0
         self._end = 0
         self._window = b""
@@ -46,12 +46,13 @@ class LogFiles:
     def read(self, part: int, offset: int, size: int) -> bytes:
         """Return this many bytes of a part; raises FlightLogError."""
         begin = offset - self._begin
-        if part != self._part or begin < 0 or offset + size > self._end:
-            is_near = part == self._part and 0 <= offset - self._end <= _NEAR
+        if part != self._segment or begin < 0 or offset + size > self._end:
+            is_near = part == self._segment and 0 <= offset - self._end <= _NEAR
             self._fill(part, offset, max(size, _WINDOW) if is_near else size)
             begin = 0
             if self._end - offset < size:
-                raise FlightLogError(f"{self._paths[part].name}: it became shorter meanwhile")
+                text = f"{self._paths[part].name}: it became shorter after it was indexed"
+                raise FlightLogError(text, "truncated")
         return self._window[begin : begin + size]
 
     def close(self) -> None:
@@ -64,13 +65,12 @@ class LogFiles:
         try:
             descriptor = self._descriptors.get(part)
             if descriptor is None:
-                if len(self._descriptors) >= _MOST_OPEN:
+                if len(self._descriptors) >= _MAX_OPEN:
                     self.close()
                 flags = os.O_RDONLY | os.O_CLOEXEC | os.O_NONBLOCK
                 descriptor = self._descriptors[part] = os.open(self._paths[part], flags)
             self._window = os.pread(descriptor, size, offset)
         except OSError as error:
-            raise FlightLogError(
-                f"{self._paths[part].name}: cannot be read: {error.strerror or error}"
-            ) from None
-        self._part, self._begin, self._end = part, offset, offset + len(self._window)
+            text = f"cannot read {self._paths[part].name}: {error.strerror or error}"
+            raise FlightLogError(text, "unreadable") from None
+        self._segment, self._begin, self._end = part, offset, offset + len(self._window)

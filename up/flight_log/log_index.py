@@ -7,10 +7,10 @@ from bisect import bisect_left
 from collections import Counter
 from collections.abc import Callable, Iterable, Sequence
 
-from up.flight_log.true_times import strays
+from up.flight_log.timestamp_outliers import outliers
 
-MOST_TOPICS = 65535
-MOST_PARTS = 65535
+MAX_TOPICS = 65535
+MAX_PARTS = 65535
 _PART_SHIFT = 48
 _OFFSET_MASK = (1 << _PART_SHIFT) - 1
 
@@ -36,7 +36,7 @@ class LogIndex:
     def topic(self, name: str) -> int | None:
         """Return the number of a topic, a new one for a new name; None if there are too many."""
         number = self.topics.get(name)
-        if number is None and len(self.topics) < MOST_TOPICS:
+        if number is None and len(self.topics) < MAX_TOPICS:
             number = self.topics[name] = len(self.topics)
         return number
 
@@ -54,9 +54,9 @@ class LogIndex:
 
         return add
 
-    def put_strays_aside(self) -> Counter[int]:
+    def drop_outliers(self) -> Counter[int]:
         """Remove the messages with impossible times; return how many by part."""
-        found = set(strays(self.times_ns))
+        found = set(outliers(self.times_ns))
         parts = Counter(self._places[each] >> _PART_SHIFT for each in found)
         if found:
             kept = [each for each in range(len(self)) if each not in found]

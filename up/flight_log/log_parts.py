@@ -11,14 +11,13 @@ from up.fields import printable
 from up.flight_log.log_files import LogFiles
 from up.flight_log.log_index import LogIndex
 from up.flight_log.mcap_format import JSON, MESSAGE, FlightLogError, Opcode
-from up.flight_log.mcap_reader import read_record
-from up.flight_log.mcap_records import AttachedFile, Channel, Metadata, Schema
-from up.flight_log.problems import Problems
-from up.flight_log.record_walk import RecordWalk, open_log
+from up.flight_log.mcap_records import AttachedFile, Channel, Metadata, Schema, read_record
+from up.flight_log.problems import LogProblem, Problems
+from up.flight_log.record_scanner import RecordScanner, open_log
 
-MOST_ATTACHMENTS = 1000
-MOST_METADATA = 1000
-MOST_KEPT_BYTES = 32 * 1024 * 1024
+MAX_ATTACHMENTS = 1000
+MAX_METADATA = 1000
+MAX_KEPT_BYTES = 32 * 1024 * 1024
 """Of schemas, channels and metadata together."""
 _MESSAGE_HEAD = Struct("<HIQ")
 _MESSAGE = int(Opcode.MESSAGE)
@@ -41,36 +40,34 @@ class Attachment:
             return files.read(0, self.offset, self.size)
 
 
-class TopicNotes:
+class TopicInfo:
     """The metadata of a topic, and its messages that could not be read."""
 
     def __init__(self, encoding: str, schema: Schema | None) -> None:
-        self.encoding = encoding
         self.schema = schema
+        self.is_json = encoding == JSON
+        self._encoding = encoding
         self._unread = 0
         self._reason = ""
         self._last = -1
 
-    @property
-    def is_json(self) -> bool:
-        """Return whether its messages are JSON."""
-        return self.encoding == JSON
-
-    def note(self, position: int, reason: str) -> None:
-        """Note a message that could not be read; repeated reports count once."""
+    def add_unread(self, position: int, reason: str) -> None:
+        """Count a message that could not be read; repeated reports count once."""
         if position > self._last:
             self._last = position
             self._unread += 1
             self._reason = self._reason or reason
 
-    def sentences(self, topic: str) -> list[str]:
+    def problems(self, topic: str) -> list[LogProblem]:
         """Return the problems of the topic."""
         topic = printable(topic)
         if not self.is_json:
-            return [f"{topic}: its messages are no JSON but {self.encoding!a:.40}: only listed"]
+            text = f"{topic}: the encoding {self._encoding!a:.40} is not JSON: it is only listed"
+            return [LogProblem("not_json", text)]
         if self._unread:
             plural = "" if self._unread == 1 else "s"
-            return [f"{topic}: {self._unread} message{plural} left out: {self._reason}"]
+            text = f"{topic}: {self._unread} message{plural} skipped: {self._reason}"
+            return [LogProblem("messages_skipped", text)]
         return []
 
 
@@ -79,58 +76,58 @@ class PartReader:
 
     def __init__(self, path: Path, number: int) -> None:
         self.path = path
-        self.fault = ""
+        self.fault: FlightLogError | None = None
         self.is_complete = False
         self.metadata: dict[str, dict[str, str]] = {}
         self.attachments: dict[str, Attachment] = {}
-        self.topics: dict[str, TopicNotes] = {}
+        self.topics: dict[str, TopicInfo] = {}
         self._number = number
-        self._noted = Problems(path.name)
+        self._problems = Problems(path.name)
         self._schemas: dict[int, Schema] = {}
         self._channels: dict[int, Channel] = {}
         self._kept = 0
-        self._strays: list[str] = []
+        self._outliers: list[LogProblem] = []
 
     @property
-    def problems(self) -> list[str]:
+    def problems(self) -> list[LogProblem]:
         """Return the problems of the file."""
-        return [*([self.fault] if self.fault else []), *self._noted.sentences, *self._strays]
+        fault = [] if self.fault is None else [LogProblem(self.fault.code, str(self.fault))]
+        return [*fault, *self._problems.all(), *self._outliers]
 
-    def note_strays(self, count: int) -> None:
-        """Note how many messages were dropped for an impossible time."""
-        what = "message has a time that cannot be and is"
-        if count > 1:
-            what = "messages have times that cannot be and are"
-        self._strays = [f"{self.path.name}: {count} {what} put aside"]
+    def report_outliers(self, count: int) -> None:
+        """Report how many messages were dropped for an impossible time."""
+        plural = "" if count == 1 else "s"
+        text = f"{self.path.name}: {count} message{plural} with an impossible time skipped"
+        self._outliers = [LogProblem("timestamp_outliers", text)]
 
     def read(self, index: LogIndex) -> None:
         """Add the messages of the file to the index, as far as they are readable."""
         try:
             with open_log(self.path) as file:
-                walk = RecordWalk(file, self._noted)
-                self._read(walk, index)
-                self.is_complete = walk.is_complete
+                scanner = RecordScanner(file, self._problems)
+                self._read(scanner, index)
+                self.is_complete = scanner.is_complete
         except FlightLogError as error:
-            self.fault = str(error)
+            self.fault = error
 
-    def _read(self, walk: RecordWalk, index: LogIndex) -> None:
+    def _read(self, scanner: RecordScanner, index: LogIndex) -> None:
         # Topic numbers by channel: the only lookup per message.
         topics: dict[int, int | None] = {}
         add = index.adder(self._number)
         unpack, size = _MESSAGE_HEAD.unpack_from, MESSAGE.size
-        for opcode, offset, start, length in walk:
+        for opcode, offset, start, length in scanner:
             if opcode == _MESSAGE:
                 if length < size:
-                    self._noted.note("a message without its fields is left out", offset)
+                    self._problems.add("short_message", "a message without its fields", offset)
                     continue
-                channel, _, time_ns = unpack(walk.buffer, start)
+                channel, _, time_ns = unpack(scanner.buffer, start)
                 topic = topics.get(channel)
                 if topic is None:
-                    self._noted.note("a message of an unknown channel is left out", offset)
+                    self._problems.add("unknown_channel", "a message of an unknown channel", offset)
                     continue
                 add(topic, time_ns, offset + size, length - size)
             elif opcode in _KEPT:
-                content = walk.buffer[start : start + length]
+                content = scanner.buffer[start : start + length]
                 self._keep(opcode, offset, content, index.topic, topics)
 
     def _keep(
@@ -141,18 +138,19 @@ class PartReader:
         number_of: Callable[[str], int | None],
         topics: dict[int, int | None],
     ) -> None:
-        record = read_record(opcode, offset, content, self._noted)
+        record = read_record(opcode, offset, content, self._problems)
         if isinstance(record, AttachedFile):
             self._attach(record)
             return
         self._kept += len(content)
-        if self._kept > MOST_KEPT_BYTES:
-            self._noted.note("too many schemas, channels or metadata: the rest is left out", offset)
+        if self._kept > MAX_KEPT_BYTES:
+            text = "too many schemas, channels or metadata: the rest is skipped"
+            self._problems.add("too_much_metadata", text, offset)
         elif isinstance(record, Schema):
             self._schemas.setdefault(record.id, record)
         elif isinstance(record, Channel):
             self._declare(record, offset, number_of, topics)
-        elif isinstance(record, Metadata) and len(self.metadata) < MOST_METADATA:
+        elif isinstance(record, Metadata) and len(self.metadata) < MAX_METADATA:
             self.metadata.setdefault(record.name, dict(record.values))
 
     def _declare(
@@ -165,14 +163,15 @@ class PartReader:
         known = self._channels.setdefault(channel.id, channel)
         if known is not channel:
             if known != channel:
-                self._noted.note("a channel is declared again, as another one", offset)
+                text = "a channel is declared again with other content"
+                self._problems.add("channel_redeclared", text, offset)
             return
         topics[channel.id] = number_of(channel.topic)
         schema = self._schemas.get(channel.schema_id)
-        self.topics.setdefault(channel.topic, TopicNotes(channel.encoding, schema))
+        self.topics.setdefault(channel.topic, TopicInfo(channel.encoding, schema))
 
     def _attach(self, found: AttachedFile) -> None:
-        if len(self.attachments) < MOST_ATTACHMENTS:
+        if len(self.attachments) < MAX_ATTACHMENTS:
             attachment = Attachment(
                 found.name, found.media_type, found.size, self.path, found.offset
             )

@@ -11,7 +11,14 @@ JSON_SCHEMA = "jsonschema"
 
 
 class FlightLogError(Exception):
-    """A flight log cannot be read or written; the text is one sentence that names the file."""
+    """A flight log cannot be read or written.
+
+    The text is one sentence that names the file, ``code`` is its kind.
+    """
+
+    def __init__(self, text: str, code: str) -> None:
+        super().__init__(text)
+        self.code = code
 
 
 class Opcode(IntEnum):

@@ -31,7 +31,7 @@ from up.flight_log.mcap_format import (
 from up.version import VERSION
 
 LIBRARY = f"raspilot {VERSION}"
-MOST_IDS = 65535
+MAX_IDS = 65535
 _SEQUENCES = 2**32
 _MESSAGE = int(Opcode.MESSAGE)
 _CONTENT = MESSAGE.size
@@ -183,8 +183,8 @@ class McapWriter:
 
 
 def _next(count: int, what: str) -> int:
-    if count >= MOST_IDS:
-        raise ValueError(f"a flight log has {MOST_IDS} {what} at most")
+    if count >= MAX_IDS:
+        raise ValueError(f"a flight log has {MAX_IDS} {what} at most")
     return count + 1
 
 

@@ -6,11 +6,11 @@ import re
 
 from up.flight_log.mcap_format import MESSAGE, RECORD, Opcode
 
-WITNESSES = 3
+CONFIRMATION_RECORDS = 3
 """This many whole records must follow each other: text never looks like that."""
-LONGEST = 64 * 1024
+MAX_LENGTH = 64 * 1024
 """Maximum length of a record accepted here; the records of a flight are far shorter."""
-LONGEST_RECORD = 16 * 1024 * 1024
+MAX_RECORD = 16 * 1024 * 1024
 """Longer records (except chunks, which are walked) are skipped; no window gets larger."""
 _LIKELY = re.compile(rb"\x05[\s\S]{3}\0{5}")
 LAST = int(max(Opcode))
@@ -35,15 +35,15 @@ def may_follow(head: bytes, left: int) -> bool:
     length: int
     opcode, length = RECORD.unpack_from(head)
     # A truncated record no longer fits, but its length is plausible.
-    return opcode != 0 and length <= max(left, LONGEST_RECORD)
+    return opcode != 0 and length <= max(left, MAX_RECORD)
 
 
 def _is_run(buffer: bytes, at: int) -> bool:
-    for _ in range(WITNESSES):
+    for _ in range(CONFIRMATION_RECORDS):
         if at + RECORD.size > len(buffer):
             return False
         opcode, length = RECORD.unpack_from(buffer, at)
-        if not 1 <= opcode <= LAST or length > LONGEST:
+        if not 1 <= opcode <= LAST or length > MAX_LENGTH:
             return False
         if opcode == Opcode.MESSAGE and length < MESSAGE.size:
             return False

@@ -57,7 +57,7 @@ class Columns:
         self.series = {name: Series() for name in fields}
         self._paths = [(tuple(name.split(".")), self.series[name].add) for name in fields]
 
-    def take(self, time_s: float, data: Mapping[str, Any]) -> None:
+    def add(self, time_s: float, data: Mapping[str, Any]) -> None:
         """Add the values of one message."""
         for path, add in self._paths:
             add(time_s, number_at(data, path))
@@ -69,7 +69,7 @@ def columns(
     """Return a series for each field of the messages."""
     found = Columns(fields)
     for time_s, data in messages:
-        found.take(time_s, data)
+        found.add(time_s, data)
     return found.series
 
 

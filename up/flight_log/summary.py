@@ -7,16 +7,16 @@ from dataclasses import dataclass
 
 from up.flight_log import board_status
 from up.flight_log.estimate_error import EstimateError
-from up.flight_log.facts import TELEMETRY, Facts
+from up.flight_log.finding import Finding
+from up.flight_log.findings import findings
+from up.flight_log.flight_context import TELEMETRY, FlightContext
 from up.flight_log.flight_log import FlightLog
 from up.flight_log.followed import followed
 from up.flight_log.json_message import number_at
 from up.flight_log.spans import Span
-from up.flight_log.way import way_of
-from up.flight_log.wrong import Wrong
-from up.flight_log.wrongs import wrongs
+from up.flight_log.track_statistics import track_statistics
 
-__all__ = ["FlightSummary", "Mark", "ModeSpan", "Wrong", "summarise", "wrongs"]
+__all__ = ["Finding", "FlightSummary", "Mark", "ModeSpan", "findings", "summarise"]
 
 SOURCES: dict[str, str] = {
     "orientation": "up.orientation.update",
@@ -33,7 +33,7 @@ ALTITUDE = "up.altitude.change"
 BATTERY = "android.battery"
 MARK = "black_box.mark"
 WARNING, ERROR = 3, 4
-_MOST_VETOES = 100
+_MAX_VETOES = 100
 
 
 @dataclass(frozen=True, slots=True)
@@ -92,15 +92,15 @@ class FlightSummary:
         return sum(span.length_s for span in self.armed)
 
 
-def summarise(log: FlightLog, facts: Facts | None = None) -> FlightSummary:
-    """Return the summary of a flight; ``facts`` avoids a second pass (see `wrongs`)."""
-    facts = facts or Facts(log)
+def summarise(log: FlightLog, context: FlightContext | None = None) -> FlightSummary:
+    """Return the summary of a flight; ``context`` avoids a second pass (see `findings`)."""
+    context = context or FlightContext(log)
     flight = log.metadata.get("flight", {})
-    way = way_of(log)
+    way = track_statistics(log)
     heights_m = list(altitudes_m(log)) or [
         each for each in (way.lowest_m, way.highest_m) if each is not None
     ]
-    levels = [line.level for line in facts.log_lines]
+    levels = [line.level for line in context.log_lines]
     return FlightSummary(
         start_unix_s=log.start_unix_s,
         length_s=log.length_s,
@@ -108,18 +108,18 @@ def summarise(log: FlightLog, facts: Facts | None = None) -> FlightSummary:
         version=flight.get("version", ""),
         mode=flight.get("mode", ""),
         flight_controller=flight.get("flight_controller", ""),
-        armed=facts.armed,
-        modes=list(_modes(facts)),
+        armed=context.armed,
+        modes=list(_modes(context)),
         highest_m=max(heights_m, default=None),
         lowest_m=min(heights_m, default=None),
         top_speed_m_s=way.top_speed_m_s,
         track_m=way.length_m,
         farthest_m=way.farthest_m,
         lowest_battery_percent=min(log.series(BATTERY, "level")[1], default=None),
-        estimate_errors=facts.estimate_errors,
+        estimate_errors=context.estimate_errors,
         gaps_s=dict(_gaps_s(log)),
-        failsafes=facts.spans((each.time_s, each.is_failsafe is True) for each in facts.states),
-        vetoes=_vetoes(facts),
+        failsafes=context.spans((each.time_s, each.is_failsafe is True) for each in context.states),
+        vetoes=_vetoes(context),
         marks=[Mark(each.time_s, str(each.data.get("text"))) for each in log.messages(MARK)],
         warnings=levels.count(WARNING),
         errors=sum(level >= ERROR for level in levels),
@@ -128,16 +128,16 @@ def summarise(log: FlightLog, facts: Facts | None = None) -> FlightSummary:
     )
 
 
-def _modes(facts: Facts) -> Iterator[ModeSpan]:
+def _modes(context: FlightContext) -> Iterator[ModeSpan]:
     mode, begin_s = None, 0.0
-    for state in facts.states:
+    for state in context.states:
         if state.flight_mode == mode:
             continue
         if mode is not None:
             yield ModeSpan(mode, begin_s, state.time_s)
         mode, begin_s = state.flight_mode, state.time_s
     if mode is not None:
-        yield ModeSpan(mode, begin_s, facts.log.length_s)
+        yield ModeSpan(mode, begin_s, context.log.length_s)
 
 
 def altitudes_m(log: FlightLog) -> Iterator[float]:
@@ -154,20 +154,20 @@ def _gaps_s(log: FlightLog) -> Iterator[tuple[str, float]]:
             yield name, max((length_s for _, length_s in log.gaps(0.0, topic)), default=0.0)
 
 
-def _vetoes(facts: Facts) -> list[str]:
+def _vetoes(context: FlightContext) -> list[str]:
     """Return the board's and the program's vetoes in the order of their first report."""
     seen: dict[str, None] = {}
-    for each in _told_vetoes(facts):
+    for each in _told_vetoes(context):
         seen[each] = None
-        if len(seen) >= _MOST_VETOES:
+        if len(seen) >= _MAX_VETOES:
             break
     return list(seen)
 
 
-def _told_vetoes(facts: Facts) -> Iterator[str]:
-    for message in facts.log.messages(TELEMETRY):
+def _told_vetoes(context: FlightContext) -> Iterator[str]:
+    for message in context.log.messages(TELEMETRY):
         told = message.data.get("vetoes")
         if isinstance(told, list):
             yield from (each for each in told if isinstance(each, str))
-    for status in facts.statuses():
+    for status in context.statuses():
         yield from (f"arduino: {each}" for each in board_status.vetoes_of(status.data))

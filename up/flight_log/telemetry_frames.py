@@ -10,14 +10,14 @@ from typing import Any
 from up.flight_log.flight_log import FlightLog, LoggedMessage
 from up.flight_log.followed import Followed
 from up.flight_log.frame_state import TOPICS, FrameState
-from up.flight_log.way import fixes
+from up.flight_log.track_statistics import fixes
 
 TELEMETRY = "up.telemetry.update"
 MISSING_S = 0.5
 """After this long without a logged frame, frames are built from the other topics."""
 _SILENT_S = 1.5
 """After a longer gap the aircraft may have sent nothing: no frame is built."""
-_SHORTEST_S = 0.01
+_MIN_PERIOD_S = 0.01
 _WARM_UP_S = 10.0
 _BEACON = "_beacon"
 
@@ -44,7 +44,7 @@ def frames(log: FlightLog, period_s: float = 0.1, since_s: float = 0.0) -> Itera
         return
     home = next(((each.latitude_deg, each.longitude_deg) for each in fixes(log)), None)
     state = FrameState(Followed(log), home)
-    step_s = max(period_s, _SHORTEST_S)
+    step_s = max(period_s, _MIN_PERIOD_S)
     due_s = newest_s = logged_s = -1.0
     for message in log.messages(TELEMETRY, *TOPICS, since_s=max(0.0, since_s - _WARM_UP_S)):
         now_s = message.time_s

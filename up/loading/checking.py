@@ -7,15 +7,14 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+from up.base_module import BaseModule
 from up.builtin_modules import BUILTIN_MODULES
 from up.config import ConfigErrors, ConfigFile, unknown_files
-from up.config.application import APPLICATION
-from up.config.disabled_modules import DISABLED_MODULES
+from up.config.application import APPLICATION, DISABLED_MODULES
 from up.context import Context
 from up.loading.application import Application
 from up.loading.commands import take_commands
 from up.loading.discovery import Discovered, survey
-from up.loading.files import config_files
 from up.loading.order import order
 from up.loading.plan import BootError, Plan
 from up.loading.selection import select
@@ -97,3 +96,17 @@ def _disabled_for_nothing(disabled: Iterable[str], found: Discovered) -> list[st
         for name in disabled
         if name not in known
     ]
+
+
+def config_files(modules: Iterable[BaseModule | type[BaseModule]]) -> list[ConfigFile[Any]]:
+    """Return the files of the application as a whole and of the modules, each once."""
+    files: list[ConfigFile[Any]] = [APPLICATION, DISABLED_MODULES]
+    files += [module.CONFIG for module in modules if module.CONFIG is not None]
+    return list(dict.fromkeys(files))
+
+
+def no_configuration(folder: Path, files: Iterable[ConfigFile[Any]]) -> str:
+    """Return the error for a folder without any of the files, or an empty text."""
+    if any((folder / file.filename).exists() for file in files):
+        return ""
+    return f"{folder}: no configuration file is here; start with --defaults to use the defaults"

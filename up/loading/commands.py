@@ -10,8 +10,7 @@ from up.commands.builtin import BUILTIN_COMMANDS
 from up.commands.command import BaseCommand
 from up.commands.command_registry import CommandRegistry, DuplicateCommandError
 from up.loading.discovery import IMPORT_FAULTS, Discovered
-from up.loading.plan import Plan, Rejected
-from up.loading.problem import LoadProblem
+from up.loading.plan import LoadProblem, Plan, Rejected
 
 _FAULTS = (DuplicateCommandError, ValueError, TypeError, NameError)
 

@@ -15,7 +15,7 @@ from up.commands.base_command_handler import BaseCommandHandler
 from up.commands.command import BaseCommand
 from up.loading.application import Application
 from up.loading.external_modules import EXTERNAL_MODULES, CogEntry
-from up.loading.problem import LoadProblem, problem_of
+from up.loading.plan import LoadProblem, problem_of
 
 # The import of a file may raise anything, and one that exits must not end the program.
 IMPORT_FAULTS = (Exception, SystemExit)

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 from up.config import items, key
-from up.config.map_file import MapFile
+from up.config.file import MapFile
 
 EXTERNAL_MODULES_FILE = "external_modules.yml"
 
@@ -25,7 +25,6 @@ class ModuleEntry:
         return f"{self.prefix}.{self.class_name}"
 
     def problems(self) -> Iterable[tuple[str, str]]:
-        """Yield the reasons why the entry does not name a class."""
         if not self.class_name.isidentifier():
             yield "class_name", "must be the name of a class"
         if not all(part.isidentifier() for part in self.prefix.split(".")):

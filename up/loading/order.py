@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Container, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from types import MappingProxyType
 
 from up.base_module import BaseModule
@@ -41,23 +41,6 @@ def order(
         placed.add(id(ready))
         ordered.append(ready)
     return ordered
-
-
-def needed_by(module: BaseModule) -> list[BaseModule]:
-    """Return the modules that a filled-in module needs."""
-    return [
-        getattr(module, need.attribute)
-        for need in declared_needs(type(module))
-        if not need.optional
-    ]
-
-
-def forget_wanted(module: BaseModule, failed: Container[BaseModule]) -> None:
-    """Clear a module's optional reference to a module that has failed."""
-    references = vars(module).get("_references", {})
-    for need in declared_needs(type(module)):
-        if need.optional and references.get(need.attribute) in failed:
-            references[need.attribute] = None
 
 
 def _fill(

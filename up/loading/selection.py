@@ -10,8 +10,7 @@ from up.base_module import BaseModule
 from up.builtin_modules import BUILTIN_MODULES
 from up.context import Context
 from up.loading.discovery import IMPORT_FAULTS, Discovered
-from up.loading.plan import BootError, Plan, Rejected
-from up.loading.problem import problem_of
+from up.loading.plan import BootError, Plan, Rejected, problem_of
 
 
 def select(

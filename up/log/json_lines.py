@@ -137,17 +137,22 @@ def line_of(event: LogEvent, least: NamedConstant) -> bytes:
         "source": source_of(event),
         "text": text_of(event),
     }
-    fields = {
-        name: _plain(value)
-        for name, value in event.items()
-        if not name.startswith("log_") and isinstance(value, str | int | float | None)
-    }
+    fields = fields_of(event)
     if fields:
         record["fields"] = fields
     traceback = traceback_of(event, least)
     if traceback:
         record["traceback"] = traceback
     return json.dumps(record, allow_nan=False).encode("ascii") + b"\n"
+
+
+def fields_of(event: LogEvent) -> dict[str, str | int | float | None]:
+    """Return the fields of an event that JSON can hold, texts shortened."""
+    return {
+        name: _plain(value)
+        for name, value in event.items()
+        if not name.startswith("log_") and isinstance(value, str | int | float | None)
+    }
 
 
 def _plain(value: str | int | float | None) -> str | int | float | None:

@@ -14,6 +14,7 @@ from twisted.logger import (
     ILogObserver,
     LogBeginner,
     LogEvent,
+    Logger,
     LogLevel,
     LogPublisher,
     globalLogBeginner,
@@ -100,3 +101,12 @@ def _say(observer: TextObserver, what: str) -> None:
             "what": what,
         }
     )
+
+
+class UpLogger:
+    """Creates loggers by name."""
+
+    @classmethod
+    def get_logger(cls, name: str = "up") -> Logger:
+        """Return a logger whose events carry `name`."""
+        return Logger(namespace=name)

@@ -143,7 +143,6 @@ class GeneralMessageProtocol(Protocol):
             self.transport.abortConnection()
 
     def connectionMade(self) -> None:  # noqa: N802 - Twisted's name
-        """Configure the socket and report the connection."""
         address = self.transport.getPeer()
         self.peer = f"{address.host}:{address.port}"
         watch_peer(self.transport, self._user_timeout_ms)
@@ -153,7 +152,6 @@ class GeneralMessageProtocol(Protocol):
         self._on_connected(self)
 
     def dataReceived(self, data: bytes) -> None:  # noqa: N802 - Twisted's name
-        """Deliver the messages that `data` completes."""
         self._heard_s = self._clock.seconds()
         lines = self._lines.feed(data)
         for index, line in enumerate(lines):
@@ -170,7 +168,6 @@ class GeneralMessageProtocol(Protocol):
                 self._on_message(self, message)
 
     def connectionLost(self, reason: Failure = connectionDone) -> None:  # noqa: N802 - Twisted's name
-        """Report the lost connection; an unfinished line is discarded."""
         self._is_open = False
         self._lines.reset()
         if self._timer is not None and self._timer.active():

@@ -70,7 +70,6 @@ class GeneralMessageDatagrams(DatagramProtocol):
         return self._heard_s
 
     def send(self, message: bytes) -> bool:
-        """Send one datagram; False without a peer, or when the system refuses it."""
         if self._address is None or self.transport is None:
             self.dropped += 1
             return False
@@ -83,7 +82,6 @@ class GeneralMessageDatagrams(DatagramProtocol):
         return True
 
     def send_newest(self, message: bytes) -> bool:
-        """Send one datagram; datagrams never wait, so the newest always wins."""
         return self.send(message)
 
     def close(self) -> None:
@@ -95,7 +93,6 @@ class GeneralMessageDatagrams(DatagramProtocol):
         self.transport.maxPacketSize = _MAX_PACKET_SIZE
 
     def datagramReceived(self, datagram: bytes, addr: Any) -> None:  # noqa: N802 - Twisted's name
-        """Deliver the one message of a datagram."""
         if addr != self._address:
             if not self._admits(datagram, addr):
                 self.foreign += 1
@@ -119,11 +116,9 @@ class GeneralMessageDatagrams(DatagramProtocol):
             self._on_message(self, message)
 
     def stopProtocol(self) -> None:  # noqa: N802 - Twisted's name
-        """The port was closed."""
         self._lose("the port was closed")
 
     def _admits(self, datagram: bytes, addr: Any) -> bool:
-        """Return whether another address becomes the peer."""
         return self._address is None
 
     def _check_idle(self) -> None:

@@ -32,7 +32,6 @@ class BaseOutput:
         self._news: dict[str, Make] = {}
 
     def start(self, transport: Any) -> None:
-        """Start sending on `transport`."""
         self._transport = transport
         transport.registerProducer(self, False)
 
@@ -64,7 +63,6 @@ class BaseOutput:
             self._news[kind] = make
 
     def resumeProducing(self) -> None:  # noqa: N802 - Twisted's name
-        """Send waiting data: the transport's buffer is empty."""
         waiting, self._messages, self._size = self._messages, [], 0
         news, self._news = self._news, {}
         waiting.extend(make() for make in news.values())
@@ -73,7 +71,6 @@ class BaseOutput:
             self._transport.write(b"".join(waiting))
 
     def stopProducing(self) -> None:  # noqa: N802 - Twisted's name
-        """Discard waiting data: the connection is gone."""
         self._transport = None
         self._messages.clear()
         self._size = 0

@@ -72,11 +72,9 @@ class OrientationFactory(Factory):
 
     @property
     def source(self) -> str:
-        """Return host and port of the source; empty without one."""
         return "" if self._current is None else self._current.source
 
     def buildProtocol(self, addr: IAddress | None) -> Protocol:  # noqa: N802 - Twisted's name
-        """Return the protocol of a new connection."""
         return _OrientationConnection(self)
 
     def connected(self, connection: _OrientationConnection) -> None:
@@ -111,7 +109,6 @@ class OrientationFactory(Factory):
             self._on_lost(connection.source, why)
 
     def close(self) -> None:
-        """Drop the source; the port is closed by the module that opened it."""
         if self._current is not None:
             self._current.drop()
 
@@ -177,7 +174,6 @@ class OrientationDatagrams(DatagramProtocol):
         self._timer: Timer | None = None
 
     def datagramReceived(self, datagram: bytes, addr: Any) -> None:  # noqa: N802 - Twisted's name
-        """Deliver the frame of a datagram of the one source."""
         if addr != self._address and self._address is not None:
             self._check_silence()
             if self._address is not None:
@@ -205,11 +201,9 @@ class OrientationDatagrams(DatagramProtocol):
         return "" if self._address is None else self._source
 
     def drop(self, why: str) -> None:
-        """Drop the source."""
         self._lose(why)
 
     def stopProtocol(self) -> None:  # noqa: N802 - Twisted's name
-        """The port was closed."""
         self._lose("the port was closed")
 
     def _check_silence(self) -> None:

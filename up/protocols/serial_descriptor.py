@@ -47,7 +47,6 @@ class SerialDescriptor:
         self._why_lost = "the port was unplugged or closed by the other side"
 
     def start(self) -> None:
-        """Start reading."""
         self._reactor.addReader(self)
 
     def stop(self) -> None:
@@ -83,11 +82,9 @@ class SerialDescriptor:
         return -1 if self._is_stopped else self._number
 
     def logPrefix(self) -> str:  # noqa: N802 - Twisted's name
-        """Return the name for the reactor's log."""
         return "serial"
 
     def doRead(self) -> Exception | None:  # noqa: N802 - Twisted's name
-        """Read the available bytes."""
         try:
             data = os.read(self._number, _READ_SIZE)
         except BlockingIOError:
@@ -100,7 +97,6 @@ class SerialDescriptor:
         return None
 
     def doWrite(self) -> Exception | None:  # noqa: N802 - Twisted's name
-        """Write waiting frames, as far as the port accepts them."""
         while not self._is_stopped:
             if not self._rest:
                 self._rest = self._take_next()
@@ -118,7 +114,6 @@ class SerialDescriptor:
         return None
 
     def connectionLost(self, reason: Failure) -> None:  # noqa: N802 - Twisted's name
-        """Report the lost port; the reactor has removed it already."""
         if not self._is_stopped:
             self.stop()
             self._on_lost(self._why_lost)

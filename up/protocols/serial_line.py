@@ -74,7 +74,6 @@ class SerialLine:
 
     @property
     def is_open(self) -> bool:
-        """Whether the port is open."""
         return self._descriptor is not None
 
     def start(self) -> bool:

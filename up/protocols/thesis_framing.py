@@ -53,7 +53,6 @@ class ThesisDecoder:
         return frames
 
     def reset(self) -> None:
-        """Discard the unfinished frame: the line was reopened."""
         self._tail = b""
         self._silence = SilenceTimer()
 

@@ -22,7 +22,7 @@ class BaseMissionControlProvider(BaseStartedModule):
         super().__init__(config, silent)
         self.unsent = 0
 
-    def _execute_initialization(self) -> None:
+    def on_init(self) -> None:
         self.up.command_executor.register_command(TelemetryCommand, self.transmit_telemetry)
 
     def transmit_telemetry(self, command: TelemetryCommand) -> None:

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import dataclass
 from typing import Any, ClassVar, Generic, TypeVar
 
 from up.base_started_module import BaseStartedModule
 from up.commands.command import BaseCommand
 from up.commands.system_commands import SourceSelectedCommand
-from up.config.providers import PROVIDERS
-from up.providers.reading import Reading
+from up.config.application import PROVIDERS
 from up.providers.source_arbiter import SourceArbiter
 
 _T = TypeVar("_T")
@@ -34,7 +34,7 @@ class BaseProvider(BaseStartedModule, Generic[_T]):
         self._arbiter = SourceArbiter(self.MAX_AGE_S, self._on_switch)
         self._priorities: Mapping[str, int] = {}
 
-    def _execute_initialization(self) -> None:
+    def on_init(self) -> None:
         wanted = self.config.order_of(self.READING)
         self._priorities = {name: 1000 - place for place, name in enumerate(wanted)}
         self._seconds = self.context.reactor.seconds
@@ -45,10 +45,10 @@ class BaseProvider(BaseStartedModule, Generic[_T]):
         """Return the newest reading of the followed source, however old; None before the first."""
         return self._reading
 
-    def usable(self, max_age_s: float) -> Reading[_T] | None:
+    def fresh(self, max_age_s: float) -> Reading[_T] | None:
         """Return the newest reading when it is valid and at most ``max_age_s`` old."""
         reading = self._reading
-        if reading is None or not reading.is_usable(self._seconds(), max_age_s):
+        if reading is None or not reading.is_fresh(self._seconds(), max_age_s):
             return None
         return reading
 
@@ -65,8 +65,9 @@ class BaseProvider(BaseStartedModule, Generic[_T]):
         return round(self._reading.age_s(self._seconds()) * 1000)
 
     def _value_of(self, command: Any) -> _T | None:
-        """Return the value in a Command; None if it is not for this reading."""
-        raise NotImplementedError
+        """Return the value in a Command, by default itself; None if not for this reading."""
+        value: _T = command
+        return value
 
     def _is_valid(self, command: Any) -> bool:
         """Return whether the source marks the value as valid."""
@@ -96,16 +97,34 @@ class BaseProvider(BaseStartedModule, Generic[_T]):
     def _on_switch(self, previous: str, source: str) -> None:
         self.up.command_executor.execute_command(SourceSelectedCommand(self.READING, source))
         if previous:
-            self._log_warning(f"{self.READING} now comes from {source}, no longer from {previous}")
-        else:
-            self.logger.info(
-                "{reading} comes from {source}",
-                code="source_selected",
+            self.log.warn(
+                "{reading} now comes from {source}, no longer from {previous}",
                 reading=self.READING,
                 source=source,
+                previous=previous,
             )
+        else:
+            self.log.info("{reading} comes from {source}", reading=self.READING, source=source)
 
     def _ages(self) -> dict[str, Any]:
         """Return the part of telemetry common to all readings."""
         source = None if self._reading is None else self._reading.source
         return {"age_ms": {self.READING: self.age_ms}, "source": {self.READING: source}}
+
+
+@dataclass(frozen=True, slots=True)
+class Reading(Generic[_T]):
+    """A value, its source, its monotonic time in seconds and whether the source marks it valid."""
+
+    value: _T
+    source: str
+    time_s: float
+    valid: bool = True
+
+    def age_s(self, now_s: float) -> float:
+        """Return the age in seconds."""
+        return now_s - self.time_s
+
+    def is_fresh(self, now_s: float, max_age_s: float) -> bool:
+        """Return whether the value is valid and at most ``max_age_s`` old."""
+        return self.valid and now_s - self.time_s <= max_age_s

@@ -28,13 +28,8 @@ class BaseRXProvider(BaseProvider[RXCommand]):
 
     @property
     def telemetry_content(self) -> Mapping[str, Any]:
-        """Return the inputs; absent until a peer sends some."""
         channels = self.get_channels()
         return self._ages() if channels is None else {"rx": channels, **self._ages()}
-
-    def _value_of(self, command: Any) -> RXCommand:
-        value: RXCommand = command
-        return value
 
     def _is_valid(self, command: Any) -> bool:
         return bool(command.valid == ALL_VALID)

@@ -7,8 +7,7 @@ from typing import Any, ClassVar
 
 from up.commands.altitude_command import AltitudeCommand
 from up.commands.command import BaseCommand
-from up.providers.base_provider import BaseProvider
-from up.providers.reading import Reading
+from up.providers.base_provider import BaseProvider, Reading
 
 
 class UpAltitudeProvider(BaseProvider[float]):
@@ -29,7 +28,6 @@ class UpAltitudeProvider(BaseProvider[float]):
 
     @property
     def telemetry_content(self) -> Mapping[str, Any]:
-        """Return the measured and the required altitude."""
         return {
             "altitude": self.altitude,
             "altitude_required": self.required_altitude,

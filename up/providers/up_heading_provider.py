@@ -8,8 +8,7 @@ from typing import Any, ClassVar
 from up.commands.command import BaseCommand
 from up.commands.heading_command import HeadingCommand
 from up.earth import compass_deg
-from up.providers.base_provider import BaseProvider
-from up.providers.reading import Reading
+from up.providers.base_provider import BaseProvider, Reading
 
 
 class UpHeadingProvider(BaseProvider[float]):
@@ -30,7 +29,6 @@ class UpHeadingProvider(BaseProvider[float]):
 
     @property
     def telemetry_content(self) -> Mapping[str, Any]:
-        """Return both headings."""
         return {
             "heading": {"actual": self.actual_heading, "required": self.required_heading},
             **self._ages(),

@@ -8,8 +8,7 @@ from typing import Any, ClassVar
 from up.commands.command import BaseCommand
 from up.commands.location_command import LocationCommand
 from up.earth import bearing_deg, distance_m
-from up.providers.base_provider import BaseProvider
-from up.providers.reading import Reading
+from up.providers.base_provider import BaseProvider, Reading
 
 
 class UpLocationProvider(BaseProvider[LocationCommand]):
@@ -22,10 +21,6 @@ class UpLocationProvider(BaseProvider[LocationCommand]):
     def __init__(self, config: Any = None, silent: bool = False) -> None:
         super().__init__(config, silent)
         self.home: LocationCommand | None = None
-
-    def _value_of(self, command: Any) -> LocationCommand:
-        value: LocationCommand = command
-        return value
 
     @property
     def latitude(self) -> float | None:
@@ -58,7 +53,6 @@ class UpLocationProvider(BaseProvider[LocationCommand]):
 
     @property
     def telemetry_content(self) -> Mapping[str, Any]:
-        """Return location and home."""
         return {
             "location": {
                 "latitude": self.latitude,

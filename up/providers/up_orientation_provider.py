@@ -18,10 +18,6 @@ class UpOrientationProvider(BaseProvider[OrientationCommand]):
     COMMAND: ClassVar[type[BaseCommand]] = OrientationCommand
     MAX_AGE_S = 0.5
 
-    def _value_of(self, command: Any) -> OrientationCommand:
-        value: OrientationCommand = command
-        return value
-
     def _is_valid(self, command: Any) -> bool:
         # Modules build the Command without validation; one NaN would persist in a controller.
         return isfinite(
@@ -50,7 +46,6 @@ class UpOrientationProvider(BaseProvider[OrientationCommand]):
 
     @property
     def telemetry_content(self) -> Mapping[str, Any]:
-        """Return orientation and rates."""
         newest = None if self._reading is None else self._reading.value
         return {
             "orientation": {"yaw": self.yaw, "pitch": self.pitch, "roll": self.roll},

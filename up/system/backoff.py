@@ -22,7 +22,6 @@ class Backoff:
         self._next_s = FIRST_S
 
     def reset(self) -> None:
-        """Reset after a successful connection."""
         self._next_s = FIRST_S
 
     def pause_s(self, spent_s: float = 0.0) -> float:

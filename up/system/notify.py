@@ -25,11 +25,9 @@ class Notifier:
         return cls(environ.get("NOTIFY_SOCKET"))
 
     def ready(self, status: str = "") -> bool:
-        """Report that start-up is complete; return whether the datagram was sent."""
         return self._send("READY=1", status)
 
     def stopping(self, status: str = "") -> bool:
-        """Report that the program is stopping; return whether the datagram was sent."""
         return self._send("STOPPING=1", status)
 
     def status(self, text: str) -> bool:
@@ -92,12 +90,10 @@ class WatchdogPinger:
         self._call: Timer | None = None
 
     def start(self) -> None:
-        """Ping immediately and then periodically; idempotent."""
         if self.interval_s is not None and self._call is None:
             self._ping()
 
     def stop(self) -> None:
-        """Stop pinging."""
         call, self._call = self._call, None
         if call is not None and call.active():
             call.cancel()

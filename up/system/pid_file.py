@@ -51,7 +51,6 @@ class PidFile:
         self._descriptor = descriptor
 
     def release(self) -> None:
-        """Remove the file."""
         descriptor, self._descriptor = self._descriptor, None
         if descriptor is not None:
             self.path.unlink(missing_ok=True)

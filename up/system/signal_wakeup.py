@@ -27,24 +27,19 @@ class SignalWakeup:
         self._writer.setblocking(False)
 
     def start(self) -> None:
-        """Install; call it from the main thread."""
         signal.set_wakeup_fd(self._writer.fileno(), warn_on_full_buffer=False)
         self._reactor.addReader(self)
 
     def fileno(self) -> int:
-        """Return the descriptor that becomes readable."""
         return self._reader.fileno()
 
     def doRead(self) -> None:  # noqa: N802 - Twisted's name
-        """Discard the bytes; only their arrival matters."""
         self._reader.recv(_AT_ONCE)
 
     def connectionLost(self, reason: object) -> None:  # noqa: N802 - Twisted's name
-        """Uninstall; the reactor calls this when it stops."""
         signal.set_wakeup_fd(-1)
         self._reader.close()
         self._writer.close()
 
     def logPrefix(self) -> str:  # noqa: N802 - Twisted's name
-        """Return the name for the log."""
         return "signals"

@@ -22,7 +22,7 @@ from up.protocols.general_message_link import (
 from up.protocols.general_message_udp import SILENCE_TIMEOUT_S, GeneralMessageDatagrams
 from up.protocols.line_decoder import LONGEST_LINE
 from up.system.clock import Clock, Timer
-from up.system.plain_peers import PlainPeers
+from up.system.peer_filter import PeerFilter
 from up.system.token_bucket import TokenBucket
 
 MAX_UNDECIDED = 8
@@ -52,7 +52,7 @@ class PhoneLink:
     def __init__(
         self,
         clock: Clock,
-        peers: PlainPeers,
+        peers: PeerFilter,
         *,
         on_message: OnMessage,
         on_malformed: OnMalformed,

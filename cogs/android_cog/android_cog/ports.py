@@ -7,7 +7,7 @@ from typing import Any
 from twisted.internet.defer import maybeDeferred
 from twisted.internet.error import CannotListenError
 
-from up.start_result import StartFailedError
+from up.base_started_module import StartFailedError
 from up.system.udp import listen_udp
 
 _TRIES = 16

@@ -11,7 +11,7 @@ from arduino_cog.modules.arduino_provider import ArduinoProvider
 from up.base_started_module import BaseStartedModule
 from up.mode import WITH_ARDUINO
 from up.needs import needs
-from up.providers.reading import Reading
+from up.providers.base_provider import Reading
 
 
 class PlaceForward(BaseStartedModule):
@@ -38,14 +38,14 @@ class PlaceForward(BaseStartedModule):
         """Return a value as the payload of a message."""
         raise NotImplementedError
 
-    def _execute_initialization(self) -> None:
+    def on_init(self) -> None:
         self._sender = ChangeSender(
             self.context.reactor, lambda payload: self.arduino.send_stream(self.LETTER, payload)
         )
         self.arduino.add_board_listener(self._sender.forget)
         self.up.command_executor.register_command(self.COMMAND, self.on_reading)
 
-    def _execute_stop(self) -> None:
+    def on_stop(self) -> None:
         self._sender.stop()
 
     def on_reading(self, command: Any) -> None:

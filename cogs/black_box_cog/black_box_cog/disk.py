@@ -67,7 +67,7 @@ class Disk:
         """Return the size of a file."""
         return path.stat().st_size
 
-    def is_held(self, path: Path) -> bool:
+    def is_locked(self, path: Path) -> bool:
         """Return whether a recorder is writing the file."""
         try:
             descriptor = os.open(path, os.O_RDONLY | os.O_CLOEXEC | os.O_NONBLOCK)

@@ -31,7 +31,7 @@ class FlightFolder:
     def create(self, start_unix_s: float, aircraft: str) -> tuple[FlightFile, int]:
         """Begin a flight with the next number; return its file and an open descriptor."""
         self._disk.make_folder(self.path)
-        with self._held():
+        with self._locked():
             number = max((each.number for each in flight_files(self.path)), default=0)
             for _ in range(_ATTEMPTS):
                 number += 1
@@ -64,7 +64,7 @@ class FlightFolder:
         for group in _oldest_first(files, current):
             if left <= self._total_bytes and self._is_free_enough():
                 return deleted
-            if any(file == current or self._disk.is_held(file.path) for file in group):
+            if any(file == current or self._disk.is_locked(file.path) for file in group):
                 continue
             for file in group:
                 self._disk.remove(file.path)
@@ -89,7 +89,7 @@ class FlightFolder:
             return 0
 
     @contextlib.contextmanager
-    def _held(self) -> Iterator[None]:
+    def _locked(self) -> Iterator[None]:
         """Lock the folder while choosing a number: another daemon may do the same."""
         descriptor = self._disk.open_folder(self.path)
         try:

@@ -4,15 +4,15 @@ from __future__ import annotations
 
 from black_box_cog.commands.record_command import RecordCommand
 from black_box_cog.encoders import json_of
-from black_box_cog.intake import Recorded
+from black_box_cog.ingest_queue import Recorded
 from up.commands.command_registry import CommandRegistry
 from up.commands.refusal import CommandRefusedError
 from up.flight_log.origin_text import KEY
 from up.system.clock import Clock
 
 TOPICS_LIMIT = 64
-LONGEST_BYTES = 4096
-MOST_A_SECOND = 200
+MAX_BYTES = 4096
+MAX_A_SECOND = 200
 _RESERVED = "up."
 
 
@@ -36,9 +36,9 @@ class RecordPolicy:
             text = json_of(command.content)
         except (ValueError, TypeError, RecursionError):
             raise CommandRefusedError("content cannot be written as JSON") from None
-        if len(text) > LONGEST_BYTES:
+        if len(text) > MAX_BYTES:
             raise CommandRefusedError(
-                f"content of {len(text)} bytes as JSON, at most {LONGEST_BYTES} are recorded"
+                f"content of {len(text)} bytes as JSON, at most {MAX_BYTES} are recorded"
             )
         self._topics.add(command.topic)
         return Recorded(command.topic, text)
@@ -54,5 +54,5 @@ class RecordPolicy:
         if second != self._second:
             self._second, self._count = second, 0
         self._count += 1
-        if self._count > MOST_A_SECOND:
-            raise CommandRefusedError(f"at most {MOST_A_SECOND} records a second")
+        if self._count > MAX_A_SECOND:
+            raise CommandRefusedError(f"at most {MAX_A_SECOND} records a second")

@@ -10,28 +10,27 @@ from twisted.logger import Logger
 
 from black_box_cog.config import MEGABYTE, BlackBoxConfig
 from black_box_cog.disk import Disk
-from black_box_cog.flight_facts import FlightFacts
+from black_box_cog.disk_error_state import DiskErrorState
 from black_box_cog.flight_folder import FlightFolder, NoRoomError
-from black_box_cog.flight_parts import FlightParts
-from black_box_cog.held_entries import HeldEntries
-from black_box_cog.intake import Entry, Intake
-from black_box_cog.pace import Pace
-from black_box_cog.part import Part
-from black_box_cog.recorder_status import RecorderStatus
+from black_box_cog.flight_metadata import FlightMetadata
+from black_box_cog.ingest_queue import Entry, IngestQueue, RecorderStatus
+from black_box_cog.log_segment import LogSegment
+from black_box_cog.pre_trigger_buffer import PreTriggerBuffer
+from black_box_cog.segment_factory import SegmentFactory
+from black_box_cog.throttle import CooperativeThrottle
 from black_box_cog.timeline import Timeline
-from black_box_cog.trouble import Trouble
 from up.commands.roles import Role
 from up.log.limits import Once
 
 BUSY_S = 0.2
 """Between two rounds while a flight is recorded."""
 IDLE_S = 1.0
-LINGER_S = 600.0
+IDLE_END_S = 600.0
 """A flight ends after this time without external data."""
-ROOM_EVERY_S = 10.0
-HUNG_S = 3.0
+ROOM_CHECK_S = 10.0
+STALLED_S = 3.0
 """A longer round is reported as a problem while it lasts."""
-_TAKE = 500
+_BATCH = 500
 _SOURCES = (Role.BOARD, Role.SENSOR)
 
 
@@ -44,10 +43,10 @@ class Recorder:
 
     def __init__(
         self,
-        intake: Intake,
+        queue: IngestQueue,
         config: BlackBoxConfig,
         folder: FlightFolder,
-        facts: FlightFacts,
+        metadata: FlightMetadata,
         disk: Disk,
         now: Callable[[], float] = time.perf_counter,
         wall_ns: Callable[[], int] = time.time_ns,
@@ -55,206 +54,225 @@ class Recorder:
     ) -> None:
         self.log = Logger(namespace="BlackBox")
         self.last_source_s = float("-inf")
-        self._intake = intake
+        self._queue = queue
         self._config = config
         self._now = now
-        self._pace = Pace(pause)
-        self._parts = FlightParts(folder, facts, disk, self._pace, lambda: Timeline(now, wall_ns))
-        self._part: Part | None = None
-        self._last_outside_s = float("-inf")
-        self._held = HeldEntries()
-        self._trouble = Trouble(self.log, folder.path)
-        self._synced_s = self._looked_s = float("-inf")
+        self._throttle = CooperativeThrottle(pause)
+        self._segments = SegmentFactory(
+            folder, metadata, disk, self._throttle, lambda: Timeline(now, wall_ns)
+        )
+        self._segment: LogSegment | None = None
+        self._last_external_s = float("-inf")
+        self._buffer = PreTriggerBuffer()
+        self._disk_error = DiskErrorState(self.log, folder.path)
+        self._synced_s = self._room_checked_s = float("-inf")
         self._earlier_bytes = 0
-        self._in_hand = 0
+        self._batch_size = 0
         self._dropped = 0
-        self._dropped_said = 0
-        self._said = Once()
-        self._told: tuple[float, RecorderStatus] = (now(), RecorderStatus())
+        self._dropped_reported = 0
+        self._logged = Once()
+        self._published: tuple[float, RecorderStatus] = (now(), RecorderStatus())
 
     @property
     def status(self) -> RecorderStatus:
         """Return the state after the last round, or that the current one does not end."""
-        told_s, status = self._told
-        silent_s = self._now() - told_s
-        if silent_s < HUNG_S:
+        published_s, status = self._published
+        silent_s = self._now() - published_s
+        if silent_s < STALLED_S:
             return status
-        problem = f"nothing has been written for {silent_s:.0f} s: the disk does not answer"
+        problem = f"no data written for {silent_s:.0f} s: the disk does not respond"
         return replace(status, dropped=self._all_dropped, problem=problem)
 
     @property
     def round_s(self) -> float:
         """Return the maximum delay of the next round."""
-        return IDLE_S if self._part is None else BUSY_S
+        return IDLE_S if self._segment is None else BUSY_S
 
     def prepare(self, steps: Iterable[object]) -> None:
         """Do in advance, in small pieces, the work of a flight's start."""
-        self._pace.walk(steps)
+        self._throttle.run(steps)
 
     def work(self) -> None:
         """Write the queued entries."""
         # The entries of a failed round are lost.
-        self._dropped += self._in_hand
-        waiting = len(self._intake)
+        self._dropped += self._batch_size
+        waiting = len(self._queue)
         while waiting > 0:
-            entries = self._intake.take(min(waiting, _TAKE))
-            self._in_hand = len(entries)
+            entries = self._queue.pop(min(waiting, _BATCH))
+            self._batch_size = len(entries)
             waiting -= len(entries) or waiting
-            self._look_at(entries)
-            if self._part is None:
-                gone = self._held.hold(entries)
-                self._dropped += gone if self._trouble.problem is not None else 0
+            self._note_sources(entries)
+            if self._segment is None:
+                dropped = self._buffer.add(entries)
+                self._dropped += dropped if self._disk_error.problem is not None else 0
             else:
-                self._write(self._part, entries)
-            self._in_hand = 0
-        if self._part is None and self._shall_begin():
-            self._begin()
-        if self._part is not None:
-            self._care_for(self._part)
-        self._tell(self._now())
+                self._write(self._segment, entries)
+            self._batch_size = 0
+        if self._segment is None and self._may_start():
+            self._start()
+        if self._segment is not None:
+            self._maintain(self._segment)
+        self._publish_status(self._now())
 
     def finish(self) -> None:
         """Write the remaining entries, and the summary."""
-        self._pace.hurry()
+        self._throttle.disable()
         self.work()
-        if self._part is not None:
-            self._end(self._part)
-        self._tell(float("inf"))
+        if self._segment is not None:
+            self._end(self._segment)
+        self._publish_status(float("inf"))
 
-    def _look_at(self, entries: list[Entry]) -> None:
+    def _note_sources(self, entries: list[Entry]) -> None:
         for time_s, _, origin in entries:
             if origin.role is not Role.INTERNAL:
-                self._last_outside_s = time_s
+                self._last_external_s = time_s
                 if origin.role in _SOURCES:
                     self.last_source_s = time_s
 
-    def _shall_begin(self) -> bool:
-        return self._trouble.is_time_to_try(self._now()) and self._shall_record
+    def _may_start(self) -> bool:
+        return self._disk_error.may_retry(self._now()) and self._should_record
 
     @property
-    def _shall_record(self) -> bool:
-        return self._config.always or self._now() - self._last_outside_s < LINGER_S
+    def _should_record(self) -> bool:
+        return self._config.always or self._now() - self._last_external_s < IDLE_END_S
 
-    def _begin(self) -> None:
+    def _start(self) -> None:
         """Open a file with the held entries; a failure is kept as the problem."""
         try:
-            part = self._open(self._held.all)
+            segment = self._open(self._buffer.entries)
         except (OSError, NoRoomError) as error:
             self._fail(error)
             return
-        self._held.clear()
-        self._say_begun(part)
+        self._buffer.clear()
+        self._log_started(segment)
 
-    def _open(self, entries: list[Entry]) -> Part:
-        part = self._part = self._parts.open(entries)
-        self._synced_s = self._looked_s = self._now()
-        return part
+    def _open(self, entries: list[Entry]) -> LogSegment:
+        segment = self._segment = self._segments.open(entries)
+        self._synced_s = self._room_checked_s = self._now()
+        return segment
 
-    def _say_begun(self, part: Part) -> None:
-        if self._trouble.problem is None:
-            self.log.info("records the flight into {path}", path=str(part.name.path))
+    def _log_started(self, segment: LogSegment) -> None:
+        if self._disk_error.problem is None:
+            self.log.info(
+                "recording the flight into {path}",
+                path=str(segment.name.path),
+                code="recording_started",
+            )
         else:
             self.log.info(
-                "records again, into {path}; {count} messages are lost",
-                path=str(part.name.path),
-                count=self._all_dropped - self._dropped_said,
+                "recording again, into {path}; {count} messages are lost",
+                code="recording_resumed",
+                path=str(segment.name.path),
+                count=self._all_dropped - self._dropped_reported,
             )
-            self._dropped_said = self._all_dropped
-        self._trouble.forget()
+            self._dropped_reported = self._all_dropped
+        self._disk_error.clear()
 
-    def _write(self, part: Part, entries: list[Entry]) -> None:
-        self._pace.walk(map(part.put, entries))
+    def _write(self, segment: LogSegment, entries: list[Entry]) -> None:
+        self._throttle.run(map(segment.put, entries))
         try:
-            part.file.flush()
+            segment.file.flush()
         except OSError as error:
             self._fail(error)
 
-    def _care_for(self, part: Part) -> None:
+    def _maintain(self, segment: LogSegment) -> None:
         """Sync the file, and check its size, its name and the clock."""
         now_s = self._now()
         try:
             # The next round would be too late.
             if now_s + BUSY_S > self._synced_s + self._config.sync_s:
-                if not part.file.is_synced:
-                    part.file.sync()
+                if not segment.file.is_synced:
+                    segment.file.sync()
                 self._synced_s = now_s
-                part = self._look_after(part)
-            if part.file.size >= self._config.file_size_mb * MEGABYTE:
-                self._end(part)
+                segment = self._check_file(segment)
+            if segment.file.size >= self._config.file_size_mb * MEGABYTE:
+                self._end(segment)
                 self._open([])
-            elif now_s > self._looked_s + ROOM_EVERY_S:
-                self._looked_s = now_s
-                self._parts.make_room()
-            if not self._shall_record:
-                self.log.info("the flight is over: nothing came for {s:.0f} s", s=LINGER_S)
-                self._end(part)
-                self._parts.end_flight()
+            elif now_s > self._room_checked_s + ROOM_CHECK_S:
+                self._room_checked_s = now_s
+                self._segments.make_room()
+            if not self._should_record:
+                self.log.info(
+                    "the flight ended: no data for {s:.0f} s", s=IDLE_END_S, code="flight_ended"
+                )
+                self._end(segment)
+                self._segments.end_flight()
                 self._earlier_bytes = 0
         except (OSError, NoRoomError) as error:
             self._fail(error)
 
-    def _look_after(self, part: Part) -> Part:
-        """Report changes of file and clock; return the part that is now recorded."""
-        if not part.file.is_linked:
-            self.log.warn("{path} was removed; a new file is begun", path=str(part.name.path))
-            part.file.close()
-            self._part = None
-            part = self._open([])
-        jump_s = self._parts.jump_s()
+    def _check_file(self, segment: LogSegment) -> LogSegment:
+        """Report changes of file and clock; return the segment that is now recorded."""
+        if not segment.file.is_linked:
+            self.log.warn(
+                "{path} was deleted; recording continues in a new file",
+                path=str(segment.name.path),
+                code="recording_removed",
+            )
+            segment.file.close()
+            self._segment = None
+            segment = self._open([])
+        jump_s = self._segments.jump_s()
         if jump_s is not None:
             self.log.warn(
-                "the wall clock is {jump_s:+.0f} s from the log's time, which goes on as it began",
+                "the wall clock jumped {jump_s:+.0f} s; the time of the log continues without it",
                 jump_s=jump_s,
+                code="clock_jumped",
             )
-        if self._all_dropped > self._dropped_said:
+        if self._all_dropped > self._dropped_reported:
             self.log.warn(
                 "{count} messages were not recorded: the disk is too slow",
-                count=self._all_dropped - self._dropped_said,
+                code="messages_dropped",
+                count=self._all_dropped - self._dropped_reported,
             )
-            self._dropped_said = self._all_dropped
-        for topic in part.unwritten:
-            if self._said.first(topic):
-                self.log.error("{topic} cannot be written as JSON and is left out", topic=topic)
-        return part
+            self._dropped_reported = self._all_dropped
+        for topic in segment.unwritten:
+            if self._logged.first(topic):
+                self.log.error(
+                    "cannot encode {topic} as JSON; it is not recorded",
+                    topic=topic,
+                    code="encoding_failed",
+                )
+        return segment
 
-    def _end(self, part: Part) -> None:
+    def _end(self, segment: LogSegment) -> None:
         """Finish and close the file; a disk error is kept as the problem."""
-        self._part = None
+        self._segment = None
         try:
-            part.finish()
+            segment.finish()
         except OSError as error:
-            self._trouble.note(error)
-        self._close(part)
+            self._disk_error.report(error)
+        self._close(segment)
 
-    def _close(self, part: Part) -> None:
-        self._earlier_bytes += part.file.size
-        part.file.close()
+    def _close(self, segment: LogSegment) -> None:
+        self._earlier_bytes += segment.file.size
+        segment.file.close()
 
     def _fail(self, error: Exception) -> None:
         """Stop recording cleanly, and report it once."""
-        part, self._part = self._part, None
-        if part is not None:
-            self._dropped += part.file.lost
+        segment, self._segment = self._segment, None
+        if segment is not None:
+            self._dropped += segment.file.lost
             if isinstance(error, NoRoomError):
                 # The disk is not full yet: the file ends properly.
-                self._end(part)
+                self._end(segment)
             else:
-                self._close(part)
-        self._trouble.wait(self._now())
-        self._trouble.note(error)
+                self._close(segment)
+        self._disk_error.delay_retry(self._now())
+        self._disk_error.report(error)
 
     @property
     def _all_dropped(self) -> int:
-        return self._dropped + self._intake.dropped
+        return self._dropped + self._queue.dropped
 
-    def _tell(self, now_s: float) -> None:
-        part = self._part
-        size = self._earlier_bytes + (0 if part is None else part.file.size)
+    def _publish_status(self, now_s: float) -> None:
+        segment = self._segment
+        size = self._earlier_bytes + (0 if segment is None else segment.file.size)
         status = RecorderStatus(
-            part is not None,
-            None if part is None else part.name.path.name,
+            segment is not None,
+            None if segment is None else segment.name.path.name,
             round(size / MEGABYTE, 2),
             self._all_dropped,
-            self._trouble.problem,
+            self._disk_error.problem,
         )
-        self._told = now_s, status
+        self._published = now_s, status

@@ -6,19 +6,19 @@ import contextlib
 from collections.abc import Callable, Iterator
 from typing import Any
 
-from black_box_cog.command_form import form_of
 from black_box_cog.config import MEGABYTE, BlackBoxConfig
 from black_box_cog.disk import Disk
-from black_box_cog.flight_facts import FlightFacts
 from black_box_cog.flight_folder import FlightFolder
-from black_box_cog.intake import Intake
+from black_box_cog.flight_metadata import FlightMetadata
+from black_box_cog.ingest_queue import IngestQueue
+from black_box_cog.log_segment import form_of
 from black_box_cog.recorder import Recorder
 from up.commands.command_registry import CommandRegistry
 from up.flight_log.flights_folder import folder_of
 
 
 def make_recorder(
-    intake: Intake,
+    queue: IngestQueue,
     config: BlackBoxConfig,
     up: Any,
     context: Any,
@@ -28,17 +28,17 @@ def make_recorder(
     disk = Disk()
     total, keep_free = config.total_size_mb * MEGABYTE, config.keep_free_mb * MEGABYTE
     folder = FlightFolder(disk, folder_of(config.folder), total, keep_free)
-    facts = _facts(up, context)
-    recorder = Recorder(intake, config, folder, facts, disk)
-    recorder.prepare(_preparations(facts, up.command_executor.registry, is_over))
+    metadata = _metadata(up, context)
+    recorder = Recorder(queue, config, folder, metadata, disk)
+    recorder.prepare(_preparations(metadata, up.command_executor.registry, is_over))
     return recorder
 
 
 def _preparations(
-    facts: FlightFacts, registry: CommandRegistry, is_over: Callable[[], bool]
+    metadata: FlightMetadata, registry: CommandRegistry, is_over: Callable[[], bool]
 ) -> Iterator[None]:
     """Yield after each piece of the preparation that a flight's start would need."""
-    yield from facts.prepare()
+    yield from metadata.prepare()
     for cls in registry:
         if is_over():
             return
@@ -48,9 +48,9 @@ def _preparations(
         yield
 
 
-def _facts(up: Any, context: Any) -> FlightFacts:
+def _metadata(up: Any, context: Any) -> FlightMetadata:
     modules = {type(module).__module__.partition(".")[0] for module in up.modules}
-    return FlightFacts(
+    return FlightMetadata(
         _aircraft(up, context),
         {
             "instance": context.instance,

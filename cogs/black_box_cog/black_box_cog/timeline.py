@@ -22,7 +22,7 @@ class Timeline:
         self._now = now
         self._wall_ns = wall_ns
         self._origin_ns = wall_ns() - round(now() * 1e9)
-        self._told_s = 0.0
+        self._reported_s = 0.0
 
     def log_ns(self, time_s: float) -> int:
         """Return the log's time, nanoseconds since 1970."""
@@ -39,7 +39,7 @@ class Timeline:
         None without a new jump since the last report.
         """
         away_s = (self._wall_ns() - self.log_ns(self._now())) / 1e9
-        if abs(away_s - self._told_s) < JUMP_S:
+        if abs(away_s - self._reported_s) < JUMP_S:
             return None
-        self._told_s = away_s
+        self._reported_s = away_s
         return away_s

@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
-from collections import Counter
+import socket
+from collections import Counter, OrderedDict
 from collections.abc import Callable
 from typing import Any
 
 from twisted.internet.protocol import DatagramProtocol
 
-from discovery_cog.rate_limit import RateLimit
 from up.system.addresses import is_private
+from up.system.clock import Clock
+from up.system.token_bucket import TokenBucket
 
-LONGEST_QUESTION = 512
+MAX_REQUEST_BYTES = 512
+MAX_ANSWERS_HZ = 256.0
 
 
 class Answerer(DatagramProtocol):
@@ -34,7 +37,7 @@ class Answerer(DatagramProtocol):
     def datagramReceived(self, datagram: bytes, addr: Any) -> None:  # noqa: N802 - Twisted's name
         """Answer a request."""
         host, port = addr[0], addr[1]
-        if len(datagram) > LONGEST_QUESTION:
+        if len(datagram) > MAX_REQUEST_BYTES:
             self.counters["too_long"] += 1
         elif port == 0 or not is_private(host):
             self.counters["foreign"] += 1
@@ -55,3 +58,46 @@ class Answerer(DatagramProtocol):
             self.counters["unreachable"] += 1
         else:
             self.counters["answered"] += 1
+
+
+class RateLimit:
+    """Permits ``per_second`` answers per second to each sender; remembers ``senders`` at most.
+
+    All senders together get `MAX_ANSWERS_HZ`: a flood of forged addresses costs bounded memory and
+    bounded traffic.
+    """
+
+    def __init__(self, clock: Clock, per_second: int = 10, senders: int = 256) -> None:
+        self._clock = clock
+        self._per_second = per_second
+        self._senders = senders
+        self._all = TokenBucket(clock, MAX_ANSWERS_HZ, MAX_ANSWERS_HZ)
+        self._buckets: OrderedDict[str, TokenBucket] = OrderedDict()
+
+    def __len__(self) -> int:
+        """Return how many senders are remembered."""
+        return len(self._buckets)
+
+    def permits(self, sender: str) -> bool:
+        """Count a request and return whether it may be answered."""
+        bucket = self._buckets.pop(sender, None)
+        if bucket is None:
+            bucket = TokenBucket(self._clock, self._per_second, self._per_second)
+        self._buckets[sender] = bucket
+        if len(self._buckets) > self._senders:
+            self._buckets.popitem(last=False)
+        return bucket.take() and self._all.take()
+
+
+def own_address_towards(host: str, port: int) -> str | None:
+    """Return our IPv4 address on the route to a peer, or None without a route.
+
+    A connected UDP socket asks the routing table; nothing is sent.
+    """
+    try:
+        with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as probe:
+            probe.connect((host, port))
+            address: str = probe.getsockname()[0]
+            return address
+    except OSError:
+        return None

@@ -13,7 +13,7 @@ class DiscoveryConfig:
 
     port: int = key(
         3001,
-        "UDP port that is asked, usually by broadcast. 0: any free port, said in the log.",
+        "UDP port of requests, usually by broadcast. 0: any free port, which is logged.",
         minimum=0,
         maximum=65535,
     )

@@ -57,7 +57,6 @@ class LoadGuardConfig:
     )
 
     def problems(self) -> Iterator[tuple[str, str]]:
-        """Yield contradictions between the keys."""
         if self.calm_down_threshold >= self.panic_threshold:
             yield "calm_down_threshold", "must be below the panic threshold"
         if self.normal_delay_ms >= self.panic_delay_ms:

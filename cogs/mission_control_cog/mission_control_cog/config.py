@@ -18,9 +18,7 @@ _HOST = re.compile(r"[A-Za-z0-9_.:%-]*", re.ASCII)
 class RemoteServerConfig:
     """Where the Ground Station Proxy is."""
 
-    url: str = key(
-        "", "Host name or address of the proxy. Empty: there is no proxy.", max_length=255
-    )
+    url: str = key("", "Host name or address of the proxy. Empty: no proxy.", max_length=255)
     port: int = key(3003, "TCP port of the proxy's airborne side.", minimum=1, maximum=65535)
 
     def problems(self) -> Iterator[tuple[str, str]]:
@@ -35,13 +33,13 @@ class ListenerConfig:
 
     port: int | None = key(
         None,
-        "TCP port, usually 50002. Empty: none is opened. 0: any free port, said in the log.",
+        "TCP port, usually 50002. Empty: no port. 0: any free port, which is logged.",
         minimum=0,
         maximum=65535,
     )
     address: str = key(
         "",
-        "Address of the interface to listen on. Empty: every one, by IPv4; '::': by IPv6 as well.",
+        "Address of the interface to listen on. Empty: all, IPv4 only; '::': all, also IPv6.",
         max_length=64,
     )
 
@@ -66,25 +64,25 @@ class MissionControlConfig:
     )
     hello: bool = key(
         True,
-        "Whether the link begins with a line that says who this is. false speaks to a proxy of "
-        "the thesis's time, which knows no names.",
+        "Whether the link begins with a hello that names the aircraft. false: for a legacy proxy, "
+        "which knows no names.",
     )
     role: Literal["observer", "operator", "pilot"] = key(
         "operator",
-        "What a ground station may do: observer sees telemetry; operator also sets the telemetry "
-        "rate and the flight mode; pilot also arms and tunes gains.",
+        "Permissions of a ground station: observer sees telemetry; operator also sets the "
+        "telemetry rate and the flight mode; pilot also arms and tunes gains.",
     )
     tune_in_flight: bool = key(
         False,
         "Whether a pilot on the ground may set gains while the aircraft is in flight or its switch "
-        "stands at AUTO.",
+        "is at AUTO.",
     )
     i_accept_plain: bool = key(
         False,
-        "The link proves nothing about who is on the ground. While this is false, a pilot whose "
-        "link goes to a public address has the rights of an operator only, and ground stations "
-        "with public addresses cannot connect to the listener. Set it when a VPN or firewall "
-        "decides who reaches the proxy, or when you accept the risk.",
+        "The link does not authenticate the ground. While this is false, a pilot whose link goes "
+        "to a public address has only the rights of an operator, and ground stations with public "
+        "addresses cannot connect to the listener. Set it when a VPN or firewall protects the "
+        "proxy, or when you accept the risk.",
     )
     listener: ListenerConfig = section(ListenerConfig)
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import secrets
 from collections.abc import Callable
 from random import Random, SystemRandom
 from typing import Any
@@ -14,49 +13,48 @@ from twisted.internet.protocol import Factory, Protocol
 from mission_control_cog.ground_connection import GroundConnection
 from up.commands.command_link import CommandLink
 from up.commands.refusal import Code
+from up.protocols.control_lease import ControlLease
 from up.protocols.general_message import GeneralMessage, MalformedMessage
+from up.protocols.proxy_lines import Accepted, Access, Hello
 from up.system.clock import Clock
-from up.system.plain_peers import PlainPeers
+from up.system.peer_filter import PeerFilter
 
-ALIVE_S = 3.0
-"""A holder that is silent for longer may lose the seat to a newcomer."""
-STATIONS_LIMIT = 8
+MAX_STATIONS = 8
 
 
-class Grounds:
-    """One control seat, as at the proxy: the first station takes it and keeps it while alive.
+class Grounds(Factory):
+    """One station has control, as at the proxy: the first one, while it is alive.
 
-    The seat of a disconnected station is kept for its token for ``ALIVE_S``. A station that only
-    listens takes a free seat by sending. Stations beyond ``STATIONS_LIMIT`` are refused.
+    A station that only listens takes free control by sending. Stations beyond ``MAX_STATIONS``
+    are refused.
     """
+
+    noisy = False
 
     def __init__(
         self,
         clock: Clock,
-        peers: PlainPeers,
+        peers: PeerFilter,
         aircraft: str,
         *,
         open_link: Callable[[Callable[[bytes], object]], CommandLink],
         on_message: Callable[[GeneralMessage, CommandLink], object],
         on_malformed: Callable[[MalformedMessage, CommandLink], object],
-        on_holder: Callable[[str], object],
+        on_owner: Callable[[str], object],
         random: Random | None = None,
     ) -> None:
         self.dropped = 0
         self.too_many = 0
-        self.peers = peers
-        self.factory = _Factory(self)
         self._clock = clock
+        self._peers = peers
         self._aircraft = aircraft
         self._open_link = open_link
         self._on_message = on_message
         self._on_malformed = on_malformed
-        self._on_holder = on_holder
+        self._on_owner = on_owner
         self._random = random or SystemRandom()
         self._stations: dict[GroundConnection, CommandLink] = {}
-        self._holder: GroundConnection | None = None
-        self._kept_token = ""
-        self._kept_until_s = 0.0
+        self._lease: ControlLease[GroundConnection] = ControlLease()
         self._all_closed: Deferred[None] | None = None
 
     def __len__(self) -> int:
@@ -79,13 +77,18 @@ class Grounds:
                 station.close()
             await self._all_closed
 
+    def buildProtocol(self, addr: IAddress | None) -> Protocol | None:  # noqa: N802 - Twisted's name
+        """Return the connection of a permitted peer; None refuses it."""
+        host: Any = getattr(addr, "host", "")
+        return self.build() if self._peers.permits(host) else None
+
     def build(self) -> GroundConnection | None:
         """Return the protocol of a new connection, or None if there are too many."""
-        if len(self._stations) >= STATIONS_LIMIT:
+        if len(self._stations) >= MAX_STATIONS:
             return None
         return GroundConnection(
             self._clock,
-            on_hello=self._greet,
+            on_hello=self._accept,
             on_message=self._message,
             on_malformed=self._malformed,
             on_connected=self._connected,
@@ -95,75 +98,50 @@ class Grounds:
     def _connected(self, station: GroundConnection) -> None:
         self._stations[station] = self._open_link(station.send)
 
-    def _greet(self, station: GroundConnection, wants_seat: bool, token: str) -> bytes:
+    def _accept(self, station: GroundConnection, hello: Hello) -> Accepted:
         """Return the answer to a hello."""
-        kept = self._kept_token if self._holder is None else self._holder.token
-        if token and kept and secrets.compare_digest(token, kept):
-            self._resume(station, token)
-        elif not station.token:
+        if self._lease.is_resumed_by(hello.token):
+            station.token = hello.token
+            displaced = self._acquire(station)
+            if displaced is not None:
+                displaced.close()
+        else:
             station.token = self._random.randbytes(16).hex()
-            if wants_seat and self._is_free():
-                self._seat(station)
-        seat = "command" if station is self._holder else "listen"
-        answer = f"UP1 ok aircraft={self._aircraft} seat={seat} token={station.token}\n"
-        return answer.encode("ascii")
-
-    def _resume(self, station: GroundConnection, token: str) -> None:
-        displaced = self._holder
-        station.token = token
-        self._seat(station)
-        if displaced is not None and displaced is not station:
-            displaced.close()
+            if hello.access is Access.COMMAND and self._is_free():
+                self._acquire(station)
+        access = Access.COMMAND if station is self._lease.owner else Access.LISTEN
+        return Accepted(self._aircraft, access, station.token or "")
 
     def _message(self, station: GroundConnection, message: GeneralMessage) -> None:
-        if station is not self._holder and self._is_free():
-            self._seat(station)
+        if station is not self._lease.owner and self._is_free():
+            self._acquire(station)
         link = self._stations[station]
-        if station is self._holder:
+        if station is self._lease.owner:
             self._on_message(message, link)
             return
         self.dropped += 1
-        link.nack(message.id, Code.FORBIDDEN, "another ground station commands; this one listens")
+        link.nack(message.id, Code.FORBIDDEN, "another ground station has control")
 
     def _malformed(self, station: GroundConnection, fault: MalformedMessage) -> None:
-        if station is self._holder:
+        if station is self._lease.owner:
             self._on_malformed(fault, self._stations[station])
         else:
             self.dropped += 1
 
-    def _lost(self, station: GroundConnection, why: str) -> None:
+    def _lost(self, station: GroundConnection, reason: str) -> None:
         del self._stations[station]
         self.too_many += station.bucket.refused
-        if station is self._holder:
-            self._holder = None
-            self._kept_token = station.token
-            self._kept_until_s = station.heard_s + ALIVE_S
-            self._on_holder("")
+        if station is self._lease.owner:
+            self._lease.disconnect()
+            self._on_owner("")
         if not self._stations and self._all_closed is not None:
             self._all_closed.callback(None)
             self._all_closed = None
 
     def _is_free(self) -> bool:
-        now_s = self._clock.seconds()
-        if self._holder is not None:
-            return now_s - self._holder.heard_s > ALIVE_S
-        # Without a token the station cannot resume the seat: it is free immediately.
-        return not self._kept_token or now_s > self._kept_until_s
+        return self._lease.is_free(self._clock.seconds())
 
-    def _seat(self, station: GroundConnection) -> None:
-        self._holder = station
-        self._kept_token = ""
-        self._on_holder(station.peer)
-
-
-class _Factory(Factory):
-    """Builds a connection for a permitted peer."""
-
-    noisy = False
-
-    def __init__(self, grounds: Grounds) -> None:
-        self._grounds = grounds
-
-    def buildProtocol(self, addr: IAddress | None) -> Protocol | None:  # noqa: N802 - Twisted's name
-        host: Any = getattr(addr, "host", "")
-        return self._grounds.build() if self._grounds.peers.permits(host) else None
+    def _acquire(self, station: GroundConnection) -> GroundConnection | None:
+        displaced = self._lease.acquire(station, station.token)
+        self._on_owner(station.peer)
+        return displaced

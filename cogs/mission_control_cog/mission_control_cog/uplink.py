@@ -1,42 +1,38 @@
-"""The link to the proxy, which reconnects indefinitely."""
+"""The link to the proxy, which reconnects without limit."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from typing import Any
 
-from twisted.internet.defer import CancelledError, Deferred
+from twisted.application.internet import ClientService
+from twisted.internet.defer import Deferred
 from twisted.internet.endpoints import TCP4ClientEndpoint, TCP6ClientEndpoint
-from twisted.internet.error import ConnectError, ConnectingCancelledError
-from twisted.internet.interfaces import IAddress
-from twisted.internet.protocol import Factory, Protocol
+from twisted.internet.error import ConnectError
+from twisted.internet.interfaces import IProtocolFactory, IStreamClientEndpoint
+from twisted.internet.protocol import Factory
 from twisted.logger import Logger
+from zope.interface import implementer
 
-from mission_control_cog.hello import HelloAnswer
 from mission_control_cog.host_addresses import HostAddresses, HostNotFoundError
 from mission_control_cog.uplink_protocol import UplinkProtocol
 from up.protocols.general_message import GeneralMessage, MalformedMessage
 from up.protocols.general_message_link import MAX_BURST, MAX_MESSAGES_HZ
+from up.protocols.proxy_lines import Hello
 from up.system.backoff import Backoff
 from up.system.token_bucket import TokenBucket
 
 CONNECT_LIMIT_S = 5.0
 """Within it the kernel repeats a lost SYN after 1 and 3 s."""
 GOOD_AFTER_S = 3.0
-_NO_CONNECTION = (
-    ConnectError,
-    OSError,
-    HostNotFoundError,
-    CancelledError,
-    ConnectingCancelledError,
-)
 
 
+@implementer(IStreamClientEndpoint)
 class Uplink:
     """Connects, sends the hello, and retries after every failure and loss.
 
-    ``hello`` is the aircraft's name, None for a thesis client. The token of the last link resumes
-    the aircraft's place at the proxy immediately. Data sent without a link is lost.
+    ``hello`` is the aircraft's name, None for a legacy client. The token of the last link resumes
+    the aircraft's lease at the proxy immediately. Data sent without a link are lost.
     """
 
     log = Logger()
@@ -53,7 +49,6 @@ class Uplink:
         on_ready: Callable[[str], object],
         on_lost: Callable[[], object],
         backoff: Backoff | None = None,
-        addresses: HostAddresses | None = None,
     ) -> None:
         self.connects = 0
         self.bucket = TokenBucket(reactor, MAX_MESSAGES_HZ, MAX_BURST)
@@ -67,14 +62,15 @@ class Uplink:
         self._on_ready = on_ready
         self._on_lost = on_lost
         self._backoff = backoff or Backoff()
-        self._addresses = addresses or HostAddresses(reactor, host, port)
+        self._addresses = HostAddresses(reactor, host, port)
         self._link: UplinkProtocol | None = None
+        self._began_s = 0.0
         self._ready_s: float | None = None
-        self._waiting: Deferred[Any] | None = None
-        self._lost: Deferred[str] | None = None
-        self._is_stopping = False
-        self._ended: Deferred[None] | None = None
-        self._said = ""
+        self._reported = ""
+        factory: Any = Factory.forProtocol(self._build)
+        factory.noisy = False
+        make: Any = ClientService
+        self._service = make(self, factory, retryPolicy=self._pause_s, clock=reactor)
 
     @property
     def is_ready(self) -> bool:
@@ -91,70 +87,45 @@ class Uplink:
 
     def start(self) -> None:
         """Start connecting."""
-        self._ended = Deferred.fromCoroutine(self._keep_connected())
+        self._service.startService()
 
     async def stop(self) -> None:
         """Close the link, or abandon the attempt, and stop retrying."""
-        self._is_stopping = True
-        if self._waiting is not None:
-            self._waiting.cancel()
-        if self._link is not None:
-            self._link.close()
-        if self._ended is not None:
-            await self._ended
+        link = self._link
+        if link is not None:
+            link.close()
+        await self._service.stopService()
 
-    async def _keep_connected(self) -> None:
-        while not self._is_stopping:
-            began_s = self._reactor.seconds()
-            self._say(await self._connect_once())
-            if self._ready_s is not None:
-                if self._reactor.seconds() - self._ready_s >= GOOD_AFTER_S:
-                    self._backoff.reset()
-                self._ready_s = None
-            await self._pause(self._backoff.pause_s(self._reactor.seconds() - began_s))
+    def connect(self, protocolFactory: IProtocolFactory) -> Deferred[Any]:  # noqa: N803
+        """Make one attempt; the service calls it as its endpoint."""
+        self._began_s = self._reactor.seconds()
+        return Deferred.fromCoroutine(self._attempt(protocolFactory))
 
-    async def _connect_once(self) -> str:
-        """Keep one connection from its attempt to its end; return why it ended."""
-        self._lost = Deferred()
-        self._waiting = Deferred.fromCoroutine(self._attempt())
+    async def _attempt(self, factory: IProtocolFactory) -> Any:
+        address = ""
         try:
-            await self._waiting
-        except _NO_CONNECTION as error:
-            return f"no connection: {_reason(error)}"
-        finally:
-            self._waiting = None
-        return await self._lost
-
-    async def _attempt(self) -> None:
-        address = await self._addresses.next()
-        make = TCP6ClientEndpoint if ":" in address else TCP4ClientEndpoint
-        endpoint = make(self._reactor, address, self._port, CONNECT_LIMIT_S)
-        factory: Any = _Factory(self._build)
-        try:
-            await endpoint.connect(factory)
-        except (ConnectError, OSError):
+            address = await self._addresses.next()
+            make = TCP6ClientEndpoint if ":" in address else TCP4ClientEndpoint
+            endpoint = make(self._reactor, address, self._port, CONNECT_LIMIT_S)
+            return await endpoint.connect(factory)
+        except (ConnectError, OSError, HostNotFoundError) as error:
             self._addresses.failed(address)
+            reason = str(error).strip() or type(error).__name__
+            self._report("no_connection", f"no connection: {reason}")
             raise
 
-    async def _pause(self, delay_s: float) -> None:
-        if self._is_stopping:
-            return
-        done: Deferred[None] = Deferred()
-        call = self._reactor.callLater(delay_s, done.callback, None)
-        self._waiting = done
-        try:
-            await done
-        except CancelledError:
-            call.cancel()
-        finally:
-            self._waiting = None
+    def _pause_s(self, failed_attempts: int) -> float:
+        now_s = self._reactor.seconds()
+        if self._ready_s is not None and now_s - self._ready_s >= GOOD_AFTER_S:
+            self._backoff.reset()
+        self._ready_s = None
+        return self._backoff.pause_s(now_s - self._began_s)
 
     def _build(self) -> UplinkProtocol:
-        hello = None if self._hello is None else (self._hello, self._token)
         self._link = UplinkProtocol(
             self._reactor,
-            hello,
-            on_answer=self._answered,
+            None if self._hello is None else Hello(self._hello, token=self._token),
+            on_token=self._take_token,
             on_ready=self._ready,
             on_message=lambda link, message: self._on_message(message),
             on_malformed=lambda link, fault: self._on_malformed(fault),
@@ -163,48 +134,29 @@ class Uplink:
         )
         return self._link
 
-    def _answered(self, answer: HelloAnswer) -> None:
-        # A refused token would be refused again: another aircraft now has the name.
-        self._token = answer.token
+    def _take_token(self, token: str) -> None:
+        self._token = token
 
     def _ready(self, link: UplinkProtocol) -> None:
         self.connects += 1
         self._ready_s = self._reactor.seconds()
-        self._said = ""
-        self.log.info("connected to {peer}", peer=link.peer)
+        self._reported = ""
+        self.log.info("connected to {peer}", peer=link.peer, code="uplink_connected")
         self._on_ready(link.peer.rpartition(":")[0])
 
-    def _link_lost(self, link: UplinkProtocol, why: str) -> None:
-        if link is not self._link:
-            return
+    def _link_lost(self, link: UplinkProtocol, reason: str) -> None:
         self._link = None
         if self._ready_s is not None:
             self._on_lost()
-        if self._lost is not None and not self._lost.called:
-            self._lost.callback(f"the link is lost: {why}")
+        self._report(link.lost_code, f"the link is lost: {reason}")
 
-    def _say(self, why: str) -> None:
-        if why != self._said and not self._is_stopping:
-            self._said = why
+    def _report(self, code: str, reason: str) -> None:
+        if reason != self._reported and self._service.running:
+            self._reported = reason
             self.log.warn(
-                "{host}:{port}: {why}; trying again for ever",
+                "{host}:{port}: {reason}; retrying without limit",
+                code=code,
                 host=self._host,
                 port=self._port,
-                why=why,
+                reason=reason,
             )
-
-
-class _Factory(Factory):
-    """Builds the one protocol of one attempt."""
-
-    noisy = False
-
-    def __init__(self, build: Callable[[], Protocol]) -> None:
-        self._build = build
-
-    def buildProtocol(self, addr: IAddress | None) -> Protocol:  # noqa: N802 - Twisted's name
-        return self._build()
-
-
-def _reason(error: Exception) -> str:
-    return str(error).strip() or type(error).__name__

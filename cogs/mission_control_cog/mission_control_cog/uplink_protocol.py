@@ -8,8 +8,8 @@ from typing import Any
 from twisted.internet.protocol import connectionDone
 from twisted.python.failure import Failure
 
-from mission_control_cog.hello import HELLO_MAX_BYTES, HelloAnswer, hello_line, parse_answer
 from up.protocols.general_message_link import GeneralMessageProtocol
+from up.protocols.proxy_lines import HELLO_MAX_BYTES, Accepted, Hello, Refused, parse_line
 from up.system.clock import Clock, Timer
 
 HEARTBEAT_S = 1.0
@@ -17,38 +17,35 @@ ANSWER_LIMIT_S = 5.0
 
 
 class UplinkProtocol(GeneralMessageProtocol):
-    """General Messages after a hello; without ``hello`` immediately (thesis client).
+    """General Messages after a hello; without ``hello`` immediately (legacy client).
 
-    ``on_ready`` gets the link when messages can be sent; ``on_answer`` gets the proxy's answer
-    before that. A link with hello sends an empty line in every second without other data.
+    ``on_token`` gets the token for the next hello, empty after a refusal: the name may belong to
+    another aircraft. ``on_ready`` gets the link when messages can be sent. ``lost_code`` is the
+    code of the loss. A link with hello sends an empty line in every second without other data.
     """
 
     def __init__(
         self,
         clock: Clock,
-        hello: tuple[str, str] | None,
+        hello: Hello | None,
         *,
-        on_answer: Callable[[HelloAnswer], object],
+        on_token: Callable[[str], object],
         on_ready: Callable[[UplinkProtocol], object],
         **callbacks: Any,
     ) -> None:
         super().__init__(clock, on_connected=self._begin, **callbacks)
+        self.is_ready = False
+        self.lost_code = "link_lost"
         self._hello = hello
-        self._on_answer = on_answer
+        self._on_token = on_token
         self._on_ready = on_ready
-        self._is_ready = False
         self._answer = b""
         self._sent_s = 0.0
         self._pulse: Timer | None = None
 
-    @property
-    def is_ready(self) -> bool:
-        """Return whether messages can be sent."""
-        return self._is_ready
-
     def send(self, message: bytes) -> bool:
         """Send ``message`` in order; False if not ready, or if too much waits."""
-        if not self._is_ready:
+        if not self.is_ready:
             self.output.dropped += 1
             return False
         self._sent_s = self._clock.seconds()
@@ -56,65 +53,74 @@ class UplinkProtocol(GeneralMessageProtocol):
 
     def send_newest(self, message: bytes) -> bool:
         """Send ``message``; a slow peer gets only the newest."""
-        if not self._is_ready:
+        if not self.is_ready:
             return False
         self._sent_s = self._clock.seconds()
         return super().send_newest(message)
 
     def dataReceived(self, data: bytes) -> None:  # noqa: N802 - Twisted's name
         """Take the answer to the hello, then messages."""
-        if self._is_ready or self._hello is None:
+        if self.is_ready or self._hello is None:
             super().dataReceived(data)
             return
         self._heard_s = self._clock.seconds()
-        line, ended, rest = (self._answer + data).partition(b"\n")
-        if len(line) >= HELLO_MAX_BYTES or not ended:
-            self._answer = line
-            if len(line) >= HELLO_MAX_BYTES:
-                self._give_up("its answer to the hello is too long")
-            return
-        answer = parse_answer(line)
-        if answer is None:
-            self._give_up("it does not answer the hello (an old proxy? mission_control.yml: hello)")
-            return
-        self._on_answer(answer)
-        if answer.error:
-            self._give_up(f"the proxy refused: {answer.reason} ({answer.error})")
-            return
-        self._ready()
-        if rest:
+        self._answer, ended, rest = (self._answer + data).partition(b"\n")
+        if len(self._answer) >= HELLO_MAX_BYTES:
+            self._give_up("answer_too_long", "its answer to the hello is too long")
+        elif ended and self._on_answer(self._answer) and rest:
             super().dataReceived(rest)
 
     def connectionLost(self, reason: Failure = connectionDone) -> None:  # noqa: N802 - Twisted's name
         """Stop the heartbeat and report the loss."""
-        self._is_ready = False
+        self.is_ready = False
         if self._pulse is not None and self._pulse.active():
             self._pulse.cancel()
         super().connectionLost(reason)
 
     def close(self) -> None:
         """Send waiting data and close."""
-        self._is_ready = False
+        self.is_ready = False
         super().close()
 
     def _begin(self, link: GeneralMessageProtocol) -> None:
         if self._hello is None:
             self._ready()
             return
-        self._pulse = self._clock.callLater(ANSWER_LIMIT_S, self._no_answer)
-        super().send(hello_line(*self._hello))
+        self._pulse = self._clock.callLater(ANSWER_LIMIT_S, self._on_timeout)
+        super().send(self._hello.encode())
 
-    def _no_answer(self) -> None:
-        self._give_up(f"no answer to the hello within {ANSWER_LIMIT_S:g} s")
+    def _on_answer(self, line: bytes) -> bool:
+        """Return whether the proxy accepted the hello, so that messages may follow."""
+        answer = parse_line(line)
+        if isinstance(answer, Accepted):
+            self._on_token(answer.token)
+            self._ready()
+            return True
+        if isinstance(answer, Refused):
+            self._on_token("")
+            self._give_up(
+                f"proxy_refused_{answer.code}",
+                f"the proxy refused: {answer.reason} ({answer.code})",
+            )
+        else:
+            self._give_up(
+                "not_an_answer",
+                "it does not answer the hello (a legacy proxy? mission_control.yml: hello)",
+            )
+        return False
 
-    def _give_up(self, why: str) -> None:
-        self._why_given_up = why
+    def _on_timeout(self) -> None:
+        self._give_up("answer_timeout", f"no answer to the hello within {ANSWER_LIMIT_S:g} s")
+
+    def _give_up(self, code: str, reason: str) -> None:
+        self.lost_code = code
+        self._why_given_up = reason
         self.abort()
 
     def _ready(self) -> None:
         if self._pulse is not None:
             self._pulse.cancel()
-        self._is_ready = True
+        self.is_ready = True
         self._sent_s = self._clock.seconds()
         if self._hello is not None:
             self._pulse = self._clock.callLater(HEARTBEAT_S, self._beat)

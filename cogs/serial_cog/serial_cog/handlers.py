@@ -30,7 +30,6 @@ class HandlerTable:
 
     @property
     def sizes(self) -> Mapping[int, int]:
-        """Return the payload size of every type with a handler."""
         return dict(self._sizes)
 
     def add(self, type_: FrameType, handler: FrameHandler, payload_size: int) -> bool:

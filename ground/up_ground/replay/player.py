@@ -7,11 +7,11 @@ from collections.abc import Callable, Iterator
 from up.flight_log.telemetry_frames import Frame
 from up.system.clock import Clock, Timer
 
-SLOWEST, FASTEST = 0.25, 64.0
-LEAST_PAUSE_S = 0.04
+MIN_SPEED, MAX_SPEED = 0.25, 64.0
+MIN_PAUSE_S = 0.04
 """Faster frames are thinned out: they could not be seen."""
-LONGEST_PAUSE_S = 0.1
-AGAIN_S = 0.2
+MAX_PAUSE_S = 0.1
+REPEAT_S = 0.2
 """Without a newer frame the last one is shown again in this period, with its age in the flight."""
 
 Open = Callable[[float], Iterator[Frame]]
@@ -48,7 +48,7 @@ class Player:
         self._shown_at_s = 0.0
         self._from_s = 0.0
         self._since_s = clock.seconds()
-        self._told_s = 0.0
+        self._reported_s = 0.0
         self._timer: Timer | None = None
 
     @property
@@ -68,18 +68,18 @@ class Player:
         self.is_playing = True
         self._since_s = self._clock.seconds()
         self._changed()
-        self._go_on()
+        self._advance()
 
     def pause(self) -> None:
         """Pause."""
-        self._hold()
+        self._freeze()
         self.is_playing = False
         self._changed()
 
     def seek(self, time_s: float) -> None:
         """Go to a moment and show it."""
-        self._hold()
-        self._from_s = self._told_s = max(0.0, min(self.length_s, time_s))
+        self._freeze()
+        self._from_s = self._reported_s = max(0.0, min(self.length_s, time_s))
         self._frames = self._open_at(self._from_s)
         self._next = next(self._frames, None)
         self._changed()
@@ -89,22 +89,22 @@ class Player:
         if shown is not None:
             self._show_now(shown)
         if self.is_playing:
-            self._go_on()
+            self._advance()
 
     def set_speed(self, speed: float) -> None:
         """Play faster or slower."""
-        self._hold()
-        self.speed = max(SLOWEST, min(FASTEST, speed))
+        self._freeze()
+        self.speed = max(MIN_SPEED, min(MAX_SPEED, speed))
         self._changed()
         if self.is_playing:
-            self._go_on()
+            self._advance()
 
     def stop(self) -> None:
         """End."""
         self.is_playing = False
         self._cancel()
 
-    def _hold(self) -> None:
+    def _freeze(self) -> None:
         self._cancel()
         self._from_s = self.time_s
         self._since_s = self._clock.seconds()
@@ -113,22 +113,22 @@ class Player:
         if self._timer is not None and self._timer.active():
             self._timer.cancel()
 
-    def _go_on(self) -> None:
+    def _advance(self) -> None:
         now_s = self.time_s
         due = self._due(now_s)
-        before_s, self._told_s = self._told_s, now_s
+        before_s, self._reported_s = self._reported_s, now_s
         self._moved(before_s, now_s)
         if due is not None:
             self._show_now(due)
-        elif self._shown is not None and self._clock.seconds() - self._shown_at_s >= AGAIN_S:
+        elif self._shown is not None and self._clock.seconds() - self._shown_at_s >= REPEAT_S:
             self._show_now(self._shown)
         if now_s >= self.length_s:
             self.pause()
             return
         rest_s = self.length_s if self._next is None else self._next.time_s
         pause_s = (rest_s - now_s) / self.speed
-        pause_s = max(LEAST_PAUSE_S, min(LONGEST_PAUSE_S, pause_s))
-        self._timer = self._clock.callLater(pause_s, self._go_on)
+        pause_s = max(MIN_PAUSE_S, min(MAX_PAUSE_S, pause_s))
+        self._timer = self._clock.callLater(pause_s, self._advance)
 
     def _show_now(self, frame: Frame) -> None:
         self._shown, self._shown_at_s = frame, self._clock.seconds()

@@ -14,11 +14,11 @@ from up.flight_log.flight_options import PLACE
 from up.flight_log.flights import find_flight_of
 from up.flight_log.flights_folder import folder_of
 from up.flight_log.mcap_format import FlightLogError
-from up_ground.errand import EXIT_USAGE, complain, say
+from up_ground.one_shot_task import EXIT_USAGE, echo, print_error
+from up_ground.one_shot_task import run as run_task
 from up_ground.replay.replayed_aircraft import ReplayedAircraft
-from up_ground.replay.story import Story
-from up_ground.run_errand import run as run_errand
-from up_ground.safe_text import safe_text
+from up_ground.replay.timeline import ReplayTimeline
+from up_ground.sanitize_text import sanitize_text
 from up_ground.web.serve import PageOptions, ServeError
 
 
@@ -27,27 +27,25 @@ def run(options: argparse.Namespace) -> int:
     try:
         page = PageOptions.of(options, os.environ)
         paths = find_flight_of(options.flight, lambda: _folder(options)).paths
-        say(f"reading {printable(', '.join(path.name for path in paths))} ...")
+        echo(f"reading {printable(', '.join(path.name for path in paths))} ...")
         log = FlightLog.read(paths)
-        story = Story(log, aircraft_of(log))
+        timeline = ReplayTimeline(log, aircraft_of(log))
     except (ServeError, FlightLogError) as error:
         raise CliError(printable(str(error)), EXIT_USAGE) from None
     if not log.topics:
         raise CliError(f"{printable(paths[0].name)} holds no message", EXIT_USAGE)
     for problem in log.problems[:5]:
-        complain(printable(problem))
-    title = safe_text(paths[0].name.removesuffix(".mcap"), 100)
+        print_error(printable(problem.text), "log_damaged")
+    title = sanitize_text(paths[0].name.removesuffix(".mcap"), 100)
 
     def make(reactor: Any) -> Any:
         return page.server(
             reactor,
-            lambda audience: [ReplayedAircraft(reactor, log, story, title, audience)],
+            lambda subscribers: [ReplayedAircraft(reactor, log, timeline, title, subscribers)],
             is_replay=True,
-            say=say,
-            complain=complain,
         )
 
-    return run_errand(make)
+    return run_task(make)
 
 
 def _folder(options: argparse.Namespace) -> Path:
@@ -59,4 +57,4 @@ def _folder(options: argparse.Namespace) -> Path:
 def aircraft_of(log: FlightLog) -> str:
     """Return the aircraft's name from the log."""
     name = log.metadata.get("flight", {}).get("aircraft", "")
-    return safe_text(name, 32) or "flight"
+    return sanitize_text(name, 32) or "flight"

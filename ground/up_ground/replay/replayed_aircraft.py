@@ -11,15 +11,14 @@ from up.flight_log.mcap_format import FlightLogError
 from up.flight_log.telemetry_frames import Frame, frames
 from up.system.clock import Clock, Timer
 from up_ground.replay.player import Player
-from up_ground.replay.story import Story, past
+from up_ground.replay.timeline import ReplayTimeline, past
+from up_ground.web.aircraft_source import Subscribers
+from up_ground.web.client_session import ClientSession
 from up_ground.web.gains_history import GainsHistory
-from up_ground.web.messages import FrameMessage, message_bytes
-from up_ground.web.page import Page
-from up_ground.web.page_message import PageFault, Reader
-from up_ground.web.watched import Audience
+from up_ground.web.messages import FrameMessage, PageFault, Reader, message_bytes
 
 REPLAY = "this is a replay"
-TELL_S = 0.25
+REPEAT_S = 0.25
 _BEFORE_S = 0.5
 """Frames that are made lie elsewhere, by less than this, when they are made from elsewhere on."""
 
@@ -28,14 +27,19 @@ class ReplayedAircraft:
     """Shows a flight to the pages; any page that could control an aircraft plays and pauses it."""
 
     def __init__(
-        self, clock: Clock, log: FlightLog, story: Story, title: str, audience: Audience
+        self,
+        clock: Clock,
+        log: FlightLog,
+        timeline: ReplayTimeline,
+        title: str,
+        subscribers: Subscribers,
     ) -> None:
-        self.name = story.aircraft
+        self.name = timeline.aircraft
         self._clock = clock
         self._log = log
-        self._story = story
+        self._timeline = timeline
         self._title = title
-        self._audience = audience
+        self._subscribers = subscribers
         self._frame: FrameMessage | None = None
         self._frames = 0
         self._timer: Timer | None = None
@@ -51,12 +55,12 @@ class ReplayedAircraft:
     @property
     def summary(self) -> str:
         """Return the aircraft in one line."""
-        return f"{self.name}: {self._title}, {self._story.length_s:.0f} s"
+        return f"{self.name}: {self._title}, {self._timeline.length_s:.0f} s"
 
     def start(self) -> None:
         """Begin to play."""
         self._player.play()
-        self._tell()
+        self._repeat()
 
     async def stop(self) -> None:
         """End."""
@@ -72,21 +76,22 @@ class ReplayedAircraft:
         """Return the messages for a page that starts to watch."""
         now_s = self._player.time_s
         yield self._replay()
-        yield self._story.track_until(now_s)
-        yield from past(self._story.events_until(now_s))
-        yield self._story.alarms_at(now_s)
+        yield self._timeline.track_until(now_s)
+        yield from past(self._timeline.events_until(now_s))
+        yield self._timeline.alarms_at(now_s)
         yield self._gains(now_s)
         yield self._profile(now_s)
 
-    def status(self, page: Page) -> dict[str, Any]:
+    def status(self, page: ClientSession) -> dict[str, Any]:
         """Return the status as this page sees it."""
-        pages = [{"page": each.number, "name": each.name} for each in self._audience.all()]
+        pages = [{"page": each.number, "name": each.name} for each in self._subscribers.all()]
         return {
             "type": "status",
             "aircraft": self.name,
             "link": {
                 "state": "connected",
                 "reason": "",
+                "code": "",
                 "since_s": round(self._player.time_s, 3),
                 "aircraft_online": True,
                 "round_trip_ms": None,
@@ -106,17 +111,17 @@ class ReplayedAircraft:
             },
             "role": "observer",
             "tune_in_flight": None,
-            "home": self._story.home,
+            "home": self._timeline.home,
         }
 
-    def on_replay(self, page: Page, action: str, message: Reader) -> None:
+    def on_replay(self, page: ClientSession, action: str, message: Reader) -> None:
         """Play, pause, go to a moment (value: seconds), set the speed (value: a factor)."""
         if not page.may_control:
-            raise PageFault(f"this page may only watch: {page.why_not}")
+            raise PageFault(f"this page may only watch: {page.denial}", "watch_only")
         if action in ("seek", "speed"):
             value = message.number("value")
             if not math.isfinite(value) or value < 0:
-                raise PageFault("value is no number of at least 0")
+                raise PageFault("value is not a number of at least 0")
             if action == "seek":
                 self._seek(value)
             else:
@@ -128,13 +133,13 @@ class ReplayedAircraft:
         else:
             self._player.pause()
 
-    def on_control(self, page: Page, action: str, to: int | None) -> None:
+    def on_control(self, page: ClientSession, action: str, to: int | None) -> None:
         """Refuse: a recorded flight cannot be controlled."""
-        raise PageFault(REPLAY)
+        raise PageFault(REPLAY, "replay")
 
-    def on_command(self, page: Page, message: Reader) -> None:
+    def on_command(self, page: ClientSession, message: Reader) -> None:
         """Refuse: a recorded flight takes no Commands."""
-        page.tell(
+        page.send(
             {
                 "type": "answer",
                 "ask": message.whole("ask"),
@@ -149,23 +154,23 @@ class ReplayedAircraft:
     def on_second(self) -> None:
         """Handle the end of a second."""
 
-    def on_away(self, page: Page) -> None:
+    def on_away(self, page: ClientSession) -> None:
         """Handle the loss of a page's link; the page may return."""
 
-    def on_back(self, page: Page) -> None:
+    def on_back(self, page: ClientSession) -> None:
         """Handle a new page."""
 
-    def on_gone(self, page: Page) -> None:
+    def on_gone(self, page: ClientSession) -> None:
         """Handle the final loss of a page."""
 
     def _seek(self, time_s: float) -> None:
         self._player.seek(time_s)
         for each in self.past():
-            self._audience.tell(self.name, each)
+            self._subscribers.notify(self.name, each)
 
     def _open_at(self, time_s: float) -> Any:
         try:
-            newest_s = self._story.frame_time_s(time_s)
+            newest_s = self._timeline.frame_time_s(time_s)
             since_s = time_s if newest_s is None else newest_s - _BEFORE_S
             yield from frames(self._log, since_s=max(0.0, since_s))
         except FlightLogError:
@@ -181,36 +186,36 @@ class ReplayedAircraft:
         self._frame = FrameMessage(
             self.name, frame.beacon, frame.data, age_s, self._clock.seconds, frame.time_s
         )
-        self._audience.show(self.name, "frame", self._frame)
+        self._subscribers.send_latest(self.name, "frame", self._frame)
 
     def _on_moved(self, before_s: float, now_s: float) -> None:
-        for event in self._story.events_between(before_s, now_s):
-            self._audience.tell(self.name, event)
-        alarms = self._story.alarms_at(now_s)
-        if alarms != self._story.alarms_at(before_s):
-            self._audience.tell(self.name, alarms)
-        if self._story.gains_at(now_s) is not self._story.gains_at(before_s):
-            self._audience.tell(self.name, self._gains(now_s))
-        if self._story.profile_at(now_s) is not self._story.profile_at(before_s):
-            self._audience.tell(self.name, self._profile(now_s))
+        for event in self._timeline.events_between(before_s, now_s):
+            self._subscribers.notify(self.name, event)
+        alarms = self._timeline.alarms_at(now_s)
+        if alarms != self._timeline.alarms_at(before_s):
+            self._subscribers.notify(self.name, alarms)
+        if self._timeline.gains_at(now_s) is not self._timeline.gains_at(before_s):
+            self._subscribers.notify(self.name, self._gains(now_s))
+        if self._timeline.profile_at(now_s) is not self._timeline.profile_at(before_s):
+            self._subscribers.notify(self.name, self._profile(now_s))
 
     def _gains(self, time_s: float) -> dict[str, Any]:
         history = GainsHistory()
-        flying = self._story.gains_at(time_s)
+        flying = self._timeline.gains_at(time_s)
         if flying is not None:
-            history.told(flying.values, flying.time_s)
+            history.on_values(flying.values, flying.time_s)
         return history.message(self.name, time_s)
 
     def _profile(self, time_s: float) -> dict[str, Any]:
-        told = self._story.profile_at(time_s)
-        profile = None if told is None else told.values
+        reported = self._timeline.profile_at(time_s)
+        profile = None if reported is None else reported.values
         return {"type": "profile", "aircraft": self.name, "profile": profile}
 
     def _on_changed(self) -> None:
-        self._audience.show(self.name, "replay", lambda: message_bytes(self._replay()))
+        self._subscribers.send_latest(self.name, "replay", lambda: message_bytes(self._replay()))
 
-    def _tell(self) -> None:
-        self._timer = self._clock.callLater(TELL_S, self._tell)
+    def _repeat(self) -> None:
+        self._timer = self._clock.callLater(REPEAT_S, self._repeat)
         self._on_changed()
 
     def _replay(self) -> dict[str, Any]:

@@ -8,9 +8,23 @@ import socket
 from collections.abc import Iterable
 from dataclasses import dataclass
 
+from up.system.addresses import neighbourhood
+from up.system.clock import Clock
 from up.system.http_host import names_this_machine
+from up.system.token_bucket import TokenBucket
 
 _ORIGIN = re.compile(r"https?://([^/?#@\\]{1,300})", re.IGNORECASE)
+
+
+@dataclass(frozen=True, slots=True)
+class Denial:
+    """Why a page may not control."""
+
+    code: str
+    text: str
+
+    def __str__(self) -> str:
+        return self.text
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,16 +53,18 @@ class Access:
         match = _ORIGIN.fullmatch(origin)
         return match is not None and host is not None and match[1].casefold() == host.casefold()
 
-    def why_not(self, key: object) -> str:
-        """Return why a page with ``key`` may not control; empty if it may."""
+    def denial(self, key: object) -> Denial | None:
+        """Return why a page with ``key`` may not control; None if it may."""
         if self.is_watch_only:
-            return "this server was started with --watch-only"
+            return Denial("watch_only", "this server was started with --watch-only")
         if self.key is None:
-            return ""
+            return None
         if not isinstance(key, str):
-            return "this page was opened without the key, which is part of the address"
-        given, due = key.encode("utf-8", "replace"), self.key.encode()
-        return "" if hmac.compare_digest(given, due) else "the key in the address is a wrong one"
+            text = "this page was opened without the key, which is part of the address"
+            return Denial("no_key", text)
+        if hmac.compare_digest(key.encode("utf-8", "replace"), self.key.encode()):
+            return None
+        return Denial("wrong_key", "the key in the address is wrong")
 
 
 def machine_names(more: Iterable[str] = ()) -> frozenset[str]:
@@ -57,3 +73,33 @@ def machine_names(more: Iterable[str] = ()) -> frozenset[str]:
     short = own.partition(".")[0]
     found = {"localhost", own, short, f"{short}.local", *(name.casefold() for name in more)}
     return frozenset(name for name in found if name and name != ".local")
+
+
+MAX_ATTEMPTS = 10
+ATTEMPTS_RATE_HZ = 0.1
+ADDRESSES_KEPT = 1024
+
+
+class KeyAttempts:
+    """A bucket of wrong keys for each IPv4 address and each IPv6 /64 network.
+
+    Right keys take nothing from it, so pages behind one address do not use up each other's. Of more
+    than ``ADDRESSES_KEPT`` addresses the one that tried least recently is forgotten.
+    """
+
+    def __init__(self, clock: Clock) -> None:
+        self._clock = clock
+        self._known: dict[str, tuple[TokenBucket, float]] = {}
+
+    def permits(self, host: str, is_right: bool) -> bool:
+        """Count a key and return whether it is judged; False after too many wrong ones."""
+        now_s, peer = self._clock.seconds(), neighbourhood(host)
+        fresh = TokenBucket(self._clock, ATTEMPTS_RATE_HZ, MAX_ATTEMPTS), now_s
+        bucket, closed_until_s = self._known.pop(peer, fresh)
+        is_permitted = now_s >= closed_until_s if is_right else bucket.take()
+        if not is_permitted and not is_right:
+            closed_until_s = now_s + 1 / ATTEMPTS_RATE_HZ
+        self._known[peer] = bucket, closed_until_s
+        if len(self._known) > ADDRESSES_KEPT:
+            del self._known[next(iter(self._known))]
+        return is_permitted

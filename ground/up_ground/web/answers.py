@@ -1,21 +1,20 @@
-"""Sent Commands and their outcomes."""
+"""Sent Commands, their outcomes, and the outcomes as event texts."""
 
 from __future__ import annotations
 
 import secrets
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
+from up.flight_log.gain_changes import changes_text
 from up.protocols.general_message import GeneralMessage
 from up.system.clock import Clock, Timer
+from up_ground.catalogue import GAINS, requested_content
+from up_ground.sanitize_text import sanitize_text
+from up_ground.web.event_rules import INFO, WARNING, Report
 
 ANSWER_LIMIT_S = 5.0
-CONTENT_OF = {
-    "arduino.pids.tunings": "arduino.pids.values",
-    "arduino.profile.request": "arduino.profile.values",
-}
-"""Data besides the ack, for a Command that requests something."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -32,12 +31,12 @@ class Answer:
     data: dict[str, Any] | None = None
 
 
-Tell = Callable[[Answer], object]
+Notify = Callable[[Answer], object]
 
 
 @dataclass(slots=True)
 class _Sent:
-    tell: Tell
+    notify: Notify
     sent_s: float
     timer: Timer
     awaited: str
@@ -56,16 +55,15 @@ class Answers:
         """Return how many Commands wait for their answer."""
         return len(self._sent)
 
-    def expect(self, name: str, data: dict[str, Any], tell: Tell) -> str:
-        """Return the id with which to send a Command; ``tell`` gets its outcome."""
+    def expect(self, name: str, data: dict[str, Any], notify: Notify) -> str:
+        """Return the id with which to send a Command; ``notify`` gets its outcome."""
         id_ = secrets.token_hex(8)
-        is_asking = name != "arduino.pids.tunings" or data.get("request") is True
-        awaited = CONTENT_OF.get(name, "") if is_asking else ""
+        awaited = requested_content(name, data)
         timer = self._clock.callLater(ANSWER_LIMIT_S, self._on_time_over, id_)
-        self._sent[id_] = _Sent(tell, self._clock.seconds(), timer, awaited)
+        self._sent[id_] = _Sent(notify, self._clock.seconds(), timer, awaited)
         return id_
 
-    def take(self, message: GeneralMessage) -> None:
+    def on_message(self, message: GeneralMessage) -> None:
         """Take a message of the aircraft, if it is an answer."""
         if message.name in ("up.ack", "up.nack"):
             id_ = message.data.get("id")
@@ -79,10 +77,10 @@ class Answers:
                 if sent.acked_ms is not None:
                     self.end(id_, Answer("ack", round_trip_ms=sent.acked_ms, data=sent.data))
 
-    def lost(self) -> None:
+    def on_link_lost(self) -> None:
         """Handle the loss of the link: Commands in flight may or may not have arrived."""
         for id_, sent in list(self._sent.items()):
-            self.end(id_, _timed_out(sent, "the link was lost before an answer came"))
+            self.end(id_, _timed_out(sent, "link_lost", "the link was lost before the answer"))
 
     def stop(self) -> None:
         """Stop waiting for all answers."""
@@ -102,23 +100,62 @@ class Answers:
 
     def _on_time_over(self, id_: str) -> None:
         sent = self._sent[id_]
-        self.end(id_, _timed_out(sent, f"no answer within {ANSWER_LIMIT_S:g} s"))
+        self.end(id_, _timed_out(sent, "no_answer", f"no answer within {ANSWER_LIMIT_S:g} s"))
 
     def end(self, id_: str, answer: Answer) -> None:
         """End waiting with that answer."""
         sent = self._sent.pop(id_)
         if sent.timer.active():
             sent.timer.cancel()
-        sent.tell(answer)
+        sent.notify(answer)
 
 
-def _timed_out(sent: _Sent, why: str) -> Answer:
+def _timed_out(sent: _Sent, code: str, why: str) -> Answer:
     if sent.acked_ms is not None:
-        reason = "carried out, but what was asked for did not come"
-        return Answer("ack", reason=reason, round_trip_ms=sent.acked_ms)
-    return Answer("timeout", reason=f"{why}; it is not known whether it was carried out")
+        reason = "carried out, but the requested data did not arrive"
+        return Answer("ack", "no_content", reason, sent.acked_ms)
+    return Answer("timeout", code, why)
 
 
 def _text(data: dict[str, Any], key: str) -> str:
     found = data.get(key)
     return found[:500] if isinstance(found, str) else ""
+
+
+MARK = "black_box.mark"
+_SHOWN = 4
+# The same names as in static/js/panels/messages.js; the braces stand for the field.
+_TEXTS = {
+    "up.flight_mode.set": ("Flight mode {}", "mode"),
+    "up.arm": ("Arm", ""),
+    "up.disarm": ("Disarm", ""),
+    "up.telemetry.frequency": ("Telemetry every {} ms", "frequency"),
+    "android.speak": ('Say "{}"', "text"),
+    "arduino.profile.request": ("Request the profile", ""),
+    "arduino.calibrate": ("Calibrate {}", "what"),
+    GAINS: ("Request the gains", ""),
+}
+
+
+def outcome_event(
+    who: str, name: str, data: Mapping[str, Any], before: Any, answer: Answer
+) -> tuple[str, Report]:
+    """Return kind and report; ``before`` are the gains that flew before, None: not known."""
+    text, field = _TEXTS.get(name, ("{}", ""))
+    what = text.format(str(data.get(field)).replace("_", " ") if field else name)
+    kind, done = "command", f": {what} carried out"
+    if name == GAINS and data.get("request") is not True:
+        changes = changes_text(before, data.get("pids"), _SHOWN) or "nothing differs"
+        kind, what, done = "gains", f"gains ({changes})", f" changed gains: {changes}"
+    elif name == MARK:
+        kind, what, done = "mark", f"mark {data.get('text')}", f" marks: {data.get('text')}"
+    if answer.outcome != "ack":
+        outcome = _OUTCOMES.get(answer.outcome, answer.outcome)
+        reason = answer.reason.rstrip(". ") or answer.code
+        done = f": {what} {outcome}" + (f": {reason}" if reason else "")
+    fields = {"name": name, "outcome": answer.outcome, "code": answer.code, "by": who}
+    level = INFO if answer.outcome == "ack" else WARNING
+    return kind, Report(level, f"{kind}_{answer.outcome}", sanitize_text(who + done, 400), fields)
+
+
+_OUTCOMES = {"nack": "refused", "timeout": "outcome unknown", "unsent": "not sent"}

@@ -43,13 +43,13 @@ class Connection(ProtocolWrapper):
 
     def admit(self) -> None:
         """Exclude it from the limits: its page is welcomed."""
-        self.factory.forget(self)
+        self.factory.remove(self)
 
     def connectionLost(self, reason: Failure = connectionDone) -> None:  # noqa: N802
         """Stop counting."""
         if self._timer.active():
             self._timer.cancel()
-        self.factory.forget(self)
+        self.factory.remove(self)
         super().connectionLost(reason)  # type: ignore[no-untyped-call]
 
     def _on_time_over(self) -> None:
@@ -84,7 +84,7 @@ class Connections(WrappingFactory):
         own[made] = None
         return cast("Connection", made)
 
-    def forget(self, connection: Connection) -> None:
+    def remove(self, connection: Connection) -> None:
         """Count a connection no longer."""
         own = self._waiting.get(connection.peer, {})
         own.pop(connection, None)

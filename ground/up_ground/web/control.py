@@ -6,9 +6,11 @@ from collections.abc import Callable
 from typing import Any, Protocol
 
 from up.system.clock import Clock, Timer
-from up_ground.seat_wait import ASK_INTERVAL_S, Standing
-from up_ground.web.page import Page
-from up_ground.web.page_message import PageFault
+from up_ground.link_status import ASK_INTERVAL_S, ControlStatus
+from up_ground.sanitize_text import sanitize_text
+from up_ground.web.client_session import ClientSession
+from up_ground.web.event_rules import INFO, Report
+from up_ground.web.messages import PageFault
 
 ASK_LIMIT_S = 30.0
 """A request for control lasts this long."""
@@ -16,18 +18,18 @@ DENIED_S = 5.0
 """A denied ground may request again after it has been quiet for this time."""
 
 
-class SeatLink(Protocol):
+class Lease(Protocol):
     """The seat of the proxy, as far as it concerns control."""
 
     @property
-    def standing(self) -> Standing:
+    def status(self) -> ControlStatus:
         """Return the owner."""
 
     @property
     def holder(self) -> int | None:
         """Return the number of the ground that has it."""
 
-    def take_ask(self) -> int | None:
+    def pop_request(self) -> int | None:
         """Return which ground has requested it since the last call."""
 
     def request(self) -> None:
@@ -43,24 +45,24 @@ class SeatLink(Protocol):
 class Control:
     """At most one page has control, and the seat is only held while a page wants it.
 
-    ``tell`` gets each change in words, ``on_change`` is called at each change.
+    ``report`` gets each change, ``on_change`` is called at each change.
     """
 
     def __init__(
         self,
         clock: Clock,
-        seat: SeatLink,
-        tell: Callable[[str], object],
+        lease: Lease,
+        report: Callable[[str, Report], object],
         on_change: Callable[[], object],
     ) -> None:
-        self.holder: Page | None = None
+        self.holder: ClientSession | None = None
         self._clock = clock
-        self._seat = seat
-        self._tell = tell
+        self._lease = lease
+        self._report = report
         self._on_change = on_change
-        self._wanting: Page | None = None
+        self._wanting: ClientSession | None = None
         self._want_until_s = 0.0
-        self._askers: dict[Page, Timer] = {}
+        self._askers: dict[ClientSession, Timer] = {}
         self._ground: int | None = None
         self._ground_timer: Timer | None = None
         self._denied: dict[int, float] = {}
@@ -72,54 +74,54 @@ class Control:
             _cancel(timer)
         self._askers.clear()
         self.holder = self._wanting = None
-        if self._seat.standing is Standing.OURS:
-            self._seat.release()
+        if self._lease.status is ControlStatus.OURS:
+            self._lease.release()
 
-    def request(self, page: Page) -> None:
+    def request(self, page: ClientSession) -> None:
         """Give a page control, or request it from the present owner."""
         if not page.may_control:
-            raise PageFault(f"this page may only watch: {page.why_not}")
+            raise PageFault(f"this page may only watch: {page.denial}", "watch_only")
         if page in (self.holder, self._wanting):
             return
         if self.holder is None and self._wanting is None:
             self._wanting = page
             self._want_until_s = self._clock.seconds() + ASK_LIMIT_S
-            self._pursue()
+            self._request_lease()
         else:
             _cancel(self._askers.get(page))
             self._askers[page] = self._clock.callLater(ASK_LIMIT_S, self._withdraw, page)
         self._on_change()
 
-    def give(self, page: Page, to: Page | None) -> None:
+    def give(self, page: ClientSession, to: ClientSession | None) -> None:
         """Hand control to ``to``, or to the first page that requested it."""
         self._must_hold(page)
         if to is None and not self._askers:
             if self._ground is None:
-                raise PageFault("nobody asks for control")
+                raise PageFault("control is not requested", "not_requested")
             self._give_to_ground()
             return
         if to is None:
             to = next(iter(self._askers))
         if not to.may_control:
-            raise PageFault(f"{to.name} may only watch: {to.why_not}")
+            raise PageFault(f"{to.name} may only watch: {to.denial}", "watch_only")
         if to is not page:
             self._grant(to)
 
-    def deny(self, page: Page) -> None:
+    def deny(self, page: ClientSession) -> None:
         """Keep control; the first page that requested it is notified."""
         self._must_hold(page)
         if self._askers:
             asker = next(iter(self._askers))
             _cancel(self._askers.pop(asker))
-            asker.fault(f"{page.name} keeps control")
+            asker.fault(f"{page.name} keeps control", "denied")
         elif self._ground is not None:
             self._denied[self._ground] = self._clock.seconds()
-            self._forget_ground()
+            self._clear_ground_request()
         else:
-            raise PageFault("nobody asks for control")
+            raise PageFault("control is not requested", "not_requested")
         self._on_change()
 
-    def release(self, page: Page) -> None:
+    def release(self, page: ClientSession) -> None:
         """Release control, to the first request or free; or withdraw the own request."""
         if page is self.holder:
             self._free()
@@ -128,46 +130,49 @@ class Control:
         elif page in self._askers:
             _cancel(self._askers.pop(page))
         else:
-            raise PageFault("this page has no control to release")
+            raise PageFault("this page has no control to release", "no_control")
         self._on_change()
 
-    def on_away(self, page: Page) -> None:
+    def on_away(self, page: ClientSession) -> None:
         """Stop requesting for a page whose link was lost; its control is kept for it."""
         if page in self._askers:
             _cancel(self._askers.pop(page))
             self._on_change()
 
-    def on_gone(self, page: Page) -> None:
+    def on_gone(self, page: ClientSession) -> None:
         """Take control back from a lost page."""
         if page in (self.holder, self._wanting) or page in self._askers:
             self.release(page)
 
-    def on_seat(self) -> None:
+    def on_lease(self) -> None:
         """Handle a change of the link: the seat may be granted, lost or requested."""
-        standing = self._seat.standing
+        status = self._lease.status
         if self._wanting is not None:
-            if standing is Standing.OURS:
+            if status is ControlStatus.OURS:
                 self._grant(self._wanting)
-        elif standing is Standing.OURS and self.holder is None:
+        elif status is ControlStatus.OURS and self.holder is None:
             # Granted too late, or by its token: no page here wants it now.
-            self._seat.release()
-        elif self.holder is not None and standing is Standing.HELD:
-            self._tell(f"ground {self._seat.holder} commands, {self.holder.name} has lost control")
+            self._lease.release()
+        elif self.holder is not None and status is ControlStatus.HELD:
+            self._notify(
+                "control_lost",
+                f"ground {self._lease.holder} commands, {self.holder.name} has lost control",
+            )
             self.holder = None
-            self._forget_ground()
-        elif self.holder is not None and standing is not Standing.OURS:
-            self._pursue()
-        self._hear_ground()
+            self._clear_ground_request()
+        elif self.holder is not None and status is not ControlStatus.OURS:
+            self._request_lease()
+        self._poll_ground_request()
 
-    def describe(self, page: Page) -> dict[str, Any]:
+    def describe(self, page: ClientSession) -> dict[str, Any]:
         """Return the control part of the status of ``page``."""
         holder, holder_name = "unknown", ""
-        standing = self._seat.standing
+        status = self._lease.status
         if self.holder is not None:
             holder, holder_name = "you" if page is self.holder else "page", self.holder.name
-        elif standing is Standing.HELD:
-            holder, holder_name = "ground", f"ground {self._seat.holder}"
-        elif standing in (Standing.FREE, Standing.OURS):
+        elif status is ControlStatus.HELD:
+            holder, holder_name = "ground", f"ground {self._lease.holder}"
+        elif status in (ControlStatus.FREE, ControlStatus.OURS):
             holder = "nobody"
         asker = self._wanting or next(iter(self._askers), None)
         asked_by: dict[str, Any] | None = None
@@ -182,40 +187,40 @@ class Control:
             "asks_you": asked_by is not None and page is self.holder,
         }
 
-    def _pursue(self) -> None:
+    def _request_lease(self) -> None:
         """Request the seat until it is granted or the request times out."""
         _cancel(self._asking)
-        standing = self._seat.standing
-        if standing is Standing.OURS:
+        status = self._lease.status
+        if status is ControlStatus.OURS:
             if self._wanting is not None:
                 self._grant(self._wanting)
             return
         if self._wanting is not None and self._clock.seconds() >= self._want_until_s:
             page = self._wanting
             self._stop_wanting()
-            page.fault(f"{self._who(standing)} within {ASK_LIMIT_S:g} s")
+            page.fault(f"{self._who(status)} within {ASK_LIMIT_S:g} s", "request_timeout")
             self._on_change()
             return
         if self._wanting is None and self.holder is None:
             return
-        is_free = standing is Standing.FREE
-        if is_free or (self._wanting is not None and standing is not Standing.UNKNOWN):
-            self._seat.request()
-        self._asking = self._clock.callLater(ASK_INTERVAL_S, self._pursue)
+        is_free = status is ControlStatus.FREE
+        if is_free or (self._wanting is not None and status is not ControlStatus.UNKNOWN):
+            self._lease.request()
+        self._asking = self._clock.callLater(ASK_INTERVAL_S, self._request_lease)
 
-    def _who(self, standing: Standing) -> str:
-        if standing is Standing.HELD:
-            return f"ground {self._seat.holder} has not given the seat"
-        if standing is Standing.UNKNOWN:
+    def _who(self, status: ControlStatus) -> str:
+        if status is ControlStatus.HELD:
+            return f"ground {self._lease.holder} has not given the seat"
+        if status is ControlStatus.UNKNOWN:
             return "there was no link"
         return "the proxy has not given the seat"
 
-    def _grant(self, page: Page) -> None:
+    def _grant(self, page: ClientSession) -> None:
         _cancel(self._asking)
         _cancel(self._askers.pop(page, None))
         self._wanting = None
         self.holder = page
-        self._tell(f"{page.name} has control")
+        self._notify("control_granted", f"{page.name} has control")
         self._on_change()
 
     def _free(self) -> None:
@@ -226,17 +231,17 @@ class Control:
         elif self._ground is not None:
             self._give_to_ground()
         else:
-            self._seat.release()
+            self._lease.release()
             if holder is not None:
-                self._tell(f"{holder.name} has left control, nobody has it")
+                self._notify("control_released", f"{holder.name} has released control")
 
     def _give_to_ground(self) -> None:
         ground = self._ground
         self.holder = None
-        self._forget_ground()
+        self._clear_ground_request()
         if ground is not None:
-            self._seat.give(ground)
-            self._tell(f"control was given to ground {ground}")
+            self._lease.give(ground)
+            self._notify("control_given", f"control was given to ground {ground}")
         self._on_change()
 
     def _stop_wanting(self) -> None:
@@ -244,8 +249,8 @@ class Control:
         _cancel(self._asking)
         if self._askers:
             self._request_next()
-        elif self._seat.standing is Standing.OURS:
-            self._seat.release()
+        elif self._lease.status is ControlStatus.OURS:
+            self._lease.release()
 
     def _request_next(self) -> None:
         """Request the seat for the first page in the queue."""
@@ -253,13 +258,13 @@ class Control:
         _cancel(self._askers.pop(page))
         self.request(page)
 
-    def _withdraw(self, page: Page) -> None:
+    def _withdraw(self, page: ClientSession) -> None:
         self._askers.pop(page, None)
-        page.fault(f"control was not given within {ASK_LIMIT_S:g} s")
+        page.fault(f"control was not given within {ASK_LIMIT_S:g} s", "request_timeout")
         self._on_change()
 
-    def _hear_ground(self) -> None:
-        ground = self._seat.take_ask()
+    def _poll_ground_request(self) -> None:
+        ground = self._lease.pop_request()
         if ground is None:
             return
         now_s = self._clock.seconds()
@@ -269,16 +274,19 @@ class Control:
         self._denied.clear()
         self._ground = ground
         _cancel(self._ground_timer)
-        self._ground_timer = self._clock.callLater(ASK_LIMIT_S, self._forget_ground)
+        self._ground_timer = self._clock.callLater(ASK_LIMIT_S, self._clear_ground_request)
 
-    def _forget_ground(self) -> None:
+    def _clear_ground_request(self) -> None:
         self._ground = None
         _cancel(self._ground_timer)
         self._on_change()
 
-    def _must_hold(self, page: Page) -> None:
+    def _notify(self, code: str, text: str) -> None:
+        self._report("command", Report(INFO, code, sanitize_text(text, 300)))
+
+    def _must_hold(self, page: ClientSession) -> None:
         if page is not self.holder:
-            raise PageFault("this page has no control to give")
+            raise PageFault("this page has no control to give", "no_control")
 
 
 def _cancel(timer: Timer | None) -> None:

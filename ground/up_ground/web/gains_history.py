@@ -25,16 +25,16 @@ class GainsHistory:
 
     def __init__(self) -> None:
         self.flying: dict[str, Any] | None = None
-        self._told_s: float | None = None
+        self._reported_s: float | None = None
         self._changes: deque[_Change] = deque(maxlen=KEPT)
         self._number = 0
 
-    def told(self, values: dict[str, Any], now_s: float) -> None:
+    def on_values(self, values: dict[str, Any], now_s: float) -> None:
         """Take the active gains that the aircraft reports."""
         self.flying = values
-        self._told_s = now_s
+        self._reported_s = now_s
 
-    def changed(
+    def record(
         self,
         by: str,
         before: dict[str, Any] | None,
@@ -50,7 +50,7 @@ class GainsHistory:
 
     def message(self, aircraft: str, now_s: float) -> dict[str, Any]:
         """Return the message for the pages."""
-        age_ms = None if self._told_s is None else round((now_s - self._told_s) * 1000)
+        age_ms = None if self._reported_s is None else round((now_s - self._reported_s) * 1000)
         return {
             "type": "gains",
             "aircraft": aircraft,

@@ -43,7 +43,7 @@ def parse_listen(text: str) -> ListenAddress:
     host, colon, port_text = text.rpartition(":")
     is_port = port_text.isascii() and port_text.isdigit() and len(port_text) < 6
     if not colon or not is_port or int(port_text) > 65535:
-        raise ValueError(f"{text!r} is no ADDRESS:PORT, such as 127.0.0.1:8080 or 0.0.0.0:8080")
+        raise ValueError(f"{text!r} is not ADDRESS:PORT, such as 127.0.0.1:8080 or 0.0.0.0:8080")
     if host.startswith("[") and host.endswith("]"):
         host = host[1:-1]
     host = {"localhost": "127.0.0.1", "*": ""}.get(host, host)
@@ -51,7 +51,7 @@ def parse_listen(text: str) -> ListenAddress:
         is_wildcard(host)
     except ValueError:
         raise ValueError(
-            f"{host!r} is no literal address of this machine, such as 127.0.0.1 or 0.0.0.0"
+            f"{host!r} is not a literal address of this machine, such as 127.0.0.1 or 0.0.0.0"
         ) from None
     return ListenAddress(host, int(port_text))
 

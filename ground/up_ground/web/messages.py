@@ -1,11 +1,14 @@
-"""The server's messages to pages, as bytes for a WebSocket."""
+"""Messages between the server and the pages: encoding, validation."""
 
 from __future__ import annotations
 
 import json
 import struct
 from collections.abc import Callable, Mapping
+from dataclasses import dataclass
 from typing import Any
+
+from up.protocols.general_message import MalformedMessage, decode_object
 
 _ENCODER = json.JSONEncoder(allow_nan=False, separators=(",", ":"))
 _FINAL_TEXT = 0x81
@@ -65,3 +68,87 @@ class FrameMessage:
         now_s = self._now_s()
         age_ms, sent_ms = self._age_s(now_s) * 1000, now_s * 1000
         return text_frame(b'%b%.1f,"sent_ms":%.1f}' % (self._body, age_ms, sent_ms))
+
+
+MAX_MESSAGE_BYTES = 65536
+_MAX_WHOLE = 2**53
+
+
+class PageFault(ValueError):  # noqa: N818 - what the page did, the protocol's word
+    """A message that cannot be accepted; the text is one sentence."""
+
+    def __init__(self, text: str, code: str = "invalid") -> None:
+        super().__init__(text)
+        self.code = code
+
+
+@dataclass(frozen=True, slots=True)
+class Reader:
+    """Reads typed fields of one message; every method raises PageFault."""
+
+    fields: dict[str, Any]
+
+    def text(self, key: str, longest: int = 200) -> str:
+        """Return a text."""
+        found = self.optional_text(key, longest)
+        if found is None:
+            raise PageFault(f"{key} is missing")
+        return found
+
+    def optional_text(self, key: str, longest: int = 200) -> str | None:
+        """Return a text; None: absent or null."""
+        found = self.fields.get(key)
+        if found is not None and (not isinstance(found, str) or len(found) > longest):
+            raise PageFault(f"{key} is not a text of at most {longest} characters")
+        return found
+
+    def whole(self, key: str) -> int:
+        """Return a whole number that JavaScript holds exactly."""
+        found = self.optional_whole(key)
+        if found is None:
+            raise PageFault(f"{key} is missing")
+        return found
+
+    def optional_whole(self, key: str) -> int | None:
+        """Return such a number; None: absent or null."""
+        found = self.fields.get(key)
+        if found is None:
+            return None
+        if type(found) is float and found.is_integer():
+            found = int(found)
+        if type(found) is not int or not -_MAX_WHOLE < found < _MAX_WHOLE:
+            raise PageFault(f"{key} is not a whole number")
+        return found
+
+    def number(self, key: str) -> float:
+        """Return a number."""
+        found = self.fields.get(key)
+        if isinstance(found, bool) or not isinstance(found, int | float):
+            raise PageFault(f"{key} is not a number")
+        return float(found)
+
+    def object(self, key: str) -> dict[str, Any]:
+        """Return an object; absent or null is an empty one."""
+        found = self.fields.get(key)
+        if found is None:
+            return {}
+        if not isinstance(found, dict):
+            raise PageFault(f"{key} is not an object")
+        return found
+
+    def choice(self, key: str, *words: str) -> str:
+        """Return one of ``words``."""
+        found = self.text(key)
+        if found not in words:
+            raise PageFault(f"{key} is not one of {', '.join(words)}")
+        return found
+
+
+def read_message(payload: bytes) -> tuple[str, Reader]:
+    """Return a message's type and its fields; raises PageFault."""
+    try:
+        fields = decode_object(payload, MAX_MESSAGE_BYTES)
+    except MalformedMessage as error:
+        raise PageFault(error.reason) from None
+    reader = Reader(fields)
+    return reader.text("type", 32), reader

@@ -1,4 +1,4 @@
-"""A page's WebSocket."""
+"""A page's WebSocket and its send buffer."""
 
 from __future__ import annotations
 
@@ -10,13 +10,52 @@ from autobahn.twisted.resource import WebSocketResource
 from autobahn.twisted.websocket import WebSocketServerFactory, WebSocketServerProtocol
 from twisted.internet.interfaces import IAddress
 
+from up.protocols.link_output import BaseOutput, Make
 from up.protocols.tcp_options import watch_peer
-from up_ground.web.page_message import LONGEST_MESSAGE
-from up_ground.web.page_output import PageOutput
+from up_ground.web.messages import MAX_MESSAGE_BYTES
+
+PENDING_LIMIT = 1 << 20
+"""Bytes in order that wait for a page that does not read; more, and it is given up."""
+
+
+class PageSendBuffer(BaseOutput):
+    """The send buffer of a WebSocket.
+
+    A frame or a status is encoded when it is sent, not when it arrives, so that its age is right.
+    ``on_overrun`` is called when ``PENDING_LIMIT`` is exceeded; after that nothing is sent.
+    """
+
+    def __init__(self, on_overrun: Callable[[], object]) -> None:
+        super().__init__()
+        self._on_overrun = on_overrun
+
+    @property
+    def waiting_bytes(self) -> int:
+        """Return the size of the queued messages."""
+        return self._size
+
+    def send(self, message: bytes) -> None:
+        """Send ``message`` after those before it."""
+        if self._transport is None:
+            return
+        self._put(message)
+        if self._size > PENDING_LIMIT:
+            self.stopProducing()
+            self._on_overrun()
+
+    def send_newest(self, kind: str, make: Make) -> None:
+        """Send the result of ``make`` in place of a queued one of this kind."""
+        if self._transport is not None:
+            self._put_news(kind, make, may_leave=self._is_drained)
+
+    def discard(self, kind: str) -> None:
+        """Drop the queued one of a kind."""
+        self._news.pop(kind, None)
+
 
 USER_TIMEOUT_MS = 5000
 PING_S = 5.0
-LONGEST_HELLO = 1024
+MAX_HELLO_BYTES = 1024
 """Limit of a message before its page is welcomed, bytes."""
 NOT_TEXT = 4003
 TOO_LONG = 4008
@@ -28,7 +67,7 @@ class LinkOwner(Interface):
     def on_opened(self, link: PageLink) -> None:
         """Handle a new link."""
 
-    def on_said(self, link: PageLink, payload: bytes) -> None:
+    def on_message(self, link: PageLink, payload: bytes) -> None:
         """Handle its message."""
 
     def on_closed(self, link: PageLink) -> None:
@@ -43,7 +82,7 @@ class PageLink(WebSocketServerProtocol):
 
     def __init__(self, owner: LinkOwner, clock: Any) -> None:
         super().__init__()
-        self.output = PageOutput(self._on_overrun)
+        self.output = PageSendBuffer(self._on_overrun)
         self._owner = owner
         self._clock = clock
         self._is_open = False
@@ -60,8 +99,8 @@ class PageLink(WebSocketServerProtocol):
         self._owner.on_opened(self)
 
     def admit(self) -> None:
-        """Accept messages up to LONGEST_MESSAGE, and leave the limits of strangers."""
-        self.maxMessagePayloadSize = self.maxFramePayloadSize = LONGEST_MESSAGE
+        """Accept messages up to MAX_MESSAGE_BYTES, and leave the limits of strangers."""
+        self.maxMessagePayloadSize = self.maxFramePayloadSize = MAX_MESSAGE_BYTES
         self.transport.admit()
 
     def onMessage(self, payload: bytes, isBinary: bool) -> None:  # noqa: N802, N803
@@ -69,32 +108,32 @@ class PageLink(WebSocketServerProtocol):
         if isBinary:
             self.close(NOT_TEXT, "only text messages")
         elif self._is_open:
-            self._owner.on_said(self, payload)
+            self._owner.on_message(self, payload)
 
     def onPong(self, payload: bytes) -> None:  # noqa: N802 - the library's name
         """Take a sign of life."""
-        tell = self._asked.pop(payload, None)
-        if tell is not None:
-            tell(True)
+        notify = self._asked.pop(payload, None)
+        if notify is not None:
+            notify(True)
 
     def onClose(self, wasClean: bool, code: int | None, reason: str | None) -> None:  # noqa: N802, N803
         """Report its loss."""
         self.output.stopProducing()
         asked, self._asked = self._asked, {}
-        for tell in asked.values():
-            tell(False)
+        for notify in asked.values():
+            notify(False)
         if self._is_open:
             self._is_open = False
             self._owner.on_closed(self)
 
-    def is_alive(self, within_s: float, tell: Callable[[bool], object]) -> None:
-        """Ping the page; ``tell`` gets once whether the answer came in time."""
-        mark = b"%d" % id(tell)
-        self._asked[mark] = tell
+    def is_alive(self, within_s: float, notify: Callable[[bool], object]) -> None:
+        """Ping the page; ``notify`` gets once whether the answer came in time."""
+        mark = b"%d" % id(notify)
+        self._asked[mark] = notify
 
         def on_time_over() -> None:
             if self._asked.pop(mark, None) is not None:
-                tell(False)
+                notify(False)
 
         self._clock.callLater(within_s, on_time_over)
         self.sendPing(mark)
@@ -127,8 +166,8 @@ class _Factory(WebSocketServerFactory):
         configure(
             webStatus=False,
             versions=[13],
-            maxFramePayloadSize=LONGEST_HELLO,
-            maxMessagePayloadSize=LONGEST_HELLO,
+            maxFramePayloadSize=MAX_HELLO_BYTES,
+            maxMessagePayloadSize=MAX_HELLO_BYTES,
             openHandshakeTimeout=5.0,
             closeHandshakeTimeout=1.0,
             autoPingInterval=PING_S,

@@ -16,11 +16,11 @@ from up_ground.catalogue import Catalogue
 from up_ground.settings import Seat, Settings
 from up_ground.token_store import TokenStore, state_folder
 from up_ground.web.access import Access, machine_names
-from up_ground.web.commands import Checks
+from up_ground.web.aircraft_session import AircraftSession
+from up_ground.web.aircraft_source import AircraftSource, Subscribers
+from up_ground.web.command_checks import Checks
 from up_ground.web.listen_address import ListenAddress, parse_listen
-from up_ground.web.station import Station
 from up_ground.web.tile_cache import TileCache, cache_folder
-from up_ground.web.watched import Audience, WatchedAircraft
 
 if TYPE_CHECKING:
     from up_ground.web.site import Tiles
@@ -35,8 +35,16 @@ _ONE = re.compile(
 )
 
 
+class ServeError(ValueError):
+    """An invalid option; the text is one sentence."""
+
+    def __init__(self, text: str, code: str) -> None:
+        super().__init__(text)
+        self.code = code
+
+
 def parse_aircraft(text: str, usual: Settings) -> Settings:
-    """Return the peer of ``NAME[@HOST:PORT[/direct]]``; raises ValueError with a sentence.
+    """Return the peer of ``NAME[@HOST:PORT[/direct]]``; raises ServeError.
 
     Without an address it is an aircraft of ``usual``'s proxy. Names must be unique: pages select
     an aircraft by its name.
@@ -44,8 +52,9 @@ def parse_aircraft(text: str, usual: Settings) -> Settings:
     match = _ONE.fullmatch(text)
     port = int(match["port"] or usual.port) if match else 0
     if match is None or not 1 <= port <= 65535:
-        raise ValueError(
-            f"{text!r} is no NAME[@HOST:PORT[/direct]], such as glider-1@192.168.1.5:50002/direct"
+        raise ServeError(
+            f"{text!r} is not NAME[@HOST:PORT[/direct]], such as glider-1@192.168.1.5:50002/direct",
+            "invalid_aircraft",
         )
     host = match["host"]
     if host is None:
@@ -53,23 +62,16 @@ def parse_aircraft(text: str, usual: Settings) -> Settings:
     return Settings(host.strip("[]"), port, match["name"], Seat.LISTEN, bool(match["direct"]))
 
 
-class ServeError(ValueError):
-    """An option that cannot be; the text is one sentence."""
-
-
 def fleet_of(options: argparse.Namespace) -> list[Settings]:
     """Return the aircraft to watch; raises ServeError."""
     usual = Settings(options.host, options.port, options.aircraft, Seat.LISTEN, options.direct)
-    try:
-        chosen = [parse_aircraft(text, usual) for text in options.fleet or [options.aircraft]]
-    except ValueError as error:
-        raise ServeError(str(error)) from None
+    chosen = [parse_aircraft(text, usual) for text in options.fleet or [options.aircraft]]
     names = [each.aircraft for each in chosen]
     for name in names:
         if names.count(name) > 1:
-            raise ServeError(f"the aircraft {name} is given twice")
+            raise ServeError(f"the aircraft {name} is given twice", "duplicate_aircraft")
     if len(chosen) > AIRCRAFT_LIMIT:
-        raise ServeError(f"at most {AIRCRAFT_LIMIT} aircraft")
+        raise ServeError(f"at most {AIRCRAFT_LIMIT} aircraft", "too_many_aircraft")
     return chosen
 
 
@@ -91,18 +93,19 @@ class PageOptions:
         except ModuleNotFoundError as error:
             raise ServeError(
                 f"the page needs the Python package {error.name}, which is not installed:"
-                " pip install 'raspilot[ground]'"
+                " pip install 'raspilot[ground]'",
+                "package_missing",
             ) from None
         try:
             listen = parse_listen(options.listen)
         except ValueError as error:
-            raise ServeError(str(error)) from None
+            raise ServeError(str(error), "invalid_listen") from None
         # On loopback a key is needed only if one is given.
         key = options.key or (None if listen.is_loopback else secrets.token_urlsafe(12))
         access = Access(machine_names(options.name or ()), key, options.watch_only)
         return cls(listen, access, _tiles_of(options.tiles, environ), options.attribution)
 
-    def server(self, reactor: Any, make_fleet: Any, **more: Any) -> Any:
+    def server(self, reactor: Any, make_sources: Any, **more: Any) -> Any:
         """Return the server."""
         server = importlib.import_module("up_ground.web.server")
         tiles = None if self.make_tiles is None else self.make_tiles(reactor)
@@ -110,7 +113,7 @@ class PageOptions:
             reactor,
             self.listen,
             self.access,
-            make_fleet,
+            make_sources,
             tiles=tiles,
             attribution=self.attribution,
             **more,
@@ -127,20 +130,20 @@ def _tiles_of(source: str, environ: Mapping[str, str]) -> MakeTiles | None:
     if not fault and source.startswith("https:") and importlib.util.find_spec("OpenSSL") is None:
         fault = "https needs the Python package pyOpenSSL: pip install 'twisted[tls]'"
     if fault:
-        raise ServeError(f"--tiles: {fault}")
+        raise ServeError(f"--tiles: {fault}", "invalid_tiles")
     cache = TileCache(cache_folder(environ), source)
     return lambda reactor: TileSource(reactor, source, cache)
 
 
-def make_stations(
+def make_sessions(
     reactor: Any,
     chosen: Iterable[Settings],
     environ: Mapping[str, str],
-    audience: Audience,
+    subscribers: Subscribers,
     catalogue: Catalogue,
-) -> Iterable[WatchedAircraft]:
+) -> Iterable[AircraftSource]:
     """Yield an aircraft for each of the settings."""
     checks = Checks(catalogue)
     for settings in chosen:
         tokens = TokenStore(state_folder(environ), settings)
-        yield Station(reactor, settings.aircraft, settings, tokens, checks, audience)
+        yield AircraftSession(reactor, settings.aircraft, settings, tokens, checks, subscribers)

@@ -8,25 +8,23 @@ from typing import Any
 
 from twisted.internet.error import CannotListenError
 
-from up.log.user_line import user_line
-from up_ground.catalogue import Catalogue
-from up_ground.errand import EXIT_DONE, EXIT_NO_ANSWER, Errand, Say
+from up_ground.catalogue import Catalogue, catalogue_message
+from up_ground.one_shot_task import EXIT_DONE, EXIT_NO_ANSWER, OneShotTask
 from up_ground.web.access import Access
-from up_ground.web.catalogue_message import catalogue_message
+from up_ground.web.aircraft_source import AircraftSource, Subscribers
+from up_ground.web.client_hub import ClientHub
 from up_ground.web.connections import Connections
 from up_ground.web.listen_address import ListenAddress, authority
 from up_ground.web.page_link import link_resource
-from up_ground.web.pages import Pages
 from up_ground.web.site import GroundResource, Tiles, make_site
 from up_ground.web.static_files import StaticFiles
-from up_ground.web.watched import Audience, WatchedAircraft
 
 STATIC = Path(__file__).with_name("static")
 
-MakeFleet = Callable[[Audience], Iterable[WatchedAircraft]]
+MakeSources = Callable[[Subscribers], Iterable[AircraftSource]]
 
 
-class Server(Errand):
+class Server(OneShotTask):
     """Serves until it is interrupted; an aircraft or a proxy that is not there is waited for."""
 
     def __init__(
@@ -34,24 +32,22 @@ class Server(Errand):
         reactor: Any,
         listen: ListenAddress,
         access: Access,
-        make_fleet: MakeFleet,
+        make_sources: MakeSources,
         *,
-        say: Say,
-        complain: Say,
         tiles: Tiles | None = None,
         attribution: str = "",
         catalogue: Catalogue | None = None,
         is_replay: bool = False,
         folder: Path = STATIC,
     ) -> None:
-        super().__init__(say, complain)
+        super().__init__()
         told = None
         if tiles is not None:
             told = {"url": "/tiles/{z}/{x}/{y}", "attribution": attribution}
         # Without Commands there is nothing to offer.
         offered = None if catalogue is None else catalogue_message(catalogue)
-        self.pages = Pages(reactor, access, tiles=told, catalogue=offered, is_replay=is_replay)
-        for aircraft in make_fleet(self.pages):
+        self.pages = ClientHub(reactor, access, tiles=told, catalogue=offered, is_replay=is_replay)
+        for aircraft in make_sources(self.pages):
             self.pages.fleet[aircraft.name] = aircraft
         self._reactor = reactor
         self._listen = listen
@@ -70,14 +66,11 @@ class Server(Errand):
             self._port = self._reactor.listenTCP(listen.port, self._factory, interface=listen.host)
         except CannotListenError as error:
             reason = getattr(error.socketError, "strerror", None) or error.socketError
-            self.complain(
-                f"{authority(listen.host or '0.0.0.0', listen.port)} cannot be opened: {reason}"
-                " (--listen ADDRESS:PORT names another)"
-            )
-            self.finish(EXIT_NO_ANSWER)
+            address = authority(listen.host or "0.0.0.0", listen.port)
+            text = f"cannot open {address}: {reason} (--listen ADDRESS:PORT selects another)"
+            self.fail(text, "listen_failed", EXIT_NO_ANSWER, address=address)
             return
-        for line in self._words(self._port.getHost().port):
-            self.say(line)
+        self._print_addresses(self._port.getHost().port)
         self.pages.start()
         for aircraft in self.pages.fleet.values():
             aircraft.start()
@@ -98,13 +91,14 @@ class Server(Errand):
             await aircraft.stop()
         await port.stopListening()
 
-    def _words(self, port: int) -> Iterable[str]:
+    def _print_addresses(self, port: int) -> None:
         for aircraft in self.pages.fleet.values():
-            yield f"  {aircraft.summary}"
+            self.echo(f"  {aircraft.summary}", "aircraft", name=aircraft.name)
         key = None if self._access.is_watch_only else self._access.key
         urls = self._listen.urls(port, key)
-        yield user_line(f"open {urls[0]}", "up_ground", code="page_open", url=urls[0])
-        yield from (f"  or {url}" for url in urls[1:])
+        self.echo(f"open {urls[0]}", "page_open", url=urls[0])
+        for url in urls[1:]:
+            self.echo(f"  or {url}", "page_address", url=url)
         if key:
-            yield "the part after # lets a page control; without it a page only watches"
-        yield "Ctrl-C ends it"
+            self.echo("the part after # lets a page control; without it a page only watches")
+        self.echo("Ctrl-C ends it", "ready")

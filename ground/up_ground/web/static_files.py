@@ -8,8 +8,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from urllib.parse import unquote_to_bytes
 
-LONGEST_FILE = 8_000_000
-KEPT_BYTES = 16_000_000
+MAX_FILE_BYTES = 8_000_000
+MAX_CACHE_BYTES = 16_000_000
 _SEGMENT = re.compile(rb"[A-Za-z0-9_@-][A-Za-z0-9_.@-]{0,99}")
 _TYPES = {
     ".html": "text/html; charset=utf-8",
@@ -75,11 +75,11 @@ class StaticFiles:
         kept = self._kept.get(place)
         if kept is not None and kept[0] == stamp:
             return kept[1]
-        if facts.st_size > LONGEST_FILE:
+        if facts.st_size > MAX_FILE_BYTES:
             return None
         content = place.read_bytes()
         found = StaticFile(content, media_type, f'"{hashlib.sha256(content).hexdigest()[:24]}"')
-        if sum(len(each.content) for _, each in self._kept.values()) > KEPT_BYTES:
+        if sum(len(each.content) for _, each in self._kept.values()) > MAX_CACHE_BYTES:
             self._kept.clear()
         self._kept[place] = (stamp, found)
         return found

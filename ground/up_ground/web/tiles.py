@@ -22,10 +22,10 @@ from up_ground.web.tile_cache import Tile, TileCache
 
 CONNECT_S = 5.0
 FETCH_S = 15.0
-LARGEST_TILE = 1 << 20
-AT_ONCE = 4
-ASKED_LIMIT = 256
-DEEPEST_ZOOM = 22
+MAX_TILE_BYTES = 1 << 20
+MAX_PARALLEL = 4
+MAX_WAITING = 256
+MAX_ZOOM = 22
 _PATH = re.compile(rb"/tiles/([0-9]{1,2})/([0-9]{1,8})/([0-9]{1,8})")
 _SOURCE = re.compile(r"https?://[^\s\"'<>\\]{1,500}")
 _KINDS = ((b"\x89PNG\r\n\x1a\n", b"image/png"), (b"\xff\xd8\xff", b"image/jpeg"))
@@ -34,7 +34,7 @@ _KINDS = ((b"\x89PNG\r\n\x1a\n", b"image/png"), (b"\xff\xd8\xff", b"image/jpeg")
 def source_fault(source: str) -> str:
     """Return why an address is not a tile source; empty if it is one."""
     if not _SOURCE.fullmatch(source) or not source.isascii():
-        return f"{source!r} is no address that begins with http:// or https://"
+        return f"{source!r} is not an address that begins with http:// or https://"
     missing = [each for each in ("{z}", "{x}", "{y}") if each not in source]
     if missing:
         return f"{source!r} has no {' and no '.join(missing)}: write .../{{z}}/{{x}}/{{y}}.png"
@@ -53,14 +53,14 @@ class TileSource:
         self._cache = cache
         pool = HTTPConnectionPool(reactor, persistent=False)
         self._agent = Agent(reactor, connectTimeout=CONNECT_S, pool=pool)
-        self._asked: dict[Tile, list[Any]] = {}
+        self._requests: dict[Tile, list[Any]] = {}
         self._waiting: deque[Tile] = deque()
         self._busy: dict[Tile, Deferred[Any]] = {}
 
     def stop(self) -> None:
         """Stop all fetches."""
         self._waiting.clear()
-        self._asked.clear()
+        self._requests.clear()
         for each in list(self._busy.values()):
             each.cancel()
 
@@ -68,46 +68,46 @@ class TileSource:
         """Answer a request for a tile."""
         match = _PATH.fullmatch(request.path)
         z, x, y = (int(each) for each in match.groups()) if match else (99, 0, 0)
-        if z > DEEPEST_ZOOM or max(x, y) >= 1 << z:
+        if z > MAX_ZOOM or max(x, y) >= 1 << z:
             return refuse(request, http.NOT_FOUND, "there is no such tile")
         tile = (z, x, y)
-        if tile not in self._asked:
-            if len(self._asked) >= ASKED_LIMIT:
+        if tile not in self._requests:
+            if len(self._requests) >= MAX_WAITING:
                 return refuse(request, http.SERVICE_UNAVAILABLE, "too many tiles are asked for")
-            self._asked[tile] = []
+            self._requests[tile] = []
             # Before the queue: a kept tile does not wait for a source that does not answer.
-            kept = self._on_a_thread(self._cache.get, *tile)
-            kept.addCallbacks(self._on_kept, lambda _: self._on_kept(None, tile), (tile,))
-        self._asked[tile].append(request)
-        request.notifyFinish().addErrback(lambda _: self._forget(tile, request))
+            kept = self._in_thread(self._cache.get, *tile)
+            kept.addCallbacks(self._on_cached, lambda _: self._on_cached(None, tile), (tile,))
+        self._requests[tile].append(request)
+        request.notifyFinish().addErrback(lambda _: self._discard(tile, request))
         return NOT_DONE_YET
 
-    def _forget(self, tile: Tile, request: Any) -> None:
-        requests = self._asked.get(tile, [])
+    def _discard(self, tile: Tile, request: Any) -> None:
+        requests = self._requests.get(tile, [])
         if request in requests:
             requests.remove(request)
 
-    def _on_kept(self, content: bytes | None, tile: Tile) -> None:
+    def _on_cached(self, content: bytes | None, tile: Tile) -> None:
         if content is not None and _kind(content):
-            self._hand_out(content, tile)
+            self._respond(content, tile)
         else:
             self._waiting.append(tile)
-            self._go_on()
+            self._fetch_next()
 
-    def _go_on(self) -> None:
-        while self._waiting and len(self._busy) < AT_ONCE:
+    def _fetch_next(self) -> None:
+        while self._waiting and len(self._busy) < MAX_PARALLEL:
             tile = self._waiting.popleft()
-            if not self._asked.get(tile):
+            if not self._requests.get(tile):
                 # The page that requested it has moved the map on.
-                self._asked.pop(tile, None)
+                self._requests.pop(tile, None)
                 continue
             fetched = Deferred.fromCoroutine(self._fetch(tile))
             self._busy[tile] = fetched
             fetched.addTimeout(FETCH_S, self._reactor)
             fetched.addCallbacks(self._cache_it, lambda _: None, callbackArgs=(tile,))
-            fetched.addCallback(self._hand_out, tile)
+            fetched.addCallback(self._respond, tile)
 
-    def _on_a_thread(self, call: Any, *arguments: Any) -> Deferred[Any]:
+    def _in_thread(self, call: Any, *arguments: Any) -> Deferred[Any]:
         return deferToThreadPool(self._reactor, self._reactor.getThreadPool(), call, *arguments)
 
     async def _fetch(self, tile: Tile) -> bytes | None:
@@ -125,17 +125,17 @@ class TileSource:
         """Store the tile, then return it: the next request finds it in the cache."""
         if content is None:
             return None
-        kept = self._on_a_thread(self._cache.put, *tile, content)
+        kept = self._in_thread(self._cache.put, *tile, content)
         return kept.addBoth(lambda _: content)
 
-    def _hand_out(self, content: bytes | None, tile: Tile) -> None:
+    def _respond(self, content: bytes | None, tile: Tile) -> None:
         self._busy.pop(tile, None)
-        for request in self._asked.pop(tile, []):
+        for request in self._requests.pop(tile, []):
             if content is None:
                 _finish_refused(request)
             else:
                 finish(request, _answer(request, content))
-        self._go_on()
+        self._fetch_next()
 
 
 def _finish_refused(request: Any) -> None:
@@ -153,12 +153,12 @@ class _Body(Protocol):
     def dataReceived(self, data: bytes) -> None:  # noqa: N802 - Twisted's name
         """Take a part."""
         self._content += data
-        if len(self._content) > LARGEST_TILE:
+        if len(self._content) > MAX_TILE_BYTES:
             self._abort()
 
     def connectionLost(self, reason: Failure = connectionDone) -> None:  # noqa: N802
         """Take the end."""
-        is_whole = reason.check(ResponseDone) and len(self._content) <= LARGEST_TILE
+        is_whole = reason.check(ResponseDone) and len(self._content) <= MAX_TILE_BYTES
         if not self.done.called:
             self.done.callback(self._content if is_whole else b"")
 

@@ -1,16 +1,17 @@
-"""The aircraft's track."""
+"""The aircraft's track and its home."""
 
 from __future__ import annotations
 
 from bisect import bisect_right
 from collections import deque
-from math import cos, radians
+from math import asin, atan2, cos, degrees, radians, sin
 from typing import Any
 
+from up.earth import MEAN_RADIUS_M, distance_m
 from up_ground.telemetry import Telemetry
 
 POINTS_LIMIT = 4000
-NEAREST_M = 2.0
+MIN_SPACING_M = 2.0
 GAP_S = 0.9
 """A longer gap counts as a silence, unless the period of positions is longer."""
 _METRES_A_DEGREE = 111_195.0
@@ -21,7 +22,7 @@ Point = tuple[float, float, float | None] | tuple[float, float, float | None, bo
 
 
 class Track:
-    """Points at least ``NEAREST_M`` apart; when there are too many, every second one is dropped.
+    """Points at least ``MIN_SPACING_M`` apart; of too many, every second one is dropped.
 
     Degrees, degrees, metres; and true after a gap, so that no line leads to the point. The newest
     position is always the last point.
@@ -35,7 +36,7 @@ class Track:
         self._intervals_s: deque[float] = deque(maxlen=_INTERVALS)
         self._is_after_silence = False
 
-    def take(self, telemetry: Telemetry, time_s: float) -> None:
+    def update(self, telemetry: Telemetry, time_s: float) -> None:
         """Take the position of a frame, if it has a valid one; time never runs back."""
         latitude = telemetry.number("location", "latitude")
         longitude = telemetry.number("location", "longitude")
@@ -47,7 +48,7 @@ class Track:
         if not telemetry.is_stale("location", time_s):
             self._is_after_silence |= self._was_silent(time_s)
         self._newest = (latitude, longitude, altitude)
-        if not self._points or _distance_m(self._points[-1], self._newest) >= NEAREST_M:
+        if not self._points or _distance_m(self._points[-1], self._newest) >= MIN_SPACING_M:
             if self._is_after_silence and self._points:
                 self._newest = (latitude, longitude, altitude, True)
             self._is_after_silence = False
@@ -101,3 +102,45 @@ def _distance_m(a: Point, b: Point) -> float:
     north = (b[0] - a[0]) * _METRES_A_DEGREE
     east = (b[1] - a[1]) * _METRES_A_DEGREE * cos(radians(a[0]))
     return float((north * north + east * east) ** 0.5)
+
+
+_MOVED_M = 20.0
+_MAX_DISTANCE_M = 1e6
+
+
+class Home:
+    """Keeps the first place that was worked out; only a home that moved replaces it."""
+
+    def __init__(self) -> None:
+        self._place: tuple[float, float] | None = None
+
+    def update(self, telemetry: Telemetry) -> None:
+        """Take a frame."""
+        latitude = telemetry.number("location", "latitude")
+        longitude = telemetry.number("location", "longitude")
+        distance = telemetry.number("home", "distance")
+        bearing = telemetry.number("home", "bearing")
+        if latitude is None or longitude is None or distance is None or bearing is None:
+            return
+        if abs(latitude) > 90 or abs(longitude) > 180 or not 0 <= distance <= _MAX_DISTANCE_M:
+            return
+        place = destination(latitude, longitude, bearing, distance)
+        if self._place is None or distance_m(*self._place, *place) > _MOVED_M:
+            self._place = place
+
+    def position(self) -> dict[str, float] | None:
+        """Return the home position in the form sent to pages."""
+        if self._place is None:
+            return None
+        return {"latitude": round(self._place[0], 7), "longitude": round(self._place[1], 7)}
+
+
+def destination(
+    latitude: float, longitude: float, bearing_deg: float, distance: float
+) -> tuple[float, float]:
+    """Return the point ``distance`` m away on the great circle that begins with that bearing."""
+    north, east = radians(latitude), radians(longitude)
+    way, turn = distance / MEAN_RADIUS_M, radians(bearing_deg)
+    there = asin(sin(north) * cos(way) + cos(north) * sin(way) * cos(turn))
+    east += atan2(sin(turn) * sin(way) * cos(north), cos(way) - sin(north) * sin(there))
+    return degrees(there), (degrees(east) + 540.0) % 360.0 - 180.0

@@ -86,7 +86,6 @@ class Airframe:
 
     @property
     def has_motor(self) -> bool:
-        """Return whether it has a motor."""
         return self.motor.diameter_m > 0
 
 

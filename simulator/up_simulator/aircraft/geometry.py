@@ -33,7 +33,6 @@ class Flap:
     effectiveness: float = _share("Against thin-aerofoil theory: gaps, thick hinges, foam.", 0.75)
 
     def problems(self) -> Iterator[tuple[str, str]]:
-        """Yield inconsistent values."""
         if self.from_share >= self.to_share:
             yield "to_share", f"must be above from_share, which is {self.from_share:g}"
 
@@ -127,7 +126,6 @@ class Geometry:
     span_efficiency: float = _share("Oswald's factor of the wing alone.", 0.9, 1.2)
 
     def problems(self) -> Iterator[tuple[str, str]]:
-        """Yield inconsistent values."""
         if self.wing.half_span_m < 0.05:
             yield "wing", "must have a half_span_m of at least 0.05 m"
         if self.span_efficiency < 0.3:

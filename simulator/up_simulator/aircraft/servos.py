@@ -44,7 +44,6 @@ class ServoRack:
         self.positions_us[:] = pulses_us
 
     def step(self) -> None:
-        """Move for one step."""
         arms_us, positions_us, reach_us = self._arms_us, self.positions_us, self._reach_us
         half_us = self._half_play_us
         for index, target_us in enumerate(self._target_us):

@@ -15,7 +15,8 @@ import sys
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
-from up.cli.option_parser import WRONG_INPUT, OptionParser
+from up.cli.option_parser import EXIT_USAGE as WRONG_INPUT
+from up.cli.option_parser import OptionParser
 from up_simulator.aircraft import AirframeError, airframe_names
 from up_simulator.demo.flight import DemoFlight
 from up_simulator.harness.participants import ParticipantError
@@ -151,7 +152,8 @@ def _options(arguments: Sequence[str] | None) -> argparse.Namespace:
     parser.add_argument("--replay", type=Path, help="fly a recorded flight, not the model")
     parser.add_argument("--state-log", type=Path, help="write the true state there, as CSV")
     parser.add_argument("--any-ports", action="store_true", help="do not try the usual ports")
-    return parser.parse_args(arguments)
+    options: argparse.Namespace = parser.parse_args(arguments)
+    return options
 
 
 def _text_of(read: Callable[[str], object]) -> Callable[[str], str]:

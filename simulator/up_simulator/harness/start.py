@@ -9,7 +9,7 @@ from typing import Any
 
 from twisted.internet.defer import Deferred
 
-from up.cli.option_parser import WRONG_INPUT
+from up.cli.option_parser import EXIT_USAGE as WRONG_INPUT
 from up.system.pid_file import service
 from up_rig.pty_line import PtyLineError
 from up_simulator.aircraft import AirframeError

@@ -77,7 +77,7 @@ def read_options(arguments: list[str] | None = None) -> argparse.Namespace:
     _add_pilot(parser.add_argument_group("pilot"))
     _add_phone(parser.add_argument_group("phone"))
     _add_link(parser.add_argument_group("link to the proxy"))
-    options = parser.parse_args(arguments)
+    options: argparse.Namespace = parser.parse_args(arguments)
     if options.no_board and options.no_phone:
         parser.error("--no-board and --no-phone leave nothing to do")
     if options.discover and options.runner:

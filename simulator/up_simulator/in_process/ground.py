@@ -109,7 +109,6 @@ class InProcessGround:
 
     @property
     def frames(self) -> int:
-        """Return the number of frames received."""
         return self._received.frames
 
     @property
@@ -148,7 +147,6 @@ class InProcessGround:
             link.start()
 
     def stop(self) -> None:
-        """Disconnect permanently."""
         link, self._link = self._link, None
         if link is not None:
             Deferred.fromCoroutine(link.stop()).addErrback(lambda _: None)
@@ -166,9 +164,8 @@ class InProcessGround:
         return self._answers.get(command_id)
 
     def on_message(self, message: GeneralMessage) -> None:
-        """Take a message from the aircraft."""
         now_s = self._reactor.seconds()
-        if self._received.take(message, now_s):
+        if self._received.update(message, now_s):
             self._newest_s = now_s
             age_s = self._frame_age(message, now_s)
             # The age is unknown: it may have any value.
@@ -202,15 +199,12 @@ class _TokenInMemory(TokenStore):
         return True
 
     def load(self) -> str | None:
-        """Return the token."""
         return self._token
 
     def save(self, token: str) -> None:
-        """Keep a token."""
         self._token = token
 
     def forget(self) -> None:
-        """Drop it."""
         self._token = None
 
     def close(self) -> None:

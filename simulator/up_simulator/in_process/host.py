@@ -78,7 +78,6 @@ class SimulatedHost:
         callable(*args, **kw)
 
     def getDelayedCalls(self) -> list[TimedCall]:  # noqa: N802 - Twisted's name
-        """Return the pending calls."""
         return [each for each in self._calls if each.active()]
 
     def addSystemEventTrigger(self, *_: object, **__: object) -> object:  # noqa: N802
@@ -94,7 +93,6 @@ class SimulatedHost:
         self.reactor.add_reader(reader)
 
     def removeReader(self, reader: Any) -> None:  # noqa: N802 - Twisted's name
-        """Watch it no longer."""
         self.reactor.remove_reader(reader)
 
     def addWriter(self, writer: Any) -> None:  # noqa: N802 - Twisted's name
@@ -103,7 +101,6 @@ class SimulatedHost:
         self.reactor.add_writer(writer)
 
     def removeWriter(self, writer: Any) -> None:  # noqa: N802 - Twisted's name
-        """Stop watching it."""
         self.reactor.remove_writer(writer)
 
     def removeAll(self) -> list[Any]:  # noqa: N802 - Twisted's name
@@ -115,11 +112,9 @@ class SimulatedHost:
         return descriptors
 
     def getReaders(self) -> list[Any]:  # noqa: N802 - Twisted's name
-        """Return the watched descriptors."""
         return list(self._descriptors)
 
     def getWriters(self) -> list[Any]:  # noqa: N802 - Twisted's name
-        """Return the watched descriptors."""
         return list(self._descriptors)
 
     def listenTCP(  # noqa: N802 - Twisted's name
@@ -138,7 +133,6 @@ class SimulatedHost:
         timeout: float = 30,
         bindAddress: Any = None,  # noqa: N803 - Twisted's name
     ) -> Connector:
-        """Connect in memory."""
         connector = Connector(self, host, port, factory, timeout)
         connector.connect()
         return connector
@@ -168,7 +162,6 @@ class SimulatedHost:
             call(*arguments)
 
     def freeze(self) -> None:
-        """Suspend the program."""
         if not self.is_frozen and self.running:
             self.is_frozen = True
             self._suspended_descriptors = self.reactor.suspend_descriptors(self._descriptors)

@@ -67,21 +67,17 @@ class InProcessPhone:
             self._tick()
 
     def unplug(self) -> None:
-        """Pull the cable."""
         self.up.black_out()
         self.down.black_out()
 
     def set_battery(self, percent: float) -> None:
-        """Set the level of its battery."""
         self.handset.set_battery(percent)
 
     def stop(self) -> None:
-        """Switch it off."""
         self._is_started = False
         Deferred.fromCoroutine(self.handset.stop()).addErrback(lambda _: None)
 
     async def find(self) -> RaspberryPi:
-        """Return where the phone connects to."""
         return self._place
 
     def _tick(self) -> None:

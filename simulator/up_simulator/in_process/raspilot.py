@@ -20,8 +20,7 @@ from up.commands.system_commands import SystemStopCommand
 from up.config import load_all
 from up.life_cycle import BootStoppedError, LifeCycle
 from up.loading.application import Application
-from up.loading.checking import check_application
-from up.loading.files import config_files
+from up.loading.checking import check_application, config_files
 from up.log.levels import level_named, level_of, word_of
 from up.log.text import source_of, text_of, traceback_of
 from up.mode import Mode
@@ -57,7 +56,6 @@ class DaemonLog:
         self._level = level
 
     def close(self) -> None:
-        """Take no more events."""
         if self._level is not None:
             self._level = None
             globalLogPublisher.removeObserver(cast(ILogObserver, self))
@@ -85,7 +83,6 @@ class SettableMeter:
         self.memory = 20.0
 
     def load_percent(self) -> float:
-        """Return the load."""
         return self.load
 
     def memory_percent(self) -> float:
@@ -203,7 +200,6 @@ class InProcessRaspilot:
             self._host.freeze()
 
     def thaw(self) -> None:
-        """Resume a frozen one."""
         if self._host is not None:
             self._host.thaw()
 

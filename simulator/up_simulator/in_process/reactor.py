@@ -66,7 +66,6 @@ class SimulatedReactor(Clock):
         return call
 
     def put_back(self, call: TimedCall) -> None:
-        """Reschedule a call."""
         insort(self.calls, call, key=DelayedCall.getTime)
 
     def call_from_thread(self, call: Callable[[], Any]) -> None:

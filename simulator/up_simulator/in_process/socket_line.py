@@ -44,7 +44,6 @@ class SocketLine:
                 self._end.send(data)
 
     def plug(self) -> None:
-        """Restore the port."""
         self.is_plugged = True
 
     def unplug(self) -> None:

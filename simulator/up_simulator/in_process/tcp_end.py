@@ -175,7 +175,6 @@ class TcpEnd:
             self.owner.on_eof()
 
     def on_acknowledged(self, offset: int, sent_s: float) -> None:
-        """Discard the data that has arrived."""
         if self.is_closed:
             return
         self._note_packet()
@@ -200,7 +199,6 @@ class TcpEnd:
         self._lose(ConnectionLost("the connection was reset"))
 
     def on_probe(self) -> None:
-        """Answer a probe."""
         if self.is_closed:
             self._refuse()
         else:
@@ -208,7 +206,6 @@ class TcpEnd:
             self._route.carry(HEADER, self.peer.on_alive)
 
     def on_alive(self) -> None:
-        """Handle the answer to a probe."""
         if not self.is_closed:
             self._note_packet()
 

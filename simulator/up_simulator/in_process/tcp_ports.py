@@ -49,7 +49,6 @@ class TcpPort:
     loseConnection = stopListening  # noqa: N815 - Twisted's name
 
     def getHost(self) -> IPv4Address:  # noqa: N802 - Twisted's name
-        """Return where it listens."""
         return IPv4Address("TCP", self.interface or "0.0.0.0", self._number)
 
     def cut_off(self) -> None:
@@ -94,7 +93,6 @@ class _Attempt:
             self._wait_s *= 2
 
     def end(self) -> None:
-        """Cancel the attempt."""
         self.is_over = True
         if self._retry is not None and self._retry.active():
             self._retry.cancel()
@@ -158,7 +156,6 @@ class Connector:
             self._timers.append(self._host.callLater(self.timeout, self._on_timeout))
 
     def stopConnecting(self) -> None:  # noqa: N802 - Twisted's name
-        """Give an attempt up."""
         if self.state != "connecting":
             raise RuntimeError("no attempt is under way")
         self.fail(UserError())
@@ -171,7 +168,6 @@ class Connector:
             self.transport.loseConnection()
 
     def getDestination(self) -> IPv4Address:  # noqa: N802 - Twisted's name
-        """Return where to."""
         return IPv4Address("TCP", self._address, self._port)
 
     def cut_off(self) -> None:
@@ -179,7 +175,6 @@ class Connector:
         self._stop()
 
     def succeed(self, end: TcpEnd) -> None:
-        """Become connected."""
         self._stop()
         self.state = "connected"
         self.transport = TcpTransport(self._host, end, self._own_port, self._port)
@@ -194,7 +189,6 @@ class Connector:
         end.establish()
 
     def fail(self, error: Exception) -> None:
-        """Report that the connection failed."""
         if self.state == "connecting":
             self._stop()
             self.state = "disconnected"
@@ -203,7 +197,6 @@ class Connector:
                 self.factory.doStop()
 
     def lost(self, reason: Failure) -> None:
-        """Handle the loss of the connection."""
         self.state = "disconnected"
         self.factory.clientConnectionLost(self, reason)
         if self.state == "disconnected":

@@ -48,7 +48,6 @@ class TcpTransport:
     # Called by programs.
 
     def write(self, data: bytes) -> None:
-        """Send bytes in order."""
         if not isinstance(data, bytes | bytearray | memoryview):
             raise TypeError(f"bytes can be written, not {type(data).__name__}")
         if self.disconnected or not data:
@@ -60,7 +59,6 @@ class TcpTransport:
         self._want_to_write()
 
     def writeSequence(self, iovec: Iterable[bytes]) -> None:  # noqa: N802 - Twisted's name
-        """Send several pieces."""
         self.write(b"".join(iovec))
 
     def loseConnection(self) -> None:  # noqa: N802 - Twisted's name
@@ -76,15 +74,12 @@ class TcpTransport:
             self._host.callLater(0, self._lost, ConnectionAborted())
 
     def getPeer(self) -> IPv4Address:  # noqa: N802 - Twisted's name
-        """Return the other side."""
         return self._peer
 
     def getHost(self) -> IPv4Address:  # noqa: N802 - Twisted's name
-        """Return this side."""
         return self._address
 
     def getHandle(self) -> SocketOptions:  # noqa: N802 - Twisted's name
-        """Return the handle for socket options."""
         return self._end.options
 
     def setTcpNoDelay(self, enabled: bool) -> None:  # noqa: N802 - Twisted's name
@@ -108,7 +103,6 @@ class TcpTransport:
             producer.resumeProducing()
 
     def unregisterProducer(self) -> None:  # noqa: N802 - Twisted's name
-        """Remove the producer."""
         self._producer = None
         self._is_streaming = self._is_paused = False
         if self.connected and self.disconnecting:
@@ -145,17 +139,14 @@ class TcpTransport:
             self._end.close()
 
     def refuse(self) -> None:
-        """Reset a refused connection."""
         self.disconnected = True
         self._host.opened.pop(self, None)
         self._end.reset()
 
     def on_established(self) -> None:
-        """Notify the protocol of the connection."""
         self._host.do(self._made)
 
     def on_bytes(self, data: bytes) -> None:
-        """Hand bytes to the protocol."""
         self._host.do(self._received, data)
 
     def on_eof(self) -> None:
@@ -167,7 +158,6 @@ class TcpTransport:
         self._host.do(self._lost, error)
 
     def on_room(self) -> None:
-        """Continue to write."""
         if self._waiting or self.disconnecting or self._producer is not None:
             self._want_to_write()
 

@@ -36,7 +36,6 @@ class UdpPort:
         self.protocol.makeConnection(self)
 
     def stopListening(self) -> Deferred[None]:  # noqa: N802 - Twisted's name
-        """Close it."""
         if self._is_open:
             self.cut_off()
             self.protocol.doStop()
@@ -45,7 +44,6 @@ class UdpPort:
     loseConnection = stopListening  # noqa: N815 - Twisted's name
 
     def write(self, packet: bytes, addr: tuple[str, int] | None = None) -> None:
-        """Send a datagram."""
         target = addr or self._peer
         if not self._is_open or target is None or len(packet) > MAX_DATAGRAM_BYTES:
             return
@@ -55,7 +53,6 @@ class UdpPort:
         route.carry(HEADER + len(packet), _arrive, network, target[1], bytes(packet), source)
 
     def writeSequence(self, seq: Any, addr: tuple[str, int] | None = None) -> None:  # noqa: N802
-        """Send pieces as one datagram."""
         self.write(b"".join(seq), addr)
 
     def connect(self, host: str, port: int) -> None:
@@ -63,14 +60,12 @@ class UdpPort:
         self._peer = (host, port)
 
     def getHost(self) -> IPv4Address:  # noqa: N802 - Twisted's name
-        """Return where it listens."""
         return IPv4Address("UDP", self.interface or "0.0.0.0", self._number)
 
     def setBroadcastAllowed(self, enabled: bool) -> None:  # noqa: N802 - Twisted's name
         """Do nothing: there is one host to reach."""
 
     def getBroadcastAllowed(self) -> bool:  # noqa: N802 - Twisted's name
-        """Return whether broadcasts can be sent."""
         return True
 
     def cut_off(self) -> None:
@@ -80,7 +75,6 @@ class UdpPort:
         self._host.network.udp.pop(self._number, None)
 
     def receive(self, packet: bytes, source: tuple[str, int]) -> None:
-        """Hand a datagram to the protocol."""
         self._host.do(self._host.reactor.guarded, self._on_datagram, packet, source)
 
     def _on_datagram(self, packet: bytes, source: tuple[str, int]) -> None:

@@ -37,7 +37,6 @@ class _Direction:
         self.lost = 0
 
     def send(self, data: bytes, deliver: Callable[[bytes], object]) -> None:
-        """Put a datagram on the way."""
         if len(self._pipe) >= MAX_QUEUED:
             self.lost += 1
             return
@@ -45,13 +44,11 @@ class _Direction:
         self._run()
 
     def stop(self) -> None:
-        """Drop all datagrams in flight."""
         self._pipe.clear()
         self._cancel()
 
     @property
     def total_lost(self) -> int:
-        """Return how many datagrams vanished."""
         return self.lost + self._pipe.lost
 
     def _run(self) -> None:

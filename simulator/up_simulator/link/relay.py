@@ -38,7 +38,6 @@ class ListeningRelay(ABC):
 
     @property
     def port(self) -> int:
-        """Return where it listens."""
         return self._listen_port if self._listener is None else self._listener.getHost().port
 
     def start(self) -> int:
@@ -130,11 +129,9 @@ class LinkRelay(ListeningRelay):
             await self._idle
 
     def connect(self, factory: ClientFactory) -> Any:
-        """Connect to the target."""
         return self._reactor.connectTCP(*self._target, factory, timeout=CONNECT_S)
 
     def discard(self, connection: RelayedConnection) -> None:
-        """Discard a connection that has ended."""
         self._connections.discard(connection)
         if self._idle is not None and not self._connections:
             idle, self._idle = self._idle, None

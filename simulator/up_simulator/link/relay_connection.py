@@ -52,7 +52,6 @@ class _End(Protocol):
 
     @property
     def is_connected(self) -> bool:
-        """Return whether it has a socket."""
         return self.transport is not None and not self.is_gone
 
     def connectionMade(self) -> None:  # noqa: N802
@@ -101,7 +100,6 @@ class _End(Protocol):
             transport.loseConnection()
 
     def abort(self) -> None:
-        """Abort the connection."""
         if self.is_connected:
             transport: Any = self.transport
             transport.abortConnection()
@@ -189,7 +187,6 @@ class RelayedConnection:
             self._relay.discard(self)
 
     def abort(self) -> None:
-        """End it here and now."""
         self.near.outgoing.stop()
         self.far.outgoing.stop()
         self._cancel_far()

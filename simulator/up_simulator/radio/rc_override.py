@@ -144,4 +144,5 @@ def _options(arguments: list[str] | None) -> argparse.Namespace:
         metavar="MAP",
         help="axes and buttons, as in 'up-sim start --help'",
     )
-    return parser.parse_args(arguments)
+    options: argparse.Namespace = parser.parse_args(arguments)
+    return options

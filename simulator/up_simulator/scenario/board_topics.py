@@ -29,7 +29,6 @@ class LogRow:
         self.time_s = self.number("time_s") or 0.0
 
     def number(self, name: str) -> float | None:
-        """Return a finite number."""
         value = self._values.get(name)
         return value if isinstance(value, float) and math.isfinite(value) else None
 
@@ -39,7 +38,6 @@ class LogRow:
         return None if value is None else round(value)
 
     def flag(self, name: str) -> bool | None:
-        """Return a flag."""
         value = self.number(name)
         return None if value is None else bool(value)
 
@@ -49,7 +47,6 @@ class LogRow:
         return value if isinstance(value, str) and value else None
 
     def known(self) -> Iterator[tuple[str, float | str]]:
-        """Yield every known signal."""
         for name, value in self._values.items():
             if math.isfinite(value) if isinstance(value, float) else value:
                 yield name, value

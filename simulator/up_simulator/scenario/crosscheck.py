@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import difflib
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from pathlib import Path
 
 from up.config.nodes import MapNode, Node
+from up.fields import suggestion
 from up_simulator.aircraft import airframe_names
 from up_simulator.scenario.locator import locate
 from up_simulator.scenario.sampler import sources_of
@@ -149,12 +149,6 @@ def _control(scenario: Scenario, root: MapNode) -> Iterator[Problem]:
         if name not in names:
             what = f"unknown expectation {name!r}{suggestion(name, names)}"
             yield locate(root, "control", "fails", at), what
-
-
-def suggestion(name: str, known: Iterable[str]) -> str:
-    """Return ', did you mean ...?' if a known name is similar."""
-    matches = difflib.get_close_matches(name[:100], sorted(set(known)), n=1, cutoff=0.5)
-    return f", did you mean {matches[0]!r}?" if matches else ""
 
 
 def exists(path: Path) -> bool:

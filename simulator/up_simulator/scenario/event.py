@@ -47,7 +47,6 @@ class CommandPart:
     )
 
     def problems(self) -> Iterator[tuple[str, str]]:
-        """Yield the missing keys."""
         if not self.name:
             yield "name", "must be the name of a Command, such as up.flight_mode.set"
 
@@ -133,7 +132,6 @@ class Event:
 
     @property
     def title(self) -> str:
-        """Return the name, or a description."""
         if self.name or self.mark:
             return self.name or str(self.mark)
         kind = self.kinds[0]

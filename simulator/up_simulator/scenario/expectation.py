@@ -38,7 +38,6 @@ class StepLimits:
     )
 
     def problems(self) -> Iterator[tuple[str, str]]:
-        """Yield the missing keys."""
         if not self.limits:
             yield "rise_time_s", "sets no limit: set one of " + ", ".join(STEP_FIGURES)
         if self.demand:
@@ -166,7 +165,6 @@ class Expectation:
 
     @property
     def kind(self) -> str:
-        """Return the key of the expectation."""
         return self.kinds[0]
 
 

@@ -10,27 +10,27 @@ from pathlib import Path
 from typing import Any
 
 from up.builtin_modules import BUILTIN_MODULES
-from up.cli.system import cog_files, program_files
+from up.cli.verbs import cog_files, program_files
 from up.config import ConfigErrors, ConfigFile
+from up.config.loader import decode, read_text
 from up.config.nodes import ListNode, MapNode, Node, Report, ScalarNode, compose
 from up.config.problems import Problems
-from up.config.reading import decode, read_text
 from up.config.scalars import is_null, needs_quotes
-from up.config.shape import shape_of
+from up.config.schema import schema_of
 from up.config.validator import Validator
-from up.fields import printable, show
+from up.fields import printable, show, suggestion
 from up.loading.application import Application, NoApplicationError
+from up.loading.checking import config_files
 from up.loading.discovery import survey
-from up.loading.files import config_files
 from up.loading.plan import BootError
 from up_simulator.aircraft import airframe_names
-from up_simulator.scenario.crosscheck import cross_problems, exists, suggestion
+from up_simulator.scenario.crosscheck import cross_problems, exists
 from up_simulator.scenario.event import Event
 from up_simulator.scenario.locator import child, items_of, path_of
 from up_simulator.scenario.override import OverriddenProblems, Override, apply
 from up_simulator.scenario.scenario import Scenario
 
-SHAPE = shape_of(Scenario)
+SCHEMA = schema_of(Scenario)
 _HERE = Path()
 _FREE_TEXT = ("is", "is_not", "becomes")
 ROOT = Path(__file__).resolve().parents[3]
@@ -88,7 +88,7 @@ def _parse(
     apply(overrides, root, problems.report)
     free = _FreeContent(root, problems.report)
     _check_times(root, problems.report)
-    scenario: Scenario = Validator(problems.report, {}, valued=True).read(SHAPE, root)
+    scenario: Scenario = Validator(problems.report, {}, valued=True).read(SCHEMA, root)
     problems.raise_if_any()
     scenario = _with_airframe_beside(free.fill(scenario), folder)
     for node, what in cross_problems(scenario, root):
@@ -161,7 +161,7 @@ class _FreeContent:
         """Validate part of a configuration file as the daemon would."""
         file = daemon_files().get(filename) if node is not None else None
         if file is not None and node is not None and not is_null(node):
-            Validator(self._report, dict(file.removed)).read(file.shape, node, head)
+            Validator(self._report, dict(file.removed)).read(file.schema, node, head)
 
     def _cut(self, parent: Node | None, name: str, above: str = "") -> dict[str, Any]:
         node = child(parent, name)

@@ -69,12 +69,10 @@ class ScenarioFlight:
 
     @property
     def time_s(self) -> float:
-        """Return the time in the air."""
         return self._steps * STEP_S
 
     @property
     def is_over(self) -> bool:
-        """Return whether the flight is over."""
         record = self.record
         ended = record.crash is not None or record.failure is not None
         return ended or self._steps >= self._total_steps

@@ -69,7 +69,6 @@ class _FlightFile:
         self._commands = sorted(result.record.pending_commands, key=lambda each: each.sent_s)
 
     def write(self) -> None:
-        """Write everything."""
         self._writer.start()
         self._describe()
         topics = FlightTopics(self._record.scenario)

@@ -88,5 +88,4 @@ class FlightRecord:
         return self.is_interrupted or self.failure is not None
 
     def note(self, code: str, text: str) -> None:
-        """Add a note for the report."""
         self.notes[code] = text

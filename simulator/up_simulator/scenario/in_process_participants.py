@@ -49,7 +49,6 @@ class InProcessParticipants(DaemonParticipants):
             )
 
     def seconds(self) -> float:
-        """Return the simulated time."""
         return float(self._reactor.seconds())
 
     def exchange(self, step_s: float) -> None:
@@ -59,7 +58,6 @@ class InProcessParticipants(DaemonParticipants):
         self.check_raspilot()
 
     def plug_serial(self, is_in: bool) -> None:
-        """Attach or remove the serial port."""
         if is_in:
             self._daemon.line.plug()
         else:

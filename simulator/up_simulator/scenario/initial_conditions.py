@@ -140,7 +140,6 @@ class ImuPart:
     )
 
     def problems(self) -> Iterator[tuple[str, str]]:
-        """Yield inconsistent values."""
         for name in ("gyro_bias_deg_s", "accel_bias_m_s2", "gyro_drift_deg_s"):
             if getattr(self, name) and len(getattr(self, name)) != 3:
                 yield name, "must have three numbers, one for each axis"

@@ -92,27 +92,22 @@ class LineBoard:
 
     @property
     def title(self) -> str:
-        """Return its description."""
         return self._board.title
 
     @property
     def imu(self) -> BoardImu:
-        """Return its sensor."""
         return self._board.imu
 
     @property
     def now_us(self) -> float:
-        """Return the board's time."""
         return self._board.now_us
 
     @property
     def now_s(self) -> float:
-        """Return the board's time in seconds."""
         return self._board.now_us / 1e6
 
     @property
     def eeprom(self) -> bytes:
-        """Return the content of the EEPROM."""
         return self._board.eeprom
 
     def run_us(self, duration_us: float) -> None:
@@ -165,7 +160,6 @@ class LineBoard:
         self._board.set_motion(motion)
 
     def pulses_us(self) -> Pulses:
-        """Return the newest whole servo pulses."""
         return self._board.pulses_us()
 
     def pulse_ages_us(self) -> tuple[float, float, float, float]:
@@ -179,7 +173,6 @@ class LineBoard:
         return self.wires.pass_on(data, FROM_BOARD, self.now_s)
 
     def write(self, data: bytes) -> None:
-        """Put bytes on the serial line."""
         arrived = self.wires.pass_on(data, TO_BOARD, self.now_s)
         if arrived:
             for found in self._command_reader.feed(arrived, self.now_s):
@@ -188,5 +181,4 @@ class LineBoard:
             self._board.write(arrived)
 
     def reset(self, cause: ResetCause) -> None:
-        """Reset it now."""
         self._board.reset(cause)

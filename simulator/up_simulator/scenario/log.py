@@ -51,7 +51,6 @@ class FlightLog:
                 self._numbers[name] = array("d")
 
     def __len__(self) -> int:
-        """Return the number of rows."""
         return self._count
 
     def __contains__(self, column: object) -> bool:
@@ -89,7 +88,6 @@ class FlightLog:
         return list(self._numbers[name])
 
     def has_text(self, name: str) -> bool:
-        """Return whether a column holds text."""
         return name in self._texts
 
     @property
@@ -103,7 +101,6 @@ class FlightLog:
         return found
 
     def text(self) -> str:
-        """Return the log as CSV."""
         into = io.StringIO()
         self._write(into)
         return into.getvalue()

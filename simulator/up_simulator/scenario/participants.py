@@ -86,7 +86,6 @@ class Participants:
             board.write(board.tap.start_bytes())
 
     def seconds(self) -> float:
-        """Return the participants' time."""
         return self.board.now_s
 
     def dispatch(self, event: Event) -> None:
@@ -173,7 +172,6 @@ class DaemonParticipants(Participants, ABC):
                 self.load(event.cpu_load_percent)
 
     def stop(self) -> None:
-        """Stop all participants."""
         self._should_run = False
         if self.ground is not None:
             self.ground.stop()
@@ -182,7 +180,6 @@ class DaemonParticipants(Participants, ABC):
         self.kill_raspilot()
 
     def kill_raspilot(self) -> None:
-        """Kill the daemon."""
         self.raspilot.kill()
 
     def terminate_raspilot(self) -> None:

@@ -43,7 +43,6 @@ class ProgressLine:
         self._write(f"{self._title}: {of}, {speed:.1f} x real time")
 
     def end(self) -> None:
-        """Clear the line."""
         if self._is_shown and self._width:
             self._put("\r" + " " * self._width + "\r")
             self._width = 0

@@ -65,7 +65,6 @@ class RealParticipants(DaemonParticipants):
         return self._through != "listener"
 
     def seconds(self) -> float:
-        """Return the monotonic time."""
         return self._reactor.seconds()
 
     def start(self) -> None:

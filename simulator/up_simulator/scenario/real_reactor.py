@@ -39,7 +39,6 @@ class RealReactor:
         self.skipped_s = 0.0
 
     def seconds(self) -> float:
-        """Return the monotonic time."""
         return time.monotonic()
 
     def host(self, _name: str = "") -> Any:
@@ -82,7 +81,6 @@ class RealReactor:
             self._due_s -= left_s
 
     def stop(self) -> None:
-        """Stop the relays."""
         relays, self._relays = self._relays, []
         for relay in relays:
             # Each has closed all before it first waits for anything.

@@ -31,7 +31,6 @@ class RunnerDaemon:
 
     @property
     def is_running(self) -> bool:
-        """Return whether its process is there."""
         pid = self._pid()
         return pid is not None and Path("/proc", str(pid)).exists()
 
@@ -62,7 +61,6 @@ class RunnerDaemon:
         self._signal(signal.SIGSTOP)
 
     def thaw(self) -> None:
-        """Resume it."""
         self._signal(signal.SIGCONT)
 
     def check(self) -> None:

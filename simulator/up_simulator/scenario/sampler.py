@@ -67,7 +67,6 @@ class Sampler:
         self._has_computer = has_flight_computer
 
     def row(self, time_s: float, sticks_us: Mapping[str, float]) -> Values:
-        """Return all values now."""
         values: Values = {"time_s": time_s}
         values.update(_truth(self._world.dynamics))
         values.update((f"stick.{name}_us", sticks_us[name]) for name in CHANNELS)

@@ -75,7 +75,6 @@ class SwitchPart:
     high: Literal["ACRO", "RATE", "FBW", "AUTO"] = key("AUTO", "Above 1700 us.", ignore_case=True)
 
     def positions(self) -> dict[str, str]:
-        """Return the mode of each position."""
         return {"low": self.low, "middle": self.middle, "high": self.high}
 
 
@@ -97,7 +96,6 @@ class ControlPart:
     )
 
     def problems(self) -> Iterator[tuple[str, str]]:
-        """Yield the missing keys."""
         if self.mode is None and self.board is None:
             yield "about", "disables nothing: set 'mode' or 'board'"
         if not self.fails:
@@ -159,7 +157,6 @@ class Scenario:
     control: ControlPart | None = section(ControlPart, optional=True)
 
     def problems(self) -> Iterator[tuple[str, str]]:
-        """Yield the missing keys."""
         if not self.title:
             yield "title", "must be a short title of the flight"
         if not self.expect:

@@ -68,7 +68,6 @@ class StickPoint:
     aux2_us: float | None = _pulse()
 
     def problems(self) -> Iterator[tuple[str, str]]:
-        """Yield contradictory keys."""
         others = {"aux1": "mode", "aux2": "arm"}
         for channel in CHANNELS:
             other = others.get(channel, channel)

@@ -262,7 +262,7 @@ def test_a_public_peer_is_not_heard_on_a_wildcard_address(tmp_path, monkeypatch)
 
     async def flight():
         async with Flight(tmp_path) as f:
-            monkeypatch.setattr("up.system.plain_peers.is_private", lambda host: False)
+            monkeypatch.setattr("up.system.peer_filter.is_private", lambda host: False)
             phone, gyro = await f.phone(), await f.gyro()
             await phone.closed
             await gyro.closed

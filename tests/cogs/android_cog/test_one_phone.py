@@ -16,7 +16,7 @@ from up.protocols import general_message_link
 from up.protocols.general_message import decode
 from up.protocols.general_message_link import MAX_BURST
 from up.protocols.general_message_udp import SILENCE_TIMEOUT_S
-from up.system.plain_peers import PlainPeers
+from up.system.peer_filter import PeerFilter
 
 
 def place(latitude, id=None):
@@ -184,7 +184,7 @@ class Rig:
         self.messages, self.events = [], []
         self.link = PhoneLink(
             self.clock,
-            PlainPeers(True, "key"),
+            PeerFilter(True, "key"),
             on_message=lambda link, message: self.messages.append(message.data["n"]),
             on_malformed=lambda link, fault: self.events.append("malformed"),
             on_connected=lambda link: self.events.append(f"connected {link.peer}"),

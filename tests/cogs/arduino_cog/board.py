@@ -156,7 +156,7 @@ class BoardRig(Rig):
     def ask(self, command):
         """Publish a Command and return a list that its outcome, or its failure, comes into."""
         outcome = []
-        done = self.up.command_executor.execute_for_outcome(command, INTERNAL)
+        done = self.up.command_executor.execute_and_wait(command, INTERNAL)
         done.addCallbacks(lambda _: outcome.append("done"), lambda fail: outcome.append(fail.value))
         self.turn()
         self.reactor.advance(0)

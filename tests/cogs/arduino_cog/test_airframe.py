@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 
 from tests.cogs.arduino_cog.board import PROFILE, PROFILE_FORMAT
 from up.config import ConfigErrors
-from up.config.values import plain_value
+from up.config.schema import plain_value
 from up.flight_controller.airframe_profile import AirframeProfile
 
 FACTORY = read_profile(struct.pack(PROFILE_FORMAT, *PROFILE))
@@ -21,7 +21,7 @@ PATH = Path("config/airframe.yml")
 
 
 def wishes(text):
-    return dict(flat(plain_value(AIRFRAME.shape, AIRFRAME.parse(text, PATH))))
+    return dict(flat(plain_value(AIRFRAME.schema, AIRFRAME.parse(text, PATH))))
 
 
 def test_the_shipped_file_asks_for_nothing():
@@ -39,7 +39,7 @@ def test_every_key_has_a_place_in_the_profile_and_the_other_way_round():
             else:
                 keys.add(above + entry.name)
 
-    walk(AIRFRAME.shape)
+    walk(AIRFRAME.schema)
     assert keys == dict(flat(profile_to_data(FACTORY))).keys()
 
 

@@ -4,12 +4,11 @@ import struct
 
 import pytest
 from arduino_cog.commands.arduino_profile_commands import ArduinoProfileRequestCommand
-from arduino_cog.modules import arduino_profile
+from twisted.logger import formatEvent, globalLogPublisher
 
 from tests.cogs.arduino_cog.board import PROFILE, PROFILE_FORMAT, Ground
 from up.commands.arming_commands import ArmCommand
-from up.commands.flight_state_command import FlightStateCommand
-from up.commands.fly_by_wire_limits_command import FlyByWireLimitsCommand
+from up.commands.flight_state_command import FlightStateCommand, FlyByWireLimitsCommand
 from up.commands.refusal import Code, CommandRefusedError
 
 NAME = "airframe.yml"
@@ -43,16 +42,18 @@ def framed(make_rig):
 
 
 @pytest.fixture
-def said(monkeypatch):
+def said():
     """The log messages of the module, by level."""
     lines = []
-    for level in ("info", "warning", "error"):
-        monkeypatch.setattr(
-            arduino_profile.ArduinoProfile,
-            f"_log_{level}",
-            lambda _, text, level=level: lines.append((level, text)),
-        )
-    return lines
+
+    def observe(event):
+        if event["log_namespace"] == "ArduinoProfile":
+            level = {"warn": "warning"}.get(event["log_level"].name, event["log_level"].name)
+            lines.append((level, formatEvent(event)))
+
+    globalLogPublisher.addObserver(observe)
+    yield lines
+    globalLogPublisher.removeObserver(observe)
 
 
 @pytest.mark.parametrize("text", [None, "", "rudder: {trim_us: null}\n"])

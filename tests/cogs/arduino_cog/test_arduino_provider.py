@@ -6,6 +6,7 @@ import struct
 import pytest
 from arduino_cog.commands.arduino_status_command import ArduinoStatusCommand
 from arduino_cog.modules.arduino_provider import ArduinoProvider
+from twisted.logger import LogLevel, capturedLogs
 
 from tests.cogs.arduino_cog.board import MODULES
 from tests.cogs.serial_cog.rig import VirtualReactor
@@ -235,13 +236,13 @@ def test_a_reset_in_flight_is_noticed_and_started_again(rig):
     assert rig.arduino.telemetry_content["arduino"]["reset_cause"] == "watchdog, state restored"
 
 
-def test_a_board_that_flies_after_a_reset_is_named_by_a_program_that_starts(rig, monkeypatch):
-    said = []
-    monkeypatch.setattr(ArduinoProvider, "_log_warning", lambda _, text: said.append(text))
-    rig.start()
-    rig.status(armed=True, cause=0x88)
-    rig.status(armed=True, cause=0x88)
-    assert said == ["the Arduino flies after a reset (watchdog, state restored), and is armed"]
+def test_a_board_that_flies_after_a_reset_is_named_by_a_program_that_starts(rig):
+    with capturedLogs() as events:
+        rig.start()
+        rig.status(armed=True, cause=0x88)
+        rig.status(armed=True, cause=0x88)
+    (warning,) = [each for each in events if each["log_level"] is LogLevel.warn]
+    assert warning["causes"] == " (watchdog, state restored), and is armed"
     assert rig.arduino.counters["resets"] == 0
 
 

@@ -4,7 +4,7 @@ import pytest
 from arduino_cog.modules.arduino_provider import ArduinoProvider
 
 from up.commands.arming_commands import ArmCommand, DisarmCommand
-from up.commands.flight_mode_command import FlightModeCommand
+from up.commands.flight_state_command import FlightModeCommand
 from up.commands.panic_command import PanicCommand
 from up.commands.refusal import Code, CommandRefusedError
 

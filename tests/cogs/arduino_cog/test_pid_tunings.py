@@ -8,7 +8,7 @@ from arduino_cog.modules.pid_tunings_provider import PIDTuningsProvider
 from tests.cogs.arduino_cog.board import FACTORY, PUSHED, Ground
 from up.commands.pid_tunings_commands import PIDTuningsCommand, PIDTuningsValuesCommand
 from up.commands.refusal import Code, CommandRefusedError
-from up.flight_controller import gains_keeper
+from up.flight_controller import gains_store
 from up.flight_controller.gains import gain_set_to_data
 from up.flight_controller.pids_file import PIDS, PidsFile
 
@@ -41,7 +41,7 @@ def refusal(outcome):
 @pytest.fixture
 def tuned(make_rig, monkeypatch):
     # The clock stands still here: the disk answers immediately. The thread has its own tests.
-    monkeypatch.setattr(gains_keeper, "_in_thread", lambda work: work())
+    monkeypatch.setattr(gains_store, "_in_thread", lambda work: work())
 
     def make(framing="checked", pids=GOOD, **more):
         config = {} if pids is None else {"pids.yml": pids}

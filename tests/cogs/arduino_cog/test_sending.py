@@ -8,9 +8,8 @@ from up.commands.altitude_command import AltitudeCommand
 from up.commands.heading_command import HeadingCommand
 from up.commands.location_command import LocationCommand
 from up.commands.origin import Origin
-from up.commands.output_command import OutputCommand
+from up.commands.output_command import OutputCommand, SetpointCommand
 from up.commands.roles import Role
-from up.commands.setpoint_command import SetpointCommand
 
 PHONE = Origin("android", Role.SENSOR, 5)
 OTHER = Origin("other", Role.SENSOR, 1)

@@ -14,14 +14,13 @@ from tests.support.reactor import reactor, run_in_reactor, sleep, until
 from tests.support.system import build_up, started
 from up.base_started_module import BaseStartedModule
 from up.commands.arming_commands import ArmCommand, DisarmCommand
-from up.commands.flight_mode_command import FlightModeCommand
+from up.commands.flight_state_command import FlightModeCommand
 from up.commands.orientation_command import OrientationCommand
 from up.commands.origin import INTERNAL
-from up.commands.output_command import OutputCommand
+from up.commands.output_command import OutputCommand, SetpointCommand
 from up.commands.pid_tunings_commands import PIDTuningsCommand
 from up.commands.refusal import CommandRefusedError
 from up.commands.servo_command import ServoCommand
-from up.commands.setpoint_command import SetpointCommand
 from up.flight_controller.pids_file import PIDS
 
 from arduino_cog.commands.arduino_calibrate_command import ArduinoCalibrateCommand  # isort: skip
@@ -113,7 +112,7 @@ def profile_of(up):
 async def ask(up, command):
     """Return nothing, or the reason for a refusal."""
     try:
-        await up.command_executor.execute_for_outcome(command, INTERNAL)
+        await up.command_executor.execute_and_wait(command, INTERNAL)
     except CommandRefusedError as error:
         return error.reason
     return None
@@ -187,11 +186,11 @@ class FlightMode(BaseStartedModule):
 
     ROLL_DEG = 0.0
 
-    def _execute_start(self):
+    def on_start(self):
         self.loop = LoopingCall(self.step)
         self.loop.start(0.02)
 
-    def _execute_stop(self):
+    def on_stop(self):
         self.loop.stop()
 
     def step(self):

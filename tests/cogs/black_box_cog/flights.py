@@ -8,10 +8,9 @@ import threading
 
 from black_box_cog.config import MEGABYTE, BlackBoxConfig
 from black_box_cog.disk import Disk
-from black_box_cog.flight_facts import FlightFacts
 from black_box_cog.flight_folder import FlightFolder
-from black_box_cog.intake import Intake
-from black_box_cog.log_lines import LogLines
+from black_box_cog.flight_metadata import FlightMetadata
+from black_box_cog.ingest_queue import IngestQueue, LogForwarder
 from black_box_cog.recorder import Recorder
 from mcap.exceptions import EndOfFile
 from mcap.reader import make_reader
@@ -87,25 +86,25 @@ class Flight:
         self.paused = 0
         self.disk = disk or TestedDisk()
         self.config = BlackBoxConfig(**config)
-        self.intake = Intake(limit, lambda: self.now_s)
+        self.queue = IngestQueue(limit, lambda: self.now_s)
         self.folder = FlightFolder(
             self.disk,
             self.path,
             self.config.total_size_mb * MEGABYTE,
             self.config.keep_free_mb * MEGABYTE,
         )
-        facts = FlightFacts("kite", {"mode": "auto"}, ("up", "black_box_cog"), folder)
+        metadata = FlightMetadata("kite", {"mode": "auto"}, ("up", "black_box_cog"), folder)
         self.recorder = Recorder(
-            self.intake,
+            self.queue,
             self.config,
             self.folder,
-            facts,
+            metadata,
             self.disk,
             lambda: self.now_s,
             lambda: int(self.wall_s * 1e9),
             self._pause,
         )
-        self._lines = LogLines(self.intake.note)
+        self._lines = LogForwarder(self.queue.put)
         self._lines.start()
         self.listening.add(self._lines)
 
@@ -125,7 +124,7 @@ class Flight:
 
     def say(self, number, origin=BOARD):
         """Publish one Command that is distinguishable from others by its roll."""
-        self.intake.observe(OrientationCommand(float(number), 0.0, 0.0), origin)
+        self.queue.observe(OrientationCommand(float(number), 0.0, 0.0), origin)
 
     def fly(self, seconds, rate_hz=10, first=0, origin=BOARD):
         """Log numbers at a rate, with the recorder's rounds between; return the next number."""
@@ -174,7 +173,17 @@ def numbers_in(path):
 
 
 def lines_in(path):
-    return [data["message"] for topic, _, data in messages(path) if topic == "log"]
+    """Return the lines of the program's log: level, logger, message, and code and fields."""
+    return [data for topic, _, data in messages(path) if topic == "log"]
+
+
+def codes_in(path):
+    return [line.get("code") for line in lines_in(path)]
+
+
+def codes_of(log):
+    """Return the codes of captured log events."""
+    return [event["code"] for event in log.events if "code" in event]
 
 
 def summary_of(path):

@@ -11,7 +11,7 @@ from pathlib import Path
 
 from mcap.exceptions import McapError
 
-from tests.cogs.black_box_cog.flights import Flight, lines_in, numbers_in, summary_of
+from tests.cogs.black_box_cog.flights import Flight, codes_in, numbers_in, summary_of
 from tests.up.commands.samples import Log
 
 HOG_BYTES = 500_000
@@ -23,7 +23,7 @@ def status_of(flight, log):
         "recording": flight.status.recording,
         "problem": flight.status.problem,
         "dropped": flight.status.dropped,
-        "errors": [each["log_namespace"] for each in errors],
+        "errors": [each.get("code") for each in errors],
     }
 
 
@@ -46,7 +46,7 @@ def fly(folder):
     told["numbers"] = [numbers_in(path) for path in flight.files]
     told["whole"] = ends_with_whole_records(flight.files[0])
     told["complete"] = [is_complete(path) for path in flight.files]
-    told["lines"] = [line for path in flight.files for line in lines_in(path)]
+    told["codes"] = [code for path in flight.files for code in codes_in(path)]
     return told
 
 

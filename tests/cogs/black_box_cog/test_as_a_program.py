@@ -2,7 +2,6 @@
 
 import json
 import os
-import re
 import signal
 import socket
 import subprocess
@@ -13,7 +12,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.cogs.black_box_cog.flights import lines_in, messages
+from tests.cogs.black_box_cog.flights import codes_in, messages
 from tests.proxy.program import until
 from up.flight_log.flight_file import flight_files
 from up.flight_log.flight_log import FlightLog
@@ -40,25 +39,30 @@ class Aircraft:
             if watched
             else ["main.py", "--config", folder]
         )
-        self.log = ""
+        self.lines = []
         self.process = subprocess.Popen(
             [sys.executable, *map(str, command)],
             cwd=ROOT,
             stderr=subprocess.PIPE,
             text=True,
-            env={**os.environ, **(environ or {})},
+            env={**os.environ, "UP_LOG_FORMAT": "json", **(environ or {})},
         )
         threading.Thread(target=self._read, daemon=True).start()
-        port = int(self.said(r"general listens on port (\d+)")[1])
+        port = self.logged("port_open", name="general")["port"]
         self.phone = socket.create_connection(("127.0.0.1", port))
         self.battery = 0
 
     def _read(self):
         for line in self.process.stderr:
-            self.log += line
+            self.lines.append(json.loads(line))
 
-    def said(self, pattern):
-        return until(lambda: re.search(pattern, self.log), f"{pattern} in {self.log}")
+    def logged(self, code, **fields):
+        """Wait for a line with that code and fields; return its fields."""
+        wanted = {"code": code, **fields}.items()
+        found = lambda: [  # noqa: E731
+            each for line in self.lines if wanted <= (each := line.get("fields", {})).items()
+        ]
+        return until(found, f"{code} in {self.lines}")[0]
 
     def speak(self):
         """Send a battery level that was not sent before."""
@@ -102,7 +106,7 @@ def test_stopped_it_leaves_a_whole_file(aircraft, tmp_path):
     one = aircraft()
     for _ in range(50):
         one.speak()
-    one.said("records the flight into")
+    one.logged("recording_started")
     one.speak()
     until(lambda: 5.1 in levels_in(only_file(tmp_path / "flights")), "the last word")
     assert one.stop() == 0
@@ -113,13 +117,13 @@ def test_stopped_it_leaves_a_whole_file(aircraft, tmp_path):
     assert log.metadata["flight"]["mode"] == "black box"
     # Without a ground: the recorder requested telemetry.
     assert log.topics["up.telemetry.update"] > 0
-    assert "stopping: SIGTERM" in lines_in(log.paths[0])
+    assert "stopping" in codes_in(log.paths[0])
 
 
 def test_killed_it_leaves_a_file_that_lacks_a_second_at_most(aircraft, tmp_path):
     one = aircraft()
     one.speak()
-    one.said("records the flight into")
+    one.logged("recording_started")
     path = only_file(tmp_path / "flights")
     said = []
     while len(said) < 100:
@@ -137,7 +141,7 @@ def test_killed_it_leaves_a_file_that_lacks_a_second_at_most(aircraft, tmp_path)
 
 def test_a_daemon_that_nobody_speaks_to_leaves_nothing(aircraft, tmp_path):
     one = aircraft()
-    one.said("modules run")
+    one.logged("started")
     one.stop()
     assert not (tmp_path / "flights").exists()
 
@@ -146,7 +150,7 @@ def test_two_daemons_share_a_folder(aircraft, tmp_path):
     both = [aircraft("one"), aircraft("two")]
     for each in both:
         each.speak()
-        each.said("records the flight into")
+        each.logged("recording_started")
     for each in both:
         assert each.stop() == 0
     files = flight_files(tmp_path / "flights")
@@ -157,7 +161,7 @@ def test_two_daemons_share_a_folder(aircraft, tmp_path):
 def test_the_default_folder_is_that_of_the_user(aircraft, tmp_path):
     one = aircraft(flights=None, environ={"XDG_STATE_HOME": str(tmp_path / "state")})
     one.speak()
-    one.said("records the flight into")
+    one.logged("recording_started")
     one.stop()
     assert len(flight_files(tmp_path / "state" / "raspilot" / "flights")) == 1
 
@@ -166,7 +170,7 @@ def test_the_reactors_thread_never_touches_the_folder(aircraft, tmp_path):
     one = aircraft(watched=True)
     for _ in range(20):
         one.speak()
-    one.said("records the flight into")
+    one.logged("recording_started")
     one.phone.sendall(b'{"name": "black_box.record", "data": {"topic": "a.b", "content": {}}}\n')
     path = only_file(tmp_path / "flights")
     until(lambda: "a.b" in {topic for topic, _, _ in messages(path)}, "the record")

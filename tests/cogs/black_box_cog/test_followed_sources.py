@@ -2,7 +2,7 @@
 
 import pytest
 from black_box_cog.export.log_track import points_of
-from black_box_cog.report.evidence import evidence_of
+from black_box_cog.report.report_data import read_report_data
 from twisted.internet.task import Clock
 
 from tests.cogs.black_box_cog.flights import PHONE, Flight
@@ -13,7 +13,7 @@ from up.commands.roles import Role
 from up.flight_log.flight_log import FlightLog
 from up.flight_log.summary import summarise
 from up.flight_log.telemetry_frames import frames
-from up.flight_log.way import fixes
+from up.flight_log.track_statistics import fixes
 from up.providers.up_location_provider import UpLocationProvider
 
 GPS = Origin("gps", Role.SENSOR)
@@ -28,7 +28,7 @@ def flown(tmp_path):
     clock = Clock()
     flight = Flight(tmp_path)
     up = build_up((), clock, tmp_path / "c", config={"providers.yml": "location: [gps, android]\n"})
-    up.command_executor.add_observer(flight.intake.observe)
+    up.command_executor.add_observer(flight.queue.observe)
     provider = up.get_module(UpLocationProvider)
     used = []
 
@@ -62,7 +62,7 @@ def test_the_track_follows_the_provider(flown):
 
 def test_the_report_and_the_replay_follow_it_too(flown):
     log, used = flown
-    assert list(evidence_of(log).speed.values) == [
+    assert list(read_report_data(log).speed.values) == [
         {"gps": 20.0, "android": 10.0}[link] for link, *_ in used
     ]
     # 20 m aside the phone would add 111 m for every change of the source.

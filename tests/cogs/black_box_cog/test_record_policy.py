@@ -1,8 +1,8 @@
 import pytest
 from black_box_cog.commands.mark_command import MarkCommand
 from black_box_cog.commands.record_command import RecordCommand
-from black_box_cog.intake import Recorded
-from black_box_cog.record_policy import LONGEST_BYTES, MOST_A_SECOND, TOPICS_LIMIT, RecordPolicy
+from black_box_cog.ingest_queue import Recorded
+from black_box_cog.record_policy import MAX_A_SECOND, MAX_BYTES, TOPICS_LIMIT, RecordPolicy
 from hypothesis import given
 from hypothesis import strategies as st
 from twisted.internet.task import Clock
@@ -55,7 +55,7 @@ def test_the_topic_of_a_command_stays_its_own(policy, topic):
 
 def test_content_is_bounded(policy):
     with pytest.raises(CommandRefusedError, match="at most 4096 are recorded"):
-        policy.checked(RecordCommand("a.b", {"x": "y" * LONGEST_BYTES}))
+        policy.checked(RecordCommand("a.b", {"x": "y" * MAX_BYTES}))
     with pytest.raises(CommandRefusedError, match="_origin"):
         policy.checked(RecordCommand("a.b", {"_origin": "internal"}))
     deep = {}
@@ -74,7 +74,7 @@ def test_topics_are_bounded(policy):
 
 
 def test_the_rate_is_bounded(policy):
-    for _ in range(MOST_A_SECOND):
+    for _ in range(MAX_A_SECOND):
         policy.checked(RecordCommand("a.b", {}))
     with pytest.raises(CommandRefusedError, match="records a second"):
         policy.checked(RecordCommand("a.b", {}))

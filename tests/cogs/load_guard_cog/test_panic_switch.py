@@ -2,7 +2,7 @@ import itertools
 
 from hypothesis import given
 from hypothesis import strategies as st
-from load_guard_cog.panic_switch import PanicSwitch
+from load_guard_cog.modules.load_guard import PanicSwitch
 
 
 def run(loads, interval_s=0.5, dwell_s=5.0):

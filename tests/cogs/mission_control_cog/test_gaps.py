@@ -52,7 +52,7 @@ class GroundStation:
             return
         frame = (message.beacon, self.up.beacons.age_s(message.beacon))
         self.came += (frame,)
-        if self.telemetry.take(message, reactor.seconds()):
+        if self.telemetry.update(message, reactor.seconds()):
             self.shown += (frame,)
 
 

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from mission_control_cog.ground_connection import GroundConnection
-from mission_control_cog.grounds import ALIVE_S, STATIONS_LIMIT, Grounds
+from mission_control_cog.grounds import MAX_STATIONS, Grounds
 from twisted.internet.task import Clock
 from twisted.internet.testing import StringTransport
 
@@ -19,7 +19,9 @@ from up.commands.arming_commands import ArmCommand
 from up.commands.system_commands import LinkStateCommand
 from up.commands.telemetry_commands import TelemetryFrequencyCommand
 from up.life_cycle import LifeCycle
-from up.system.plain_peers import PlainPeers
+from up.protocols.control_lease import ALIVE_S
+from up.protocols.proxy_lines import Accepted, Access, Hello
+from up.system.peer_filter import PeerFilter
 
 LISTENER = "listener: {port: 0, address: 127.0.0.1}\n"
 
@@ -41,7 +43,7 @@ async def grounds(aircraft, *hellos):
     return peers
 
 
-def test_the_first_commands_the_others_listen_and_nobody_steals(tmp_path):
+def test_the_first_has_control_and_the_others_listen(tmp_path):
     async def fly():
         async with Aircraft(tmp_path, None, LISTENER) as a:
             a.listen_to(TelemetryFrequencyCommand, LinkStateCommand)
@@ -51,7 +53,6 @@ def test_the_first_commands_the_others_listen_and_nobody_steals(tmp_path):
             two.say(period(200, "a"))
             refused = await two.answer("a")
             assert refused["data"]["code"] == "forbidden"
-            assert "another ground station commands" in refused["data"]["reason"]
             one.say(period(300, "b"))
             await one.answer("b")
             commands = [c.period_ms for c in a.heard if isinstance(c, TelemetryFrequencyCommand)]
@@ -72,7 +73,7 @@ def test_the_first_commands_the_others_listen_and_nobody_steals(tmp_path):
     run_in_reactor(fly)
 
 
-def test_a_hello_is_answered_as_by_a_proxy_and_its_token_resumes_the_seat(tmp_path):
+def test_a_hello_is_answered_as_by_a_proxy_and_its_token_resumes_control(tmp_path):
     async def fly():
         text = LISTENER + "aircraft: glider\n"
         async with Aircraft(tmp_path, None, text) as a:
@@ -100,31 +101,24 @@ def test_a_hello_is_answered_as_by_a_proxy_and_its_token_resumes_the_seat(tmp_pa
     run_in_reactor(fly)
 
 
-@pytest.mark.parametrize("token", ["00" * 16, "ab", "z" * 40])
-def test_another_token_takes_no_seat(tmp_path, token):
-    async def fly():
-        async with Aircraft(tmp_path, None, LISTENER) as a:
-            (holder,) = await grounds(a, b"UP1 aircraft=default seat=command\n")
-            hello = f"UP1 aircraft=default seat=command token={token}\n"
-            (thief,) = await grounds(a, hello.encode())
-            assert b"seat=listen" in thief.lines[0]
-            assert f"token={token}".encode() not in thief.lines[0].split()
-            holder.say(period(50, "mine"))
-            assert (await holder.answer("mine"))["name"] == "up.ack"
-            for peer in (holder, thief):
-                await peer.close()
-
-    run_in_reactor(fly)
-
-
-def test_who_asks_to_listen_does_not_get_the_seat(tmp_path):
+def test_another_token_gains_no_control_and_a_listener_none(tmp_path):
     async def fly():
         async with Aircraft(tmp_path, None, LISTENER) as a:
             (watcher,) = await grounds(a, b"UP1 aircraft=default seat=listen\n")
             assert b"seat=listen" in watcher.lines[0]
-            (pilot,) = await grounds(a, b"UP1 aircraft=default seat=command\n")
-            assert b"seat=command" in pilot.lines[0]
-            for peer in (watcher, pilot):
+            (owner,) = await grounds(a, b"UP1 aircraft=default seat=command\n")
+            assert b"seat=command" in owner.lines[0]
+            token = b"00" * 16
+            (other,) = await grounds(a, b"UP1 aircraft=default seat=command token=%s\n" % token)
+            assert b"seat=listen" in other.lines[0]
+            assert token not in other.lines[0]
+            malformed = await connect(reactor, a.up.ports["ground"])
+            malformed.say(b"UP1 aircraft=default token=ab\n")
+            await malformed.closed
+            assert malformed.lines[0].startswith(b"UP1 error code=malformed ")
+            owner.say(period(50, "mine"))
+            assert (await owner.answer("mine"))["name"] == "up.ack"
+            for peer in (watcher, owner, other):
                 await peer.close()
 
     run_in_reactor(fly)
@@ -137,8 +131,7 @@ def test_the_role_is_the_links_and_half_lines_die_with_their_connection(tmp_path
             (one,) = await grounds(a, b"")
             beacon = one.named("up.telemetry.update")[-1]["beacon"]
             one.say({"name": "up.arm", "id": "arm", "beacon": beacon})
-            refused = (await one.answer("arm"))["data"]
-            assert "mission_control.yml: role" in refused["reason"]
+            assert (await one.answer("arm"))["data"]["code"] == "forbidden"
             one.say(b'{"name": "up.telemetry.frequency", "data": {"frequency": 1')
             await one.close()
             (two,) = await grounds(a, b"")
@@ -154,7 +147,7 @@ def test_the_role_is_the_links_and_half_lines_die_with_their_connection(tmp_path
 def test_hostile_stations_are_bounded(tmp_path):
     async def fly():
         async with Aircraft(tmp_path, None, LISTENER) as a:
-            peers = await grounds(a, *[b""] * STATIONS_LIMIT)
+            peers = await grounds(a, *[b""] * MAX_STATIONS)
             late = await connect(reactor, a.up.ports["ground"])
             await late.closed
             peers[0].say(b"\xff\xff\n", b"[" * 20000 + b"\n", b"UP1 " + b"x" * 30000 + b"\n")
@@ -167,7 +160,7 @@ def test_hostile_stations_are_bounded(tmp_path):
     run_in_reactor(fly)
 
 
-def test_a_port_in_use_is_said_and_the_uplink_goes_on(tmp_path):
+def test_a_port_in_use_is_a_veto_and_the_uplink_runs(tmp_path):
     with socket.socket() as taken:
         taken.bind(("127.0.0.1", 0))
         taken.listen()
@@ -179,7 +172,7 @@ def test_a_port_in_use_is_said_and_the_uplink_goes_on(tmp_path):
             life = LifeCycle(a.up)
             await life.start()
             (reason,) = a.up.vetoes.own.values()
-            assert f"port {number} cannot be opened: Address already in use" in reason
+            assert f"{number}" in reason
             assert "(mission_control.yml: listener.port)" in reason
             assert a.provider.started
             await life.stop()
@@ -193,10 +186,10 @@ def test_a_public_address_and_a_public_peer_are_refused(tmp_path, monkeypatch):
         life = LifeCycle(a.up)
         await life.start()
         (reason,) = a.up.vetoes.own.values()
-        assert "public address" in reason
+        assert "(mission_control.yml: listener.address)" in reason
         await life.stop()
         async with Aircraft(tmp_path / "b", None, "listener: {port: 0}\n") as b:
-            monkeypatch.setattr("up.system.plain_peers.is_private", lambda host: False)
+            monkeypatch.setattr("up.system.peer_filter.is_private", lambda host: False)
             peer = await connect(reactor, b.up.ports["ground"])
             await peer.closed
             assert peer.received == b""
@@ -229,11 +222,11 @@ class _Link:
 
 def virtual(clock, heard):
     return Grounds(
-        clock, PlainPeers(True, "k"), "a",
+        clock, PeerFilter(True, "k"), "a",
         open_link=lambda send: _Link(),
         on_message=lambda message, link: heard.append(message.id),
         on_malformed=lambda fault, link: None,
-        on_holder=lambda peer: None,
+        on_owner=lambda peer: None,
     )  # fmt: skip
 
 
@@ -245,7 +238,7 @@ def quiet(monkeypatch):
     monkeypatch.setattr("up.protocols.general_message_link.watch_peer", lambda *_: None)
 
 
-def test_a_holder_that_was_silent_for_three_seconds_loses_its_seat(monkeypatch):
+def test_a_holder_that_was_silent_for_three_seconds_loses_control(monkeypatch):
     quiet(monkeypatch)
     clock, heard = Clock(), []
     all_ = virtual(clock, heard)
@@ -267,10 +260,10 @@ def test_a_holder_that_was_silent_for_three_seconds_loses_its_seat(monkeypatch):
 @given(st.lists(st.integers(1, 60), max_size=12), st.booleans())
 def test_the_first_line_may_come_in_any_pieces(monkeypatch, sizes, hello):
     quiet(monkeypatch)
-    clock, heard, greeted = Clock(), [], []
+    clock, heard, hellos = Clock(), [], []
     link = GroundConnection(
         clock,
-        on_hello=lambda *given_: greeted.append(given_[1:]) or b"UP1 ok\n",
+        on_hello=lambda _, given_: hellos.append(given_) or Accepted("a", Access.LISTEN, "ab" * 16),
         on_message=lambda _, message: heard.append(message.id),
         on_malformed=lambda *_: heard.append("malformed"),
         on_connected=lambda _: None,
@@ -287,7 +280,7 @@ def test_the_first_line_may_come_in_any_pieces(monkeypatch, sizes, hello):
     if data:
         link.dataReceived(data)
     assert heard == ["1", "2"]
-    assert greeted == ([(False, "ab" * 16)] if hello else [])
+    assert hellos == ([Hello("a", Access.LISTEN, "ab" * 16)] if hello else [])
 
 
 def test_nothing_reaches_a_station_before_the_answer_to_its_hello():

@@ -116,15 +116,15 @@ def test_a_refused_hello_is_tried_again_without_the_token(tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("answer", "says"),
+    ("answer", "code"),
     [
-        (b'{"name": "up.heading.change"}\n', "does not answer the hello"),
-        (b"UP1 what\n", "does not answer the hello"),
-        (b"x" * 600, "too long"),
-        (b"x" * 600 + b"\n", "too long"),
+        (b'{"name": "up.heading.change"}\n', "not_an_answer"),
+        (b"UP1 what\n", "not_an_answer"),
+        (b"x" * 600, "answer_too_long"),
+        (b"x" * 600 + b"\n", "answer_too_long"),
     ],
 )
-def test_something_else_than_an_answer_ends_the_connection(tmp_path, answer, says):
+def test_anything_but_an_answer_ends_the_connection(tmp_path, answer, code):
     async def fly():
         server = Server(reactor)
         port = await server.open()
@@ -139,13 +139,13 @@ def test_something_else_than_an_answer_ends_the_connection(tmp_path, answer, say
             await until(lambda: a.provider.connected)
             assert a.up.command_receiver.counters["received"] == 0
         globalLogPublisher.removeObserver(events.append)
-        assert any(says in str(event.get("why")) for event in events)
+        assert code in [event.get("code") for event in events]
         await server.close()
 
     run_in_reactor(fly)
 
 
-def test_a_thesis_client_says_no_hello_and_no_empty_lines(tmp_path):
+def test_a_legacy_client_sends_no_hello_and_no_empty_lines(tmp_path):
     async def fly():
         server = Server(reactor)
         port = await server.open()
@@ -230,7 +230,7 @@ def test_hostile_lines_from_the_ground_harm_nothing(tmp_path):
     run_in_reactor(fly)
 
 
-def test_a_command_to_the_ground_says_whether_it_left(tmp_path):
+def test_the_result_of_sending_a_command_to_the_ground(tmp_path):
     async def fly():
         server = Server(reactor)
         port = await server.open()

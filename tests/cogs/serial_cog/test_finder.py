@@ -3,9 +3,8 @@
 from types import SimpleNamespace
 
 import pytest
-from serial_cog import finder
-from serial_cog.finder import UsbId, find
-from serial_cog.port_opener import PortOpener
+from serial_cog import port_opener
+from serial_cog.port_opener import PortOpener, UsbId, find
 
 from up.protocols.serial_port import SerialPortError
 
@@ -108,14 +107,14 @@ def test_a_single_port_is_kept_however_silent():
 
 def test_without_anything_at_usb_the_ports_are_not_listed(tmp_path, monkeypatch):
     (tmp_path / "ttyS0").touch()
-    monkeypatch.setattr(finder, "TTYS", tmp_path)
+    monkeypatch.setattr(port_opener, "TTYS", tmp_path)
     asked = []
     monkeypatch.setattr("serial.tools.list_ports.comports", lambda: asked.append(1) or [UNO])
-    assert list(finder.list_ports()) == []
+    assert list(port_opener.list_ports()) == []
     assert not asked
     for name in ("ttyACM0", "ttyUSB0"):
         (tmp_path / name).touch()
-        assert list(finder.list_ports()) == [UNO]
+        assert list(port_opener.list_ports()) == [UNO]
         (tmp_path / name).unlink()
-    monkeypatch.setattr(finder, "TTYS", tmp_path / "a system without it")
-    assert list(finder.list_ports()) == [UNO]
+    monkeypatch.setattr(port_opener, "TTYS", tmp_path / "a system without it")
+    assert list(port_opener.list_ports()) == [UNO]

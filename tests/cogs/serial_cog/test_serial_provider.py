@@ -254,7 +254,7 @@ def test_without_a_configured_port_the_arduino_is_found_when_it_comes(tmp_path):
     assert serial.is_source_open
     rig.say("o", b"ab")
     assert taken == [b"ab"]
-    serial._execute_stop()
+    serial.on_stop()
     rig.stop()
 
 

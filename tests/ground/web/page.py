@@ -8,6 +8,7 @@ import urllib.request
 from autobahn.twisted.websocket import WebSocketClientFactory, WebSocketClientProtocol
 from twisted.internet.endpoints import TCP4ClientEndpoint
 
+from tests.ground import aircraft
 from tests.ground.aircraft import Ground
 from tests.support.reactor import reactor, run_in_reactor, until
 
@@ -28,7 +29,7 @@ class _Client(WebSocketClientProtocol):
 
 
 class Page:
-    """Keeps its received messages; `say` sends, the coroutines wait."""
+    """Keeps its received messages; `send` sends, the coroutines wait."""
 
     def __init__(self, port, origin=None, host="127.0.0.1"):
         self.port, self.told = port, []
@@ -48,19 +49,21 @@ class Page:
         await until(lambda: self.is_open or self.is_closed, what="the link")
         return self
 
-    async def hello(self, name="test", watch="default", **more):
+    async def hello(self, name="test", watch="", **more):
         """Open the link, send the hello and watch; return the welcome."""
         await self.open()
-        self.say("hello", name=name, **more)
+        self.send("hello", name=name, **more)
         welcome = await self.next("welcome")
-        if watch:
-            self.say("watch", aircraft=watch)
+        if watch is not None:
+            self.send("watch", **({"aircraft": watch} if watch else {}))
         return welcome
 
     def take(self, payload):
         self.told.append(json.loads(payload))
 
-    def say(self, kind, **fields):
+    def send(self, kind, **fields):
+        if kind in ("watch", "control", "command"):
+            fields.setdefault("aircraft", aircraft.NAME)
         self.raw(json.dumps({"type": kind, **fields}))
 
     def raw(self, text):
@@ -90,13 +93,13 @@ class Page:
 
         return await until(find, what=f"a status; the newest is {self.newest('status')}")
 
-    async def command(self, name, data=None, aircraft="default", **more):
+    async def command(self, name, data=None, **more):
         """Send a Command, with the last received beacon, and return its answer."""
         if "beacon" not in more:
             more["beacon"] = await self.beacon()
         self.asks += 1
         ask = self.asks
-        self.say("command", ask=ask, aircraft=aircraft, name=name, data=data or {}, **more)
+        self.send("command", ask=ask, name=name, data=data or {}, **more)
         return await self.next("answer", lambda each: each["ask"] == ask)
 
     async def beacon(self):
@@ -109,7 +112,7 @@ class Page:
         return self.newest("frame")["beacon"]
 
     async def control(self):
-        self.say("control", aircraft="default", action="request")
+        self.send("control", action="request")
         return await self.status(lambda each: each["control"]["holder"] == "you")
 
     async def leave(self):
@@ -131,7 +134,7 @@ class Serve(Ground):
 
     @property
     def port(self):
-        return int(re.search(r"open http://[^/]*:(\d+)/", self.said)[1])
+        return int(re.search(r":(\d+)/", self.event("page_open")["url"])[1])
 
 
 def get(port, path, method="GET", **headers):
@@ -163,5 +166,5 @@ def with_pages(server, look, *names):
     return run_in_reactor(run)
 
 
-def sent(aircraft, name=MODE):
-    return [each for each in aircraft.received if each["name"] == name]
+def sent(flying, name=MODE):
+    return [each for each in flying.received if each["name"] == name]

@@ -75,13 +75,14 @@ def test_only_the_servers_own_page_opens_a_link(origin, permitted):
 
 @pytest.mark.parametrize("key", [None, "", "wrong-key", "right-ke", "right-key ", 7, "\ud800"])
 def test_without_the_key_a_page_watches(key):
-    assert ACCESS.why_not(key)
+    assert ACCESS.denial(key).code == ("wrong_key" if isinstance(key, str) else "no_key")
 
 
 def test_with_the_key_it_controls():
-    assert ACCESS.why_not("right-key") == ""
-    assert Access().why_not(None) == ""
-    assert Access(key="right-key", is_watch_only=True).why_not("right-key")
+    assert ACCESS.denial("right-key") is None
+    assert Access().denial(None) is None
+    access = Access(key="right-key", is_watch_only=True)
+    assert access.denial("right-key").code == "watch_only"
 
 
 def test_the_machine_has_names():

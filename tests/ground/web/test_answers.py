@@ -4,7 +4,7 @@ import pytest
 from twisted.internet.task import Clock
 
 from up.protocols.general_message import GeneralMessage
-from up_ground.web.answers import ANSWER_LIMIT_S, Answers
+from up_ground.web.answers import ANSWER_LIMIT_S, Answer, Answers, outcome_event
 
 
 class Bench:
@@ -16,10 +16,10 @@ class Bench:
         return self.answers.expect(name, data or {}, self.heard.append)
 
     def ack(self, id_):
-        self.answers.take(GeneralMessage("up.ack", {"id": id_}))
+        self.answers.on_message(GeneralMessage("up.ack", {"id": id_}))
 
     def nack(self, id_, **more):
-        self.answers.take(GeneralMessage("up.nack", {"id": id_, **more}))
+        self.answers.on_message(GeneralMessage("up.nack", {"id": id_, **more}))
 
 
 @pytest.fixture
@@ -55,8 +55,7 @@ def test_none_in_time_and_one_too_late(bench):
     bench.clock.advance(ANSWER_LIMIT_S)
     bench.ack(id_)
     (answer,) = bench.heard
-    assert answer.outcome == "timeout"
-    assert "not known" in answer.reason
+    assert (answer.outcome, answer.code) == ("timeout", "no_answer")
 
 
 @pytest.mark.parametrize("id_", ["somebody's", None, 7, [], {}, ""])
@@ -64,7 +63,7 @@ def test_answers_to_others_are_none(bench, id_):
     bench.expect()
     bench.ack(id_)
     bench.nack(id_)
-    bench.answers.take(GeneralMessage("up.ack", {}))
+    bench.answers.on_message(GeneralMessage("up.ack", {}))
     assert bench.heard == []
 
 
@@ -78,21 +77,21 @@ def test_what_was_asked_for_comes_with_the_answer(bench, order):
     id_ = bench.expect("arduino.pids.tunings", {"request": True})
     values = GeneralMessage("arduino.pids.values", {"ratePIDs": {}})
     if order == "values first":
-        bench.answers.take(values)
+        bench.answers.on_message(values)
         assert bench.heard == []
         bench.ack(id_)
     else:
         bench.ack(id_)
         assert bench.heard == []
-        bench.answers.take(values)
+        bench.answers.on_message(values)
     assert bench.heard[0].data == {"ratePIDs": {}}
 
 
 def test_what_was_asked_for_never_comes(bench):
     bench.ack(bench.expect("arduino.profile.request"))
     bench.clock.advance(ANSWER_LIMIT_S)
-    assert (bench.heard[0].outcome, bench.heard[0].data) == ("ack", None)
-    assert "did not come" in bench.heard[0].reason
+    answer = bench.heard[0]
+    assert (answer.outcome, answer.code, answer.data) == ("ack", "no_content", None)
 
 
 def test_a_set_of_gains_waits_for_no_values(bench):
@@ -102,7 +101,42 @@ def test_a_set_of_gains_waits_for_no_values(bench):
 
 def test_a_lost_link_leaves_it_unknown(bench):
     bench.expect()
-    bench.answers.lost()
-    assert bench.heard[0].outcome == "timeout"
-    assert "link was lost" in bench.heard[0].reason
+    bench.answers.on_link_lost()
+    assert (bench.heard[0].outcome, bench.heard[0].code) == ("timeout", "link_lost")
     assert len(bench.answers) == 0
+
+
+BEFORE = {"ratePIDs": {"ailerons": {"p": 3.0, "i": 0.0, "d": 0.0}}}
+AFTER = {"ratePIDs": {"ailerons": {"p": 2.4, "i": 0.0, "d": 0.0}}}
+NACK = Answer("nack", "forbidden", "not in flight")
+
+
+@pytest.mark.parametrize(
+    ("name", "data", "answer", "code", "text"),
+    [
+        ("up.arm", {}, Answer("ack"), "command_ack", "Ann: Arm carried out"),
+        ("up.arm", {}, NACK, "command_nack", "Ann: Arm refused: not in flight"),
+        (
+            "android.speak",
+            {"text": "{0.x}"},
+            Answer("ack"),
+            "command_ack",
+            'Ann: Say "{0.x}" carried out',
+        ),
+        ("a.cog", {"text": 1}, Answer("ack"), "command_ack", "Ann: a.cog carried out"),
+        (
+            "arduino.pids.tunings",
+            {"pids": AFTER},
+            Answer("ack"),
+            "gains_ack",
+            "Ann changed gains: rate roll P 3 to 2.4",
+        ),
+        ("arduino.pids.tunings", {"pids": BEFORE}, NACK, "gains_nack", None),
+        ("arduino.pids.tunings", {"request": True}, Answer("ack"), "command_ack", None),
+        ("black_box.mark", {"text": "gust"}, Answer("ack"), "mark_ack", "Ann marks: gust"),
+    ],
+)
+def test_an_outcome_is_an_event(name, data, answer, code, text):
+    kind, report = outcome_event("Ann", name, data, BEFORE, answer)
+    assert (report.code, kind) == (code, code.partition("_")[0])
+    assert text in (None, report.text)

@@ -7,14 +7,13 @@ from typing import ClassVar
 import pytest
 from twisted.internet.task import Clock
 
-from tests.ground.web.test_pages import Link
+from tests.ground.web.test_client_hub import Link
 from up.commands.builtin import BUILTIN_COMMANDS
 from up.commands.command import BaseCommand, value
 from up.commands.roles import Role
-from up_ground.catalogue import Catalogue
+from up_ground.catalogue import BYTES_LIMIT, Catalogue, catalogue_message
 from up_ground.web.access import Access
-from up_ground.web.catalogue_message import BYTES_LIMIT, catalogue_message
-from up_ground.web.pages import Pages
+from up_ground.web.client_hub import ClientHub
 
 
 @dataclass(frozen=True, slots=True)
@@ -96,11 +95,11 @@ def test_a_catalogue_without_end_has_one():
 @pytest.mark.parametrize("offered", [True, False])
 def test_a_page_hears_of_it_after_its_welcome_once(offered):
     catalogue = catalogue_message(Catalogue(BUILTIN_COMMANDS)) if offered else None
-    pages = Pages(Clock(), Access(), catalogue=catalogue)
+    pages = ClientHub(Clock(), Access(), catalogue=catalogue)
     for _ in range(2):
         link = Link()
         pages.on_opened(link)
-        pages.on_said(link, b'{"type": "hello"}')
+        pages.on_message(link, b'{"type": "hello"}')
         assert link.kinds() == ["welcome", "catalogue"][: 1 + offered]
     if offered:
         assert link.told[1] == catalogue

@@ -29,7 +29,7 @@ def test_the_page_commands_an_aircraft_without_a_proxy(tmp_path, way):
                 await page.hello("laptop", watch="kite")
                 status = await page.status(lambda each: each["role"])
                 assert (status["role"], status["tune_in_flight"]) == ("operator", False)
-                page.say("control", aircraft="kite", action="request")
+                page.send("control", aircraft="kite", action="request")
                 await page.status(lambda each: each["control"]["holder"] == "you")
                 shown = page.newest("frame")
                 answer = await page.command(
@@ -38,7 +38,7 @@ def test_the_page_commands_an_aircraft_without_a_proxy(tmp_path, way):
                 assert answer["outcome"] == "ack"
                 answer = await page.command("up.arm", aircraft="kite", beacon=shown["beacon"])
                 assert (answer["outcome"], answer["code"]) == ("refused", "forbidden")
-                page.say("control", aircraft="kite", action="release")
+                page.send("control", aircraft="kite", action="release")
                 await page.status(lambda each: each["control"]["holder"] in ("nobody", "unknown"))
                 await page.leave()
                 server.process.terminate()

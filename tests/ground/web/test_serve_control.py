@@ -1,6 +1,6 @@
 """Control of the aircraft on a real server: pages, other grounds, the seat of a real proxy."""
 
-from tests.ground.aircraft import Ground, ground
+from tests.ground.aircraft import Ground, codes, ground
 from tests.ground.web.page import FBW, MODE, Page, with_pages
 from tests.support.reactor import until as soon
 
@@ -8,11 +8,11 @@ from tests.support.reactor import until as soon
 def test_a_page_asks_another_for_control(aircraft, server):
     async def fly(first, second):
         await first.control()
-        second.say("control", aircraft="default", action="request")
+        second.send("control", action="request")
         status = await first.status(lambda each: each["control"]["asks_you"])
         assert status["control"]["asked_by"]["name"] == "second"
         assert [each["name"] for each in status["control"]["pages"]] == ["first", "second"]
-        first.say("control", aircraft="default", action="give")
+        first.send("control", action="give")
         await second.status(lambda each: each["control"]["holder"] == "you")
         status = await first.status(lambda each: each["control"]["holder"] == "page")
         assert status["control"]["holder_name"] == "second"
@@ -26,7 +26,7 @@ def test_a_page_that_vanishes_keeps_control_for_a_moment(aircraft, server):
         await page.control()
         token = page.newest("welcome")["token"]
         await page.leave()
-        other.say("control", aircraft="default", action="request")
+        other.send("control", action="request")
         again = Page(server.port)
         welcome = await again.hello("pilot", token=token)
         assert welcome["page"] == page.newest("welcome")["page"]
@@ -56,18 +56,18 @@ def test_a_doubled_tab_is_another_page(aircraft, server):
 def test_the_seat_is_free_when_no_page_wants_it(aircraft, server, proxy, tmp_path):
     async def fly(page):
         await page.control()
-        page.say("control", aircraft="default", action="release")
+        page.send("control", action="release")
         await page.status(lambda each: each["control"]["holder"] == "nobody")
 
     assert ground(tmp_path / "a", proxy.ground_port, "send", MODE, "mode=FBW")[0] == 0
     with_pages(server, fly, "pilot")
     status, said, _ = ground(tmp_path / "b", proxy.ground_port, "send", MODE, "mode=FBW")
-    assert (status, said[:3]) == (0, "ack")
+    assert (status, codes(said)) == (0, ["ack"])
 
 
 def test_two_grounds_ask_each_other(aircraft, server, proxy, tmp_path):
     async def fly(page):
-        page.say("control", aircraft="default", action="request")
+        page.send("control", action="request")
         status = await page.status(lambda each: each["control"]["asked_by"])
         assert status["control"]["asked_by"]["name"] == "pilot"
         assert status["control"]["holder"] == "ground"
@@ -81,10 +81,10 @@ def test_two_grounds_ask_each_other(aircraft, server, proxy, tmp_path):
         with Ground(tmp_path / "c", proxy.ground_port, "seat", "request") as asking:
             status = await page.status(lambda each: each["control"]["asks_you"])
             assert status["control"]["asked_by"]["page"] is None
-            page.say("control", aircraft="default", action="give")
-            await soon(lambda: "commands now" in asking.said)
+            page.send("control", action="give")
+            await soon(lambda: asking.event("control_granted"))
 
     with Ground(tmp_path / "b", proxy.ground_port, "watch", "--seat", "command") as other:
-        other.expect("seat command")
+        other.expect("control ours")
         with_pages(server, fly, "pilot")
     with_pages(server, give, "pilot")

@@ -4,23 +4,23 @@ import signal
 
 import pytest
 
-from tests.ground.aircraft import ground
-from tests.ground.web.page import FBW, MODE, Page, Serve, with_pages
+from tests.ground.aircraft import coded, ground
+from tests.ground.web.page import FBW, MODE, Page, Serve, get, with_pages
 from tests.support.reactor import until as soon
-from up_ground.web.places import WATCHERS_LIMIT
+from up_ground.web.client_session import WATCHERS_LIMIT
 
 
 @pytest.mark.parametrize("arguments", [("--listen", "0.0.0.0:0"), ("--key", "a-good-key")])
 def test_who_has_no_key_only_watches(aircraft, proxy, tmp_path, arguments):
     with Serve(tmp_path, proxy.ground_port, *arguments) as server:
-        key = server.said.split("#key=")[1].split()[0]
+        key = server.event("page_open")["url"].split("#key=")[1]
 
         async def look(page):
             assert page.newest("welcome")["may_control"] is False
-            assert "key" in page.newest("welcome")["why_not"]
+            assert page.newest("welcome")["denial"]["code"] == "no_key"
             await page.next("frame")
-            page.say("control", aircraft="default", action="request")
-            assert "only watch" in (await page.next("fault"))["text"]
+            page.send("control", action="request")
+            assert (await page.next("fault"))["code"] == "watch_only"
             answer = await page.command(MODE, FBW)
             assert answer["code"] == "no_control"
             for wrong in (key[:-1], key + "x", key.swapcase(), ""):
@@ -40,9 +40,9 @@ def test_who_has_the_key_gets_in_where_watchers_have_filled_the_house(proxy, tmp
 
         async def look(*watchers):
             late = await Page(server.port).open()
-            late.say("hello", name="late")
+            late.send("hello", name="late")
             await soon(lambda: late.is_closed, what="the end of a page too many")
-            assert (late.code, late.why) == (4013, "too many pages are open")
+            assert late.code == 4013
             pilot = Page(server.port)
             assert (await pilot.hello("pilot", key="a-good-key"))["may_control"] is True
             assert not any(watcher.is_closed for watcher in watchers)
@@ -56,10 +56,16 @@ def test_watch_only_is_for_everybody(aircraft, proxy, tmp_path):
 
         async def look(page):
             assert page.newest("welcome")["may_control"] is False
-            page.say("control", aircraft="default", action="request")
-            assert "--watch-only" in (await page.next("fault"))["text"]
+            page.send("control", action="request")
+            assert (await page.next("fault"))["code"] == "watch_only"
 
         with_pages(server, look, "guest")
+
+
+def test_user_signals_end_nothing(server):
+    for number in (signal.SIGUSR1, signal.SIGUSR2):
+        server.process.send_signal(number)
+    assert get(server.port, "/")[0] == 200
 
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
@@ -74,42 +80,38 @@ def test_an_interrupt_ends_it_without_a_word(aircraft, proxy, tmp_path, number):
 
         with_pages(server, look, "pilot")
         assert server.wait() == 0
-        assert server.complained == ""
+        assert server.stderr == ""
     # The seat was left: no page waits for it.
     assert ground(tmp_path / "b", proxy.ground_port, "send", MODE, "mode=FBW")[0] == 0
 
 
 @pytest.mark.parametrize(
-    ("arguments", "sentence"),
+    ("arguments", "code"),
     [
-        (("--listen", "8080"), "is no ADDRESS:PORT"),
-        (("--listen", "example.com:80"), "no literal address"),
-        (("--listen", "127.0.0.1:70000"), "is no ADDRESS:PORT"),
-        (("--listen", "203.0.113.1:8080"), "cannot be opened"),
-        (("--aircraft", "a/b"), "NAME[@HOST:PORT[/direct]]"),
-        (("--aircraft", "a", "--aircraft", "a"), "given twice"),
-        (("--aircraft", "a@h:0"), "NAME[@HOST:PORT[/direct]]"),
-        (("--key", "short"), "8 to 64"),
-        (("--name", "a b"), "a name is"),
-        (("--tiles", "http://tiles.example/{z}/{x}.png"), "{y}"),
-        (("--tiles", "ftp://tiles.example/{z}/{x}/{y}.png"), "http"),
+        (("--listen", "8080"), "invalid_listen"),
+        (("--listen", "example.com:80"), "invalid_listen"),
+        (("--listen", "127.0.0.1:70000"), "invalid_listen"),
+        (("--listen", "203.0.113.1:8080"), "listen_failed"),
+        (("--aircraft", "a/b"), "invalid_aircraft"),
+        (("--aircraft", "a", "--aircraft", "a"), "duplicate_aircraft"),
+        (("--aircraft", "a@h:0"), "invalid_aircraft"),
+        (("--key", "short"), "argument --key"),
+        (("--name", "a b"), "argument --name"),
+        (("--tiles", "http://tiles.example/{z}/{x}.png"), "invalid_tiles"),
+        (("--tiles", "ftp://tiles.example/{z}/{x}/{y}.png"), "invalid_tiles"),
     ],
 )
-def test_mistakes_in_the_command_line_are_one_sentence(tmp_path, arguments, sentence):
-    status, said, complained = ground(tmp_path, 1, "serve", *arguments)
+def test_mistakes_in_the_command_line_are_one_sentence(tmp_path, arguments, code):
+    status, said, stderr = ground(tmp_path, 1, "serve", *arguments)
     assert status in (2, 3)
     assert said == ""
-    assert sentence in complained
+    assert code in stderr
 
 
 def test_a_port_that_is_taken_is_a_sentence(server, tmp_path):
     listen = f"127.0.0.1:{server.port}"
-    status, _, complained = ground(tmp_path, 1, "serve", "--listen", listen)
-    assert status == 3
-    assert complained == (
-        f"up-ground: {listen} cannot be opened: Address already in use"
-        " (--listen ADDRESS:PORT names another)\n"
-    )
+    status, _, stderr = ground(tmp_path, 1, "serve", "--listen", listen)
+    assert (status, coded(stderr)) == (3, [{"code": "listen_failed", "address": listen}])
 
 
 def test_help_teaches(tmp_path):

@@ -1,4 +1,4 @@
-"""Pages that read slowly or not at all, over real sockets."""
+"""ClientHub that read slowly or not at all, over real sockets."""
 
 import base64
 import json
@@ -32,8 +32,8 @@ class SlowPage:
         assert b"101" in self.file.readline()
         while self.file.readline() != b"\r\n":
             pass
-        self.say(type="hello", name="slow")
-        self.say(type="watch", aircraft="default")
+        self.send(type="hello", name="slow")
+        self.send(type="watch")
 
     def __enter__(self):
         return self
@@ -42,7 +42,7 @@ class SlowPage:
         self.file.close()
         self.socket.close()
 
-    def say(self, **fields):
+    def send(self, **fields):
         payload = json.dumps(fields).encode()
         mask = os.urandom(4)
         masked = bytes(each ^ mask[place % 4] for place, each in enumerate(payload))

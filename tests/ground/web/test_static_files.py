@@ -2,7 +2,7 @@
 
 import pytest
 
-from up_ground.web.static_files import LONGEST_FILE, StaticFiles
+from up_ground.web.static_files import MAX_FILE_BYTES, StaticFiles
 
 
 @pytest.fixture
@@ -64,7 +64,7 @@ def test_a_changed_file_has_another_tag(folder):
 
 def test_a_file_that_is_no_page_is_not_read(folder):
     with (folder / "huge.js").open("wb") as file:
-        file.truncate(LONGEST_FILE + 1)
+        file.truncate(MAX_FILE_BYTES + 1)
     assert StaticFiles(folder).get(b"/huge.js") is None
 
 

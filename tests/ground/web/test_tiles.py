@@ -14,7 +14,7 @@ from tests.support.reactor import reactor, run_in_reactor
 from tests.support.reactor import until as soon
 from up_ground.web.site import HEADERS
 from up_ground.web.tile_cache import TileCache
-from up_ground.web.tiles import AT_ONCE, TileSource
+from up_ground.web.tiles import MAX_PARALLEL, TileSource
 
 PNG = b"\x89PNG\r\n\x1a\n" + bytes(500)
 
@@ -207,17 +207,17 @@ def test_a_kept_tile_does_not_wait_for_a_source_that_does_not_answer(source, tmp
 
     async def look():
         tiles = TileSource(reactor, source.url, cache)
-        missing = [DummyRequest([b""]) for _ in range(3 * AT_ONCE)]
+        missing = [DummyRequest([b""]) for _ in range(3 * MAX_PARALLEL)]
         for number, request in enumerate(missing):
             request.path, request.setETag = b"/tiles/5/1/%d" % number, lambda tag: None
             tiles.render(request)
-        await soon(lambda: len(source.asked) == AT_ONCE, what="the source's first")
+        await soon(lambda: len(source.asked) == MAX_PARALLEL, what="the source's first")
         kept = DummyRequest([b""])
         kept.path, kept.setETag = b"/tiles/3/4/5", lambda tag: None
         tiles.render(kept)
         await soon(lambda: kept.finished, what="the kept tile")
         assert b"".join(kept.written) == PNG
-        assert len(source.asked) == AT_ONCE
+        assert len(source.asked) == MAX_PARALLEL
         held.set()
         await soon(lambda: all(each.finished for each in missing), what="the others")
         tiles.stop()

@@ -24,8 +24,8 @@ class _Flight:
             self._places += is_moving
             location = {"latitude": 50.0 + self._places * STEP_DEG, "longitude": 8.0}
             data = {"location": location, "age_ms": {"location": aboard_ms}}
-            self._telemetry.take(GeneralMessage(NAME, data, None, None), self.now_s)
-            self.track.take(self._telemetry, self.now_s)
+            self._telemetry.update(GeneralMessage(NAME, data, None, None), self.now_s)
+            self.track.update(self._telemetry, self.now_s)
 
     @property
     def breaks(self):

@@ -4,7 +4,7 @@ import subprocess
 import urllib.request
 from pathlib import Path
 
-from tests.ground.aircraft import UP_GROUND, environment
+from tests.ground.aircraft import UP_GROUND, coded, environment
 from tests.support.sandbox import under
 from tests.support.tools import need_tool
 
@@ -31,7 +31,7 @@ def test_it_runs_under_the_units_system_call_filter(tmp_path, proxy):
     with subprocess.Popen(
         command, env=environment(tmp_path, proxy.ground_port), stdout=subprocess.PIPE, text=True
     ) as server:
-        address = next(line for line in server.stdout if line.startswith("open ")).split()[1]
+        address = next(coded(line)[0]["url"] for line in server.stdout if "page_open" in line)
         with urllib.request.urlopen(address) as page:
             assert page.status == 200
         server.terminate()

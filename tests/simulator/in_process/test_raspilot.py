@@ -202,11 +202,11 @@ def test_the_log_is_bounded(tmp_path):
     bench.raspilot.start()
     module = bench.raspilot.module("LoadGuard")
     for number in range(5000):
-        module._log_warning(f"line {number}")
+        module.log.warn("line {number}", number=number)
     assert len(bench.raspilot.log) == 2000
     assert bench.raspilot.log[-1].endswith("WARNING  LoadGuard: line 4999")
     bench.raspilot.kill()
-    module._log_warning("after the end")
+    module.log.warn("after the end")
     assert bench.raspilot.log[-1].endswith("line 4999")
 
 

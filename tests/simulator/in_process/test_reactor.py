@@ -31,23 +31,6 @@ def test_time_moves_in_steps_and_does_not_drift(reactor):
     assert seen_s == [n / 500 for n in range(20_001)]
 
 
-def test_a_long_advance_is_as_many_short_ones(reactor):
-    seen_s = []
-    for delay_s in (0.5, 0.0101, 0.001):
-        reactor.callLater(delay_s, lambda: seen_s.append(reactor.seconds()))
-    reactor.advance(1.0005)
-    assert seen_s == [0.002, 0.012, 0.5]
-    assert reactor.seconds() == 1.0005
-
-
-def test_of_equal_times_the_earlier_call_is_first(reactor):
-    order = []
-    for name in "abcdef":
-        reactor.callLater(0.01, order.append, name)
-    reactor.advance(0.02)
-    assert "".join(order) == "abcdef"
-
-
 def test_a_call_may_be_moved_and_cancelled(reactor):
     order = []
     first = reactor.callLater(0.1, order.append, "first")
@@ -190,12 +173,3 @@ def test_a_killed_program_is_never_called_again(reactor):
         reactor.advance(0.1)
         assert called == [other, other]
         assert descriptor.read == b""
-
-
-def test_expired_timers_are_discarded(reactor):
-    host = reactor.host()
-    for _ in range(5000):
-        host.callLater(0.001, lambda: None)
-        reactor.advance(0.002)
-    assert host.getDelayedCalls() == []
-    assert len(host._calls) <= 257

@@ -36,15 +36,6 @@ def test_bytes_pass_both_ways_after_the_delay():
     assert 0.05 <= arrived_s - sent_s <= 0.056
 
 
-def test_without_a_link_bytes_pass_within_two_steps():
-    bench = Bench()
-    bench.connect()
-    sent_s = bench.reactor.seconds()
-    bench.here.transport.write(b"up")
-    bench.reactor.advance(0.1)
-    assert bench.there.arrivals_s[0] - sent_s <= 0.0041
-
-
 @settings(max_examples=30, deadline=None)
 @given(LINKS, st.integers(0, 99), st.lists(st.binary(min_size=1, max_size=20_000), max_size=8))
 def test_a_stream_arrives_whole_and_in_order_over_any_link(link, seed, pieces):
@@ -228,34 +219,6 @@ def test_a_short_blackout_only_delays_data():
     assert bench.there.lost is None
 
 
-def test_lost_acknowledgements_end_the_connection():
-    bench = Bench(SLOW)
-    bench.connect()
-    watch_peer(bench.there.transport, 1500)
-    bench.up.black_out()
-    bench.there.transport.write(b"telemetry")
-    bench.reactor.advance(2.0)
-    assert bench.here.received == b"telemetry"
-    assert bench.there.lost == "ConnectionLost"
-
-
-def test_a_stall_ends_in_a_burst_unless_the_user_timeout_is_shorter():
-    for limit_ms, lost in ((0, None), (1500, "ConnectionLost")):
-        bench = Bench(SLOW)
-        bench.connect()
-        watch_peer(bench.there.transport, limit_ms)
-        bench.down.stall(bench.reactor.seconds())
-        for number in range(10):
-            bench.there.transport.write(b"%d" % number)
-            bench.reactor.advance(0.5)
-        assert bench.here.received == b""
-        bench.down.resume(bench.reactor.seconds())
-        bench.reactor.advance(3.0)
-        assert bench.there.lost == lost
-        if lost is None:
-            assert bench.here.received == b"0123456789"
-
-
 def test_keepalive_detects_a_vanished_peer():
     bench = Bench(SLOW)
     bench.connect()
@@ -265,17 +228,6 @@ def test_keepalive_detects_a_vanished_peer():
     bench.black_out()
     bench.reactor.advance(10.0)
     assert bench.here.lost == "ConnectionLost"
-
-
-def test_a_connection_without_options_survives_a_long_blackout():
-    bench = Bench(SLOW)
-    bench.connect()
-    bench.black_out()
-    bench.here.transport.write(b"late")
-    bench.reactor.advance(30.0)
-    bench.restore()
-    bench.reactor.advance(40.0)
-    assert bench.there.received == b"late"
 
 
 def test_a_kill_closes_the_connections_of_the_program():
@@ -359,13 +311,3 @@ def test_a_frozen_program_receives_all_data_when_it_resumes():
     bench.server.built[1].transport.write(b"late")
     bench.reactor.advance(0.2)
     assert bench.here.received == b"late"
-
-
-def test_a_frozen_program_may_be_killed():
-    bench = Bench(SLOW)
-    bench.connect()
-    bench.pi.freeze()
-    bench.reactor.advance(1.0)
-    bench.pi.cut_off()
-    bench.reactor.advance(1.0)
-    assert bench.here.lost == "ConnectionDone"

@@ -13,9 +13,9 @@ from mcap.reader import make_reader
 from tests.simulator.scenario.minimal import log_of, scenario
 from tests.support.firmware import build_firmware
 from up.flight_log.estimate_error import estimate_errors
+from up.flight_log.findings import findings
 from up.flight_log.flight_log import FlightLog
 from up.flight_log.telemetry_frames import frames
-from up.flight_log.wrongs import wrongs
 from up_simulator.cli import main
 from up_simulator.scenario.event import CommandPart, Event
 from up_simulator.scenario.expectation import Verdict
@@ -125,7 +125,7 @@ def test_metadata_name_aircraft_scenario_and_verdicts(flown):
 
 def test_the_flight_log_finds_failures_and_telemetry_in_it(flown):
     log = FlightLog.read([flown / "first/flown/flight.mcap"])
-    told = [wrong.text for wrong in wrongs(log)]
+    told = [wrong.text for wrong in findings(log)]
     assert any(text.startswith("the receiver was lost") for text in told), told
     assert any("failsafe acted" in text for text in told), told
     assert [each.axis for each in estimate_errors(log)] == ["roll", "pitch"]

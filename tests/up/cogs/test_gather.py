@@ -47,7 +47,7 @@ def test_the_life_of_a_cogfile(environment, application, tree):
 
     modules = environment.up("modules", cwd=application).stdout
     assert modules.index("AlphaModule") < modules.index("BetaModule")
-    assert "all is in order" in environment.up("check", cwd=application).stdout
+    environment.up("check", cwd=application)
 
     cogfile(application, BOTH.splitlines()[0])
     left = environment.up("gather", cwd=application).stdout.splitlines()

@@ -6,8 +6,7 @@ import pytest
 
 from tests.support.application import importable, plan_of, write_application
 from tests.support.virtual_environment import REPOSITORY
-from up.cogs.cog_error import CogError
-from up.cogs.package_name import package_name
+from up.cogs.cog import CogError, package_name
 from up.cogs.registration import find_registrant, register, unregister
 from up.cogs.registry import Registry
 from up.config import ConfigErrors

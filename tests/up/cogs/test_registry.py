@@ -9,7 +9,7 @@ import pytest
 
 from tests.support.virtual_environment import REPOSITORY
 from up.cogs import registry as registry_module
-from up.cogs.cog_error import CogError
+from up.cogs.cog import CogError
 from up.cogs.registry import Registry
 from up.config import ConfigErrors
 from up.loading.external_modules import EXTERNAL_MODULES_FILE, ModuleEntry

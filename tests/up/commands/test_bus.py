@@ -6,12 +6,12 @@ from twisted.internet.task import Clock
 
 from tests.up.commands.samples import Log, NumberCommand, OtherCommand, make_bus
 from up.base_module import BaseModule
+from up.cleanup import CleanupStack
 from up.commands.base_command_handler import BaseCommandHandler
 from up.commands.command import BaseCommand
 from up.commands.origin import INTERNAL, Origin
 from up.commands.refusal import CommandRefusedError, UnhandledCommandError
 from up.commands.roles import Role
-from up.registrations import Registrations
 
 GROUND = Origin("ground", Role.PILOT)
 
@@ -132,7 +132,7 @@ def test_even_what_may_not_be_caught_leaves_a_bus_that_delivers(bus, ask):
     bus.register_command(NumberCommand, heard.append)
     with pytest.raises(KeyboardInterrupt):
         if ask:
-            bus.execute_for_outcome(NumberCommand(1), GROUND)
+            bus.execute_and_wait(NumberCommand(1), GROUND)
         else:
             bus.execute_command(NumberCommand(1))
     bus.execute_command(NumberCommand(2))
@@ -159,7 +159,7 @@ def test_an_outcome_asked_for_in_a_handler_waits_its_turn(bus):
     heard = []
 
     def asking(_):
-        bus.execute_for_outcome(OtherCommand(), GROUND).addCallback(lambda _: heard.append("done"))
+        bus.execute_and_wait(OtherCommand(), GROUND).addCallback(lambda _: heard.append("done"))
         heard.append("asked")
 
     bus.register_command(NumberCommand, asking)
@@ -250,7 +250,7 @@ def test_names_without_number_do_not_fill_memory(bus):
 
 def outcome_of(bus, command=None):
     got = []
-    bus.execute_for_outcome(command or NumberCommand(1), GROUND).addBoth(got.append)
+    bus.execute_and_wait(command or NumberCommand(1), GROUND).addBoth(got.append)
     return got
 
 
@@ -339,18 +339,18 @@ def test_an_async_handler_without_anybody_waiting(bus):
 def test_what_was_registered_is_taken_back_as_a_whole(bus):
     heard = []
     bus.register_command(NumberCommand, lambda _: heard.append("old"))
-    registrations = Registrations()
-    with registrations.noted():
+    cleanups = CleanupStack()
+    with cleanups.recording():
         gone = bus.register_command(NumberCommand, lambda _: heard.append("gone already"))
         bus.register_command(NumberCommand, lambda _: heard.append("new"))
         bus.register_command(OtherCommand, lambda _: heard.append("other"))
     bus.register_command(NumberCommand, lambda _: heard.append("later"))
     bus.unregister_command(NumberCommand, gone)
-    registrations.undo()
+    cleanups.unwind()
     bus.execute_command(NumberCommand(1))
     bus.execute_command(OtherCommand())
     assert heard == ["old", "later"]
     assert not bus.has_handlers(OtherCommand)
-    with registrations.noted():
+    with cleanups.recording():
         bus.register_command(OtherCommand, lambda _: heard.append("too late"))
     assert not bus.has_handlers(OtherCommand)

@@ -4,12 +4,12 @@ import pytest
 from twisted.internet.defer import Deferred
 
 from tests.up.commands.samples import Border, Log, NumberCommand, OtherCommand, make_bus
+from up.cleanup import CleanupStack
 from up.commands.command import BaseCommand
 from up.commands.origin import INTERNAL, Origin
 from up.commands.refusal import CommandRefusedError, UnhandledCommandError
 from up.commands.roles import Role
 from up.commands.telemetry_commands import TelemetryCommand
-from up.registrations import Registrations
 
 GROUND = Origin("ground", Role.PILOT)
 
@@ -61,7 +61,7 @@ def test_it_sees_a_command_before_its_handlers(bus):
     bus.add_observer(lambda command, origin: order.append("observer"))
     bus.register_command(NumberCommand, lambda _: order.append("later handler"))
     bus.execute_command(NumberCommand(1))
-    bus.execute_for_outcome(NumberCommand(1), GROUND)
+    bus.execute_and_wait(NumberCommand(1), GROUND)
     assert order == ["observer", "handler", "later handler"] * 2
 
 
@@ -98,7 +98,7 @@ def test_a_publish_of_an_observer_waits_its_turn(bus):
 def test_what_only_an_observer_sees_stays_unhandled(bus):
     recorder = Recorder(bus)
     got = []
-    bus.execute_for_outcome(NumberCommand(1), GROUND).addBoth(got.append)
+    bus.execute_and_wait(NumberCommand(1), GROUND).addBoth(got.append)
     assert got[0].check(UnhandledCommandError)
     bus.execute_command(NumberCommand(2), GROUND)
     assert bus.counters["unhandled"] == 2
@@ -132,7 +132,7 @@ def test_its_fault_is_named_and_counted_and_harms_nobody(bus, ask, fault):
     bus.register_command(NumberCommand, heard.append)
     with Log() as log:
         if ask:
-            bus.execute_for_outcome(NumberCommand(1), GROUND).addBoth(got.append)
+            bus.execute_and_wait(NumberCommand(1), GROUND).addBoth(got.append)
             assert got == [None]
         else:
             bus.execute_command(NumberCommand(1), GROUND)
@@ -154,7 +154,7 @@ def test_what_it_returns_delays_no_outcome(bus):
     bus.add_observer(lambda command, origin: Deferred())
     bus.register_command(NumberCommand, lambda _: None)
     got = []
-    bus.execute_for_outcome(NumberCommand(1), GROUND).addBoth(got.append)
+    bus.execute_and_wait(NumberCommand(1), GROUND).addBoth(got.append)
     assert got == [None]
 
 
@@ -197,10 +197,10 @@ def test_one_that_goes_while_a_command_is_delivered_acts_from_the_next_on(bus):
 
 
 def test_it_is_taken_back_with_its_module(bus):
-    registrations = Registrations()
-    with registrations.noted():
+    cleanups = CleanupStack()
+    with cleanups.recording():
         recorder = Recorder(bus)
-    registrations.undo()
+    cleanups.unwind()
     bus.execute_command(NumberCommand(1))
     assert not recorder.seen
 

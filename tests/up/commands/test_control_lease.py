@@ -10,10 +10,9 @@ from tests.up.commands.samples import Log
 from up.base_started_module import BaseStartedModule
 from up.commands.control_lease import SILENCE_S
 from up.commands.origin import Origin
-from up.commands.output_command import OutputCommand
+from up.commands.output_command import OutputCommand, SetpointCommand
 from up.commands.refusal import CommandRefusedError
 from up.commands.roles import Role
-from up.commands.setpoint_command import SetpointCommand
 from up.commands.system_commands import LinkStateCommand
 from up.testing import Bench
 
@@ -25,14 +24,14 @@ class Mode(BaseStartedModule):
 
     ROLL_DEG = 0.0
 
-    def _execute_initialization(self):
+    def on_init(self):
         self.loop = LoopingCall(self.step)
         self.loop.clock = self.context.reactor
 
-    def _execute_start(self):
+    def on_start(self):
         self.loop.start(0.02)
 
-    def _execute_stop(self):
+    def on_stop(self):
         self.loop.stop()
 
     def step(self):
@@ -50,7 +49,7 @@ class Level(Mode):
 class Sink(BaseStartedModule):
     """Remembers delivered Commands."""
 
-    def _execute_initialization(self):
+    def on_init(self):
         self.rolls, self.origins, self.outputs, self.seen = [], [], [], []
         executor = self.up.command_executor
         executor.register_command(SetpointCommand, self.on_setpoint)
@@ -126,7 +125,7 @@ def test_outputs_and_setpoints_share_the_lease_however_they_are_published(bench)
     owner = sink.origins[0]
     executor.execute_command(OUTPUT)
     executor.execute_command(OUTPUT, Origin("ModeManager", Role.INTERNAL))
-    outcome = executor.execute_for_outcome(OUTPUT, Origin("ModeManager", Role.INTERNAL))
+    outcome = executor.execute_and_wait(OUTPUT, Origin("ModeManager", Role.INTERNAL))
     outcome.addErrback(lambda failure: failure.check(CommandRefusedError))
     assert isinstance(outcome, Deferred) and outcome.result is CommandRefusedError
     thread = threading.Thread(target=executor.execute_command, args=(OUTPUT,))

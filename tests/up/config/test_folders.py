@@ -2,9 +2,8 @@ import pytest
 
 from tests.up.config.samples import LINK, Link, Remote
 from up.config import ConfigErrors, load_all, unknown_files
-from up.config.application import APPLICATION, ApplicationConfig
-from up.config.disabled_modules import DISABLED_MODULES
-from up.config.map_file import MapFile
+from up.config.application import APPLICATION, DISABLED_MODULES, ApplicationConfig
+from up.config.file import MapFile
 
 FILES = [LINK, APPLICATION, DISABLED_MODULES]
 

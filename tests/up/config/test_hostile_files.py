@@ -7,8 +7,7 @@ from hypothesis import strategies as st
 
 from tests.up.config.samples import LINK, PATH, Link, problems_of
 from up.config import ConfigErrors
-from up.config.application import APPLICATION
-from up.config.disabled_modules import DISABLED_MODULES
+from up.config.application import APPLICATION, DISABLED_MODULES
 
 FILES = [LINK, APPLICATION, DISABLED_MODULES]
 SMALL = (

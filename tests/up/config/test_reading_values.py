@@ -5,7 +5,7 @@ import pytest
 from tests.up.config.samples import LINK, PATH, Gains, Link, Remote, problems_of
 from up.config import ConfigErrors, ConfigFile, items, key, section
 from up.config.nodes import compose
-from up.config.shape import shape_of
+from up.config.schema import schema_of
 from up.config.validator import Validator
 
 
@@ -46,7 +46,7 @@ def test_a_reader_may_want_a_value_behind_every_key():
     problems = []
     root = compose("role:\nlimit:\nremote_server:\n", lambda *one: problems.append(one))
     validator = Validator(lambda *one: problems.append(one), {}, valued=True)
-    validator.read(shape_of(Link), root, "part")
+    validator.read(schema_of(Link), root, "part")
     assert problems == [(1, 6, "part.role: must have a value")]
 
 

@@ -11,9 +11,13 @@ from hypothesis import strategies as st
 
 from tests.up.config.samples import LINK, PATH, Gains, Link, Remote
 from up.config import ConfigFile, items, mapping, section, write_schemas, write_template
-from up.config.application import APPLICATION, ApplicationConfig
-from up.config.disabled_modules import DISABLED_MODULES, DisabledModulesConfig
-from up.config.shape import ListOf
+from up.config.application import (
+    APPLICATION,
+    DISABLED_MODULES,
+    ApplicationConfig,
+    DisabledModulesConfig,
+)
+from up.config.schema import ListOf
 from up.fields import Constraint
 
 FILES = [LINK, APPLICATION, DISABLED_MODULES]
@@ -33,7 +37,7 @@ def test_a_template_names_every_key_and_is_easy_to_read(file):
     assert all(len(line) <= 78 for line in template.splitlines())
     assert list(yaml.safe_load(template)) == [
         entry.name
-        for entry in file.shape.entries
+        for entry in file.schema.entries
         if entry.default is not None or entry.name == "limit"
     ]
 

@@ -98,14 +98,14 @@ def test_every_byte_flipped_the_gains_are_valid(pids, tmp_path):
 
 
 def test_a_disk_that_refuses_loses_nothing(pids, tmp_path, monkeypatch):
-    from up.config import writing
+    from up.config import atomic_writer
 
     pids.save(OURS)
 
     def full(*_):
         raise OSError(28, "No space left on device")
 
-    monkeypatch.setattr(writing.os, "write", full)
+    monkeypatch.setattr(atomic_writer.os, "write", full)
     with pytest.raises(OSError, match="No space"):
         pids.save(GainSet(LOOP, LOOP))
     monkeypatch.undo()

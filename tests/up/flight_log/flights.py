@@ -88,8 +88,11 @@ class FlightMaker(LogMaker):
         data = {**data, KEY: origin_text(origin)}
         self.raw(time_s, command.NAME, json.dumps(data).encode())
 
-    def line(self, time_s: float, level: int, name: str, text: str) -> None:
-        self.add(time_s, "log", level=level, name=name, message=text)
+    def line(
+        self, time_s: float, level: int, name: str, text: str, /, code: str = "", **fields
+    ) -> None:
+        coded = {"code": code, "fields": fields} if code else {}
+        self.add(time_s, "log", level=level, name=name, message=text, **coded)
 
     def every(self, begin_s: float, end_s: float, period_s: float, command, origin=BOARD) -> None:
         """Add a Command, or the result of a function of the time, repeatedly."""

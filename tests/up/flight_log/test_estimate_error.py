@@ -6,8 +6,8 @@ import pytest
 
 from tests.up.flight_log.flights import BOARD, PHONE, FlightMaker, OrientationCommand
 from up.flight_log.estimate_error import estimate_errors
+from up.flight_log.findings import findings
 from up.flight_log.summary import summarise
-from up.flight_log.wrongs import wrongs
 
 FLOWN_S = 20.0
 
@@ -46,8 +46,8 @@ def test_worst_and_rms_of_each_axis_with_code_and_fields(tmp_path):
     assert (roll.axis, roll.worst_deg, roll.worst_s) == ("roll", 3.0, 4.0)
     assert roll.rms_deg == pytest.approx(1.5, abs=0.02)
     assert (pitch.axis, pitch.worst_deg) == ("pitch", 4.0)
-    found = [each for each in wrongs(log) if each.code == "estimate_error"]
-    assert [(each.level, each.time_s, dict(each.values)) for each in found] == [
+    found = [each for each in findings(log) if each.code == "estimate_error"]
+    assert [(each.level, each.time_s, dict(each.fields)) for each in found] == [
         (
             "warning",
             each.worst_s,
@@ -62,25 +62,25 @@ def test_worst_and_rms_of_each_axis_with_code_and_fields(tmp_path):
     ]
 
 
-def test_up_to_two_degrees_nothing_is_told_as_wrong(tmp_path):
+def test_an_error_up_to_two_degrees_is_not_a_finding(tmp_path):
     log = flown(tmp_path, level, lambda time_s: (2.0, -1.9))
     assert [each.worst_deg for each in estimate_errors(log)] == pytest.approx([2.0, 1.9])
-    assert [each for each in wrongs(log) if each.code] == []
+    assert [each for each in findings(log)] == []
 
 
-def test_a_roll_that_is_logged_a_little_late_is_no_error(tmp_path):
+def test_a_late_estimate_is_not_an_error(tmp_path):
     roll, _ = estimate_errors(flown(tmp_path, rolling, rolling, late_s=0.04))
     assert roll.worst_deg < 0.1
     roll, _ = estimate_errors(flown(tmp_path, rolling, rolling, late_s=0.2))
     assert roll.worst_deg > 10
 
 
-def test_inverted_the_error_goes_the_short_way(tmp_path):
+def test_an_error_across_180_degrees(tmp_path):
     log = flown(tmp_path, lambda time_s: (179.5, 0.0), lambda time_s: (-178.5, 0.0))
     assert [each.worst_deg for each in estimate_errors(log)] == [2.0, 0.0]
 
 
-def test_on_its_back_a_large_error_is_not_taken_for_none(tmp_path):
+def test_an_error_of_180_degrees_is_not_zero(tmp_path):
     def upside_down(time_s):
         return 100 * time_s + 180, 0.0
 
@@ -89,7 +89,7 @@ def test_on_its_back_a_large_error_is_not_taken_for_none(tmp_path):
     assert roll.worst_deg > 170
 
 
-def test_another_source_than_the_one_flown_by_does_not_count(tmp_path):
+def test_only_the_selected_source_counts(tmp_path):
     maker = FlightMaker()
     for tick in range(200):
         maker.add(tick / 20, "simulator.truth", roll_deg=0.0, pitch_deg=0.0)
@@ -99,7 +99,7 @@ def test_another_source_than_the_one_flown_by_does_not_count(tmp_path):
     assert roll.worst_deg == 1.0
 
 
-def test_a_real_flight_has_no_truth(tmp_path):
+def test_a_flight_without_truth_has_no_errors(tmp_path):
     maker = FlightMaker()
     maker.quiet_flight()
     assert list(estimate_errors(maker.log(tmp_path))) == []

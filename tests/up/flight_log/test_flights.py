@@ -1,13 +1,27 @@
-"""Which flight a user means."""
+"""The flight that a user selects."""
 
 import pytest
 
 from tests.cogs.black_box_cog.logbook import START_UNIX_S, write_flight
 from up.flight_log.flights import FlightNotFoundError, find_flight, find_flight_of
 
+THREE, FOUR, SECOND, TENTH = (
+    "0003-20260424T030640Z-kite.mcap",
+    "0004-20260424T030640Z-kite.mcap",
+    "0004-20260424T030640Z-kite.2.mcap",
+    "0004-20260424T030640Z-kite.10.mcap",
+)
 
-def found(named, folder):
-    return [path.name for path in find_flight(str(named), lambda: folder).paths]
+
+def found(name, folder):
+    return [path.name for path in find_flight(str(name), lambda: folder).paths]
+
+
+def error_of(names, folder):
+    with pytest.raises(FlightNotFoundError) as caught:
+        find_flight_of([str(name) for name in names], lambda: folder)
+    assert "\n" not in str(caught.value) and len(str(caught.value)) < 500
+    return caught.value
 
 
 @pytest.fixture
@@ -20,98 +34,71 @@ def folder(tmp_path):
 
 
 def test_numbers_last_files_and_folders(folder, tmp_path):
-    three, four, second, tenth = (
-        "0003-20260424T030640Z-kite.mcap",
-        "0004-20260424T030640Z-kite.mcap",
-        "0004-20260424T030640Z-kite.2.mcap",
-        "0004-20260424T030640Z-kite.10.mcap",
-    )
-    assert found(3, folder) == found("0003", folder) == [three]
-    assert found("last", folder) == found(4, folder) == [four, second, tenth]
-    assert found(folder / four, tmp_path / "nowhere") == [four, second, tenth]
-    assert found(folder / second, tmp_path / "nowhere") == [second]
+    assert found(3, folder) == found("0003", folder) == [THREE]
+    assert found("last", folder) == found(4, folder) == [FOUR, SECOND, TENTH]
+    assert found(folder / FOUR, tmp_path / "nowhere") == [FOUR, SECOND, TENTH]
+    assert found(folder / SECOND, tmp_path / "nowhere") == [SECOND]
     inner = tmp_path / "one"
     inner.mkdir()
-    for name in (four, second):
+    for name in (FOUR, SECOND):
         (folder / name).rename(inner / name)
-    assert found(inner, folder) == [four, second]
+    assert found(inner, folder) == [FOUR, SECOND]
 
 
-def test_parts_with_names_of_their_own(tmp_path):
+def test_renamed_parts(tmp_path):
     for name in ("b.mcap", "a.mcap"):
         write_flight(tmp_path).rename(tmp_path / name)
     assert found(tmp_path, None) == ["a.mcap", "b.mcap"]
     assert found(tmp_path / "b.mcap", None) == ["b.mcap"]
 
 
-def test_two_aircraft_with_one_number(tmp_path):
+def test_several_flights_with_one_number(tmp_path):
     for name in ("kite", "glider"):
         write_flight(tmp_path, 1, aircraft=name)
-    with pytest.raises(
-        FlightNotFoundError, match=r"2 flights have the number 1: name .*glider.* or .*kite"
-    ):
-        find_flight("1", lambda: tmp_path)
     write_flight(tmp_path, 1, start_unix_s=START_UNIX_S + 60)
-    with pytest.raises(FlightNotFoundError, match="3 flights have the number 1"):
-        find_flight("1", lambda: tmp_path)
+    error = error_of([1], tmp_path)
+    assert error.code == "several_flights"
+    assert "glider" in str(error) and "kite" in str(error)
 
 
 @pytest.mark.parametrize(
-    ("named", "sentence"),
+    ("name", "code", "text"),
     [
-        ("9", "there is no flight 9 in {folder}: the newest is 4, the oldest 3"),
-        ("lst", "lst: no such flight, did you mean 'last'?"),
-        ("Last", "Last: no such flight, did you mean 'last'?"),
-        ("x.mcap", "x.mcap: no such flight ('last', a number that 'up log list' tells, "),
-        ("\x1b[2J", "\\x1b[2J: no such flight"),
-        ("{folder}", "{folder} has 2 flights: say --folder {folder} and a number"),
-        ("{folder}/empty", "no flight is in {folder}/empty: it has no file that ends in .mcap"),
+        ("9", "no_such_flight", "newest is 4, the oldest 3"),
+        ("lst", "no_such_flight", "did you mean 'last'?"),
+        ("Last", "no_such_flight", "did you mean 'last'?"),
+        ("x.mcap", "no_such_flight", "up log list"),
+        ("\x1b[2J", "no_such_flight", "\\x1b[2J"),
+        ("9" * 5000, "no_such_flight", ""),
+        ("x\0y", "no_such_flight", ""),
+        ("{folder}", "several_flights", "--folder"),
+        ("{folder}/empty", "no_flights", ".mcap"),
     ],
 )
-def test_what_is_none_is_one_sentence(folder, named, sentence):
+def test_a_name_without_a_flight(folder, name, code, text):
     (folder / "empty").mkdir()
-    with pytest.raises(FlightNotFoundError) as caught:
-        find_flight(named.replace("{folder}", str(folder)), lambda: folder)
-    assert str(caught.value).startswith(sentence.replace("{folder}", str(folder)))
+    error = error_of([name.replace("{folder}", str(folder))], folder)
+    assert error.code == code
+    assert text in str(error)
 
 
-def test_where_nothing_was_recorded(tmp_path):
-    with pytest.raises(
-        FlightNotFoundError, match="no flight has been recorded: there is no folder"
-    ):
-        find_flight("last", lambda: tmp_path / "nowhere")
-    with pytest.raises(FlightNotFoundError, match="no flight is in"):
-        find_flight("1", lambda: tmp_path)
+def test_a_folder_without_flights(tmp_path):
+    assert error_of(["last"], tmp_path / "nowhere").code == "no_folder"
+    assert error_of([1], tmp_path).code == "no_flights"
     write_flight(tmp_path, 2)
-    with pytest.raises(FlightNotFoundError, match="it has 2 only"):
-        find_flight("1", lambda: tmp_path)
+    assert error_of([1], tmp_path).code == "no_such_flight"
 
 
 def test_several_files_are_the_parts_of_one_flight(folder):
-    names = [
-        "0004-20260424T030640Z-kite.mcap",
-        "0004-20260424T030640Z-kite.2.mcap",
-        "0004-20260424T030640Z-kite.10.mcap",
-    ]
-    words = [str(folder / name) for name in (names[2], names[0], names[1])]
+    names = [FOUR, SECOND, TENTH]
+    words = [str(folder / name) for name in (TENTH, FOUR, SECOND)]
     assert [path.name for path in find_flight_of(words, lambda: folder).paths] == names
-    assert find_flight_of(["3"], lambda: folder).number == 3
-    (folder / names[2]).rename(folder / "a.mcap")
-    words = [str(folder / name) for name in (names[0], "a.mcap")]
+    (folder / TENTH).rename(folder / "a.mcap")
+    words = [str(folder / name) for name in (FOUR, "a.mcap")]
     assert [str(path) for path in find_flight_of(words, lambda: folder).paths] == words
 
 
-def test_files_that_are_not_of_one_flight(folder):
-    three, four = (str(folder / f"000{n}-20260424T030640Z-kite.mcap") for n in (3, 4))
-    with pytest.raises(FlightNotFoundError, match="are of several flights: name one"):
-        find_flight_of([three, four], lambda: folder)
-    for other in (str(folder), "last", str(folder / "absent.mcap")):
-        with pytest.raises(FlightNotFoundError, match="is no file: name one flight, or the files"):
-            find_flight_of([three, other], lambda: folder)
-
-
-@pytest.mark.parametrize("named", ["9" * 5000, "x\0y"])
-def test_what_can_be_no_path_is_no_flight(folder, named):
-    with pytest.raises(FlightNotFoundError, match="no such flight") as caught:
-        find_flight(named, lambda: folder)
-    assert len(str(caught.value)) < 500
+def test_files_of_several_flights(folder):
+    assert error_of([folder / THREE, folder / FOUR], folder).code == "several_flights"
+    for other in (folder, "last", folder / "absent.mcap"):
+        assert error_of([folder / THREE, other], folder).code == "not_a_file"

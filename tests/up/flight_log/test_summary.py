@@ -16,7 +16,7 @@ from tests.up.flight_log.logs import START_NS
 from up.earth import distance_m
 from up.flight_log.spans import Span, duration_text, joined, spans_of
 from up.flight_log.summary import Mark, ModeSpan, summarise
-from up.flight_log.way import fixes, way_of
+from up.flight_log.track_statistics import fixes, track_statistics
 
 
 def test_a_flight_on_one_page(tmp_path):
@@ -107,7 +107,7 @@ def circle(maker, origin=PHONE, speed=True, offset=0.0):
 def test_the_way_has_length_speed_and_distance(tmp_path, speed):
     maker = FlightMaker()
     circle(maker, speed=speed)
-    way = way_of(maker.log(tmp_path))
+    way = track_statistics(maker.log(tmp_path))
     assert way.length_m == pytest.approx(4000, rel=0.01)
     assert way.farthest_m == pytest.approx(2000, rel=0.01)
     assert way.top_speed_m_s == pytest.approx(20, rel=0.02)
@@ -119,7 +119,7 @@ def test_an_aircraft_that_stands_has_no_way(tmp_path):
     for second in range(600):
         north_m = (second * 7919 % 100) / 50 - 1
         maker.put(second, LocationCommand(50 + north_m / 111_000, 14.0), PHONE)
-    assert way_of(maker.log(tmp_path)).length_m == 0.0
+    assert track_statistics(maker.log(tmp_path)).length_m == 0.0
 
 
 def test_jumps_of_the_receiver_are_no_way(tmp_path):
@@ -127,7 +127,7 @@ def test_jumps_of_the_receiver_are_no_way(tmp_path):
     circle(maker, speed=False)
     maker.put(50.5, LocationCommand(0.0, 0.0), PHONE)
     maker.put(120.5, LocationCommand(50.5, 14.0), PHONE)
-    way = way_of(maker.log(tmp_path))
+    way = track_statistics(maker.log(tmp_path))
     assert way.length_m == pytest.approx(4000, rel=0.01)
     assert way.farthest_m == pytest.approx(2000, rel=0.01)
     assert way.top_speed_m_s == pytest.approx(20, rel=0.05)
@@ -137,7 +137,7 @@ def test_a_first_place_that_was_wrong_is_not_home(tmp_path):
     maker = FlightMaker()
     maker.put(0, LocationCommand(0.0, 0.0), PHONE)
     circle(maker, speed=False, offset=1.0)
-    way = way_of(maker.log(tmp_path))
+    way = track_statistics(maker.log(tmp_path))
     assert way.length_m == pytest.approx(4000, rel=0.03)
     assert way.farthest_m == pytest.approx(2000, rel=0.03)
 
@@ -158,7 +158,7 @@ def test_a_place_that_is_repeated_is_none(tmp_path):
     for tenth in range(100):
         maker.put(tenth / 10, LocationCommand(50.0, 14.0), PHONE)
     maker.put(10, LocationCommand(50.001, 14.0), PHONE)
-    way = way_of(maker.log(tmp_path))
+    way = track_statistics(maker.log(tmp_path))
     assert way.top_speed_m_s == pytest.approx(distance_m(50, 14, 50.001, 14) / 10)
 
 

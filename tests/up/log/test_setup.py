@@ -9,7 +9,7 @@ import pytest
 from twisted.logger import LogBeginner, Logger, LogPublisher
 
 from up.log import start_logging
-from up.log.up_logger import UpLogger
+from up.log.setup import UpLogger
 
 PROGRAM = """
 import sys

@@ -52,7 +52,7 @@ def rig(tmp_path):
 
 def test_a_reading_knows_value_source_time_and_age(rig):
     provider = rig[UpOrientationProvider]
-    assert provider.reading is None and provider.usable(1e9) is None and provider.age_ms is None
+    assert provider.reading is None and provider.fresh(1e9) is None and provider.age_ms is None
     rig.clock.advance(5)
     command = OrientationCommand(1.0, 2.0, 3.0)
     rig.publish(command)
@@ -60,8 +60,8 @@ def test_a_reading_knows_value_source_time_and_age(rig):
     assert (reading.value, reading.source, reading.time_s) == (command, "arduino", 5.0)
     rig.clock.advance(0.25)
     assert provider.age_ms == 250
-    assert provider.usable(0.25) is reading
-    assert provider.usable(0.2) is None
+    assert provider.fresh(0.25) is reading
+    assert provider.fresh(0.2) is None
     assert provider.roll == 1.0
 
 
@@ -69,9 +69,9 @@ def test_wall_clock_jumps_are_nothing(rig, monkeypatch):
     rig.publish(OrientationCommand(1.0, 2.0, 3.0))
     now = time.time()
     monkeypatch.setattr(time, "time", lambda: now + 86400)
-    assert rig[UpOrientationProvider].usable(0.001)
+    assert rig[UpOrientationProvider].fresh(0.001)
     monkeypatch.setattr(time, "time", lambda: now - 86400)
-    assert rig[UpOrientationProvider].usable(0.001)
+    assert rig[UpOrientationProvider].fresh(0.001)
     assert rig[UpOrientationProvider].age_ms == 0
 
 
@@ -81,26 +81,26 @@ def test_an_orientation_that_is_not_finite_is_never_usable(rig, place, bad):
     values = [0.0] * 6
     values[place] = bad
     rig.publish(OrientationCommand(*values, 1))
-    assert rig[UpOrientationProvider].usable(1e9) is None
+    assert rig[UpOrientationProvider].fresh(1e9) is None
     rig.publish(OrientationCommand(*[0.0] * 6, 2))
-    assert rig[UpOrientationProvider].usable(0.1)
+    assert rig[UpOrientationProvider].fresh(0.1)
     rig.publish(OrientationCommand(*values, 3))
-    assert rig[UpOrientationProvider].usable(0.1) is None
+    assert rig[UpOrientationProvider].fresh(0.1) is None
 
 
 def test_one_invalid_channel_makes_the_inputs_unusable(rig):
     for channel in range(6):
         rig.publish(RXCommand(*STICKS, ALL_VALID))
-        assert rig[UpRXProvider].usable(0.1)
+        assert rig[UpRXProvider].fresh(0.1)
         rig.publish(RXCommand(*STICKS, ALL_VALID & ~(1 << channel)))
-        assert rig[UpRXProvider].usable(0.1) is None
+        assert rig[UpRXProvider].fresh(0.1) is None
         assert rig[UpRXProvider].get_channels()["throttle"] == 1000
 
 
 def test_invalid_inputs_of_another_source_do_not_replace_good_ones(rig):
     rig.publish(RXCommand(*STICKS, ALL_VALID))
     rig.publish(RXCommand(*STICKS, 0), Origin("other", Role.BOARD, 99))
-    assert rig[UpRXProvider].usable(0.1).source == "arduino"
+    assert rig[UpRXProvider].fresh(0.1).source == "arduino"
 
 
 def test_the_phone_takes_over_from_a_silent_board_and_it_is_logged(rig):

@@ -11,8 +11,7 @@ from android_cog.commands.android_battery_command import (
 )
 from android_cog.config import ANDROID
 from up.commands.command import BaseCommand
-from up.providers.base_provider import BaseProvider
-from up.providers.reading import Reading
+from up.providers.base_provider import BaseProvider, Reading
 
 HYSTERESIS_PERCENT = 5.0
 
@@ -28,8 +27,8 @@ class AndroidBatteryProvider(BaseProvider[float]):
         super().__init__(config, silent)
         self.is_low = False
 
-    def _execute_initialization(self) -> None:
-        super()._execute_initialization()
+    def on_init(self) -> None:
+        super().on_init()
         self._low_percent = self.context.config(ANDROID).low_battery_percent
 
     @property
@@ -50,11 +49,12 @@ class AndroidBatteryProvider(BaseProvider[float]):
         level = reading.value
         if not self.is_low and self._low_percent > 0 and level <= self._low_percent:
             self.is_low = True
-            self._log_error(f"the phone's battery is low: {level:g} percent")
+            text = "the phone's battery is low: {level:g} percent"
+            self.log.error(text, level=level, code="battery_low")
             self._tell(level)
         elif self.is_low and level >= self._low_percent + HYSTERESIS_PERCENT:
             self.is_low = False
-            self._log_info(f"the phone's battery is at {level:g} percent again")
+            self.log.info("the phone's battery is at {level:g} percent again", level=level)
             self._tell(level)
 
     def _tell(self, level: float) -> None:

@@ -12,7 +12,7 @@ from android_cog.phone_link import PhoneLink, host_of
 from android_cog.phone_route import PhoneRoute
 from android_cog.ports import Ports
 from android_cog.telemetry_forward import TelemetryForward
-from up.base_started_module import BaseStartedModule
+from up.base_started_module import BaseStartedModule, StartFailedError
 from up.commands.answer_commands import AckCommand, NackCommand
 from up.commands.command import BaseCommand
 from up.commands.orientation_command import OrientationCommand
@@ -27,8 +27,7 @@ from up.mode import Mode
 from up.protocols.general_message import GeneralMessage, MalformedMessage, encode
 from up.protocols.general_message_link import GeneralMessageLink
 from up.protocols.orientation_forward import OrientationFrame
-from up.start_result import StartFailedError
-from up.system.plain_peers import PlainPeers
+from up.system.peer_filter import PeerFilter
 
 LINK = "android"
 PRIORITY = 0
@@ -49,10 +48,10 @@ class AndroidProvider(BaseStartedModule):
     CONFIG = ANDROID
     DATA_SOURCE: ClassVar[bool] = True
 
-    def _execute_initialization(self) -> None:
+    def on_init(self) -> None:
         clock = self.context.reactor
         config = self.config
-        self._peers = PlainPeers(config.i_accept_plain, "android.yml: i_accept_plain")
+        self._peers = PeerFilter(config.i_accept_plain, "android.yml: i_accept_plain")
         self._phone = PhoneLink(
             clock,
             self._peers,
@@ -139,14 +138,14 @@ class AndroidProvider(BaseStartedModule):
         """Send a Command to the phone; return whether it was sent or queued."""
         return self._phone.send(encode(command.NAME, command.data, command_id))
 
-    async def _execute_start(self) -> None:
+    async def on_start(self) -> None:
         config = self.config
         refusal = self._peers.refusal_of(config.address)
         if refusal:
             raise StartFailedError(f"{refusal} (android.yml: address)")
         is_black_box = self.context.mode is Mode.BLACK_BOX
         if config.stop_if_orientation_is_lost and not is_black_box:
-            self._log_warning(
+            self.log.warn(
                 "'stop if orientation connection is lost' holds in Black Box Mode only: ignored"
             )
         datagrams = (None, None) if is_black_box else (self._phone, self._orientation)
@@ -169,7 +168,7 @@ class AndroidProvider(BaseStartedModule):
         self.up.advertise_port("general", general)
         self.up.advertise_port("orientation", orientation)
 
-    async def _execute_stop(self) -> None:
+    async def on_stop(self) -> None:
         self._absence.cancel()
         self._forward.forget()
         await self._ports.close()
@@ -200,7 +199,7 @@ class AndroidProvider(BaseStartedModule):
         self._competitor, self._competitor_s = host_of(peer), self.context.reactor.seconds()
         owner = self._phone.current
         self._said.log(
-            self.logger.warn,
+            self.log.warn,
             "the phone {peer} is rejected ({code}): {owner} is connected",
             peer=peer,
             code=Code.TAKEN.value,
@@ -209,14 +208,14 @@ class AndroidProvider(BaseStartedModule):
 
     def _on_connected(self, link: GeneralMessageLink) -> None:
         self._orientation.judge_again()
-        self._said.log(self.logger.info, "the phone is connected from {peer}", peer=link.peer)
+        self._said.log(self.log.info, "the phone is connected from {peer}", peer=link.peer)
         self._forward.forget()
         if self._panic is not None:
             link.send(encode(self._panic.NAME, self._panic.data))
         self._tell_state()
 
     def _on_lost(self, link: GeneralMessageLink, why: str) -> None:
-        self._said.log(self.logger.warn, "the phone's link is lost: {why}", why=why)
+        self._said.log(self.log.warn, "the phone's link is lost: {why}", why=why)
         self._route.on_lost(link)
         self._tell_state()
 
@@ -230,11 +229,11 @@ class AndroidProvider(BaseStartedModule):
         self.up.command_executor.execute_command(OrientationCommand(*frame), self._origin)
 
     def _on_orientation_connected(self) -> None:
-        self._said.log(self.logger.info, "the phone's orientation comes")
+        self._said.log(self.log.info, "the phone's orientation comes")
         self._absence.cancel()
 
     def _on_orientation_lost(self) -> None:
-        self._said.log(self.logger.warn, "the phone's orientation is lost")
+        self._said.log(self.log.warn, "the phone's orientation is lost")
         if (
             self.started
             and self.config.stop_if_orientation_is_lost
@@ -243,9 +242,10 @@ class AndroidProvider(BaseStartedModule):
             self._absence.begin()
 
     def _stop_program(self) -> None:
-        self._log_error(
-            f"no orientation from the phone for {self.config.stop_delay_s:g} s: stopping"
-            " (android.yml: stop if orientation connection is lost)"
+        self.log.error(
+            "no orientation from the phone for {stop_delay_s:g} s: stopping"
+            " (android.yml: stop if orientation connection is lost)",
+            stop_delay_s=self.config.stop_delay_s,
         )
         self.up.command_executor.execute_command(SystemStopCommand())
 
@@ -259,7 +259,9 @@ class AndroidProvider(BaseStartedModule):
         except ValueError as error:
             self._telemetry_faults += 1
             if self._telemetry_faults == 1:
-                self._log_error(f"telemetry cannot be sent to the phone: {error}; said once")
+                self.log.error(
+                    "telemetry cannot be sent to the phone: {error}; said once", error=error
+                )
         else:
             self._phone.send_newest(message)
 

@@ -24,7 +24,7 @@ class ArduinoArming(BaseModule):
 
     arduino = needs(ArduinoProvider)
 
-    def _execute_initialization(self) -> None:
+    def on_init(self) -> None:
         self.up.command_executor.register_command(ArmCommand, self.on_arm)
         self.up.command_executor.register_command(DisarmCommand, self.on_disarm)
 

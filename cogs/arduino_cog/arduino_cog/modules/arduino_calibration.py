@@ -27,7 +27,7 @@ class ArduinoCalibration(BaseModule):
 
     arduino = needs(ArduinoProvider)
 
-    def _execute_initialization(self) -> None:
+    def on_init(self) -> None:
         self.up.command_executor.register_command(ArduinoCalibrateCommand, self.on_calibrate)
 
     def on_calibrate(self, command: ArduinoCalibrateCommand) -> Deferred[Any]:
@@ -40,4 +40,4 @@ class ArduinoCalibration(BaseModule):
         return done.addCallback(self._say, command.what)
 
     def _say(self, _: object, what: str) -> None:
-        self._log_info(f"the Arduino calibrated: {what}")
+        self.log.info("the Arduino calibrated: {what}", what=what)

@@ -8,7 +8,7 @@ from twisted.internet.defer import Deferred
 
 from arduino_cog.modules.arduino_provider import ArduinoProvider
 from up.base_module import BaseModule
-from up.commands.flight_mode_command import FlightModeCommand
+from up.commands.flight_state_command import FlightModeCommand
 from up.mode import WITH_ARDUINO
 from up.needs import needs
 
@@ -24,7 +24,7 @@ class ArduinoFlightMode(BaseModule):
 
     arduino = needs(ArduinoProvider)
 
-    def _execute_initialization(self) -> None:
+    def on_init(self) -> None:
         auto = _AUTO[self.context.application.flight_controller]
         self._letters = {**_LETTERS, "AUTO": auto}
         self.up.command_executor.register_command(FlightModeCommand, self.on_flight_mode)

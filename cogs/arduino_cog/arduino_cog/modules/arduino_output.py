@@ -5,8 +5,7 @@ from __future__ import annotations
 from arduino_cog.modules.arduino_provider import ArduinoProvider
 from arduino_cog.wire import OUTPUT, pack_setpoint
 from up.base_module import BaseModule
-from up.commands.output_command import OutputCommand
-from up.commands.setpoint_command import SetpointCommand
+from up.commands.output_command import OutputCommand, SetpointCommand
 from up.mode import WITH_ARDUINO
 from up.needs import needs
 
@@ -23,10 +22,10 @@ class ArduinoOutput(BaseModule):
 
     arduino = needs(ArduinoProvider)
 
-    def _execute_initialization(self) -> None:
+    def on_init(self) -> None:
         self._send_command = self.arduino.serial.send_command
         if not self.arduino.is_checked:
-            self._log_info("thesis framing: the Raspberry Pi's Outputs and setpoints are not sent")
+            self.log.info("thesis framing: the Raspberry Pi's Outputs and setpoints are not sent")
             return
         self.up.command_executor.register_command(OutputCommand, self.on_output)
         self.up.command_executor.register_command(SetpointCommand, self.on_setpoint)

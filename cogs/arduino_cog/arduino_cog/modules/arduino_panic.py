@@ -22,7 +22,7 @@ class ArduinoPanic(BaseModule):
 
     _newest: PanicCommand | None = None
 
-    def _execute_initialization(self) -> None:
+    def on_init(self) -> None:
         self.up.command_executor.register_command(PanicCommand, self.on_panic)
         self.arduino.add_board_listener(self.on_board_begun)
 
@@ -46,4 +46,4 @@ class ArduinoPanic(BaseModule):
 
     def _on_refused(self, failure: Failure) -> None:
         failure.trap(CommandRefusedError)
-        self._log_warning(f"panic was not passed on: {failure.getErrorMessage()}")
+        self.log.warn("panic was not passed on: {reason}", reason=failure.getErrorMessage())

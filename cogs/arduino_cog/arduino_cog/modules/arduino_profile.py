@@ -19,9 +19,9 @@ from arduino_cog.profile import Profile, pack_profile, read_profile
 from arduino_cog.profile_data import differences, flat, with_changes
 from arduino_cog.wire import IN_FLIGHT
 from up.base_module import BaseModule
-from up.commands.fly_by_wire_limits_command import FlyByWireLimitsCommand
+from up.commands.flight_state_command import FlyByWireLimitsCommand
 from up.commands.refusal import Code, CommandRefusedError
-from up.config.values import plain_value
+from up.config.schema import plain_value
 from up.mode import WITH_ARDUINO
 from up.needs import needs, wants
 from up.providers.base_mission_control_provider import BaseMissionControlProvider
@@ -60,15 +60,16 @@ class ArduinoProfile(BaseModule):
         """Return the profile that the Arduino last reported; None while unknown."""
         return self._board.held
 
-    def _execute_initialization(self) -> None:
-        self._wishes = dict(flat(plain_value(AIRFRAME.shape, self.config)))
+    def on_init(self) -> None:
+        self._wishes = dict(flat(plain_value(AIRFRAME.schema, self.config)))
         self._board = BoardValue(self.arduino, "c", "C", read_profile, "profile", self._tell_bus)
         executor = self.up.command_executor
         executor.register_command(ArduinoProfileRequestCommand, self.on_request)
         if not self.arduino.is_checked:
             if self._wishes:
-                self._log_warning(
-                    f"{_VETO} is not used: an old firmware (framing: thesis) keeps no profile"
+                self.log.warn(
+                    "{veto} is not used: an old firmware (framing: thesis) keeps no profile",
+                    veto=_VETO,
                 )
             return
         self.arduino.add_board_listener(self.on_board_begun)
@@ -135,7 +136,9 @@ class ArduinoProfile(BaseModule):
         if self.arduino.is_in_flight:
             self._tell_in_flight(text)
             return
-        self._log_info(f"the Arduino gets the profile of {_VETO}, which differs: {text}")
+        self.log.info(
+            "the Arduino gets the profile of {veto}, which differs: {text}", veto=_VETO, text=text
+        )
         sent = self._board.send("C", payload, lambda now: now == wanted)
         sent.addCallbacks(lambda _: self._on_sent(), self._on_failed)
 
@@ -157,7 +160,7 @@ class ArduinoProfile(BaseModule):
         self._compare(held)
 
     def _on_sent(self) -> None:
-        self._log_info("the Arduino has taken the profile")
+        self.log.info("the Arduino has taken the profile")
         # If the board then reports a damaged copy, its EEPROM is worn: do not write again.
         self._back_off()
         self._settle()
@@ -168,15 +171,18 @@ class ArduinoProfile(BaseModule):
 
     def _give_up(self, reason: str) -> None:
         self._is_settled = True
-        self._log_error(f"{_VETO} {reason}")
+        self.log.error("{veto} {reason}", veto=_VETO, reason=reason)
         self.up.vetoes.set(_VETO, reason)
 
     def _tell_in_flight(self, changes: str) -> None:
         if not self._is_told:
             self._is_told = True
-            self._log_warning(
-                f"the Arduino keeps another profile than {_VETO} has ({changes}):"
-                f" in flight ({IN_FLIGHT})"
+            self.log.warn(
+                "the Arduino keeps another profile than {veto} has ({changes}):"
+                " in flight ({in_flight})",
+                veto=_VETO,
+                changes=changes,
+                in_flight=IN_FLIGHT,
             )
 
     def _veto(self, reason: str) -> None:
@@ -190,7 +196,7 @@ class ArduinoProfile(BaseModule):
         self._board.held = None
         self._back_off()
         reason = failure.getErrorMessage()
-        self._log_warning(f"profile: {reason}")
+        self.log.warn("profile: {reason}", reason=reason)
         self._veto(f"the Arduino's profile is not as it says: {reason}")
 
     def _tell_bus(self, held: Profile) -> None:

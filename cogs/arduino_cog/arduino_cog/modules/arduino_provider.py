@@ -190,7 +190,7 @@ class ArduinoProvider(BaseStartedModule):
         """Send a message of an unconfirmed stream; only the newest of a type waits."""
         return self.serial.send_command(type_, payload, True)
 
-    def _execute_initialization(self) -> None:
+    def on_init(self) -> None:
         executor: CommandExecutor = self.up.command_executor
         self._execute = executor.execute_command
         self._seconds = self.context.reactor.seconds
@@ -201,10 +201,10 @@ class ArduinoProvider(BaseStartedModule):
         self._subscribe()
         self.serial.add_listener(self)
 
-    def _execute_start(self) -> bool:
+    def on_start(self) -> bool:
         return True
 
-    def _execute_stop(self) -> None:
+    def on_stop(self) -> None:
         self._stop_alive()
         self.exchange.fail_all("Raspilot stops")
 
@@ -247,7 +247,7 @@ class ArduinoProvider(BaseStartedModule):
 
     def on_line_heard(self) -> None:
         """Report that the Arduino is connected."""
-        self._log_info("the Arduino answers")
+        self.log.info("the Arduino answers")
         self.up.vetoes.report(LINK, ())
         self._execute(LinkStateCommand(LINK, True))
         self._tell_begun()
@@ -319,13 +319,13 @@ class ArduinoProvider(BaseStartedModule):
             self._on_reset(status)
         elif previous is None and status.is_restored:
             # It was silent before, or this program just started: reported in both cases.
-            self._log_warning(f"the Arduino flies after a reset{_causes_of(status)}")
+            self.log.warn("the Arduino flies after a reset{causes}", causes=_causes_of(status))
         self._execute(status, ORIGIN)
         self._execute(flight_state_of(status, self.has_motor), ORIGIN)
 
     def _on_reset(self, status: ArduinoStatusCommand) -> None:
         self.counters["resets"] += 1
-        self._log_warning(f"the Arduino was reset{_causes_of(status)}")
+        self.log.warn("the Arduino was reset{causes}", causes=_causes_of(status))
         self._send_start()
         self._tell_begun()
 
@@ -355,7 +355,11 @@ class ArduinoProvider(BaseStartedModule):
         self.counters["refused_frames"] += 1
         if (type_, reason) not in self._refusals_named:
             self._refusals_named.add((type_, reason))
-            self._log_info(f"the Arduino refused {type_!r}: {reason or 'no reason given'}")
+            self.log.info(
+                "the Arduino refused {type_!r}: {reason}",
+                type_=type_,
+                reason=reason or "no reason given",
+            )
 
     def _keep_alive(self) -> None:
         """Send the keep-alive, and start an Arduino that does not forward."""

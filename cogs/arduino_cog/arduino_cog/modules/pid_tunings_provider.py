@@ -16,7 +16,7 @@ from up.base_module import BaseModule
 from up.commands.pid_tunings_commands import PIDTuningsCommand, PIDTuningsValuesCommand
 from up.commands.refusal import Code, CommandRefusedError
 from up.flight_controller.gains import GainSet
-from up.flight_controller.gains_keeper import GainsKeeper, refuse_unused
+from up.flight_controller.gains_store import GainsStore, refuse_unused
 from up.flight_controller.pids_file import PIDS, PidsFile
 from up.mode import WITH_ARDUINO
 from up.needs import needs, wants
@@ -59,9 +59,9 @@ class PIDTuningsProvider(BaseModule):
         """Return the Arduino's gains, with pids.yml's navigation; None while unknown."""
         return None if self.held is None else self.held.completed(self._saved)
 
-    def _execute_initialization(self) -> None:
+    def on_init(self) -> None:
         self._file = PidsFile(self.context.config_folder)
-        self._keeper = GainsKeeper(self._file, self.context.reactor)
+        self._keeper = GainsStore(self._file, self.context.reactor)
         self._load()
         self._is_thesis = not self.arduino.is_checked
         type_ = "T" if self._is_thesis else "G"
@@ -98,7 +98,7 @@ class PIDTuningsProvider(BaseModule):
         if problem is None:
             self.up.vetoes.clear(_VETO)
         else:
-            self._log_error(problem)
+            self.log.error("{reason}", reason=problem)
             self.up.vetoes.set(_VETO, problem)
 
     def _answer(self) -> Deferred[Any]:
@@ -125,9 +125,9 @@ class PIDTuningsProvider(BaseModule):
         self._is_pushed = True
         wanted = self._in_form(self._saved)
         if not self._differs(wanted):
-            self._log_info("the Arduino flies the gains of pids.yml")
+            self.log.info("the Arduino flies the gains of pids.yml")
             return
-        self._log_info("the Arduino gets the gains of pids.yml, which differ from its own")
+        self.log.info("the Arduino gets the gains of pids.yml, which differ from its own")
         self._transmit(wanted).addErrback(self._on_failed)
 
     def _may_push(self) -> bool:
@@ -147,8 +147,9 @@ class PIDTuningsProvider(BaseModule):
         if self.arduino.is_in_flight and not self._is_told:
             self._is_told = True
             if self._differs(self._in_form(self._saved)):
-                self._log_warning(
-                    f"the Arduino keeps other gains than pids.yml has: in flight ({IN_FLIGHT})"
+                self.log.warn(
+                    "the Arduino keeps other gains than pids.yml has: in flight ({in_flight})",
+                    in_flight=IN_FLIGHT,
                 )
 
     def _in_form(self, gains: GainSet) -> GainSet:
@@ -192,12 +193,12 @@ class PIDTuningsProvider(BaseModule):
         return self._keeper.save(whole).addCallbacks(lambda _: self._load(), self._on_unsaved)
 
     def _on_unsaved(self, failure: Failure) -> Failure:
-        self._log_error(failure.getErrorMessage())
+        self.log.error("{reason}", reason=failure.getErrorMessage())
         return failure
 
     def _on_failed(self, failure: Failure) -> None:
         failure.trap(CommandRefusedError)
-        self._log_warning(f"gains: {failure.getErrorMessage()}")
+        self.log.warn("gains: {reason}", reason=failure.getErrorMessage())
 
 
 def _in_form_of(sent: GainSet, held: GainSet) -> bytes:

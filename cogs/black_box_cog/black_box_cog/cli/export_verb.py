@@ -9,15 +9,15 @@ import sys
 from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 
-from black_box_cog.cli.near import no_such_topic
 from black_box_cog.cli.open_flight import flight_of, read
+from black_box_cog.cli.suggestions import no_such_topic
 from black_box_cog.cli.terminal import tell, warn
 from black_box_cog.export.csv_table import columns_of, topic_rows, wide_rows
 from black_box_cog.export.gpx import gpx_lines
 from black_box_cog.export.kml import kml_lines
 from black_box_cog.export.log_track import track_of
 from black_box_cog.export.output import make_folder, new_file
-from black_box_cog.report.wording import is_clock_right, start_text
+from black_box_cog.report.formatting import is_clock_right, start_text
 from up.cli.cli_error import CliError
 from up.fields import printable
 from up.flight_log.flight_log import FlightLog
@@ -26,7 +26,7 @@ from up.flight_log.mcap_format import FlightLogError
 from up.flight_log.spans import duration_text
 
 RATE_HZ = 10.0
-MOST_ROWS = 10_000_000
+MAX_ROWS = 10_000_000
 STDOUT = Path("-")
 _NOT_IN_A_TABLE = ("log", "/location")
 """Texts, which have no rate, and Foxglove's copy of the position."""
@@ -86,7 +86,7 @@ def _one(log: FlightLog, topic: str) -> Iterator[list[str]]:
 def _wide(log: FlightLog, topics: Sequence[str], rate_hz: float) -> Iterator[list[str]]:
     if not topics:
         raise CliError("the log has no messages: there is nothing to write")
-    if log.length_s * rate_hz > MOST_ROWS:
+    if log.length_s * rate_hz > MAX_ROWS:
         raise CliError(
             f"a table of {log.length_s * rate_hz:.0f} rows is too long: say a lower --rate"
         )

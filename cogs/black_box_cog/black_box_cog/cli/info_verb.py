@@ -7,16 +7,16 @@ from collections.abc import Iterable, Iterator, Sequence
 
 from black_box_cog.cli.open_flight import flight_of, read
 from black_box_cog.cli.terminal import table, tell
-from black_box_cog.report.wording import clock_text, size_text, start_text
-from black_box_cog.report.wrong_groups import groups_of
+from black_box_cog.report.finding_groups import groups_of
+from black_box_cog.report.formatting import clock_text, size_text, start_text
 from up.cli.cli_error import CliError
 from up.fields import printable
-from up.flight_log.facts import Facts
+from up.flight_log.flight_context import FlightContext
 from up.flight_log.flight_log import FlightLog
 from up.flight_log.flights import Flight
 from up.flight_log.mcap_format import FlightLogError
 from up.flight_log.spans import duration_text
-from up.flight_log.summary import FlightSummary, Wrong, summarise, wrongs
+from up.flight_log.summary import Finding, FlightSummary, findings, summarise
 
 
 def run(values: argparse.Namespace) -> int:
@@ -24,8 +24,8 @@ def run(values: argparse.Namespace) -> int:
     flight = flight_of(values)
     log = read(flight)
     try:
-        facts = Facts(log)
-        summary, wrong = summarise(log, facts), wrongs(log, facts)
+        context = FlightContext(log)
+        summary, wrong = summarise(log, context), findings(log, context)
     except FlightLogError as error:
         raise CliError(printable(str(error))) from error
     tell(_title(flight, log, summary))
@@ -37,7 +37,7 @@ def run(values: argparse.Namespace) -> int:
     _section("configuration", sorted(log.attachments))
     _section("versions", _pairs(log.metadata.get("versions", {}).items()))
     _section("files", [str(path) for path in flight.paths])
-    _section("problems of the files", log.problems)
+    _section("problems of the files", [each.text for each in log.problems])
     return 0
 
 
@@ -60,7 +60,7 @@ def _title(flight: Flight, log: FlightLog, summary: FlightSummary) -> str:
     return printable(text[0].upper() + text[1:])
 
 
-def _wrongs(found: Sequence[Wrong]) -> list[str]:
+def _wrongs(found: Sequence[Finding]) -> list[str]:
     if not found:
         return ["nothing that the log can tell"]
     kinds = groups_of(found)

@@ -10,12 +10,12 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
+from black_box_cog.cli.locate import folder_of
 from black_box_cog.cli.overview import Overview, is_being_recorded, overview_of
 from black_box_cog.cli.overview_cache import OverviewCache, cache_path
-from black_box_cog.cli.place import folder_of
 from black_box_cog.cli.progress import Progress
 from black_box_cog.cli.terminal import table, tell, warn
-from black_box_cog.report.wording import is_clock_right, size_text, start_text
+from black_box_cog.report.formatting import is_clock_right, size_text, start_text
 from up.cli.cli_error import CliError
 from up.fields import printable
 from up.flight_log.flights import Flight, flights_in

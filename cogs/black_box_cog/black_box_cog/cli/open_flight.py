@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 import sys
 
-from black_box_cog.cli.place import folder_of
+from black_box_cog.cli.locate import folder_of
 from up.cli.cli_error import CliError
 from up.fields import printable
 from up.flight_log.flight_log import FlightLog

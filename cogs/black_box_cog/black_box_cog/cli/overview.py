@@ -6,7 +6,7 @@ import fcntl
 from dataclasses import dataclass
 from pathlib import Path
 
-from up.flight_log.facts import Facts
+from up.flight_log.flight_context import FlightContext
 from up.flight_log.flight_log import FlightLog
 from up.flight_log.flights import Flight
 from up.flight_log.mcap_format import FlightLogError
@@ -39,7 +39,7 @@ def overview_of(flight: Flight) -> Overview:
             aircraft=log.metadata.get("flight", {}).get("aircraft", flight.aircraft),
             start_unix_s=log.start_unix_s,
             length_s=log.length_s,
-            armed_s=sum(span.length_s for span in Facts(log).armed),
+            armed_s=sum(span.length_s for span in FlightContext(log).armed),
             highest_m=_highest_m(log),
             is_complete=log.is_complete,
         )

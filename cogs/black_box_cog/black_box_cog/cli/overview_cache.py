@@ -11,11 +11,11 @@ from pathlib import Path
 from typing import Any
 
 from black_box_cog.cli.overview import Overview
-from up.config.writing import write_atomically
+from up.config.atomic_writer import write_atomically
 from up.flight_log.flights import Flight
 
 FORMAT = 1
-MOST = 5000
+MAX_ENTRIES = 5000
 
 
 class OverviewCache:
@@ -52,7 +52,7 @@ class OverviewCache:
         """Write the new entries; the oldest are removed."""
         if not self._has_news:
             return
-        kept = dict(list(self._entries.items())[-MOST:])
+        kept = dict(list(self._entries.items())[-MAX_ENTRIES:])
         with contextlib.suppress(OSError):
             self._path.parent.mkdir(parents=True, exist_ok=True)
             write_atomically(self._path, json.dumps({"format": FORMAT, "flights": kept}).encode())

@@ -153,7 +153,7 @@ def _take_output(parser: argparse.ArgumentParser, what: str, text: str) -> None:
 
 def _place(values: argparse.Namespace) -> Path:
     # Imported on use, which keeps help fast.
-    from black_box_cog.cli.place import folder_of
+    from black_box_cog.cli.locate import folder_of
 
     return folder_of(values)
 

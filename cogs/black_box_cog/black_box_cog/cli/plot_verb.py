@@ -7,8 +7,8 @@ from collections.abc import Iterator, Sequence
 from functools import partial
 from pathlib import Path
 
-from black_box_cog.cli.near import no_such_field
 from black_box_cog.cli.open_flight import flight_of, read
+from black_box_cog.cli.suggestions import no_such_field
 from black_box_cog.cli.terminal import tell
 from black_box_cog.export.csv_cells import flat
 from black_box_cog.export.output import write_file
@@ -18,17 +18,18 @@ from black_box_cog.pictures.overview_picture import WIDTH_IN as OVERVIEW_IN
 from black_box_cog.pictures.overview_picture import draw_overview, overview_height_in
 from black_box_cog.pictures.theme import DAYLIGHT
 from black_box_cog.pictures.timeline import draw_timeline, timeline_height_in
-from black_box_cog.report.evidence import bands_of
-from black_box_cog.report.findings import findings_of
-from black_box_cog.report.wording import start_text
+from black_box_cog.report.content import report_content
+from black_box_cog.report.formatting import start_text
+from black_box_cog.report.report_data import bands_of
 from up.cli.cli_error import CliError
 from up.fields import printable
+from up.flight_log.flight_context import FlightContext
 from up.flight_log.flight_log import FlightLog
 from up.flight_log.mcap_format import FlightLogError
 from up.flight_log.spans import duration_text
 
 WIDTH_IN, DPI = 11.0, 130
-MOST_FIELDS = 12
+MAX_FIELDS = 12
 _LOOKED_AT = 200
 _COLOURS = ("blue", "orange", "green", "vermilion", "purple", "sky")
 _STYLES = ("-", "--", "-.", ":")
@@ -55,28 +56,28 @@ def run(values: argparse.Namespace) -> int:
 
 
 def _overview(log: FlightLog, name: str) -> bytes:
-    findings = findings_of(log, name)
-    wanted = [each for each in findings.pictures if each.name in ("attitude", "altitude")]
+    content = report_content(log, name)
+    wanted = [each for each in content.pictures if each.name in ("attitude", "altitude")]
     panels = [panel for picture in wanted for panel in picture.panels]
-    if not panels and findings.track is None:
+    if not panels and content.track is None:
         raise CliError("the log tells neither position nor attitude: name a FIELD")
-    aircraft = printable(findings.summary.aircraft) or "an aircraft without a name"
+    aircraft = printable(content.summary.aircraft) or "an aircraft without a name"
     paint = partial(
         draw_overview,
         title=aircraft[:60],
         subtitle=f"{start_text(log.start_unix_s)}, {duration_text(log.length_s)}",
         panels=panels,
-        stage=findings.stage,
-        track=findings.track,
+        stage=content.stage,
+        track=content.track,
     )
-    return png_of(paint, OVERVIEW_IN, overview_height_in(panels, findings.stage), DPI, DAYLIGHT)
+    return png_of(paint, OVERVIEW_IN, overview_height_in(panels, content.stage), DPI, DAYLIGHT)
 
 
 def _fields(log: FlightLog, named: Sequence[str]) -> bytes:
-    if len(named) > MOST_FIELDS:
-        raise CliError(f"a picture has {MOST_FIELDS} fields at most, not {len(named)}", status=2)
+    if len(named) > MAX_FIELDS:
+        raise CliError(f"a picture has {MAX_FIELDS} fields at most, not {len(named)}", status=2)
     panels = list(_panels(log, [_split(log, each) for each in dict.fromkeys(named)]))
-    stage = Stage(log.length_s, bands_of(log))
+    stage = Stage(log.length_s, list(bands_of(FlightContext(log))))
     height_in = timeline_height_in(panels, stage, WIDTH_IN)
     paint = partial(draw_timeline, panels=panels, stage=stage)
     return png_of(paint, WIDTH_IN, height_in, DPI, DAYLIGHT)

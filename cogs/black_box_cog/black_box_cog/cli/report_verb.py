@@ -8,7 +8,7 @@ from pathlib import Path
 
 from black_box_cog.cli.open_flight import flight_of, read
 from black_box_cog.cli.terminal import tell, warn
-from black_box_cog.report.findings import findings_of
+from black_box_cog.report.content import report_content
 from black_box_cog.report.folder import write_report
 from black_box_cog.report.verdict import verdict_of
 from up.cli.cli_error import CliError
@@ -23,11 +23,11 @@ def run(values: argparse.Namespace) -> int:
     log = read(flight)
     folder = values.output or default_folder(flight)
     try:
-        findings = findings_of(log, flight.name, flight.number)
-        files = write_report(findings, folder, may_overwrite=values.force, on_missing=warn)
+        content = report_content(log, flight.name, flight.number)
+        files = write_report(content, folder, may_overwrite=values.force, on_missing=warn)
     except FlightLogError as error:
         raise CliError(printable(str(error))) from error
-    _, sentence = verdict_of(findings.summary, findings.wrongs)
+    _, sentence = verdict_of(content.summary, content.findings)
     tell(printable(sentence))
     tell(str(files[0]))
     if len(files) > 1:

@@ -8,7 +8,7 @@ from black_box_cog.export.track import Place, Track, TrackPoint, segments_of
 from up.flight_log.flight_log import FlightLog
 from up.flight_log.frame_state import place_of
 from up.flight_log.json_message import number_at
-from up.flight_log.way import fixes
+from up.flight_log.track_statistics import fixes
 
 LOCATION, TELEMETRY, MARK = "up.location.update", "up.telemetry.update", "black_box.mark"
 

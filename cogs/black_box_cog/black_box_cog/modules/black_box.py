@@ -13,36 +13,32 @@ from typing import TYPE_CHECKING, Any, ClassVar
 from black_box_cog.commands.mark_command import MarkCommand
 from black_box_cog.commands.record_command import RecordCommand
 from black_box_cog.config import BLACK_BOX
-from black_box_cog.intake import Intake
-from black_box_cog.log_lines import LogLines
+from black_box_cog.ingest_queue import IngestQueue, LogForwarder, RecorderStatus
 from black_box_cog.record_policy import RecordPolicy
-from black_box_cog.recorder_status import RecorderStatus
 from up.base_thread_module import BaseThreadModule
+from up.cleanup import add_cleanup
 from up.commands.refusal import CommandRefusedError
 from up.commands.telemetry_commands import TelemetryCommand
-from up.registrations import note_undo
 
 if TYPE_CHECKING:
     from black_box_cog.recorder import Recorder
 
 SOURCE_S = 10.0
 """The recorder wants telemetry for this long after data of the Arduino or the phone."""
-FIRST_LOOK_S = 1.0
+INITIAL_DELAY_S = 1.0
 PAUSE_S = 0.005
-LATER = (
+DEFERRED_IMPORTS = (
     "up.flight_log.flight_file",
     "black_box_cog.flight_folder",
-    "black_box_cog.package_versions",
-    "black_box_cog.flight_facts",
+    "black_box_cog.flight_metadata",
     "up.flight_log.telemetry_schema",
     "up.flight_log.command_schema",
-    "black_box_cog.command_form",
     "up.flight_log.mcap_format",
     "up.flight_log.mcap_writer",
     "black_box_cog.timeline",
-    "black_box_cog.part",
-    "black_box_cog.flight_parts",
-    "black_box_cog.trouble",
+    "black_box_cog.log_segment",
+    "black_box_cog.segment_factory",
+    "black_box_cog.disk_error_state",
     "black_box_cog.recorder",
     "black_box_cog.recorder_maker",
 )
@@ -83,23 +79,23 @@ class BlackBox(BaseThreadModule):
         """Return whether it records, into which file, and its problem."""
         return {"black_box": asdict(self.status)}
 
-    def _execute_initialization(self) -> None:
-        self.intake = Intake(self.config.waiting_messages)
-        self._log_lines = LogLines(self.intake.note)
+    def on_init(self) -> None:
+        self.queue = IngestQueue(self.config.waiting_messages)
+        self._log_forwarder = LogForwarder(self.queue.put)
         executor = self.up.command_executor
         self._policy = RecordPolicy(executor.registry, self.context.reactor)
         executor.register_command(TelemetryCommand, self._on_telemetry)
         executor.register_command(MarkCommand, self._on_mark)
         executor.register_command(RecordCommand, self._on_record)
 
-    def _execute_start(self) -> bool:
-        self.up.command_executor.add_observer(self.intake.observe)
-        self._log_lines.start()
-        note_undo(self._log_lines.stop)
+    def on_start(self) -> bool:
+        self.up.command_executor.add_observer(self.queue.observe)
+        self._log_forwarder.start()
+        add_cleanup(self._log_forwarder.stop)
         return True
 
-    def _execute_stop(self) -> None:
-        self._log_lines.stop()
+    def on_stop(self) -> None:
+        self._log_forwarder.stop()
 
     def _loop(self) -> None:
         assert self.recorder is not None
@@ -107,18 +103,20 @@ class BlackBox(BaseThreadModule):
         self.stop_event.wait(self.recorder.round_s)
 
     def _run(self) -> None:
-        self.stop_event.wait(FIRST_LOOK_S)
+        self.stop_event.wait(INITIAL_DELAY_S)
         try:
             self.recorder = self._make_recorder()
             super()._run()
             self.recorder.finish()
         except Exception:  # noqa: BLE001 - without this the thread would end silently
             self.faults += 1
-            self.logger.failure("{name} does not record any more", name=self.class_name)
+            self.log.failure(
+                "{name} stopped recording", name=self.class_name, code="recorder_failed"
+            )
 
     def _make_recorder(self) -> Recorder:
         """Return the recorder, importing its code in pieces: all in one would delay control."""
-        for name in LATER:
+        for name in DEFERRED_IMPORTS:
             importlib.import_module(name)
             self.stop_event.wait(PAUSE_S)
         if not gc.isenabled():
@@ -127,18 +125,18 @@ class BlackBox(BaseThreadModule):
         from black_box_cog.recorder_maker import make_recorder
 
         up, context = self.up, self.context
-        return make_recorder(self.intake, self.config, up, context, self.stop_event.is_set)
+        return make_recorder(self.queue, self.config, up, context, self.stop_event.is_set)
 
     def _on_telemetry(self, command: TelemetryCommand) -> None:
         """Do nothing: the observer records it; a subscriber can say whether frames are wanted."""
 
     def _on_mark(self, command: MarkCommand) -> None:
         self._refuse_without_file()
-        self._log_info(f"mark: {command.text}")
+        self.log.info("mark: {text}", text=command.text, code="mark")
 
     def _on_record(self, command: RecordCommand) -> None:
         self._refuse_without_file()
-        self.intake.note(self._policy.checked(command), self.up.command_executor.origin)
+        self.queue.put(self._policy.checked(command), self.up.command_executor.origin)
 
     def _refuse_without_file(self) -> None:
         problem = self.status.problem

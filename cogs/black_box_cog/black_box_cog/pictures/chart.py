@@ -7,8 +7,8 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-MOST_POINTS = 4000
-GREATEST = 1e15
+MAX_POINTS = 4000
+MAX_VALUE = 1e15
 """A larger value is a fault of its sender, and no axis can show it beside the rest."""
 GAP_S = 1.0
 _LAPSES = 6.0
@@ -34,7 +34,7 @@ class Curve:
 
 @dataclass(frozen=True, slots=True)
 class Panel:
-    """Curves over one axis; ``least_range`` keeps noise from looking like movement."""
+    """Curves over one axis; ``min_range`` keeps noise from looking like movement."""
 
     title: str
     unit: str
@@ -42,7 +42,7 @@ class Panel:
     right_unit: str = ""
     about: float | None = None
     """A value marked by a thin line."""
-    least_range: float = 0.0
+    min_range: float = 0.0
     share: float = 1.0
 
 
@@ -72,14 +72,14 @@ class Stage:
     marks: Sequence[Mark] = ()
 
 
-def drawable(curve: Curve, most: int = MOST_POINTS) -> tuple[list[float], list[float]]:
+def drawable(curve: Curve, most: int = MAX_POINTS) -> tuple[list[float], list[float]]:
     """Return the points to draw: few, with every peak kept and gaps left open."""
     return thinned(*broken(curve.times_s, curve.values, curve.gap_s), most)
 
 
 def is_drawable(value: float) -> bool:
     """Return whether an axis can show a value."""
-    return abs(value) <= GREATEST
+    return abs(value) <= MAX_VALUE
 
 
 def broken(
@@ -109,7 +109,7 @@ def usual_gap_s(times_s: Sequence[float]) -> float:
 
 
 def thinned(
-    times_s: Sequence[float], values: Sequence[float], most: int = MOST_POINTS
+    times_s: Sequence[float], values: Sequence[float], most: int = MAX_POINTS
 ) -> tuple[list[float], list[float]]:
     """Return about ``most`` points at most: the minimum and maximum of each short stretch."""
     if len(values) <= most:

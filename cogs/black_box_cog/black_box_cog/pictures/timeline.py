@@ -68,7 +68,7 @@ def limits(panel: Panel, is_right: bool) -> tuple[float, float] | None:
     if not known:
         return None
     low, high = min(known), max(known)
-    least = (5.0 if is_right else panel.least_range) or abs(high) * 0.02 or 1.0
+    least = (5.0 if is_right else panel.min_range) or abs(high) * 0.02 or 1.0
     extra = max(0.0, least - (high - low)) / 2 + 0.06 * max(high - low, least)
     # Limits that floating point cannot distinguish are not an axis.
     extra = max(extra, 1e-9 * max(abs(low), abs(high)))

@@ -12,9 +12,9 @@ from black_box_cog.pictures.canvas import Sheet
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-LEAST_M = 40.0
+MIN_M = 40.0
 NARROW_IN = 6.0
-_MOST_DOTS = 10
+_MAX_DOTS = 10
 _STEPS_S = (1, 2, 5, 10, 20, 30, 60, 120, 300, 600, 1200, 1800, 3600)
 
 
@@ -113,7 +113,7 @@ def _dots(axes: Axes, view: TrackView, sheet: Sheet) -> None:
     path = view.path
     known = _known(path)
     begin_s, end_s = path.times_s[known[0]], path.times_s[known[-1]]
-    step_s = next((each for each in _STEPS_S if (end_s - begin_s) / each <= _MOST_DOTS), 7200)
+    step_s = next((each for each in _STEPS_S if (end_s - begin_s) / each <= _MAX_DOTS), 7200)
     due_s = step_s * math.ceil((begin_s + 0.3 * step_s) / step_s)
     while due_s <= end_s - 0.3 * step_s:
         at = _index_at(path, known, due_s)
@@ -138,7 +138,7 @@ def _frame(axes: Axes, path: Path, truth: Path | None, sheet: Sheet) -> None:
     north = [0.0, *(each.north_m[at] for each in paths for at in _known(each))]
     width_in, height_in = sheet.size_of(axes)
     ratio = width_in / height_in
-    half_north = max((max(north) - min(north)), (max(east) - min(east)) / ratio, LEAST_M) * 0.57
+    half_north = max((max(north) - min(north)), (max(east) - min(east)) / ratio, MIN_M) * 0.57
     middle = ((max(east) + min(east)) / 2, (max(north) + min(north)) / 2)
     axes.set_xlim(middle[0] - half_north * ratio, middle[0] + half_north * ratio)
     axes.set_ylim(middle[1] - half_north, middle[1] + half_north)

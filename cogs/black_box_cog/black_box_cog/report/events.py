@@ -6,11 +6,11 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from up.flight_log.facts import Facts
+from up.flight_log.flight_context import FlightContext
 from up.flight_log.flight_log import FlightLog
 from up.flight_log.origin_text import KEY, link_and_role
 
-MOST = 400
+MAX_ENTRIES = 400
 _LINKS = {
     "arduino": "the Arduino",
     "android": "the phone",
@@ -29,21 +29,21 @@ class Event:
     level: str = "info"
 
 
-def events_of(log: FlightLog, facts: Facts) -> list[Event]:
+def events_of(log: FlightLog, context: FlightContext) -> list[Event]:
     """Return the events, at most 400 and then a line about the rest."""
-    found = [*_states(facts), *_told(log), *_lines(facts)]
+    found = [*_states(context), *_told(log), *_lines(context)]
     found.sort(key=lambda event: event.time_s)
-    if len(found) > MOST:
-        more = f"{len(found) - MOST} more events are not shown"
-        found = [*found[:MOST], Event(found[MOST].time_s, more)]
+    if len(found) > MAX_ENTRIES:
+        more = f"{len(found) - MAX_ENTRIES} more events are not shown"
+        found = [*found[:MAX_ENTRIES], Event(found[MAX_ENTRIES].time_s, more)]
     return found
 
 
-def _states(facts: Facts) -> Iterator[Event]:
+def _states(context: FlightContext) -> Iterator[Event]:
     mode: object = None
     is_armed: bool | None = None
     is_failsafe: bool | None = None
-    for state in facts.states:
+    for state in context.states:
         if state.flight_mode != mode and state.flight_mode is not None:
             yield Event(state.time_s, f"flight mode {state.flight_mode}")
         if state.is_armed is not None and state.is_armed != is_armed:
@@ -126,8 +126,8 @@ def _gains(data: Mapping[str, Any]) -> tuple[str, str] | None:
     return f"gains were set by {_origin(data)}", "info"
 
 
-def _lines(facts: Facts) -> Iterator[Event]:
-    for line in facts.log_lines:
+def _lines(context: FlightContext) -> Iterator[Event]:
+    for line in context.log_lines:
         level = "bad" if line.level >= 4 else "warning" if line.level == 3 else "info"
         yield Event(line.time_s, f"{line.name}: {line.text}" if line.name else line.text, level)
 

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from black_box_cog.export.output import make_folder, write_file
 from black_box_cog.pictures.canvas import PictureError
-from black_box_cog.report.findings import Findings
+from black_box_cog.report.content import ReportContent
 from black_box_cog.report.images import ImageSet, image_sets
 from black_box_cog.report.page import page_of
 from up.cli.cli_error import CliError
@@ -16,7 +16,7 @@ PAGE = "report.html"
 
 
 def write_report(
-    findings: Findings,
+    content: ReportContent,
     folder: Path,
     *,
     may_overwrite: bool,
@@ -33,11 +33,11 @@ def write_report(
     images: dict[str, ImageSet] = {}
     missing = ""
     try:
-        images = {image.name: image for image in image_sets(findings)}
+        images = {image.name: image for image in image_sets(content)}
     except PictureError as error:
         missing = f"No pictures: {error}."
         on_missing(missing)
-    page = page_of(findings, images, missing).encode()
+    page = page_of(content, images, missing).encode()
     files = [folder / PAGE]
     write_file(files[0], page, may_overwrite=may_overwrite)
     for image in images.values():

@@ -8,19 +8,19 @@ from collections.abc import Iterable, Sequence
 from black_box_cog.export.log_track import points_of
 from black_box_cog.export.track import TrackPoint, segments_of
 from black_box_cog.pictures.track_picture import Path, TrackView, Wind
-from black_box_cog.report.evidence import Evidence
+from black_box_cog.report.report_data import ReportData
 from up.earth import distance_m
 from up.flight_log.series import Series
 
 _METRES_A_DEGREE = 111_194.9
-_MOST_POINTS = 6000
+_MAX_POINTS = 6000
 
 
-def track_view(evidence: Evidence, marks: Sequence[float]) -> TrackView | None:
+def track_view(data: ReportData, marks: Sequence[float]) -> TrackView | None:
     """Return the content of the track's picture; None if the log contains no position."""
-    log = evidence.log
+    log = data.log
     segments = list(segments_of(points_of(log)))
-    latitude, longitude = evidence.truth["latitude_deg"], evidence.truth["longitude_deg"]
+    latitude, longitude = data.truth["latitude_deg"], data.truth["longitude_deg"]
     true_points = [
         TrackPoint(log.start_unix_s + time_s, *place)
         for time_s, *place in zip(latitude.times_s, latitude.values, longitude.values, strict=False)
@@ -32,17 +32,17 @@ def track_view(evidence: Evidence, marks: Sequence[float]) -> TrackView | None:
         return None
     home = segments[0][0]
     truth = _path(truth_segments, home, log.start_unix_s) if truth_segments else None
-    return TrackView(_path(segments, home, log.start_unix_s), truth, _wind(evidence), marks)
+    return TrackView(_path(segments, home, log.start_unix_s), truth, _wind(data), marks)
 
 
-def place_error_m(evidence: Evidence) -> Series:
+def place_error_m(data: ReportData) -> Series:
     """Return the distance (m) of each measured position from the true one at its time."""
-    latitude, longitude = evidence.truth["latitude_deg"], evidence.truth["longitude_deg"]
+    latitude, longitude = data.truth["latitude_deg"], data.truth["longitude_deg"]
     found = Series()
     if not latitude:
         return found
-    for point in points_of(evidence.log):
-        time_s = point.unix_s - evidence.log.start_unix_s
+    for point in points_of(data.log):
+        time_s = point.unix_s - data.log.start_unix_s
         true = latitude.at(time_s, 0.5), longitude.at(time_s, 0.5)
         if true[0] is not None and true[1] is not None:
             found.add(time_s, distance_m(point.latitude_deg, point.longitude_deg, true[0], true[1]))
@@ -52,7 +52,7 @@ def place_error_m(evidence: Evidence) -> Series:
 def _path(segments: Iterable[Sequence[TrackPoint]], home: TrackPoint, start_unix_s: float) -> Path:
     """Return the segments as one path, broken (nan) between them; long ones are thinned."""
     segments = list(segments)
-    every = max(1, sum(map(len, segments)) // _MOST_POINTS)
+    every = max(1, sum(map(len, segments)) // _MAX_POINTS)
     narrow = math.cos(math.radians(home.latitude_deg))
     times_s: list[float] = []
     east_m: list[float] = []
@@ -70,9 +70,9 @@ def _path(segments: Iterable[Sequence[TrackPoint]], home: TrackPoint, start_unix
     return Path(times_s, east_m, north_m)
 
 
-def _wind(evidence: Evidence) -> Wind | None:
+def _wind(data: ReportData) -> Wind | None:
     """Return the mean wind if the log has it: only simulated flights do."""
-    north, east = evidence.truth["wind_north_m_s"], evidence.truth["wind_east_m_s"]
+    north, east = data.truth["wind_north_m_s"], data.truth["wind_east_m_s"]
     if not north or not east:
         return None
     mean_north = sum(north.values) / len(north.values)

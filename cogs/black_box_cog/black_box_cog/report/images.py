@@ -10,7 +10,7 @@ from black_box_cog.pictures.canvas import Sheet, png_of
 from black_box_cog.pictures.theme import DARK, DAYLIGHT, Theme
 from black_box_cog.pictures.timeline import draw_timeline, timeline_height_in
 from black_box_cog.pictures.track_picture import draw_track
-from black_box_cog.report.findings import Findings
+from black_box_cog.report.content import ReportContent
 
 WIDE_IN, NARROW_IN = 10.6, 4.2
 WIDE_DPI, NARROW_DPI = 150, 200
@@ -30,15 +30,15 @@ class ImageSet:
     """Ratio of height to width of the wide version."""
 
 
-def image_sets(findings: Findings) -> Iterator[ImageSet]:
+def image_sets(content: ReportContent) -> Iterator[ImageSet]:
     """Draw the track, then every picture over time; raises PictureError."""
-    track = findings.track
+    track = content.track
     if track is not None:
         yield _drawn(
             "track", lambda sheet: draw_track(sheet, track), TRACK_WIDE_IN, TRACK_NARROW_IN
         )
-    for picture in findings.pictures:
-        panels, stage = picture.panels, findings.stage
+    for picture in content.pictures:
+        panels, stage = picture.panels, content.stage
         sizes = [(each, timeline_height_in(panels, stage, each)) for each in (WIDE_IN, NARROW_IN)]
         yield _drawn(picture.name, partial(draw_timeline, panels=panels, stage=stage), *sizes)
 

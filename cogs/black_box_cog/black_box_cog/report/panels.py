@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from black_box_cog.pictures.chart import Curve, Panel
-from black_box_cog.report.evidence import CHANNELS, Evidence
+from black_box_cog.report.report_data import CHANNELS, ReportData
 from up.flight_log.series import Series, error_of
 
 _COLOURS = dict(zip(CHANNELS, ("blue", "vermilion", "green", "purple"), strict=True))
@@ -25,32 +25,32 @@ class Picture:
     panels: tuple[Panel, ...]
 
 
-def pictures_of(evidence: Evidence) -> Iterator[Picture]:
+def pictures_of(data: ReportData) -> Iterator[Picture]:
     """Yield the pictures over time for which the log has data."""
     for picture in (
-        _attitude(evidence),
-        _heights(evidence),
-        _channels(evidence),
-        _links(evidence),
-        _power(evidence),
-        _loops(evidence),
-        _errors(evidence),
+        _attitude(data),
+        _heights(data),
+        _channels(data),
+        _links(data),
+        _power(data),
+        _loops(data),
+        _errors(data),
     ):
         panels = tuple(panel for panel in picture.panels if panel.curves)
         if panels:
             yield Picture(picture.name, picture.title, picture.caption, panels)
 
 
-def _attitude(evidence: Evidence) -> Picture:
+def _attitude(data: ReportData) -> Picture:
     panels = []
     for axis, title in (("roll", "Roll"), ("pitch", "Pitch")):
-        demand = evidence.demand.roll if axis == "roll" else evidence.demand.pitch
+        demand = data.demand.roll if axis == "roll" else data.demand.pitch
         curves = [
-            *_curve("truth", evidence.truth[f"{axis}_deg"], "blue", width=2.6),
-            *_curve("measured", evidence.attitude[axis], "orange"),
+            *_curve("truth", data.truth[f"{axis}_deg"], "blue", width=2.6),
+            *_curve("measured", data.attitude[axis], "orange"),
             *_curve("asked", demand, "ink", "--", width=1.0, gap_s=_LIFETIME_S),
         ]
-        panels.append(Panel(title, "deg", curves, about=0.0, least_range=10.0, share=1.15))
+        panels.append(Panel(title, "deg", curves, about=0.0, min_range=10.0, share=1.15))
     caption = (
         "Attitude against what was asked: in FBW by the sticks, in SETPOINT by the Raspberry Pi,"
         " in failsafe by the profile. In ACRO and RATE nobody asks for an attitude."
@@ -58,29 +58,29 @@ def _attitude(evidence: Evidence) -> Picture:
     return Picture("attitude", "Attitude and demand", caption, tuple(panels))
 
 
-def _heights(evidence: Evidence) -> Picture:
+def _heights(data: ReportData) -> Picture:
     heights = [
-        *_curve("truth", evidence.truth["altitude_m"], "blue", width=2.6),
-        *_curve("measured", evidence.altitude, "orange"),
-        *_curve("asked", evidence.required_altitude, "ink", "--", is_step=True, gap_s=1e9),
+        *_curve("truth", data.truth["altitude_m"], "blue", width=2.6),
+        *_curve("measured", data.altitude, "orange"),
+        *_curve("asked", data.required_altitude, "ink", "--", is_step=True, gap_s=1e9),
     ]
     speeds = [
-        *_curve("true airspeed", evidence.truth["airspeed_m_s"], "sky", ":"),
-        *_curve("true ground speed", evidence.truth["ground_speed_m_s"], "blue", width=2.6),
-        *_curve("ground speed", evidence.speed, "orange"),
+        *_curve("true airspeed", data.truth["airspeed_m_s"], "sky", ":"),
+        *_curve("true ground speed", data.truth["ground_speed_m_s"], "blue", width=2.6),
+        *_curve("ground speed", data.speed, "orange"),
     ]
     return Picture(
         "altitude",
         "Altitude and speed",
         "Altitude above sea level; speed over the ground as the positions' source tells it.",
         (
-            Panel("Altitude", "m", heights, least_range=10.0),
-            Panel("Speed", "m/s", speeds, least_range=4.0),
+            Panel("Altitude", "m", heights, min_range=10.0),
+            Panel("Speed", "m/s", speeds, min_range=4.0),
         ),
     )
 
 
-def _channels(evidence: Evidence) -> Picture:
+def _channels(data: ReportData) -> Picture:
     panels = [
         Panel(
             title,
@@ -91,24 +91,24 @@ def _channels(evidence: Evidence) -> Picture:
                 for curve in _curve(name, pulses[name], _COLOURS[name], _STYLES[name])
             ],
             about=1500.0,
-            least_range=200.0,
+            min_range=200.0,
         )
-        for title, pulses in (("Sticks", evidence.sticks), ("Servo pulses", evidence.servos))
+        for title, pulses in (("Sticks", data.sticks), ("Servo pulses", data.servos))
     ]
     switches = [
-        *_curve("mode switch (AUX1)", evidence.sticks["aux1"], "blue"),
-        *_curve("arming (AUX2)", evidence.sticks["aux2"], "vermilion", "--"),
+        *_curve("mode switch (AUX1)", data.sticks["aux1"], "blue"),
+        *_curve("arming (AUX2)", data.sticks["aux2"], "vermilion", "--"),
     ]
-    panels.append(Panel("Switches", "us", switches, about=1500.0, least_range=200.0, share=0.6))
+    panels.append(Panel("Switches", "us", switches, about=1500.0, min_range=200.0, share=0.6))
     caption = "What came from the pilot's receiver, and what went to the servos, as pulses."
     return Picture("sticks", "Sticks and servos", caption, tuple(panels))
 
 
-def _links(evidence: Evidence) -> Picture:
+def _links(data: ReportData) -> Picture:
     colours = {"board": ("blue", "-"), "ground": ("green", "-.")}
     curves = [
         curve
-        for name, series in evidence.silences.items()
+        for name, series in data.silences.items()
         for curve in _curve(
             name, series, *colours.get(name, ("orange", "--")), is_step=True, gap_s=1e9
         )
@@ -118,12 +118,12 @@ def _links(evidence: Evidence) -> Picture:
         " ground's line tells for how long no ground station was connected."
     )
     return Picture(
-        "links", "Ages of the links", caption, (Panel("Silence", "s", curves, least_range=0.5),)
+        "links", "Ages of the links", caption, (Panel("Silence", "s", curves, min_range=0.5),)
     )
 
 
-def _power(evidence: Evidence) -> Picture:
-    known = evidence.frames
+def _power(data: ReportData) -> Picture:
+    known = data.frames
     battery = _curve("phone's battery", known["android.batteryLevel"], "green", gap_s=1e9)
     load = [
         *_curve("processor", known["load.cpu"], "blue"),
@@ -134,17 +134,17 @@ def _power(evidence: Evidence) -> Picture:
         "Battery and load",
         "The battery of the phone; the load of the Raspberry Pi.",
         (
-            Panel("Battery", "percent", battery, least_range=10.0, share=0.7),
-            Panel("Load of the Raspberry Pi", "percent", load, least_range=20.0),
+            Panel("Battery", "percent", battery, min_range=10.0, share=0.7),
+            Panel("Load of the Raspberry Pi", "percent", load, min_range=20.0),
         ),
     )
 
 
-def _loops(evidence: Evidence) -> Picture:
-    known, status = evidence.frames, evidence.status
+def _loops(data: ReportData) -> Picture:
+    known, status = data.frames, data.status
     period = _curve("mean period", status["loop_us"] or known["arduino.loop_us"], "blue")
     late = _curve("greatest lateness", status["late_us"] or known["arduino.late_us"], "vermilion")
-    held_up = _curve("held up, times", evidence.held_up, "vermilion", is_step=True, gap_s=1e9)
+    blocked = _curve("blocks", data.blocked, "vermilion", is_step=True, gap_s=1e9)
     return Picture(
         "loops",
         "Loop times",
@@ -152,19 +152,19 @@ def _loops(evidence: Evidence) -> Picture:
         " worst. On the Raspberry Pi: how often something had held up the program for more than"
         " 20 ms.",
         (
-            Panel("Period of the control loop", "us", period, least_range=40.0, share=0.6),
-            Panel("Lateness of the control loop", "us", late, least_range=50.0, share=0.8),
-            Panel("Slow dispatches of the Raspberry Pi", "times", held_up, "", None, 2.0, 0.6),
+            Panel("Period of the control loop", "us", period, min_range=40.0, share=0.6),
+            Panel("Lateness of the control loop", "us", late, min_range=50.0, share=0.8),
+            Panel("Slow dispatches of the Raspberry Pi", "times", blocked, "", None, 2.0, 0.6),
         ),
     )
 
 
-def _errors(evidence: Evidence) -> Picture:
+def _errors(data: ReportData) -> Picture:
     panels = []
     for axis, title in (("roll", "Error in roll"), ("pitch", "Error in pitch")):
-        error, _ = error_of(evidence.attitude[axis], evidence.truth[f"{axis}_deg"], is_angle=True)
+        error, _ = error_of(data.attitude[axis], data.truth[f"{axis}_deg"], is_angle=True)
         curves = _curve("measured less true", error, "vermilion")
-        panels.append(Panel(title, "deg", curves, about=0.0, least_range=4.0, share=0.8))
+        panels.append(Panel(title, "deg", curves, about=0.0, min_range=4.0, share=0.8))
     return Picture(
         "truth",
         "Measured against the truth",

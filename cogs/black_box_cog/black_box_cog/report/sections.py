@@ -5,14 +5,14 @@ from __future__ import annotations
 from collections.abc import Iterator
 from itertools import pairwise
 
-from black_box_cog.report.evidence import LOCATION, first_link
-from black_box_cog.report.findings import Findings
+from black_box_cog.report.content import ReportContent
+from black_box_cog.report.finding_groups import FindingGroup, groups_of
+from black_box_cog.report.formatting import clock_text
 from black_box_cog.report.gains import GainSet, asked_sets, changes, gain_sets
 from black_box_cog.report.ground_track import place_error_m
 from black_box_cog.report.html_text import Markup, join, table, tag
+from black_box_cog.report.report_data import LOCATION, first_link
 from black_box_cog.report.verdict import LEVELS
-from black_box_cog.report.wording import clock_text
-from black_box_cog.report.wrong_groups import WrongGroup, groups_of
 from up.flight_log.gain_changes import Key
 from up.flight_log.origin_text import link_and_role
 from up.flight_log.series import error_of
@@ -21,13 +21,13 @@ from up.flight_log.spans import duration_text
 _WORDS = {"alarm": "alarm", "warning": "warning", "info": "note"}
 
 
-def figures(findings: Findings) -> Markup:
+def figures(content: ReportContent) -> Markup:
     """Return the numbers of the flight."""
-    cells = [tag("div", tag("dt", name), tag("dd", value)) for name, value in _figures(findings)]
+    cells = [tag("div", tag("dt", name), tag("dd", value)) for name, value in _figures(content)]
     return tag("dl", *cells, class_="figures")
 
 
-def wrong_list(findings: Findings) -> Markup:
+def finding_list(content: ReportContent) -> Markup:
     """Return the faults, each kind in the order of its first time."""
     items = [
         tag(
@@ -37,15 +37,14 @@ def wrong_list(findings: Findings) -> Markup:
             tag("div", tag("span", each.text), _each_time(each)),
             class_=LEVELS[each.level],
         )
-        for each in groups_of(findings.wrongs)
+        for each in groups_of(content.findings)
     ]
-    content = (
-        tag("ol", *items, class_="wrongs") if items else tag("p", "Nothing that the log can tell.")
-    )
-    return tag("section", tag("h2", "What went wrong"), content)
+    none = tag("p", "The log shows no fault.")
+    shown = tag("ol", *items, class_="findings") if items else none
+    return tag("section", tag("h2", "What went wrong"), shown)
 
 
-def _each_time(group: WrongGroup) -> Markup | None:
+def _each_time(group: FindingGroup) -> Markup | None:
     """Return the times of a repeated fault, folded."""
     if len(group.members) == 1:
         return None
@@ -53,12 +52,12 @@ def _each_time(group: WrongGroup) -> Markup | None:
     return tag("details", tag("summary", "each of them"), *lines)
 
 
-def modes(findings: Findings) -> Markup:
+def modes(content: ReportContent) -> Markup:
     """Return the modes with their times, and the silences with their lengths."""
-    summary = findings.summary
+    summary = content.summary
     rows = [
         [clock_text(band.begin_s), band.name, duration_text(band.end_s - band.begin_s)]
-        for band in findings.evidence.bands
+        for band in content.data.bands
     ]
     gaps = [[name, duration_text(gap_s)] for name, gap_s in summary.gaps_s.items()]
     parts: list[Markup] = []
@@ -70,7 +69,7 @@ def modes(findings: Findings) -> Markup:
     return tag("div", *parts)
 
 
-def events(findings: Findings) -> Markup | None:
+def events(content: ReportContent) -> Markup | None:
     """Return the events, in the order of time."""
     items = [
         tag(
@@ -79,23 +78,23 @@ def events(findings: Findings) -> Markup | None:
             tag("span", event.text, class_="level" if event.level != "info" else None),
             class_=event.level if event.level != "info" else None,
         )
-        for event in findings.events
+        for event in content.events
     ]
     return tag("ol", *items, class_="events") if items else None
 
 
-def truth(findings: Findings) -> Markup | None:
+def truth(content: ReportContent) -> Markup | None:
     """Return the errors of the measured values against the truth."""
-    evidence = findings.evidence
+    data = content.data
     rows = []
     # Without measured positions the log has the true ones, marked as such.
-    has_source = first_link(findings.log, LOCATION) != "simulator"
-    for each in findings.summary.estimate_errors:
+    has_source = first_link(content.log, LOCATION) != "simulator"
+    for each in content.summary.estimate_errors:
         rows.append([each.axis, f"{each.rms_deg:.2f} deg", f"{each.worst_deg:.2f} deg"])
-    _, found = error_of(evidence.altitude, evidence.truth["altitude_m"], is_angle=False)
+    _, found = error_of(data.altitude, data.truth["altitude_m"], is_angle=False)
     if found is not None and has_source:
         rows.append(["altitude", f"{found.rms:.2f} m", f"{found.greatest:.2f} m"])
-    place = place_error_m(evidence).values if has_source else []
+    place = place_error_m(data).values if has_source else []
     if place:
         rms = (sum(value * value for value in place) / len(place)) ** 0.5
         rows.append(["position", f"{rms:.1f} m", f"{max(place):.1f} m"])
@@ -103,16 +102,16 @@ def truth(findings: Findings) -> Markup | None:
     return table(head, rows, right=(1, 2)) if rows else None
 
 
-def gains(findings: Findings) -> Markup | None:
+def gains(content: ReportContent) -> Markup | None:
     """Return the gains at the beginning, and each change with both values.
 
     If the board never reported its gains, these are the requested ones.
     """
-    sets = gain_sets(findings.log)
+    sets = gain_sets(content.log)
     verb = "changed"
     parts: list[Markup] = []
     if not sets:
-        sets, verb = asked_sets(findings.log), "asked for"
+        sets, verb = asked_sets(content.log), "asked for"
         if not sets:
             return None
         parts.append(tag("p", "The log does not tell which gains flew, but which were asked for."))
@@ -131,9 +130,9 @@ def _changed(gains: GainSet, verb: str) -> str:
     return f"{clock_text(gains.time_s)} {verb} by {link_and_role(gains.by)[0] or 'somebody'}"
 
 
-def record(findings: Findings) -> Markup:
+def record(content: ReportContent) -> Markup:
     """Return the log's metadata: files, versions, topics, damage."""
-    log = findings.log
+    log = content.log
     seconds = max(log.length_s, 1e-9)
     facts = [
         [f"{record} {key}", value.strip()]
@@ -147,15 +146,15 @@ def record(findings: Findings) -> Markup:
     problems = log.problems
     return join(
         tag("h3", "Problems of the files") if problems else None,
-        tag("ul", *(tag("li", problem) for problem in problems)) if problems else None,
+        tag("ul", *(tag("li", problem.text) for problem in problems)) if problems else None,
         table(["", ""], [*facts, *(["file", path.name] for path in log.paths)]),
         tag("h3", "Topics"),
         table(["topic", "messages", "a second"], topics, right=(1, 2)),
     )
 
 
-def _figures(findings: Findings) -> Iterator[tuple[str, str]]:
-    summary = findings.summary
+def _figures(content: ReportContent) -> Iterator[tuple[str, str]]:
+    summary = content.summary
     yield "recorded", duration_text(summary.length_s)
     yield "armed", duration_text(summary.armed_s) if summary.armed else "never"
     if summary.highest_m is not None and summary.lowest_m is not None:

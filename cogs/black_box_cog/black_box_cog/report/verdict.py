@@ -4,18 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from black_box_cog.report.wording import clock_text
-from black_box_cog.report.wrong_groups import groups_of, worst_of
+from black_box_cog.report.finding_groups import groups_of, worst_of
+from black_box_cog.report.formatting import clock_text
 from up.flight_log.spans import duration_text
-from up.flight_log.summary import FlightSummary, Wrong
+from up.flight_log.summary import Finding, FlightSummary
 
 LEVELS = {"alarm": "bad", "warning": "warning", "info": "info"}
 """A level of a fault, as a CSS class of the page."""
 
 
-def verdict_of(summary: FlightSummary, wrongs: Sequence[Wrong]) -> tuple[str, str]:
+def verdict_of(summary: FlightSummary, findings: Sequence[Finding]) -> tuple[str, str]:
     """Return ``good``, ``warning`` or ``bad``, and the sentences."""
-    kinds = [each.worst for each in groups_of(wrongs)]
+    kinds = [each.worst for each in groups_of(findings)]
     alarms = [each for each in kinds if each.level == "alarm"]
     warnings = [each for each in kinds if each.level == "warning"]
     if alarms:
@@ -42,7 +42,7 @@ def _flight(summary: FlightSummary) -> str:
     return f"{length} were recorded, {flown}{reached}."
 
 
-def _counted(alarms: Sequence[Wrong], warnings: Sequence[Wrong]) -> str:
+def _counted(alarms: Sequence[Finding], warnings: Sequence[Finding]) -> str:
     text = f"{_things(len(alarms))} went wrong"
     if warnings:
         text += f", and {_number(len(warnings))} more {_deserve(len(warnings))} a look"

@@ -7,13 +7,10 @@ from typing import Any, ClassVar
 
 from twisted.internet.error import CannotListenError
 
-from discovery_cog.answerer import Answerer
+from discovery_cog.answerer import Answerer, RateLimit, own_address_towards
 from discovery_cog.config import DISCOVERY
-from discovery_cog.own_address import own_address_towards
-from discovery_cog.rate_limit import RateLimit
-from up.base_started_module import BaseStartedModule
+from up.base_started_module import BaseStartedModule, StartFailedError
 from up.mode import WITH_ARDUINO, Mode
-from up.start_result import StartFailedError
 from up.system.udp import listen_udp
 
 
@@ -23,7 +20,7 @@ class DiscoveryService(BaseStartedModule):
     CONFIG = DISCOVERY
     MODES: ClassVar[frozenset[Mode]] = WITH_ARDUINO
 
-    def _execute_initialization(self) -> None:
+    def on_init(self) -> None:
         self._answerer = Answerer(RateLimit(self.context.reactor), own_address_towards)
         self._port: Any = None
 
@@ -32,7 +29,7 @@ class DiscoveryService(BaseStartedModule):
         """Return the counters."""
         return {"counters": {"discovery": dict(self._answerer.counters)}}
 
-    def _execute_start(self) -> bool:
+    def on_start(self) -> bool:
         try:
             self._port = listen_udp(self.context.reactor, self.config.port, self._answerer)
         except CannotListenError as error:
@@ -43,7 +40,7 @@ class DiscoveryService(BaseStartedModule):
         self.up.advertise_port("discovery", self._port.getHost().port)
         return True
 
-    async def _execute_stop(self) -> None:
+    async def on_stop(self) -> None:
         port, self._port = self._port, None
         if port is not None:
             await port.stopListening()

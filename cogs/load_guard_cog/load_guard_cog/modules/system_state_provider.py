@@ -37,19 +37,18 @@ class SystemStateProvider(BaseStartedModule):
 
     @property
     def telemetry_content(self) -> Mapping[str, Any]:
-        """Return which providers have fresh data."""
         return {"system": {"providers": None if self.state is None else self.state.providers}}
 
-    def _execute_initialization(self) -> None:
+    def on_init(self) -> None:
         executor = self.up.command_executor
         executor.register_command(LinkStateCommand, self._on_link)
         executor.register_command(SystemStateCommand, self._on_state)
 
-    def _execute_start(self) -> bool:
+    def on_start(self) -> bool:
         self._publish()
         return True
 
-    def _execute_stop(self) -> None:
+    def on_stop(self) -> None:
         if self._timer is not None and self._timer.active():
             self._timer.cancel()
 
@@ -81,6 +80,6 @@ class SystemStateProvider(BaseStartedModule):
             sorted(
                 provider.READING
                 for provider in self.up.get_modules(BaseProvider)
-                if provider.usable(provider.MAX_AGE_S) is not None
+                if provider.fresh(provider.MAX_AGE_S) is not None
             )
         )

@@ -14,15 +14,14 @@ from mission_control_cog.modules.mission_control_provider import (
     ROLE_KEY,
     MissionControlProvider,
 )
-from up.base_started_module import BaseStartedModule
+from up.base_started_module import BaseStartedModule, StartFailedError
 from up.commands.command_link import CommandLink
 from up.commands.roles import Role
 from up.commands.system_commands import LinkStateCommand
 from up.log.limits import Limited
 from up.needs import needs
 from up.protocols.general_message import GeneralMessage, MalformedMessage
-from up.start_result import StartFailedError
-from up.system.plain_peers import PlainPeers
+from up.system.peer_filter import PeerFilter
 
 LINK = "ground"
 _LOG_INTERVAL_S = 10.0
@@ -42,9 +41,9 @@ class GroundListener(BaseStartedModule):
         """Return whether a port is configured."""
         return self.config.listener.port is not None
 
-    def _execute_initialization(self) -> None:
+    def on_init(self) -> None:
         config = self.config
-        self._peers = PlainPeers(config.i_accept_plain, PLAIN_KEY)
+        self._peers = PeerFilter(config.i_accept_plain, PLAIN_KEY)
         self._grounds = Grounds(
             self.context.reactor,
             self._peers,
@@ -52,12 +51,12 @@ class GroundListener(BaseStartedModule):
             open_link=self._open_link,
             on_message=self._on_message,
             on_malformed=self._on_malformed,
-            on_holder=self._on_holder,
+            on_owner=self._on_owner,
             random=self.context.random,
         )
         self._port: Any = None
-        self._has_holder = False
-        self._said = Limited(self.context.reactor, _LOG_INTERVAL_S)
+        self._has_owner = False
+        self._limited = Limited(self.context.reactor, _LOG_INTERVAL_S)
         self.mission_control.add_outlet(self._grounds)
 
     @property
@@ -71,14 +70,14 @@ class GroundListener(BaseStartedModule):
         }
         return {"counters": {"ground": counters}}
 
-    def _execute_start(self) -> bool:
+    def on_start(self) -> bool:
         listener = self.config.listener
         refusal = self._peers.refusal_of(listener.address)
         if refusal:
             raise StartFailedError(f"{refusal} (mission_control.yml: listener.address)")
         try:
             self._port = self.context.reactor.listenTCP(
-                listener.port, self._grounds.factory, interface=listener.address
+                listener.port, self._grounds, interface=listener.address
             )
         except CannotListenError as error:
             reason = getattr(error.socketError, "strerror", None) or error.socketError
@@ -88,12 +87,12 @@ class GroundListener(BaseStartedModule):
         self.up.advertise_port("ground", self._port.getHost().port)
         return True
 
-    async def _execute_stop(self) -> None:
+    async def on_stop(self) -> None:
         port, self._port = self._port, None
         if port is not None:
             await port.stopListening()
         await self._grounds.close()
-        self._said.stop()
+        self._limited.stop()
 
     def _open_link(self, send: Any) -> CommandLink:
         policy = self.mission_control.tuning_policy
@@ -107,11 +106,13 @@ class GroundListener(BaseStartedModule):
     def _on_malformed(self, fault: MalformedMessage, link: CommandLink) -> None:
         self.up.command_receiver.receive_malformed(fault, link)
 
-    def _on_holder(self, peer: str) -> None:
+    def _on_owner(self, peer: str) -> None:
         if peer:
-            self._said.log(self.logger.info, "the ground station {peer} commands", peer=peer)
+            text = "the ground station {peer} has control"
+            self._limited.log(self.log.info, text, code="control_granted", peer=peer)
         else:
-            self._said.log(self.logger.warn, "no ground station commands here any more")
-        if self._has_holder != bool(peer):
-            self._has_holder = bool(peer)
+            text = "the ground station with control has disconnected"
+            self._limited.log(self.log.warn, text, code="control_lost")
+        if self._has_owner != bool(peer):
+            self._has_owner = bool(peer)
             self.up.command_executor.execute_command(LinkStateCommand(LINK, bool(peer)))

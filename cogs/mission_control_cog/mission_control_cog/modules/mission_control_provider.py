@@ -47,8 +47,8 @@ class MissionControlProvider(BaseMissionControlProvider):
         self._outlets: list[Outlet] = []
         self._telemetry_faults = 0
 
-    def _execute_initialization(self) -> None:
-        super()._execute_initialization()
+    def on_init(self) -> None:
+        super().on_init()
         config = self.config
         self._role = Role(config.role)
         self.tuning_policy = TuningPolicy(config.tune_in_flight)
@@ -108,16 +108,22 @@ class MissionControlProvider(BaseMissionControlProvider):
         except ValueError as error:
             self._telemetry_faults += 1
             if self._telemetry_faults == 1:
-                self._log_error(f"telemetry cannot be sent: {error}; said once")
+                self.log.error(
+                    "cannot send telemetry: {error}; logged once",
+                    code="telemetry_unsendable",
+                    error=str(error),
+                )
 
-    def _execute_start(self) -> bool:
+    def on_start(self) -> bool:
         if self._uplink is None:
-            self._log_info("no proxy is configured (mission_control.yml: remote_server)")
+            self.log.info(
+                "no proxy is configured (mission_control.yml: remote_server)", code="no_proxy"
+            )
         else:
             self._uplink.start()
         return True
 
-    async def _execute_stop(self) -> None:
+    async def on_stop(self) -> None:
         if self._uplink is not None:
             await self._uplink.stop()
 
@@ -158,10 +164,13 @@ class MissionControlProvider(BaseMissionControlProvider):
         role, key = self._role, ROLE_KEY
         if role is Role.PILOT and not self.config.i_accept_plain and not is_private(host):
             role, key = Role.OPERATOR, PLAIN_KEY
-            self._log_error(
-                f"{host} is a public address and the link is plain: the ground is an operator, not"
-                f" a pilot, and cannot arm or tune; set {PLAIN_KEY} to true to accept that anybody"
-                " who reaches the proxy can"
+            self.log.error(
+                "{host} is a public address and the link is plain: the ground is an operator, not a"
+                " pilot, and cannot arm or tune; {key}: true grants every host that reaches the"
+                " proxy the pilot's role",
+                code="role_reduced",
+                host=host,
+                key=PLAIN_KEY,
             )
         self._link.origin = Origin(LINK, role)
         self._link.role_key = key

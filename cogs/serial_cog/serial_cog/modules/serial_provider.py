@@ -8,9 +8,8 @@ from dataclasses import asdict
 from typing import Any, Protocol
 
 from serial_cog.config import ARDUINO, SerialConfig, odd_speed
-from serial_cog.finder import Lister, list_ports
 from serial_cog.handlers import FrameHandler, FrameType, HandlerTable, type_byte
-from serial_cog.port_opener import PortOpener
+from serial_cog.port_opener import Lister, PortOpener, list_ports
 from up.base_started_module import BaseStartedModule
 from up.commands.command_executor import owner_of
 from up.mode import WITH_ARDUINO
@@ -92,12 +91,10 @@ class SerialProvider(BaseStartedModule):
 
     @property
     def is_source_open(self) -> bool:
-        """Return whether the port is open."""
         return self._line is not None and self._line.is_open
 
     @property
     def telemetry_content(self) -> Mapping[str, Any]:
-        """Return the counters of the line."""
         counts: Counter[str] = Counter(self.counters)
         counts.update(self._retired)
         if self._line is not None:
@@ -143,7 +140,7 @@ class SerialProvider(BaseStartedModule):
             return None
         return encoder.last_sequence
 
-    def _execute_start(self) -> bool:
+    def on_start(self) -> bool:
         config: SerialConfig = self.config
         self._encoder: FrameEncoder
         self._decoder: FrameDecoder
@@ -153,7 +150,7 @@ class SerialProvider(BaseStartedModule):
         self._opener = PortOpener(config.port, config.baud_rate, self.lister, self.open_port)
         warning = odd_speed(config)
         if warning:
-            self._log_warning(warning)
+            self.log.warn("{reason}", reason=warning)
         self._line = SerialLine(
             self.context.reactor,
             self._opener,
@@ -165,7 +162,7 @@ class SerialProvider(BaseStartedModule):
         self._line.start()
         return True
 
-    def _execute_stop(self) -> None:
+    def on_stop(self) -> None:
         for timer in (self._expiry, self._silence):
             if timer is not None and timer.active():
                 timer.cancel()
@@ -181,7 +178,12 @@ class SerialProvider(BaseStartedModule):
 
     def _on_opened(self) -> None:
         assert self._line is not None
-        self._log_info(f"opened {self._opener.path} at {self.baud_rate} baud, {self.framing}")
+        self.log.info(
+            "opened {path} at {baud_rate} baud, {framing}",
+            path=self._opener.path,
+            baud_rate=self.baud_rate,
+            framing=self.framing,
+        )
         self._decoder.reset()
         self._newest_frame = None
         if self._encoder.opening:
@@ -192,13 +194,18 @@ class SerialProvider(BaseStartedModule):
             listener.on_line_opened()
 
     def _on_lost(self, why: str) -> None:
-        self._log_warning(f"lost {self._opener.path}: {why}; waiting for {self._opener.wanted}")
+        self.log.warn(
+            "lost {path}: {reason}; waiting for {wanted}",
+            path=self._opener.path,
+            reason=why,
+            wanted=self._opener.wanted,
+        )
         self._fall_silent()
         for listener in self._listeners:
             listener.on_line_lost()
 
     def _on_open_failed(self, why: str) -> None:
-        self._log_warning(f"{why}; trying again")
+        self.log.warn("{reason}; trying again", reason=why)
 
     def _on_bytes(self, data: bytes) -> None:
         """Hand the frames in ``data`` to their handlers; all input goes through here."""
@@ -236,7 +243,7 @@ class SerialProvider(BaseStartedModule):
         if (name, type_) in self._named:
             return
         self._named.add((name, type_))
-        self.logger.failure(
+        self.log.failure(
             "{name} failed while handling {type!r} (said once, then counted)",
             name=name,
             type=chr(type_),
@@ -266,10 +273,14 @@ class SerialProvider(BaseStartedModule):
         limit_s: float = self.config.silence_s
         silent_s = self._seconds() - self._heard_s
         if self._is_heard and silent_s >= limit_s:
-            self._log_warning(f"no frame for {limit_s:g} s on {self._opener.path}")
+            self.log.warn(
+                "no frame for {limit_s:g} s on {path}", limit_s=limit_s, path=self._opener.path
+            )
             self._fall_silent()
         if silent_s >= TRY_ANOTHER_AFTER_S and self._opener.has_another():
-            self._log_warning(f"nothing is understood on {self._opener.path}: trying another port")
+            self.log.warn(
+                "nothing is understood on {path}: trying another port", path=self._opener.path
+            )
             self._opener.pass_over()
             assert self._line is not None
             self._line.reopen()

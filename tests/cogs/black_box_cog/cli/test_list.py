@@ -6,7 +6,7 @@ import os
 
 import pytest
 from black_box_cog.cli.list_verb import lines_of
-from black_box_cog.cli.overview_cache import MOST, OverviewCache
+from black_box_cog.cli.overview_cache import MAX_ENTRIES, OverviewCache
 from black_box_cog.cli.progress import Progress
 
 from tests.cogs.black_box_cog.logbook import START_UNIX_S, write_flight
@@ -132,11 +132,11 @@ def test_entries_of_another_kind_are_not_believed(flights, tmp_path):
 def test_the_cache_is_bounded(flights, tmp_path):
     write_flight(flights, 1)
     cache = tmp_path / "cache.json"
-    entries = {f"/{number}": {} for number in range(MOST + 10)}
+    entries = {f"/{number}": {} for number in range(MAX_ENTRIES + 10)}
     cache.write_text(json.dumps({"format": 1, "flights": entries}))
     lines_of(flights_in(flights), OverviewCache(cache))
     kept = json.loads(cache.read_bytes())["flights"]
-    assert len(kept) == MOST and any("kite" in key for key in kept)
+    assert len(kept) == MAX_ENTRIES and any("kite" in key for key in kept)
 
 
 def test_a_cache_that_cannot_be_written_stops_nothing(flights, tmp_path):

@@ -1,19 +1,19 @@
 """What happened, one line each."""
 
 import pytest
-from black_box_cog.report.events import MOST, events_of
+from black_box_cog.report.events import MAX_ENTRIES, events_of
 
 from tests.up.flight_log.flights import GROUND, FlightMaker, LinkStateCommand, PanicCommand
 from tests.up.flight_log.flights import FlightStateCommand as State
 from tests.up.flight_log.flights import PIDTuningsCommand as Tunings
-from up.flight_log.facts import Facts
+from up.flight_log.flight_context import FlightContext
 
 
 @pytest.fixture
 def told(tmp_path):
     def told(maker):
         log = maker.log(tmp_path)
-        return [(round(each.time_s, 1), each.text) for each in events_of(log, Facts(log))]
+        return [(round(each.time_s, 1), each.text) for each in events_of(log, FlightContext(log))]
 
     return told
 
@@ -64,7 +64,7 @@ def test_who_flies(told):
 
 def test_a_page_stays_a_page(told):
     maker = FlightMaker()
-    for number in range(MOST + 5):
+    for number in range(MAX_ENTRIES + 5):
         maker.add(number, "black_box.mark", text=str(number))
     found = told(maker)
-    assert len(found) == MOST + 1 and found[-1][1] == "5 more events are not shown"
+    assert len(found) == MAX_ENTRIES + 1 and found[-1][1] == "5 more events are not shown"

@@ -8,7 +8,7 @@ from html.parser import HTMLParser
 
 import pytest
 from black_box_cog.pictures.canvas import MISSING, PictureError
-from black_box_cog.report.findings import findings_of
+from black_box_cog.report.content import report_content
 from black_box_cog.report.folder import write_report
 from black_box_cog.report.html_text import markup, tag
 from black_box_cog.report.images import image_sets
@@ -88,15 +88,15 @@ def report_of(folder, fill=quiet, **more):
 
 def written(folder, on_missing=None):
     flight = find_flight("last", lambda: folder / "flights")
-    findings = findings_of(FlightLog.read(flight.paths), flight.name, flight.number)
+    content = report_content(FlightLog.read(flight.paths), flight.name, flight.number)
     files = write_report(
-        findings,
+        content,
         folder / "report",
         may_overwrite=False,
         on_missing=on_missing or pytest.fail,
     )
     assert files[0] == folder / "report" / "report.html"
-    return Page(files[0].read_text()), files, findings
+    return Page(files[0].read_text()), files, content
 
 
 @pytest.fixture(scope="module")
@@ -155,8 +155,8 @@ def test_the_error_against_the_truth(report):
 
 
 def test_the_pictures_are_in_the_page_and_beside_it(report):
-    page, files, findings = report
-    names = ["report.html", "track.png", *(f"{each.name}.png" for each in findings.pictures)]
+    page, files, content = report
+    names = ["report.html", "track.png", *(f"{each.name}.png" for each in content.pictures)]
     assert [path.name for path in files] == names
     # Wide and narrow, for daylight and for the dark.
     assert len(page.images) == 4 * (len(files) - 1)
@@ -171,8 +171,8 @@ def test_the_pictures_are_in_the_page_and_beside_it(report):
 
 
 def test_the_same_flight_is_the_same_picture(report):
-    _, files, findings = report
-    (drawn,) = [image for image in image_sets(replace(findings, pictures=[]))]
+    _, files, content = report
+    (drawn,) = [image for image in image_sets(replace(content, pictures=[]))]
     assert drawn.wide == files[1].read_bytes()
 
 
@@ -215,21 +215,21 @@ def test_a_log_that_was_cut_off_says_so(tmp_path):
 
 
 def test_what_is_there_stays(report, tmp_path):
-    _, _, findings = report
+    _, _, content = report
     (tmp_path / "report.html").write_text("mine")
     with pytest.raises(CliError, match="say --force"):
-        write_report(findings, tmp_path, may_overwrite=False, on_missing=pytest.fail)
+        write_report(content, tmp_path, may_overwrite=False, on_missing=pytest.fail)
     assert [path.name for path in tmp_path.iterdir()] == ["report.html"]
     (tmp_path / "file").write_text("")
     with pytest.raises(CliError, match="cannot be made"):
-        write_report(findings, tmp_path / "file", may_overwrite=True, on_missing=pytest.fail)
+        write_report(content, tmp_path / "file", may_overwrite=True, on_missing=pytest.fail)
 
 
 def test_the_verdict(tmp_path):
     write_flight(tmp_path / "flights", 1)
     flight = find_flight("last", lambda: tmp_path / "flights")
-    findings = findings_of(FlightLog.read(flight.paths), flight.name)
-    assert verdict_of(findings.summary, findings.wrongs) == (
+    content = report_content(FlightLog.read(flight.paths), flight.name)
+    assert verdict_of(content.summary, content.findings) == (
         "good",
         "20 s were recorded, 10 s of it armed, up to 211 m from home."
         " Nothing went wrong that the log can tell.",
@@ -268,8 +268,8 @@ def test_a_damaged_log_has_a_page_or_a_sentence(tmp_path_factory, data):
         content[at] = data.draw(st.integers(0, 255))
     path.write_bytes(content[: data.draw(st.integers(0, len(content)))])
     try:
-        findings = findings_of(FlightLog.read([path]), path.stem)
-        page = Page(page_of(findings, {}))
+        content = report_content(FlightLog.read([path]), path.stem)
+        page = Page(page_of(content, {}))
     except FlightLogError as error:
         assert path.name in str(error)
     else:

@@ -18,16 +18,12 @@ export class Crew {
   #members = [];
   #place;
 
-  /** @param {HTMLElement} place that lists the missing parts */
+  /** place: that lists the missing parts. */
   constructor(place) {
     this.#place = place;
   }
 
-  /**
-   * @param {string} name
-   * @param {{update: () => void, fail?: () => void}} part fail: undoes the part's display elsewhere
-   * @param {HTMLElement} element that it draws into
-   */
+  /** fail: undoes the part's display elsewhere; element: that it draws into. */
   add(name, part, element) {
     this.#members.push({ name, part, element, faults: 0, wait: 0, good: 0, line: null });
   }
@@ -48,10 +44,7 @@ export class Crew {
     }
   }
 
-  /**
-   * @param {string} sentence that names the missing part
-   * @returns {HTMLElement} its line
-   */
+  /** sentence: that names the missing part. Returns its line. */
   say(sentence) {
     const line = html("span", {}, sentence);
     this.#place.append(line);

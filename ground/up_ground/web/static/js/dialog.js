@@ -1,8 +1,4 @@
-/**
- * Confirm an important action.
- * @param {{title: string, text: string, yes?: string, no?: string, isDanger?: boolean}} question
- * @returns {Promise<boolean>} false also for Escape, and while another dialog is open
- */
+/** Confirm an important action. Returns false also for Escape, and while another dialog is open. */
 export function confirm({ title, text, yes = "Yes", no = "No", isDanger = false }) {
   const dialog = document.getElementById("confirm");
   if (dialog.open) {

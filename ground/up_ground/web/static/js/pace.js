@@ -4,10 +4,7 @@ const PERIOD_S = 0.2;
 export class Pace {
   #next_s = -Infinity;
 
-  /**
-   * @param {number} now_s
-   * @returns {boolean} whether it is time to write them again
-   */
+  /** Whether it is time to write them again. */
   isTime(now_s) {
     if (now_s < this.#next_s) {
       return false;

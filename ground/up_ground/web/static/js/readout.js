@@ -1,11 +1,7 @@
 import { readingOf } from "./state/ages.js";
 import { ageText, UNKNOWN } from "./state/format.js";
 
-/**
- * Writes a text into an element, only when it changed.
- * @param {Element} element
- * @param {string} text
- */
+/** Writes a text into an element, only when it changed. */
 export function setText(element, text) {
   if (element.shownText !== text) {
     element.textContent = text;
@@ -13,12 +9,7 @@ export function setText(element, text) {
   }
 }
 
-/**
- * Sets an attribute, only when it changed.
- * @param {Element} element
- * @param {string} name
- * @param {string} value
- */
+/** Sets an attribute, only when it changed. */
 export function setAttribute(element, name, value) {
   const shown = (element.shownAttributes ??= {});
   if (shown[name] !== value) {
@@ -27,13 +18,7 @@ export function setAttribute(element, name, value) {
   }
 }
 
-/**
- * Makes a HTML element.
- * @param {string} tag
- * @param {Record<string, string>} [attributes]
- * @param {...(Node|string)} children
- * @returns {HTMLElement}
- */
+/** Makes a HTML element. */
 export function html(tag, attributes = {}, ...children) {
   const element = document.createElement(tag);
   for (const [name, value] of Object.entries(attributes)) {
@@ -43,20 +28,14 @@ export function html(tag, attributes = {}, ...children) {
   return element;
 }
 
-/**
- * @param {object} store
- * @param {string|null} reading
- * @param {string} freshness
- * @param {string} [otherwise] text while the reading is not stale
- * @returns {string} age of a stale reading
- */
+/** otherwise: text while the reading is not stale. Returns age of a stale reading. */
 export function oldText(store, reading, freshness, otherwise = "") {
   return freshness === "stale" ? ageText(store.age_s(reading) ?? store.age_s(null)) : otherwise;
 }
 
 /**
- * One value of the telemetry in an element: `data-key`, `data-freshness`, `--` without a value,
- * and its age in `ageElement` while it is stale.
+ * One value of the telemetry in an element: `data-key`, `data-freshness`, `--` without a value, and
+ * its age in `ageElement` while it is stale.
  */
 export class Readout {
   #path;
@@ -64,13 +43,7 @@ export class Readout {
   #reading;
   #kind;
 
-  /**
-   * @param {Element} element
-   * @param {string} path of the value
-   * @param {(value: any) => string} [format]
-   * @param {Element|null} [ageElement]
-   * @param {"value"|"number"|"flag"|"text"} [kind] a value of another type is ignored
-   */
+  /** path: of the value; kind: a value of another type is ignored. */
   constructor(element, path, format = String, ageElement = null, kind = "value") {
     this.element = element;
     this.ageElement = ageElement;
@@ -81,10 +54,7 @@ export class Readout {
     element.setAttribute("data-key", path);
   }
 
-  /**
-   * @param {object} store
-   * @returns {any} the value shown, null: none
-   */
+  /** The value shown, null: none. */
   update(store) {
     const value = store[this.#kind](this.#path);
     const freshness = value === null ? "none" : store.freshness(this.#reading);

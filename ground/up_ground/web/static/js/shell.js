@@ -2,12 +2,7 @@ import { setAttribute, setText } from "./readout.js";
 import { alarmOf } from "./state/alarm_level.js";
 import { UNKNOWN } from "./state/format.js";
 
-/**
- * The frame of the page: bar, banner of the link, choice of the aircraft, silence.
- * @param {object} store
- * @param {object} connection
- * @returns {{update: () => void}}
- */
+/** The frame of the page: bar, banner of the link, choice of the aircraft, silence. */
 export function mountShell(store, connection) {
   const at = (id) => document.getElementById(id);
   const select = at("aircraft-select");
@@ -82,19 +77,14 @@ export function mountShell(store, connection) {
   };
 }
 
-/**
- * @param {object} store
- * @param {"silent"|"none"} state
- * @returns {string} the text over the instruments
- */
+/** The text over the instruments. */
 export function silenceText(store, state) {
   return state === "none" ? "nothing heard yet" : `no news for ${store.age_s(null).toFixed(1)} s`;
 }
 
 /**
- * @param {string} reason with which the connection was closed
- * @param {boolean} isFull whether the server is reached but takes no more pages
- * @returns {string} why the page is disconnected
+ * reason: with which the connection was closed; isFull: whether the server is reached but takes no
+ * more pages. Returns why the page is disconnected.
  */
 export function lostText(reason, isFull) {
   if (isFull) {

@@ -15,12 +15,7 @@ export class Bell {
   #known = new Set();
   #rang_s = -Infinity;
 
-  /**
-   * @param {{level: string, text: string|null}} alarm the worst, as shown in the bar
-   * @param {{kind: string, level: string}[]} all
-   * @param {number} now_s
-   * @returns {"warning"|"alarm"|null} the sound to play
-   */
+  /** alarm: the worst, as shown in the bar. Returns the sound to play. */
   ring(alarm, all, now_s) {
     const now = new Set(all.map((each) => `${each.kind} ${each.level}`));
     if (all.length === 0 || alarm.level === "alarm") {
@@ -40,9 +35,6 @@ export class Bell {
 /**
  * Tones and vibration for alarms; silent until the user switches them on, because browsers play
  * nothing before a gesture. Driven by a timer, so that a page in the background rings too.
- * @param {HTMLButtonElement} button
- * @param {object} store
- * @param {object} connection
  */
 export function mountSound(button, store, connection) {
   const memory = keepsakeOf("localStorage");

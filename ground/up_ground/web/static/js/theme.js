@@ -3,8 +3,8 @@ import { keepsakeOf } from "./link/keepsake.js";
 const THEMES = ["dark", "daylight"];
 
 /**
- * Dark or daylight: follows the system until the user chooses.
- * @param {HTMLElement} button toggles; its label names the other theme
+ * Dark or daylight: follows the system until the user chooses. button: toggles; its label names the
+ * other theme.
  */
 export function mountTheme(button) {
   const memory = keepsakeOf("localStorage");

@@ -13,11 +13,9 @@ import org.raspilot.up.commands.BaseCommandHandler;
 import org.raspilot.up.commands.CommandFields;
 import org.raspilot.up.commands.CommandReader;
 import org.raspilot.up.commands.CommandRefusedException;
-import org.raspilot.up.commands.HandlerFaultListener;
-import org.raspilot.up.loop.FaultListener;
 import org.raspilot.up.loop.ManualLoop;
-import org.raspilot.up.providers.Cadence;
-import org.raspilot.up.providers.Outlet;
+import org.raspilot.up.providers.RatePolicy;
+import org.raspilot.up.providers.MessageSink;
 import org.raspilot.up.providers.SensorListener;
 import org.raspilot.up.providers.SensorProvider;
 import org.raspilot.up.providers.SensorSource;
@@ -35,18 +33,13 @@ public final class OwnApplicationTest {
     /** A Command: its name, its fields with their bounds. */
     static final class ReleaseCommand extends BaseCommand {
         static final String NAME = "camera.release";
-        static final CommandReader READER = new CommandReader() {
-            @Override
-            public BaseCommand read(GeneralMessage message) {
-                return new ReleaseCommand(message);
-            }
-        };
+        static final CommandReader READER = message -> new ReleaseCommand(message);
 
         final long pictures;
 
         ReleaseCommand(GeneralMessage message) {
             super(NAME, message);
-            pictures = new CommandFields(message.data()).whole("pictures", 1, 10);
+            pictures = new CommandFields(message.data).whole("pictures", 1, 10);
         }
     }
 
@@ -67,7 +60,7 @@ public final class OwnApplicationTest {
     /** A provider: what a sensor's reading is as a Command. */
     static final class LightProvider extends SensorProvider<Double> {
         LightProvider(SensorSource<Double> sensor) {
-            super("light", sensor, Cadence.stream(200, 2000));
+            super("light", sensor, RatePolicy.stream(200, 2000));
         }
 
         @Override
@@ -76,20 +69,13 @@ public final class OwnApplicationTest {
         }
     }
 
-    private final ManualLoop loop = new ManualLoop(null, new FaultListener() {
-        @Override
-        public void onFault(Throwable fault) {
-            throw new AssertionError(fault);
-        }
+    private final ManualLoop loop = new ManualLoop(null, fault -> {
+        throw new AssertionError(fault);
     });
-    private final Up up = new Up(loop, new HandlerFaultListener() {
-        @Override
-        public void onHandlerFailed(BaseCommandHandler handler, BaseCommand command,
-                Throwable fault) {
-            throw new AssertionError(fault);
-        }
+    private final Up up = new Up(loop, (handler, command, fault) -> {
+        throw new AssertionError(fault);
     });
-    private final List<String> lines = new ArrayList<String>();
+    private final List<String> lines = new ArrayList<>();
 
     @Test
     public void aCommandAndItsHandlerAreOneRegistrationEach() {
@@ -113,13 +99,9 @@ public final class OwnApplicationTest {
 
     @Test
     public void aHandlerAloneMakesANameKnown() {
-        final List<Object> heard = new ArrayList<Object>();
-        up.commandExecutor().registerCommand("camera.zoom", new BaseCommandHandler() {
-            @Override
-            public void runAction(BaseCommand command) {
-                heard.add(command.data().get("factor"));
-            }
-        });
+        final List<Object> heard = new ArrayList<>();
+        up.commandExecutor().registerCommand("camera.zoom", command ->
+                heard.add(command.data().get("factor")));
 
         receive("{\"name\": \"camera.zoom\", \"data\": {\"factor\": 2.5}, \"id\": \"1\"}");
 
@@ -145,15 +127,10 @@ public final class OwnApplicationTest {
         up.commandReceiver().receiveLine(bytes, bytes.length, answers);
     }
 
-    private final AnswerSink answers = new AnswerSink() {
-        @Override
-        public void answer(GeneralMessage answer) {
-            lines.add(Vectors.text(answer.toLine()).trim());
-        }
-    };
+    private final AnswerSink answers = answer -> lines.add(Vectors.text(answer.toLine()).trim());
 
     /** The link to the Raspberry Pi, as far as a provider sees it. */
-    private final class Link implements Outlet {
+    private final class Link implements MessageSink {
         @Override
         public boolean sendNewest(String key, BaseCommand command) {
             return lines.add(Vectors.text(command.toMessage().toLine()).trim());

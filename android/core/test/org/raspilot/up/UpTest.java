@@ -8,19 +8,13 @@ import static org.junit.Assert.fail;
 
 import org.junit.After;
 import org.junit.Test;
-import org.raspilot.up.commands.ArmCommand;
 import org.raspilot.up.commands.BaseCommand;
-import org.raspilot.up.commands.BaseCommandHandler;
-import org.raspilot.up.commands.HandlerFaultListener;
-import org.raspilot.up.loop.FaultListener;
+import org.raspilot.up.commands.Commands;
 import org.raspilot.up.loop.ManualLoop;
 
 public final class UpTest {
-    private final ManualLoop loop = new ManualLoop(null, new FaultListener() {
-        @Override
-        public void onFault(Throwable fault) {
-            throw new AssertionError(fault);
-        }
+    private final ManualLoop loop = new ManualLoop(null, fault -> {
+        throw new AssertionError(fault);
     });
 
     @After
@@ -57,25 +51,17 @@ public final class UpTest {
     public void twoUpsShareNothing() {
         Up one = newUp();
         Up two = newUp();
-        one.commandExecutor().registerCommand(ArmCommand.NAME, new BaseCommandHandler() {
-            @Override
-            public void runAction(BaseCommand command) {
-                fail("delivered to the other");
-            }
-        });
-        assertEquals(0, two.commandExecutor().executeCommand(new ArmCommand()));
+        one.commandExecutor().registerCommand(Commands.ARM, command ->
+                fail("delivered to the other"));
+        assertEquals(0, two.commandExecutor().executeCommand(new BaseCommand(Commands.ARM)));
         assertNotSame(one.commandRegistry(), two.commandRegistry());
         assertNotSame(one.providersController(), two.providersController());
         assertTrue(one.loop() == loop);
     }
 
     private Up newUp() {
-        return new Up(loop, new HandlerFaultListener() {
-            @Override
-            public void onHandlerFailed(BaseCommandHandler handler, BaseCommand command,
-                    Throwable fault) {
-                throw new AssertionError(fault);
-            }
+        return new Up(loop, (handler, command, fault) -> {
+            throw new AssertionError(fault);
         });
     }
 }

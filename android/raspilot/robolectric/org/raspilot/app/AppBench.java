@@ -23,7 +23,7 @@ public abstract class AppBench {
     static final String LYING = "sw360dp-w640dp-h360dp-land-xhdpi";
     static final String TABLET = "sw800dp-w1280dp-h800dp-land-mdpi";
 
-    final Handset handset = new Handset();
+    final TestPhone handset = new TestPhone();
 
     @After
     public final void putAway() throws Exception {
@@ -50,7 +50,7 @@ public abstract class AppBench {
         ListView list = (ListView) find(R.id.commands_list);
         for (int at = 0; at < list.getAdapter().getCount(); at++) {
             Object item = list.getAdapter().getItem(at);
-            if (item instanceof CommandForm && ((CommandForm) item).name().equals(command)) {
+            if (item instanceof CommandForm && ((CommandForm) item).name.equals(command)) {
                 list.performItemClick(null, at, at);
                 return;
             }

@@ -17,7 +17,6 @@ import org.junit.After;
 import org.junit.Before;
 import org.junit.Test;
 import org.raspilot.up.Up;
-import org.raspilot.up.loop.FaultListener;
 import org.raspilot.up.loop.SelectorLoop;
 import org.robolectric.annotation.Config;
 
@@ -62,7 +61,7 @@ public final class BadReadingsTest extends AppBench {
         start();
         Wait.until("the heading", () -> {
             handset.sense(Sensor.TYPE_ROTATION_VECTOR, 0, 0, 0, 0);
-            handset.sense(Sensor.TYPE_ROTATION_VECTOR, Handset.BANKED);
+            handset.sense(Sensor.TYPE_ROTATION_VECTOR, TestPhone.BANKED);
             return board.hasHeard("up.heading.change");
         });
     }
@@ -96,11 +95,8 @@ public final class BadReadingsTest extends AppBench {
 
     @Test
     public void theUpOfAnotherPartOfTheProcessIsASentence() throws Exception {
-        SelectorLoop loop = new SelectorLoop("another", new FaultListener() {
-            @Override
-            public void onFault(Throwable fault) {
-                throw new AssertionError(fault);
-            }
+        SelectorLoop loop = new SelectorLoop("another", fault -> {
+            throw new AssertionError(fault);
         });
         Up.setInstance(new Up(loop, (handler, command, fault) -> { }));
         assertEquals(Service.START_NOT_STICKY, start());
@@ -110,9 +106,9 @@ public final class BadReadingsTest extends AppBench {
 
     private int count(String words) {
         int found = 0;
-        for (EventBook.Entry each : RaspilotApplication.of(handset.application).events()
+        for (AppLog.Entry each : RaspilotApplication.of(handset.application).events()
                 .entries()) {
-            found += each.text().contains(words) ? each.times() : 0;
+            found += each.text.contains(words) ? each.times : 0;
         }
         return found;
     }

@@ -41,7 +41,7 @@ final class Drawing {
 
     /** Returns the number of colours, at most that many. */
     int colours(int most) {
-        Set<Integer> seen = new HashSet<Integer>();
+        Set<Integer> seen = new HashSet<>();
         int[] row = new int[bitmap.getWidth()];
         for (int y = 0; y < bitmap.getHeight() && seen.size() < most; y++) {
             bitmap.getPixels(row, 0, row.length, 0, y, row.length, 1);

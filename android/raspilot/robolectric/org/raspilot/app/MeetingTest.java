@@ -6,7 +6,7 @@ import static org.junit.Assume.assumeNotNull;
 import android.hardware.Sensor;
 import org.junit.Before;
 import org.junit.Test;
-import org.raspilot.up.ground.SeatStanding;
+import org.raspilot.up.ground.ControlStatus;
 import org.robolectric.annotation.Config;
 
 /**
@@ -43,7 +43,7 @@ public final class MeetingTest extends AppBench {
     private void fly(String what, Wait.Condition condition) throws Exception {
         Wait.until(what, () -> {
             handset.sense(Sensor.TYPE_PRESSURE, 978.6f);
-            handset.sense(Sensor.TYPE_ROTATION_VECTOR, Handset.BANKED);
+            handset.sense(Sensor.TYPE_ROTATION_VECTOR, TestPhone.BANKED);
             handset.locate(LATITUDE, 13.37759, 345);
             Wait.pass(20);
             return condition.holds();
@@ -64,7 +64,7 @@ public final class MeetingTest extends AppBench {
             return text(R.id.ground_place).contains("49.74747");
         });
         fly("the seat", () -> handset.ground().status() != null
-                && handset.ground().status().standing() == SeatStanding.OURS);
+                && handset.ground().status().control == ControlStatus.OURS);
 
         handset.choose(Screen.COMMANDS);
         openCommand("up.telemetry.frequency");
@@ -75,6 +75,6 @@ public final class MeetingTest extends AppBench {
         find(R.id.page_send).performClick();
         fly("the answer", () -> text(R.id.commands_newest).startsWith("Telemetry period")
                 && text(R.id.commands_newest).contains("carried out"));
-        fly("twenty frames a second", () -> handset.ground().status().rateHz() > 15);
+        fly("twenty frames a second", () -> handset.ground().status().rateHz > 15);
     }
 }

@@ -14,7 +14,7 @@ import java.util.List;
 /** The other end of a link of lines, played by a test: it listens and records received lines. */
 class Peer implements Closeable {
     private final ServerSocket server;
-    private final List<String> heard = new ArrayList<String>();
+    private final List<String> heard = new ArrayList<>();
     private Socket connection;
     private boolean isClosed;
 
@@ -25,7 +25,6 @@ class Peer implements Closeable {
 
     /** A step of a thread that ends with the connection. */
     interface Work {
-        /** Does it. */
         void work() throws IOException;
     }
 
@@ -39,7 +38,7 @@ class Peer implements Closeable {
 
     /** Returns all lines received so far except heartbeats. */
     final synchronized List<String> heard() {
-        return new ArrayList<String>(heard);
+        return new ArrayList<>(heard);
     }
 
     final synchronized boolean isConnected() {

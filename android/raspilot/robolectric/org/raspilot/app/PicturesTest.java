@@ -36,11 +36,11 @@ public final class PicturesTest {
     private static final String LYING = AppBench.LYING;
     private static final String TABLET = AppBench.TABLET;
     private static final String TABLET_UPRIGHT = "sw800dp-w800dp-h1280dp-port-mdpi";
-    private static final long MOST_BYTES = 150 * 1024;
+    private static final long MAX_BYTES = 150 * 1024;
     private static final int TRACK_FRAMES = 290;
 
     private final File folder = new File(System.getProperty("pictures"));
-    private final Handset handset = new Handset();
+    private final TestPhone handset = new TestPhone();
     private PlayedProxy proxy;
     private PlayedBoard board;
 
@@ -112,7 +112,7 @@ public final class PicturesTest {
 
     private void documented(String name) throws IOException {
         File file = draw(name);
-        assertTrue(name + " has " + file.length() + " bytes", file.length() < MOST_BYTES);
+        assertTrue(name + " has " + file.length() + " bytes", file.length() < MAX_BYTES);
     }
 
     private void turn(String qualifiers, String theme) {
@@ -154,9 +154,9 @@ public final class PicturesTest {
 
     private void stale(String name) throws Exception {
         proxy.setFlying(false);
-        long beacon = handset.ground().telemetry().beacon();
+        long beacon = handset.ground().telemetry().beacon;
         Wait.until("silence", () -> handset.ground().telemetry().isSilent(
-                handset.ground().nowMs()) && handset.ground().telemetry().beacon() >= beacon);
+                handset.ground().nowMs()) && handset.ground().telemetry().beacon >= beacon);
         Wait.pass(300);
         draw(name + "-stale");
         proxy.setFlying(true);
@@ -180,7 +180,7 @@ public final class PicturesTest {
         ListView list = (ListView) handset.window.get().findViewById(R.id.commands_list);
         for (int at = 0; at < list.getAdapter().getCount(); at++) {
             Object item = list.getAdapter().getItem(at);
-            if (item instanceof CommandForm && ((CommandForm) item).name().equals(command)) {
+            if (item instanceof CommandForm && ((CommandForm) item).name.equals(command)) {
                 list.performItemClick(null, at, at);
                 return;
             }
@@ -190,14 +190,14 @@ public final class PicturesTest {
 
     /** Makes the sensors deliver and the newest frame visible. */
     private void live() throws Exception {
-        handset.sense(Sensor.TYPE_ROTATION_VECTOR, Handset.BANKED);
+        handset.sense(Sensor.TYPE_ROTATION_VECTOR, TestPhone.BANKED);
         handset.sense(Sensor.TYPE_GYROSCOPE, 0.01f, 0.02f, -0.01f);
         handset.sense(Sensor.TYPE_PRESSURE, 978.6f);
         handset.locate(49.74747, 13.37759, 345);
         assertNotNull(handset.ground());
-        Long before = handset.ground().telemetry().beacon();
+        Long before = handset.ground().telemetry().beacon;
         Wait.until("a new frame", () -> {
-            Long now = handset.ground().telemetry().beacon();
+            Long now = handset.ground().telemetry().beacon;
             return now != null && !now.equals(before);
         });
         Wait.pass(210);

@@ -57,8 +57,8 @@ public final class UpServiceTest extends AppBench {
     }
 
     private ProviderStatus provider(String name) {
-        for (ProviderStatus each : status.providers()) {
-            if (each.name().equals(name)) {
+        for (ProviderStatus each : status.providers) {
+            if (each.name.equals(name)) {
                 return each;
             }
         }
@@ -114,17 +114,17 @@ public final class UpServiceTest extends AppBench {
         handset.set(R.string.key_general_port, "many");
         assertEquals(Service.START_NOT_STICKY, handset.deliver(wish(), 1));
         assertNull(handset.up);
-        mustSay("many", RaspilotApplication.of(handset.application).events().newest().text());
+        mustSay("many", RaspilotApplication.of(handset.application).events().newest().text);
     }
 
     @Test
     public void aPhoneWithoutSensorsSaysWhatItLacks() throws Exception {
         start();
-        assertEquals(4, status.providers().size());
-        for (ProviderStatus each : status.providers()) {
-            if (!each.name().equals(BatteryProvider.NAME)) {
-                assertEquals(each.name(), ProviderState.ABSENT, each.state());
-                assertFalse(each.sensor().isEmpty());
+        assertEquals(4, status.providers.size());
+        for (ProviderStatus each : status.providers) {
+            if (!each.name.equals(BatteryProvider.NAME)) {
+                assertEquals(each.name, ProviderState.ABSENT, each.state);
+                assertFalse(each.sensor.isEmpty());
             }
         }
         handset.open();
@@ -138,7 +138,7 @@ public final class UpServiceTest extends AppBench {
         handset.fitSensors();
         start();
         Wait.until("location, altitude, heading and battery", () -> {
-            handset.sense(Sensor.TYPE_ROTATION_VECTOR, Handset.BANKED);
+            handset.sense(Sensor.TYPE_ROTATION_VECTOR, TestPhone.BANKED);
             handset.sense(Sensor.TYPE_PRESSURE, 978.6f);
             handset.locate(49.74747, 13.37759, 345);
             return board.hasHeard("up.location.update") && board.hasHeard("up.altitude.change")
@@ -160,9 +160,9 @@ public final class UpServiceTest extends AppBench {
                 android.Manifest.permission.ACCESS_FINE_LOCATION,
                 android.Manifest.permission.ACCESS_COARSE_LOCATION);
         start();
-        assertEquals(ProviderState.ABSENT, provider(LocationProvider.NAME).state());
+        assertEquals(ProviderState.ABSENT, provider(LocationProvider.NAME).state);
         mustSay(handset.application.getString(R.string.lack_location_permission),
-                provider(LocationProvider.NAME).sensor());
+                provider(LocationProvider.NAME).sensor);
         handset.fitLocation();
         ((BaseUpService.Airside) handset.up.get().onBind(wish())).permissionsChanged();
         Wait.until("the location", () -> {

@@ -7,21 +7,19 @@ import org.robolectric.shadows.ShadowLooper;
 
 /** Waits for what other threads and real sockets bring, while the main thread does its work. */
 final class Wait {
-    private static final long LONGEST_NS = 30L * 1000 * 1000 * 1000;
+    private static final long MAX_NS = 30L * 1000 * 1000 * 1000;
     private static final long PAUSE_MS = 2;
 
     private Wait() {
     }
 
-    /** The awaited condition. */
     interface Condition {
-        /** Returns whether it is true. */
         boolean holds() throws Exception;
     }
 
     /** Runs the main thread until a condition holds; fails after a long timeout. */
     static void until(String what, Condition condition) throws Exception {
-        long endNs = System.nanoTime() + LONGEST_NS;
+        long endNs = System.nanoTime() + MAX_NS;
         ShadowLooper.idleMainLooper();
         while (!condition.holds()) {
             if (System.nanoTime() - endNs > 0) {

@@ -8,11 +8,10 @@ import android.view.ViewGroup;
 import org.raspilot.up.airborne.AirborneSettings;
 import org.raspilot.up.airborne.AirborneStatus;
 import org.raspilot.up.android.BaseUpService;
-import org.raspilot.up.android.ProblemListener;
 
 /** The airborne screen: sent readings, rates, destination, and the phone's mounting. */
 public final class AirborneFragment extends Fragment
-        implements AirborneLink.Watcher, EventBook.Watcher, SpawnDesk.Watcher {
+        implements AirborneLink.Watcher, AppLog.Watcher, SpawnRequests.Watcher {
     private static final String IS_STARTING = "starting";
     private static final String WAS_ASKED = "asked";
 
@@ -39,33 +38,18 @@ public final class AirborneFragment extends Fragment
     public View onCreateView(LayoutInflater inflater, ViewGroup container, Bundle saved) {
         View root = inflater.inflate(R.layout.fragment_airborne, container, false);
         AppSettings settings = new AppSettings(getActivity());
-        run = new RunPanel(root, new View.OnClickListener() {
-            @Override
-            public void onClick(View pressed) {
-                press();
-            }
-        });
-        providers = new ProvidersPanel(root, new View.OnClickListener() {
-            @Override
-            public void onClick(View pressed) {
-                zeroAltitude();
-            }
-        });
+        run = new RunPanel(root, pressed -> press());
+        providers = new ProvidersPanel(root, pressed -> zeroAltitude());
         phone = new PhonePanel(getActivity(), root, settings);
-        mounting = new MountingPanel(root, settings, new ProblemListener() {
-            @Override
-            public void onProblem(String sentence) {
-                application.note(sentence);
-            }
-        });
+        mounting = new MountingPanel(root, settings, sentence -> application.log(sentence));
         return root;
     }
 
     @Override
     public void onStart() {
         super.onStart();
-        application.events().watch(this);
-        application.spawning().watch(this);
+        application.events().addWatcher(this);
+        application.spawning().setWatcher(this);
         mounting.begin();
         link.begin();
         showAll();
@@ -81,8 +65,8 @@ public final class AirborneFragment extends Fragment
     public void onStop() {
         link.end();
         mounting.end();
-        application.spawning().watch(null);
-        application.events().unwatch(this);
+        application.spawning().setWatcher(null);
+        application.events().removeWatcher(this);
         status = null;
         super.onStop();
     }
@@ -125,7 +109,7 @@ public final class AirborneFragment extends Fragment
             return;
         }
         if (phone != null) {
-            phone.answered();
+            phone.onAnswered();
         }
         if (link.isRunning()) {
             link.airside().permissionsChanged();
@@ -141,7 +125,7 @@ public final class AirborneFragment extends Fragment
             application.spawning().cancel();
         } else if (link.isRunning()) {
             stop();
-        } else if (!wasAsked && phone.ask()) {
+        } else if (!wasAsked && phone.requestPermissions()) {
             wasAsked = true;
             isStarting = true;
         } else {
@@ -150,8 +134,8 @@ public final class AirborneFragment extends Fragment
     }
 
     private void stop() {
-        if (getFragmentManager().findFragmentByTag(StopQuestion.TAG) == null) {
-            new StopQuestion().show(getFragmentManager(), StopQuestion.TAG);
+        if (getFragmentManager().findFragmentByTag(StopDialog.TAG) == null) {
+            new StopDialog().show(getFragmentManager(), StopDialog.TAG);
         }
     }
 
@@ -159,12 +143,12 @@ public final class AirborneFragment extends Fragment
         try {
             AirborneSettings settings = new AppSettings(getActivity()).airborne();
             if (settings.isByRunner()) {
-                application.spawning().ask(settings);
+                application.spawning().request(settings);
             } else {
                 BaseUpService.start(getActivity(), RaspilotUpService.class);
             }
         } catch (IllegalArgumentException wrong) {
-            application.note(wrong.getMessage());
+            application.log(wrong.getMessage());
         }
     }
 
@@ -192,9 +176,9 @@ public final class AirborneFragment extends Fragment
         if (link.isRunning()) {
             run.showRunning(status);
         } else {
-            EventBook.Entry newest = application.events().newest();
+            AppLog.Entry newest = application.events().newest();
             run.showStopped(application.spawning().isAsking(),
-                    newest == null ? null : newest.text());
+                    newest == null ? null : newest.text);
         }
     }
 }

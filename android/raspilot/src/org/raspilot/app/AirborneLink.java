@@ -22,12 +22,7 @@ final class AirborneLink {
 
     private final Context context;
     private final Watcher watcher;
-    private final UpWatcher statuses = new UpWatcher() {
-        @Override
-        public void onStatus(AirborneStatus status) {
-            watcher.onAirborne(status);
-        }
-    };
+    private final UpWatcher statuses;
     private final ServiceConnection connection = new ServiceConnection() {
         @Override
         public void onServiceConnected(ComponentName name, IBinder binder) {
@@ -51,6 +46,7 @@ final class AirborneLink {
     AirborneLink(Context context, Watcher watcher) {
         this.context = context.getApplicationContext();
         this.watcher = watcher;
+        statuses = status -> watcher.onAirborne(status);
     }
 
     /** Starts to watch, also a service that is started later. */
@@ -61,7 +57,6 @@ final class AirborneLink {
         }
     }
 
-    /** Stops it. */
     void end() {
         if (airside != null) {
             airside.remove(statuses);
@@ -85,7 +80,6 @@ final class AirborneLink {
         }
     }
 
-    /** Returns whether the service runs. */
     boolean isRunning() {
         return airside != null;
     }

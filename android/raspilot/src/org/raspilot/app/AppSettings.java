@@ -10,7 +10,7 @@ import org.raspilot.up.airborne.OrientationTransport;
 import org.raspilot.up.ground.GroundSettings;
 import org.raspilot.up.providers.Mounting;
 import org.raspilot.up.providers.Side;
-import org.raspilot.up.wire.Seat;
+import org.raspilot.up.wire.ProxyRole;
 
 /**
  * The user's settings. An invalid value (of an older version, of a broken file) throws an
@@ -58,7 +58,7 @@ final class AppSettings {
                 text(R.string.key_ground_host, R.string.default_ground_host),
                 port(R.string.key_ground_port, R.string.default_ground_port),
                 text(R.string.key_ground_aircraft, R.string.default_ground_aircraft),
-                isListening ? Seat.LISTEN : Seat.COMMAND, isDirect);
+                isListening ? ProxyRole.LISTEN : ProxyRole.COMMAND, isDirect);
     }
 
     /** Returns who the phone speaks to. */
@@ -79,7 +79,7 @@ final class AppSettings {
         try {
             return kept.isEmpty() ? Mounting.FLAT : Mounting.fromText(kept);
         } catch (IllegalArgumentException broken) {
-            RaspilotApplication.of(context).note(
+            RaspilotApplication.of(context).log(
                     context.getString(R.string.mounting_broken, broken.getMessage()));
             return Mounting.FLAT;
         }

@@ -16,57 +16,38 @@ import java.text.SimpleDateFormat;
 import java.util.Locale;
 
 /** The log screen: the events since the application started, to read, share and copy. */
-public final class LogFragment extends Fragment implements EventBook.Watcher {
+public final class LogFragment extends Fragment implements AppLog.Watcher {
     private static final String TIME = "HH:mm:ss";
 
     private ArrayAdapter<String> lines;
-    private LogText text;
+    private LogFormatter text;
 
     @Override
     public View onCreateView(LayoutInflater inflater, ViewGroup container, Bundle saved) {
         View root = inflater.inflate(R.layout.fragment_log, container, false);
         final Context context = getActivity();
-        text = new LogText(new SimpleDateFormat(TIME, Locale.US), new LogText.Times() {
-            @Override
-            public String of(String line, int times) {
-                return context.getString(R.string.log_times, line, times);
-            }
-        });
-        lines = new ArrayAdapter<String>(context, R.layout.row_log);
+        text = new LogFormatter(new SimpleDateFormat(TIME, Locale.US), (line, times) ->
+                context.getString(R.string.log_times, line, times));
+        lines = new ArrayAdapter<>(context, R.layout.row_log);
         ListView list = (ListView) root.findViewById(R.id.log_lines);
         list.setAdapter(lines);
         list.setEmptyView(root.findViewById(R.id.log_empty));
-        root.findViewById(R.id.log_share).setOnClickListener(new View.OnClickListener() {
-            @Override
-            public void onClick(View pressed) {
-                share();
-            }
-        });
-        root.findViewById(R.id.log_copy).setOnClickListener(new View.OnClickListener() {
-            @Override
-            public void onClick(View pressed) {
-                copy();
-            }
-        });
-        root.findViewById(R.id.log_clear).setOnClickListener(new View.OnClickListener() {
-            @Override
-            public void onClick(View pressed) {
-                events().clear();
-            }
-        });
+        root.findViewById(R.id.log_share).setOnClickListener(pressed -> share());
+        root.findViewById(R.id.log_copy).setOnClickListener(pressed -> copy());
+        root.findViewById(R.id.log_clear).setOnClickListener(pressed -> events().clear());
         return root;
     }
 
     @Override
     public void onStart() {
         super.onStart();
-        events().watch(this);
+        events().addWatcher(this);
         onEvents();
     }
 
     @Override
     public void onStop() {
-        events().unwatch(this);
+        events().removeWatcher(this);
         super.onStop();
     }
 
@@ -83,7 +64,7 @@ public final class LogFragment extends Fragment implements EventBook.Watcher {
         }
         lines.setNotifyOnChange(false);
         lines.clear();
-        for (EventBook.Entry entry : events().entries()) {
+        for (AppLog.Entry entry : events().entries()) {
             lines.add(text.line(entry));
         }
         lines.notifyDataSetChanged();
@@ -105,7 +86,7 @@ public final class LogFragment extends Fragment implements EventBook.Watcher {
         Toast.makeText(getActivity(), R.string.log_copied, Toast.LENGTH_SHORT).show();
     }
 
-    private EventBook events() {
+    private AppLog events() {
         return RaspilotApplication.of(getActivity()).events();
     }
 }

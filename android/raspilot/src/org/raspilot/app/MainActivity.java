@@ -24,7 +24,7 @@ public final class MainActivity extends Activity implements ActionBar.TabListene
         setTheme(AppTheme.style(this));
         super.onCreate(saved);
         setContentView(R.layout.activity_main);
-        TelemetryLink.prepare(this);
+        TelemetryLink.create(this);
         isTwoPanes = getResources().getBoolean(R.bool.two_panes);
         if (saved != null) {
             chosen = Screen.named(saved.getString(CHOSEN));

@@ -35,7 +35,7 @@ final class MountingPanel implements SensorListener<Rotation> {
     MountingPanel(View root, AppSettings settings, ProblemListener problems) {
         context = root.getContext();
         this.settings = settings;
-        feed = new RotationFeed(context, new AppSourceTexts(context), problems);
+        feed = new RotationFeed(context, new AppSensorTexts(context), problems);
         roll = (TextView) root.findViewById(R.id.mounting_roll);
         pitch = (TextView) root.findViewById(R.id.mounting_pitch);
         yaw = (TextView) root.findViewById(R.id.mounting_yaw);
@@ -47,22 +47,15 @@ final class MountingPanel implements SensorListener<Rotation> {
         absent.setVisibility(feed.isPresent() ? View.GONE : View.VISIBLE);
         absent.setText(feed.name());
         level.setEnabled(feed.isPresent());
-        level.setOnClickListener(new View.OnClickListener() {
-            @Override
-            public void onClick(View pressed) {
-                calibrate();
-            }
-        });
+        level.setOnClickListener(pressed -> calibrate());
         nose.setSelection(settings.nose().ordinal());
         nose.setOnItemSelectedListener(new NoseListener());
     }
 
-    /** Starts to read. */
     void begin() {
         feed.begin(PERIOD_MS, this);
     }
 
-    /** Stops reading. */
     void end() {
         feed.end();
         newest = null;
@@ -73,9 +66,9 @@ final class MountingPanel implements SensorListener<Rotation> {
         newest = reading;
         // The declination is the service's; here north is the compass's.
         Attitude attitude = mounting.attitude(reading, 0);
-        roll.setText(context.getString(R.string.live_degrees, attitude.rollDeg()));
-        pitch.setText(context.getString(R.string.live_degrees, attitude.pitchDeg()));
-        yaw.setText(context.getString(R.string.live_yaw_degrees, attitude.yawDeg()));
+        roll.setText(context.getString(R.string.live_degrees, attitude.rollDeg));
+        pitch.setText(context.getString(R.string.live_degrees, attitude.pitchDeg));
+        yaw.setText(context.getString(R.string.live_yaw_degrees, attitude.yawDeg));
     }
 
     private void calibrate() {

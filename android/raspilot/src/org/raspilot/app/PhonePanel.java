@@ -9,11 +9,10 @@ import android.os.Build;
 import android.provider.Settings;
 import android.view.View;
 import android.widget.CheckBox;
-import android.widget.CompoundButton;
 import java.util.ArrayList;
 import java.util.List;
 import org.raspilot.up.android.Permissions;
-import org.raspilot.up.android.api23.Asking;
+import org.raspilot.up.android.api23.RuntimePermissions;
 
 /** The phone's settings that the app needs, links to them, and whether the screen stays on. */
 final class PhonePanel {
@@ -33,35 +32,21 @@ final class PhonePanel {
         location = root.findViewById(R.id.phone_location);
         battery = root.findViewById(R.id.phone_battery);
         root.findViewById(R.id.phone_location_permit).setOnClickListener(
-                new View.OnClickListener() {
-                    @Override
-                    public void onClick(View pressed) {
-                        permit();
-                    }
-                });
+                pressed -> permit());
         root.findViewById(R.id.phone_battery_settings).setOnClickListener(
-                new View.OnClickListener() {
-                    @Override
-                    public void onClick(View pressed) {
-                        open(new Intent(BATTERY_SCREEN));
-                    }
-                });
+                pressed -> open(new Intent(BATTERY_SCREEN)));
         CheckBox keep = (CheckBox) root.findViewById(R.id.phone_keep_screen);
         keep.setChecked(settings.isScreenKept());
         root.setKeepScreenOn(settings.isScreenKept());
-        keep.setOnCheckedChangeListener(new CompoundButton.OnCheckedChangeListener() {
-            @Override
-            public void onCheckedChanged(CompoundButton box, boolean isChecked) {
-                settings.setScreenKept(isChecked);
-                root.setKeepScreenOn(isChecked);
-            }
+        keep.setOnCheckedChangeListener((box, isChecked) -> {
+            settings.setScreenKept(isChecked);
+            root.setKeepScreenOn(isChecked);
         });
     }
 
-    /** Shows what is missing now. */
     void show() {
         location.setVisibility(isLocationPermitted() ? View.GONE : View.VISIBLE);
-        boolean isSpared = Build.VERSION.SDK_INT < 23 || Asking.isSpared(activity);
+        boolean isSpared = Build.VERSION.SDK_INT < 23 || RuntimePermissions.isSpared(activity);
         battery.setVisibility(isSpared ? View.GONE : View.VISIBLE);
     }
 
@@ -71,17 +56,17 @@ final class PhonePanel {
     }
 
     /** Requests the missing permissions from the user; returns false if none is missing. */
-    boolean ask() {
+    boolean requestPermissions() {
         List<String> missing = missing();
         if (Build.VERSION.SDK_INT < 23 || missing.isEmpty()) {
             return false;
         }
-        Asking.forPermissions(activity, missing.toArray(new String[0]), REQUEST);
+        RuntimePermissions.forPermissions(activity, missing.toArray(new String[0]), REQUEST);
         return true;
     }
 
     private List<String> missing() {
-        List<String> missing = new ArrayList<String>();
+        List<String> missing = new ArrayList<>();
         if (!isLocationPermitted()) {
             missing.add(Manifest.permission.ACCESS_FINE_LOCATION);
             missing.add(Manifest.permission.ACCESS_COARSE_LOCATION);
@@ -96,10 +81,11 @@ final class PhonePanel {
     }
 
     /** Called when the user, or the system without a dialog, has answered. */
-    void answered() {
+    void onAnswered() {
         show();
         boolean isRefusedForGood = Build.VERSION.SDK_INT >= 23 && !isLocationPermitted()
-                && !Asking.isReasonDue(activity, Manifest.permission.ACCESS_FINE_LOCATION);
+                && !RuntimePermissions.isReasonDue(activity,
+                        Manifest.permission.ACCESS_FINE_LOCATION);
         if (isPermitting && isRefusedForGood) {
             open(new Intent(Settings.ACTION_APPLICATION_DETAILS_SETTINGS,
                     Uri.fromParts("package", activity.getPackageName(), null)));
@@ -109,14 +95,14 @@ final class PhonePanel {
 
     /** Requests them; if the system shows no dialog, opens its page of permissions. */
     private void permit() {
-        isPermitting = ask();
+        isPermitting = requestPermissions();
     }
 
     private void open(Intent screen) {
         try {
             activity.startActivity(screen);
         } catch (ActivityNotFoundException missing) {
-            RaspilotApplication.of(activity).note(activity.getString(R.string.not_openable));
+            RaspilotApplication.of(activity).log(activity.getString(R.string.not_openable));
         }
     }
 }

@@ -40,7 +40,7 @@ final class ProvidersPanel {
     /** Shows a status; null: nothing runs. */
     void show(AirborneStatus status) {
         List<ProviderStatus> providers = status == null
-                ? Collections.<ProviderStatus>emptyList() : status.providers();
+                ? Collections.emptyList() : status.providers;
         idle.setVisibility(providers.isEmpty() ? View.VISIBLE : View.GONE);
         while (rows.getChildCount() > providers.size()) {
             rows.removeViewAt(rows.getChildCount() - 1);
@@ -49,8 +49,8 @@ final class ProvidersPanel {
         for (int at = 0; at < providers.size(); at++) {
             ProviderStatus provider = providers.get(at);
             show(row(at), provider);
-            isAltitudeRead |= provider.name().equals(AltitudeProvider.NAME)
-                    && provider.ageMs() >= 0;
+            isAltitudeRead |= provider.name.equals(AltitudeProvider.NAME)
+                    && provider.ageMs >= 0;
         }
         zero.setVisibility(isAltitudeRead ? View.VISIBLE : View.GONE);
         counted.setVisibility(status == null ? View.GONE : View.VISIBLE);
@@ -65,15 +65,15 @@ final class ProvidersPanel {
     }
 
     private void show(View row, ProviderStatus provider) {
-        boolean isAbsent = provider.state() == ProviderState.ABSENT;
-        set(row, R.id.provider_name, name(provider.name()));
+        boolean isAbsent = provider.state == ProviderState.ABSENT;
+        set(row, R.id.provider_name, name(provider.name));
         set(row, R.id.provider_figures, isAbsent ? context.getString(R.string.state_absent)
                 : context.getString(R.string.provider_figures,
-                        context.getString(state(provider.state())), provider.rateHz(),
-                        age(provider.ageMs())));
-        set(row, R.id.provider_value, provider.lastText());
-        boolean isWrong = !provider.problem().isEmpty();
-        set(row, R.id.provider_sensor, isWrong ? provider.problem() : provider.sensor());
+                        context.getString(state(provider.state)), provider.rateHz,
+                        age(provider.ageMs)));
+        set(row, R.id.provider_value, provider.lastText);
+        boolean isWrong = !provider.problem.isEmpty();
+        set(row, R.id.provider_sensor, isWrong ? provider.problem : provider.sensor);
     }
 
     private String counters(AirborneStatus status) {

@@ -7,8 +7,8 @@ import android.os.StrictMode;
 
 /** The state of the process: the log and the spawn requests. */
 public final class RaspilotApplication extends Application {
-    private final EventBook events = new EventBook();
-    private SpawnDesk spawning;
+    private final AppLog events = new AppLog();
+    private SpawnRequests spawning;
 
     /** Returns the application that a context belongs to. */
     public static RaspilotApplication of(Context context) {
@@ -18,7 +18,7 @@ public final class RaspilotApplication extends Application {
     @Override
     public void onCreate() {
         super.onCreate();
-        spawning = new SpawnDesk(this);
+        spawning = new SpawnRequests(this);
         boolean isDebug = (getApplicationInfo().flags & ApplicationInfo.FLAG_DEBUGGABLE) != 0;
         if (isDebug) {
             // Makes network access on the main thread fail immediately.
@@ -31,17 +31,17 @@ public final class RaspilotApplication extends Application {
     }
 
     /** Returns the log. On the main thread. */
-    public EventBook events() {
+    public AppLog events() {
         return events;
     }
 
     /** Adds a line with the current time to the log. On the main thread. */
-    public void note(String sentence) {
+    public void log(String sentence) {
         events.add(System.currentTimeMillis(), sentence);
     }
 
     /** Returns the desk for spawn requests. On the main thread. */
-    SpawnDesk spawning() {
+    SpawnRequests spawning() {
         return spawning;
     }
 }

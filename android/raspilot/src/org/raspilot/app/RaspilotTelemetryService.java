@@ -13,6 +13,6 @@ public final class RaspilotTelemetryService extends TelemetryService {
     @Override
     protected boolean isOnWifi() {
         AppSettings settings = new AppSettings(this);
-        return settings.isOnWifi() && settings.ground().isDirect();
+        return settings.isOnWifi() && settings.ground().isDirect;
     }
 }

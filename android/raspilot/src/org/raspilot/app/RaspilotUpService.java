@@ -7,8 +7,8 @@ import org.raspilot.up.airborne.AirborneMode;
 import org.raspilot.up.airborne.AirborneSettings;
 import org.raspilot.up.airborne.AirborneStatus;
 import org.raspilot.up.android.BaseUpService;
-import org.raspilot.up.android.NoticeTexts;
-import org.raspilot.up.android.SourceTexts;
+import org.raspilot.up.android.NotificationTexts;
+import org.raspilot.up.android.SensorTexts;
 
 /** The airborne end, by the settings of this application. */
 public final class RaspilotUpService extends BaseUpService {
@@ -16,12 +16,7 @@ public final class RaspilotUpService extends BaseUpService {
 
     /** The system does not keep a strong reference to a listener. */
     private final SharedPreferences.OnSharedPreferenceChangeListener changes =
-            new SharedPreferences.OnSharedPreferenceChangeListener() {
-                @Override
-                public void onSharedPreferenceChanged(SharedPreferences preferences, String key) {
-                    takeChange(key);
-                }
-            };
+            (preferences, key) -> onSettingChanged(key);
 
     @Override
     public void onCreate() {
@@ -49,28 +44,28 @@ public final class RaspilotUpService extends BaseUpService {
     }
 
     @Override
-    protected SourceTexts sourceTexts() {
-        return new AppSourceTexts(this);
+    protected SensorTexts sourceTexts() {
+        return new AppSensorTexts(this);
     }
 
     @Override
     protected String noticeText(AirborneStatus status) {
-        return status == null ? getString(R.string.link_begins) : status.linkText();
+        return status == null ? getString(R.string.link_begins) : status.linkText;
     }
 
     @Override
     protected void onEvent(String sentence) {
-        RaspilotApplication.of(this).note(sentence);
+        RaspilotApplication.of(this).log(sentence);
     }
 
     @Override
     protected void onReferencePressure(double hPa) {
         new AppSettings(this).setReferencePressureHPa(hPa);
-        RaspilotApplication.of(this).note(getString(R.string.altitude_zeroed, hPa));
+        RaspilotApplication.of(this).log(getString(R.string.altitude_zeroed, hPa));
     }
 
     /** Applies the settings that take effect immediately; others do at the next start. */
-    private void takeChange(String key) {
+    private void onSettingChanged(String key) {
         if (getString(R.string.key_mounting).equals(key)) {
             setMounting(new AppSettings(this).mounting());
         } else if (getString(R.string.key_reference_pressure).equals(key)) {
@@ -79,8 +74,8 @@ public final class RaspilotUpService extends BaseUpService {
     }
 
     @Override
-    protected NoticeTexts noticeTexts() {
-        return new NoticeTexts() {
+    protected NotificationTexts noticeTexts() {
+        return new NotificationTexts() {
             @Override
             public int icon() {
                 return R.drawable.ic_notification;

@@ -32,9 +32,8 @@ final class RunPanel {
         onOff.setOnClickListener(pressed);
     }
 
-    /** Shows the configuration. */
     void showSettings(AirborneSettings settings) {
-        mode.setText(settings.mode() == AirborneMode.BLACK_BOX
+        mode.setText(settings.mode == AirborneMode.BLACK_BOX
                 ? R.string.mode_name_black_box : R.string.mode_name_flight_controller);
         where.setText(where(settings));
         orientation.setText(orientation(settings));
@@ -59,35 +58,35 @@ final class RunPanel {
 
     /** Shows the running state; null: nothing is known of it yet. */
     void showRunning(AirborneStatus status) {
-        boolean isPanic = status != null && status.panicDelayMs() > 0;
+        boolean isPanic = status != null && status.panicDelayMs > 0;
         panic.setVisibility(isPanic ? View.VISIBLE : View.GONE);
         if (isPanic) {
-            setText(panic, context.getString(R.string.panic, status.panicDelayMs()));
+            setText(panic, context.getString(R.string.panic, status.panicDelayMs));
         }
         setText(link, status == null ? context.getString(R.string.link_begins)
-                : status.linkText());
+                : status.linkText);
         paint(R.string.stop_big, R.attr.upAlarm, R.attr.upOnAlarm);
     }
 
     private String where(AirborneSettings settings) {
         if (settings.isByRunner()) {
-            return context.getString(R.string.where_runner, settings.runnerHost(),
-                    settings.runnerPort(), settings.aircraft());
+            return context.getString(R.string.where_runner, settings.runnerHost,
+                    settings.runnerPort, settings.aircraft);
         }
-        if (settings.host().isEmpty()) {
-            return context.getString(R.string.where_discovery, settings.discoveryPort());
+        if (settings.host.isEmpty()) {
+            return context.getString(R.string.where_discovery, settings.discoveryPort);
         }
-        return context.getString(R.string.where_host, settings.host(), settings.generalPort(),
-                settings.orientationPort());
+        return context.getString(R.string.where_host, settings.host, settings.generalPort,
+                settings.orientationPort);
     }
 
     private String orientation(AirborneSettings settings) {
         OrientationTransport transport = settings.orientationTransport();
         if (transport != OrientationTransport.OFF) {
             return context.getString(R.string.orientation_on, transport.name(),
-                    settings.orientationHz());
+                    settings.orientationHz);
         }
-        boolean isByMode = settings.orientation() != OrientationTransport.OFF;
+        boolean isByMode = settings.orientation != OrientationTransport.OFF;
         return context.getString(isByMode ? R.string.orientation_off_mode
                 : R.string.orientation_off);
     }

@@ -88,7 +88,7 @@ enum SettingRule {
     }
 
     private static boolean isWithin(double hPa) {
-        return hPa >= AltitudeProvider.LEAST_REFERENCE_HPA
-                && hPa <= AltitudeProvider.MOST_REFERENCE_HPA;
+        return hPa >= AltitudeProvider.MIN_REFERENCE_HPA
+                && hPa <= AltitudeProvider.MAX_REFERENCE_HPA;
     }
 }

@@ -19,7 +19,7 @@ public final class SettingsFragment extends PreferenceFragment
         Preference.OnPreferenceChangeListener {
     private static final String GROUND = "ground_";
 
-    private final Map<String, SettingRule> rules = new LinkedHashMap<String, SettingRule>();
+    private final Map<String, SettingRule> rules = new LinkedHashMap<>();
 
     @Override
     public void onCreate(Bundle saved) {

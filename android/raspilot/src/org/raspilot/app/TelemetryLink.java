@@ -36,24 +36,19 @@ public final class TelemetryLink extends Fragment {
     private static final String TAG = "telemetry link";
 
     private final Handler main = new Handler(Looper.getMainLooper());
-    private final List<Watcher> watchers = new ArrayList<Watcher>();
-    private final Runnable unbinding = new Runnable() {
-        @Override
-        public void run() {
-            unbind();
-        }
-    };
+    private final List<Watcher> watchers = new ArrayList<>();
+    private final Runnable unbinding = () -> unbind();
     private final ServiceConnection connection = new ServiceConnection() {
         @Override
         public void onServiceConnected(ComponentName name, IBinder binder) {
             if (isBound && binder instanceof TelemetryService.Ground) {
-                tell((TelemetryService.Ground) binder);
+                setGround((TelemetryService.Ground) binder);
             }
         }
 
         @Override
         public void onServiceDisconnected(ComponentName name) {
-            tell(null);
+            setGround(null);
         }
     };
     private Context lasting;
@@ -63,7 +58,7 @@ public final class TelemetryLink extends Fragment {
     private boolean isWanted;
 
     /** Creates the link of a new window, before its other fragments need it. */
-    static void prepare(Activity activity) {
+    static void create(Activity activity) {
         of(activity);
         activity.getFragmentManager().executePendingTransactions();
     }
@@ -112,7 +107,7 @@ public final class TelemetryLink extends Fragment {
     }
 
     /** Adds a watcher; the service is bound from the first one on. */
-    public void watch(Watcher watcher) {
+    public void addWatcher(Watcher watcher) {
         if (!watchers.contains(watcher)) {
             watchers.add(watcher);
         }
@@ -124,7 +119,7 @@ public final class TelemetryLink extends Fragment {
     }
 
     /** Removes a watcher; it is not called afterwards. */
-    public void unwatch(Watcher watcher) {
+    public void removeWatcher(Watcher watcher) {
         watchers.remove(watcher);
     }
 
@@ -146,13 +141,13 @@ public final class TelemetryLink extends Fragment {
         if (isBound) {
             isBound = false;
             lasting.unbindService(connection);
-            tell(null);
+            setGround(null);
         }
     }
 
-    private void tell(TelemetryService.Ground now) {
+    private void setGround(TelemetryService.Ground now) {
         ground = now;
-        for (Watcher watcher : new ArrayList<Watcher>(watchers)) {
+        for (Watcher watcher : new ArrayList<>(watchers)) {
             if (now == null) {
                 watcher.onGroundGone();
             } else {

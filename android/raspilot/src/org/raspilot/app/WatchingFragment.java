@@ -44,12 +44,12 @@ public abstract class WatchingFragment extends Fragment {
     private final TelemetryLink.Watcher linkWatcher = new TelemetryLink.Watcher() {
         @Override
         public void onGround(TelemetryService.Ground newGround) {
-            take(newGround);
+            setGround(newGround);
         }
 
         @Override
         public void onGroundGone() {
-            take(null);
+            setGround(null);
         }
     };
 
@@ -60,7 +60,7 @@ public abstract class WatchingFragment extends Fragment {
     public void onStart() {
         super.onStart();
         link = TelemetryLink.of(getActivity());
-        link.watch(linkWatcher);
+        link.addWatcher(linkWatcher);
         handler.removeCallbacks(tick);
         tick.run();
     }
@@ -69,10 +69,10 @@ public abstract class WatchingFragment extends Fragment {
     public void onStop() {
         handler.removeCallbacks(tick);
         if (link != null) {
-            link.unwatch(linkWatcher);
+            link.removeWatcher(linkWatcher);
             link = null;
         }
-        take(null);
+        setGround(null);
         super.onStop();
     }
 
@@ -90,7 +90,7 @@ public abstract class WatchingFragment extends Fragment {
         return ground;
     }
 
-    private void take(TelemetryService.Ground newGround) {
+    private void setGround(TelemetryService.Ground newGround) {
         if (ground == newGround) {
             return;
         }

@@ -8,26 +8,23 @@ export class ChartChoice {
   #memory;
   #keys;
 
-  /** @param {object} memory with get and set */
+  /** memory: with get and set. */
   constructor(memory) {
     this.#memory = memory;
     this.#keys = keysOf(memory.get(KEY));
   }
 
-  /** @returns {string[]|null} the way to the value; null: none is chosen */
+  /** The way to the value; null: none is chosen. */
   get keys() {
     return this.#keys;
   }
 
-  /**
-   * @param {string[]} keys
-   * @returns {boolean} whether this one is drawn
-   */
+  /** Whether this one is drawn. */
   is(keys) {
     return this.#keys !== null && this.#keys.length === keys.length && this.#keys.every((each, index) => each === keys[index]);
   }
 
-  /** @param {string[]|null} keys null: no chart */
+  /** keys: null: no chart. */
   choose(keys) {
     this.#keys = keys;
     this.#memory.set(KEY, keys === null ? "" : JSON.stringify(keys));

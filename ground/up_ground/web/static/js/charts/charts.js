@@ -24,13 +24,7 @@ const CHARTS = [
   { title: "Age of a frame", unit: " ms", decimals: 0, leastSpan: 50, lines: [{ name: "age", label: "when it came", colour: "--accent" }] },
 ];
 
-/**
- * The last minute of attitude, altitude and the link's delay.
- * @param {HTMLElement} place
- * @param {object} store
- * @param {object} connection
- * @returns {{update: () => void}}
- */
+/** The last minute of attitude, altitude and the link's delay. */
 export function mount(place, store, connection) {
   const notice = element("p.why", { hidden: true });
   const row = element("div.charts", { id: "charts" });

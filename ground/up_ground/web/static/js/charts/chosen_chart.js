@@ -14,7 +14,6 @@ export class ChosenChart {
   #keys = null;
   #chart = null;
 
-  /** @param {Function} UPlot */
   constructor(UPlot) {
     this.#UPlot = UPlot;
     this.element = element("div.chosen-chart", { id: "chosen-chart", hidden: true });
@@ -26,11 +25,7 @@ export class ChosenChart {
     this.#history.clear();
   }
 
-  /**
-   * Take the newest frame.
-   * @param {object} store
-   * @param {number} time_s when it was so
-   */
+  /** Take the newest frame. time_s: when it was so. */
   take(store, time_s) {
     this.#follow();
     if (this.#keys !== null) {
@@ -40,7 +35,6 @@ export class ChosenChart {
     }
   }
 
-  /** @param {number} now_s */
   show(now_s) {
     this.#follow();
     this.#chart?.show(this.#history.columns(now_s));

@@ -4,9 +4,8 @@ const HALF_TRAVEL_US = 500;
 const ROLL_DEG = 50;
 
 /**
- * The bank demanded by the pilot's stick in FBW (raspilot/flight_controller/sticks.py).
- * @param {object} store
- * @returns {number|null} degrees, right wing down positive; null: no demand in other modes
+ * The bank demanded by the pilot's stick in FBW (raspilot/flight_controller/sticks.py). Returns
+ * degrees, right wing down positive; null: no demand in other modes.
  */
 export function rollDemand_deg(store) {
   const stick_us = store.number("rx.ailerons");

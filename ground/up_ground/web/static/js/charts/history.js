@@ -14,21 +14,18 @@ export class History {
   #values;
   #silence = new Silence();
 
-  /** @param {string[]} names of the values */
+  /** names: of the values. */
   constructor(names) {
     this.#names = names;
     this.#values = names.map(() => []);
   }
 
-  /** @returns {number} how many points are kept, the ones that mark holes included */
+  /** How many points are kept, the ones that mark holes included. */
   get length() {
     return this.#times_s.length;
   }
 
-  /**
-   * @param {number} time_s when it was so; not after the last one: dropped
-   * @param {Record<string, number|null>} values
-   */
+  /** time_s: when it was so; not after the last one: dropped. */
   add(time_s, values) {
     const last_s = this.#times_s.at(-1);
     if (last_s !== undefined && !(time_s > last_s)) {
@@ -48,15 +45,14 @@ export class History {
     this.#silence.clear();
   }
 
-  /** @returns {number} the silence in seconds that interrupts the line */
+  /** The silence in seconds that interrupts the line. */
   get gap_s() {
     return this.#silence.limit_s;
   }
 
   /**
-   * @param {number} now_s
-   * @returns {(number|null)[][]} seconds before now (negative), then the values of each name; a
-   *   silence up to now ends it with a gap
+   * Seconds before now (negative), then the values of each name; a silence up to now ends it with a
+   * gap.
    */
   columns(now_s) {
     const first = this.#times_s.findIndex((time_s) => time_s >= now_s - WINDOW_S);

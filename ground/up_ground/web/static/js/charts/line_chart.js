@@ -21,11 +21,8 @@ export class LineChart {
   #onTheme = () => this.#rebuild();
 
   /**
-   * @param {Function} UPlot
-   * @param {{title: string, unit: string, decimals: number|null, leastSpan: number|null,
-   *   lines: {name: string, label: string, colour: string, dash?: number[]}[]}} options
-   *   decimals: null: as many as it has; leastSpan: the least that the vertical axis shows, null:
-   *   a fiftieth of the values
+   * decimals: null: as many as it has; leastSpan: the least that the vertical axis shows, null: a
+   * fiftieth of the values.
    */
   constructor(UPlot, { title, unit, decimals, leastSpan, lines }) {
     this.#UPlot = UPlot;
@@ -50,7 +47,7 @@ export class LineChart {
     this.#rebuild();
   }
 
-  /** @param {(number|null)[][]} columns seconds before now, then the values of each line */
+  /** columns: seconds before now, then the values of each line. */
   show(columns) {
     const width = this.#canvas.clientWidth;
     if (width === 0) {
@@ -130,10 +127,8 @@ export class LineChart {
 }
 
 /**
- * @param {number|null} least
- * @param {number|null} most
- * @param {number|null} leastSpan null: a fiftieth of the values
- * @returns {[number, number]} range of the axis: all values, with a minimum span
+ * leastSpan: null: a fiftieth of the values. Returns range of the axis: all values, with a minimum
+ * span.
  */
 export function span(least, most, leastSpan) {
   if (least === null || most === null || !Number.isFinite(least) || !Number.isFinite(most)) {

@@ -42,10 +42,6 @@ export function mount(element, store) {
   };
 }
 
-/**
- * @param {number} percent
- * @returns {""|"warning"|"alarm"}
- */
 export function batteryLevel(percent) {
   return percent < LOW_PERCENT ? "alarm" : percent < SCANT_PERCENT ? "warning" : "";
 }

@@ -48,10 +48,7 @@ export function mount(element, store) {
   };
 }
 
-/**
- * @param {number} time_s
- * @returns {string} as `41 s`, `12 min 05 s`, `3 h 20 min`
- */
+/** As `41 s`, `12 min 05 s`, `3 h 20 min`. */
 export function uptimeText(time_s) {
   const seconds = Math.max(0, Math.floor(time_s));
   const minutes = Math.floor(seconds / 60);

@@ -55,10 +55,7 @@ export function mount(element, store) {
   };
 }
 
-/**
- * @param {number|null} distance_m
- * @returns {string} whole metres below 10 km
- */
+/** Whole metres below 10 km. */
 export function distanceText(distance_m) {
   if (distance_m === null) {
     return UNKNOWN;

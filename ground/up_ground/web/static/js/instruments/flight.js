@@ -60,11 +60,7 @@ const HOLDERS = {
   RTH: "Arduino",
 };
 
-/**
- * @param {string} mode that is flown
- * @param {object} store
- * @returns {string} who holds bank and pitch
- */
+/** mode: that is flown. Returns who holds bank and pitch. */
 export function holderText(mode, store) {
   // Raspilot's controller passes the sticks through where it knows no rates.
   if (mode === "OUTPUT" && store.text("flight_control.mode") === "ACRO") {

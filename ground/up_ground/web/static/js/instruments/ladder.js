@@ -6,7 +6,6 @@ export const UNITS_PER_DEG = 5;
 /**
  * The rungs of the pitch ladder to the zenith and the nadir: long and numbered each 10 degrees,
  * short each 5, and near the horizon each 2.5.
- * @returns {{pitch_deg: number, halfWidth: number, label: string}[]}
  */
 export function rungs() {
   const all = [];
@@ -24,9 +23,7 @@ export function rungs() {
 
 /**
  * Where the ball stands: right wing down turns the picture to the left, nose up moves it down.
- * @param {number} roll_deg
- * @param {number} pitch_deg
- * @returns {string} of a transform attribute
+ * Returns of a transform attribute.
  */
 export function ballTransform(roll_deg, pitch_deg) {
   const shift = Math.max(-90, Math.min(90, pitch_deg)) * UNITS_PER_DEG;
@@ -34,12 +31,8 @@ export function ballTransform(roll_deg, pitch_deg) {
 }
 
 /**
- * Whether the label of a rung is whole within the bank arc and the edges of the picture.
- * @param {number} x of its middle, on the ladder
- * @param {number} y of its middle, on the ladder
- * @param {number} roll_deg
- * @param {number} pitch_deg
- * @returns {boolean}
+ * Whether the label of a rung is whole within the bank arc and the edges of the picture. x: of its
+ * middle, on the ladder; y: of its middle, on the ladder.
  */
 export function isWhole(x, y, roll_deg, pitch_deg) {
   const turn = (-roll_deg * Math.PI) / 180;
@@ -50,10 +43,7 @@ export function isWhole(x, y, roll_deg, pitch_deg) {
   return isBelowArc && Math.abs(across) < (along < -10 ? 88 : 107) && along < 133;
 }
 
-/**
- * The marks of the roll scale.
- * @returns {{roll_deg: number, length: number}[]}
- */
+/** The marks of the roll scale. */
 export function rollMarks() {
   const lengths = { 10: 6, 20: 6, 30: 12, 45: 7, 60: 12 };
   return Object.entries(lengths).flatMap(([roll_deg, length]) => [
@@ -62,12 +52,7 @@ export function rollMarks() {
   ]);
 }
 
-/**
- * A point on a circle around the middle, clockwise from above.
- * @param {number} angle_deg
- * @param {number} radius
- * @returns {[number, number]}
- */
+/** A point on a circle around the middle, clockwise from above. */
 export function onCircle(angle_deg, radius) {
   const angle = (angle_deg * Math.PI) / 180;
   return [radius * Math.sin(angle), -radius * Math.cos(angle)];

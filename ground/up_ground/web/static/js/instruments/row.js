@@ -9,12 +9,8 @@ export class Row {
   #judge;
 
   /**
-   * @param {HTMLElement} list a `dl`
-   * @param {string} name
-   * @param {string} path
-   * @param {"value"|"number"|"flag"|"text"} kind a value of another type is ignored
-   * @param {(value: any) => string} [format]
-   * @param {(value: any) => string} [judge] style of a live value: "" plain, "warning" or "alarm"
+   * list: a `dl`; kind: a value of another type is ignored; judge: style of a live value: "" plain,
+   * "warning" or "alarm".
    */
   constructor(list, name, path, kind, format = String, judge = () => "") {
     const value = html("span", { class: "row-value" });
@@ -25,7 +21,6 @@ export class Row {
     this.#judge = judge;
   }
 
-  /** @param {object} store */
   update(store) {
     const value = this.#readout.update(store);
     const level = value === null ? "" : this.#judge(value);
@@ -37,21 +32,12 @@ export class Row {
 export class PlainRow {
   #value;
 
-  /**
-   * @param {HTMLElement} list
-   * @param {string} name
-   * @param {string} key
-   */
   constructor(list, name, key) {
     this.#value = html("span", { class: "row-value", "data-key": key });
     list.append(html("div", { class: "row" }, html("dt", {}, name), html("dd", {}, this.#value)));
   }
 
-  /**
-   * @param {string|null} text null: not known
-   * @param {string} [level]
-   * @param {boolean} [isOld]
-   */
+  /** text: null: not known. */
   show(text, level = "", isOld = false) {
     setText(this.#value, text ?? "--");
     setAttribute(this.#value, "data-level", text === null ? "" : level);

@@ -4,11 +4,8 @@ const HALF_US = 500;
 
 /**
  * Where a stick stands in its gimbal: right and up are positive pulses, but a pulled elevator
- * (above 1500 us, nose up) is a stick drawn down.
- * @param {number|null} x_us
- * @param {number|null} y_us
- * @param {string} along the channel of the vertical
- * @returns {{x: string, y: string}|null} null: a channel is not known
+ * (above 1500 us, nose up) is a stick drawn down. along: the channel of the vertical. Returns null:
+ * a channel is not known.
  */
 export function stickPlace(x_us, y_us, along) {
   if (x_us === null || y_us === null) {
@@ -21,18 +18,12 @@ export function stickPlace(x_us, y_us, along) {
   };
 }
 
-/**
- * @param {number} pulse_us
- * @returns {number} -1 at 1000 us, 0 at 1500 us, 1 at 2000 us, and not beyond 1.1
- */
+/** -1 at 1000 us, 0 at 1500 us, 1 at 2000 us, and not beyond 1.1. */
 export function share(pulse_us) {
   return Math.max(-1.1, Math.min(1.1, (pulse_us - MIDDLE_US) / HALF_US));
 }
 
-/**
- * @param {number} pulse_us
- * @returns {"low"|"high"|"within"} whether it lies beyond the scale of 1000 to 2000 us
- */
+/** Whether it lies beyond the scale of 1000 to 2000 us. */
 export function beyond(pulse_us) {
   return pulse_us < MIDDLE_US - HALF_US
     ? "low"

@@ -17,11 +17,7 @@ export class Tape {
   #unit;
   #label;
 
-  /**
-   * @param {{x: number, width: number, isLeft: boolean, step: number, units: number,
-   *   each: number, title: string, unit: string, key: string, least?: number}} form
-   *   each: how many steps between labels; isLeft: the marks point to the middle of the picture
-   */
+  /** each: how many steps between labels; isLeft: the marks point to the middle of the picture. */
   constructor(form) {
     const { x, width, isLeft, key } = form;
     this.#scale = new TapeScale({ step: form.step, units: form.units, height: HEIGHT });
@@ -63,12 +59,7 @@ export class Tape {
     this.element.append(this.#note, foot, this.foot);
   }
 
-  /**
-   * @param {number|null} value
-   * @param {"live"|"stale"|"none"} freshness
-   * @param {string} text of the window
-   * @param {string} age of a stale value as text, otherwise ""
-   */
+  /** text: of the window; age: of a stale value as text, otherwise "". */
   show(value, freshness, text, age) {
     setAttribute(this.element, "data-freshness", freshness);
     setAttribute(this.#number, "data-freshness", freshness);

@@ -5,20 +5,14 @@
  * has moved by a whole step; in between only `shift` changes.
  */
 export class TapeScale {
-  /**
-   * @param {{step: number, units: number, height: number}} form step: between marks;
-   *   units: of the drawing for a step; height: of the drawing
-   */
+  /** step: between marks; units: of the drawing for a step; height: of the drawing. */
   constructor({ step, units, height }) {
     this.step = step;
     this.units = units;
     this.count = 2 * (Math.ceil(height / 2 / units) + 1) + 1;
   }
 
-  /**
-   * @param {number} value at the pointer
-   * @returns {{first: number, shift: number}} shift: how far down the marks move
-   */
+  /** value: at the pointer. Returns shift: how far down the marks move. */
   at(value) {
     const middle = Math.round(value / this.step);
     const below = (this.count - 1) / 2;
@@ -28,21 +22,16 @@ export class TapeScale {
     };
   }
 
-  /**
-   * @param {number} place of a mark, counted from the lowest
-   * @returns {number} where it is drawn while the shift is 0
-   */
+  /** place: of a mark, counted from the lowest. Returns where it is drawn while the shift is 0. */
   y(place) {
     return ((this.count - 1) / 2 - place) * this.units;
   }
 }
 
 /**
- * The needle of a scale that is finer around zero: the root of the share, with its sign.
- * @param {number} value
- * @param {number} most the value at the end
- * @param {number} length of the scale from its middle
- * @returns {number} upwards positive, within the length
+ * The needle of a scale that is finer around zero: the root of the share, with its sign. most: the
+ * value at the end; length: of the scale from its middle. Returns upwards positive, within the
+ * length.
  */
 export function rootScale(value, most, length) {
   const share = Math.min(1, Math.abs(value) / most);

@@ -103,10 +103,7 @@ function startsAtHome(store) {
   return distance_m(from, { latitude, longitude }) < NEAR_HOME_M;
 }
 
-/**
- * @param {number|null} climb_m_s
- * @returns {string} in four figures at most: a glider's tenths count
- */
+/** In four figures at most: a glider's tenths count. */
 export function climbText(climb_m_s) {
   if (climb_m_s !== null && Math.abs(climb_m_s) >= 99.5) {
     return climb_m_s > 0 ? "99+" : "99-";

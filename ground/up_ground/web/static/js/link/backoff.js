@@ -5,12 +5,12 @@ const LONGEST_S = 2;
 export class Backoff {
   #attempts = 0;
 
-  /** @returns {number} how many attempts failed since the last success */
+  /** How many attempts failed since the last success. */
   get attempts() {
     return this.#attempts;
   }
 
-  /** @returns {number} the seconds to wait now; each call counts one failure */
+  /** The seconds to wait now; each call counts one failure. */
   next_s() {
     const wait_s = Math.min(LONGEST_S, FIRST_S * 2 ** this.#attempts);
     this.#attempts = Math.min(this.#attempts + 1, 1000);

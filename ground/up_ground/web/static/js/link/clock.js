@@ -1,6 +1,6 @@
 /**
- * The clock of every age: seconds that never jump with the wall clock.
- * @returns {number} seconds since the page began
+ * The clock of every age: seconds that never jump with the wall clock. Returns seconds since the
+ * page began.
  */
 export function now_s() {
   return performance.now() / 1000;
@@ -8,10 +8,8 @@ export function now_s() {
 
 /** The browser's timers, for those parts that a test gives others. */
 export const TIMERS = {
-  /** @param {() => void} call @param {number} wait_s @returns {*} */
   once: (call, wait_s) => setTimeout(call, wait_s * 1000),
-  /** @param {() => void} call @param {number} period_s @returns {*} */
   each: (call, period_s) => setInterval(call, period_s * 1000),
-  /** @param {*} timer of either kind; null and undefined do no harm */
+  /** timer: of either kind; null and undefined do no harm. */
   cancel: (timer) => clearTimeout(timer),
 };

@@ -16,9 +16,9 @@ const LOST = "the connection to the ground server was lost before an answer came
 /**
  * The page's connection to the ground server: opens, reconnects, sends requests and gets answers.
  *
- * `on(type, call)` subscribes to the server's messages of a type, and also to
- * `open` ({welcome}), `closed` ({reason, retry_s}) and `message` (each one, before all others).
- * An exception in one listener does not stop the others.
+ * `on(type, call)` subscribes to the server's messages of a type, and also to `open` ({welcome}),
+ * `closed` ({reason, retry_s}) and `message` (each one, before all others). An exception in one
+ * listener does not stop the others.
  */
 export class Connection {
   #url;
@@ -52,11 +52,7 @@ export class Connection {
   /** Which frame the page has shown: set by the page, echoed in Commands. */
   shownBeacon = () => null;
 
-  /**
-   * @param {string} url of the WebSocket
-   * @param {{key?: string|null, memory?: object, makeSocket?: Function, now_s?: Function,
-   *   timers?: object}} [parts] timers: as TIMERS
-   */
+  /** url: of the WebSocket; timers: as TIMERS. */
   constructor(url, parts = {}) {
     this.#url = url;
     this.#key = parts.key ?? null;
@@ -67,21 +63,17 @@ export class Connection {
     this.#asks = new PendingAsks(this.#timers);
   }
 
-  /** @returns {boolean} whether the server has welcomed this page and the connection is open */
+  /** Whether the server has welcomed this page and the connection is open. */
   get isOpen() {
     return this.welcome !== null;
   }
 
-  /** @returns {number|null} seconds until the next attempt; null: open or trying now */
+  /** Seconds until the next attempt; null: open or trying now. */
   get retry_s() {
     return this.#retryAt_s === null ? null : Math.max(0, this.#retryAt_s - this.#now_s());
   }
 
-  /**
-   * @param {string} type of message, or open, closed, message
-   * @param {(message: object) => void} call
-   * @returns {() => void} takes the call away
-   */
+  /** type: of message, or open, closed, message. Returns takes the call away. */
   on(type, call) {
     const calls = this.#calls.get(type) ?? new Set();
     this.#calls.set(type, calls.add(call));
@@ -107,10 +99,7 @@ export class Connection {
     this.#asks.giveUp(LOST);
   }
 
-  /**
-   * @param {object} message with its `type`
-   * @returns {boolean} whether it went out
-   */
+  /** message: with its `type`. Returns whether it went out. */
   send(message) {
     if (!this.isOpen || this.#socket?.readyState !== 1) {
       return false;
@@ -120,13 +109,8 @@ export class Connection {
   }
 
   /**
-   * Send a Command to an aircraft; the promise never fails, the result has the outcome.
-   * @param {string} name of the Command
-   * @param {object} data
-   * @param {{aircraft?: string, isForced?: boolean}} [more] isForced: sent although the server does
-   *   not know the name
-   * @returns {Promise<{outcome: string, code: ?string, reason: string, round_trip_ms: ?number,
-   *   data: ?object}>}
+   * Send a Command to an aircraft; the promise never fails, the result has the outcome. name: of
+   * the Command; isForced: sent although the server does not know the name.
    */
   command(name, data, { aircraft = this.aircraft, isForced = false } = {}) {
     const { ask, answer } = this.#asks.add();

@@ -5,15 +5,11 @@ export class Keepsake {
   #storage;
   #here = new Map();
 
-  /** @param {Storage|null} storage sessionStorage or localStorage; null: memory alone */
+  /** storage: sessionStorage or localStorage; null: memory alone. */
   constructor(storage) {
     this.#storage = storage;
   }
 
-  /**
-   * @param {string} key
-   * @returns {string|null}
-   */
   get(key) {
     if (this.#here.has(key)) {
       return this.#here.get(key);
@@ -25,10 +21,6 @@ export class Keepsake {
     }
   }
 
-  /**
-   * @param {string} key
-   * @param {string} value
-   */
   set(key, value) {
     this.#here.set(key, value);
     try {
@@ -39,10 +31,6 @@ export class Keepsake {
   }
 }
 
-/**
- * @param {"sessionStorage"|"localStorage"} name
- * @returns {Keepsake}
- */
 export function keepsakeOf(name) {
   try {
     return new Keepsake(globalThis[name] ?? null);

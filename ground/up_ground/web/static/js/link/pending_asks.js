@@ -8,12 +8,12 @@ export class PendingAsks {
   #waiting = new Map();
   #timers;
 
-  /** @param {object} [timers] as TIMERS */
+  /** timers: as TIMERS. */
   constructor(timers = TIMERS) {
     this.#timers = timers;
   }
 
-  /** @returns {{ask: number, answer: Promise<object>}} a new number and its future answer */
+  /** A new number and its future answer. */
   add() {
     this.#last += 1;
     const ask = this.#last;
@@ -27,7 +27,7 @@ export class PendingAsks {
     return { ask, answer };
   }
 
-  /** @param {object} message the server's `answer`; dropped if no request waits for it */
+  /** message: the server's `answer`; dropped if no request waits for it. */
   take(message) {
     const waiting = this.#waiting.get(message.ask);
     if (waiting === undefined) {
@@ -38,7 +38,7 @@ export class PendingAsks {
     waiting.resolve({ code: null, reason: "", round_trip_ms: null, data: null, ...message });
   }
 
-  /** @param {string} reason why no answer can arrive now: the outcome of the requests is unknown */
+  /** reason: why no answer can arrive now: the outcome of the requests is unknown. */
   giveUp(reason) {
     for (const ask of [...this.#waiting.keys()]) {
       this.take({ ask, outcome: "timeout", reason });

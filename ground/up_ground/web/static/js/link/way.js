@@ -7,11 +7,11 @@ const ROUNDING_S = 0.005;
 /**
  * Transit time of the server's messages to this page, by the clock of each.
  *
- * The quickest message bounds the offset of the two clocks on one side, a request and its answer
- * on the other. If the bounds are close, their middle is taken; if they are far apart, something
- * is queued, and the whole delay is attributed to the way here. So the computed age of a message
- * is at most 0.1 s too small, and too great by at most the time of the quickest request. Only the
- * drift of the clocks is forgotten: a queue may stand for hours.
+ * The quickest message bounds the offset of the two clocks on one side, a request and its answer on
+ * the other. If the bounds are close, their middle is taken; if they are far apart, something is
+ * queued, and the whole delay is attributed to the way here. So the computed age of a message is at
+ * most 0.1 s too small, and too great by at most the time of the quickest request. Only the drift
+ * of the clocks is forgotten: a queue may stand for hours.
  */
 export class Way {
   #most_s = null;
@@ -19,10 +19,9 @@ export class Way {
   #now_s = 0;
 
   /**
-   * @param {unknown} sent_ms the server's clock at departure
-   * @param {number} now_s the page's clock at arrival
-   * @param {number|null} asked_s the page's clock at the request for this message, if any
-   * @returns {number|null} transit time in seconds; null: the server sends no clock
+   * sent_ms: the server's clock at departure; now_s: the page's clock at arrival; asked_s: the
+   * page's clock at the request for this message, if any. Returns transit time in seconds; null:
+   * the server sends no clock.
    */
   take(sent_ms, now_s, asked_s = null) {
     const stamp_ms = number(sent_ms);

@@ -19,9 +19,8 @@ export class AircraftSymbol {
   }
 
   /**
-   * @param {number|null} heading_deg clockwise from north
-   * @param {"live"|"stale"|"none"} freshness
-   * @param {string} age how long ago it was seen there, written below while it is not live
+   * heading_deg: clockwise from north; age: how long ago it was seen there, written below while it
+   * is not live.
    */
   show(heading_deg, freshness, age) {
     setAttribute(this.#outline, "d", heading_deg === null ? NO_HEADING : OUTLINE);

@@ -6,11 +6,7 @@ const RADIANS = Math.PI / 180;
  * @typedef {{east_m: number, north_m: number}} Offset
  */
 
-/**
- * @param {unknown} latitude
- * @param {unknown} longitude
- * @returns {Place|null} null: no place on Earth
- */
+/** Null: no place on Earth. */
 export function placeOf(latitude, longitude) {
   const isPlace =
     typeof latitude === "number" &&
@@ -20,11 +16,7 @@ export function placeOf(latitude, longitude) {
   return isPlace ? { latitude, longitude } : null;
 }
 
-/**
- * @param {Place} from
- * @param {Place} to
- * @returns {number} metres along the great circle
- */
+/** Metres along the great circle. */
 export function distance_m(from, to) {
   const half = (degrees) => Math.sin((degrees * RADIANS) / 2) ** 2;
   const chord =
@@ -35,11 +27,7 @@ export function distance_m(from, to) {
   return 2 * RADIUS_M * Math.asin(Math.min(1, Math.sqrt(chord)));
 }
 
-/**
- * @param {Place} from
- * @param {Place} to
- * @returns {number} degrees clockwise from north, 0 to 360, at `from`
- */
+/** Degrees clockwise from north, 0 to 360, at `from`. */
 export function bearing_deg(from, to) {
   const turn = (to.longitude - from.longitude) * RADIANS;
   const [there, here] = [to.latitude * RADIANS, from.latitude * RADIANS];
@@ -49,12 +37,7 @@ export function bearing_deg(from, to) {
   return (Math.atan2(east, north) / RADIANS + 360) % 360;
 }
 
-/**
- * Metres on the plane that touches the Earth at a place: true enough for as far as one can see.
- * @param {Place} origin
- * @param {Place} place
- * @returns {Offset}
- */
+/** Metres on the plane that touches the Earth at a place: true enough for as far as one can see. */
 export function offsetOf(origin, place) {
   const turn = ((place.longitude - origin.longitude + 540) % 360) - 180;
   return {
@@ -63,11 +46,6 @@ export function offsetOf(origin, place) {
   };
 }
 
-/**
- * @param {Place} origin
- * @param {Offset} offset
- * @returns {Place}
- */
 export function placeAt(origin, { east_m, north_m }) {
   return {
     latitude: origin.latitude + north_m / RADIUS_M / RADIANS,
@@ -76,10 +54,7 @@ export function placeAt(origin, { east_m, north_m }) {
   };
 }
 
-/**
- * @param {number} metres
- * @returns {string} as `7.5 m`, `340 m`, `1.25 km`, `14.2 km`
- */
+/** As `7.5 m`, `340 m`, `1.25 km`, `14.2 km`. */
 export function distanceText(metres) {
   if (metres < 9.95) {
     return `${metres.toFixed(1)} m`;

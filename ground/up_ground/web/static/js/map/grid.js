@@ -1,8 +1,6 @@
 /**
- * The distance between two lines of a grid: 1, 2 or 5 times a power of ten.
- * @param {number} metresPerPixel
- * @param {number} [least_px] how close two lines may be
- * @returns {number} metres
+ * The distance between two lines of a grid: 1, 2 or 5 times a power of ten. least_px: how close two
+ * lines may be. Returns metres.
  */
 export function stepOf(metresPerPixel, least_px = 70) {
   const least_m = metresPerPixel * least_px;
@@ -11,10 +9,7 @@ export function stepOf(metresPerPixel, least_px = 70) {
   return Number((factor * power).toPrecision(1));
 }
 
-/**
- * @param {number} step_m
- * @returns {string} as `500 mm`, `20 m`, `5 km`
- */
+/** As `500 mm`, `20 m`, `5 km`. */
 export function stepText(step_m) {
   if (step_m < 1) {
     return `${Math.round(step_m * 1000)} mm`;
@@ -23,11 +18,8 @@ export function stepText(step_m) {
 }
 
 /**
- * The lines of a grid that cross a stretch of one axis.
- * @param {number} from_m
- * @param {number} to_m
- * @param {number} step_m
- * @returns {number[]} metres from the grid's origin, rising
+ * The lines of a grid that cross a stretch of one axis. Returns metres from the grid's origin,
+ * rising.
  */
 export function linesBetween(from_m, to_m, step_m) {
   const lines = [];
@@ -40,11 +32,8 @@ export function linesBetween(from_m, to_m, step_m) {
 }
 
 /**
- * The part of the plane in the picture, so that all points lie in it with a margin.
- * @param {{east_m: number, north_m: number}[]} points
- * @param {{width_px: number, height_px: number}} size
- * @param {number} [least_m] the least that is shown across
- * @returns {{east_m: number, north_m: number, metresPerPixel: number}} its middle and scale
+ * The part of the plane in the picture, so that all points lie in it with a margin. least_m: the
+ * least that is shown across. Returns its middle and scale.
  */
 export function windowOf(points, size, least_m = 200) {
   const span = (values) => (values.length ? [Math.min(...values), Math.max(...values)] : [0, 0]);

@@ -25,11 +25,8 @@ export class LeafletMap {
   isFollowing = true;
 
   /**
-   * @param {object} L Leaflet
-   * @param {HTMLElement} place
-   * @param {{tiles: ?{url: string, attribution: string}, onFree: () => void,
-   *   onTiles: (areThere: boolean) => void}} options onFree: the user moved the map; onTiles: map
-   *   tiles have become unavailable, or available
+   * L: Leaflet; onFree: the user moved the map; onTiles: map tiles have become unavailable, or
+   * available.
    */
   constructor(L, place, { tiles, onFree, onTiles }) {
     this.#L = L;
@@ -89,7 +86,7 @@ export class LeafletMap {
     }
   }
 
-  /** @param {number} by levels closer; negative: farther */
+  /** by: levels closer; negative: farther. */
   zoom(by) {
     if (this.#hasView) {
       this.#map.setZoom(this.#map.getZoom() + by);
@@ -105,7 +102,6 @@ export class LeafletMap {
     }
   }
 
-  /** @param {import("./picture.js").Picture} picture */
   show(picture) {
     const { aircraft, home } = picture;
     if (picture.name !== this.#name) {

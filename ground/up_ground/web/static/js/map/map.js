@@ -10,13 +10,7 @@ const MISSING =
 
 const NO_TILES = "No pictures of the ground come: a grid of metres stands in for them.";
 
-/**
- * The map: Leaflet where it is installed, a plain one of our own elsewhere.
- * @param {HTMLElement} place
- * @param {object} store
- * @param {object} connection
- * @returns {{update: () => void}}
- */
+/** The map: Leaflet where it is installed, a plain one of our own elsewhere. */
 export function mount(place, store, connection) {
   const canvas = element("div.map-canvas", { role: "region", "aria-label": "Map; arrow keys move it" });
   const follow = button("Follow", "Follow: keep the aircraft in the middle", () => setFollow(!map?.isFollowing));

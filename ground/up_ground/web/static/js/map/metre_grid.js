@@ -4,10 +4,8 @@ import { linesBetween, stepOf, stepText } from "./grid.js";
 const METRES_AROUND = 40075016.7;
 
 /**
- * A layer for a field without a network: squares of round metres around a place, with distances.
- * @param {object} L Leaflet
- * @param {{latitude: number, longitude: number}} origin
- * @returns {object} the layer, with `setOrigin(place)` and `step_m(zoom)`
+ * A layer for a field without a network: squares of round metres around a place, with distances. L:
+ * Leaflet. Returns the layer, with `setOrigin(place)` and `step_m(zoom)`.
  */
 export function metreGrid(L, origin) {
   const Grid = L.GridLayer.extend({

@@ -8,10 +8,7 @@ import { ageText, headingText } from "../state/format.js";
  *   track: object}} Picture
  */
 
-/**
- * @param {object} store
- * @returns {Picture} the last position known, and how fresh it is
- */
+/** The last position known, and how fresh it is. */
 export function pictureOf(store) {
   const aircraft = placeOf(store.number("location.latitude"), store.number("location.longitude"));
   const last = store.track.points.at(-1);
@@ -29,10 +26,7 @@ export function pictureOf(store) {
   };
 }
 
-/**
- * @param {Picture} picture
- * @returns {string} distance and direction to walk
- */
+/** Distance and direction to walk. */
 export function homeWords(picture) {
   if (picture.aircraft === null) {
     return "No position yet";

@@ -21,7 +21,6 @@ export class PlainMap {
 
   isFollowing = false;
 
-  /** @param {HTMLElement} place */
   constructor(place) {
     this.#place = place;
     this.element = drawn(
@@ -36,7 +35,6 @@ export class PlainMap {
     place.append(this.element);
   }
 
-  /** @param {import("./picture.js").Picture} picture */
   show({ aircraft, heading_deg, freshness, age, home, track }) {
     const origin = home ?? aircraft;
     const size = { width_px: this.#place.clientWidth, height_px: this.#place.clientHeight };

@@ -17,11 +17,7 @@ export class TrackLine {
   #drawnCount = 0;
   #points = [];
 
-  /**
-   * @param {object} L Leaflet
-   * @param {object} map
-   * @param {boolean} isCased whether a wider line lies below: on pictures of the ground
-   */
+  /** L: Leaflet; isCased: whether a wider line lies below: on pictures of the ground. */
   constructor(L, map, isCased) {
     const renderer = L.svg({ padding: 0.3 });
     const lineOf = (className, opacity, weight) =>
@@ -30,7 +26,6 @@ export class TrackLine {
     this.#lines = PARTS.map(({ opacity, weight }) => lineOf("track", opacity, weight));
   }
 
-  /** @param {{points: number[][], version: number}} track */
   show({ points, version }) {
     if (version === this.#version && points.length === this.#count) {
       return;
@@ -59,7 +54,7 @@ export class TrackLine {
     });
   }
 
-  /** @returns {object|null} Leaflet's bounds of the whole track; null: no point yet */
+  /** Leaflet's bounds of the whole track; null: no point yet. */
   bounds() {
     if (this.#points.length === 0) {
       return null;
@@ -71,8 +66,8 @@ export class TrackLine {
 }
 
 /**
- * @param {(number|null|true)[][]} points of a Track
- * @returns {number[][][]} latitude and longitude of each in pieces: no line goes across a silence
+ * points: of a Track. Returns latitude and longitude of each in pieces: no line goes across a
+ * silence.
  */
 export function piecesOf(points) {
   const pieces = [];

@@ -12,7 +12,7 @@ export class Wind {
     this.element = element("p.map-wind", { hidden: true }, arrow, this.#words);
   }
 
-  /** @param {object} store `wind.from` in degrees, `wind.speed` in m/s */
+  /** store: `wind.from` in degrees, `wind.speed` in m/s. */
   show(store) {
     const from_deg = store.number("wind.from");
     const speed_m_s = store.number("wind.speed");

@@ -3,13 +3,7 @@ import { acknowledge, forgetOthers, isAcknowledged } from "./acknowledged.js";
 import { element } from "./element.js";
 import { awayWords } from "./why.js";
 
-/**
- * The active alarms: a bar each, until it is over. Acknowledging silences it.
- * @param {HTMLElement} place
- * @param {object} store
- * @param {object} connection
- * @returns {{update: () => void}}
- */
+/** The active alarms: a bar each, until it is over. Acknowledging silences it. */
 export function mount(place, store, connection) {
   const bars = new Map();
   const away = element("div.alarm", { id: "aircraft-away", role: "alert", "data-level": "warning" }, element("strong"));

@@ -18,10 +18,6 @@ export class AnswerNotes {
   #aircraft;
   #wasHolder = false;
 
-  /**
-   * @param {object} store
-   * @param {object} connection
-   */
   constructor(store, connection) {
     this.#store = store;
     this.#aircraft = store.aircraft;
@@ -30,11 +26,6 @@ export class AnswerNotes {
     store.subscribe(() => this.look());
   }
 
-  /**
-   * @param {HTMLElement} note
-   * @param {string} text
-   * @param {"plain"|"good"|"bad"} look
-   */
   tell(note, text, look) {
     tell(note, text, look);
     this.#notes.set(note, { text, at_s: this.#store.now_s });
@@ -87,11 +78,7 @@ export class AnswerNotes {
 
 const ofStores = new WeakMap();
 
-/**
- * @param {object} store
- * @param {object} connection
- * @returns {AnswerNotes} the page's
- */
+/** The page's. */
 export function notesOf(store, connection) {
   if (!ofStores.has(store)) {
     ofStores.set(store, new AnswerNotes(store, connection));
@@ -99,11 +86,6 @@ export function notesOf(store, connection) {
   return ofStores.get(store);
 }
 
-/**
- * @param {HTMLElement} note
- * @param {string} text
- * @param {"plain"|"good"|"bad"} look
- */
 export function tell(note, text, look) {
   setText(note, text);
   setAttribute(note, "data-look", look);

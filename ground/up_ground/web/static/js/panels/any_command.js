@@ -7,13 +7,7 @@ import { nameProblem } from "./field_value.js";
 
 const LONGEST_SHOWN = 600;
 
-/**
- * Every Command that the server knows, and by name those that it does not.
- * @param {HTMLElement} place
- * @param {object} store
- * @param {object} connection
- * @returns {{update: () => void}}
- */
+/** Every Command that the server knows, and by name those that it does not. */
 export function mount(place, store, connection) {
   const asker = new Asker(store, connection);
   const why = element("p.why", { id: "any-why" });
@@ -156,13 +150,7 @@ function aboutWords(name, command) {
   return `${alias}${command.text}${role}`;
 }
 
-/**
- * @param {string} name
- * @param {object} data
- * @param {object|null} command null: unknown here
- * @param {string} [warning] shown before sending
- * @returns {{title: string, text: string, yes: string, no: string, isDanger: boolean}}
- */
+/** command: null: unknown here; warning: shown before sending. */
 export function questionOf(name, data, command, warning = "") {
   const written = JSON.stringify(data);
   const shown = written.length > LONGEST_SHOWN ? `${written.slice(0, LONGEST_SHOWN)}...` : written;

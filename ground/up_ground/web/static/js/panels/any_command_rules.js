@@ -10,12 +10,9 @@ const ELSEWHERE = {
 };
 
 /**
- * Why a Command is not sent by its name: its own panel's conditions cannot be bypassed.
- * @param {object} store
- * @param {import("./asker.js").Asker} asker
- * @param {string} name of the Command itself, not an alias
- * @param {object|null} data null: not written yet
- * @returns {string} one sentence; empty: it is offered
+ * Why a Command is not sent by its name: its own panel's conditions cannot be bypassed. name: of
+ * the Command itself, not an alias; data: null: not written yet. Returns one sentence; empty: it is
+ * offered.
  */
 export function ruleAgainst(store, asker, name, data = null) {
   const why = asker.objection(name, data ?? {});
@@ -28,12 +25,7 @@ export function ruleAgainst(store, asker, name, data = null) {
   return data !== null && setsGains(name, data) ? gainsObjection(store, asker) : "";
 }
 
-/**
- * @param {object} store
- * @param {string} name of the Command
- * @param {object} data
- * @returns {string} warning before it is sent; empty: none
- */
+/** name: of the Command. Returns warning before it is sent; empty: none. */
 export function warningOf(store, name, data) {
   return setsGains(name, data) ? gainsWarning(store) : "";
 }

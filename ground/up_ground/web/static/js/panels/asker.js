@@ -6,8 +6,8 @@ import { objection } from "./why.js";
 export { tell } from "./answer_notes.js";
 
 /**
- * Sends Commands for the user: confirms where it matters, and shows progress and outcome beside
- * the button and in `#last-answer`.
+ * Sends Commands for the user: confirms where it matters, and shows progress and outcome beside the
+ * button and in `#last-answer`.
  */
 export class Asker {
   #store;
@@ -20,18 +20,15 @@ export class Asker {
     this.#notes = notesOf(store, connection);
   }
 
-  /** @returns {string} why a Command is not offered; empty: it is */
+  /** Why a Command is not offered; empty: it is. */
   objection(name, data = {}) {
     return objection(this.#store, this.#connection, name, data);
   }
 
   /**
-   * @param {string} name of the Command
-   * @param {object} data
-   * @param {{note: HTMLElement, question?: object|null, isForced?: boolean}} where
-   *   note: shows the progress; question: for dialog.js, null: no confirmation; isForced: a name
-   *   that the server does not know is sent all the same
-   * @returns {Promise<object|null>} the answer; null: it was not sent
+   * name: of the Command; note: shows the progress; question: for dialog.js, null: no confirmation;
+   * isForced: a name that the server does not know is sent all the same. Returns the answer; null:
+   * it was not sent.
    */
   async ask(name, data, { note, question = null, isForced = false }) {
     const { aircraft } = this.#store;

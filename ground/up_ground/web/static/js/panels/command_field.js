@@ -9,10 +9,7 @@ export class CommandField {
   #null = null;
   #note;
 
-  /**
-   * @param {object} field of Catalogue.get()
-   * @param {number} place among its Command's fields
-   */
+  /** field: of Catalogue.get(); place: among its Command's fields. */
   constructor(field, place) {
     this.#field = field;
     const id = `any-field-${place}`;
@@ -35,17 +32,16 @@ export class CommandField {
     );
   }
 
-  /** @returns {string} on the wire */
+  /** On the wire. */
   get name() {
     return this.#field.name;
   }
 
-  /** @returns {{problem: string, isLeftOut?: boolean, value?: any}} its content */
+  /** Its content. */
   read() {
     return fieldValue(this.#field, this.#input.value, this.#null?.checked === true);
   }
 
-  /** @param {boolean} isOffered */
   offer(isOffered) {
     this.#input.disabled = !isOffered || this.#null?.checked === true;
     if (this.#null !== null) {
@@ -53,7 +49,7 @@ export class CommandField {
     }
   }
 
-  /** @param {string} problem empty: none */
+  /** empty: none. */
   say(problem) {
     this.#input.setAttribute("aria-invalid", String(problem !== ""));
     this.#note.setAttribute("data-look", problem ? "bad" : "plain");

@@ -7,18 +7,17 @@ import { setText } from "../readout.js";
 export class KnownFields {
   #fields;
 
-  /** @param {object} command of Catalogue.get() */
+  /** command: of Catalogue.get(). */
   constructor(command) {
     this.#fields = command.fields.map((field, place) => new CommandField(field, place));
     this.element = element("div.any-fields", {}, ...this.#fields.map((each) => each.element));
   }
 
-  /** @param {boolean} isOffered */
   offer(isOffered) {
     this.#fields.forEach((each) => each.offer(isOffered));
   }
 
-  /** @returns {object|null} the data of the Command; null: a field is wrong and shows its error */
+  /** The data of the Command; null: a field is wrong and shows its error. */
   read() {
     const data = {};
     let firstWrong = null;
@@ -63,12 +62,11 @@ export class UnknownFields {
     );
   }
 
-  /** @param {boolean} isOffered */
   offer(isOffered) {
     this.#input.disabled = !isOffered;
   }
 
-  /** @returns {object|null} the data of the Command; null: not an object */
+  /** The data of the Command; null: not an object. */
   read() {
     const { problem, value } = jsonFields(this.#input.value);
     this.#say(problem);

@@ -5,13 +5,7 @@ import { element } from "./element.js";
 import { FlightModes } from "./flight_modes.js";
 import { Wishes } from "./wishes.js";
 
-/**
- * The requests to the aircraft, and the outcome of the last one.
- * @param {HTMLElement} place
- * @param {object} store
- * @param {object} connection
- * @returns {{update: () => void}}
- */
+/** The requests to the aircraft, and the outcome of the last one. */
 export function mount(place, store, connection) {
   const asker = new Asker(store, connection);
   const last = element("p", { id: "last-answer", role: "status", "data-look": "plain" });

@@ -13,13 +13,7 @@ const BUTTONS = [
   ["release", "Leave control"],
 ];
 
-/**
- * The owner of control of the aircraft, and the actions that change it.
- * @param {HTMLElement} place
- * @param {object} store
- * @param {object} connection
- * @returns {{update: () => void}}
- */
+/** The owner of control of the aircraft, and the actions that change it. */
 export function mount(place, store, connection) {
   const holder = element("p.holder", { id: "control-holder", role: "status" });
   const asked = element("p.asked", { id: "control-asked", hidden: true });

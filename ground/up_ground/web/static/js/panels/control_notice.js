@@ -8,11 +8,6 @@ export class ControlNotice {
   #text = element("strong", { id: "control-notice-text" });
   #aircraft = null;
 
-  /**
-   * @param {object} store
-   * @param {object} connection
-   * @param {(action: "give"|"deny", aircraft: string) => void} answer
-   */
   constructor(store, connection, answer) {
     this.#store = store;
     this.#connection = connection;
@@ -45,11 +40,7 @@ export class ControlNotice {
   }
 }
 
-/**
- * @param {{aircraft: string, control: object}} status with the request to this page
- * @param {number} count of aircraft on this page
- * @returns {string}
- */
+/** status: with the request to this page; count: of aircraft on this page. */
 export function noticeWords({ aircraft, control }, count) {
   const name = String(control.asked_by.name || `page ${control.asked_by.page}`);
   return `${name} asks you for control${count > 1 ? ` of ${aircraft}` : ""}.`;

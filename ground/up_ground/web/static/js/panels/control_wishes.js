@@ -9,27 +9,21 @@ export class ControlWishes {
   #wishes = new Map();
   #notes = new Map();
 
-  /**
-   * @param {string} aircraft
-   * @param {string} holder the page asked; empty: none in particular
-   * @param {number} now_s
-   */
+  /** holder: the page asked; empty: none in particular. */
   asked(aircraft, holder, now_s) {
     this.#notes.delete(aircraft);
     this.#wishes.set(aircraft, { holder, at_s: now_s });
   }
 
-  /** @param {string} aircraft for which no request is pending now */
+  /** aircraft: for which no request is pending now. */
   withdraw(aircraft) {
     this.#wishes.delete(aircraft);
     this.#notes.delete(aircraft);
   }
 
   /**
-   * A request was denied, or something else went wrong.
-   * @param {string} text
-   * @param {string} aircraft the watched one; without a request for it the first pending one is meant
-   * @param {number} now_s
+   * A request was denied, or something else went wrong. aircraft: the watched one; without a
+   * request for it the first pending one is meant.
    */
   fault(text, aircraft, now_s) {
     const place = this.#wishes.has(aircraft) ? aircraft : ([...this.#wishes.keys()][0] ?? aircraft);
@@ -44,11 +38,7 @@ export class ControlWishes {
   }
 
   /**
-   * @param {string} aircraft
-   * @param {object|null} control of its status
-   * @param {number|null} page this page's number
-   * @param {number} now_s
-   * @returns {boolean} whether this page waits for control
+   * control: of its status; page: this page's number. Returns whether this page waits for control.
    */
   isWaiting(aircraft, control, page, now_s) {
     const wish = this.#wishes.get(aircraft);
@@ -64,11 +54,7 @@ export class ControlWishes {
     return this.#wishes.has(aircraft) || isAsker(control, page);
   }
 
-  /**
-   * @param {string} aircraft
-   * @param {number} now_s
-   * @returns {string} its present state; empty: none
-   */
+  /** Its present state; empty: none. */
   words(aircraft, now_s) {
     const wish = this.#wishes.get(aircraft);
     if (wish !== undefined) {
@@ -80,9 +66,8 @@ export class ControlWishes {
 }
 
 /**
- * @param {object|null} control of a status
- * @param {number|null} page this page's number
- * @returns {boolean} whether this page has the pending request
+ * control: of a status; page: this page's number. Returns whether this page has the pending
+ * request.
  */
 export function isAsker(control, page) {
   return typeof page === "number" && control?.asked_by?.page === page;

@@ -2,10 +2,8 @@ import { isAsker } from "./control_wishes.js";
 import { sentence } from "./why.js";
 
 /**
- * The owner of control, in words.
- * @param {object|null} control of the server's `status`
- * @param {object|null} welcome null: disconnected
- * @returns {{holder: string, asked: string, pages: string}} empty: no text
+ * The owner of control, in words. control: of the server's `status`; welcome: null: disconnected.
+ * Returns empty: no text.
  */
 export function controlWords(control, welcome) {
   if (welcome === null) {
@@ -21,11 +19,7 @@ export function controlWords(control, welcome) {
   };
 }
 
-/**
- * @param {object|null} control
- * @param {object|null} welcome
- * @returns {Set<string>} of request, give, deny, release: the actions available to a page now
- */
+/** Of request, give, deny, release: the actions available to a page now. */
 export function offeredActions(control, welcome) {
   if (welcome === null || welcome.is_replay || welcome.may_control === false || control === null) {
     return new Set();

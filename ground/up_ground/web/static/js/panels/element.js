@@ -1,24 +1,15 @@
 const SVG = "http://www.w3.org/2000/svg";
 
 /**
- * An element of the page; texts go through textContent alone.
- * @param {string} tag with classes behind dots, as `p.note`
- * @param {object} [has] attributes; `text` is its text, `on` is {event: call}; false and null: not set
- * @param {...(Node|string)} children
- * @returns {HTMLElement}
+ * An element of the page; texts go through textContent alone. tag: with classes behind dots, as
+ * `p.note`; has: attributes; `text` is its text, `on` is {event: call}; false and null: not set.
  */
 export function element(tag, has = {}, ...children) {
   const [name, ...classes] = tag.split(".");
   return filled(document.createElement(name), classes, has, children);
 }
 
-/**
- * An element of a drawing.
- * @param {string} tag with classes behind dots
- * @param {object} [has] as for element()
- * @param {...Node} children
- * @returns {SVGElement}
- */
+/** An element of a drawing. tag: with classes behind dots; has: as for element(). */
 export function drawn(tag, has = {}, ...children) {
   const [name, ...classes] = tag.split(".");
   return filled(document.createElementNS(SVG, name), classes, has, children);

@@ -11,16 +11,13 @@ export class EventLines {
   #lines = new Map();
   #agesAt_s = -Infinity;
 
-  /**
-   * @param {HTMLElement} list
-   * @param {HTMLElement} window the scrolling viewport
-   */
+  /** window: the scrolling viewport. */
   constructor(list, window) {
     this.#list = list;
     this.#window = window;
   }
 
-  /** @returns {boolean} whether the newest line is in sight */
+  /** Whether the newest line is in sight. */
   get isAtNewest() {
     const { scrollTop, clientHeight, scrollHeight } = this.#window;
     return scrollHeight - scrollTop - clientHeight < 24;
@@ -31,10 +28,7 @@ export class EventLines {
     this.#window.scrollTop = this.#window.scrollHeight;
   }
 
-  /**
-   * @param {object[]} events the newest last
-   * @param {number} now_s
-   */
+  /** events: the newest last. */
   show(events, now_s) {
     const wasAtNewest = this.isAtNewest;
     const wanted = new Set(events.map(keyOf));

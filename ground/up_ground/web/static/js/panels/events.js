@@ -11,13 +11,7 @@ const LEVELS = [
 const ORDER = ["info", "warning", "alarm"];
 const MARK = "black_box.mark";
 
-/**
- * The events in plain words, the newest last.
- * @param {HTMLElement} place
- * @param {object} store
- * @param {object} connection
- * @returns {{update: () => void}}
- */
+/** The events in plain words, the newest last. */
 export function mount(place, store, connection) {
   const asker = new Asker(store, connection);
   const note = element("p.note", { role: "status" });

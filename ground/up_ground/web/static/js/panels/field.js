@@ -7,11 +7,7 @@ export class Field {
   #send;
   #isOffered = false;
 
-  /**
-   * @param {{id: string, label: string, button: string, input: object,
-   *   read: (text: string) => {value: any, problem: string}, send: (value: any) => void}} parts
-   *   input: attributes; read: validates the text; send: called with a valid value
-   */
+  /** input: attributes; read: validates the text; send: called with a valid value. */
   constructor({ id, label, button, input, read, send }) {
     this.#read = read;
     this.#send = send;
@@ -30,14 +26,14 @@ export class Field {
     this.offer(false);
   }
 
-  /** @param {boolean} isOffered otherwise the keyboard cannot reach it either */
+  /** isOffered: otherwise the keyboard cannot reach it either. */
   offer(isOffered) {
     this.#isOffered = isOffered;
     this.input.disabled = !isOffered;
     this.button.disabled = !isOffered;
   }
 
-  /** @returns {any} its value; null: not valid for sending */
+  /** Its value; null: not valid for sending. */
   get value() {
     const { value, problem } = this.#read(this.input.value);
     return problem ? null : value;
@@ -72,12 +68,6 @@ export class Field {
   }
 }
 
-/**
- * @param {number} least
- * @param {number} most
- * @param {string} unit
- * @returns {(text: string) => {value: number, problem: string}}
- */
 export function numberBetween(least, most, unit) {
   return (text) => {
     const value = text.trim() === "" ? NaN : Number(text);
@@ -89,10 +79,6 @@ export function numberBetween(least, most, unit) {
   };
 }
 
-/**
- * @param {number} longest
- * @returns {(text: string) => {value: string, problem: string}}
- */
 export function textUpTo(longest) {
   return (text) => {
     const value = text.trim();

@@ -1,11 +1,9 @@
 const NAME = /^[A-Za-z0-9_.-]{1,128}$/;
 
 /**
- * The user's input for a field of a Command, validated by its type and bounds.
- * @param {object} field of Catalogue.get()
- * @param {string} text empty: left out; for a field with choices and for true or false: JSON
- * @param {boolean} [isNull] whether null was chosen
- * @returns {{problem: string, isLeftOut?: boolean, value?: any}} problem: one sentence, or empty
+ * The user's input for a field of a Command, validated by its type and bounds. field: of
+ * Catalogue.get(); empty: left out; for a field with choices and for true or false: JSON; isNull:
+ * whether null was chosen. Returns problem: one sentence, or empty.
  */
 export function fieldValue(field, text, isNull = false) {
   if (isNull && field.isNullable) {
@@ -22,19 +20,12 @@ export function fieldValue(field, text, isNull = false) {
   return { problem: "", value };
 }
 
-/**
- * @param {object} field of Catalogue.get()
- * @returns {string} its type and bounds, as in `up-ground commands`
- */
+/** field: of Catalogue.get(). Returns its type and bounds, as in `up-ground commands`. */
 export function wanted(field) {
   return field.text === "" ? "is missing or not what it must be" : `must be ${field.text}`;
 }
 
-/**
- * The fields of an unknown Command, written as JSON.
- * @param {string} text empty: none
- * @returns {{problem: string, value?: object}}
- */
+/** The fields of an unknown Command, written as JSON. empty: none. */
 export function jsonFields(text) {
   if (text.trim() === "") {
     return { problem: "", value: {} };
@@ -50,10 +41,7 @@ export function jsonFields(text) {
     : { problem: 'write an object: {"field": value}' };
 }
 
-/**
- * @param {string} name
- * @returns {string} why no Command can have that name; empty: one can
- */
+/** Why no Command can have that name; empty: one can. */
 export function nameProblem(name) {
   return NAME.test(name) ? "" : "a name has letters, digits, dots, _ and - alone, 128 at most";
 }

@@ -81,10 +81,7 @@ export class FlightModes {
   }
 }
 
-/**
- * @param {string} text
- * @returns {HTMLElement} the heading of a part of a panel
- */
+/** The heading of a part of a panel. */
 export function heading(text) {
   return element("h3", { text });
 }

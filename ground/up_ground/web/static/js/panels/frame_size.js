@@ -9,10 +9,7 @@ export class FrameSize {
   /** @type {number|null} the mean of the last ones; null: no frame yet */
   bytes = null;
 
-  /**
-   * @param {object} tree of the newest frame
-   * @param {number} count of all frames so far
-   */
+  /** tree: of the newest frame; count: of all frames so far. */
   look(tree, count) {
     if (count === 0 || count < this.#nextAt) {
       return;

@@ -14,11 +14,7 @@ export const AXES = [
   { key: "rudder", word: "yaw" },
 ];
 
-/**
- * @param {{key: string}} loop
- * @param {{key: string}} axis
- * @returns {boolean} whether a controller uses its gains; the others are sent as received
- */
+/** Whether a controller uses its gains; the others are sent as received. */
 export function isUsed(loop, axis) {
   return loop.key !== "stabPIDs" || axis.key !== "rudder";
 }
@@ -27,8 +23,8 @@ export function isUsed(loop, axis) {
 export const TERMS = ["p", "i", "d"];
 
 /**
- * @param {object|null} set `{ratePIDs, stabPIDs, navPIDs?}`
- * @returns {Map<string, number>} each gain that it has by its path, as `ratePIDs.ailerons.p`
+ * set: `{ratePIDs, stabPIDs, navPIDs?}`. Returns each gain that it has by its path, as
+ * `ratePIDs.ailerons.p`.
  */
 export function cellsOf(set) {
   const cells = new Map();
@@ -45,10 +41,7 @@ export function cellsOf(set) {
   return cells;
 }
 
-/**
- * @param {Map<string, number>} cells
- * @returns {object} the complete set, in the form in which it is sent
- */
+/** The complete set, in the form in which it is sent. */
 export function setOf(cells) {
   const set = {};
   for (const [path, value] of cells) {
@@ -60,10 +53,7 @@ export function setOf(cells) {
   return set;
 }
 
-/**
- * @param {string} path
- * @returns {string} as `rate roll P`
- */
+/** As `rate roll P`. */
 export function cellWords(path) {
   const [loop, axis, term] = path.split(".");
   const word = (list, key) => list.find((each) => each.key === key)?.word ?? key;
@@ -71,18 +61,15 @@ export function cellWords(path) {
 }
 
 /**
- * @param {number} value single precision has digits beyond those entered
- * @returns {string} six figures at most, one decimal at least
+ * value: single precision has digits beyond those entered. Returns six figures at most, one decimal
+ * at least.
  */
 export function gainText(value) {
   const short = String(Number(value.toPrecision(6)));
   return /^-?\d+$/.test(short) ? `${short}.0` : short;
 }
 
-/**
- * @param {string} written
- * @returns {{value: number, problem: string}} problem: why it is not a gain, empty when it is one
- */
+/** Problem: why it is not a gain, empty when it is one. */
 export function readGain(written) {
   const text = written.trim();
   if (text === "") {
@@ -99,11 +86,7 @@ export function readGain(written) {
   return { value, problem: "" };
 }
 
-/**
- * @param {Map<string, number>} before
- * @param {Map<string, number>} after
- * @returns {{path: string, before: number, after: number, words: string}[]} the differences
- */
+/** The differences. */
 export function difference(before, after) {
   const found = [];
   for (const [path, value] of after) {

@@ -11,13 +11,7 @@ import { gainsObjection, gainsWarning } from "./gains_why.js";
 
 const NAME = "arduino.pids.tunings";
 
-/**
- * The gains that fly, editing them, and sending whole sets.
- * @param {HTMLElement} place
- * @param {object} store
- * @param {object} connection
- * @returns {{update: () => void}}
- */
+/** The gains that fly, editing them, and sending whole sets. */
 export function mount(place, store, connection) {
   return new GainsPanel(place, store, connection);
 }

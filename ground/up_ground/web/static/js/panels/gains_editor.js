@@ -10,17 +10,17 @@ export class GainsEditor {
   #flying = new Map();
   #edits = new Map();
 
-  /** @returns {Map<string, number>} the flying gains by their paths */
+  /** The flying gains by their paths. */
   get flying() {
     return this.#flying;
   }
 
-  /** @returns {boolean} whether anything was written that is not flying */
+  /** Whether anything was written that is not flying. */
   get isEdited() {
     return this.#edits.size > 0;
   }
 
-  /** @param {object|null} set the active gains; an input equal to the active value is not an edit */
+  /** set: the active gains; an input equal to the active value is not an edit. */
   takeFlying(set) {
     this.#flying = cellsOf(set);
     for (const [path, edit] of this.#edits) {
@@ -32,10 +32,6 @@ export class GainsEditor {
     }
   }
 
-  /**
-   * @param {string} path
-   * @param {string} written
-   */
   write(path, written) {
     const flying = this.#flying.get(path);
     const seen = this.#edits.get(path)?.seen ?? flying;
@@ -59,18 +55,18 @@ export class GainsEditor {
     }
   }
 
-  /** @returns {string} the content of a cell */
+  /** The content of a cell. */
   textOf(path) {
     const flying = this.#flying.get(path);
     return this.#edits.get(path)?.written ?? (flying === undefined ? "" : gainText(flying));
   }
 
-  /** @returns {boolean} whether a cell differs from the active value */
+  /** Whether a cell differs from the active value. */
   isCellEdited(path) {
     return this.#edits.has(path);
   }
 
-  /** @returns {{path: string, words: string}[]} cells that hold no gain */
+  /** Cells that hold no gain. */
   get problems() {
     return [...this.#edits]
       .map(([path, { written }]) => ({ path, problem: readGain(written).problem }))
@@ -78,7 +74,7 @@ export class GainsEditor {
       .map(({ path, problem }) => ({ path, words: `${cellWords(path)} ${problem}` }));
   }
 
-  /** @returns {{path: string, words: string}[]} edited cells whose active value has changed */
+  /** Edited cells whose active value has changed. */
   get conflicts() {
     const found = [];
     for (const [path, { written, seen }] of this.#edits) {
@@ -91,12 +87,12 @@ export class GainsEditor {
     return found;
   }
 
-  /** @returns {ReturnType<typeof difference>} the changes to send; cells without a gain left out */
+  /** The changes to send; cells without a gain left out. */
   get difference() {
     return difference(this.#flying, this.#wanted());
   }
 
-  /** @returns {object|null} the whole set to send; null: no changes, or a cell without a gain */
+  /** The whole set to send; null: no changes, or a cell without a gain. */
   get wanted() {
     return this.isEdited && this.problems.length === 0 ? setOf(this.#wanted()) : null;
   }
@@ -115,10 +111,7 @@ export class GainsEditor {
 }
 
 /**
- * The set that flew before the one that flies now.
- * @param {{before: ?object, after: ?object, outcome: string}[]} history oldest first
- * @param {Map<string, number>} flying
- * @returns {object|null} null: not known
+ * The set that flew before the one that flies now. history: oldest first. Returns null: not known.
  */
 export function setBefore(history, flying) {
   for (const entry of [...history].reverse()) {

@@ -15,10 +15,7 @@ export class GainsHistory {
     this.element = element("details", { hidden: true }, element("summary", { text: "History" }), this.#list);
   }
 
-  /**
-   * @param {object|null} message the server's `gains`
-   * @param {number} since_s seconds since its arrival
-   */
+  /** message: the server's `gains`; since_s: seconds since its arrival. */
   show(message, since_s) {
     if (message !== this.#shown) {
       this.#shown = message;
@@ -51,10 +48,7 @@ export class GainsHistory {
   }
 }
 
-/**
- * @param {object|null} message the server's `gains`
- * @returns {object[]} its history, the oldest first
- */
+/** message: the server's `gains`. Returns its history, the oldest first. */
 export function entriesOf(message) {
   const entries = Array.isArray(message?.history) ? message.history : [];
   return entries

@@ -9,17 +9,14 @@ export class GainsTable {
   #cells = new Map();
   #shape = "";
 
-  /**
-   * @param {import("./gains_editor.js").GainsEditor} editor
-   * @param {() => void} onInput something was written
-   */
+  /** onInput: something was written. */
   constructor(editor, onInput) {
     this.#editor = editor;
     this.#onInput = onInput;
     this.element = element("div.gains", { id: "gains" });
   }
 
-  /** @param {boolean} isOffered whether anything may be written */
+  /** isOffered: whether anything may be written. */
   show(isOffered) {
     const shape = [...this.#editor.flying.keys()].join();
     if (shape !== this.#shape) {

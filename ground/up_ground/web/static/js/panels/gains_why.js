@@ -3,10 +3,8 @@ import { switchMode } from "./switch.js";
 const NAME = "arduino.pids.tunings";
 
 /**
- * Why gains cannot be sent now, as far as the page can tell before trying.
- * @param {object} store
- * @param {import("./asker.js").Asker} asker
- * @returns {string} one sentence; empty: no known reason
+ * Why gains cannot be sent now, as far as the page can tell before trying. Returns one sentence;
+ * empty: no known reason.
  */
 export function gainsObjection(store, asker) {
   const why = asker.objection(NAME);
@@ -36,10 +34,7 @@ export function gainsObjection(store, asker) {
     : "";
 }
 
-/**
- * @param {object} store
- * @returns {string} warning before gains are changed in flight; empty: none
- */
+/** Warning before gains are changed in flight; empty: none. */
 export function gainsWarning(store) {
   if (store.flag("armed") !== true && store.flag("in_flight") !== true) {
     return "";

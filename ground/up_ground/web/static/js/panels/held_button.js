@@ -22,10 +22,6 @@ export class HeldButton {
   #note;
   #isLooking = false;
 
-  /**
-   * @param {{id: string, text: string, objection: () => string, fire: () => void,
-   *   now_s: () => number, note: HTMLElement}} parts
-   */
   constructor({ id, text, objection, fire, now_s, note }) {
     this.#note = note;
     this.#objection = objection;

@@ -7,8 +7,8 @@ const LONGEST_LOOK_S = 0.5;
 /**
  * A press that acts only when it is held: idle -> pressed -> done, or void.
  *
- * Only the release of all inputs leads back to idle, so one press fires once, and a void press stays
- * void for the rest of its duration.
+ * Only the release of all inputs leads back to idle, so one press fires once, and a void press
+ * stays void for the rest of its duration.
  */
 export class HeldPress {
   #by = new Set();
@@ -20,11 +20,7 @@ export class HeldPress {
   /** Why the last press became void, in words; empty while it did not. */
   why = "";
 
-  /**
-   * @param {string} by the input: a pointer or a key, by name
-   * @param {number} now_s
-   * @param {string} [objection] why it may not be pressed now
-   */
+  /** by: the input: a pointer or a key, by name; objection: why it may not be pressed now. */
   press(by, now_s, objection = "") {
     if (this.#by.has(by)) {
       return;
@@ -42,7 +38,7 @@ export class HeldPress {
     }
   }
 
-  /** @param {string} by the input that is released */
+  /** by: the input that is released. */
   release(by) {
     if (!this.#by.delete(by)) {
       return;
@@ -60,7 +56,7 @@ export class HeldPress {
     this.state = "idle";
   }
 
-  /** @param {string} why a press under way is cancelled; any other state stays */
+  /** why: a press under way is cancelled; any other state stays. */
   void(why) {
     if (this.state === "pressed") {
       this.state = "void";
@@ -69,10 +65,8 @@ export class HeldPress {
   }
 
   /**
-   * Update to the present time.
-   * @param {number} now_s
-   * @param {string} [objection] why it may not be pressed now
-   * @returns {boolean} true once, when the press has lasted long enough
+   * Update to the present time. objection: why it may not be pressed now. Returns true once, when
+   * the press has lasted long enough.
    */
   look(now_s, objection = "") {
     if (this.state !== "pressed") {
@@ -91,10 +85,7 @@ export class HeldPress {
     return false;
   }
 
-  /**
-   * @param {number} now_s
-   * @returns {number} completed part of the press, 0 to 1
-   */
+  /** Completed part of the press, 0 to 1. */
   progress(now_s) {
     if (this.state === "done") {
       return 1;

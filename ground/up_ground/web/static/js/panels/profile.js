@@ -4,13 +4,7 @@ import { profileParts } from "./profile_words.js";
 
 const REQUEST = "arduino.profile.request";
 
-/**
- * The airframe as the Arduino holds it, to read.
- * @param {HTMLElement} place
- * @param {object} store
- * @param {object} connection
- * @returns {{update: () => void}}
- */
+/** The airframe as the Arduino holds it, to read. */
 export function mount(place, store, connection) {
   const asker = new Asker(store, connection);
   const note = element("p.note", { role: "status" });

@@ -11,9 +11,8 @@ const MIXES = {
 };
 
 /**
- * A profile of the airframe as readable text.
- * @param {object} profile the form of `arduino.profile.values` (docs/protocols.md 5)
- * @returns {{title: string, rows: [string, string][]}[]} missing values have no row
+ * A profile of the airframe as readable text. profile: the form of `arduino.profile.values`
+ * (docs/protocols.md 5). Returns missing values have no row.
  */
 export function profileParts(profile) {
   const isElevon = profile.mix === "elevon";

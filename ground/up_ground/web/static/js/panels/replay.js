@@ -5,13 +5,7 @@ import { clockWords } from "./words.js";
 const SPEEDS = [0.25, 0.5, 1, 2, 5, 10, 30];
 const STEP_S = 5;
 
-/**
- * Plays a flight of the past: play and pause, speed, where in time; by keys k, j, l as well.
- * @param {HTMLElement} place
- * @param {object} store
- * @param {object} connection
- * @returns {{update: () => void}}
- */
+/** Plays a flight of the past: play and pause, speed, where in time; by keys k, j, l as well. */
 export function mount(place, store, connection) {
   const play = element("button", { type: "button", id: "replay-play", on: { click: toggle } });
   const slider = element("input", {

@@ -3,9 +3,7 @@ const SELECTS = { low: "ACRO", middle: "FBW", high: "AUTO" };
 
 /**
  * The mode that the pilot's switch selects: the aircraft reports the position, its profile the
- * meaning of the position.
- * @param {object} store
- * @returns {string|null} ACRO, RATE, FBW or AUTO; null: not known
+ * meaning of the position. Returns ACRO, RATE, FBW or AUTO; null: not known.
  */
 export function switchMode(store) {
   const position = store.text("arduino.switch");
@@ -16,10 +14,7 @@ export function switchMode(store) {
   return typeof told === "string" ? told : SELECTS[position];
 }
 
-/**
- * @param {object} store
- * @returns {string} the position and what it selects; without a profile, the default
- */
+/** The position and what it selects; without a profile, the default. */
 export function switchText(store) {
   const position = store.text("arduino.switch");
   const selected = switchMode(store);

@@ -9,10 +9,8 @@ const LONGEST_PATH = 200;
 const UNSEEN = /[\p{Cc}\p{Cf}\p{Cs}\p{Co}\p{Zl}\p{Zp}]/gu;
 
 /**
- * Every value of a tree of telemetry, in its order; an empty object or list is a value.
- * @param {unknown} tree as received
- * @param {number} [most]
- * @returns {{leaves: {path: string, keys: string[], value: unknown}[], isCut: boolean}}
+ * Every value of a tree of telemetry, in its order; an empty object or list is a value. tree: as
+ * received.
  */
 export function leavesOf(tree, most = MOST_LEAVES) {
   const leaves = [];
@@ -43,10 +41,7 @@ export function leavesOf(tree, most = MOST_LEAVES) {
   return { leaves, isCut };
 }
 
-/**
- * @param {unknown} value of any JSON type
- * @returns {string} short, on one line, without anything that is not seen
- */
+/** value: of any JSON type. Returns short, on one line, without anything that is not seen. */
 export function valueWords(value) {
   if (typeof value === "number") {
     return plainNumber(value);
@@ -57,19 +52,12 @@ export function valueWords(value) {
   return shown(JSON.stringify(value) ?? "", LONGEST_TEXT);
 }
 
-/**
- * @param {string} path
- * @returns {string} short, without anything that is not seen
- */
+/** Short, without anything that is not seen. */
 export function pathWords(path) {
   return shown(path, LONGEST_PATH);
 }
 
-/**
- * @param {string} path
- * @param {string} filter words; each must be in the path, whatever its case
- * @returns {boolean}
- */
+/** filter: words; each must be in the path, whatever its case. */
 export function matches(path, filter) {
   const low = path.toLowerCase();
   return filter

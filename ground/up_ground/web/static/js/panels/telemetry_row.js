@@ -16,10 +16,7 @@ export class TelemetryRow {
   #words = null;
   #changedAt_s = -Infinity;
 
-  /**
-   * @param {{path: string, keys: string[]}} leaf
-   * @param {(keys: string[]) => void} draw draws it in the chart, or no longer
-   */
+  /** draw: draws it in the chart, or no longer. */
   constructor({ path, keys }, draw) {
     this.keys = keys;
     this.#draw = draw;
@@ -36,11 +33,7 @@ export class TelemetryRow {
     );
   }
 
-  /**
-   * @param {unknown} value
-   * @param {object} store
-   * @param {boolean} isDrawn whether it is in the chart
-   */
+  /** isDrawn: whether it is in the chart. */
   show(value, store, isDrawn) {
     const words = valueWords(value);
     if (words !== this.#words) {

@@ -6,12 +6,7 @@ import { element } from "./element.js";
 import { leavesOf, matches, MOST_LEAVES, pathWords } from "./telemetry_leaves.js";
 import { TelemetryRow } from "./telemetry_row.js";
 
-/**
- * Every value of the newest frame, also those that no other part of the page knows.
- * @param {HTMLElement} place
- * @param {object} store
- * @returns {{update: () => void}}
- */
+/** Every value of the newest frame, also those that no other part of the page knows. */
 export function mount(place, store) {
   const filter = element("input", {
     id: "telemetry-filter",

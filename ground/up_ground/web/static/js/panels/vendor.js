@@ -1,7 +1,4 @@
-/**
- * Show once on the page that a library is not installed.
- * @param {string} sentence
- */
+/** Show once on the page that a library is not installed. */
 export function sayMissing(sentence) {
   const place = document.getElementById("missing");
   const known = [...(place?.children ?? [])].some((each) => each.textContent === sentence);
@@ -14,10 +11,7 @@ export function sayMissing(sentence) {
   place.hidden = false;
 }
 
-/**
- * @param {string} address of a style sheet of an npm package
- * @returns {Promise<void>} fails when it is missing
- */
+/** address: of a style sheet of an npm package. Returns fails when it is missing. */
 export function styleSheet(address) {
   return new Promise((resolve, reject) => {
     const link = document.createElement("link");

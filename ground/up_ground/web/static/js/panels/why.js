@@ -1,12 +1,7 @@
 import { isOnlyRequest, roleAllows } from "../state/roles.js";
 
 /**
- * Why a Command is not offered.
- * @param {object} store
- * @param {object} connection
- * @param {string} name of the Command
- * @param {object} [data]
- * @returns {string} one sentence; empty: it is offered
+ * Why a Command is not offered. name: of the Command. Returns one sentence; empty: it is offered.
  */
 export function objection(store, connection, name, data = {}) {
   if (!connection.isOpen || store.aircraft === null) {
@@ -32,20 +27,12 @@ export function objection(store, connection, name, data = {}) {
   return "";
 }
 
-/**
- * @param {object} store
- * @returns {string} why the aircraft cannot be reached at all; empty: no known reason
- */
+/** Why the aircraft cannot be reached at all; empty: no known reason. */
 export function awayWords(store) {
   return store.status?.link?.aircraft_online === false ? `the aircraft ${store.aircraft} is not connected to the proxy` : "";
 }
 
-/**
- * Why this page does not command.
- * @param {object} store
- * @param {object} connection
- * @returns {string} one sentence; empty: it does
- */
+/** Why this page does not command. Returns one sentence; empty: it does. */
 export function controlObjection(store, connection) {
   if (!connection.isOpen) {
     return "There is no connection to the ground server.";
@@ -71,10 +58,7 @@ export function controlObjection(store, connection) {
   }
 }
 
-/**
- * @param {string} text
- * @returns {string} with a capital and a full stop
- */
+/** With a capital and a full stop. */
 export function sentence(text) {
   const trimmed = String(text).trim().replace(/\.$/, "");
   return trimmed === "" ? "" : `${trimmed[0].toUpperCase()}${trimmed.slice(1)}.`;

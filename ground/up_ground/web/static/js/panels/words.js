@@ -4,19 +4,12 @@ const MODES = {
   AUTO: "modules on the Raspberry Pi may fly; without one the sticks ask for attitude",
 };
 
-/**
- * @param {string} mode
- * @returns {string} the effect of a flight mode, in a few words; empty for an unknown one
- */
+/** The effect of a flight mode, in a few words; empty for an unknown one. */
 export function modeWords(mode) {
   return Object.hasOwn(MODES, mode) ? MODES[mode] : "";
 }
 
-/**
- * @param {string} name of a Command
- * @param {object} [data]
- * @returns {string} the request of a Command, as a heading
- */
+/** name: of a Command. Returns the request of a Command, as a heading. */
 export function commandWords(name, data = {}) {
   switch (name) {
     case "up.flight_mode.set":
@@ -42,10 +35,7 @@ export function commandWords(name, data = {}) {
   }
 }
 
-/**
- * @param {{outcome: string, code?: ?string, reason?: ?string, round_trip_ms?: ?number}} answer
- * @returns {string} the outcome of a Command, in plain words
- */
+/** The outcome of a Command, in plain words. */
 export function answerWords(answer) {
   const reason = String(answer.reason ?? "")
     .replace(/^not sent: /, "")
@@ -73,20 +63,12 @@ export function answerWords(answer) {
   }
 }
 
-/**
- * @param {{outcome: string}} answer
- * @returns {"good"|"bad"} its style
- */
+/** Its style. */
 export function answerLook(answer) {
   return answer.outcome === "ack" ? "good" : "bad";
 }
 
-/**
- * Data rate of a telemetry period.
- * @param {number} period_ms
- * @param {number|null} frame_bytes measured; null: unknown
- * @returns {string}
- */
+/** Data rate of a telemetry period. frame_bytes: measured; null: unknown. */
 export function costWords(period_ms, frame_bytes) {
   if (frame_bytes === null || !(period_ms > 0)) {
     return "what it costs is not known yet: no frame came";
@@ -97,10 +79,7 @@ export function costWords(period_ms, frame_bytes) {
   return `${often}, about ${amount(kilobytes)} an hour at ${Math.round(frame_bytes)} bytes a frame`;
 }
 
-/**
- * @param {number} age_s
- * @returns {string} how long ago, short
- */
+/** How long ago, short. */
 export function agoWords(age_s) {
   if (!Number.isFinite(age_s)) {
     return "";
@@ -115,10 +94,7 @@ export function agoWords(age_s) {
   return `${Math.floor(whole_s / 3600)} h ${Math.floor((whole_s % 3600) / 60)} min ago`;
 }
 
-/**
- * @param {number} time_s
- * @returns {string} as 3:07 or 1:02:07
- */
+/** As 3:07 or 1:02:07. */
 export function clockWords(time_s) {
   const whole_s = Math.max(0, Math.floor(Number.isFinite(time_s) ? time_s : 0));
   const minutes = Math.floor(whole_s / 60) % 60;

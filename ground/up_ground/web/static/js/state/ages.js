@@ -34,8 +34,8 @@ const READING_OF = {
 const KNOWN_BESIDES = new Set(["arduino.connected", "arduino.framing"]);
 
 /**
- * @param {string} path of a value in the telemetry
- * @returns {string|null} the reading whose age is the value's; null: the frame's own age
+ * path: of a value in the telemetry. Returns the reading whose age is the value's; null: the
+ * frame's own age.
  */
 export function readingOf(path) {
   if (path === "android.batteryLevel") {
@@ -49,19 +49,16 @@ export function readingOf(path) {
 }
 
 /**
- * @param {number|null} frameAge_s age of the newest frame; null: there was none
- * @returns {boolean} whether every value on the page may be stale
+ * frameAge_s: age of the newest frame; null: there was none. Returns whether every value on the
+ * page may be stale.
  */
 export function isSilent(frameAge_s) {
   return frameAge_s === null || frameAge_s > SILENT_S;
 }
 
 /**
- * The freshness of a reading, or of the frame itself.
- * @param {string|null} reading null: the frame's own
- * @param {number|null} frameAge_s
- * @param {number|null|undefined} aboard_ms its `age_ms`; null: no reading yet; undefined: missing
- * @returns {"live"|"stale"|"none"}
+ * The freshness of a reading, or of the frame itself. reading: null: the frame's own; aboard_ms:
+ * its `age_ms`; null: no reading yet; undefined: missing.
  */
 export function freshnessOf(reading, frameAge_s, aboard_ms) {
   if (frameAge_s === null || (reading !== null && aboard_ms === null)) {

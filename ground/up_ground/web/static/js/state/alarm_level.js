@@ -1,19 +1,13 @@
 const LEVELS = ["none", "info", "warning", "alarm"];
 
-/**
- * @param {{level: string}[]} alarms
- * @returns {"none"|"info"|"warning"|"alarm"}
- */
 export function worstLevel(alarms) {
   const worst = Math.max(0, ...alarms.map((each) => LEVELS.indexOf(each?.level)));
   return LEVELS[worst];
 }
 
 /**
- * The worst alarm; alarms that the page detects come before those from the server.
- * @param {{alarms: object[], aircraftState: string}} store
- * @param {{isOpen: boolean, isFull: boolean}} connection
- * @returns {{level: string, text: string|null}} text: in two words; null: not known
+ * The worst alarm; alarms that the page detects come before those from the server. Returns text: in
+ * two words; null: not known.
  */
 export function alarmOf(store, connection) {
   if (!connection.isOpen) {

@@ -8,7 +8,7 @@ const TYPES = ["boolean", "integer", "number", "text", "object", "list"];
 export class Catalogue {
   #byName = new Map();
 
-  /** @param {unknown} [commands] of the server's `catalogue`; malformed entries are dropped */
+  /** commands: of the server's `catalogue`; malformed entries are dropped. */
   constructor(commands = []) {
     const all = Array.isArray(commands) ? commands.slice(0, MOST_COMMANDS) : [];
     this.commands = all.map(commandOf).filter((each) => each !== null);
@@ -22,18 +22,14 @@ export class Catalogue {
   }
 
   /**
-   * @param {string} name or alias
-   * @returns {object|null} {name, aliases, role, text, needsBeacon, fields: [{name, type, unit,
-   *   choices, minimum, maximum, longest, isNullable, isRequired, text}]}
+   * name: or alias. Returns {name, aliases, role, text, needsBeacon, fields: [{name, type, unit,
+   * choices, minimum, maximum, longest, isNullable, isRequired, text}]}.
    */
   get(name) {
     return this.#byName.get(name) ?? null;
   }
 
-  /**
-   * @param {string} name
-   * @returns {string|null} the least role that may send it; null: not known, or a field decides
-   */
+  /** The least role that may send it; null: not known, or a field decides. */
   role(name) {
     const role = this.get(name)?.role ?? "";
     return role === "" || role === "depends" ? null : role;

@@ -14,9 +14,8 @@ export class EventList {
   version = 0;
 
   /**
-   * @param {object} message the server's `event`; of a flight of the past it has a `time_s`
-   * @param {number} now_s
-   * @returns {boolean} whether it is new
+   * message: the server's `event`; of a flight of the past it has a `time_s`. Returns whether it is
+   * new.
    */
   take(message, now_s) {
     const place = number(message.number);

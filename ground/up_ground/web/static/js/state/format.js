@@ -1,12 +1,7 @@
 /** Placeholder of an unknown value. */
 export const UNKNOWN = "--";
 
-/**
- * @param {number|null} value
- * @param {number} decimals
- * @param {{sign?: boolean}} [options] sign: + before values that are not negative
- * @returns {string}
- */
+/** sign: + before values that are not negative. */
 export function numberText(value, decimals = 0, { sign = false } = {}) {
   if (value === null || value === undefined || !Number.isFinite(value)) {
     return UNKNOWN;
@@ -18,10 +13,7 @@ export function numberText(value, decimals = 0, { sign = false } = {}) {
   return sign && !shown.startsWith("-") ? `+${shown}` : shown;
 }
 
-/**
- * @param {number} value of unknown precision
- * @returns {string} with its significant digits, 9 at most
- */
+/** value: of unknown precision. Returns with its significant digits, 9 at most. */
 export function plainNumber(value) {
   if (!Number.isFinite(value)) {
     return UNKNOWN;
@@ -35,10 +27,7 @@ export function plainNumber(value) {
   return String(Number(value.toPrecision(figures ?? 9)));
 }
 
-/**
- * @param {number|null} age_s
- * @returns {string} as `0.03 s`, `12.4 s`, `3 min`, `2 h`
- */
+/** As `0.03 s`, `12.4 s`, `3 min`, `2 h`. */
 export function ageText(age_s) {
   if (age_s === null || age_s === undefined || !Number.isFinite(age_s)) {
     return UNKNOWN;
@@ -55,28 +44,16 @@ export function ageText(age_s) {
   return age_s < 360000 ? `${(age_s / 3600).toFixed(0)} h` : "days";
 }
 
-/**
- * @param {boolean|null} value
- * @param {string} yes
- * @param {string} no
- * @returns {string}
- */
 export function flagText(value, yes = "yes", no = "no") {
   return value === null || value === undefined ? UNKNOWN : value ? yes : no;
 }
 
-/**
- * @param {number|null} degrees
- * @returns {number|null} the same direction in 0 (included) to 360 (not included)
- */
+/** The same direction in 0 (included) to 360 (not included). */
 export function compassDegrees(degrees) {
   return degrees === null ? null : ((degrees % 360) + 360) % 360;
 }
 
-/**
- * @param {number|null} degrees
- * @returns {string} three figures, 000 to 359
- */
+/** Three figures, 000 to 359. */
 export function headingText(degrees) {
   if (degrees === null) {
     return UNKNOWN;

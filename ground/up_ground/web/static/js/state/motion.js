@@ -7,9 +7,8 @@ const JITTER_S = 0.05;
 const AGAIN_S = 0.3;
 
 /**
- * Ground speed and vertical speed, derived from the positions and altitudes in telemetry, which
- * has neither. Null until the second fix. Times are the flight's: in a replay not those of the
- * page.
+ * Ground speed and vertical speed, derived from the positions and altitudes in telemetry, which has
+ * neither. Null until the second fix. Times are the flight's: in a replay not those of the page.
  */
 export class Motion {
   #places = [];
@@ -17,11 +16,7 @@ export class Motion {
   groundSpeed_m_s = null;
   climb_m_s = null;
 
-  /**
-   * @param {number|null} latitude
-   * @param {number|null} longitude
-   * @param {number|null} at_s when it was measured
-   */
+  /** at_s: when it was measured. */
   place(latitude, longitude, at_s) {
     if (latitude === null || longitude === null || at_s === null) {
       return;
@@ -31,10 +26,6 @@ export class Motion {
     }
   }
 
-  /**
-   * @param {number|null} altitude_m
-   * @param {number|null} at_s
-   */
   height(altitude_m, at_s) {
     if (altitude_m === null || at_s === null) {
       return;
@@ -79,11 +70,7 @@ function isSameHeight(one, other) {
   return one.altitude_m === other.altitude_m;
 }
 
-/**
- * @param {{latitude: number, longitude: number}} from
- * @param {{latitude: number, longitude: number}} to
- * @returns {number} metres, for places near each other
- */
+/** Metres, for places near each other. */
 export function distance_m(from, to) {
   const radians = Math.PI / 180;
   const north = (to.latitude - from.latitude) * radians;

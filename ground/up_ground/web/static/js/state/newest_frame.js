@@ -17,15 +17,14 @@ export class NewestFrame {
   /** Its time in a recorded flight, seconds; null: live. */
   frameTime_s = null;
 
-  /** @param {() => number} clock_s seconds that never jump */
+  /** clock_s: seconds that never jump. */
   constructor(clock_s) {
     this.#clock_s = clock_s;
   }
 
   /**
-   * @param {object} message the server's `frame`
-   * @param {number} way_s how long it was on its way from the server
-   * @returns {boolean} whether it was one
+   * message: the server's `frame`; way_s: how long it was on its way from the server. Returns
+   * whether it was one.
    */
   takeFrame(message, way_s) {
     if (message.data === null || typeof message.data !== "object") {
@@ -61,49 +60,46 @@ export class NewestFrame {
     this.#frameAt_s = null;
   }
 
-  /** @returns {number} the clock of all ages, seconds */
+  /** The clock of all ages, seconds. */
   get now_s() {
     return this.#clock_s();
   }
 
-  /** @returns {boolean} whether every value shown may be stale */
+  /** Whether every value shown may be stale. */
   get isSilent() {
     return isSilent(this.age_s(null));
   }
 
-  /** @returns {"live"|"silent"|"none"} none: no frame yet */
+  /** None: no frame yet. */
   get aircraftState() {
     return this.#frameAt_s === null ? "none" : this.isSilent ? "silent" : "live";
   }
 
-  /** @returns {number|null} a number at that path; null: absent, or of another type */
+  /** A number at that path; null: absent, or of another type. */
   number(path) {
     return judge.number(judge.at(this.data, path));
   }
 
-  /** @returns {boolean|null} */
   flag(path) {
     return judge.flag(judge.at(this.data, path));
   }
 
-  /** @returns {string|null} */
   text(path) {
     return judge.text(judge.at(this.data, path));
   }
 
-  /** @returns {string[]|null} */
   texts(path) {
     return judge.texts(judge.at(this.data, path));
   }
 
-  /** @returns {number|boolean|string|string[]|null} the value, validated */
+  /** The value, validated. */
   value(path) {
     return this.number(path) ?? this.flag(path) ?? this.text(path) ?? this.texts(path);
   }
 
   /**
-   * @param {string|null} reading of `age_ms`; null: the newest frame itself
-   * @returns {number|null} seconds: on board, on the links, and since; null: unknown
+   * reading: of `age_ms`; null: the newest frame itself. Returns seconds: on board, on the links,
+   * and since; null: unknown.
    */
   age_s(reading) {
     if (this.#frameAt_s === null) {
@@ -117,10 +113,7 @@ export class NewestFrame {
     return aboard_ms === null ? null : frame_s + Math.max(0, aboard_ms) / 1000;
   }
 
-  /**
-   * @param {string|null} reading null: the newest frame itself
-   * @returns {"live"|"stale"|"none"}
-   */
+  /** reading: null: the newest frame itself. */
   freshness(reading) {
     const aboard = judge.at(this.data, `age_ms.${reading}`);
     return freshnessOf(
@@ -130,10 +123,7 @@ export class NewestFrame {
     );
   }
 
-  /**
-   * @param {string} path of a value
-   * @returns {"live"|"stale"|"none"} none: not in the frame
-   */
+  /** path: of a value. Returns none: not in the frame. */
   freshnessAt(path) {
     return this.value(path) === null ? "none" : this.freshness(readingOf(path));
   }

@@ -10,10 +10,9 @@ const NEEDED = {
 };
 
 /**
- * @param {string|null} role allowed by the aircraft's link; null: unknown, the aircraft refuses
- * @param {string} name of the Command
- * @param {string|null} [least] role in the server's catalogue; null: the table above decides
- * @returns {boolean} whether to offer it
+ * role: allowed by the aircraft's link; null: unknown, the aircraft refuses; name: of the Command;
+ * least: role in the server's catalogue; null: the table above decides. Returns whether to offer
+ * it.
  */
 export function roleAllows(role, name, least = null) {
   if (role === null || !Object.hasOwn(RANK, role)) {
@@ -23,11 +22,7 @@ export function roleAllows(role, name, least = null) {
   return RANK[role] >= RANK[needed];
 }
 
-/**
- * @param {string} name
- * @param {object} [data]
- * @returns {boolean} whether it only requests data, and needs no control
- */
+/** Whether it only requests data, and needs no control. */
 export function isOnlyRequest(name, data = {}) {
   return (
     name === "arduino.profile.request" || (name === "arduino.pids.tunings" && data.request === true)

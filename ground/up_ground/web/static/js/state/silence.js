@@ -9,18 +9,14 @@ export class Silence {
   #last_s = null;
   #intervals_s = [];
 
-  /** @returns {number} minimum duration of a silence, seconds */
+  /** Minimum duration of a silence, seconds. */
   get limit_s() {
     const known = this.#intervals_s;
     const period_s = known.length < INTERVALS ? 0 : known.toSorted((a, b) => a - b)[INTERVALS >> 1];
     return Math.max(GAP_S, 2.5 * period_s);
   }
 
-  /**
-   * Take an arrival.
-   * @param {number} time_s
-   * @returns {boolean} whether there was a silence before it
-   */
+  /** Take an arrival. Returns whether there was a silence before it. */
   take(time_s) {
     const since_s = this.#last_s === null ? 0 : time_s - this.#last_s;
     const wasSilent = since_s > this.limit_s;
@@ -31,10 +27,7 @@ export class Silence {
     return wasSilent;
   }
 
-  /**
-   * Forget all arrivals.
-   * @param {number|null} from_s a silence counts from then on; null: from the next arrival
-   */
+  /** Forget all arrivals. from_s: a silence counts from then on; null: from the next arrival. */
   clear(from_s = null) {
     this.#last_s = from_s;
     this.#intervals_s = [];

@@ -42,10 +42,6 @@ export class Store extends NewestFrame {
   track = new Track();
   motion = new Motion();
 
-  /**
-   * @param {object} connection
-   * @param {{now_s?: Function, requestFrame?: Function, timers?: object}} [parts]
-   */
   constructor(connection, parts = {}) {
     super(parts.now_s ?? now_s);
     this.#connection = connection;
@@ -58,8 +54,8 @@ export class Store extends NewestFrame {
   }
 
   /**
-   * Repaint for the ages five times a second, whether or not a frame arrives, and immediately
-   * when a reading becomes stale.
+   * Repaint for the ages five times a second, whether or not a frame arrives, and immediately when
+   * a reading becomes stale.
    */
   start() {
     this.#timers.each(() => this.#change(), REPAINT_S);
@@ -73,7 +69,7 @@ export class Store extends NewestFrame {
     }, LOOK_S);
   }
 
-  /** @param {string} name of the aircraft to watch from now on */
+  /** name: of the aircraft to watch from now on. */
   watch(name) {
     if (name !== this.aircraft) {
       this.aircraft = name;
@@ -87,9 +83,8 @@ export class Store extends NewestFrame {
   }
 
   /**
-   * @param {() => void} call at most once an animation frame when something changed, and at
-   *   least five times a second
-   * @returns {() => void} takes the call away
+   * call: at most once an animation frame when something changed, and at least five times a second.
+   * Returns takes the call away.
    */
   subscribe(call) {
     this.#calls.add(call);
@@ -97,12 +92,12 @@ export class Store extends NewestFrame {
     return () => this.#calls.delete(call);
   }
 
-  /** @returns {object|null} the server's `status` of the aircraft watched */
+  /** The server's `status` of the aircraft watched. */
   get status() {
     return this.statuses.get(this.aircraft) ?? null;
   }
 
-  /** @returns {number} seconds: now in the replayed flight, otherwise on the page's clock */
+  /** Seconds: now in the replayed flight, otherwise on the page's clock. */
   get flight_s() {
     const time_s = judge.number(this.replay?.time_s);
     if (time_s === null) {
@@ -113,7 +108,7 @@ export class Store extends NewestFrame {
     return Math.min(time_s + since_s * speed, judge.number(this.replay.length_s) ?? Infinity);
   }
 
-  /** @returns {number|null} when the newest frame was so, by `flight_s` */
+  /** When the newest frame was so, by `flight_s`. */
   get frameAt_s() {
     const age_s = this.age_s(null);
     if (age_s === null) {
@@ -122,17 +117,17 @@ export class Store extends NewestFrame {
     return (this.replay === null ? null : this.frameTime_s) ?? this.flight_s - age_s;
   }
 
-  /** @returns {object[]} events, the newest last: {number, at_s, level, kind, text, is_past} */
+  /** Events, the newest last: {number, at_s, level, kind, text, is_past}. */
   get events() {
     return this.#events.all;
   }
 
-  /** @returns {number} changes with the events */
+  /** Changes with the events. */
   get eventsVersion() {
     return this.#events.version;
   }
 
-  /** @param {object} message of the server */
+  /** message: of the server. */
   take(message) {
     if (message.type === "status") {
       this.statuses.set(message.aircraft, message);

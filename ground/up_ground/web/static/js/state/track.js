@@ -18,10 +18,7 @@ export class Track {
   /** The altitude where it begins, m; null while none is known. */
   startAltitude_m = null;
 
-  /**
-   * @param {unknown} points the server's, which replace the present ones
-   * @param {number|null} now_s a silence counts from then on
-   */
+  /** points: the server's, which replace the present ones; now_s: a silence counts from then on. */
   replace(points, now_s = null) {
     this.#silence.clear(now_s);
     this.points = (Array.isArray(points) ? points : [])
@@ -31,12 +28,7 @@ export class Track {
     this.version += 1;
   }
 
-  /**
-   * @param {number|null} latitude
-   * @param {number|null} longitude
-   * @param {number|null} altitude
-   * @param {number} now_s when it was known to be there
-   */
+  /** now_s: when it was known to be there. */
   append(latitude, longitude, altitude, now_s) {
     const point = pointOf([latitude, longitude, altitude]);
     if (point === null) {

@@ -3,13 +3,12 @@ package org.raspilot.up.airborne;
 import java.util.Random;
 import org.raspilot.up.Up;
 import org.raspilot.up.commands.BaseCommand;
-import org.raspilot.up.commands.BaseCommandHandler;
+import org.raspilot.up.commands.CommandHandler;
 import org.raspilot.up.commands.HandlerFaultListener;
 import org.raspilot.up.loop.Loop;
-import org.raspilot.up.net.Place;
+import org.raspilot.up.net.Endpoint;
 import org.raspilot.up.providers.Mounting;
-import org.raspilot.up.providers.Outlet;
-import org.raspilot.up.providers.Panic;
+import org.raspilot.up.providers.MessageSink;
 import org.raspilot.up.providers.ProvidersController;
 import org.raspilot.up.providers.ProvidersListener;
 import org.raspilot.up.providers.Sensors;
@@ -24,7 +23,7 @@ import org.raspilot.up.wire.SafeText;
  * thesis 4.5.2, "Base Up Service".
  */
 public final class Airborne {
-    private static final int LONGEST_REASON = 300;
+    private static final int MAX_REASON_LENGTH = 300;
 
     private final AirborneSettings settings;
     private final AirborneListener listener;
@@ -32,7 +31,7 @@ public final class Airborne {
     private final BasicProviders basics;
     private final AirborneHandlers handlers;
     private final AirborneLink link;
-    private final SilenceReport silence;
+    private final SensorSilenceMonitor silence;
     private long answers;
     private boolean isRunning;
 
@@ -52,14 +51,9 @@ public final class Airborne {
         handlers.register(up.commandExecutor());
         basics = new BasicProviders(settings, sensors);
         basics.register(providers());
-        silence = new SilenceReport(loop, providers(), listener);
+        silence = new SensorSilenceMonitor(loop, providers(), listener);
         providers().addListener(new Problems());
-        providers().panic().addListener(new Panic.Listener() {
-            @Override
-            public void onPanic(Panic panic) {
-                Airborne.this.listener.onPanic(panic.delayMs());
-            }
-        });
+        providers().panic().addListener(panic -> Airborne.this.listener.onPanic(panic.delayMs()));
     }
 
     /** Starts to read, to connect and to send. */
@@ -93,20 +87,18 @@ public final class Airborne {
     }
 
     /** Returns the sink for other messages: newest wins, nothing is kept without a link. */
-    public Outlet outlet() {
+    public MessageSink sink() {
         return link;
     }
 
-    /** Returns what the screen shows. */
     public AirborneStatus status() {
-        return new AirborneStatus(isRunning, link.isOpen(), link.status().sentence(),
-                link.status().place(), settings.mode(), settings.orientationTransport(),
+        return new AirborneStatus(isRunning, link.isOpen(), link.status().sentence,
+                link.status().endpoint, settings.mode, settings.orientationTransport(),
                 link.orientationText(), providers().panic().delayMs(), providers().statuses(),
                 new AirborneCounters(up.commandReceiver(), link.connections(),
                         handlers.telemetry(), answers));
     }
 
-    /** Replaces the mounting immediately. */
     public void setMounting(Mounting mounting) {
         basics.setMounting(mounting);
     }
@@ -133,7 +125,7 @@ public final class Airborne {
      * @throws IllegalArgumentException when it is not within 300 to 1100 (a sentence)
      */
     public void setReferencePressureHPa(double hPa) {
-        basics.altitude().setReferenceHPa(hPa);
+        basics.altitude.setReferenceHPa(hPa);
     }
 
     /**
@@ -142,7 +134,7 @@ public final class Airborne {
      * @throws IllegalStateException without a reading of the barometer (a sentence)
      */
     public double zeroAltitudeHere() {
-        return basics.altitude().zeroHere();
+        return basics.altitude.zeroHere();
     }
 
     /** Retries immediately instead of after the wait, as when the phone's network is back. */
@@ -154,7 +146,7 @@ public final class Airborne {
 
     private final class LinkOwner implements AirborneLink.Owner {
         @Override
-        public void onOpened(Place place) {
+        public void onOpened(Endpoint place) {
             listener.onConnected(place);
             providers().linkOpened();
         }
@@ -172,7 +164,7 @@ public final class Airborne {
 
         @Override
         public void onTrouble(String sentence) {
-            listener.onEvent(sentence);
+            listener.onEvent("link_waiting", sentence);
         }
     }
 
@@ -180,30 +172,31 @@ public final class Airborne {
         @Override
         public void onAck(String id) {
             answers++;
-            link.answered(id);
+            link.onAnswer(id);
         }
 
         @Override
         public void onNack(String id, String reason) {
             answers++;
-            link.answered(id);
-            listener.onEvent("the Raspberry Pi refuses what was sent: "
-                    + SafeText.of(reason, LONGEST_REASON));
+            link.onAnswer(id);
+            listener.onEvent("nack_received", "the Raspberry Pi refused a message: "
+                    + SafeText.of(reason, MAX_REASON_LENGTH));
         }
     }
 
     private final class Problems implements ProvidersListener {
         @Override
         public void onProvider(String name, String sentence) {
-            listener.onEvent(name + ": " + sentence);
+            listener.onEvent("provider_problem", name + ": " + sentence);
         }
     }
 
     private final class Faults implements HandlerFaultListener {
         @Override
-        public void onHandlerFailed(BaseCommandHandler handler, BaseCommand command,
+        public void onHandlerFailed(CommandHandler handler, BaseCommand command,
                 Throwable fault) {
-            listener.onEvent("the handler of " + command.name() + " failed: " + fault);
+            listener.onEvent("handler_failed",
+                    "the handler of " + command.name() + " failed: " + fault);
         }
     }
 }

@@ -5,11 +5,11 @@ import org.raspilot.up.commands.NackCode;
 
 /** The counters of the airborne side since its creation; immutable. */
 final class AirborneCounters {
-    private final long connections;
-    private final long telemetry;
-    private final long executed;
-    private final long refused;
-    private final long malformed;
+    final long connections;
+    final long telemetry;
+    final long executed;
+    final long refused;
+    final long malformed;
 
     /** Takes the current counts; answers are those to messages sent with an id. */
     AirborneCounters(CommandReceiver receiver, long connections, long telemetry, long answers) {
@@ -23,25 +23,5 @@ final class AirborneCounters {
         refused = others;
         executed = receiver.count("received") - receiver.count("repeated") - refused - telemetry
                 - answers;
-    }
-
-    long connections() {
-        return connections;
-    }
-
-    long telemetry() {
-        return telemetry;
-    }
-
-    long executed() {
-        return executed;
-    }
-
-    long refused() {
-        return refused;
-    }
-
-    long malformed() {
-        return malformed;
     }
 }

@@ -1,15 +1,11 @@
 package org.raspilot.up.airborne;
 
-import org.raspilot.up.commands.AckCommand;
-import org.raspilot.up.commands.BaseCommand;
-import org.raspilot.up.commands.BaseCommandHandler;
 import org.raspilot.up.commands.CommandExecutor;
 import org.raspilot.up.commands.CommandRefusedException;
+import org.raspilot.up.commands.CommandFields;
+import org.raspilot.up.commands.Commands;
+import org.raspilot.up.wire.GeneralMessage;
 import org.raspilot.up.commands.NackCode;
-import org.raspilot.up.commands.NackCommand;
-import org.raspilot.up.commands.PanicCommand;
-import org.raspilot.up.commands.SpeakCommand;
-import org.raspilot.up.commands.TelemetryCommand;
 import org.raspilot.up.providers.Panic;
 
 /** What the airborne phone does with the Commands that the Raspberry Pi sends. */
@@ -21,7 +17,6 @@ final class AirborneHandlers {
 
     /** Handles the answers to messages sent with an id. */
     interface Answers {
-        /** Takes an ack. */
         void onAck(String id);
 
         /** Takes a nack with its reason. */
@@ -34,38 +29,18 @@ final class AirborneHandlers {
         this.answers = answers;
     }
 
-    /** Registers all of them. */
     void register(CommandExecutor executor) {
-        executor.registerCommand(SpeakCommand.NAME, new BaseCommandHandler() {
-            @Override
-            public void runAction(BaseCommand command) {
-                speaker.speak(((SpeakCommand) command).text());
-            }
-        });
-        executor.registerCommand(PanicCommand.NAME, new BaseCommandHandler() {
-            @Override
-            public void runAction(BaseCommand command) throws CommandRefusedException {
-                follow((PanicCommand) command);
-            }
-        });
-        executor.registerCommand(TelemetryCommand.NAME, new BaseCommandHandler() {
-            @Override
-            public void runAction(BaseCommand command) {
-                telemetry++;
-            }
-        });
-        executor.registerCommand(AckCommand.NAME, new BaseCommandHandler() {
-            @Override
-            public void runAction(BaseCommand command) {
-                answers.onAck(((AckCommand) command).commandId());
-            }
-        });
-        executor.registerCommand(NackCommand.NAME, new BaseCommandHandler() {
-            @Override
-            public void runAction(BaseCommand command) {
-                NackCommand nack = (NackCommand) command;
-                answers.onNack(nack.commandId(), nack.reason());
-            }
+        executor.registerCommand(Commands.SPEAK, command ->
+                speaker.speak((String) command.data().get("text")));
+        executor.registerCommand(Commands.PANIC, command ->
+                follow(new CommandFields(command.data())));
+        executor.registerCommand(Commands.TELEMETRY, command -> telemetry++);
+        executor.registerCommand(Commands.ACK, command ->
+                answers.onAck((String) command.data().get("id")));
+        executor.registerCommand(Commands.NACK, command -> {
+            CommandFields fields = new CommandFields(command.data());
+            answers.onNack(fields.text("id", GeneralMessage.MAX_ID_LENGTH),
+                    fields.text("reason", 500, ""));
         });
     }
 
@@ -74,13 +49,13 @@ final class AirborneHandlers {
         return telemetry;
     }
 
-    private void follow(PanicCommand command) throws CommandRefusedException {
-        if (!command.panic()) {
-            panic.forget();
+    private void follow(CommandFields command) throws CommandRefusedException {
+        if (!command.flag("panic")) {
+            panic.clear();
             return;
         }
         try {
-            panic.follow(command.delayMs());
+            panic.apply(command.number("delay_ms"));
         } catch (IllegalArgumentException error) {
             throw new CommandRefusedException(NackCode.INVALID, error.getMessage());
         }

@@ -4,35 +4,34 @@ import java.util.Random;
 import org.raspilot.up.commands.AnswerSink;
 import org.raspilot.up.commands.BaseCommand;
 import org.raspilot.up.loop.Loop;
-import org.raspilot.up.net.KnownPlace;
+import org.raspilot.up.net.LastEndpoint;
 import org.raspilot.up.net.OrientationSender;
-import org.raspilot.up.net.Place;
+import org.raspilot.up.net.Endpoint;
 import org.raspilot.up.net.UpSocket;
 import org.raspilot.up.net.UpSocketListener;
 import org.raspilot.up.net.UpSocketSettings;
 import org.raspilot.up.net.UpSocketStatus;
-import org.raspilot.up.providers.Outlet;
+import org.raspilot.up.providers.MessageSink;
 import org.raspilot.up.wire.GeneralMessage;
 import org.raspilot.up.wire.OrientationFrame;
 
 /** The two links to the Raspberry Pi: one for Commands and, if enabled, one for orientation. */
-final class AirborneLink implements Outlet, AnswerSink, UpSocketListener {
+final class AirborneLink implements MessageSink, AnswerSink, UpSocketListener {
     private static final String DEAD = "the Raspberry Pi does not answer any more";
 
     private final Owner owner;
-    private final KnownPlace known;
+    private final LastEndpoint known;
     private final UpSocket socket;
     private final OrientationSender orientation;
-    private final AnswerWatch watch;
-    private String told = "";
+    private final LinkWatchdog watch;
+    private String reported = "";
     private boolean wasLost;
 
     /** Receives the events of the link for Commands. */
     interface Owner {
         /** Called when the link is open. */
-        void onOpened(Place place);
+        void onOpened(Endpoint place);
 
-        /** Gives a line that came. */
         void onLine(byte[] line, int length);
 
         /** Called when the link is lost, with the reason. */
@@ -44,7 +43,7 @@ final class AirborneLink implements Outlet, AnswerSink, UpSocketListener {
 
     AirborneLink(Loop loop, AirborneSettings settings, Random random, Owner owner) {
         this.owner = owner;
-        known = new KnownPlace(Finders.by(loop, settings));
+        known = new LastEndpoint(EndpointDiscoveries.by(loop, settings));
         socket = new UpSocket(loop, known, this, UpSocketSettings.lines(), random);
         OrientationTransport transport = settings.orientationTransport();
         orientation = transport == OrientationTransport.OFF ? null
@@ -53,17 +52,12 @@ final class AirborneLink implements Outlet, AnswerSink, UpSocketListener {
                                 ? OrientationSender.Transport.UDP
                                 : OrientationSender.Transport.TCP,
                         random);
-        watch = new AnswerWatch(loop, Integer.toHexString(random.nextInt()) + ".", new Runnable() {
-            @Override
-            public void run() {
-                socket.drop(DEAD);
-            }
-        });
+        watch = new LinkWatchdog(loop, Integer.toHexString(random.nextInt()) + ".", () ->
+                socket.drop(DEAD));
     }
 
-    /** Starts to connect. */
     void start() {
-        told = "";
+        reported = "";
         wasLost = false;
         socket.start();
         if (orientation != null) {
@@ -71,7 +65,6 @@ final class AirborneLink implements Outlet, AnswerSink, UpSocketListener {
         }
     }
 
-    /** Closes both. */
     void stop() {
         if (orientation != null) {
             orientation.stop();
@@ -88,8 +81,8 @@ final class AirborneLink implements Outlet, AnswerSink, UpSocketListener {
     }
 
     /** Notes an answer to one of our ids. */
-    void answered(String id) {
-        watch.answered(id);
+    void onAnswer(String id) {
+        watch.onAnswer(id);
     }
 
     /** Returns the state of the link for Commands. */
@@ -97,9 +90,8 @@ final class AirborneLink implements Outlet, AnswerSink, UpSocketListener {
         return socket.status();
     }
 
-    /** Returns how often it came. */
     long connections() {
-        return socket.counters().connects();
+        return socket.counters().connects;
     }
 
     /** Returns the destination of orientation, or why it is not sent. */
@@ -135,7 +127,7 @@ final class AirborneLink implements Outlet, AnswerSink, UpSocketListener {
 
     @Override
     public void onConnected(UpSocket connected) {
-        told = "";
+        reported = "";
         watch.opened();
         if (orientation != null && wasLost) {
             // The other connection may be as dead as this one was, and would not show it for long.
@@ -144,12 +136,12 @@ final class AirborneLink implements Outlet, AnswerSink, UpSocketListener {
             orientation.reconnectNow();
         }
         wasLost = false;
-        owner.onOpened(connected.status().place());
+        owner.onOpened(connected.status().endpoint);
     }
 
     @Override
     public void onReceived(UpSocket from, byte[] bytes, int length) {
-        watch.heard();
+        watch.onLine();
         owner.onLine(bytes, length);
     }
 
@@ -157,17 +149,17 @@ final class AirborneLink implements Outlet, AnswerSink, UpSocketListener {
     public void onLost(UpSocket lost, String reason) {
         watch.closed();
         wasLost = true;
-        told = lost.status().sentence();
+        reported = lost.status().sentence;
         owner.onClosed(reason);
     }
 
     @Override
     public void onStatus(UpSocket changed) {
         UpSocketStatus status = changed.status();
-        boolean isTrouble = status.state() == UpSocketStatus.State.WAITING;
-        if (isTrouble && !status.sentence().equals(told)) {
-            told = status.sentence();
-            owner.onTrouble(told);
+        boolean isTrouble = status.state == UpSocketStatus.State.WAITING;
+        if (isTrouble && !status.sentence.equals(reported)) {
+            reported = status.sentence;
+            owner.onTrouble(reported);
         }
     }
 }

@@ -1,11 +1,11 @@
 package org.raspilot.up.airborne;
 
-import org.raspilot.up.net.Place;
+import org.raspilot.up.net.Endpoint;
 
 /** Receives the events of the airborne side, on the loop. */
 public interface AirborneListener {
     /** Called when the link for Commands is open. */
-    void onConnected(Place place);
+    void onConnected(Endpoint place);
 
     /** Called when the link is lost; the reason is a sentence without a full stop. */
     void onDisconnected(String reason);
@@ -13,6 +13,11 @@ public interface AirborneListener {
     /** Called when Panic Mode starts, changes or ends (0). */
     void onPanic(long delayMs);
 
-    /** Called for anything else worth logging: why there is no link, which sensor is silent. */
-    void onEvent(String sentence);
+    /**
+     * Called for anything else worth logging.
+     *
+     * @param code {@code link_waiting nack_received provider_problem handler_failed sensor_silent
+     *     sensor_recovered}
+     */
+    void onEvent(String code, String sentence);
 }

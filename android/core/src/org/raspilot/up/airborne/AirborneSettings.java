@@ -12,25 +12,39 @@ import org.raspilot.up.providers.Mounting;
  * discovery.yml} and {@code runner.yml}.
  */
 public final class AirborneSettings {
-    private final AirborneMode mode;
-    private final String host;
-    private final int generalPort;
-    private final int orientationPort;
-    private final int discoveryPort;
-    private final List<String> discoveryHosts;
-    private final String runnerHost;
-    private final int runnerPort;
-    private final String aircraft;
-    private final String profile;
-    private final OrientationTransport orientation;
+    public final AirborneMode mode;
+    /** The Raspberry Pi's host; empty: Discovery, in Black Box Mode the runner. */
+    public final String host;
+    /** The Raspberry Pi's port for General Messages. */
+    public final int generalPort;
+    /** The Raspberry Pi's port for orientation. */
+    public final int orientationPort;
+    public final int discoveryPort;
+    /** Discovery's targets; empty: 255.255.255.255 and every interface's own. */
+    public final List<String> discoveryHosts;
+    /** The runner's host, Black Box Mode only; empty: the host runs already. */
+    public final String runnerHost;
+    public final int runnerPort;
+    /** The aircraft's name for the runner; empty: none. */
+    public final String aircraft;
+    /** The runner's ready-made configuration; empty: none. */
+    public final String profile;
+    public final OrientationTransport orientation;
     private final boolean redundantOrientation;
-    private final int orientationHz;
-    private final int locationPeriodMs;
-    private final int altitudePeriodMs;
-    private final int headingPeriodMs;
-    private final double referencePressureHPa;
-    private final double declinationDeg;
-    private final Mounting mounting;
+    /** How often orientation leaves, Hz, 50 to 200. */
+    public final int orientationHz;
+    /** How often the location leaves at most, ms. */
+    public final int locationPeriodMs;
+    /** How often the altitude leaves at most, ms. */
+    public final int altitudePeriodMs;
+    /** How often the heading leaves at most, ms. */
+    public final int headingPeriodMs;
+    /** The pressure at altitude zero, hPa. */
+    public final double referencePressureHPa;
+    /** Degrees from magnetic to true north, east positive. */
+    public final double declinationDeg;
+    /** The phone's mounting in the aeroplane. */
+    public final Mounting mounting;
 
     private AirborneSettings(Builder builder) {
         mode = builder.mode;
@@ -39,7 +53,7 @@ public final class AirborneSettings {
         orientationPort = builder.orientationPort;
         discoveryPort = builder.discoveryPort;
         discoveryHosts =
-                Collections.unmodifiableList(new ArrayList<String>(builder.discoveryHosts));
+                Collections.unmodifiableList(new ArrayList<>(builder.discoveryHosts));
         runnerHost = builder.runnerHost;
         runnerPort = builder.runnerPort;
         aircraft = builder.aircraft;
@@ -53,96 +67,6 @@ public final class AirborneSettings {
         referencePressureHPa = builder.referencePressureHPa;
         declinationDeg = builder.declinationDeg;
         mounting = builder.mounting;
-    }
-
-    /** Returns who it speaks to. */
-    public AirborneMode mode() {
-        return mode;
-    }
-
-    /** Returns the Raspberry Pi's host; empty: Discovery, in Black Box Mode the runner. */
-    public String host() {
-        return host;
-    }
-
-    /** Returns the Raspberry Pi's port for General Messages. */
-    public int generalPort() {
-        return generalPort;
-    }
-
-    /** Returns the Raspberry Pi's port for orientation. */
-    public int orientationPort() {
-        return orientationPort;
-    }
-
-    /** Returns the port of Discovery. */
-    public int discoveryPort() {
-        return discoveryPort;
-    }
-
-    /** Returns Discovery's targets; empty: 255.255.255.255 and every interface's own. */
-    public List<String> discoveryHosts() {
-        return discoveryHosts;
-    }
-
-    /** Returns the runner's host, Black Box Mode only; empty: the host runs already. */
-    public String runnerHost() {
-        return runnerHost;
-    }
-
-    /** Returns the runner's port. */
-    public int runnerPort() {
-        return runnerPort;
-    }
-
-    /** Returns the aircraft's name for the runner; empty: none. */
-    public String aircraft() {
-        return aircraft;
-    }
-
-    /** Returns the runner's ready-made configuration; empty: none. */
-    public String profile() {
-        return profile;
-    }
-
-    /** Returns how orientation leaves. */
-    public OrientationTransport orientation() {
-        return orientation;
-    }
-
-    /** Returns how often orientation leaves, Hz, 50 to 200. */
-    public int orientationHz() {
-        return orientationHz;
-    }
-
-    /** Returns how often the location leaves at most, ms. */
-    public int locationPeriodMs() {
-        return locationPeriodMs;
-    }
-
-    /** Returns how often the altitude leaves at most, ms. */
-    public int altitudePeriodMs() {
-        return altitudePeriodMs;
-    }
-
-    /** Returns how often the heading leaves at most, ms. */
-    public int headingPeriodMs() {
-        return headingPeriodMs;
-    }
-
-    /** Returns the pressure at altitude zero, hPa. */
-    public double referencePressureHPa() {
-        return referencePressureHPa;
-    }
-
-    /** Returns degrees from magnetic to true north, east positive. */
-    public double declinationDeg() {
-        return declinationDeg;
-    }
-
-    /** Returns the phone's mounting in the aeroplane. */
-    public Mounting mounting() {
-        return mounting;
     }
 
     /** Returns whether a runner starts the server: in Black Box Mode, if one is configured. */
@@ -166,7 +90,7 @@ public final class AirborneSettings {
         private int generalPort = 50001;
         private int orientationPort = 50000;
         private int discoveryPort = 3001;
-        private List<String> discoveryHosts = new ArrayList<String>();
+        private List<String> discoveryHosts = new ArrayList<>();
         private String runnerHost = "";
         private int runnerPort = 3002;
         private String aircraft = "";
@@ -181,7 +105,6 @@ public final class AirborneSettings {
         private double declinationDeg;
         private Mounting mounting = Mounting.FLAT;
 
-        /** Sets who it speaks to. */
         public Builder mode(AirborneMode value) {
             mode = value;
             return this;
@@ -205,7 +128,6 @@ public final class AirborneSettings {
             return this;
         }
 
-        /** Sets the port of Discovery. */
         public Builder discoveryPort(int value) {
             discoveryPort = value;
             return this;
@@ -213,7 +135,7 @@ public final class AirborneSettings {
 
         /** Sets Discovery's targets; empty: 255.255.255.255 and every interface's own. */
         public Builder discoveryHosts(List<String> value) {
-            discoveryHosts = new ArrayList<String>(value);
+            discoveryHosts = new ArrayList<>(value);
             return this;
         }
 
@@ -223,7 +145,6 @@ public final class AirborneSettings {
             return this;
         }
 
-        /** Sets the runner's port. */
         public Builder runnerPort(int value) {
             runnerPort = value;
             return this;
@@ -241,7 +162,6 @@ public final class AirborneSettings {
             return this;
         }
 
-        /** Sets how orientation leaves. */
         public Builder orientation(OrientationTransport value) {
             orientation = value;
             return this;
@@ -298,7 +218,7 @@ public final class AirborneSettings {
         /** Returns the settings; raises IllegalArgumentException with a sentence for the user. */
         public AirborneSettings build() {
             AirborneSettings settings = new AirborneSettings(this);
-            SettingsRules.judge(settings);
+            SettingsRules.check(settings);
             return settings;
         }
     }

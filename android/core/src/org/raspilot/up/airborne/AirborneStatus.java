@@ -1,30 +1,36 @@
 package org.raspilot.up.airborne;
 
 import java.util.List;
-import org.raspilot.up.net.Place;
+import org.raspilot.up.net.Endpoint;
 import org.raspilot.up.providers.OrientationProvider;
 import org.raspilot.up.providers.ProviderStatus;
 
 /** What the airborne screen shows: a snapshot that never changes, for any thread. */
 public final class AirborneStatus {
-    private final boolean isRunning;
-    private final boolean isConnected;
-    private final String linkText;
-    private final Place place;
-    private final AirborneMode mode;
-    private final OrientationTransport orientation;
-    private final String orientationText;
-    private final long panicDelayMs;
-    private final List<ProviderStatus> providers;
+    public final boolean isRunning;
+    /** Whether the link for Commands is connected. */
+    public final boolean isConnected;
+    /** The state of the link in one sentence without a full stop. */
+    public final String linkText;
+    /** The current or last place of the connection or attempt; null: none so far. */
+    public final Endpoint endpoint;
+    public final AirborneMode mode;
+    public final OrientationTransport orientation;
+    /** Orientation's destination, or why it is not sent (a sentence); {@code off}. */
+    public final String orientationText;
+    /** The delay of Panic Mode, ms; 0: none. */
+    public final long panicDelayMs;
+    /** Each provider, in the order of registration; unmodifiable. */
+    public final List<ProviderStatus> providers;
     private final AirborneCounters counters;
 
-    AirborneStatus(boolean isRunning, boolean isConnected, String linkText, Place place,
+    AirborneStatus(boolean isRunning, boolean isConnected, String linkText, Endpoint place,
             AirborneMode mode, OrientationTransport orientation, String orientationText,
             long panicDelayMs, List<ProviderStatus> providers, AirborneCounters counters) {
         this.isRunning = isRunning;
         this.isConnected = isConnected;
         this.linkText = linkText;
-        this.place = place;
+        this.endpoint = place;
         this.mode = mode;
         this.orientation = orientation;
         this.orientationText = orientationText;
@@ -33,83 +39,38 @@ public final class AirborneStatus {
         this.counters = counters;
     }
 
-    /** Returns whether it was started. */
-    public boolean isRunning() {
-        return isRunning;
-    }
-
-    /** Returns whether the link for Commands is connected. */
-    public boolean isConnected() {
-        return isConnected;
-    }
-
-    /** Returns the state of the link in one sentence without a full stop. */
-    public String linkText() {
-        return linkText;
-    }
-
-    /** Returns the current or last place of the connection or attempt; null: none so far. */
-    public Place place() {
-        return place;
-    }
-
-    /** Returns who it speaks to. */
-    public AirborneMode mode() {
-        return mode;
-    }
-
-    /** Returns how orientation leaves. */
-    public OrientationTransport orientation() {
-        return orientation;
-    }
-
-    /** Returns orientation's destination, or why it is not sent (a sentence); {@code off}. */
-    public String orientationText() {
-        return orientationText;
-    }
-
     /** Returns how many orientation frames left in the last second. */
     public double orientationHz() {
         for (ProviderStatus provider : providers) {
-            if (provider.name().equals(OrientationProvider.NAME)) {
-                return provider.rateHz();
+            if (provider.name.equals(OrientationProvider.NAME)) {
+                return provider.rateHz;
             }
         }
         return 0;
     }
 
-    /** Returns the delay of Panic Mode, ms; 0: none. */
-    public long panicDelayMs() {
-        return panicDelayMs;
-    }
-
-    /** Returns each provider, in the order of registration; unmodifiable. */
-    public List<ProviderStatus> providers() {
-        return providers;
-    }
-
     /** Returns how often the link came. */
     public long connections() {
-        return counters.connections();
+        return counters.connections;
     }
 
     /** Returns how many telemetry messages came. */
     public long telemetry() {
-        return counters.telemetry();
+        return counters.telemetry;
     }
 
     /** Returns how many other Commands were carried out. */
     public long executed() {
-        return counters.executed();
+        return counters.executed;
     }
 
     /** Returns how many Commands were refused. */
     public long refused() {
-        return counters.refused();
+        return counters.refused;
     }
 
     /** Returns how many lines were dropped because they were no General Messages. */
     public long malformed() {
-        return counters.malformed();
+        return counters.malformed;
     }
 }

@@ -15,26 +15,26 @@ import org.raspilot.up.providers.Side;
 
 /** The providers that each airborne phone has (thesis 4.5.2), by its settings. */
 final class BasicProviders {
-    private static final long CALIBRATION_WORTH_MS = 1000;
+    private static final long MAX_CALIBRATION_AGE_MS = 1000;
 
     private final LocationProvider location;
-    private final AltitudeProvider altitude;
+    final AltitudeProvider altitude;
     private final BatteryProvider battery;
     private final HeadingProvider heading;
     private final OrientationProvider orientation;
 
     BasicProviders(AirborneSettings settings, Sensors sensors) {
-        SharedSource<Rotation> rotation = new SharedSource<Rotation>(sensors.rotation());
-        location = new LocationProvider(sensors.location(), settings.locationPeriodMs());
-        altitude = new AltitudeProvider(sensors.pressure(), settings.altitudePeriodMs());
-        altitude.setReferenceHPa(settings.referencePressureHPa());
+        SharedSource<Rotation> rotation = new SharedSource<>(sensors.rotation());
+        location = new LocationProvider(sensors.location(), settings.locationPeriodMs);
+        altitude = new AltitudeProvider(sensors.pressure(), settings.altitudePeriodMs);
+        altitude.setReferenceHPa(settings.referencePressureHPa);
         battery = new BatteryProvider(sensors.battery());
         heading = new HeadingProvider(
-                rotation.branch(), settings.mounting(), settings.headingPeriodMs());
+                rotation.branch(), settings.mounting, settings.headingPeriodMs);
         orientation = settings.orientationTransport() == OrientationTransport.OFF ? null
                 : new OrientationProvider(rotation.branch(), sensors.rotationRate(),
-                        settings.mounting(), settings.orientationHz());
-        setDeclinationDeg(settings.declinationDeg());
+                        settings.mounting, settings.orientationHz);
+        setDeclinationDeg(settings.declinationDeg);
     }
 
     void register(ProvidersController providers) {
@@ -45,10 +45,6 @@ final class BasicProviders {
         if (orientation != null) {
             providers.register(orientation);
         }
-    }
-
-    AltitudeProvider altitude() {
-        return altitude;
     }
 
     void setMounting(Mounting mounting) {
@@ -67,9 +63,9 @@ final class BasicProviders {
 
     Mounting calibrate(Side nose) {
         ProviderStatus status = heading.status();
-        if (heading.newest() == null || status.ageMs() > CALIBRATION_WORTH_MS) {
+        if (heading.newest() == null || status.ageMs > MAX_CALIBRATION_AGE_MS) {
             throw new IllegalStateException(
-                    "the phone's rotation is not known now (" + status.sensor() + ")");
+                    "the phone's rotation is not known now (" + status.sensor + ")");
         }
         Mounting mounting = Mounting.level(heading.newest(), nose);
         setMounting(mounting);

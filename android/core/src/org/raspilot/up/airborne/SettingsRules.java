@@ -7,36 +7,35 @@ import org.raspilot.up.wire.Hello;
 
 /** What settings must be; each rule raises IllegalArgumentException with a sentence. */
 final class SettingsRules {
-    private static final int LONGEST_HOST = 253;
-    private static final int SHORTEST_PERIOD_MS = 20;
-    private static final int LONGEST_PERIOD_MS = 10000;
+    private static final int MAX_HOST_LENGTH = 253;
+    private static final int MIN_PERIOD_MS = 20;
+    private static final int MAX_PERIOD_MS = 10000;
 
     private SettingsRules() {}
 
-    /** Judges all of them. */
-    static void judge(AirborneSettings settings) {
-        present("the mode", settings.mode());
-        present("the way of orientation", settings.orientation());
-        present("the mounting", settings.mounting());
-        host("the host", settings.host());
-        host("the runner's host", settings.runnerHost());
-        hosts(settings.discoveryHosts());
-        port("the port of the Raspberry Pi", settings.generalPort());
-        port("the port for orientation", settings.orientationPort());
-        port("the port of Discovery", settings.discoveryPort());
-        port("the runner's port", settings.runnerPort());
-        aircraft(settings.aircraft());
-        profile(settings.profile());
-        whole("the rate of orientation (Hz)", settings.orientationHz(),
-                OrientationProvider.LEAST_HZ, OrientationProvider.MOST_HZ);
-        period("the period of the location", settings.locationPeriodMs());
-        period("the period of the altitude", settings.altitudePeriodMs());
-        period("the period of the heading", settings.headingPeriodMs());
-        range("the declination (deg)", settings.declinationDeg(), -180, 180);
-        range("the reference pressure (hPa)", settings.referencePressureHPa(),
-                AltitudeProvider.LEAST_REFERENCE_HPA, AltitudeProvider.MOST_REFERENCE_HPA);
-        boolean isAlone = settings.runnerHost().isEmpty() && settings.host().isEmpty();
-        if (settings.mode() == AirborneMode.BLACK_BOX && isAlone) {
+    static void check(AirborneSettings settings) {
+        present("the mode", settings.mode);
+        present("the way of orientation", settings.orientation);
+        present("the mounting", settings.mounting);
+        host("the host", settings.host);
+        host("the runner's host", settings.runnerHost);
+        hosts(settings.discoveryHosts);
+        port("the port of the Raspberry Pi", settings.generalPort);
+        port("the port for orientation", settings.orientationPort);
+        port("the port of Discovery", settings.discoveryPort);
+        port("the runner's port", settings.runnerPort);
+        aircraft(settings.aircraft);
+        profile(settings.profile);
+        whole("the rate of orientation (Hz)", settings.orientationHz,
+                OrientationProvider.MIN_HZ, OrientationProvider.MAX_HZ);
+        period("the period of the location", settings.locationPeriodMs);
+        period("the period of the altitude", settings.altitudePeriodMs);
+        period("the period of the heading", settings.headingPeriodMs);
+        range("the declination (deg)", settings.declinationDeg, -180, 180);
+        range("the reference pressure (hPa)", settings.referencePressureHPa,
+                AltitudeProvider.MIN_REFERENCE_HPA, AltitudeProvider.MAX_REFERENCE_HPA);
+        boolean isAlone = settings.runnerHost.isEmpty() && settings.host.isEmpty();
+        if (settings.mode == AirborneMode.BLACK_BOX && isAlone) {
             throw new IllegalArgumentException(
                     "Black Box Mode needs the runner's host, or that of a running server");
         }
@@ -59,8 +58,8 @@ final class SettingsRules {
 
     private static void host(String what, String host) {
         present(what, host);
-        if (host.length() > LONGEST_HOST) {
-            throw new IllegalArgumentException(what + " is longer than " + LONGEST_HOST);
+        if (host.length() > MAX_HOST_LENGTH) {
+            throw new IllegalArgumentException(what + " is longer than " + MAX_HOST_LENGTH);
         }
         for (int at = 0; at < host.length(); at++) {
             char letter = host.charAt(at);
@@ -77,7 +76,7 @@ final class SettingsRules {
     }
 
     private static void period(String what, int periodMs) {
-        whole(what + " (ms)", periodMs, SHORTEST_PERIOD_MS, LONGEST_PERIOD_MS);
+        whole(what + " (ms)", periodMs, MIN_PERIOD_MS, MAX_PERIOD_MS);
     }
 
     private static void whole(String what, int value, int least, int most) {

@@ -12,6 +12,11 @@ import org.raspilot.up.wire.GeneralMessage;
 public class BaseCommand {
     private final GeneralMessage message;
 
+    /** Creates a Command without fields. */
+    public BaseCommand(String name) {
+        this(new GeneralMessage(name, null));
+    }
+
     /** Creates a Command without an id or a beacon. */
     public BaseCommand(String name, Map<String, ?> data) {
         this(new GeneralMessage(name, data));
@@ -24,31 +29,30 @@ public class BaseCommand {
 
     /** Creates the Command of a message, under its current name. */
     protected BaseCommand(String name, GeneralMessage message) {
-        this(name.equals(message.name()) ? message
-                : message.with(name, message.id(), message.beacon()));
+        this(name.equals(message.name) ? message
+                : message.with(name, message.id, message.beacon));
     }
 
     /** Returns the name on the wire. */
     public final String name() {
-        return message.name();
+        return message.name;
     }
 
     /** Returns the fields under their names on the wire, as JSON values; unmodifiable. */
     public final Map<String, Object> data() {
-        return message.data();
+        return message.data;
     }
 
     /** Returns the id for the requested answer, or null. */
     public final String id() {
-        return message.id();
+        return message.id;
     }
 
     /** Returns the beacon that it carries, or null. */
     public final Long beacon() {
-        return message.beacon();
+        return message.beacon;
     }
 
-    /** Returns the message to send. */
     public final GeneralMessage toMessage() {
         return message;
     }

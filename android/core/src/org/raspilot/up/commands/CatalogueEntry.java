@@ -6,7 +6,7 @@ import org.raspilot.up.wire.MalformedException;
 
 /** One object of a catalogue; each reader throws when the key has another type. */
 final class CatalogueEntry {
-    private final Map<?, ?> description;
+    final Map<?, ?> description;
 
     CatalogueEntry(Map<?, ?> description) {
         this.description = description;
@@ -18,10 +18,6 @@ final class CatalogueEntry {
             throw new MalformedException("an entry of the catalogue is no object");
         }
         return new CatalogueEntry((Map<?, ?>) value);
-    }
-
-    Map<?, ?> description() {
-        return description;
     }
 
     String text(String key) throws MalformedException {

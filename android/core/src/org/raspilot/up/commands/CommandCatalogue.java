@@ -13,8 +13,8 @@ import org.raspilot.up.wire.MalformedException;
  * <p>The text is the same as for the ground station's page, generated from the Commands.
  */
 public final class CommandCatalogue {
-    private final List<CommandForm> forms = new ArrayList<CommandForm>();
-    private final Map<String, CommandForm> byName = new LinkedHashMap<String, CommandForm>();
+    private final List<CommandForm> forms = new ArrayList<>();
+    private final Map<String, CommandForm> byName = new LinkedHashMap<>();
 
     private CommandCatalogue() {
     }
@@ -34,7 +34,7 @@ public final class CommandCatalogue {
 
     /** Returns the forms in the order of the catalogue, by name; a copy. */
     public List<CommandForm> forms() {
-        return new ArrayList<CommandForm>(forms);
+        return new ArrayList<>(forms);
     }
 
     /** Returns the form of a name or alias, or null. */
@@ -44,8 +44,8 @@ public final class CommandCatalogue {
 
     private void add(CommandForm form) {
         forms.add(form);
-        byName.put(form.name(), form);
-        for (String alias : form.aliases()) {
+        byName.put(form.name, form);
+        for (String alias : form.aliases) {
             byName.put(alias, form);
         }
     }

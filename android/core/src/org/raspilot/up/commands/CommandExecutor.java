@@ -14,19 +14,16 @@ import java.util.UUID;
  * current Command's handlers are done.
  */
 public final class CommandExecutor {
-    private static final CommandOutcome NOBODY_ASKS = new CommandOutcome() {
-        @Override
-        public void onDone(int handlers, Throwable fault) {
-            // A fault was reported and counted where it happened.
-        }
+    private static final CommandOutcome NOBODY_ASKS = (handlers, fault) -> {
+        // A fault was reported and counted where it happened.
     };
 
     private final CommandRegistry registry;
     private final HandlerFaultListener faults;
     /** Handlers by name; a map is replaced and never changed, so that a delivery can go on. */
-    private final Map<String, Map<UUID, BaseCommandHandler>> handlers =
-            new HashMap<String, Map<UUID, BaseCommandHandler>>();
-    private final ArrayDeque<Runnable> waiting = new ArrayDeque<Runnable>();
+    private final Map<String, Map<UUID, CommandHandler>> handlers =
+            new HashMap<>();
+    private final ArrayDeque<Runnable> waiting = new ArrayDeque<>();
     private boolean isDelivering;
     private long failedHandlers;
 
@@ -40,12 +37,12 @@ public final class CommandExecutor {
      * Subscribes a handler to a Command by its name or alias and returns the handle to remove it;
      * one handler may be registered several times.
      */
-    public UUID registerCommand(String name, BaseCommandHandler handler) {
+    public UUID registerCommand(String name, CommandHandler handler) {
         if (handler == null) {
             throw new IllegalArgumentException("no handler for " + name);
         }
         UUID handle = UUID.randomUUID();
-        Map<UUID, BaseCommandHandler> now = copyOfHandlers(name);
+        Map<UUID, CommandHandler> now = copyOfHandlers(name);
         now.put(handle, handler);
         handlers.put(registry.primaryName(name), now);
         return handle;
@@ -53,7 +50,7 @@ public final class CommandExecutor {
 
     /** Removes a subscription; returns false for a handle that does not belong to that Command. */
     public boolean unregisterCommand(String name, UUID handle) {
-        Map<UUID, BaseCommandHandler> now = copyOfHandlers(name);
+        Map<UUID, CommandHandler> now = copyOfHandlers(name);
         if (now.remove(handle) == null) {
             return false;
         }
@@ -82,12 +79,7 @@ public final class CommandExecutor {
 
     /** Delivers a Command, immediately or after the current delivery, and reports the outcome. */
     void execute(final BaseCommand command, final CommandOutcome outcome) {
-        waiting.add(new Runnable() {
-            @Override
-            public void run() {
-                deliver(command, outcome);
-            }
-        });
+        waiting.add(() -> deliver(command, outcome));
         if (isDelivering) {
             return;
         }
@@ -102,9 +94,9 @@ public final class CommandExecutor {
     }
 
     private void deliver(BaseCommand command, CommandOutcome outcome) {
-        Map<UUID, BaseCommandHandler> subscribed = handlersOf(command.name());
+        Map<UUID, CommandHandler> subscribed = handlersOf(command.name());
         Throwable first = null;
-        for (BaseCommandHandler handler : subscribed.values()) {
+        for (CommandHandler handler : subscribed.values()) {
             Throwable fault = run(handler, command);
             first = first == null ? fault : first;
         }
@@ -112,7 +104,7 @@ public final class CommandExecutor {
     }
 
     /** Returns what the handler threw, or null; whatever it was, the others have their turn. */
-    private Throwable run(BaseCommandHandler handler, BaseCommand command) {
+    private Throwable run(CommandHandler handler, BaseCommand command) {
         try {
             handler.runAction(command);
             return null;
@@ -125,12 +117,12 @@ public final class CommandExecutor {
         }
     }
 
-    private Map<UUID, BaseCommandHandler> handlersOf(String name) {
-        Map<UUID, BaseCommandHandler> now = handlers.get(registry.primaryName(name));
-        return now == null ? Collections.<UUID, BaseCommandHandler>emptyMap() : now;
+    private Map<UUID, CommandHandler> handlersOf(String name) {
+        Map<UUID, CommandHandler> now = handlers.get(registry.primaryName(name));
+        return now == null ? Collections.emptyMap() : now;
     }
 
-    private Map<UUID, BaseCommandHandler> copyOfHandlers(String name) {
-        return new LinkedHashMap<UUID, BaseCommandHandler>(handlersOf(name));
+    private Map<UUID, CommandHandler> copyOfHandlers(String name) {
+        return new LinkedHashMap<>(handlersOf(name));
     }
 }

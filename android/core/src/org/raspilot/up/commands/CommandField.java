@@ -8,16 +8,22 @@ import org.raspilot.up.wire.MalformedException;
 
 /** One field of a Command as the catalogue describes it. */
 public final class CommandField {
-    private final String name;
-    private final FieldType type;
-    private final String unit;
-    private final Double minimum;
-    private final Double maximum;
-    private final List<Object> choices;
-    private final Integer maxLength;
+    public final String name;
+    public final FieldType type;
+    /** The unit, or an empty text. */
+    public final String unit;
+    /** The least value, or null. */
+    public final Double minimum;
+    /** The greatest value, or null. */
+    public final Double maximum;
+    /** What may be chosen, unmodifiable, or null when anything may. */
+    public final List<Object> choices;
+    /** The greatest number of characters, items or keys, or null. */
+    public final Integer maxLength;
     private final boolean nullable;
     private final boolean required;
-    private final String text;
+    /** The allowed values in words: "a number between 0 and 5 s". */
+    public final String text;
     private final FieldRule rule;
 
     private CommandField(CatalogueEntry entry) throws MalformedException {
@@ -28,7 +34,7 @@ public final class CommandField {
         maximum = entry.optionalNumber("maximum");
         List<Object> listed = entry.optionalList("choices");
         choices = listed == null ? null
-                : Collections.unmodifiableList(new ArrayList<Object>(listed));
+                : Collections.unmodifiableList(new ArrayList<>(listed));
         Double length = entry.optionalNumber("max_length");
         maxLength = length == null ? null : (Integer) length.intValue();
         nullable = entry.flag("nullable");
@@ -44,54 +50,13 @@ public final class CommandField {
         return new CommandField(new CatalogueEntry(description));
     }
 
-    /** Returns the name on the wire. */
-    public String name() {
-        return name;
-    }
-
-    /** Returns the type of its value. */
-    public FieldType type() {
-        return type;
-    }
-
-    /** Returns the unit, or an empty text. */
-    public String unit() {
-        return unit;
-    }
-
-    /** Returns the least value, or null. */
-    public Double minimum() {
-        return minimum;
-    }
-
-    /** Returns the greatest value, or null. */
-    public Double maximum() {
-        return maximum;
-    }
-
-    /** Returns what may be chosen, unmodifiable, or null when anything may. */
-    public List<Object> choices() {
-        return choices;
-    }
-
-    /** Returns the greatest number of characters, items or keys, or null. */
-    public Integer maxLength() {
-        return maxLength;
-    }
-
     /** Returns whether null is allowed. */
     public boolean isNullable() {
         return nullable;
     }
 
-    /** Returns whether the field is required. */
     public boolean isRequired() {
         return required;
-    }
-
-    /** Returns the allowed values in words: "a number between 0 and 5 s". */
-    public String text() {
-        return text;
     }
 
     /** Returns the error of a JSON value, a sentence that names the field, or null. */
@@ -99,7 +64,7 @@ public final class CommandField {
         if (value == null && nullable) {
             return null;
         }
-        String complaint = rule.complaint(value);
+        String complaint = rule.error(value);
         return complaint == null ? null : name + " " + complaint;
     }
 

@@ -20,12 +20,10 @@ public final class CommandFields {
         this.data = data;
     }
 
-    /** Returns a number without bounds. */
     public double number(String key) {
         return number(key, -Double.MAX_VALUE, Double.MAX_VALUE);
     }
 
-    /** Returns a number within bounds. */
     public double number(String key, double minimum, double maximum) {
         return ((Number) checked(key, FieldRule.number(minimum, maximum))).doubleValue();
     }
@@ -40,7 +38,6 @@ public final class CommandFields {
         return ((Number) checked(key, FieldRule.whole(minimum, maximum))).longValue();
     }
 
-    /** Returns true or false. */
     public boolean flag(String key) {
         return (Boolean) checked(key, FieldRule.of(FieldType.BOOLEAN));
     }
@@ -60,7 +57,6 @@ public final class CommandFields {
         return data.containsKey(key) ? text(key, longest) : otherwise;
     }
 
-    /** Returns one of the choices. */
     public String choice(String key, List<String> choices) {
         return (String) checked(key, FieldRule.choice(choices));
     }
@@ -70,7 +66,6 @@ public final class CommandFields {
         return data.containsKey(key) ? choice(key, choices) : otherwise;
     }
 
-    /** Returns an object's fields. */
     @SuppressWarnings("unchecked")
     public Map<String, Object> object(String key) {
         return (Map<String, Object>) checked(key, FieldRule.of(FieldType.OBJECT));
@@ -117,7 +112,7 @@ public final class CommandFields {
             throw new InvalidCommandException(key + " is missing");
         }
         Object value = data.get(key);
-        String complaint = rule.complaint(value);
+        String complaint = rule.error(value);
         if (complaint != null) {
             throw new InvalidCommandException(key + " " + complaint);
         }

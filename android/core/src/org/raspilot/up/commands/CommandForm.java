@@ -10,26 +10,30 @@ import org.raspilot.up.wire.MalformedException;
 
 /** A Command as a person fills it in: its name, what it is for, its fields. */
 public final class CommandForm {
-    private final String name;
-    private final List<String> aliases;
-    private final String role;
-    private final String text;
-    private final boolean needsBeacon;
-    private final Map<String, CommandField> fields = new LinkedHashMap<String, CommandField>();
+    public final String name;
+    /** Older names of the Command; unmodifiable. */
+    public final List<String> aliases;
+    /** The least role that may send it; {@code depends}: a field decides. */
+    public final String role;
+    /** What it is for, one sentence. */
+    public final String text;
+    /** Whether the Command needs fresh telemetry, whose beacon it echoes. */
+    public final boolean needsBeacon;
+    private final Map<String, CommandField> fields = new LinkedHashMap<>();
 
     private CommandForm(CatalogueEntry entry) throws MalformedException {
         name = entry.text("name");
         role = entry.text("role");
         text = entry.text("text");
         needsBeacon = entry.flag("needs_beacon");
-        List<String> names = new ArrayList<String>();
+        List<String> names = new ArrayList<>();
         for (Object alias : entry.list("aliases")) {
             names.add(String.valueOf(alias));
         }
         aliases = Collections.unmodifiableList(names);
         for (Object described : entry.list("fields")) {
-            CommandField field = CommandField.read(CatalogueEntry.of(described).description());
-            fields.put(field.name(), field);
+            CommandField field = CommandField.read(CatalogueEntry.of(described).description);
+            fields.put(field.name, field);
         }
     }
 
@@ -38,34 +42,9 @@ public final class CommandForm {
         return new CommandForm(CatalogueEntry.of(description));
     }
 
-    /** Returns the name on the wire. */
-    public String name() {
-        return name;
-    }
-
-    /** Returns older names of the Command; unmodifiable. */
-    public List<String> aliases() {
-        return aliases;
-    }
-
-    /** Returns the least role that may send it; {@code depends}: a field decides. */
-    public String role() {
-        return role;
-    }
-
-    /** Returns what it is for, one sentence. */
-    public String text() {
-        return text;
-    }
-
-    /** Returns whether the Command needs fresh telemetry, whose beacon it echoes. */
-    public boolean needsBeacon() {
-        return needsBeacon;
-    }
-
     /** Returns the fields in their order; a copy. */
     public List<CommandField> fields() {
-        return new ArrayList<CommandField>(fields.values());
+        return new ArrayList<>(fields.values());
     }
 
     /** Returns the field of a name, or null. */
@@ -86,8 +65,8 @@ public final class CommandForm {
             }
         }
         for (CommandField field : fields.values()) {
-            if (field.isRequired() && !data.containsKey(field.name())) {
-                return field.name() + " is missing";
+            if (field.isRequired() && !data.containsKey(field.name)) {
+                return field.name + " is missing";
             }
         }
         return null;
@@ -99,7 +78,7 @@ public final class CommandForm {
      * @throws InvalidCommandException with one sentence that names the field
      */
     public Map<String, Object> parse(Map<String, String> inputs) {
-        Map<String, Object> data = new LinkedHashMap<String, Object>();
+        Map<String, Object> data = new LinkedHashMap<>();
         for (Map.Entry<String, String> input : inputs.entrySet()) {
             String typed = input.getValue();
             if (typed != null && typed.trim().length() > 0) {

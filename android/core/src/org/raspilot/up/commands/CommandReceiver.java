@@ -15,16 +15,16 @@ import org.raspilot.up.wire.SafeText;
  * and not executed again (the newest 256 ids of 60 s of a link). Source: docs/protocols.md 4.
  */
 public final class CommandReceiver {
-    private static final int LONGEST_REASON = 500;
+    private static final int MAX_REASON_LENGTH = 500;
     private static final int SHOWN_NAME = 64;
     private static final String FAILED = "carrying it out failed; the log says where";
 
     private final CommandRegistry registry;
     private final CommandExecutor executor;
     private final Loop loop;
-    private final Map<AnswerSink, AnswerMemory> memories =
-            new WeakHashMap<AnswerSink, AnswerMemory>();
-    private final Map<String, Long> counts = new HashMap<String, Long>();
+    private final Map<AnswerSink, AnswerCache> memories =
+            new WeakHashMap<>();
+    private final Map<String, Long> counts = new HashMap<>();
 
     /** Creates a receiver for the links of one loop. */
     public CommandReceiver(CommandRegistry registry, CommandExecutor executor, Loop loop) {
@@ -52,9 +52,9 @@ public final class CommandReceiver {
             addOne("repeated");
             return;
         }
-        String name = message.name();
+        String name = message.name;
         if (!registry.knows(name) && !executor.hasHandlers(name)) {
-            refuse(message.id(), answers, NackCode.UNKNOWN,
+            refuse(message.id, answers, NackCode.UNKNOWN,
                     "no Command '" + SafeText.of(name, SHOWN_NAME) + "'");
             return;
         }
@@ -62,26 +62,21 @@ public final class CommandReceiver {
         try {
             command = registry.read(message);
         } catch (InvalidCommandException fault) {
-            refuse(message.id(), answers, NackCode.INVALID,
+            refuse(message.id, answers, NackCode.INVALID,
                     registry.primaryName(name) + ": " + fault.getMessage());
             return;
         } catch (RuntimeException fault) {
             // A Command of an application costs this message and not the link.
-            refuse(message.id(), answers, NackCode.FAILED, FAILED);
-            tellLoop(fault);
+            refuse(message.id, answers, NackCode.FAILED, FAILED);
+            reportFault(fault);
             return;
         }
-        executor.execute(command, new CommandOutcome() {
-            @Override
-            public void onDone(int handlers, Throwable fault) {
-                conclude(message, answers, handlers, fault);
-            }
-        });
+        executor.execute(command, (handlers, fault) -> conclude(message, answers, handlers, fault));
     }
 
     /** Counts a line that is not a General Message; rejects it if its id is readable. */
     public void receiveMalformed(MalformedException malformed, AnswerSink answers) {
-        refuse(malformed.id(), answers, NackCode.MALFORMED, malformed.reason());
+        refuse(malformed.id, answers, NackCode.MALFORMED, malformed.reason());
     }
 
     /**
@@ -94,20 +89,17 @@ public final class CommandReceiver {
     }
 
     /** Throw it where the loop reports it to its listener. */
-    private void tellLoop(final RuntimeException fault) {
-        loop.post(new Runnable() {
-            @Override
-            public void run() {
-                throw fault;
-            }
+    private void reportFault(final RuntimeException fault) {
+        loop.post(() -> {
+            throw fault;
         });
     }
 
     private boolean isRepeated(GeneralMessage message, AnswerSink answers) {
-        if (message.id() == null) {
+        if (message.id == null) {
             return false;
         }
-        AnswerMemory.Entry known = memory(answers).remember(message, loop.nowMs());
+        AnswerCache.Entry known = memory(answers).add(message, loop.nowMs());
         if (known != null && known.answer() != null) {
             answers.answer(known.answer());
         }
@@ -118,34 +110,34 @@ public final class CommandReceiver {
             Throwable fault) {
         if (fault instanceof CommandRefusedException) {
             CommandRefusedException refusal = (CommandRefusedException) fault;
-            refuse(message.id(), answers, refusal.code(), refusal.reason());
+            refuse(message.id, answers, refusal.code, refusal.reason());
         } else if (fault != null) {
-            refuse(message.id(), answers, NackCode.FAILED, FAILED);
+            refuse(message.id, answers, NackCode.FAILED, FAILED);
         } else if (handlers == 0) {
-            refuse(message.id(), answers, NackCode.UNAVAILABLE,
-                    "nobody handles " + message.name());
-        } else if (message.id() != null) {
-            answer(message.id(), answers, new AckCommand(message.id()));
+            refuse(message.id, answers, NackCode.UNAVAILABLE,
+                    "nobody handles " + message.name);
+        } else if (message.id != null) {
+            answer(message.id, answers, Commands.ack(message.id));
         }
     }
 
     private void refuse(String id, AnswerSink answers, NackCode code, String reason) {
         addOne(code.word());
         if (id != null) {
-            answer(id, answers, new NackCommand(id, code.word(),
-                    SafeText.of(String.valueOf(reason), LONGEST_REASON)));
+            answer(id, answers, Commands.nack(id, code.word(),
+                    SafeText.of(String.valueOf(reason), MAX_REASON_LENGTH)));
         }
     }
 
     private void answer(String id, AnswerSink answers, BaseCommand answer) {
-        memory(answers).keep(id, answer.toMessage());
+        memory(answers).setAnswer(id, answer.toMessage());
         answers.answer(answer.toMessage());
     }
 
-    private AnswerMemory memory(AnswerSink answers) {
-        AnswerMemory memory = memories.get(answers);
+    private AnswerCache memory(AnswerSink answers) {
+        AnswerCache memory = memories.get(answers);
         if (memory == null) {
-            memory = new AnswerMemory();
+            memory = new AnswerCache();
             memories.put(answers, memory);
         }
         return memory;

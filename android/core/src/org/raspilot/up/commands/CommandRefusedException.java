@@ -8,7 +8,7 @@ package org.raspilot.up.commands;
 public final class CommandRefusedException extends Exception {
     private static final long serialVersionUID = 1L;
 
-    private final NackCode code;
+    public final NackCode code;
 
     /** Refuses with the code {@code refused}. */
     public CommandRefusedException(String reason) {
@@ -21,12 +21,6 @@ public final class CommandRefusedException extends Exception {
         this.code = code;
     }
 
-    /** Returns the code of the answer. */
-    public NackCode code() {
-        return code;
-    }
-
-    /** Returns why, for the asker. */
     public String reason() {
         return getMessage();
     }

@@ -6,8 +6,8 @@ import org.raspilot.up.wire.GeneralMessage;
 
 /** Which Commands are read into which classes, by name and by alias. */
 public final class CommandRegistry {
-    private final Map<String, CommandReader> readers = new HashMap<String, CommandReader>();
-    private final Map<String, String> primaryNames = new HashMap<String, String>();
+    private final Map<String, CommandReader> readers = new HashMap<>();
+    private final Map<String, String> primaryNames = new HashMap<>();
 
     /** Creates an empty registry. */
     public CommandRegistry() {
@@ -16,22 +16,7 @@ public final class CommandRegistry {
     /** Returns a registry with the Commands of the Up Library. */
     public static CommandRegistry builtin() {
         CommandRegistry registry = new CommandRegistry();
-        registry.register(AckCommand.NAME, AckCommand.READER);
-        registry.register(AltitudeCommand.NAME, AltitudeCommand.READER);
-        registry.register(ArmCommand.NAME, ArmCommand.READER);
-        registry.register(BatteryCommand.NAME, BatteryCommand.READER);
-        registry.register(DisarmCommand.NAME, DisarmCommand.READER);
-        registry.register(FlightModeCommand.NAME, FlightModeCommand.READER);
-        registry.register(HeadingCommand.NAME, HeadingCommand.READER);
-        registry.register(LocationCommand.NAME, LocationCommand.READER, LocationCommand.ALIAS);
-        registry.register(MarkCommand.NAME, MarkCommand.READER);
-        registry.register(NackCommand.NAME, NackCommand.READER);
-        registry.register(PanicCommand.NAME, PanicCommand.READER, PanicCommand.ALIAS);
-        registry.register(PidTuningsCommand.NAME, PidTuningsCommand.READER);
-        registry.register(RecordCommand.NAME, RecordCommand.READER);
-        registry.register(SpeakCommand.NAME, SpeakCommand.READER);
-        registry.register(TelemetryCommand.NAME, TelemetryCommand.READER);
-        registry.register(TelemetryFrequencyCommand.NAME, TelemetryFrequencyCommand.READER);
+        Commands.register(registry);
         return registry;
     }
 
@@ -65,8 +50,11 @@ public final class CommandRegistry {
      * @throws InvalidCommandException with one sentence that names the field
      */
     public BaseCommand read(GeneralMessage message) {
-        CommandReader reader = readers.get(primaryName(message.name()));
-        return reader == null ? new BaseCommand(message) : reader.read(message);
+        String name = primaryName(message.name);
+        GeneralMessage current = name.equals(message.name) ? message
+                : message.with(name, message.id, message.beacon);
+        CommandReader reader = readers.get(name);
+        return reader == null ? new BaseCommand(current) : reader.read(current);
     }
 
     private void claim(String name, String primary) {

@@ -14,7 +14,7 @@ import org.raspilot.up.wire.SafeText;
  * contents of objects and lists are not checked.
  */
 final class FieldRule {
-    private static final int LONGEST_SHOWN = 40;
+    private static final int MAX_SHOWN_LENGTH = 40;
 
     private final FieldType type;
     private final double minimum;
@@ -67,7 +67,7 @@ final class FieldRule {
     }
 
     /** Returns the error of a value, worded to follow the field's name, or null if it is valid. */
-    String complaint(Object value) {
+    String error(Object value) {
         if (!isOfType(value) || !isChosen(value)) {
             return "must be " + description + ", not " + shown(value);
         }
@@ -136,7 +136,7 @@ final class FieldRule {
     /** Returns any value as a short text for a sentence. */
     static String shown(Object value) {
         if (value instanceof String) {
-            return '"' + SafeText.of((String) value, LONGEST_SHOWN) + '"';
+            return '"' + SafeText.of((String) value, MAX_SHOWN_LENGTH) + '"';
         }
         if (value instanceof Map) {
             return "a map";

@@ -14,9 +14,10 @@ import java.util.Map;
 public final class GainSet {
     private static final List<String> NOTHING = Collections.emptyList();
 
-    private final LoopGains rate;
-    private final LoopGains stabilize;
-    private final LoopGains navigation;
+    public final LoopGains rate;
+    public final LoopGains stabilize;
+    /** The gains of navigation, or null. */
+    public final LoopGains navigation;
 
     /** Creates a set; with {@code navigation} null the navigation gains do not change. */
     public GainSet(LoopGains rate, LoopGains stabilize, LoopGains navigation) {
@@ -35,7 +36,7 @@ public final class GainSet {
         only(data, Arrays.asList("ratePIDs", "stabPIDs"), Arrays.asList("navPIDs"), "pids");
         LoopGains rate = loop(data.get("ratePIDs"), "ratePIDs");
         LoopGains stabilize = loop(data.get("stabPIDs"), "stabPIDs");
-        if ((rate.rudder() == null) != (stabilize.rudder() == null)) {
+        if ((rate.rudder == null) != (stabilize.rudder == null)) {
             throw new InvalidCommandException("pids must have a rudder in both loops or in none");
         }
         Object navigation = data.get("navPIDs");
@@ -45,28 +46,13 @@ public final class GainSet {
 
     /** Returns the set in the form of the wire; nothing is rounded. */
     public Map<String, Object> toData() {
-        Map<String, Object> data = new LinkedHashMap<String, Object>();
+        Map<String, Object> data = new LinkedHashMap<>();
         data.put("ratePIDs", loopData(rate));
         data.put("stabPIDs", loopData(stabilize));
         if (navigation != null) {
             data.put("navPIDs", loopData(navigation));
         }
         return data;
-    }
-
-    /** Returns the gains of the rate loop. */
-    public LoopGains rate() {
-        return rate;
-    }
-
-    /** Returns the gains of the stabilize loop. */
-    public LoopGains stabilize() {
-        return stabilize;
-    }
-
-    /** Returns the gains of navigation, or null. */
-    public LoopGains navigation() {
-        return navigation;
     }
 
     private static LoopGains loop(Object value, String place) {
@@ -86,7 +72,7 @@ public final class GainSet {
 
     private static double gain(Map<?, ?> data, String key, String place) {
         Object value = data.get(key);
-        String complaint = FieldRule.number(0, Gains.GREATEST).complaint(value);
+        String complaint = FieldRule.number(0, Gains.MAX).error(value);
         if (complaint != null) {
             throw new InvalidCommandException(place + "." + key + " " + complaint);
         }
@@ -113,20 +99,20 @@ public final class GainSet {
     }
 
     private static Map<String, Object> loopData(LoopGains loop) {
-        Map<String, Object> data = new LinkedHashMap<String, Object>();
-        data.put("ailerons", gainsData(loop.ailerons()));
-        data.put("elevator", gainsData(loop.elevator()));
-        if (loop.rudder() != null) {
-            data.put("rudder", gainsData(loop.rudder()));
+        Map<String, Object> data = new LinkedHashMap<>();
+        data.put("ailerons", gainsData(loop.ailerons));
+        data.put("elevator", gainsData(loop.elevator));
+        if (loop.rudder != null) {
+            data.put("rudder", gainsData(loop.rudder));
         }
         return data;
     }
 
     private static Map<String, Object> gainsData(Gains gains) {
-        Map<String, Object> data = new LinkedHashMap<String, Object>();
-        data.put("p", gains.p());
-        data.put("i", gains.i());
-        data.put("d", gains.d());
+        Map<String, Object> data = new LinkedHashMap<>();
+        data.put("p", gains.p);
+        data.put("i", gains.i);
+        data.put("d", gains.d);
         return data;
     }
 }

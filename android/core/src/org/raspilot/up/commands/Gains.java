@@ -2,32 +2,16 @@ package org.raspilot.up.commands;
 
 /** The three gains of one PID controller, each 0 to 50 (docs/protocols.md 5). */
 public final class Gains {
-    /** The greatest gain. */
-    public static final double GREATEST = 50;
+    public static final double MAX = 50;
 
-    private final double p;
-    private final double i;
-    private final double d;
+    public final double p;
+    public final double i;
+    public final double d;
 
     /** Creates the gains of one controller; {@link PidTuningsCommand} checks them. */
     public Gains(double p, double i, double d) {
         this.p = p;
         this.i = i;
         this.d = d;
-    }
-
-    /** Returns the proportional gain. */
-    public double p() {
-        return p;
-    }
-
-    /** Returns the integral gain. */
-    public double i() {
-        return i;
-    }
-
-    /** Returns the derivative gain. */
-    public double d() {
-        return d;
     }
 }

@@ -14,7 +14,7 @@ public final class Age {
     /** A frame older than this, ms, is shown as stale, before a whole second has passed. */
     public static final long SILENT_MS = 900;
 
-    private static final Map<String, Long> STALE_MS = new HashMap<String, Long>();
+    private static final Map<String, Long> STALE_MS = new HashMap<>();
 
     static {
         // Sources with a period of a second or longer become stale later than SILENT_MS.
@@ -25,9 +25,11 @@ public final class Age {
     }
 
     private final boolean isKnown;
-    private final boolean isLinkLost;
+    /** Whether the link that delivered the frame is gone. */
+    public final boolean isLinkLost;
     private final long receivedMs;
-    private final long wayMs;
+    /** The frame's transit time, ms, as far as it is known. */
+    public final long transitMs;
     private final Map<String, Double> onBoardMs;
 
     private Age(boolean isKnown, boolean isLinkLost, long receivedMs, long wayMs,
@@ -35,13 +37,13 @@ public final class Age {
         this.isKnown = isKnown;
         this.isLinkLost = isLinkLost;
         this.receivedMs = receivedMs;
-        this.wayMs = wayMs;
+        this.transitMs = wayMs;
         this.onBoardMs = onBoardMs;
     }
 
     /** Returns the age for telemetry that never arrived: everything is stale. */
     static Age unknown() {
-        return new Age(false, true, 0, 0, Collections.<String, Double>emptyMap());
+        return new Age(false, true, 0, 0, Collections.emptyMap());
     }
 
     /**
@@ -50,33 +52,23 @@ public final class Age {
      * @param onBoardMs the known ages of readings when the frame was made
      */
     static Age ofFrame(long receivedMs, long wayMs, Map<String, Double> onBoardMs) {
-        final Map<String, Double> copy = new HashMap<String, Double>(onBoardMs);
+        final Map<String, Double> copy = new HashMap<>(onBoardMs);
         return new Age(true, false, receivedMs, Math.max(0, wayMs), copy);
     }
 
     /** Returns this age with another transit time of the frame. */
-    Age ofWay(long anotherMs) {
+    Age withTransit(long anotherMs) {
         return new Age(isKnown, isLinkLost, receivedMs, Math.max(0, anotherMs), onBoardMs);
     }
 
     /** Returns the same age after the link was lost: everything is stale from now on. */
-    Age ofLostLink() {
-        return new Age(isKnown, true, receivedMs, wayMs, onBoardMs);
-    }
-
-    /** Returns whether the link that delivered the frame is gone. */
-    public boolean isLinkLost() {
-        return isLinkLost;
-    }
-
-    /** Returns the frame's transit time, ms, as far as it is known. */
-    public long wayMs() {
-        return wayMs;
+    Age withLostLink() {
+        return new Age(isKnown, true, receivedMs, transitMs, onBoardMs);
     }
 
     /** Returns the age of the frame including transit, ms; null without a frame. */
     public Long frameMs(long nowMs) {
-        return isKnown ? Long.valueOf(Math.max(0, nowMs - receivedMs) + wayMs) : null;
+        return isKnown ? Long.valueOf(Math.max(0, nowMs - receivedMs) + transitMs) : null;
     }
 
     /**
@@ -101,7 +93,7 @@ public final class Age {
 
     /** Returns whether frames arrive, but so late that they count as silence. */
     public boolean isLate(long nowMs) {
-        return isKnown && !isLinkLost && wayMs > SILENT_MS && nowMs - receivedMs <= SILENT_MS;
+        return isKnown && !isLinkLost && transitMs > SILENT_MS && nowMs - receivedMs <= SILENT_MS;
     }
 
     /** Returns whether a reading is too old to fly by; a reading without an age has its frame's. */

@@ -20,29 +20,15 @@ public final class Alarm {
         BATTERY
     }
 
-    private final Kind kind;
-    private final EventLevel level;
-    private final String text;
+    public final Kind kind;
+    public final EventLevel level;
+    /** A description of the fault, safe to display. */
+    public final String text;
 
     Alarm(Kind kind, EventLevel level, String text) {
         this.kind = kind;
         this.level = level;
         this.text = text;
-    }
-
-    /** Returns the kind of fault. */
-    public Kind kind() {
-        return kind;
-    }
-
-    /** Returns WARNING or ALARM. */
-    public EventLevel level() {
-        return level;
-    }
-
-    /** Returns a description of the fault, safe to display. */
-    public String text() {
-        return text;
     }
 
     /** Returns whether the phone should sound and vibrate. */

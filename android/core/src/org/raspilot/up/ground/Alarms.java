@@ -22,22 +22,14 @@ public final class Alarms {
 
     /** A snapshot of the alarms. Immutable. */
     public static final class Snapshot {
-        private final long version;
-        private final List<Alarm> active;
+        /** A number that rises with each change. */
+        public final long version;
+        /** The alarms that are on, by kind, unmodifiable. */
+        public final List<Alarm> active;
 
         Snapshot(long version, List<Alarm> active) {
             this.version = version;
             this.active = active;
-        }
-
-        /** Returns a number that rises with each change. */
-        public long version() {
-            return version;
-        }
-
-        /** Returns the alarms that are on, by kind, unmodifiable. */
-        public List<Alarm> active() {
-            return active;
         }
 
         /** Returns whether an active alarm should sound and vibrate. */
@@ -53,7 +45,7 @@ public final class Alarms {
         /** Returns whether an alarm of that kind is active. */
         public boolean has(Alarm.Kind kind) {
             for (Alarm each : active) {
-                if (each.kind() == kind) {
+                if (each.kind == kind) {
                     return true;
                 }
             }
@@ -61,15 +53,14 @@ public final class Alarms {
         }
     }
 
-    private final Map<Alarm.Kind, Long> causeMs = new EnumMap<Alarm.Kind, Long>(Alarm.Kind.class);
-    private final Map<Alarm.Kind, Alarm> known = new EnumMap<Alarm.Kind, Alarm>(Alarm.Kind.class);
+    private final Map<Alarm.Kind, Long> causeMs = new EnumMap<>(Alarm.Kind.class);
+    private final Map<Alarm.Kind, Alarm> known = new EnumMap<>(Alarm.Kind.class);
     private boolean hadBoard;
-    private Snapshot snapshot = new Snapshot(0, Collections.<Alarm>emptyList());
+    private Snapshot snapshot = new Snapshot(0, Collections.emptyList());
 
     Alarms() {
     }
 
-    /** Returns the active alarms. */
     public Snapshot snapshot() {
         return snapshot;
     }
@@ -83,11 +74,11 @@ public final class Alarms {
     }
 
     /** Updates the alarms; returns whether they changed. */
-    boolean take(Telemetry telemetry, GroundStatus status, long nowMs) {
-        hadBoard = hadBoard || Boolean.TRUE.equals(Fact.board(telemetry));
-        for (Alarm each : wrong(telemetry, status)) {
-            known.put(each.kind(), each);
-            causeMs.put(each.kind(), nowMs);
+    boolean update(Telemetry telemetry, GroundStatus status, long nowMs) {
+        hadBoard = hadBoard || Boolean.TRUE.equals(EventRule.board(telemetry));
+        for (Alarm each : find(telemetry, status)) {
+            known.put(each.kind, each);
+            causeMs.put(each.kind, nowMs);
         }
         for (Alarm.Kind kind : Alarm.Kind.values()) {
             final Long lastMs = causeMs.get(kind);
@@ -100,18 +91,18 @@ public final class Alarms {
     }
 
     private boolean publish() {
-        final List<Alarm> active = new ArrayList<Alarm>(known.values());
-        if (active.equals(snapshot.active())) {
+        final List<Alarm> active = new ArrayList<>(known.values());
+        if (active.equals(snapshot.active)) {
             return false;
         }
-        snapshot = new Snapshot(snapshot.version() + 1, Collections.unmodifiableList(active));
+        snapshot = new Snapshot(snapshot.version + 1, Collections.unmodifiableList(active));
         return true;
     }
 
-    private List<Alarm> wrong(Telemetry telemetry, GroundStatus status) {
-        final List<Alarm> found = new ArrayList<Alarm>();
+    private List<Alarm> find(Telemetry telemetry, GroundStatus status) {
+        final List<Alarm> found = new ArrayList<>();
         // Before the first frame nothing went silent.
-        if (telemetry != Telemetry.NOTHING && status.isSilent()) {
+        if (telemetry != Telemetry.EMPTY && status.isSilent) {
             found.add(new Alarm(Alarm.Kind.SILENT, EventLevel.ALARM, silence(status)));
         }
         if (isTrue(telemetry, "arduino.failsafe")) {
@@ -125,13 +116,13 @@ public final class Alarms {
             found.add(new Alarm(Alarm.Kind.IMU, EventLevel.ALARM,
                     "the IMU is invalid: nothing stabilises"));
         }
-        if (Fact.NOT_YET.equals(Fact.board(telemetry)) && !hadBoard) {
+        if (EventRule.NOT_YET.equals(EventRule.board(telemetry)) && !hadBoard) {
             found.add(new Alarm(Alarm.Kind.BOARD, EventLevel.WARNING,
                     "the board is not here yet"));
         } else if (isFalse(telemetry, "arduino.connected")) {
             found.add(new Alarm(Alarm.Kind.BOARD, EventLevel.ALARM, "the board is gone"));
         }
-        if (Boolean.FALSE.equals(Fact.phone(telemetry))) {
+        if (Boolean.FALSE.equals(EventRule.phone(telemetry))) {
             found.add(new Alarm(Alarm.Kind.PHONE, EventLevel.WARNING, "the phone is gone"));
         }
         final Double percent = telemetry.number("android.batteryLevel");
@@ -151,10 +142,10 @@ public final class Alarms {
         if (!status.isOpen()) {
             return "no link";
         }
-        if (Boolean.FALSE.equals(status.isAircraftOnline())) {
+        if (Boolean.FALSE.equals(status.isAircraftOnline)) {
             return "the aircraft is not connected to the proxy";
         }
-        return status.isLate() ? "telemetry comes too late" : "the aircraft is silent";
+        return status.isLate ? "telemetry comes too late" : "the aircraft is silent";
     }
 
     private static boolean isTrue(Telemetry telemetry, String path) {

@@ -5,7 +5,6 @@ import java.util.Map;
 
 /** The outcome of a Command. Immutable; each sent Command has exactly one. */
 public final class Answer {
-    /** The kind of outcome. */
     public enum Outcome {
         /** The aircraft carried it out. */
         ACK,
@@ -19,12 +18,19 @@ public final class Answer {
         REFUSED
     }
 
-    private final Outcome outcome;
-    private final String name;
-    private final String code;
-    private final String reason;
-    private final Long roundTripMs;
-    private final Map<String, Object> data;
+    public final Outcome outcome;
+    public final String name;
+    /**
+     * The aircraft's code of a NACK (docs/protocols.md 4), for REFUSED one of {@code
+     * no_link no_aircraft no_seat no_beacon stale forbidden invalid busy}, otherwise an empty text.
+     */
+    public final String code;
+    /** The reason, safe to display, or an empty text. */
+    public final String reason;
+    /** The time from sending to the answer, ms; null: there was none. */
+    public final Long roundTripMs;
+    /** The requested data (gains, profile), unmodifiable, or null. */
+    public final Map<String, Object> data;
 
     Answer(Outcome outcome, String name, String code, String reason, Long roundTripMs,
             Map<String, Object> data) {
@@ -41,42 +47,9 @@ public final class Answer {
         return new Answer(Outcome.REFUSED, name, code, reason, null, null);
     }
 
-    /** Returns the kind of outcome. */
-    public Outcome outcome() {
-        return outcome;
-    }
-
     /** Returns whether the aircraft executed it. */
     public boolean isAck() {
         return outcome == Outcome.ACK;
-    }
-
-    /** Returns which Command it was. */
-    public String name() {
-        return name;
-    }
-
-    /**
-     * Returns the aircraft's code of a NACK (docs/protocols.md 4), for REFUSED one of {@code
-     * no_link no_aircraft no_seat no_beacon stale forbidden invalid busy}, otherwise an empty text.
-     */
-    public String code() {
-        return code;
-    }
-
-    /** Returns the reason, safe to display, or an empty text. */
-    public String reason() {
-        return reason;
-    }
-
-    /** Returns the time from sending to the answer, ms; null: there was none. */
-    public Long roundTripMs() {
-        return roundTripMs;
-    }
-
-    /** Returns the requested data (gains, profile), unmodifiable, or null. */
-    public Map<String, Object> data() {
-        return data;
     }
 
     /** Returns a sentence for the pilot, without a full stop. */

@@ -2,6 +2,5 @@ package org.raspilot.up.ground;
 
 /** Receives the outcome of a Command: once, on the loop, possibly before the call returns. */
 public interface AnswerListener {
-    /** Takes the answer. */
     void onAnswer(Answer answer);
 }

@@ -30,7 +30,7 @@ public abstract class BaseTelemetryHandler<T> extends BaseCommandHandler {
         final Telemetry telemetry = source.telemetry();
         final T value = read(telemetry);
         if (value != null) {
-            onTelemetry(value, telemetry.age());
+            onTelemetry(value, telemetry.age);
         }
     }
 }

@@ -8,41 +8,32 @@ import org.raspilot.up.wire.SafeText;
 
 /** The newest events, the oldest of them going when there are too many. Only on the loop. */
 public final class EventLog {
-    /** Maximum number of events kept. */
-    public static final int KEPT = 200;
+    public static final int MAX_ENTRIES = 200;
 
-    private static final int LONGEST_TEXT = 400;
+    private static final int MAX_TEXT_LENGTH = 400;
 
     /** A snapshot of the events. Immutable. */
     public static final class Snapshot {
-        private final long version;
-        private final List<Event> events;
+        /** A number that rises with each change. */
+        public final long version;
+        /** The events from the oldest to the newest, unmodifiable. */
+        public final List<Event> events;
 
         Snapshot(long version, List<Event> events) {
             this.version = version;
             this.events = events;
         }
-
-        /** Returns a number that rises with each change. */
-        public long version() {
-            return version;
-        }
-
-        /** Returns the events from the oldest to the newest, unmodifiable. */
-        public List<Event> events() {
-            return events;
-        }
     }
 
-    private final ArrayDeque<Event> events = new ArrayDeque<Event>();
+    private final ArrayDeque<Event> events = new ArrayDeque<>();
     private long number;
-    private Snapshot snapshot = new Snapshot(0, Collections.<Event>emptyList());
+    private Snapshot snapshot = new Snapshot(0, Collections.emptyList());
 
-    /** Adds an event; {@code kind} as in {@link Event#kind}. */
-    public void note(long atMs, EventLevel level, String kind, String text) {
+    /** Adds an event; {@code code} as in {@link Event#code}. */
+    public void add(long atMs, EventLevel level, String code, String text) {
         number++;
-        events.add(new Event(number, atMs, level, kind, SafeText.of(text, LONGEST_TEXT)));
-        if (events.size() > KEPT) {
+        events.add(new Event(number, atMs, level, code, SafeText.of(text, MAX_TEXT_LENGTH)));
+        if (events.size() > MAX_ENTRIES) {
             events.remove();
         }
     }
@@ -52,11 +43,10 @@ public final class EventLog {
         return number;
     }
 
-    /** Returns the current events. */
     public Snapshot snapshot() {
-        if (snapshot.version() != number) {
+        if (snapshot.version != number) {
             snapshot = new Snapshot(number,
-                    Collections.unmodifiableList(new ArrayList<Event>(events)));
+                    Collections.unmodifiableList(new ArrayList<>(events)));
         }
         return snapshot;
     }

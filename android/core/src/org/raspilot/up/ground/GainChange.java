@@ -4,29 +4,15 @@ import java.math.BigDecimal;
 
 /** One gain that differs between two sets. Immutable. */
 public final class GainChange {
-    private final GainKey key;
-    private final Double before;
-    private final double after;
+    public final GainKey key;
+    /** Its value before; null: not known. */
+    public final Double before;
+    public final double after;
 
     GainChange(GainKey key, Double before, double after) {
         this.key = key;
         this.before = before;
         this.after = after;
-    }
-
-    /** Returns which gain. */
-    public GainKey key() {
-        return key;
-    }
-
-    /** Returns its value before; null: not known. */
-    public Double before() {
-        return before;
-    }
-
-    /** Returns its value after. */
-    public double after() {
-        return after;
     }
 
     /** Returns {@code rate roll P 3 to 2.4}. */

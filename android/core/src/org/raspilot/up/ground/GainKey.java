@@ -14,7 +14,6 @@ public final class GainKey {
     public static final List<String> LOOPS = list("ratePIDs", "stabPIDs", "navPIDs");
     /** The axes under their names on the wire. */
     public static final List<String> AXES = list("ailerons", "elevator", "rudder");
-    /** The terms. */
     public static final List<String> TERMS = list("p", "i", "d");
     /** All 27 gains: loops, in them axes, in them terms. */
     public static final List<GainKey> ALL = all();
@@ -85,11 +84,11 @@ public final class GainKey {
             return null;
         }
         final Gains gains =
-                axis == 0 ? inLoop.ailerons() : axis == 1 ? inLoop.elevator() : inLoop.rudder();
+                axis == 0 ? inLoop.ailerons : axis == 1 ? inLoop.elevator : inLoop.rudder;
         if (gains == null) {
             return null;
         }
-        return term == 0 ? gains.p() : term == 1 ? gains.i() : gains.d();
+        return term == 0 ? gains.p : term == 1 ? gains.i : gains.d;
     }
 
     @Override
@@ -98,11 +97,11 @@ public final class GainKey {
     }
 
     private LoopGains loopOf(GainSet set) {
-        return loop == 0 ? set.rate() : loop == 1 ? set.stabilize() : set.navigation();
+        return loop == 0 ? set.rate : loop == 1 ? set.stabilize : set.navigation;
     }
 
     private static List<GainKey> all() {
-        final List<GainKey> keys = new ArrayList<GainKey>();
+        final List<GainKey> keys = new ArrayList<>();
         for (int each = 0; each < 27; each++) {
             keys.add(new GainKey(each / 9, each / 3 % 3, each % 3));
         }
@@ -110,7 +109,7 @@ public final class GainKey {
     }
 
     private static List<String> list(String... words) {
-        final List<String> copy = new ArrayList<String>();
+        final List<String> copy = new ArrayList<>();
         Collections.addAll(copy, words);
         return Collections.unmodifiableList(copy);
     }

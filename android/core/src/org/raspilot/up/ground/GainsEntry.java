@@ -5,11 +5,14 @@ import org.raspilot.up.commands.GainSet;
 
 /** One set of gains that was sent, and its outcome. Immutable. */
 public final class GainsEntry {
-    private final int number;
-    private final long atMs;
-    private final GainSet before;
-    private final GainSet after;
-    private final Answer answer;
+    /** Its number, counting up from 1. */
+    public final int number;
+    /** When its answer came, by the loop's clock, ms. */
+    public final long atMs;
+    /** What flew before; null: not known. */
+    public final GainSet before;
+    public final GainSet after;
+    public final Answer answer;
 
     GainsEntry(int number, long atMs, GainSet before, GainSet after, Answer answer) {
         this.number = number;
@@ -19,33 +22,8 @@ public final class GainsEntry {
         this.answer = answer;
     }
 
-    /** Returns its number, counting up from 1. */
-    public int number() {
-        return number;
-    }
-
-    /** Returns when its answer came, by the loop's clock, ms. */
-    public long atMs() {
-        return atMs;
-    }
-
-    /** Returns what flew before; null: not known. */
-    public GainSet before() {
-        return before;
-    }
-
-    /** Returns the set that was sent. */
-    public GainSet after() {
-        return after;
-    }
-
-    /** Returns the outcome. */
-    public Answer answer() {
-        return answer;
-    }
-
     /** Returns the gains in which the two differ. */
     public List<GainChange> changes() {
-        return GainsDesk.difference(before, after);
+        return GainsService.difference(before, after);
     }
 }

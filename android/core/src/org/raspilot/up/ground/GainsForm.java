@@ -12,7 +12,7 @@ import org.raspilot.up.wire.SafeText;
 /** Reads the gains that a person has typed, and judges sets before they are sent. */
 public final class GainsForm {
     private static final Pattern NUMBER = Pattern.compile("[0-9]{1,6}([.,][0-9]{0,12})?");
-    private static final int LONGEST_SHOWN = 20;
+    private static final int MAX_SHOWN_LENGTH = 20;
 
     private GainsForm() {
     }
@@ -27,7 +27,7 @@ public final class GainsForm {
      * @throws InvalidCommandException with one sentence that names the gain
      */
     public static GainSet read(Map<String, String> cells) {
-        final Map<GainKey, Double> values = new HashMap<GainKey, Double>();
+        final Map<GainKey, Double> values = new HashMap<>();
         for (GainKey key : GainKey.ALL) {
             final String typed = cells.get(key.path());
             if (typed != null && !typed.trim().isEmpty()) {
@@ -45,7 +45,7 @@ public final class GainsForm {
 
     /** Returns the initial texts of a form; a gain that the set lacks is empty. */
     public static Map<String, String> cells(GainSet set) {
-        final Map<String, String> cells = new HashMap<String, String>();
+        final Map<String, String> cells = new HashMap<>();
         for (GainKey key : GainKey.ALL) {
             final Double value = key.of(set);
             cells.put(key.path(), value == null ? "" : GainChange.number(value));
@@ -55,11 +55,11 @@ public final class GainsForm {
 
     /** Returns a sentence why a set may not be sent, or null. */
     public static String fault(GainSet set) {
-        if (set.rate() == null || set.stabilize() == null) {
-            return "the set is not whole: the " + (set.rate() == null ? "rate" : "stabilize")
+        if (set.rate == null || set.stabilize == null) {
+            return "the set is not whole: the " + (set.rate == null ? "rate" : "stabilize")
                     + " loop is missing";
         }
-        if ((set.rate().rudder() == null) != (set.stabilize().rudder() == null)) {
+        if ((set.rate.rudder == null) != (set.stabilize.rudder == null)) {
             return "the set is not whole: yaw must be in the rate and in the stabilize loop, or in"
                     + " neither";
         }
@@ -70,7 +70,7 @@ public final class GainsForm {
                 if (!key.isRudder() && key.isIn(set)) {
                     return "the set is not whole: " + key.words() + " is missing";
                 }
-            } else if (!(value >= 0 && value <= Gains.GREATEST)) {
+            } else if (!(value >= 0 && value <= Gains.MAX)) {
                 // Written so that NaN is refused, too.
                 return key.words() + " must be 0 to 50, not " + GainChange.number(value);
             }
@@ -85,14 +85,14 @@ public final class GainsForm {
             return null;
         }
         final double value = Double.parseDouble(trimmed.replace(',', '.'));
-        return value <= Gains.GREATEST ? Double.valueOf(value) : null;
+        return value <= Gains.MAX ? Double.valueOf(value) : null;
     }
 
     private static double number(GainKey key, String typed) {
         final Double value = number(typed);
         if (value == null) {
             throw new InvalidCommandException(key.words() + " must be a number, 0 to 50, not "
-                    + SafeText.of(typed, LONGEST_SHOWN));
+                    + SafeText.of(typed, MAX_SHOWN_LENGTH));
         }
         return value;
     }

@@ -3,8 +3,8 @@ package org.raspilot.up.ground;
 import java.util.Random;
 import org.raspilot.up.loop.Cancellable;
 import org.raspilot.up.loop.Loop;
-import org.raspilot.up.net.FixedPlace;
-import org.raspilot.up.net.Place;
+import org.raspilot.up.net.FixedEndpoint;
+import org.raspilot.up.net.Endpoint;
 import org.raspilot.up.net.UpSocket;
 import org.raspilot.up.net.UpSocketListener;
 import org.raspilot.up.net.UpSocketSettings;
@@ -14,7 +14,7 @@ import org.raspilot.up.wire.GeneralMessage;
 import org.raspilot.up.wire.HelloAnswer;
 import org.raspilot.up.wire.MalformedException;
 import org.raspilot.up.wire.SafeText;
-import org.raspilot.up.wire.Seat;
+import org.raspilot.up.wire.ProxyRole;
 
 /**
  * The link to the aircraft: sends the hello, keeps the seat and its token, reconnects after losses.
@@ -22,23 +22,22 @@ import org.raspilot.up.wire.Seat;
  * <p>Source: docs/protocols.md 9.
  */
 final class GroundLink implements UpSocketListener {
-    /** Timeout of the hello, ms. */
     static final long HELLO_TIMEOUT_MS = 5000;
     /** By then, ms, a proxy has reported who commands; an aircraft's own listener never does. */
     static final long HOLDER_TOLD_MS = 1000;
 
     private static final int CONNECT_TIMEOUT_MS = 5000;
     private static final int HEARTBEAT_MS = 1000;
-    private static final int FIRST_RETRY_MS = 500;
-    private static final int LAST_RETRY_MS = 2000;
+    private static final int INITIAL_RETRY_MS = 500;
+    private static final int MAX_RETRY_MS = 2000;
 
     private final Loop loop;
     private final GroundSettings settings;
     private final LinkListener listener;
     private final UpSocket socket;
-    private final LinkFacts facts = new LinkFacts();
-    private final SeatClaim claim;
-    private final QuietWatch quiet;
+    private final LinkStatus facts = new LinkStatus();
+    private final ControlLease claim;
+    private final SilenceWatchdog quiet;
     private boolean isGreeted;
     private long connectingMs;
     private long connectTookMs;
@@ -51,23 +50,23 @@ final class GroundLink implements UpSocketListener {
         this.loop = loop;
         this.settings = settings;
         this.listener = listener;
-        claim = new SeatClaim(settings, tokens, facts);
-        quiet = new QuietWatch(loop, new Quiet());
+        claim = new ControlLease(settings, tokens, facts);
+        quiet = new SilenceWatchdog(loop, new Quiet());
         final UpSocketSettings lines = UpSocketSettings.lines()
                 .withConnectTimeoutMs(CONNECT_TIMEOUT_MS)
-                .withRetryMs(FIRST_RETRY_MS, LAST_RETRY_MS);
+                .withRetryMs(INITIAL_RETRY_MS, MAX_RETRY_MS);
         socket = new UpSocket(loop,
-                new FixedPlace(new Place(settings.host(), settings.port(), 0)), this,
+                new FixedEndpoint(new Endpoint(settings.host, settings.port, 0)), this,
                 // A thesis peer does not support heartbeats.
-                settings.isDirect() ? lines : lines.withHeartbeatMs(HEARTBEAT_MS), random);
+                settings.isDirect ? lines : lines.withHeartbeatMs(HEARTBEAT_MS), random);
     }
 
-    LinkFacts facts() {
+    LinkStatus facts() {
         return facts;
     }
 
     long tooLong() {
-        return socket.counters().tooLong();
+        return socket.counters().tooLong;
     }
 
     /** Returns whether messages can go now. */
@@ -79,10 +78,10 @@ final class GroundLink implements UpSocketListener {
         if (facts.state != LinkState.STOPPED) {
             return;
         }
-        claim.begin();
+        claim.reset();
         facts.failures = 0;
         facts.rejection = "";
-        facts.become(LinkState.CONNECTING, loop.nowMs(), "");
+        facts.enter(LinkState.CONNECTING, loop.nowMs(), "");
         socket.start();
         listener.onLink();
     }
@@ -109,48 +108,48 @@ final class GroundLink implements UpSocketListener {
         quiet.expectAnotherPeriod();
     }
 
-    boolean requestSeat() {
-        if (settings.isDirect() || facts.state == LinkState.STOPPED) {
+    boolean requestControl() {
+        if (settings.isDirect || facts.state == LinkState.STOPPED) {
             return false;
         }
-        claim.want(Seat.COMMAND);
+        claim.setWanted(ProxyRole.COMMAND);
         if (!isOpen()) {
             // Without a link the seat cannot be requested; the next hello requests it.
             return false;
         }
-        final boolean isUntold = facts.seat != Seat.COMMAND && !facts.isHolderKnown
+        final boolean isUntold = facts.role != ProxyRole.COMMAND && !facts.isOwnerKnown
                 && loop.nowMs() - facts.sinceMs >= HOLDER_TOLD_MS;
         if (isUntold) {
             // Only a new hello gives the seat of an aircraft's own listener.
-            return sayHelloAnew();
+            return reconnectWithHello();
         }
         return send(ControlLine.of(ControlLine.Kind.SEAT_REQUEST).toLine());
     }
 
-    void dismissAsk() {
-        if (facts.askedBy != null) {
-            facts.askedBy = null;
+    void dismissRequest() {
+        if (facts.requestedBy != null) {
+            facts.requestedBy = null;
             listener.onLink();
         }
     }
 
-    boolean giveSeat(int to) {
-        return holds() && to >= 0
+    boolean giveControl(int to) {
+        return ownsControl() && to >= 0
                 && send(ControlLine.of(ControlLine.Kind.SEAT_GIVE, to).toLine());
     }
 
-    boolean releaseSeat() {
-        if (!holds()) {
+    boolean releaseControl() {
+        if (!ownsControl()) {
             return false;
         }
-        claim.want(Seat.LISTEN);
-        if (!facts.isHolderKnown) {
+        claim.setWanted(ProxyRole.LISTEN);
+        if (!facts.isOwnerKnown) {
             claim.dropToken();
-            return sayHelloAnew();
+            return reconnectWithHello();
         }
-        facts.isLeft = send(ControlLine.of(ControlLine.Kind.SEAT_RELEASE).toLine());
+        facts.isReleased = send(ControlLine.of(ControlLine.Kind.SEAT_RELEASE).toLine());
         listener.onLink();
-        return facts.isLeft;
+        return facts.isReleased;
     }
 
     @Override
@@ -158,28 +157,25 @@ final class GroundLink implements UpSocketListener {
         final long nowMs = loop.nowMs();
         connectTookMs = nowMs - connectingMs;
         quiet.start();
-        isGreeted = settings.isDirect();
+        isGreeted = settings.isDirect;
         if (isGreeted) {
             opened(connectTookMs);
             return;
         }
         helloMs = nowMs;
-        helloTimer = loop.schedule(HELLO_TIMEOUT_MS, new Runnable() {
-            @Override
-            public void run() {
-                socket.drop("no answer to the hello within " + HELLO_TIMEOUT_MS / 1000
-                        + " s: is this the ground port of a Ground Station Proxy?"
-                        + " (a direct link says no hello)");
-            }
+        helloTimer = loop.schedule(HELLO_TIMEOUT_MS, () -> {
+            socket.drop("no answer to the hello within " + HELLO_TIMEOUT_MS / 1000
+                    + " s: is this the ground port of a Ground Station Proxy?"
+                    + " (a direct link says no hello)");
         });
         socket.send(claim.hello().toLine());
     }
 
     @Override
     public void onReceived(UpSocket from, byte[] bytes, int length) {
-        quiet.heard();
+        quiet.onLine();
         if (ControlLine.isControlLine(bytes, length)) {
-            if (settings.isDirect()) {
+            if (settings.isDirect) {
                 facts.strangeControl++;
             } else if (isGreeted) {
                 onControl(ControlLine.read(bytes, length));
@@ -212,25 +208,25 @@ final class GroundLink implements UpSocketListener {
             return;
         }
         judged = status;
-        if (status.state() == UpSocketStatus.State.WAITING) {
+        if (status.state == UpSocketStatus.State.WAITING) {
             facts.failures++;
             if (facts.state != LinkState.WAITING) {
-                close(LinkState.WAITING, status.sentence());
+                close(LinkState.WAITING, status.sentence);
             }
-        } else if (status.state() == UpSocketStatus.State.CONNECTING
-                || status.state() == UpSocketStatus.State.FINDING) {
+        } else if (status.state == UpSocketStatus.State.CONNECTING
+                || status.state == UpSocketStatus.State.FINDING) {
             connectingMs = loop.nowMs();
             facts.state = LinkState.CONNECTING;
         }
         listener.onLink();
     }
 
-    private boolean holds() {
-        return isOpen() && facts.seat == Seat.COMMAND && !facts.isLeft;
+    private boolean ownsControl() {
+        return isOpen() && facts.role == ProxyRole.COMMAND && !facts.isReleased;
     }
 
-    private boolean sayHelloAnew() {
-        socket.drop("another seat is asked for");
+    private boolean reconnectWithHello() {
+        socket.drop("another role is requested");
         socket.reconnectNow();
         return true;
     }
@@ -239,10 +235,10 @@ final class GroundLink implements UpSocketListener {
         if (answer == null) {
             facts.strangeControl++;
         } else if (!answer.isAccepted()) {
-            facts.rejection = answer.code();
-            socket.drop("the proxy refuses: " + SafeText.of(answer.reason(), 300) + " ("
-                    + answer.code() + ")");
-        } else if (answer.seat() == Seat.AIR) {
+            facts.rejection = answer.code;
+            socket.drop("the proxy refuses: " + SafeText.of(answer.reason, 300) + " ("
+                    + answer.code + ")");
+        } else if (answer.role == ProxyRole.AIR) {
             facts.strangeControl++;
         } else {
             isGreeted = true;
@@ -269,18 +265,18 @@ final class GroundLink implements UpSocketListener {
             facts.malformed++;
             return;
         }
-        quiet.heardMessage();
+        quiet.onMessage();
         listener.onMessage(message);
     }
 
     private void opened(long roundTripMs) {
         endHello();
-        facts.become(LinkState.OPEN, loop.nowMs(), "");
-        facts.roundTripMs = settings.isDirect() ? null : Double.valueOf(roundTripMs);
+        facts.enter(LinkState.OPEN, loop.nowMs(), "");
+        facts.roundTripMs = settings.isDirect ? null : Double.valueOf(roundTripMs);
         facts.rejection = "";
         facts.failures = 0;
         facts.connections++;
-        if (settings.isDirect()) {
+        if (settings.isDirect) {
             listener.onOpened();
             listener.onLink();
         }
@@ -297,10 +293,10 @@ final class GroundLink implements UpSocketListener {
         quiet.stop();
         isGreeted = false;
         facts.roundTripMs = null;
-        facts.become(state, loop.nowMs(), reason);
+        facts.enter(state, loop.nowMs(), reason);
     }
 
-    private final class Quiet implements QuietWatch.Owner {
+    private final class Quiet implements SilenceWatchdog.Owner {
         @Override
         public Boolean isAircraftOnline() {
             return facts.isAircraftOnline;

@@ -2,7 +2,7 @@ package org.raspilot.up.ground;
 
 import org.raspilot.up.wire.Hello;
 import org.raspilot.up.wire.SafeText;
-import org.raspilot.up.wire.Seat;
+import org.raspilot.up.wire.ProxyRole;
 
 /** The peer of a ground device and the role it requests; immutable and valid. */
 public final class GroundSettings {
@@ -13,13 +13,15 @@ public final class GroundSettings {
     /** The default aircraft of a proxy. */
     public static final String DEFAULT_AIRCRAFT = "default";
 
-    private static final int LONGEST_HOST = 253;
+    private static final int MAX_HOST_LENGTH = 253;
 
-    private final String host;
-    private final int port;
-    private final String aircraft;
-    private final Seat seat;
-    private final boolean isDirect;
+    /** The name or address of the other side. */
+    public final String host;
+    public final int port;
+    public final String aircraft;
+    /** The seat that is requested first, COMMAND or LISTEN. */
+    public final ProxyRole role;
+    public final boolean isDirect;
 
     /**
      * Creates settings.
@@ -31,18 +33,19 @@ public final class GroundSettings {
      * @param isDirect send no hello: an aircraft's listener in the same network
      * @throws IllegalArgumentException with the sentence of {@link #fault}
      */
-    public GroundSettings(String host, int port, String aircraft, Seat seat, boolean isDirect) {
+    public GroundSettings(String host, int port, String aircraft, ProxyRole seat,
+            boolean isDirect) {
         final String fault = fault(host, port, aircraft);
         if (fault != null) {
             throw new IllegalArgumentException(fault);
         }
-        if (seat != Seat.COMMAND && seat != Seat.LISTEN) {
+        if (seat != ProxyRole.COMMAND && seat != ProxyRole.LISTEN) {
             throw new IllegalArgumentException("a ground commands or listens");
         }
         this.host = host.trim();
         this.port = port;
         this.aircraft = aircraft;
-        this.seat = seat;
+        this.role = seat;
         this.isDirect = isDirect;
     }
 
@@ -52,7 +55,7 @@ public final class GroundSettings {
         if (name.isEmpty()) {
             return "the host is empty";
         }
-        if (name.length() > LONGEST_HOST || !name.matches("[A-Za-z0-9_.:%-]+")) {
+        if (name.length() > MAX_HOST_LENGTH || !name.matches("[A-Za-z0-9_.:%-]+")) {
             return "the host is neither a name nor an address: " + SafeText.of(name, 60);
         }
         if (port < 1 || port > 65535) {
@@ -62,31 +65,6 @@ public final class GroundSettings {
             return "the aircraft's name must be 1 to 32 letters, digits, '_', '.' or '-'";
         }
         return null;
-    }
-
-    /** Returns the name or address of the other side. */
-    public String host() {
-        return host;
-    }
-
-    /** Returns its TCP port. */
-    public int port() {
-        return port;
-    }
-
-    /** Returns which of the proxy's aircraft. */
-    public String aircraft() {
-        return aircraft;
-    }
-
-    /** Returns the seat that is requested first, COMMAND or LISTEN. */
-    public Seat seat() {
-        return seat;
-    }
-
-    /** Returns whether the hello is omitted. */
-    public boolean isDirect() {
-        return isDirect;
     }
 
     /** Returns host and port as people write them. */

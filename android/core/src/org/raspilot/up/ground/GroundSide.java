@@ -1,11 +1,12 @@
 package org.raspilot.up.ground;
 
+import java.util.Locale;
 import java.util.Random;
 import org.raspilot.up.commands.BaseCommand;
 import org.raspilot.up.commands.CommandExecutor;
+import org.raspilot.up.commands.Commands;
 import org.raspilot.up.commands.GainSet;
 import org.raspilot.up.commands.InvalidCommandException;
-import org.raspilot.up.commands.TelemetryCommand;
 import org.raspilot.up.loop.Cancellable;
 import org.raspilot.up.loop.Loop;
 import org.raspilot.up.wire.GeneralMessage;
@@ -26,17 +27,17 @@ public final class GroundSide implements TelemetrySource {
     private final GroundListener listener;
     private final GroundLink link;
     private final TelemetryStream stream = new TelemetryStream();
-    private final SeenBeacons beacons = new SeenBeacons();
-    private final Answers answers;
-    private final CommandDesk desk;
-    private final GainsDesk gains;
-    private final HomeSearch home = new HomeSearch();
+    private final ShownBeacons beacons = new ShownBeacons();
+    private final PendingCommands answers;
+    private final CommandService desk;
+    private final GainsService gains;
+    private final HomeEstimator home = new HomeEstimator();
     private final Track track = new Track();
     private final EventLog events = new EventLog();
     private final Alarms alarms = new Alarms();
-    private final Judge judge = new Judge(events, alarms);
-    private final Bulletin bulletin;
-    private final SilenceTimer silence;
+    private final EventMonitor judge = new EventMonitor(events, alarms);
+    private final SnapshotPublisher publisher;
+    private final StaleTimer silence;
     private Cancellable tick;
 
     /**
@@ -52,29 +53,20 @@ public final class GroundSide implements TelemetrySource {
         this.settings = settings;
         this.executor = executor;
         this.listener = listener;
-        bulletin = new Bulletin(listener);
-        silence = new SilenceTimer(loop, new Runnable() {
-            @Override
-            public void run() {
-                look(true);
-            }
-        });
+        publisher = new SnapshotPublisher(listener);
+        silence = new StaleTimer(loop, () -> check(true));
         link = new GroundLink(loop, settings, tokens, new Links(), random);
-        answers = new Answers(loop, random);
-        desk = new CommandDesk(loop, settings, link, answers, beacons);
-        gains = new GainsDesk(loop, new GainsDesk.Sender() {
-            @Override
-            public void send(BaseCommand command, Long shownBeacon, AnswerListener answered) {
-                transmit(command, shownBeacon, answered);
-            }
-        });
+        answers = new PendingCommands(loop, random);
+        desk = new CommandService(loop, settings, link, answers, beacons);
+        gains = new GainsService(loop, (command, shownBeacon, answered) ->
+                transmit(command, shownBeacon, answered));
     }
 
     /** Starts to connect, and reconnects after each loss; no effect when started already. */
     public void start() {
         if (tick == null) {
-            judge.forget();
-            stream.forget();
+            judge.reset();
+            stream.reset();
             tick();
             link.start();
         }
@@ -87,8 +79,8 @@ public final class GroundSide implements TelemetrySource {
             tick = null;
             silence.cancel();
             link.stop();
-            judge.forget();
-            tellChanged();
+            judge.reset();
+            reportChanges();
         }
     }
 
@@ -97,22 +89,21 @@ public final class GroundSide implements TelemetrySource {
         link.reconnectNow();
     }
 
-    /** Returns the current status. */
     public GroundStatus status() {
         final long nowMs = loop.nowMs();
         final Telemetry newest = stream.newest();
         final GroundStatus.Draft draft = new GroundStatus.Draft();
         draft.link = link.facts();
-        draft.isDirect = settings.isDirect();
+        draft.isDirect = settings.isDirect;
         draft.rateHz = stream.rateHz(nowMs);
         draft.isSilent = newest.isSilent(nowMs);
-        draft.isLate = newest.age().isLate(nowMs);
+        draft.isLate = newest.age.isLate(nowMs);
         draft.role = newest.text("ground.role");
         draft.tuneInFlight = newest.flag("ground.tune_in_flight");
         draft.home = home.home();
         draft.counters = new GroundCounters(draft.link.connections, stream.frames(),
                 stream.lost(), draft.link.malformed, link.tooLong(), draft.link.strangeControl,
-                answers.strange());
+                answers.unmatched());
         return new GroundStatus(draft);
     }
 
@@ -126,29 +117,26 @@ public final class GroundSide implements TelemetrySource {
         return track;
     }
 
-    /** Returns what happened. */
     public EventLog events() {
         return events;
     }
 
-    /** Returns the active alarms. */
     public Alarms alarms() {
         return alarms;
     }
 
-    /** Returns the gains. */
-    public GainsDesk gains() {
+    public GainsService gains() {
         return gains;
     }
 
     /** Called when the screen has drawn the frame with that beacon; null: without one. */
-    public void seen(Long beacon) {
-        beacons.seen(beacon);
+    public void onShown(Long beacon) {
+        beacons.onShown(beacon);
     }
 
-    /** Sends a Command with the newest beacon that was {@link #seen}. */
+    /** Sends a Command with the newest beacon that was {@link #onShown}. */
     public void send(BaseCommand command, AnswerListener answered) {
-        send(command, beacons.newestSeen(), answered);
+        send(command, beacons.newestShown(), answered);
     }
 
     /**
@@ -160,7 +148,7 @@ public final class GroundSide implements TelemetrySource {
     public void send(BaseCommand command, Long shownBeacon, AnswerListener answered) {
         final GainSet set;
         try {
-            set = GainsDesk.gainsOf(command);
+            set = GainsService.gainsOf(command);
         } catch (InvalidCommandException fault) {
             answered.onAnswer(Answer.refused(command.name(), "invalid", fault.getMessage()));
             return;
@@ -170,134 +158,129 @@ public final class GroundSide implements TelemetrySource {
         } else {
             gains.set(set, shownBeacon, answered);
         }
-        tellChanged();
+        reportChanges();
     }
 
     /** Requests the seat; a free one is granted immediately. Returns false without a link. */
-    public boolean requestSeat() {
-        return link.requestSeat();
+    public boolean requestControl() {
+        return link.requestControl();
     }
 
     /** Hands the seat to the listener with that number. False: it is not ours. */
-    public boolean giveSeat(int to) {
-        return link.giveSeat(to);
+    public boolean giveControl(int to) {
+        return link.giveControl(to);
     }
 
     /** Leaves the seat free. False: it is not ours. */
-    public boolean releaseSeat() {
-        return link.releaseSeat();
+    public boolean releaseControl() {
+        return link.releaseControl();
     }
 
     /** Discards the request for the seat: the pilot keeps it. */
-    public void dismissSeatAsk() {
-        link.dismissAsk();
+    public void dismissControlRequest() {
+        link.dismissRequest();
     }
 
     private void transmit(final BaseCommand command, Long shownBeacon,
             final AnswerListener answered) {
         final GainSet set = command.data().containsKey("pids")
-                ? GainsDesk.gainsOf(command) : null;
-        final String words = set == null ? CommandWords.of(command) : CommandWords.ofGains(
-                GainsDesk.difference(gains.snapshot().flying(), set));
-        final boolean isQuiet = Answers.isRequest(command);
-        desk.send(command, shownBeacon, new AnswerListener() {
-            @Override
-            public void onAnswer(Answer answer) {
-                if (answer.outcome() != Answer.Outcome.REFUSED && !(isQuiet && answer.isAck())) {
-                    events.note(loop.nowMs(),
-                            answer.isAck() ? EventLevel.INFO : EventLevel.WARNING,
-                            set == null ? "command" : "gains",
-                            CommandWords.outcome(words, answer));
-                }
-                answered.onAnswer(answer);
-                tellChanged();
+                ? GainsService.gainsOf(command) : null;
+        final String words = set == null ? CommandTexts.of(command) : CommandTexts.ofGains(
+                GainsService.difference(gains.snapshot().flying, set));
+        final boolean isQuiet = PendingCommands.isRequest(command);
+        desk.send(command, shownBeacon, answer -> {
+            if (answer.outcome != Answer.Outcome.REFUSED && !(isQuiet && answer.isAck())) {
+                events.add(loop.nowMs(),
+                        answer.isAck() ? EventLevel.INFO : EventLevel.WARNING,
+                        (set == null ? "command_" : "gains_")
+                                + answer.outcome.name().toLowerCase(Locale.ROOT),
+                        CommandTexts.outcome(words, answer));
             }
+            answered.onAnswer(answer);
+            reportChanges();
         });
     }
 
     private void onFrame(GeneralMessage message) {
         final long nowMs = loop.nowMs();
-        final Telemetry frame = stream.take(message, nowMs);
+        final Telemetry frame = stream.receive(message, nowMs);
         beacons.onFrame(frame);
-        home.take(frame);
-        track.take(frame, home.home(), nowMs);
-        silence.watch(frame, nowMs);
+        home.update(frame);
+        track.update(frame, home.home(), nowMs);
+        silence.restart(frame, nowMs);
         judge.onFrame(frame, status(), nowMs);
-        executor.executeCommand(new TelemetryCommand(message));
+        executor.executeCommand(new BaseCommand(message));
         listener.onTelemetry(frame);
-        if (bulletin.isNews(frame, nowMs)) {
-            tellStatus();
+        if (publisher.isChanged(frame, nowMs)) {
+            reportStatus();
         }
-        if (desk.standing() == SeatStanding.OURS && !frame.isSilent(nowMs)) {
-            gains.onMoment();
+        if (desk.standing() == ControlStatus.OURS && !frame.isSilent(nowMs)) {
+            gains.onTick();
         }
-        tellChanged();
+        reportChanges();
     }
 
     private void tick() {
-        tick = loop.schedule(TICK_MS, new Runnable() {
-            @Override
-            public void run() {
-                tick();
-                look(bulletin.isDue(loop.nowMs()));
-            }
+        tick = loop.schedule(TICK_MS, () -> {
+            tick();
+            check(publisher.isDue(loop.nowMs()));
         });
     }
 
     /** Updates the alarms and events and reports the changes. */
-    private void look(boolean isStatusDue) {
-        judge.onMoment(stream.newest(), status(), loop.nowMs());
+    private void check(boolean isStatusDue) {
+        judge.onTick(stream.newest(), status(), loop.nowMs());
         if (isStatusDue) {
-            tellStatus();
+            reportStatus();
         }
-        tellChanged();
+        reportChanges();
     }
 
-    private void tellStatus() {
-        bulletin.tell(status(), loop.nowMs());
+    private void reportStatus() {
+        publisher.reportStatus(status(), loop.nowMs());
     }
 
-    private void tellChanged() {
-        bulletin.tellChanged(track.version() + events.version() + alarms.snapshot().version()
+    private void reportChanges() {
+        publisher.reportChanges(track.version() + events.version() + alarms.snapshot().version
                 + gains.version());
     }
 
     private final class Links implements LinkListener {
         @Override
         public void onMessage(GeneralMessage message) {
-            if (message.name().equals(Telemetry.NAME)) {
+            if (message.name.equals(Telemetry.NAME)) {
                 onFrame(message);
                 return;
             }
-            if (message.name().equals(GainsDesk.VALUES) && !gains.told(message.data())) {
-                events.note(loop.nowMs(), EventLevel.WARNING, "gains",
-                        "the aircraft told gains that are no whole set");
+            if (message.name.equals(GainsService.VALUES) && !gains.receive(message.data)) {
+                events.add(loop.nowMs(), EventLevel.WARNING, "gains_invalid",
+                        "the aircraft sent an incomplete set of gains");
             }
-            answers.take(message);
+            answers.receive(message);
             executor.executeCommand(new BaseCommand(message));
-            tellChanged();
+            reportChanges();
         }
 
         @Override
         public void onOpened() {
             stream.onRoundTrip(link.facts().roundTripMs);
-            gains.want();
+            gains.requestAgain();
         }
 
         @Override
         public void onLost(String reason) {
             beacons.onLost();
             silence.cancel();
-            if (stream.newest() != Telemetry.NOTHING) {
+            if (stream.newest() != Telemetry.EMPTY) {
                 listener.onTelemetry(stream.onLost());
             }
-            answers.lost();
+            answers.onLost();
         }
 
         @Override
         public void onLink() {
             judge.onLink(status(), loop.nowMs());
-            look(true);
+            check(true);
         }
     }
 }

@@ -5,7 +5,7 @@ import java.util.Map;
 
 /** Stores resume tokens until the program ends. Only on the loop. */
 public final class MemoryTokenStore implements TokenStore {
-    private final Map<String, String> tokens = new HashMap<String, String>();
+    private final Map<String, String> tokens = new HashMap<>();
 
     @Override
     public String load(String key) {
@@ -18,7 +18,7 @@ public final class MemoryTokenStore implements TokenStore {
     }
 
     @Override
-    public void forget(String key) {
+    public void remove(String key) {
         tokens.remove(key);
     }
 }

@@ -14,21 +14,23 @@ import org.raspilot.up.wire.SafeText;
  * are those of docs/protocols.md 6. Source: thesis 4.1.5.
  */
 public final class Telemetry {
-    /** The Command that brings it. */
     public static final String NAME = "up.telemetry.update";
     /** The state before the first frame: empty, and everything stale. */
-    public static final Telemetry NOTHING = new Telemetry(
-            Collections.<String, Object>emptyMap(), null, 0, Age.unknown());
+    public static final Telemetry EMPTY = new Telemetry(
+            Collections.emptyMap(), null, 0, Age.unknown());
 
-    private static final double GREATEST = 1e12;
+    private static final double MAX_NUMBER = 1e12;
     private static final int SHORT_TEXT = 40;
-    private static final int MOST_TEXTS = 32;
-    private static final int LONGEST_OF_TEXTS = 80;
+    private static final int MAX_TEXTS = 32;
+    private static final int MAX_LISTED_TEXT_LENGTH = 80;
 
-    private final Map<String, Object> tree;
-    private final Long beacon;
-    private final long receivedMs;
-    private final Age age;
+    /** All fields as JSON values, unmodifiable at each depth. */
+    public final Map<String, Object> tree;
+    /** The aircraft's number of the frame; null: it has none. */
+    public final Long beacon;
+    /** The loop's clock when it came, ms. */
+    public final long receivedMs;
+    public final Age age;
 
     private Telemetry(Map<String, Object> tree, Long beacon, long receivedMs, Age age) {
         this.tree = tree;
@@ -48,7 +50,7 @@ public final class Telemetry {
     public static Telemetry of(Map<String, ?> data, Long beacon, long receivedMs, long wayMs) {
         final Map<String, Object> tree = frozen(data);
         final Telemetry bare = new Telemetry(tree, beacon, receivedMs, Age.unknown());
-        final Map<String, Double> ages = new LinkedHashMap<String, Double>();
+        final Map<String, Double> ages = new LinkedHashMap<>();
         final Map<String, Object> told = bare.object("age_ms");
         if (told != null) {
             for (Map.Entry<String, Object> each : told.entrySet()) {
@@ -62,33 +64,13 @@ public final class Telemetry {
     }
 
     /** Returns the same frame with another transit time. */
-    Telemetry ofWay(long wayMs) {
-        return new Telemetry(tree, beacon, receivedMs, age.ofWay(wayMs));
+    Telemetry withTransit(long wayMs) {
+        return new Telemetry(tree, beacon, receivedMs, age.withTransit(wayMs));
     }
 
     /** Returns the same frame after its link was lost: everything in it is stale. */
-    Telemetry ofLostLink() {
-        return new Telemetry(tree, beacon, receivedMs, age.ofLostLink());
-    }
-
-    /** Returns all fields as JSON values, unmodifiable at each depth. */
-    public Map<String, Object> tree() {
-        return tree;
-    }
-
-    /** Returns the aircraft's number of the frame; null: it has none. */
-    public Long beacon() {
-        return beacon;
-    }
-
-    /** Returns the loop's clock when it came, ms. */
-    public long receivedMs() {
-        return receivedMs;
-    }
-
-    /** Returns how old it is. */
-    public Age age() {
-        return age;
+    Telemetry withLostLink() {
+        return new Telemetry(tree, beacon, receivedMs, age.withLostLink());
     }
 
     /** Returns the age of the frame including transit, ms; null without a frame. */
@@ -162,10 +144,10 @@ public final class Telemetry {
         if (found == null) {
             return null;
         }
-        final List<String> texts = new ArrayList<String>();
+        final List<String> texts = new ArrayList<>();
         for (Object each : found) {
-            if (each instanceof String && texts.size() < MOST_TEXTS) {
-                texts.add(SafeText.of((String) each, LONGEST_OF_TEXTS));
+            if (each instanceof String && texts.size() < MAX_TEXTS) {
+                texts.add(SafeText.of((String) each, MAX_LISTED_TEXT_LENGTH));
             }
         }
         return Collections.unmodifiableList(texts);
@@ -206,11 +188,11 @@ public final class Telemetry {
         }
         final double value = ((Number) found).doubleValue();
         // Written so that NaN is refused, too.
-        return Math.abs(value) < GREATEST ? Double.valueOf(value) : null;
+        return Math.abs(value) < MAX_NUMBER ? Double.valueOf(value) : null;
     }
 
     private static Map<String, Object> frozen(Map<?, ?> given) {
-        final Map<String, Object> copy = new LinkedHashMap<String, Object>();
+        final Map<String, Object> copy = new LinkedHashMap<>();
         for (Map.Entry<?, ?> each : given.entrySet()) {
             copy.put(String.valueOf(each.getKey()), frozenValue(each.getValue()));
         }
@@ -222,7 +204,7 @@ public final class Telemetry {
             return frozen((Map<?, ?>) value);
         }
         if (value instanceof List) {
-            final List<Object> copy = new ArrayList<Object>();
+            final List<Object> copy = new ArrayList<>();
             for (Object each : (List<?>) value) {
                 copy.add(frozenValue(each));
             }

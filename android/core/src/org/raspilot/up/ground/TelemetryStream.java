@@ -9,19 +9,19 @@ import org.raspilot.up.wire.GeneralMessage;
  * relative to the fastest frame by the aircraft's own clock ({@code system.clock_ms}).
  */
 final class TelemetryStream {
-    private static final long LARGEST_GAP = 1000;
+    private static final long MAX_GAP = 1000;
     /** Beacons of one life of an aircraft are nearer: each life draws its first at random. */
     private static final long ONE_LIFE = 1000000;
     private static final int TIMES = 32;
     private static final long STOPPED_MS = 10000;
 
-    private final Delay delay = new Delay();
+    private final OneWayDelay delay = new OneWayDelay();
     private final long[] timesMs = new long[TIMES];
-    private Telemetry newest = Telemetry.NOTHING;
+    private Telemetry newest = Telemetry.EMPTY;
     private long frames;
     private long lost;
     private double roundTripMs;
-    private Double leastTripMs;
+    private Double minRoundTripMs;
 
     Telemetry newest() {
         return newest;
@@ -36,24 +36,24 @@ final class TelemetryStream {
     }
 
     /** Takes a message of that name and returns it as a frame. */
-    Telemetry take(GeneralMessage message, long nowMs) {
-        final Long beacon = message.beacon();
-        if (beacon != null && newest.beacon() != null) {
+    Telemetry receive(GeneralMessage message, long nowMs) {
+        final Long beacon = message.beacon;
+        if (beacon != null && newest.beacon != null) {
             // Beacons are the peer's: their difference may not fit a long.
-            final double gap = (double) beacon - (double) newest.beacon();
-            if (gap > 1 && gap <= LARGEST_GAP) {
+            final double gap = (double) beacon - (double) newest.beacon;
+            if (gap > 1 && gap <= MAX_GAP) {
                 lost += (long) gap - 1;
             }
             if (Math.abs(gap) > ONE_LIFE) {
-                delay.forget();
+                delay.reset();
             }
         }
-        final Telemetry bare = Telemetry.of(message.data(), beacon, nowMs, 0);
-        final Double heldMs = delay.take(bare.number("system.clock_ms"), nowMs);
-        if (delay.hasBegun()) {
-            leastTripMs = roundTripMs > 0 ? Double.valueOf(roundTripMs) : null;
+        final Telemetry bare = Telemetry.of(message.data, beacon, nowMs, 0);
+        final Double delayMs = delay.update(bare.number("system.clock_ms"), nowMs);
+        if (delay.isReset()) {
+            minRoundTripMs = roundTripMs > 0 ? Double.valueOf(roundTripMs) : null;
         }
-        newest = bare.ofWay(Math.round(wayMs(heldMs)));
+        newest = bare.withTransit(Math.round(wayMs(delayMs)));
         timesMs[(int) (frames % TIMES)] = nowMs;
         frames++;
         return newest;
@@ -62,19 +62,19 @@ final class TelemetryStream {
     /** Takes how long it is to the other side and back now. */
     void onRoundTrip(Double tookMs) {
         roundTripMs = tookMs == null ? 0 : tookMs;
-        if (tookMs != null && (leastTripMs == null || tookMs < leastTripMs)) {
-            leastTripMs = tookMs;
+        if (tookMs != null && (minRoundTripMs == null || tookMs < minRoundTripMs)) {
+            minRoundTripMs = tookMs;
         }
     }
 
     /** Discards the newest frame: the link is restarted. */
-    void forget() {
-        newest = Telemetry.NOTHING;
+    void reset() {
+        newest = Telemetry.EMPTY;
     }
 
     /** Makes everything stale: the link is lost. */
     Telemetry onLost() {
-        newest = newest.ofLostLink();
+        newest = newest.withLostLink();
         return newest;
     }
 
@@ -92,11 +92,11 @@ final class TelemetryStream {
         return (count - 1) * 1000.0 / (Math.max(nowMs, lastMs) - firstMs);
     }
 
-    private double wayMs(Double heldMs) {
-        if (heldMs == null) {
+    private double wayMs(Double delayMs) {
+        if (delayMs == null) {
             return roundTripMs / 2;
         }
         // Queueing on the way to the proxy is delay: the minimum is the transit time itself.
-        return (leastTripMs == null ? roundTripMs : leastTripMs) / 2 + heldMs;
+        return (minRoundTripMs == null ? roundTripMs : minRoundTripMs) / 2 + delayMs;
     }
 }

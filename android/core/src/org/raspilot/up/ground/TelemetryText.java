@@ -12,13 +12,13 @@ import org.raspilot.up.wire.SafeText;
 /** Returns a whole frame as rows for a list, including fields of unknown cogs. */
 public final class TelemetryText {
     /** Maximum number of rows; no aircraft sends more. */
-    public static final int MOST_ROWS = 500;
+    public static final int MAX_ROWS = 500;
 
     private static final String UNKNOWN = "--";
-    private static final int LONGEST_PATH = 80;
-    private static final int LONGEST_VALUE = 120;
-    private static final int LONGEST_LISTED = 16;
-    private static final Map<String, String> UNITS = new HashMap<String, String>();
+    private static final int MAX_PATH_LENGTH = 80;
+    private static final int MAX_VALUE_LENGTH = 120;
+    private static final int MAX_LISTED = 16;
+    private static final Map<String, String> UNITS = new HashMap<>();
 
     static {
         for (String path : new String[] {"orientation", "location.latitude",
@@ -49,8 +49,8 @@ public final class TelemetryText {
 
     /** Returns the rows in the frame's order, unmodifiable. */
     public static List<TelemetryRow> rows(Telemetry telemetry) {
-        final List<TelemetryRow> rows = new ArrayList<TelemetryRow>();
-        add(rows, "", telemetry.tree());
+        final List<TelemetryRow> rows = new ArrayList<>();
+        add(rows, "", telemetry.tree);
         return Collections.unmodifiableList(rows);
     }
 
@@ -68,7 +68,7 @@ public final class TelemetryText {
     }
 
     private static void add(List<TelemetryRow> rows, String path, Object value) {
-        if (rows.size() >= MOST_ROWS) {
+        if (rows.size() >= MAX_ROWS) {
             return;
         }
         if (value instanceof Map && !((Map<?, ?>) value).isEmpty()) {
@@ -78,8 +78,8 @@ public final class TelemetryText {
             }
         } else if (!path.isEmpty()) {
             final String unit = value instanceof Number ? unit(path) : "";
-            rows.add(new TelemetryRow(SafeText.of(path, LONGEST_PATH),
-                    SafeText.of(text(path, value), LONGEST_VALUE), unit));
+            rows.add(new TelemetryRow(SafeText.of(path, MAX_PATH_LENGTH),
+                    SafeText.of(text(path, value), MAX_VALUE_LENGTH), unit));
         }
     }
 
@@ -106,7 +106,7 @@ public final class TelemetryText {
         final StringBuilder text = new StringBuilder();
         int count = 0;
         for (Object each : values) {
-            if (count == LONGEST_LISTED) {
+            if (count == MAX_LISTED) {
                 return text.append(", and ").append(values.size() - count).append(" more")
                         .toString();
             }

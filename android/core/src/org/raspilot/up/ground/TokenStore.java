@@ -9,9 +9,8 @@ public interface TokenStore {
     /** Returns the token under that key, or null if absent. */
     String load(String key);
 
-    /** Stores a token. */
     void save(String key, String token);
 
     /** Drops a token: the seat was given up. */
-    void forget(String key);
+    void remove(String key);
 }

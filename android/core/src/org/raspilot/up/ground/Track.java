@@ -5,22 +5,30 @@ import java.util.Collections;
 import java.util.List;
 
 /**
- * The track of the aircraft, in metres from its home: points at least {@link #NEAREST_M} apart;
- * when there are too many, every second one is dropped. Only on the loop.
+ * The track of the aircraft, in metres from its home: points at least
+ * {@link #MIN_DISTANCE_M} apart; when there are too many, every second one is dropped. Only on the
+ * loop.
  */
 public final class Track {
-    /** Maximum number of points. */
-    public static final int MOST_POINTS = 4000;
+    public static final int MAX_POINTS = 4000;
     /** Points are not nearer to each other, m. */
-    public static final double NEAREST_M = 2;
+    public static final double MIN_DISTANCE_M = 2;
 
     /** A snapshot of the track. Immutable. */
     public static final class Snapshot {
-        private final long version;
-        private final Home origin;
-        private final boolean isOriginHome;
-        private final List<TrackPoint> points;
-        private final TrackPoint newest;
+        /** A number that rises with each change. */
+        public final long version;
+        /** The position of north 0, east 0; null before the first position. */
+        public final Home origin;
+        /** Whether the origin is home; otherwise it is the first known position. */
+        public final boolean isOriginHome;
+        /**
+         * The points from the oldest on, unmodifiable; the same list until one is added or
+         * the origin moves.
+         */
+        public final List<TrackPoint> points;
+        /** The aircraft's position, which may not be on the track yet; null: unknown. */
+        public final TrackPoint newest;
 
         Snapshot(long version, Home origin, boolean isOriginHome, List<TrackPoint> points,
                 TrackPoint newest) {
@@ -29,34 +37,6 @@ public final class Track {
             this.isOriginHome = isOriginHome;
             this.points = points;
             this.newest = newest;
-        }
-
-        /** Returns a number that rises with each change. */
-        public long version() {
-            return version;
-        }
-
-        /** Returns the position of north 0, east 0; null before the first position. */
-        public Home origin() {
-            return origin;
-        }
-
-        /** Returns whether the origin is home; otherwise it is the first known position. */
-        public boolean isOriginHome() {
-            return isOriginHome;
-        }
-
-        /**
-         * Returns the points from the oldest on, unmodifiable; the same list until one is added or
-         * the origin moves.
-         */
-        public List<TrackPoint> points() {
-            return points;
-        }
-
-        /** Returns the aircraft's position, which may not be on the track yet; null: unknown. */
-        public TrackPoint newest() {
-            return newest;
         }
     }
 
@@ -74,17 +54,17 @@ public final class Track {
         }
     }
 
-    private List<Spot> spots = new ArrayList<Spot>();
+    private List<Spot> spots = new ArrayList<>();
     private Spot newest;
     private Home home;
     private Home firstPlace;
-    private final PlaceGaps gaps = new PlaceGaps();
+    private final PositionGaps gaps = new PositionGaps();
     private boolean isAfterSilence;
     private long version;
-    private final List<TrackPoint> points = new ArrayList<TrackPoint>();
+    private final List<TrackPoint> points = new ArrayList<>();
     private Home pointsOrigin;
     private Snapshot snapshot =
-            new Snapshot(0, null, false, Collections.<TrackPoint>emptyList(), null);
+            new Snapshot(0, null, false, Collections.emptyList(), null);
 
     Track() {
     }
@@ -94,9 +74,8 @@ public final class Track {
         return version;
     }
 
-    /** Returns the current track. */
     public Snapshot snapshot() {
-        if (snapshot.version() != version) {
+        if (snapshot.version != version) {
             final Home origin = home == null ? firstPlace : home;
             final List<TrackPoint> way = way(origin);
             TrackPoint place = null;
@@ -108,7 +87,6 @@ public final class Track {
         return snapshot;
     }
 
-    /** Clears the track. */
     public void clear() {
         spots.clear();
         pointsOrigin = null;
@@ -119,7 +97,7 @@ public final class Track {
     }
 
     /** Takes the position of a frame, if it has a valid one; time only increases. */
-    void take(Telemetry telemetry, Home known, long nowMs) {
+    void update(Telemetry telemetry, Home known, long nowMs) {
         if (known != null && known != home) {
             home = known;
             version++;
@@ -134,18 +112,18 @@ public final class Track {
         if (altitude == null) {
             altitude = telemetry.number("altitude");
         }
-        if (!telemetry.age().isStale("location", nowMs)) {
-            isAfterSilence |= gaps.take(nowMs);
+        if (!telemetry.age.isStale("location", nowMs)) {
+            isAfterSilence |= gaps.update(nowMs);
         }
         if (firstPlace == null) {
             firstPlace = new Home(latitude, longitude);
         }
         newest = new Spot(latitude, longitude, altitude, isAfterSilence && !spots.isEmpty());
         version++;
-        if (spots.isEmpty() || distanceM(lastSpot(), newest) >= NEAREST_M) {
+        if (spots.isEmpty() || distanceM(lastSpot(), newest) >= MIN_DISTANCE_M) {
             isAfterSilence = false;
             spots.add(newest);
-            if (spots.size() >= MOST_POINTS) {
+            if (spots.size() >= MAX_POINTS) {
                 thin();
             }
         }
@@ -153,7 +131,7 @@ public final class Track {
 
     /** Drops every second point; the information of a dropped point moves to the next one. */
     private void thin() {
-        final List<Spot> kept = new ArrayList<Spot>();
+        final List<Spot> kept = new ArrayList<>();
         boolean hasGap = false;
         for (int place = 0; place < spots.size(); place++) {
             final Spot spot = spots.get(place);
@@ -179,17 +157,17 @@ public final class Track {
             pointsOrigin = origin;
             points.clear();
         } else if (points.size() == spots.size()) {
-            return snapshot.points();
+            return snapshot.points;
         }
         for (Spot each : spots.subList(points.size(), spots.size())) {
             points.add(point(origin, each));
         }
-        return Collections.unmodifiableList(new ArrayList<TrackPoint>(points));
+        return Collections.unmodifiableList(new ArrayList<>(points));
     }
 
     private static TrackPoint point(Home origin, Spot spot) {
-        return new TrackPoint(Earth.northM(origin.latitudeDeg(), spot.latitudeDeg),
-                Earth.eastM(origin.longitudeDeg(), spot.longitudeDeg, origin.latitudeDeg()),
+        return new TrackPoint(Earth.northM(origin.latitudeDeg, spot.latitudeDeg),
+                Earth.eastM(origin.longitudeDeg, spot.longitudeDeg, origin.latitudeDeg),
                 spot.altitudeM, spot.isAfterSilence);
     }
 

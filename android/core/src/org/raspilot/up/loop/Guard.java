@@ -19,12 +19,12 @@ final class Guard {
         try {
             call.run();
         } catch (Throwable fault) {
-            tell(fault);
+            report(fault);
         }
     }
 
     /** Counts and reports a fault; an exception of the listener itself is counted too. */
-    void tell(Throwable fault) {
+    void report(Throwable fault) {
         faults.incrementAndGet();
         try {
             listener.onFault(fault);

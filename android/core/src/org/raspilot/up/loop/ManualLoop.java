@@ -13,7 +13,7 @@ public final class ManualLoop implements Loop {
     private final Network network;
     private final Guard guard;
     private final Object lock = new Object();
-    private final ArrayDeque<Runnable> posted = new ArrayDeque<Runnable>();
+    private final ArrayDeque<Runnable> posted = new ArrayDeque<>();
     private final TimerQueue timers = new TimerQueue();
     private volatile long nowMs;
     private volatile Thread thread = Thread.currentThread();
@@ -64,12 +64,10 @@ public final class ManualLoop implements Loop {
         return first == null ? -1 : first.time();
     }
 
-    /** Returns how many calls threw. */
     public long faults() {
         return guard.faults();
     }
 
-    /** Returns how many timers wait. */
     public int pendingTimers() {
         return timers.size();
     }

@@ -8,7 +8,6 @@ import java.util.List;
 import java.util.Map;
 import java.util.concurrent.LinkedBlockingQueue;
 import java.util.concurrent.RejectedExecutionException;
-import java.util.concurrent.ThreadFactory;
 import java.util.concurrent.ThreadPoolExecutor;
 import java.util.concurrent.TimeUnit;
 
@@ -19,45 +18,42 @@ import java.util.concurrent.TimeUnit;
  * threads end after 5 s.
  */
 final class NameLookup {
-    private static final int MOST_THREADS = 4;
+    private static final int MAX_THREADS = 4;
 
     private final Loop loop;
     private final Resolver resolver;
     private final ThreadPoolExecutor threads;
-    private final Map<String, List<Asker>> askers = new HashMap<String, List<Asker>>();
+    private final Map<String, List<Asker>> waitingListeners = new HashMap<>();
 
     /** Creates a look-up that answers on {@code loop}. */
     NameLookup(Loop loop, Resolver resolver, final String threadName) {
         this.loop = loop;
         this.resolver = resolver;
-        threads = new ThreadPoolExecutor(MOST_THREADS, MOST_THREADS, 5, TimeUnit.SECONDS,
-                new LinkedBlockingQueue<Runnable>(), new ThreadFactory() {
-                    @Override
-                    public Thread newThread(Runnable call) {
-                        final Thread thread = new Thread(call, threadName);
-                        thread.setDaemon(true);
-                        return thread;
-                    }
+        threads = new ThreadPoolExecutor(MAX_THREADS, MAX_THREADS, 5, TimeUnit.SECONDS,
+                new LinkedBlockingQueue<>(), call -> {
+                    final Thread thread = new Thread(call, threadName);
+                    thread.setDaemon(true);
+                    return thread;
                 });
         threads.allowCoreThreadTimeOut(true);
     }
 
     /** Looks up a name or an address; the caller is answered after this call has returned. */
-    void look(final String host, final Asker asker) {
+    void resolve(final String host, final Asker asker) {
         if (host == null || host.isEmpty()) {
-            tell(asker, new Answer(null, "the host is empty"));
+            notifyListener(asker, new Answer(null, "the host is empty"));
             return;
         }
         final InetAddress numeric = numeric(host);
         if (numeric != null) {
-            tell(asker, new Answer(new InetAddress[] {numeric}, null));
-        } else if (askers.containsKey(host)) {
-            askers.get(host).add(asker);
+            notifyListener(asker, new Answer(new InetAddress[] {numeric}, null));
+        } else if (waitingListeners.containsKey(host)) {
+            waitingListeners.get(host).add(asker);
         } else {
-            final List<Asker> waiting = new ArrayList<Asker>();
+            final List<Asker> waiting = new ArrayList<>();
             waiting.add(asker);
-            askers.put(host, waiting);
-            lookAside(host);
+            waitingListeners.put(host, waiting);
+            resolveOnThread(host);
         }
     }
 
@@ -90,46 +86,35 @@ final class NameLookup {
         threads.shutdownNow();
     }
 
-    private void lookAside(final String host) {
+    private void resolveOnThread(final String host) {
         try {
-            threads.execute(new Runnable() {
-                @Override
-                public void run() {
-                    final Answer answer = ask(host);
-                    loop.post(new Runnable() {
-                        @Override
-                        public void run() {
-                            tellAll(host, answer);
-                        }
-                    });
-                }
+            threads.execute(() -> {
+                final Answer answer = query(host);
+                loop.post(() -> notifyAllListeners(host, answer));
             });
         } catch (RejectedExecutionException stopped) {
-            tellAll(host, new Answer(null, "the loop was stopped"));
+            notifyAllListeners(host, new Answer(null, "the loop was stopped"));
         }
     }
 
     /** Posted separately, so that an exception in one caller does not affect the others. */
-    private void tellAll(String host, Answer answer) {
-        for (Asker asker : askers.remove(host)) {
-            tell(asker, answer);
+    private void notifyAllListeners(String host, Answer answer) {
+        for (Asker asker : waitingListeners.remove(host)) {
+            notifyListener(asker, answer);
         }
     }
 
-    private void tell(final Asker asker, final Answer answer) {
-        loop.post(new Runnable() {
-            @Override
-            public void run() {
-                if (answer.addresses == null) {
-                    asker.onUnknown(answer.reason);
-                } else {
-                    asker.onAddresses(answer.addresses);
-                }
+    private void notifyListener(final Asker asker, final Answer answer) {
+        loop.post(() -> {
+            if (answer.addresses == null) {
+                asker.onUnknown(answer.reason);
+            } else {
+                asker.onAddresses(answer.addresses);
             }
         });
     }
 
-    private Answer ask(String host) {
+    private Answer query(String host) {
         try {
             return new Answer(resolver.resolve(host), null);
         } catch (UnknownHostException error) {
@@ -142,13 +127,11 @@ final class NameLookup {
 
     /** Looks up, on the calling thread. */
     interface Resolver {
-        /** Returns at least one address. */
         InetAddress[] resolve(String host) throws UnknownHostException;
     }
 
     /** Receives the outcome, on the loop, once. */
     interface Asker {
-        /** Takes at least one address. */
         void onAddresses(InetAddress[] addresses);
 
         /** Called when the lookup fails, with the reason. */

@@ -4,7 +4,6 @@ import java.io.Closeable;
 import java.io.IOException;
 import java.nio.channels.SelectableChannel;
 import java.nio.channels.SelectionKey;
-import java.util.List;
 import java.util.concurrent.TimeUnit;
 import java.util.concurrent.atomic.AtomicLong;
 import java.util.concurrent.locks.LockSupport;
@@ -30,7 +29,7 @@ public final class SelectorLoop implements Loop, Network {
     private final byte[] bytes = new byte[BYTES];
     private final TimerQueue timers = new TimerQueue();
     private final Object lock = new Object();
-    private final Inbox posted = new Inbox();
+    private final CallQueue posted = new CallQueue();
     private volatile Thread thread;
     private volatile boolean isStopped;
     private final AtomicLong rounds = new AtomicLong();
@@ -42,12 +41,7 @@ public final class SelectorLoop implements Loop, Network {
      * @param faults receives exceptions of calls on the loop
      */
     public SelectorLoop(String name, FaultListener faults) {
-        this(name, faults, new Clock() {
-            @Override
-            public long nowNs() {
-                return System.nanoTime();
-            }
-        });
+        this(name, faults, () -> System.nanoTime());
     }
 
     /**
@@ -82,12 +76,7 @@ public final class SelectorLoop implements Loop, Network {
                 throw new IllegalStateException("a loop is started once");
             }
             sockets.open();
-            thread = new Thread(null, new Runnable() {
-                @Override
-                public void run() {
-                    work();
-                }
-            }, name, STACK_BYTES);
+            thread = new Thread(null, () -> work(), name, STACK_BYTES);
             thread.setDaemon(true);
             thread.start();
         }
@@ -177,14 +166,14 @@ public final class SelectorLoop implements Loop, Network {
         return bytes;
     }
 
-    SelectionKey register(SelectableChannel channel, int operations, Ready ready)
+    SelectionKey register(SelectableChannel channel, int operations, SelectorHandler ready)
             throws IOException {
         return sockets.register(channel, operations, ready);
     }
 
     /** Counts and reports a fault that belongs to no call. */
-    void tell(Throwable fault) {
-        guard.tell(fault);
+    void report(Throwable fault) {
+        guard.report(fault);
     }
 
     /** Closes; a socket that cannot be closed is reported as a fault. */
@@ -192,7 +181,7 @@ public final class SelectorLoop implements Loop, Network {
         try {
             channel.close();
         } catch (IOException error) {
-            tell(error);
+            report(error);
         }
     }
 
@@ -218,7 +207,7 @@ public final class SelectorLoop implements Loop, Network {
     }
 
     private void runPosted() {
-        for (Runnable call : posted.take()) {
+        for (Runnable call : posted.drain()) {
             sockets.hadReason();
             run(call);
         }
@@ -243,20 +232,17 @@ public final class SelectorLoop implements Loop, Network {
         } catch (IOException | RuntimeException error) {
             // Android's older selectors throw both (a key cancelled during the select). The thread
             // must survive that in flight.
-            tell(error);
+            report(error);
             // Whatever the system's fault is, an immediate retry would only heat the phone.
             LockSupport.parkNanos(TimeUnit.MILLISECONDS.toNanos(10));
         }
     }
 
     private void handle(final SelectionKey key) {
-        run(new Runnable() {
-            @Override
-            public void run() {
-                // A previous call may have closed it.
-                if (key.isValid()) {
-                    ((Ready) key.attachment()).onReady(key);
-                }
+        run(() -> {
+            // A previous call may have closed it.
+            if (key.isValid()) {
+                ((SelectorHandler) key.attachment()).onReady(key);
             }
         });
     }
@@ -275,13 +261,13 @@ public final class SelectorLoop implements Loop, Network {
     }
 
     private void closeAll() {
-        for (Ready ready : sockets.registered()) {
+        for (SelectorHandler ready : sockets.registered()) {
             ready.close();
         }
         try {
             sockets.close();
         } catch (IOException error) {
-            tell(error);
+            report(error);
         }
     }
 

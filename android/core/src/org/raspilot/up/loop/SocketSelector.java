@@ -13,12 +13,11 @@ import java.util.List;
  * than the loop's thread.
  */
 class SocketSelector {
-    private static final int MOST_EMPTY_ROUNDS = 256;
+    private static final int MAX_EMPTY_ROUNDS = 256;
 
     private volatile Selector selector;
     private int emptyRounds;
 
-    /** Opens it. */
     void open() throws IOException {
         selector = openSelector();
     }
@@ -31,7 +30,7 @@ class SocketSelector {
         }
     }
 
-    SelectionKey register(SelectableChannel channel, int operations, Ready ready)
+    SelectionKey register(SelectableChannel channel, int operations, SelectorHandler ready)
             throws IOException {
         return channel.register(selector, operations, ready);
     }
@@ -47,7 +46,7 @@ class SocketSelector {
      * @param waitMs the maximum wait; 0: none, -1: no limit
      */
     List<SelectionKey> await(long waitMs) throws IOException {
-        final boolean isReplaced = emptyRounds > MOST_EMPTY_ROUNDS;
+        final boolean isReplaced = emptyRounds > MAX_EMPTY_ROUNDS;
         if (isReplaced) {
             replace();
         }
@@ -59,7 +58,7 @@ class SocketSelector {
         } else {
             selector.select(waitMs < 0 ? 0 : waitMs);
         }
-        final List<SelectionKey> ready = new ArrayList<SelectionKey>(selector.selectedKeys());
+        final List<SelectionKey> ready = new ArrayList<>(selector.selectedKeys());
         selector.selectedKeys().clear();
         if (!ready.isEmpty()) {
             emptyRounds = 0;
@@ -68,10 +67,10 @@ class SocketSelector {
     }
 
     /** Returns the owners of the keys. */
-    List<Ready> registered() {
-        final List<Ready> all = new ArrayList<Ready>();
+    List<SelectorHandler> registered() {
+        final List<SelectorHandler> all = new ArrayList<>();
         for (SelectionKey key : selector.keys()) {
-            all.add((Ready) key.attachment());
+            all.add((SelectorHandler) key.attachment());
         }
         return all;
     }
@@ -93,7 +92,7 @@ class SocketSelector {
         try {
             for (SelectionKey key : old.keys()) {
                 if (key.isValid()) {
-                    final Ready ready = (Ready) key.attachment();
+                    final SelectorHandler ready = (SelectorHandler) key.attachment();
                     final int operations = key.interestOps();
                     key.cancel();
                     ready.onMoved(key.channel().register(fresh, operations, ready));

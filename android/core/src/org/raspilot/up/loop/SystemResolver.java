@@ -10,8 +10,8 @@ import java.util.List;
 final class SystemResolver implements NameLookup.Resolver {
     @Override
     public InetAddress[] resolve(String host) throws UnknownHostException {
-        final List<InetAddress> others = new ArrayList<InetAddress>();
-        final List<InetAddress> sorted = new ArrayList<InetAddress>();
+        final List<InetAddress> others = new ArrayList<>();
+        final List<InetAddress> sorted = new ArrayList<>();
         for (InetAddress address : InetAddress.getAllByName(host)) {
             (address instanceof Inet4Address ? sorted : others).add(address);
         }

@@ -9,13 +9,13 @@ import java.nio.channels.SelectionKey;
 import java.nio.channels.SocketChannel;
 
 /** One TCP connection of a {@link SelectorLoop}: looks up, connects, reads, writes. */
-final class TcpChannel implements TcpConnection, Ready, NameLookup.Asker {
+final class TcpChannel implements TcpConnection, SelectorHandler, NameLookup.Asker {
     /**
      * Small, so that a stalled link holds little old data when it recovers. Linux doubles it and
      * counts its own overhead against it.
      */
     static final int SEND_BUFFER_BYTES = 8192;
-    private static final int LAST_READS = 8;
+    private static final int MAX_FINAL_READS = 8;
 
     private enum State { CONNECTING, OPEN, BROKEN, CLOSED }
 
@@ -41,14 +41,13 @@ final class TcpChannel implements TcpConnection, Ready, NameLookup.Asker {
         endMs = loop.nowMs() + timeoutMs;
     }
 
-    /** Starts. */
     void open(NameLookup names, String host) {
         if (port < 1 || port > 65535) {
             onUnknown("no port: " + port);
             return;
         }
         limit(timeoutMs, "the name " + host + " was not found within " + timeoutMs + " ms");
-        names.look(host, this);
+        names.resolve(host, this);
     }
 
     @Override
@@ -80,12 +79,7 @@ final class TcpChannel implements TcpConnection, Ready, NameLookup.Asker {
         } catch (IOException error) {
             state = State.BROKEN;
             final String reason = broke(error);
-            loop.post(new Runnable() {
-                @Override
-                public void run() {
-                    readTheRest(reason);
-                }
-            });
+            loop.post(() -> readTheRest(reason));
             return 0;
         }
     }
@@ -179,7 +173,6 @@ final class TcpChannel implements TcpConnection, Ready, NameLookup.Asker {
         listener.onConnected();
     }
 
-    /** Returns whether something was read. */
     private boolean read() {
         final byte[] bytes = loop.bytes();
         final int length;
@@ -200,7 +193,7 @@ final class TcpChannel implements TcpConnection, Ready, NameLookup.Asker {
     /** Data that the peer sent before it hung up arrived before the write failed: deliver it. */
     private void readTheRest(String reason) {
         int reads = 0;
-        while (state == State.BROKEN && reads < LAST_READS && read()) {
+        while (state == State.BROKEN && reads < MAX_FINAL_READS && read()) {
             reads++;
         }
         if (state == State.BROKEN) {
@@ -211,12 +204,7 @@ final class TcpChannel implements TcpConnection, Ready, NameLookup.Asker {
     private void failLater(final String reason) {
         cancelLimit();
         state = State.BROKEN;
-        loop.post(new Runnable() {
-            @Override
-            public void run() {
-                fail(reason);
-            }
-        });
+        loop.post(() -> fail(reason));
     }
 
     private void fail(String reason) {
@@ -228,12 +216,7 @@ final class TcpChannel implements TcpConnection, Ready, NameLookup.Asker {
 
     private void limit(long delayMs, final String reason) {
         cancelLimit();
-        limit = loop.schedule(delayMs, new Runnable() {
-            @Override
-            public void run() {
-                connectNext(reason);
-            }
-        });
+        limit = loop.schedule(delayMs, () -> connectNext(reason));
     }
 
     private void cancelLimit() {

@@ -5,7 +5,7 @@ import java.util.PriorityQueue;
 
 /** Timers in the order of their due times; those of equal time in the order of scheduling. */
 final class TimerQueue {
-    private final PriorityQueue<Timer> timers = new PriorityQueue<Timer>(16, new Sooner());
+    private final PriorityQueue<Timer> timers = new PriorityQueue<>(16, new Sooner());
     private long asked;
 
     /** Adds a timer that falls due at {@code time}, in whatever unit the caller keeps time. */
@@ -38,12 +38,10 @@ final class TimerQueue {
         return timers.peek();
     }
 
-    /** Returns how many wait. */
     int size() {
         return timers.size();
     }
 
-    /** One timer. */
     final class Timer implements Cancellable {
         private final long time;
         private final long order;
@@ -56,12 +54,10 @@ final class TimerQueue {
             this.call = call;
         }
 
-        /** Returns when it falls due. */
         long time() {
             return time;
         }
 
-        /** Returns the timer's callback. */
         Runnable call() {
             return call;
         }

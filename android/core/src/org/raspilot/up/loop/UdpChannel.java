@@ -10,17 +10,17 @@ import java.util.HashMap;
 import java.util.Map;
 
 /** One UDP socket of a {@link SelectorLoop}. */
-final class UdpChannel implements UdpPort, Ready {
+final class UdpChannel implements UdpPort, SelectorHandler {
     private static final long NAME_LIFE_MS = 60000;
     /** An unknown name is looked up again after this time, not for each datagram. */
     private static final long NEXT_LOOK_MS = 2000;
-    private static final int MOST_NAMES = 64;
+    private static final int MAX_NAMES = 64;
     private static final int READS_A_ROUND = 16;
 
     private final SelectorLoop loop;
     private final NameLookup names;
     private final UdpListener listener;
-    private final Map<String, Name> known = new HashMap<String, Name>();
+    private final Map<String, Name> known = new HashMap<>();
     private DatagramChannel channel;
     private boolean isClosed;
 
@@ -96,7 +96,7 @@ final class UdpChannel implements UdpPort, Ready {
         } catch (IOException error) {
             // A socket with a read error would stay ready for ever; the next send opens another.
             closeChannel();
-            loop.tell(error);
+            loop.report(error);
             return false;
         }
         if (source == null) {
@@ -111,7 +111,7 @@ final class UdpChannel implements UdpPort, Ready {
     private InetAddress address(final String host) {
         Name name = known.get(host);
         if (name == null) {
-            if (known.size() >= MOST_NAMES) {
+            if (known.size() >= MAX_NAMES) {
                 known.clear();
             }
             name = new Name();
@@ -121,7 +121,7 @@ final class UdpChannel implements UdpPort, Ready {
         }
         if (!name.isAsked && loop.nowMs() >= name.nextLookMs) {
             name.isAsked = true;
-            names.look(host, name);
+            names.resolve(host, name);
         }
         return name.address;
     }
@@ -133,7 +133,6 @@ final class UdpChannel implements UdpPort, Ready {
         }
     }
 
-    /** The state of one name. */
     private final class Name implements NameLookup.Asker {
         private InetAddress address;
         private long nextLookMs;

@@ -18,7 +18,6 @@ final class BackOff {
         nextMs = firstMs;
     }
 
-    /** Resets to the shortest wait. */
     void reset() {
         nextMs = firstMs;
     }

@@ -4,7 +4,7 @@ import java.nio.charset.Charset;
 
 /** Reads what Discovery answers: the Raspberry Pi's IPv4 address as text (protocols 7). */
 final class DiscoveryAnswer {
-    private static final int LONGEST = 64;
+    private static final int MAX_BYTES = 64;
 
     private DiscoveryAnswer() {
     }
@@ -14,7 +14,7 @@ final class DiscoveryAnswer {
      * an answer.
      */
     static String read(byte[] bytes, int length, String source) {
-        if (length > LONGEST) {
+        if (length > MAX_BYTES) {
             return null;
         }
         final String text = new String(bytes, 0, length, Charset.forName("US-ASCII")).trim();

@@ -9,8 +9,7 @@ import org.raspilot.up.loop.UdpListener;
 import org.raspilot.up.loop.UdpPort;
 
 /** Finds the Raspberry Pi on the local network by Discovery (protocols 7). Only on the loop. */
-public final class DiscoveryClient implements PlaceFinder {
-    /** The UDP port of Discovery. */
+public final class DiscoveryClient implements EndpointDiscovery {
     public static final int PORT = 3001;
     /** How long an answer is waited for, ms. */
     public static final int ANSWER_MS = 1500;
@@ -45,7 +44,7 @@ public final class DiscoveryClient implements PlaceFinder {
     }
 
     @Override
-    public Cancellable find(FindListener listener) {
+    public Cancellable find(DiscoveryListener listener) {
         final Question question = new Question(listener);
         question.begin();
         return question;
@@ -61,9 +60,8 @@ public final class DiscoveryClient implements PlaceFinder {
         return foreignAnswers;
     }
 
-    /** One search. */
     private final class Question implements Cancellable, UdpListener {
-        private final FindListener listener;
+        private final DiscoveryListener listener;
         private boolean isPending = true;
         private boolean wasSent;
         private UdpPort udp;
@@ -71,7 +69,7 @@ public final class DiscoveryClient implements PlaceFinder {
         private Cancellable limit;
         private String refused = "";
 
-        Question(FindListener listener) {
+        Question(DiscoveryListener listener) {
             this.listener = listener;
         }
 
@@ -83,12 +81,7 @@ public final class DiscoveryClient implements PlaceFinder {
                 listener.onNotFound("no socket to ask Discovery with: " + error.getMessage());
                 return;
             }
-            limit = loop.schedule(ANSWER_MS, new Runnable() {
-                @Override
-                public void run() {
-                    giveUp();
-                }
-            });
+            limit = loop.schedule(ANSWER_MS, () -> giveUp());
             ask();
         }
 
@@ -122,16 +115,11 @@ public final class DiscoveryClient implements PlaceFinder {
                 return;
             }
             cancel();
-            listener.onFound(new Place(found, generalPort, orientationPort));
+            listener.onFound(new Endpoint(found, generalPort, orientationPort));
         }
 
         private void ask() {
-            repeat = loop.schedule(REPEAT_MS, new Runnable() {
-                @Override
-                public void run() {
-                    ask();
-                }
-            });
+            repeat = loop.schedule(REPEAT_MS, () -> ask());
             for (String address : addresses.current()) {
                 wasSent |= udp.send(QUESTION, address, port);
             }

@@ -13,12 +13,7 @@ final class IdleTimer {
     private final Loop loop;
     private final long limitMs;
     private final Runnable onIdle;
-    private final Runnable look = new Runnable() {
-        @Override
-        public void run() {
-            look();
-        }
-    };
+    private final Runnable check = () -> check();
     private Cancellable timer;
     private long touchedMs;
     private boolean isSecondLook;
@@ -32,9 +27,9 @@ final class IdleTimer {
     /** Restarts the timer; a limit of 0 disables it. */
     void start() {
         stop();
-        touch();
+        reset();
         if (limitMs > 0) {
-            lookAfter(limitMs, false);
+            checkAfter(limitMs, false);
         }
     }
 
@@ -46,7 +41,7 @@ final class IdleTimer {
     }
 
     /** Notes that the awaited event has happened now. */
-    void touch() {
+    void reset() {
         touchedMs = loop.nowMs();
     }
 
@@ -54,19 +49,19 @@ final class IdleTimer {
         return timer != null && timer.isPending();
     }
 
-    private void look() {
+    private void check() {
         final long restMs = touchedMs + limitMs - loop.nowMs();
         if (restMs > 0) {
-            lookAfter(restMs, false);
+            checkAfter(restMs, false);
         } else if (!isSecondLook) {
-            lookAfter(0, true);
+            checkAfter(0, true);
         } else {
             onIdle.run();
         }
     }
 
-    private void lookAfter(long delayMs, boolean isSecond) {
+    private void checkAfter(long delayMs, boolean isSecond) {
         isSecondLook = isSecond;
-        timer = loop.schedule(delayMs, look);
+        timer = loop.schedule(delayMs, check);
     }
 }

@@ -14,7 +14,7 @@ public final class InterfaceBroadcasts implements BroadcastAddresses {
     /** Returns them; if the system reports none, the limited broadcast address. */
     @Override
     public List<String> current() {
-        final List<String> found = new ArrayList<String>();
+        final List<String> found = new ArrayList<>();
         try {
             final Enumeration<NetworkInterface> all = NetworkInterface.getNetworkInterfaces();
             while (all != null && all.hasMoreElements()) {

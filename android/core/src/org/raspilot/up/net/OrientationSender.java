@@ -12,10 +12,8 @@ import org.raspilot.up.loop.UdpPort;
  * loop.
  */
 public final class OrientationSender {
-    /** Bytes of a frame. */
     public static final int FRAME_BYTES = 24;
 
-    /** How frames travel. */
     public enum Transport {
         /** A connection that is kept. */
         TCP,
@@ -24,10 +22,10 @@ public final class OrientationSender {
     }
 
     private final Loop loop;
-    private final KnownPlace known;
+    private final LastEndpoint known;
     private final UpSocket socket;
     private UdpPort udp;
-    private Place followed;
+    private Endpoint followed;
     private boolean isStarted;
     private String problem = "";
     private long udpSent;
@@ -39,7 +37,7 @@ public final class OrientationSender {
      * @param known the place of the General Message link; frames go to its orientation port
      * @param random seeded: the waits between attempts vary by it
      */
-    public OrientationSender(Loop loop, KnownPlace known, Transport transport, Random random) {
+    public OrientationSender(Loop loop, LastEndpoint known, Transport transport, Random random) {
         this.loop = loop;
         this.known = known;
         socket = transport == Transport.UDP ? null : new UpSocket(loop, known.follower(),
@@ -50,7 +48,7 @@ public final class OrientationSender {
     public void start() {
         if (!isStarted) {
             isStarted = true;
-            followed = known.place();
+            followed = known.endpoint();
             if (socket != null) {
                 socket.start();
             } else {
@@ -119,7 +117,7 @@ public final class OrientationSender {
     /** Returns a sentence without a full stop: the destination of frames, or why none are sent. */
     public String sentence() {
         if (socket != null) {
-            return socket.status().sentence();
+            return socket.status().sentence;
         }
         if (!isStarted) {
             return "stopped";
@@ -127,17 +125,17 @@ public final class OrientationSender {
         if (!problem.isEmpty()) {
             return problem;
         }
-        final Place place = known.place();
+        final Endpoint place = known.endpoint();
         if (place == null) {
             return "the Raspberry Pi is not found yet";
         }
-        return hasPort() ? "datagrams to " + place.host() + ":" + place.orientationPort()
-                : place.host() + " has no orientation port";
+        return hasPort() ? "datagrams to " + place.host + ":" + place.orientationPort
+                : place.host + " has no orientation port";
     }
 
     /** Returns how many frames the system took whole. */
     public long sent() {
-        return socket != null ? socket.counters().sent() : udpSent;
+        return socket != null ? socket.counters().sent : udpSent;
     }
 
     /** Returns how many frames were dropped or replaced by a newer one. */
@@ -146,16 +144,16 @@ public final class OrientationSender {
             return dropped;
         }
         final UpSocketCounters counters = socket.counters();
-        return dropped + counters.dropped() + counters.replaced();
+        return dropped + counters.dropped + counters.replaced;
     }
 
     private boolean sendDatagram(byte[] frame) {
         if (udp == null) {
             openUdp();
         }
-        final Place place = known.place();
+        final Endpoint place = known.endpoint();
         final boolean isSent = udp != null && hasPort()
-                && udp.send(frame, place.host(), place.orientationPort());
+                && udp.send(frame, place.host, place.orientationPort);
         if (isSent) {
             udpSent++;
         } else {
@@ -165,7 +163,7 @@ public final class OrientationSender {
     }
 
     private boolean hasPort() {
-        return known.place() != null && known.place().orientationPort() != 0;
+        return known.endpoint() != null && known.endpoint().orientationPort != 0;
     }
 
     private void openUdp() {
@@ -186,18 +184,17 @@ public final class OrientationSender {
 
     /** A connection to the Raspberry Pi's old address is useless, and so is waiting to retry it. */
     private void follow() {
-        final Place place = known.place();
+        final Endpoint place = known.endpoint();
         if (socket != null && place != null && !place.equals(followed)) {
             followed = place;
-            if (place.equals(socket.status().place())) {
+            if (place.equals(socket.status().endpoint)) {
                 reconnectNow();
             } else {
-                replaceConnection("the Raspberry Pi is now at " + place.host());
+                replaceConnection("the Raspberry Pi is now at " + place.host);
             }
         }
     }
 
-    /** This link has no answers. */
     private static final class Deaf implements UdpListener {
         @Override
         public void onDatagram(byte[] bytes, int length, String host, int port) {

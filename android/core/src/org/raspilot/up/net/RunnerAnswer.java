@@ -7,18 +7,23 @@ import org.raspilot.up.wire.SafeText;
 
 /** A runner's answer with the address of an instance (protocols 8). */
 public final class RunnerAnswer {
-    private static final int LONGEST_WORDS = 200;
+    private static final int MAX_TEXT_LENGTH = 200;
 
-    private final String message;
-    private final String error;
-    private final boolean isSpawned;
-    private final String instance;
-    private final Place place;
-    private final String proxyHost;
-    private final int proxyGroundPort;
+    /** The runner's message; null: none. */
+    public final String message;
+    /** A warning about the running instance, or null. */
+    public final String error;
+    public final boolean isSpawned;
+    /** The instance's name; null: absent. */
+    public final String instance;
+    public final Endpoint endpoint;
+    /** The proxy's host for grounds of this aircraft; null: absent. */
+    public final String proxyHost;
+    /** The proxy's port for grounds; 0: absent. */
+    public final int proxyGroundPort;
 
-    private RunnerAnswer(Map<?, ?> answer, Place place, Map<?, ?> proxy) {
-        this.place = place;
+    private RunnerAnswer(Map<?, ?> answer, Endpoint place, Map<?, ?> proxy) {
+        this.endpoint = place;
         message = text(answer, "message");
         error = text(answer, "error");
         isSpawned = Boolean.TRUE.equals(answer.get("spawned"));
@@ -62,43 +67,8 @@ public final class RunnerAnswer {
         if (general == 0 || orientation == 0) {
             throw new RefusedException("the runner's answer names no ports of 1 to 65535");
         }
-        return new RunnerAnswer(answer, new Place(host, general, orientation),
+        return new RunnerAnswer(answer, new Endpoint(host, general, orientation),
                 object(answer, "proxy"));
-    }
-
-    /** Returns the runner's message; null: none. */
-    public String message() {
-        return message;
-    }
-
-    /** Returns a warning about the running instance, or null. */
-    public String error() {
-        return error;
-    }
-
-    /** Returns whether this request started it. */
-    public boolean isSpawned() {
-        return isSpawned;
-    }
-
-    /** Returns the instance's name; null: absent. */
-    public String instance() {
-        return instance;
-    }
-
-    /** Returns the address of the instance. */
-    public Place place() {
-        return place;
-    }
-
-    /** Returns the proxy's host for grounds of this aircraft; null: absent. */
-    public String proxyHost() {
-        return proxyHost;
-    }
-
-    /** Returns the proxy's port for grounds; 0: absent. */
-    public int proxyGroundPort() {
-        return proxyGroundPort;
     }
 
     private static Map<?, ?> object(Map<?, ?> from, String key) {
@@ -112,7 +82,7 @@ public final class RunnerAnswer {
         if (!(value instanceof String) || ((String) value).isEmpty()) {
             return null;
         }
-        return SafeText.of((String) value, LONGEST_WORDS);
+        return SafeText.of((String) value, MAX_TEXT_LENGTH);
     }
 
     /** Returns 1 to 65535; 0: absent. */

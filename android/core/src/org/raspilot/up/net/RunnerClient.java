@@ -8,7 +8,7 @@ import org.raspilot.up.loop.TcpConnection;
 import org.raspilot.up.loop.TcpListener;
 
 /** Requests an instance from a runner and finds its address (protocols 8). Only on the loop. */
-public final class RunnerClient implements PlaceFinder {
+public final class RunnerClient implements EndpointDiscovery {
     /** The TCP port of a runner. */
     public static final int PORT = 3002;
     /** How long connecting may take, ms. */
@@ -16,7 +16,7 @@ public final class RunnerClient implements PlaceFinder {
     /** How long the runner may take from there, ms: it starts a whole program. */
     public static final int ANSWER_MS = 20000;
     /** Bytes of the longest answer. */
-    public static final int LONGEST_ANSWER = 65536;
+    public static final int MAX_ANSWER_BYTES = 65536;
 
     private final Loop loop;
     private final String host;
@@ -38,7 +38,7 @@ public final class RunnerClient implements PlaceFinder {
     }
 
     @Override
-    public Cancellable find(FindListener listener) {
+    public Cancellable find(DiscoveryListener listener) {
         final Request asked = new Request(listener);
         asked.connection = loop.network().connectTcp(host, port, CONNECT_MS, asked);
         return asked;
@@ -49,9 +49,8 @@ public final class RunnerClient implements PlaceFinder {
         return lastAnswer;
     }
 
-    /** One request and its answer. */
     private final class Request implements Cancellable, TcpListener {
-        private final FindListener listener;
+        private final DiscoveryListener listener;
         private final byte[] line = request.toLine();
         private final ByteArrayOutputStream answer = new ByteArrayOutputStream();
         private TcpConnection connection;
@@ -59,7 +58,7 @@ public final class RunnerClient implements PlaceFinder {
         private int written;
         private boolean isPending = true;
 
-        Request(FindListener listener) {
+        Request(DiscoveryListener listener) {
             this.listener = listener;
         }
 
@@ -81,12 +80,8 @@ public final class RunnerClient implements PlaceFinder {
 
         @Override
         public void onConnected() {
-            limit = loop.schedule(ANSWER_MS, new Runnable() {
-                @Override
-                public void run() {
-                    fail("the runner did not answer within " + ANSWER_MS / 1000 + " s");
-                }
-            });
+            limit = loop.schedule(ANSWER_MS, () ->
+                    fail("the runner did not answer within " + ANSWER_MS / 1000 + " s"));
             onWritable();
         }
 
@@ -101,8 +96,8 @@ public final class RunnerClient implements PlaceFinder {
             while (end < length && bytes[end] != '\n') {
                 end++;
             }
-            if (answer.size() + end > LONGEST_ANSWER) {
-                fail("the runner's answer is longer than " + LONGEST_ANSWER + " bytes");
+            if (answer.size() + end > MAX_ANSWER_BYTES) {
+                fail("the runner's answer is longer than " + MAX_ANSWER_BYTES + " bytes");
                 return;
             }
             answer.write(bytes, 0, end);
@@ -127,7 +122,7 @@ public final class RunnerClient implements PlaceFinder {
             }
             lastAnswer = read;
             cancel();
-            listener.onFound(read.place());
+            listener.onFound(read.endpoint);
         }
 
         private void fail(String reason) {

@@ -9,7 +9,7 @@ import org.raspilot.up.wire.Json;
 /** A request to a runner (protocols 8): an aircraft, a profile, a configuration. */
 public final class RunnerRequest {
     /** Bytes of the longest request with its LF. */
-    public static final int LONGEST_LINE = 65536;
+    public static final int MAX_LINE_BYTES = 65536;
 
     private final byte[] line;
 
@@ -27,7 +27,7 @@ public final class RunnerRequest {
             throw new IllegalArgumentException("the aircraft's name must be 1 to 32 of A-Z a-z 0-9"
                     + " _ . - and not begin with a dot: " + aircraft);
         }
-        final Map<String, Object> request = new LinkedHashMap<String, Object>();
+        final Map<String, Object> request = new LinkedHashMap<>();
         request.put("aircraft", aircraft);
         if (profile != null) {
             request.put("profile", profile);
@@ -36,9 +36,9 @@ public final class RunnerRequest {
             request.put("configuration", configuration);
         }
         line = (Json.write(request) + "\n").getBytes(Charset.forName("UTF-8"));
-        if (line.length > LONGEST_LINE) {
+        if (line.length > MAX_LINE_BYTES) {
             throw new IllegalArgumentException("the request has " + line.length
-                    + " bytes, more than " + LONGEST_LINE);
+                    + " bytes, more than " + MAX_LINE_BYTES);
         }
     }
 

@@ -4,7 +4,6 @@ import org.raspilot.up.loop.Cancellable;
 
 /** Searches that are over before they are returned. */
 final class Search {
-    /** A search that is over. */
     static final Cancellable DONE = new Cancellable() {
         @Override
         public void cancel() {

@@ -12,14 +12,14 @@ import org.raspilot.up.wire.LineSplitter;
  * messages, then the newest message of each key.
  */
 final class SendQueue {
-    private static final int MOST_BYTES = UpSocketSettings.LONGEST_QUEUE_BYTES;
+    private static final int MAX_BYTES = UpSocketSettings.MAX_QUEUE_BYTES;
     private static final byte LF = '\n';
 
     private final boolean isRaw;
-    private final ArrayDeque<byte[]> ordered = new ArrayDeque<byte[]>();
-    private final Map<Object, byte[]> newest = new LinkedHashMap<Object, byte[]>();
-    private byte[] begun;
-    private int done;
+    private final ArrayDeque<byte[]> ordered = new ArrayDeque<>();
+    private final Map<Object, byte[]> newest = new LinkedHashMap<>();
+    private byte[] partial;
+    private int written;
     private int orderedBytes;
     private int newestBytes;
     private long sent;
@@ -34,7 +34,7 @@ final class SendQueue {
     /** Queues a copy in order; returns false when the queue is full or the message is too long. */
     boolean add(byte[] given) {
         final byte[] bytes = whole(given);
-        if (!isSendable(bytes) || orderedBytes + bytes.length > MOST_BYTES) {
+        if (!isSendable(bytes) || orderedBytes + bytes.length > MAX_BYTES) {
             return false;
         }
         orderedBytes += bytes.length;
@@ -47,7 +47,7 @@ final class SendQueue {
         final byte[] bytes = whole(given);
         final byte[] older = newest.get(key);
         final int grownBytes = newestBytes + bytes.length - (older == null ? 0 : older.length);
-        if (!isSendable(bytes) || grownBytes > MOST_BYTES) {
+        if (!isSendable(bytes) || grownBytes > MAX_BYTES) {
             return false;
         }
         newestBytes = grownBytes;
@@ -61,7 +61,7 @@ final class SendQueue {
 
     /** Writes what the connection accepts now. Unstarted messages stay replaceable. */
     void flush(TcpConnection connection) {
-        if (begun != null && !writeRest(connection)) {
+        if (partial != null && !writeRest(connection)) {
             return;
         }
         while (!ordered.isEmpty()) {
@@ -93,22 +93,22 @@ final class SendQueue {
 
     /** Clears the queue: the connection is gone. Returns the number of dropped lines or frames. */
     int clear() {
-        final int count = ordered.size() + newest.size() + (begun != null ? 1 : 0);
+        final int count = ordered.size() + newest.size() + (partial != null ? 1 : 0);
         ordered.clear();
         newest.clear();
         orderedBytes = 0;
         newestBytes = 0;
-        begun = null;
-        done = 0;
+        partial = null;
+        written = 0;
         return count;
     }
 
     boolean isEmpty() {
-        return begun == null && ordered.isEmpty() && newest.isEmpty();
+        return partial == null && ordered.isEmpty() && newest.isEmpty();
     }
 
     int waitingBytes() {
-        return orderedBytes + newestBytes + (begun == null ? 0 : begun.length - done);
+        return orderedBytes + newestBytes + (partial == null ? 0 : partial.length - written);
     }
 
     long sent() {
@@ -139,14 +139,14 @@ final class SendQueue {
     }
 
     private boolean isSendable(byte[] bytes) {
-        return bytes.length > 0 && (isRaw || bytes.length <= LineSplitter.LONGEST_LINE);
+        return bytes.length > 0 && (isRaw || bytes.length <= LineSplitter.MAX_LINE_BYTES);
     }
 
     private boolean writeRest(TcpConnection connection) {
-        final byte[] bytes = begun;
-        final int taken = write(connection, bytes, done);
-        begun = null;
-        return isWhole(bytes, done + taken);
+        final byte[] bytes = partial;
+        final int taken = write(connection, bytes, written);
+        partial = null;
+        return isWhole(bytes, written + taken);
     }
 
     private int write(TcpConnection connection, byte[] bytes, int offset) {
@@ -161,8 +161,8 @@ final class SendQueue {
             sent++;
             return true;
         }
-        begun = bytes;
-        done = gone;
+        partial = bytes;
+        written = gone;
         return false;
     }
 }

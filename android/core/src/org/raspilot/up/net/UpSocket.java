@@ -16,16 +16,16 @@ public final class UpSocket {
     private static final byte LF = '\n';
 
     private final Loop loop;
-    private final PlaceFinder finder;
+    private final EndpointDiscovery discovery;
     private final UpSocketListener listener;
     private final UpSocketSettings settings;
     private final BackOff backOff;
-    private final LinkWatch watch;
-    private final LineDelivery lines;
+    private final ConnectionWatchdog watch;
+    private final LineDispatcher lines;
     private final SendQueue queue;
     private UpSocketStatus status =
             new UpSocketStatus(UpSocketStatus.State.STOPPED, null, "not started");
-    private Place place;
+    private Endpoint place;
     private Attempt current;
     private Cancellable retry;
     private long connects;
@@ -40,28 +40,23 @@ public final class UpSocket {
      *
      * @param random a seeded source: the waits vary by it
      */
-    public UpSocket(Loop loop, PlaceFinder finder, UpSocketListener listener,
+    public UpSocket(Loop loop, EndpointDiscovery discovery, UpSocketListener listener,
             UpSocketSettings settings, Random random) {
         this.loop = loop;
-        this.finder = finder;
+        this.discovery = discovery;
         this.listener = listener;
         this.settings = settings;
-        queue = new SendQueue(settings.isRaw());
-        backOff = new BackOff(settings.firstRetryMs(), settings.lastRetryMs(), random);
-        lines = new LineDelivery(loop, new LineDelivery.Receiver() {
-            @Override
-            public void onLine(byte[] line) {
-                receive(line, line.length);
-            }
-        });
-        watch = new LinkWatch(loop, settings, new LinkWatch.Owner() {
+        queue = new SendQueue(settings.isRaw);
+        backOff = new BackOff(settings.initialRetryMs, settings.maxRetryMs, random);
+        lines = new LineDispatcher(loop, line -> receive(line, line.length));
+        watch = new ConnectionWatchdog(loop, settings, new ConnectionWatchdog.Owner() {
             @Override
             public void onBeat() {
                 beat();
             }
 
             @Override
-            public void onGivenUp(String what) {
+            public void onTimeout(String what) {
                 drop(current.peer + " " + what);
             }
         });
@@ -69,7 +64,7 @@ public final class UpSocket {
 
     /** Starts to connect; no effect when started already. */
     public void start() {
-        if (status.state() == UpSocketStatus.State.STOPPED) {
+        if (status.state == UpSocketStatus.State.STOPPED) {
             backOff.reset();
             attempt();
         }
@@ -77,9 +72,9 @@ public final class UpSocket {
 
     /** Closes until the next {@link #start}; {@code onLost} is called if it was connected. */
     public void stop() {
-        if (status.state() != UpSocketStatus.State.STOPPED) {
+        if (status.state != UpSocketStatus.State.STOPPED) {
             final boolean wasConnected = end();
-            become(UpSocketStatus.State.STOPPED, "stopped");
+            setState(UpSocketStatus.State.STOPPED, "stopped");
             if (wasConnected) {
                 listener.onLost(this, "stopped");
             }
@@ -91,9 +86,9 @@ public final class UpSocket {
      * attempt older than the shortest wait is restarted. No effect while connected.
      */
     public void reconnectNow() {
-        final UpSocketStatus.State state = status.state();
+        final UpSocketStatus.State state = status.state;
         final boolean isTrying = current != null && !isConnected()
-                && loop.nowMs() - current.beganMs >= settings.firstRetryMs();
+                && loop.nowMs() - current.beganMs >= settings.initialRetryMs;
         if (isTrying || state == UpSocketStatus.State.WAITING) {
             end();
             backOff.reset();
@@ -111,7 +106,7 @@ public final class UpSocket {
         if (isConnected()) {
             lost++;
             tookMs = 0;
-            if (nowMs - current.connectedMs >= settings.lastRetryMs()) {
+            if (nowMs - current.connectedMs >= settings.maxRetryMs) {
                 // Not earlier: the wait must grow for a peer that always hangs up immediately.
                 backOff.reset();
             }
@@ -119,13 +114,8 @@ public final class UpSocket {
             failedAttempts++;
         }
         final boolean wasConnected = end();
-        retry = loop.schedule(backOff.nextWaitMs(tookMs), new Runnable() {
-            @Override
-            public void run() {
-                attempt();
-            }
-        });
-        become(UpSocketStatus.State.WAITING, reason + "; trying again");
+        retry = loop.schedule(backOff.nextWaitMs(tookMs), () -> attempt());
+        setState(UpSocketStatus.State.WAITING, reason + "; trying again");
         if (wasConnected) {
             listener.onLost(this, reason);
         }
@@ -162,12 +152,10 @@ public final class UpSocket {
         return queue.waitingBytes();
     }
 
-    /** Returns the socket's state. */
     public UpSocketStatus status() {
         return status;
     }
 
-    /** Returns the counters. */
     public UpSocketCounters counters() {
         return new UpSocketCounters(connects, failedAttempts, lost, queue.sent(), dropped,
                 queue.replaced(), received, lines.tooLong(), bytesIn, queue.bytesOut());
@@ -176,10 +164,10 @@ public final class UpSocket {
     private void attempt() {
         final Attempt attempt = new Attempt();
         current = attempt;
-        become(UpSocketStatus.State.FINDING, "looking for the peer");
+        setState(UpSocketStatus.State.FINDING, "looking for the peer");
         boolean isBegun = false;
         try {
-            attempt.search = finder.find(attempt);
+            attempt.search = discovery.find(attempt);
             isBegun = true;
         } finally {
             if (!isBegun && current == attempt) {
@@ -206,15 +194,10 @@ public final class UpSocket {
         return wasConnected;
     }
 
-    private void become(UpSocketStatus.State state, String sentence) {
+    private void setState(UpSocketStatus.State state, String sentence) {
         status = new UpSocketStatus(state, place, sentence);
         // Posted, because a listener may throw, and may stop this in the middle of a change.
-        loop.post(new Runnable() {
-            @Override
-            public void run() {
-                listener.onStatus(UpSocket.this);
-            }
-        });
+        loop.post(() -> listener.onStatus(UpSocket.this));
     }
 
     private boolean count(boolean isTaken) {
@@ -229,7 +212,7 @@ public final class UpSocket {
     private void flush() {
         final long beforeBytes = queue.bytesOut();
         queue.flush(current.connection);
-        watch.wrote(queue.bytesOut() - beforeBytes, !queue.isEmpty());
+        watch.onWritten(queue.bytesOut() - beforeBytes, !queue.isEmpty());
     }
 
     private void receive(byte[] bytes, int length) {
@@ -242,12 +225,12 @@ public final class UpSocket {
         if (queue.isEmpty()) {
             final int taken = current.connection.write(new byte[] {LF}, 0, 1);
             queue.wrote(taken);
-            watch.wrote(taken, false);
+            watch.onWritten(taken, false);
         }
     }
 
     /** One attempt and, if it succeeds, its connection; ignores events once replaced. */
-    private final class Attempt implements FindListener, TcpListener {
+    private final class Attempt implements DiscoveryListener, TcpListener {
         private final long beganMs = loop.nowMs();
         private long connectedMs;
         private String peer = "the peer";
@@ -264,16 +247,16 @@ public final class UpSocket {
         }
 
         @Override
-        public void onFound(Place found) {
+        public void onFound(Endpoint found) {
             if (current != this) {
                 return;
             }
             place = found;
-            final int port = settings.isRaw() ? found.orientationPort() : found.generalPort();
-            peer = found.host() + ":" + port;
-            become(UpSocketStatus.State.CONNECTING, "connecting to " + peer);
-            connection = loop.network().connectTcp(found.host(), port,
-                    settings.connectTimeoutMs(), this);
+            final int port = settings.isRaw ? found.orientationPort : found.generalPort;
+            peer = found.host + ":" + port;
+            setState(UpSocketStatus.State.CONNECTING, "connecting to " + peer);
+            connection = loop.network().connectTcp(found.host, port,
+                    settings.connectTimeoutMs, this);
         }
 
         @Override
@@ -288,7 +271,7 @@ public final class UpSocket {
             connectedMs = loop.nowMs();
             connects++;
             lines.begin(this);
-            become(UpSocketStatus.State.CONNECTED, "connected to " + peer);
+            setState(UpSocketStatus.State.CONNECTED, "connected to " + peer);
             watch.start();
             listener.onConnected(UpSocket.this);
         }
@@ -296,8 +279,8 @@ public final class UpSocket {
         @Override
         public void onBytes(byte[] bytes, int length) {
             bytesIn += length;
-            watch.heard();
-            if (settings.isRaw()) {
+            watch.onReceived();
+            if (settings.isRaw) {
                 receive(bytes, length);
             } else {
                 lines.feed(bytes, length);

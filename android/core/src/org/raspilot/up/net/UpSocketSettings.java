@@ -3,25 +3,30 @@ package org.raspilot.up.net;
 /** How an {@link UpSocket} behaves; immutable, each {@code with} returns another. Times in ms. */
 public final class UpSocketSettings {
     /** Most bytes that wait in order. */
-    public static final int LONGEST_QUEUE_BYTES = 65536;
+    public static final int MAX_QUEUE_BYTES = 65536;
 
-    private final boolean isRaw;
-    private final int connectTimeoutMs;
-    private final int heartbeatMs;
-    private final int silenceLimitMs;
-    private final int stallLimitMs;
-    private final int firstRetryMs;
-    private final int lastRetryMs;
+    /** Whether raw frames go to the orientation port, instead of lines to the other. */
+    public final boolean isRaw;
+    public final int connectTimeoutMs;
+    /** The period of the heartbeat; 0: none. */
+    public final int heartbeatMs;
+    /** The limit of the peer's silence; 0: none. */
+    public final int silenceLimitMs;
+    /** How long the peer may accept none of the waiting data; 0: no limit. */
+    public final int stallLimitMs;
+    /** The wait after the first failure. */
+    public final int initialRetryMs;
+    public final int maxRetryMs;
 
     private UpSocketSettings(boolean isRaw, int connectTimeoutMs, int heartbeatMs,
-            int silenceLimitMs, int stallLimitMs, int firstRetryMs, int lastRetryMs) {
+            int silenceLimitMs, int stallLimitMs, int initialRetryMs, int maxRetryMs) {
         this.isRaw = isRaw;
         this.connectTimeoutMs = atLeast(1, connectTimeoutMs);
         this.heartbeatMs = atLeast(0, heartbeatMs);
         this.silenceLimitMs = atLeast(0, silenceLimitMs);
         this.stallLimitMs = atLeast(0, stallLimitMs);
-        this.firstRetryMs = atLeast(1, firstRetryMs);
-        this.lastRetryMs = atLeast(firstRetryMs, lastRetryMs);
+        this.initialRetryMs = atLeast(1, initialRetryMs);
+        this.maxRetryMs = atLeast(initialRetryMs, maxRetryMs);
         if (isRaw && heartbeatMs > 0) {
             throw new IllegalArgumentException("raw frames have no heartbeat");
         }
@@ -43,66 +48,31 @@ public final class UpSocketSettings {
     /** Returns these settings with a timeout of each attempt, including name lookup. */
     public UpSocketSettings withConnectTimeoutMs(int timeoutMs) {
         return new UpSocketSettings(isRaw, timeoutMs, heartbeatMs, silenceLimitMs, stallLimitMs,
-                firstRetryMs, lastRetryMs);
+                initialRetryMs, maxRetryMs);
     }
 
     /** Returns these with an empty line after each {@code periodMs} of own silence; 0: none. */
     public UpSocketSettings withHeartbeatMs(int periodMs) {
         return new UpSocketSettings(isRaw, connectTimeoutMs, periodMs, silenceLimitMs,
-                stallLimitMs, firstRetryMs, lastRetryMs);
+                stallLimitMs, initialRetryMs, maxRetryMs);
     }
 
     /** Returns these settings with a timeout of connections without received bytes; 0: none. */
     public UpSocketSettings withSilenceLimitMs(int limitMs) {
         return new UpSocketSettings(isRaw, connectTimeoutMs, heartbeatMs, limitMs, stallLimitMs,
-                firstRetryMs, lastRetryMs);
+                initialRetryMs, maxRetryMs);
     }
 
     /** Returns these with the end of a connection that took nothing of what waits; 0: never. */
     public UpSocketSettings withStallLimitMs(int limitMs) {
         return new UpSocketSettings(isRaw, connectTimeoutMs, heartbeatMs, silenceLimitMs, limitMs,
-                firstRetryMs, lastRetryMs);
+                initialRetryMs, maxRetryMs);
     }
 
     /** Returns these with waits between attempts that double from the first to the last. */
     public UpSocketSettings withRetryMs(int firstMs, int lastMs) {
         return new UpSocketSettings(isRaw, connectTimeoutMs, heartbeatMs, silenceLimitMs,
                 stallLimitMs, firstMs, lastMs);
-    }
-
-    /** Returns whether raw frames go to the orientation port, instead of lines to the other. */
-    public boolean isRaw() {
-        return isRaw;
-    }
-
-    /** Returns the time-out of an attempt. */
-    public int connectTimeoutMs() {
-        return connectTimeoutMs;
-    }
-
-    /** Returns the period of the heartbeat; 0: none. */
-    public int heartbeatMs() {
-        return heartbeatMs;
-    }
-
-    /** Returns the limit of the peer's silence; 0: none. */
-    public int silenceLimitMs() {
-        return silenceLimitMs;
-    }
-
-    /** Returns how long the peer may accept none of the waiting data; 0: no limit. */
-    public int stallLimitMs() {
-        return stallLimitMs;
-    }
-
-    /** Returns the wait after the first failure. */
-    public int firstRetryMs() {
-        return firstRetryMs;
-    }
-
-    /** Returns the longest wait. */
-    public int lastRetryMs() {
-        return lastRetryMs;
     }
 
     private static int atLeast(int least, int value) {

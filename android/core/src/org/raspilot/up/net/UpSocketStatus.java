@@ -2,7 +2,6 @@ package org.raspilot.up.net;
 
 /** The state of an {@link UpSocket}: its activity, its place, why it is not connected. */
 public final class UpSocketStatus {
-    /** What a socket does. */
     public enum State {
         /** It was not started, or it was stopped. */
         STOPPED,
@@ -16,34 +15,20 @@ public final class UpSocketStatus {
         WAITING
     }
 
-    private final State state;
-    private final Place place;
-    private final String sentence;
+    public final State state;
+    /** The last place found; null: none so far. */
+    public final Endpoint endpoint;
+    /** A sentence without a full stop: the peer's address, or why it is not connected. */
+    public final String sentence;
 
-    UpSocketStatus(State state, Place place, String sentence) {
+    UpSocketStatus(State state, Endpoint place, String sentence) {
         this.state = state;
-        this.place = place;
+        this.endpoint = place;
         this.sentence = sentence;
     }
 
-    /** Returns what it does. */
-    public State state() {
-        return state;
-    }
-
-    /** Returns whether it is connected. */
     public boolean isConnected() {
         return state == State.CONNECTED;
-    }
-
-    /** Returns the last place found; null: none so far. */
-    public Place place() {
-        return place;
-    }
-
-    /** Returns a sentence without a full stop: the peer's address, or why it is not connected. */
-    public String sentence() {
-        return sentence;
     }
 
     @Override

@@ -1,9 +1,7 @@
 package org.raspilot.up.providers;
 
-import java.util.Collections;
-import org.raspilot.up.commands.AltitudeCommand;
 import org.raspilot.up.commands.BaseCommand;
-import org.raspilot.up.wire.GeneralMessage;
+import org.raspilot.up.commands.Commands;
 
 /**
  * Sends the altitude by the barometer: {@code up.altitude.change}.
@@ -15,9 +13,9 @@ public final class AltitudeProvider extends SensorProvider<Pressure> {
     /** The name under which it is registered. */
     public static final String NAME = "altitude";
     /** The lowest reference pressure, hPa: a field at 9 km. */
-    public static final double LEAST_REFERENCE_HPA = 300;
+    public static final double MIN_REFERENCE_HPA = 300;
     /** The highest reference pressure, hPa. */
-    public static final double MOST_REFERENCE_HPA = 1100;
+    public static final double MAX_REFERENCE_HPA = 1100;
 
     private static final long SILENCE_MS = 3000;
 
@@ -25,7 +23,7 @@ public final class AltitudeProvider extends SensorProvider<Pressure> {
 
     /** Takes the barometer, and how often an altitude leaves at most, ms. */
     public AltitudeProvider(SensorSource<Pressure> source, int periodMs) {
-        super(NAME, source, Cadence.stream(periodMs, SILENCE_MS));
+        super(NAME, source, RatePolicy.stream(periodMs, SILENCE_MS));
     }
 
     /**
@@ -55,22 +53,21 @@ public final class AltitudeProvider extends SensorProvider<Pressure> {
         if (newest() == null) {
             throw new IllegalStateException("the barometer has said nothing yet");
         }
-        setReferenceHPa(newest().hPa());
+        setReferenceHPa(newest().hPa);
         return referenceHPa;
     }
 
     /** Returns whether a reference pressure can be used. */
     public static boolean isReference(double hPa) {
-        return hPa >= LEAST_REFERENCE_HPA && hPa <= MOST_REFERENCE_HPA;
+        return hPa >= MIN_REFERENCE_HPA && hPa <= MAX_REFERENCE_HPA;
     }
 
     @Override
     protected BaseCommand read(Pressure pressure) {
-        if (!(pressure.hPa() > 0)) {
-            throw new IllegalArgumentException("a pressure of " + pressure.hPa() + " hPa");
+        if (!(pressure.hPa > 0)) {
+            throw new IllegalArgumentException("a pressure of " + pressure.hPa + " hPa");
         }
-        double altitudeM = StandardAtmosphere.altitudeM(pressure.hPa(), referenceHPa);
-        return new AltitudeCommand(new GeneralMessage(AltitudeCommand.NAME,
-                Collections.singletonMap("altitude", Rounded.to(2, altitudeM))));
+        double altitudeM = StandardAtmosphere.altitudeM(pressure.hPa, referenceHPa);
+        return Commands.of(Commands.ALTITUDE, "altitude", Rounded.to(2, altitudeM));
     }
 }

@@ -11,9 +11,12 @@ public final class Attitude {
     /** Below this cosine of the pitch, roll and yaw cannot be distinguished. */
     private static final double GIMBAL_LOCK = 1e-7;
 
-    private final double rollDeg;
-    private final double pitchDeg;
-    private final double yawDeg;
+    /** Degrees, right wing down is positive. */
+    public final double rollDeg;
+    /** Degrees, nose up is positive. */
+    public final double pitchDeg;
+    /** Degrees clockwise from north, 0 to 360. */
+    public final double yawDeg;
 
     /** Stores roll and pitch unchanged, and the yaw as 0 to 360. */
     public Attitude(double rollDeg, double pitchDeg, double yawDeg) {
@@ -45,21 +48,6 @@ public final class Attitude {
         return Quaternion.about(Math.toRadians(yawDeg), 0, 0, 1)
                 .times(Quaternion.about(Math.toRadians(pitchDeg), 0, 1, 0))
                 .times(Quaternion.about(Math.toRadians(rollDeg), 1, 0, 0));
-    }
-
-    /** Returns degrees, right wing down is positive. */
-    public double rollDeg() {
-        return rollDeg;
-    }
-
-    /** Returns degrees, nose up is positive. */
-    public double pitchDeg() {
-        return pitchDeg;
-    }
-
-    /** Returns degrees clockwise from north, 0 to 360. */
-    public double yawDeg() {
-        return yawDeg;
     }
 
     /** Returns the same direction as 0 to 360, 360 excluded. */

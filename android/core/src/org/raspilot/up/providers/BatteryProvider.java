@@ -1,30 +1,26 @@
 package org.raspilot.up.providers;
 
-import java.util.Collections;
 import org.raspilot.up.commands.BaseCommand;
-import org.raspilot.up.commands.BatteryCommand;
-import org.raspilot.up.wire.GeneralMessage;
+import org.raspilot.up.commands.Commands;
 
 /** Sends the device's battery level: {@code android.battery}, on change and each ten seconds. */
 public final class BatteryProvider extends SensorProvider<BatteryLevel> {
     /** The name under which it is registered. */
     public static final String NAME = "battery";
 
-    private static final long LEAST_MS = 1000;
+    private static final long MIN_MS = 1000;
     private static final long REPEAT_MS = 10000;
     private static final long SILENCE_MS = 10000;
 
-    /** Takes the battery. */
     public BatteryProvider(SensorSource<BatteryLevel> source) {
-        super(NAME, source, Cadence.level(LEAST_MS, REPEAT_MS, SILENCE_MS));
+        super(NAME, source, RatePolicy.level(MIN_MS, REPEAT_MS, SILENCE_MS));
     }
 
     @Override
     protected BaseCommand read(BatteryLevel level) {
-        if (!(level.percent() >= 0 && level.percent() <= 100)) {
-            throw new IllegalArgumentException("a level of " + level.percent() + " percent");
+        if (!(level.percent >= 0 && level.percent <= 100)) {
+            throw new IllegalArgumentException("a level of " + level.percent + " percent");
         }
-        return new BatteryCommand(new GeneralMessage(BatteryCommand.NAME,
-                Collections.singletonMap("level", Math.round(level.percent()))));
+        return Commands.of(Commands.BATTERY, "level", Math.round(level.percent));
     }
 }

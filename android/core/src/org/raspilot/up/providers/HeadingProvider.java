@@ -1,14 +1,13 @@
 package org.raspilot.up.providers;
 
 import org.raspilot.up.commands.BaseCommand;
-import org.raspilot.up.commands.HeadingCommand;
+import org.raspilot.up.commands.Commands;
 
 /** Sends the heading of the aircraft's nose by the compass: {@code up.heading.change}. */
 public final class HeadingProvider extends SensorProvider<Rotation> {
     /** The name under which it is registered. */
     public static final String NAME = "heading";
 
-    private static final String ACTUAL = "actual";
     private static final long SILENCE_MS = 2000;
 
     private Mounting mounting;
@@ -16,7 +15,7 @@ public final class HeadingProvider extends SensorProvider<Rotation> {
 
     /** Takes the rotation sensor, how it is mounted, and how often a heading leaves at most, ms. */
     public HeadingProvider(SensorSource<Rotation> source, Mounting mounting, int periodMs) {
-        super(NAME, source, Cadence.stream(periodMs, SILENCE_MS));
+        super(NAME, source, RatePolicy.stream(periodMs, SILENCE_MS));
         this.mounting = mounting;
     }
 
@@ -33,6 +32,7 @@ public final class HeadingProvider extends SensorProvider<Rotation> {
     @Override
     protected BaseCommand read(Rotation rotation) {
         Attitude attitude = mounting.attitude(rotation, declinationDeg);
-        return new HeadingCommand(Rounded.direction(attitude.yawDeg()), ACTUAL);
+        return Commands.of(Commands.HEADING,
+                "heading", Rounded.direction(attitude.yawDeg), "mode", "actual");
     }
 }

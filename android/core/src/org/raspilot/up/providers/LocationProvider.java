@@ -1,7 +1,7 @@
 package org.raspilot.up.providers;
 
 import org.raspilot.up.commands.BaseCommand;
-import org.raspilot.up.commands.LocationCommand;
+import org.raspilot.up.commands.Commands;
 
 /** Sends the GPS position of the device: {@code up.location.update}. */
 public final class LocationProvider extends SensorProvider<Fix> {
@@ -10,26 +10,26 @@ public final class LocationProvider extends SensorProvider<Fix> {
 
     private static final long SILENCE_MS = 10000;
     /** A fix of the mobile network, or an approximate one: home and the way back would be wrong. */
-    private static final double WORST_ACCURACY_M = 50;
+    private static final double MAX_ACCURACY_M = 50;
 
     /** Takes the GPS, and how often a fix leaves at most, ms. */
     public LocationProvider(SensorSource<Fix> source, int periodMs) {
-        super(NAME, source, Cadence.stream(periodMs, SILENCE_MS));
+        super(NAME, source, RatePolicy.stream(periodMs, SILENCE_MS));
     }
 
     @Override
     protected BaseCommand read(Fix fix) {
-        if (fix.accuracyM() != null && fix.accuracyM() > WORST_ACCURACY_M) {
+        if (fix.accuracyM != null && fix.accuracyM > MAX_ACCURACY_M) {
             throw new IllegalArgumentException("a fix that may be off by more than "
-                    + Math.round(WORST_ACCURACY_M) + " m is none to fly by");
+                    + Math.round(MAX_ACCURACY_M) + " m is none to fly by");
         }
-        return new LocationCommand(
-                Rounded.to(7, fix.latitudeDeg()),
-                Rounded.to(7, fix.longitudeDeg()),
-                rounded(1, fix.altitudeM()),
-                rounded(1, fix.accuracyM()),
-                rounded(2, fix.speedMS()),
-                isKnown(fix.bearingDeg()) ? Rounded.direction(fix.bearingDeg()) : null);
+        return Commands.of(Commands.LOCATION,
+                "latitude", Rounded.to(7, fix.latitudeDeg),
+                "longitude", Rounded.to(7, fix.longitudeDeg),
+                "altitude", rounded(1, fix.altitudeM),
+                "accuracy", rounded(1, fix.accuracyM),
+                "speed", rounded(2, fix.speedMS),
+                "bearing", isKnown(fix.bearingDeg) ? Rounded.direction(fix.bearingDeg) : null);
     }
 
     /** A value unknown to GPS must not prevent sending the position. */

@@ -7,7 +7,7 @@ import org.raspilot.up.wire.SafeText;
  * to device axes (right edge, top edge, out of the screen). Any orientation is allowed.
  */
 public final class Mounting {
-    private static final int LONGEST_SHOWN = 80;
+    private static final int MAX_SHOWN_LENGTH = 80;
 
     /** The screen up and the top edge to the nose. */
     public static final Mounting FLAT = of(Side.TOP, Side.SCREEN);
@@ -16,9 +16,10 @@ public final class Mounting {
     private static final Quaternion SWAP_NED_ENU = Quaternion.about(Math.PI, 1, 1, 0);
 
     /** When calibrated, the side at the nose may point up or down by at most 60 degrees. */
-    private static final double LEAST_LEVEL = 0.5;
+    private static final double MIN_LEVEL = 0.5;
 
-    private final Quaternion bodyToDevice;
+    /** The rotation from aircraft axes to device axes. */
+    public final Quaternion bodyToDevice;
 
     /** Takes any rotation; throws IllegalArgumentException for an invalid quaternion. */
     public Mounting(Quaternion bodyToDevice) {
@@ -47,9 +48,9 @@ public final class Mounting {
      * @throws IllegalArgumentException when that side points up or down (a sentence)
      */
     public static Mounting level(Rotation rotation, Side nose) {
-        Quaternion deviceToNed = SWAP_NED_ENU.times(rotation.deviceToWorld());
+        Quaternion deviceToNed = SWAP_NED_ENU.times(rotation.deviceToWorld);
         double[] ahead = deviceToNed.turn(nose.x(), nose.y(), nose.z());
-        if (Math.hypot(ahead[0], ahead[1]) < LEAST_LEVEL) {
+        if (Math.hypot(ahead[0], ahead[1]) < MIN_LEVEL) {
             throw new IllegalArgumentException("the side that is to be at the nose points "
                     + (ahead[2] < 0 ? "up" : "down") + ": hold the aeroplane level");
         }
@@ -65,9 +66,9 @@ public final class Mounting {
      */
     public Attitude attitude(Rotation rotation, double declinationDeg) {
         Attitude magnetic = Attitude.of(
-                SWAP_NED_ENU.times(rotation.deviceToWorld()).times(bodyToDevice));
+                SWAP_NED_ENU.times(rotation.deviceToWorld).times(bodyToDevice));
         return new Attitude(
-                magnetic.rollDeg(), magnetic.pitchDeg(), magnetic.yawDeg() + declinationDeg);
+                magnetic.rollDeg, magnetic.pitchDeg, magnetic.yawDeg + declinationDeg);
     }
 
     /** Returns the rotation that a device mounted so has in an aircraft of this attitude. */
@@ -79,22 +80,17 @@ public final class Mounting {
     /** Returns the aircraft's roll, pitch and yaw rate about its own axes, deg/s. */
     public double[] ratesDegS(RotationRate rate) {
         double[] rates =
-                bodyToDevice.conjugate().turn(rate.xRadS(), rate.yRadS(), rate.zRadS());
+                bodyToDevice.conjugate().turn(rate.xRadS, rate.yRadS, rate.zRadS);
         for (int axis = 0; axis < rates.length; axis++) {
             rates[axis] = Math.toDegrees(rates[axis]);
         }
         return rates;
     }
 
-    /** Returns the rotation from aircraft axes to device axes. */
-    public Quaternion bodyToDevice() {
-        return bodyToDevice;
-    }
-
     /** Returns it as text for settings: four numbers, {@code w x y z}. */
     public String toText() {
-        return bodyToDevice.w() + " " + bodyToDevice.x() + " " + bodyToDevice.y() + " "
-                + bodyToDevice.z();
+        return bodyToDevice.w + " " + bodyToDevice.x + " " + bodyToDevice.y + " "
+                + bodyToDevice.z;
     }
 
     /**
@@ -106,7 +102,8 @@ public final class Mounting {
         String[] parts = text.trim().split("\\s+");
         if (parts.length != 4) {
             throw new IllegalArgumentException(
-                    "the mounting is four numbers, not '" + SafeText.of(text, LONGEST_SHOWN) + "'");
+                    "the mounting is four numbers, not '" + SafeText.of(text, MAX_SHOWN_LENGTH)
+                            + "'");
         }
         try {
             return new Mounting(new Quaternion(
@@ -116,7 +113,8 @@ public final class Mounting {
                     Double.parseDouble(parts[3])));
         } catch (IllegalArgumentException error) {
             throw new IllegalArgumentException(
-                    "the mounting '" + SafeText.of(text, LONGEST_SHOWN) + "' is no rotation", error);
+                    "the mounting '" + SafeText.of(text, MAX_SHOWN_LENGTH) + "' is no rotation",
+                            error);
         }
     }
 

@@ -13,14 +13,14 @@ public final class OrientationProvider extends UpProvider {
     /** The name under which it is registered. */
     public static final String NAME = "orientation";
     /** The lowest rate, Hz. */
-    public static final int LEAST_HZ = 50;
+    public static final int MIN_HZ = 50;
     /** The highest rate, Hz. */
-    public static final int MOST_HZ = 200;
+    public static final int MAX_HZ = 200;
 
     private static final long SILENCE_MS = 500;
-    private static final long RATE_WORTH_MS = 100;
+    private static final long MAX_RATE_AGE_MS = 100;
     /** Times are in ms: over shorter intervals the differences would be noise. */
-    private static final long LEAST_DIFFERENCE_MS = 20;
+    private static final long MIN_DIFFERENCE_MS = 20;
 
     private final SensorSource<Rotation> rotations;
     private final SensorSource<RotationRate> gyroscope;
@@ -35,7 +35,7 @@ public final class OrientationProvider extends UpProvider {
     /** Takes both sensors, the mounting, and how often a frame leaves, 50 to 200 Hz. */
     public OrientationProvider(SensorSource<Rotation> rotations,
             SensorSource<RotationRate> gyroscope, Mounting mounting, int rateHz) {
-        super(NAME, Cadence.stream(1000.0 / rateHz, SILENCE_MS));
+        super(NAME, RatePolicy.stream(1000.0 / rateHz, SILENCE_MS));
         this.rotations = rotations;
         this.gyroscope = gyroscope;
         this.mounting = mounting;
@@ -63,7 +63,7 @@ public final class OrientationProvider extends UpProvider {
     }
 
     @Override
-    protected boolean isOpen(Outlet to) {
+    protected boolean isOpen(MessageSink to) {
         return to.isOrientationOpen();
     }
 
@@ -73,19 +73,9 @@ public final class OrientationProvider extends UpProvider {
         earlier = null;
         measured = null;
         if (gyroscope.isPresent()) {
-            gyroscope.subscribe(periodMs, new SensorListener<RotationRate>() {
-                @Override
-                public void onReading(RotationRate reading) {
-                    measured = reading;
-                }
-            });
+            gyroscope.subscribe(periodMs, reading -> measured = reading);
         }
-        rotations.subscribe(periodMs, new SensorListener<Rotation>() {
-            @Override
-            public void onReading(Rotation reading) {
-                take(reading);
-            }
-        });
+        rotations.subscribe(periodMs, reading -> update(reading));
     }
 
     @Override
@@ -97,14 +87,14 @@ public final class OrientationProvider extends UpProvider {
     }
 
     @Override
-    protected boolean transmit(Outlet to) {
+    protected boolean transmit(MessageSink to) {
         Attitude attitude = mounting.attitude(newest, declinationDeg);
         double[] rates = mounting.ratesDegS(isMeasured() ? measured : difference);
         OrientationFrame frame = new OrientationFrame(
-                (float) attitude.rollDeg(), (float) attitude.pitchDeg(), (float) attitude.yawDeg(),
+                (float) attitude.rollDeg, (float) attitude.pitchDeg, (float) attitude.yawDeg,
                 (float) rates[0], (float) rates[1], (float) rates[2]);
         if (!frame.isInRange()) {
-            refuse("its reading cannot be used: a rate that is none, or above 4000 deg/s");
+            reject("its reading cannot be used: a rate that is none, or above 4000 deg/s");
             return false;
         }
         boolean isTaken = to.sendOrientation(frame);
@@ -117,14 +107,14 @@ public final class OrientationProvider extends UpProvider {
     @Override
     protected String lastText() {
         return last == null ? "" : String.format(Locale.ROOT, "roll %.1f, pitch %.1f, yaw %.1f",
-                last.rollDeg(), last.pitchDeg(), last.yawDeg());
+                last.rollDeg, last.pitchDeg, last.yawDeg);
     }
 
-    private void take(Rotation reading) {
+    private void update(Rotation reading) {
         newest = reading;
         if (earlier == null) {
             earlier = reading;
-        } else if (reading.timeMs() - earlier.timeMs() >= LEAST_DIFFERENCE_MS) {
+        } else if (reading.timeMs - earlier.timeMs >= MIN_DIFFERENCE_MS) {
             difference = RotationRate.between(earlier, reading);
             earlier = reading;
         }
@@ -133,6 +123,6 @@ public final class OrientationProvider extends UpProvider {
 
     /** Both times are the sensors' own: a gyroscope that fell behind is not believed. */
     private boolean isMeasured() {
-        return measured != null && newest.timeMs() - measured.timeMs() <= RATE_WORTH_MS;
+        return measured != null && newest.timeMs - measured.timeMs <= MAX_RATE_AGE_MS;
     }
 }

@@ -12,9 +12,9 @@ import java.util.List;
  */
 public final class Panic {
     /** The maximum delay of a request, ms. */
-    public static final long LONGEST_DELAY_MS = 10000;
+    public static final long MAX_DELAY_MS = 10000;
 
-    private final List<Listener> listeners = new ArrayList<Listener>();
+    private final List<Listener> listeners = new ArrayList<>();
     private long delayMs;
 
     /** Called when it starts, changes or ends. */
@@ -29,19 +29,18 @@ public final class Panic {
      * @param wantedMs 0 to 10000; a fraction is rounded up
      * @throws IllegalArgumentException when it is out of range (a sentence)
      */
-    public void follow(double wantedMs) {
-        if (!(wantedMs >= 0 && wantedMs <= LONGEST_DELAY_MS)) {
-            throw new IllegalArgumentException("delay_ms: 0 to " + LONGEST_DELAY_MS);
+    public void apply(double wantedMs) {
+        if (!(wantedMs >= 0 && wantedMs <= MAX_DELAY_MS)) {
+            throw new IllegalArgumentException("delay_ms: 0 to " + MAX_DELAY_MS);
         }
-        become((long) Math.ceil(wantedMs));
+        setDelayMs((long) Math.ceil(wantedMs));
     }
 
     /** Ends: by {@code panic: false}, or because the link that requested it is lost. */
-    public void forget() {
-        become(0);
+    public void clear() {
+        setDelayMs(0);
     }
 
-    /** Returns whether it is active. */
     public boolean isOn() {
         return delayMs > 0;
     }
@@ -61,17 +60,16 @@ public final class Panic {
         listeners.add(listener);
     }
 
-    /** Removes a listener. */
     public void removeListener(Listener listener) {
         listeners.remove(listener);
     }
 
-    private void become(long newMs) {
+    private void setDelayMs(long newMs) {
         if (newMs == delayMs) {
             return;
         }
         delayMs = newMs;
-        for (Listener listener : new ArrayList<Listener>(listeners)) {
+        for (Listener listener : new ArrayList<>(listeners)) {
             listener.onPanic(this);
         }
     }

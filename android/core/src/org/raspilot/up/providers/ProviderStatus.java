@@ -2,16 +2,20 @@ package org.raspilot.up.providers;
 
 /** What the screen shows of one provider: a snapshot that never changes. */
 public final class ProviderStatus {
-    private final String name;
-    private final String sensor;
-    private final ProviderState state;
-    private final double rateHz;
-    private final long ageMs;
-    private final String lastText;
-    private final String problem;
-    private final long sent;
+    public final String name;
+    public final String sensor;
+    public final ProviderState state;
+    /** How many of its messages left in the last second, Hz. */
+    public final double rateHz;
+    /** The age of its newest reading, ms; -1: none so far. */
+    public final long ageMs;
+    /** What it sent last, as text; empty: nothing. */
+    public final String lastText;
+    /** The problem in one sentence, or an empty text. */
+    public final String problem;
+    /** How many messages left since it was registered. */
+    public final long sent;
 
-    /** Stores the values. */
     public ProviderStatus(
             String name,
             String sensor,
@@ -29,45 +33,5 @@ public final class ProviderStatus {
         this.lastText = lastText;
         this.problem = problem;
         this.sent = sent;
-    }
-
-    /** Returns the provider's name. */
-    public String name() {
-        return name;
-    }
-
-    /** Returns what the sensor calls itself. */
-    public String sensor() {
-        return sensor;
-    }
-
-    /** Returns what it does now. */
-    public ProviderState state() {
-        return state;
-    }
-
-    /** Returns how many of its messages left in the last second, Hz. */
-    public double rateHz() {
-        return rateHz;
-    }
-
-    /** Returns the age of its newest reading, ms; -1: none so far. */
-    public long ageMs() {
-        return ageMs;
-    }
-
-    /** Returns what it sent last, as text; empty: nothing. */
-    public String lastText() {
-        return lastText;
-    }
-
-    /** Returns the problem in one sentence, or an empty text. */
-    public String problem() {
-        return problem;
-    }
-
-    /** Returns how many messages left since it was registered. */
-    public long sent() {
-        return sent;
     }
 }

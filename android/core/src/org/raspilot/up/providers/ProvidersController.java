@@ -11,17 +11,14 @@ import org.raspilot.up.loop.Loop;
 public final class ProvidersController {
     private final Loop loop;
     private final Panic panic = new Panic();
-    private final Map<String, UpProvider> providers = new LinkedHashMap<String, UpProvider>();
-    private final List<ProvidersListener> listeners = new ArrayList<ProvidersListener>();
-    private final ProvidersListener telling = new ProvidersListener() {
-        @Override
-        public void onProvider(String name, String sentence) {
-            for (ProvidersListener listener : new ArrayList<ProvidersListener>(listeners)) {
-                listener.onProvider(name, sentence);
-            }
+    private final Map<String, UpProvider> providers = new LinkedHashMap<>();
+    private final List<ProvidersListener> listeners = new ArrayList<>();
+    private final ProvidersListener notifier = (name, sentence) -> {
+        for (ProvidersListener listener : new ArrayList<>(listeners)) {
+            listener.onProvider(name, sentence);
         }
     };
-    private Outlet outlet;
+    private MessageSink sink;
 
     /** Takes the loop on which everything happens. */
     public ProvidersController(Loop loop) {
@@ -49,10 +46,10 @@ public final class ProvidersController {
             throw new IllegalArgumentException(
                     "a provider '" + provider.name() + "' is registered already");
         }
-        provider.attach(loop, panic, telling);
+        provider.attach(loop, panic, notifier);
         providers.put(provider.name(), provider);
-        if (outlet != null) {
-            provider.start(outlet);
+        if (sink != null) {
+            provider.start(sink);
         }
     }
 
@@ -71,16 +68,15 @@ public final class ProvidersController {
     }
 
     /** Starts all in the order of their registration; they send into the outlet. */
-    public void start(Outlet to) {
-        outlet = to;
+    public void start(MessageSink to) {
+        sink = to;
         for (UpProvider provider : all()) {
             provider.start(to);
         }
     }
 
-    /** Stops all in reverse order. */
     public void stop() {
-        outlet = null;
+        sink = null;
         List<UpProvider> reversed = all();
         Collections.reverse(reversed);
         for (UpProvider provider : reversed) {
@@ -91,11 +87,11 @@ public final class ProvidersController {
     /** Restarts one, as after a permission was granted; returns whether it is running. */
     public boolean restart(String name) {
         UpProvider provider = providers.get(name);
-        if (provider == null || outlet == null) {
+        if (provider == null || sink == null) {
             return false;
         }
         provider.stop();
-        provider.start(outlet);
+        provider.start(sink);
         return true;
     }
 
@@ -108,12 +104,12 @@ public final class ProvidersController {
 
     /** Notes that the link is lost: its requests are discarded. */
     public void linkClosed() {
-        panic.forget();
+        panic.clear();
     }
 
     /** Returns what each does now, in the order of their registration. */
     public List<ProviderStatus> statuses() {
-        List<ProviderStatus> statuses = new ArrayList<ProviderStatus>();
+        List<ProviderStatus> statuses = new ArrayList<>();
         for (UpProvider provider : all()) {
             statuses.add(provider.status());
         }
@@ -121,6 +117,6 @@ public final class ProvidersController {
     }
 
     private List<UpProvider> all() {
-        return new ArrayList<UpProvider>(providers.values());
+        return new ArrayList<>(providers.values());
     }
 }

@@ -2,17 +2,19 @@ package org.raspilot.up.providers;
 
 /** A quaternion w + xi + yj + zk, Hamilton's; of length one it is a rotation. */
 public final class Quaternion {
-    /** No rotation at all. */
     public static final Quaternion NONE = new Quaternion(1, 0, 0, 0);
 
-    private static final double SHORTEST = 1e-6;
+    private static final double MIN_LENGTH = 1e-6;
 
-    private final double w;
-    private final double x;
-    private final double y;
-    private final double z;
+    /** The real part: of a rotation the cosine of half its angle. */
+    public final double w;
+    /** The first axis times the sine of half the angle. */
+    public final double x;
+    /** The second axis times the sine of half the angle. */
+    public final double y;
+    /** The third axis times the sine of half the angle. */
+    public final double z;
 
-    /** Stores the four parts unchanged. */
     public Quaternion(double w, double x, double y, double z) {
         this.w = w;
         this.x = x;
@@ -72,7 +74,7 @@ public final class Quaternion {
     /** Returns it at length one; raises IllegalArgumentException when it is 0 or not finite. */
     public Quaternion unit() {
         double length = Math.sqrt(w * w + x * x + y * y + z * z);
-        if (!(length > SHORTEST) || Double.isInfinite(length)) {
+        if (!(length > MIN_LENGTH) || Double.isInfinite(length)) {
             throw new IllegalArgumentException("no rotation: a quaternion of length " + length);
         }
         return new Quaternion(w / length, x / length, y / length, z / length);
@@ -83,25 +85,5 @@ public final class Quaternion {
         Quaternion turned =
                 times(new Quaternion(0, vectorX, vectorY, vectorZ)).times(conjugate());
         return new double[] {turned.x, turned.y, turned.z};
-    }
-
-    /** Returns the real part: of a rotation the cosine of half its angle. */
-    public double w() {
-        return w;
-    }
-
-    /** Returns the first axis times the sine of half the angle. */
-    public double x() {
-        return x;
-    }
-
-    /** Returns the second axis times the sine of half the angle. */
-    public double y() {
-        return y;
-    }
-
-    /** Returns the third axis times the sine of half the angle. */
-    public double z() {
-        return z;
     }
 }

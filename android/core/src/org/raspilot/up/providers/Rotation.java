@@ -7,8 +7,10 @@ package org.raspilot.up.providers;
  * into east, north, up. Source: Android's documentation of {@code TYPE_ROTATION_VECTOR}.
  */
 public final class Rotation {
-    private final Quaternion deviceToWorld;
-    private final long timeMs;
+    /** The unit quaternion, device to east-north-up. */
+    public final Quaternion deviceToWorld;
+    /** When it was measured, ms of the sensor's or the loop's monotonic clock. */
+    public final long timeMs;
 
     /**
      * Normalizes w, x, y, z to length one; throws IllegalArgumentException if that is impossible.
@@ -36,15 +38,5 @@ public final class Rotation {
         double z = values[2];
         double rest = Math.max(0, 1 - x * x - y * y - z * z);
         return new Rotation(values.length > 3 ? values[3] : Math.sqrt(rest), x, y, z, timeMs);
-    }
-
-    /** Returns the unit quaternion, device to east-north-up. */
-    public Quaternion deviceToWorld() {
-        return deviceToWorld;
-    }
-
-    /** Returns when it was measured, ms of the sensor's or the loop's monotonic clock. */
-    public long timeMs() {
-        return timeMs;
     }
 }

@@ -17,10 +17,10 @@ public abstract class SensorProvider<R> extends UpProvider {
     private Map<String, Object> last;
 
     /** Takes its name, its sensor, and how often it sends. */
-    protected SensorProvider(String name, SensorSource<R> source, Cadence cadence) {
-        super(name, cadence);
+    protected SensorProvider(String name, SensorSource<R> source, RatePolicy ratePolicy) {
+        super(name, ratePolicy);
         this.source = source;
-        this.isLevel = cadence.isLevel();
+        this.isLevel = ratePolicy.isLevel();
     }
 
     /**
@@ -49,12 +49,7 @@ public abstract class SensorProvider<R> extends UpProvider {
     protected final void subscribe(long periodMs) {
         newest = null;
         waiting = null;
-        source.subscribe(periodMs, new SensorListener<R>() {
-            @Override
-            public void onReading(R reading) {
-                take(reading);
-            }
-        });
+        source.subscribe(periodMs, reading -> update(reading));
     }
 
     @Override
@@ -64,7 +59,7 @@ public abstract class SensorProvider<R> extends UpProvider {
     }
 
     @Override
-    protected final boolean transmit(Outlet to) {
+    protected final boolean transmit(MessageSink to) {
         boolean isTaken = to.sendNewest(name(), waiting);
         if (isTaken) {
             last = waiting.data();
@@ -85,20 +80,20 @@ public abstract class SensorProvider<R> extends UpProvider {
         return text.toString();
     }
 
-    private void take(R reading) {
+    private void update(R reading) {
         BaseCommand command;
         try {
             command = read(reading);
         } catch (RuntimeException fault) {
             // An invalid reading must not end the sensor's own thread or affect the others.
-            refuse("its reading cannot be used: " + sentence(fault));
+            reject("its reading cannot be used: " + sentence(fault));
             return;
         }
         if (command != null) {
-            boolean isNews = !isLevel || waiting == null || !waiting.data().equals(command.data());
+            boolean isNew = !isLevel || waiting == null || !waiting.data().equals(command.data());
             newest = reading;
             waiting = command;
-            offer(isNews);
+            offer(isNew);
         }
     }
 }

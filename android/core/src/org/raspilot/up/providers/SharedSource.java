@@ -10,18 +10,14 @@ import java.util.List;
  */
 public final class SharedSource<R> {
     private final SensorSource<R> source;
-    private final List<Branch> subscribed = new ArrayList<Branch>();
-    private final SensorListener<R> telling = new SensorListener<R>() {
-        @Override
-        public void onReading(R reading) {
-            for (Branch branch : new ArrayList<Branch>(subscribed)) {
-                branch.listener.onReading(reading);
-            }
+    private final List<Branch> subscribed = new ArrayList<>();
+    private final SensorListener<R> distributor = reading -> {
+        for (Branch branch : new ArrayList<>(subscribed)) {
+            branch.listener.onReading(reading);
         }
     };
     private long periodMs;
 
-    /** Takes the sensor. */
     public SharedSource(SensorSource<R> source) {
         this.source = source;
     }
@@ -45,7 +41,7 @@ public final class SharedSource<R> {
             source.unsubscribe();
         }
         if (wantedMs != 0) {
-            source.subscribe(wantedMs, telling);
+            source.subscribe(wantedMs, distributor);
             periodMs = wantedMs;
         }
     }

@@ -10,9 +10,7 @@ public enum Side {
     BOTTOM(0, -1, 0),
     /** The left edge. */
     LEFT(-1, 0, 0),
-    /** The screen. */
     SCREEN(0, 0, 1),
-    /** The back. */
     BACK(0, 0, -1);
 
     private final int x;

@@ -14,15 +14,10 @@ final class Stream implements Panic.Listener {
 
     private final Loop loop;
     private final Panic panic;
-    private final Cadence cadence;
+    private final RatePolicy ratePolicy;
     private final Sender sender;
     private final RateMeter rate = new RateMeter();
-    private final Runnable pumping = new Runnable() {
-        @Override
-        public void run() {
-            pump(false);
-        }
-    };
+    private final Runnable pumping = () -> sendIfDue(false);
     private Cancellable timer;
     private boolean isRunning;
     private boolean isFirst;
@@ -41,14 +36,13 @@ final class Stream implements Panic.Listener {
         boolean transmit();
     }
 
-    Stream(Loop loop, Panic panic, Cadence cadence, Sender sender) {
+    Stream(Loop loop, Panic panic, RatePolicy ratePolicy, Sender sender) {
         this.loop = loop;
         this.panic = panic;
-        this.cadence = cadence;
+        this.ratePolicy = ratePolicy;
         this.sender = sender;
     }
 
-    /** Starts without a reading. */
     void begin() {
         isRunning = true;
         isFirst = true;
@@ -65,22 +59,22 @@ final class Stream implements Panic.Listener {
     }
 
     /** Takes a new reading; it is sent if it is news. */
-    void offer(boolean isNews) {
+    void offer(boolean isNew) {
         newestMs = loop.nowMs();
-        isUnsent |= isNews;
-        pump(true);
+        isUnsent |= isNew;
+        sendIfDue(true);
     }
 
     /** Notes a new link: known values that still hold are sent immediately. */
     void reopen() {
         isFirst = true;
         isUnsent = newestMs >= 0;
-        pump(true);
+        sendIfDue(true);
     }
 
     @Override
     public void onPanic(Panic now) {
-        pump(true);
+        sendIfDue(true);
     }
 
     /** Returns when the newest reading came; -1: none since the beginning. */
@@ -88,7 +82,6 @@ final class Stream implements Panic.Listener {
         return newestMs;
     }
 
-    /** Returns how many left. */
     long sent() {
         return sent;
     }
@@ -99,7 +92,7 @@ final class Stream implements Panic.Listener {
     }
 
     /** Sends a due value; a reading that arrived just now may be sent slightly early. */
-    private void pump(boolean isPrompt) {
+    private void sendIfDue(boolean isPrompt) {
         cancel();
         long nowMs = loop.nowMs();
         double wantedMs = wantedMs();
@@ -121,36 +114,36 @@ final class Stream implements Panic.Listener {
             return NEVER;
         }
         if (isUnsent) {
-            return isFirst ? 0 : Math.max(dueMs, calmMs()) + cadence.slackMs();
+            return isFirst ? 0 : Math.max(dueMs, earliestMs()) + ratePolicy.toleranceMs();
         }
-        return cadence.isLevel() ? lastMs + panic.periodMs(cadence.repeatMs()) : NEVER;
+        return ratePolicy.isLevel() ? lastMs + panic.periodMs(ratePolicy.repeatMs) : NEVER;
     }
 
     /** Returns the time from which a new reading is sent immediately. */
     private double promptMs(double wantedMs) {
         return isUnsent && !isFirst
-                ? Math.max(dueMs - cadence.slackMs(), calmMs())
+                ? Math.max(dueMs - ratePolicy.toleranceMs(), earliestMs())
                 : wantedMs;
     }
 
     /** Returns the earliest time that Panic permits. */
-    private double calmMs() {
+    private double earliestMs() {
         return panic.isOn() ? lastMs + panic.delayMs() : 0;
     }
 
     private void emit(long nowMs) {
         isUnsent = false;
-        if (nowMs - newestMs > cadence.worthMs()) {
+        if (nowMs - newestMs > ratePolicy.maxAgeMs) {
             return;
         }
         // A message that leaves late does not shift those after it, one that is a period late does.
-        boolean isInStep = !isFirst && nowMs < dueMs + cadence.periodMs();
-        dueMs = (isInStep ? dueMs : nowMs) + cadence.periodMs();
+        boolean isInStep = !isFirst && nowMs < dueMs + ratePolicy.periodMs;
+        dueMs = (isInStep ? dueMs : nowMs) + ratePolicy.periodMs;
         isFirst = false;
         lastMs = nowMs;
         if (sender.transmit()) {
             sent++;
-            rate.happened(nowMs);
+            rate.count(nowMs);
         }
     }
 

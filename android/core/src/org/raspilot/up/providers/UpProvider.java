@@ -10,11 +10,11 @@ import org.raspilot.up.loop.Loop;
  */
 public abstract class UpProvider {
     private final String name;
-    private final Cadence cadence;
+    private final RatePolicy ratePolicy;
     private Stream stream;
     private Loop loop;
     private ProvidersListener listener;
-    private Outlet outlet;
+    private MessageSink sink;
     private String sensorName = "";
     private boolean isThere;
     private boolean isStarted;
@@ -22,9 +22,9 @@ public abstract class UpProvider {
     private String problem = "";
 
     /** Takes the name under which it is registered and shown, and how often it sends. */
-    protected UpProvider(String name, Cadence cadence) {
+    protected UpProvider(String name, RatePolicy ratePolicy) {
         this.name = name;
-        this.cadence = cadence;
+        this.ratePolicy = ratePolicy;
     }
 
     /** Returns whether this device has the sensor. */
@@ -36,34 +36,32 @@ public abstract class UpProvider {
     /** Starts to read the sensor with the period of periodMs; each reading leads to offer. */
     protected abstract void subscribe(long periodMs);
 
-    /** Ends the subscription. */
     protected abstract void unsubscribe();
 
     /** Sends the newest reading; returns whether the link took it. */
-    protected abstract boolean transmit(Outlet to);
+    protected abstract boolean transmit(MessageSink to);
 
     /** Returns what left last, as text for the screen; empty: nothing. */
     protected abstract String lastText();
 
     /** Returns whether the link is there on which it sends; by default the one for Commands. */
-    protected boolean isOpen(Outlet to) {
+    protected boolean isOpen(MessageSink to) {
         return to.isOpen();
     }
 
     /** Notes a new, stored reading; it is sent when the cadence allows, if it is news. */
-    protected final void offer(boolean isNews) {
+    protected final void offer(boolean isNew) {
         if (isStarted) {
-            trouble("");
-            stream.offer(isNews);
+            setProblem("");
+            stream.offer(isNew);
         }
     }
 
     /** Notes an unusable reading with its reason; it does not count as a reading. */
-    protected final void refuse(String sentence) {
-        trouble(sentence);
+    protected final void reject(String sentence) {
+        setProblem(sentence);
     }
 
-    /** Returns the name. */
     public final String name() {
         return name;
     }
@@ -75,10 +73,10 @@ public abstract class UpProvider {
         }
         loop = onLoop;
         listener = told;
-        stream = new Stream(onLoop, panic, cadence, new Stream.Sender() {
+        stream = new Stream(onLoop, panic, ratePolicy, new Stream.Sender() {
             @Override
             public boolean isOpen() {
-                return UpProvider.this.isOpen(outlet);
+                return UpProvider.this.isOpen(sink);
             }
 
             @Override
@@ -86,16 +84,16 @@ public abstract class UpProvider {
                 return guardedTransmit();
             }
         });
-        look();
+        detect();
     }
 
     /** Starts to read the sensor and to send; an absent sensor is reported by its name. */
-    final void start(Outlet to) {
+    final void start(MessageSink to) {
         if (isStarted) {
             return;
         }
-        outlet = to;
-        look();
+        sink = to;
+        detect();
         if (!isThere) {
             listener.onProvider(name, sensorName);
             return;
@@ -104,15 +102,14 @@ public abstract class UpProvider {
         startedMs = loop.nowMs();
         stream.begin();
         try {
-            subscribe((long) cadence.periodMs());
+            subscribe((long) ratePolicy.periodMs);
         } catch (RuntimeException fault) {
             // A sensor may refuse (a permission is missing): the others go on.
             stop();
-            trouble("the sensor cannot be read: " + sentence(fault));
+            setProblem("the sensor cannot be read: " + sentence(fault));
         }
     }
 
-    /** Stops. */
     final void stop() {
         if (!isStarted) {
             return;
@@ -123,18 +120,16 @@ public abstract class UpProvider {
             unsubscribe();
         } catch (RuntimeException fault) {
             // The others are still to be stopped.
-            trouble("the sensor cannot be left: " + sentence(fault));
+            setProblem("the sensor cannot be left: " + sentence(fault));
         }
     }
 
-    /** Notes a new link. */
     final void linkOpened() {
         if (isStarted) {
             stream.reopen();
         }
     }
 
-    /** Returns what it does now. */
     public final ProviderState state() {
         if (!isThere) {
             return ProviderState.ABSENT;
@@ -145,7 +140,7 @@ public abstract class UpProvider {
         if (isSilent()) {
             return ProviderState.SILENT;
         }
-        boolean sends = stream.newestMs() >= 0 && isOpen(outlet);
+        boolean sends = stream.newestMs() >= 0 && isOpen(sink);
         return sends ? ProviderState.SENDING : ProviderState.WAITING;
     }
 
@@ -165,13 +160,13 @@ public abstract class UpProvider {
 
     private boolean isSilent() {
         long newestMs = stream.newestMs();
-        if (cadence.isLevel() && newestMs >= 0) {
+        if (ratePolicy.isLevel() && newestMs >= 0) {
             return false;
         }
-        return loop.nowMs() - Math.max(startedMs, newestMs) > cadence.silenceLimitMs();
+        return loop.nowMs() - Math.max(startedMs, newestMs) > ratePolicy.silenceLimitMs;
     }
 
-    private void look() {
+    private void detect() {
         isThere = false;
         try {
             boolean isFound = isPresent();
@@ -181,21 +176,21 @@ public abstract class UpProvider {
             isThere = isFound;
         } catch (RuntimeException fault) {
             // As above; a sensor whose query fails is absent.
-            trouble("the sensor cannot be looked for: " + sentence(fault));
+            setProblem("the sensor cannot be looked for: " + sentence(fault));
         }
     }
 
     private boolean guardedTransmit() {
         try {
-            return transmit(outlet);
+            return transmit(sink);
         } catch (RuntimeException fault) {
             // A failure in one provider does not affect the others.
-            trouble("its reading cannot be sent: " + sentence(fault));
+            setProblem("its reading cannot be sent: " + sentence(fault));
             return false;
         }
     }
 
-    private void trouble(String sentence) {
+    private void setProblem(String sentence) {
         if (!sentence.equals(problem)) {
             problem = sentence;
             if (!sentence.isEmpty()) {

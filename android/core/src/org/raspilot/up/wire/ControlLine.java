@@ -7,7 +7,6 @@ package org.raspilot.up.wire;
  * <p>Source: docs/protocols.md 9.
  */
 public final class ControlLine {
-    /** The kinds of control lines. */
     public enum Kind {
         /** Ground to proxy: requests the seat that commands. */
         SEAT_REQUEST,
@@ -29,9 +28,11 @@ public final class ControlLine {
         AIRCRAFT_OFFLINE
     }
 
-    private final Kind kind;
-    private final Integer number;
-    private final String token;
+    public final Kind kind;
+    /** The number of a ground, or null. */
+    public final Integer number;
+    /** The token of SEAT_COMMAND, otherwise null. */
+    public final String token;
 
     private ControlLine(Kind kind, Integer number, String token) {
         this.kind = kind;
@@ -76,21 +77,6 @@ public final class ControlLine {
         return new ControlLine(Kind.SEAT_COMMAND, null, token);
     }
 
-    /** Returns its kind. */
-    public Kind kind() {
-        return kind;
-    }
-
-    /** Returns the number of a ground, or null. */
-    public Integer number() {
-        return number;
-    }
-
-    /** Returns the token of SEAT_COMMAND, otherwise null. */
-    public String token() {
-        return token;
-    }
-
     /** Returns whether a line starts as those that are never relayed: not a General Message. */
     public static boolean isControlLine(byte[] line, int length) {
         return length >= 4 && line[0] == 'U' && line[1] == 'P' && line[2] == '1' && line[3] == ' ';
@@ -102,7 +88,7 @@ public final class ControlLine {
         if (text == null) {
             return null;
         }
-        ProxyWords words = new ProxyWords(text);
+        ProxyLine words = new ProxyLine(text);
         if (words.word(1).equals("aircraft")) {
             if (words.word(2).equals("online")) {
                 return of(Kind.AIRCRAFT_ONLINE);
@@ -112,7 +98,7 @@ public final class ControlLine {
         return words.word(1).equals("seat") ? seatLine(words) : null;
     }
 
-    private static ControlLine seatLine(ProxyWords words) {
+    private static ControlLine seatLine(ProxyLine words) {
         String verb = words.word(2);
         if (verb.equals("request")) {
             return of(Kind.SEAT_REQUEST);
@@ -145,10 +131,10 @@ public final class ControlLine {
 
     /** Returns the line with its LF. */
     public byte[] toLine() {
-        return Utf8.encode("UP1 " + said() + "\n");
+        return Utf8.encode("UP1 " + text() + "\n");
     }
 
-    private String said() {
+    private String text() {
         switch (kind) {
             case SEAT_REQUEST:
                 return "seat request";

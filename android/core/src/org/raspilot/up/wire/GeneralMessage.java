@@ -10,15 +10,17 @@ import java.util.Map;
  * <p>Source: docs/protocols.md 4, thesis 3.1.4.
  */
 public final class GeneralMessage {
-    /** Characters of the longest name. */
-    public static final int LONGEST_NAME = 128;
-    /** Characters of the longest id. */
-    public static final int LONGEST_ID = 64;
+    public static final int MAX_NAME_LENGTH = 128;
+    public static final int MAX_ID_LENGTH = 64;
 
-    private final String name;
-    private final Map<String, Object> data;
-    private final String id;
-    private final Long beacon;
+    /** The name of the Command, 1 to 128 characters. */
+    public final String name;
+    /** The fields as JSON values ({@link Json}); unmodifiable to their depth, not null. */
+    public final Map<String, Object> data;
+    /** The id for the requested answer, or null. */
+    public final String id;
+    /** The beacon, or null. */
+    public final Long beacon;
 
     /** Creates a message without an id or a beacon. */
     public GeneralMessage(String name, Map<String, ?> data) {
@@ -30,7 +32,7 @@ public final class GeneralMessage {
      * {@code beacon} null is left out.
      */
     public GeneralMessage(String name, Map<String, ?> data, String id, Long beacon) {
-        this(data == null ? Collections.<String, Object>emptyMap() : Frozen.map(data), name, id,
+        this(data == null ? Collections.emptyMap() : ImmutableCopy.map(data), name, id,
                 beacon);
     }
 
@@ -46,26 +48,6 @@ public final class GeneralMessage {
         return new GeneralMessage(data, otherName, otherId, otherBeacon);
     }
 
-    /** Returns the name of the Command, 1 to 128 characters. */
-    public String name() {
-        return name;
-    }
-
-    /** Returns the fields as JSON values ({@link Json}); unmodifiable to their depth, not null. */
-    public Map<String, Object> data() {
-        return data;
-    }
-
-    /** Returns the id for the requested answer, or null. */
-    public String id() {
-        return id;
-    }
-
-    /** Returns the beacon, or null. */
-    public Long beacon() {
-        return beacon;
-    }
-
     /**
      * Parses one line, with or without its line end.
      *
@@ -73,8 +55,8 @@ public final class GeneralMessage {
      *     malformed here
      */
     public static GeneralMessage read(byte[] line, int length) throws MalformedException {
-        if (length > LineSplitter.LONGEST_LINE) {
-            throw new MalformedException("longer than " + LineSplitter.LONGEST_LINE + " bytes");
+        if (length > LineSplitter.MAX_LINE_BYTES) {
+            throw new MalformedException("longer than " + LineSplitter.MAX_LINE_BYTES + " bytes");
         }
         String text = Utf8.decode(line, length);
         Object read;
@@ -95,7 +77,7 @@ public final class GeneralMessage {
      * @throws IllegalArgumentException for what JSON cannot hold and for more than 16 KiB
      */
     public byte[] toLine() {
-        Map<String, Object> fields = new LinkedHashMap<String, Object>();
+        Map<String, Object> fields = new LinkedHashMap<>();
         fields.put("name", name);
         fields.put("data", data);
         fields.put("id", id);
@@ -108,9 +90,9 @@ public final class GeneralMessage {
         } catch (IllegalArgumentException fault) {
             throw new IllegalArgumentException(name + ": " + fault.getMessage(), fault);
         }
-        if (text.length() >= LineSplitter.LONGEST_LINE) {
+        if (text.length() >= LineSplitter.MAX_LINE_BYTES) {
             throw new IllegalArgumentException(name + ": a line of " + (text.length() + 1)
-                    + " bytes, at most " + LineSplitter.LONGEST_LINE);
+                    + " bytes, at most " + LineSplitter.MAX_LINE_BYTES);
         }
         return Utf8.encode(text + "\n");
     }
@@ -119,9 +101,9 @@ public final class GeneralMessage {
     private static GeneralMessage ofFields(Map<?, ?> fields) throws MalformedException {
         String id = MessageId.read(fields.get("id"));
         Object name = fields.get("name");
-        if (!(name instanceof String) || !hasLength((String) name, LONGEST_NAME)) {
+        if (!(name instanceof String) || !hasLength((String) name, MAX_NAME_LENGTH)) {
             throw new MalformedException(
-                    "name is no text of 1 to " + LONGEST_NAME + " characters", id);
+                    "name is no text of 1 to " + MAX_NAME_LENGTH + " characters", id);
         }
         Object data = fields.get("data");
         if (data != null && !(data instanceof Map)) {

@@ -16,13 +16,16 @@ public final class Hello {
     private static final Pattern KEY = Pattern.compile("[A-Za-z0-9_.-]+");
 
     /** Bytes of the longest hello with its LF. */
-    public static final int LONGEST_LINE = 512;
+    public static final int MAX_LINE_BYTES = 512;
 
-    private final String aircraft;
-    private final Seat seat;
-    private final String token;
+    /** The name of the aircraft, 1 to 32 of {@code A-Z a-z 0-9 _ . -}, no dot first. */
+    public final String aircraft;
+    /** The seat that a ground requests; null: an aircraft's hello. */
+    public final ProxyRole role;
+    /** The resume token, or null. */
+    public final String token;
 
-    private Hello(String aircraft, Seat seat, String token) {
+    private Hello(String aircraft, ProxyRole seat, String token) {
         if (!isAircraftName(aircraft)) {
             throw new IllegalArgumentException(
                     "the aircraft's name must be 1 to 32 letters, digits, _ . or -");
@@ -32,7 +35,7 @@ public final class Hello {
                     "the token must be 32 to 64 hexadecimal digits in lower case");
         }
         this.aircraft = aircraft;
-        this.seat = seat;
+        this.role = seat;
         this.token = token;
     }
 
@@ -50,26 +53,11 @@ public final class Hello {
      *
      * @throws IllegalArgumentException when one of them is malformed
      */
-    public static Hello ofGround(String aircraft, Seat seat, String token) {
-        if (seat != Seat.COMMAND && seat != Seat.LISTEN) {
+    public static Hello ofGround(String aircraft, ProxyRole seat, String token) {
+        if (seat != ProxyRole.COMMAND && seat != ProxyRole.LISTEN) {
             throw new IllegalArgumentException("a ground asks to command or to listen");
         }
         return new Hello(aircraft, seat, token);
-    }
-
-    /** Returns the name of the aircraft, 1 to 32 of {@code A-Z a-z 0-9 _ . -}, no dot first. */
-    public String aircraft() {
-        return aircraft;
-    }
-
-    /** Returns the seat that a ground requests; null: an aircraft's hello. */
-    public Seat seat() {
-        return seat;
-    }
-
-    /** Returns the resume token, or null. */
-    public String token() {
-        return token;
     }
 
     /** Returns whether a text is a valid name of an aircraft, for a proxy and for a runner. */
@@ -89,8 +77,8 @@ public final class Hello {
      * @throws MalformedException when it is not a hello
      */
     public static Hello read(byte[] line, int length, boolean isGround) throws MalformedException {
-        if (length > LONGEST_LINE) {
-            throw new MalformedException("a hello is at most " + LONGEST_LINE + " bytes");
+        if (length > MAX_LINE_BYTES) {
+            throw new MalformedException("a hello is at most " + MAX_LINE_BYTES + " bytes");
         }
         Map<String, String> words = words(withoutEnd(line, length));
         String aircraft = words.get("aircraft");
@@ -104,13 +92,13 @@ public final class Hello {
                 throw new MalformedException("token= must be 32 to 64 hexadecimal digits");
             }
         }
-        return new Hello(aircraft, seat(words.get("seat"), isGround), token);
+        return new Hello(aircraft, role(words.get("seat"), isGround), token);
     }
 
     /** Returns the line with its LF. */
     public byte[] toLine() {
         return Utf8.encode("UP1 aircraft=" + aircraft
-                + (seat == null ? "" : " seat=" + seat.word())
+                + (role == null ? "" : " seat=" + role.word())
                 + (token == null ? "" : " token=" + token) + "\n");
     }
 
@@ -131,7 +119,7 @@ public final class Hello {
         if (!words[0].equals("UP1")) {
             throw new MalformedException("the first line must begin with UP1");
         }
-        Map<String, String> values = new LinkedHashMap<String, String>();
+        Map<String, String> values = new LinkedHashMap<>();
         for (int i = 1; i < words.length; i++) {
             int equals = words[i].indexOf('=');
             if (equals < 0 || !KEY.matcher(words[i].substring(0, equals)).matches()) {
@@ -147,15 +135,15 @@ public final class Hello {
         return values;
     }
 
-    private static Seat seat(String word, boolean isGround) throws MalformedException {
+    private static ProxyRole role(String word, boolean isGround) throws MalformedException {
         if (!isGround) {
             if (word != null) {
                 throw new MalformedException("the airborne side names no seat");
             }
             return null;
         }
-        Seat seat = word == null ? Seat.COMMAND : Seat.ofWord(word);
-        if (seat != Seat.COMMAND && seat != Seat.LISTEN) {
+        ProxyRole seat = word == null ? ProxyRole.COMMAND : ProxyRole.ofWord(word);
+        if (seat != ProxyRole.COMMAND && seat != ProxyRole.LISTEN) {
             throw new MalformedException("seat= must be command or listen");
         }
         return seat;

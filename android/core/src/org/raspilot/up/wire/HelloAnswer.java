@@ -12,22 +12,27 @@ public final class HelloAnswer {
     private static final Pattern REFUSED =
             Pattern.compile("UP1 error code=([a-z]{1,32}) reason=\"([^\"]{0,400})\".*");
 
-    private final String aircraft;
-    private final Seat seat;
-    private final String token;
-    private final String code;
-    private final String reason;
+    /** The aircraft's name, or null when refused or absent. */
+    public final String aircraft;
+    /** The seat that was given, or null when refused. */
+    public final ProxyRole role;
+    /** The token that resumes the seat, or null when refused. */
+    public final String token;
+    /** {@code malformed taken full address token}, or null when accepted. */
+    public final String code;
+    /** Why it was refused, or null when accepted. */
+    public final String reason;
 
-    private HelloAnswer(String aircraft, Seat seat, String token, String code, String reason) {
+    private HelloAnswer(String aircraft, ProxyRole seat, String token, String code, String reason) {
         this.aircraft = aircraft;
-        this.seat = seat;
+        this.role = seat;
         this.token = token;
         this.code = code;
         this.reason = reason;
     }
 
     /** Creates the answer that accepts a peer. */
-    public static HelloAnswer accepted(String aircraft, Seat seat, String token) {
+    public static HelloAnswer accepted(String aircraft, ProxyRole seat, String token) {
         return new HelloAnswer(aircraft, seat, token, null, null);
     }
 
@@ -39,31 +44,6 @@ public final class HelloAnswer {
     /** Returns whether the hello was accepted. */
     public boolean isAccepted() {
         return code == null;
-    }
-
-    /** Returns the aircraft's name, or null when refused or absent. */
-    public String aircraft() {
-        return aircraft;
-    }
-
-    /** Returns the seat that was given, or null when refused. */
-    public Seat seat() {
-        return seat;
-    }
-
-    /** Returns the token that resumes the seat, or null when refused. */
-    public String token() {
-        return token;
-    }
-
-    /** Returns {@code malformed taken full address token}, or null when accepted. */
-    public String code() {
-        return code;
-    }
-
-    /** Returns why it was refused, or null when accepted. */
-    public String reason() {
-        return reason;
     }
 
     /**
@@ -79,8 +59,8 @@ public final class HelloAnswer {
         if (refused.matches()) {
             return refused(refused.group(1), refused.group(2));
         }
-        ProxyWords words = new ProxyWords(text);
-        Seat seat = Seat.ofWord(words.value("seat"));
+        ProxyLine words = new ProxyLine(text);
+        ProxyRole seat = ProxyRole.ofWord(words.value("seat"));
         if (!words.word(1).equals("ok") || seat == null || !Hello.isToken(words.value("token"))) {
             return null;
         }
@@ -90,7 +70,7 @@ public final class HelloAnswer {
     /** Returns the line with its LF. */
     public byte[] toLine() {
         if (isAccepted()) {
-            return Utf8.encode("UP1 ok aircraft=" + aircraft + " seat=" + seat.word() + " token="
+            return Utf8.encode("UP1 ok aircraft=" + aircraft + " seat=" + role.word() + " token="
                     + token + "\n");
         }
         return Utf8.encode("UP1 error code=" + code + " reason=\"" + reason + "\"\n");

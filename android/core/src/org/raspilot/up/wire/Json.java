@@ -9,7 +9,7 @@ package org.raspilot.up.wire;
  */
 public final class Json {
     /** Maximum nesting of objects and lists; the outermost counts as one. */
-    public static final int DEEPEST_NESTING = 32;
+    public static final int MAX_NESTING = 32;
     /** Keys of one object; it bounds the work per message. */
     public static final int MAX_KEYS = 512;
 

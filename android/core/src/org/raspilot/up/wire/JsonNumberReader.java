@@ -4,7 +4,7 @@ import java.math.BigInteger;
 
 /** Reads one number of a JSON text. */
 final class JsonNumberReader {
-    private static final int LONGEST_WHOLE = 20;
+    private static final int MAX_INTEGER_LENGTH = 20;
     private static final int SURELY_LONG = 18;
 
     private final String text;
@@ -17,7 +17,6 @@ final class JsonNumberReader {
         at = start;
     }
 
-    /** Returns the end of the number. */
     int end() {
         return at;
     }
@@ -37,14 +36,14 @@ final class JsonNumberReader {
     }
 
     private static Object whole(String number, boolean isStrict) throws MalformedException {
-        if (isStrict && number.length() > LONGEST_WHOLE) {
+        if (isStrict && number.length() > MAX_INTEGER_LENGTH) {
             throw new MalformedException(
-                    "a whole number of more than " + LONGEST_WHOLE + " characters");
+                    "a whole number of more than " + MAX_INTEGER_LENGTH + " characters");
         }
         if (number.length() <= SURELY_LONG) {
             return Long.valueOf(number);
         }
-        if (number.length() > GeneralMessage.LONGEST_ID) {
+        if (number.length() > GeneralMessage.MAX_ID_LENGTH) {
             return null;
         }
         BigInteger whole = new BigInteger(number);

@@ -11,8 +11,8 @@ import java.util.Map;
  */
 final class JsonReader {
     /** Deep enough for any id that was meant, and shallow enough for the stack. */
-    private static final int DEEPEST_LENIENT = 512;
-    private static final int LONGEST_SHOWN = 40;
+    private static final int MAX_LENIENT_NESTING = 512;
+    private static final int MAX_SHOWN_LENGTH = 40;
 
     private final String text;
     private final boolean isStrict;
@@ -60,7 +60,7 @@ final class JsonReader {
 
     private Map<String, Object> readObject() throws MalformedException {
         enter();
-        Map<String, Object> fields = new LinkedHashMap<String, Object>();
+        Map<String, Object> fields = new LinkedHashMap<>();
         boolean isIdRepeated = false;
         skipSpace();
         if (peek() == '}') {
@@ -104,7 +104,7 @@ final class JsonReader {
 
     private List<Object> readList() throws MalformedException {
         enter();
-        List<Object> items = new ArrayList<Object>();
+        List<Object> items = new ArrayList<>();
         skipSpace();
         if (peek() == ']') {
             leave();
@@ -162,8 +162,8 @@ final class JsonReader {
     private void enter() throws MalformedException {
         at++;
         depth++;
-        if (depth > (isStrict ? Json.DEEPEST_NESTING : DEEPEST_LENIENT)) {
-            throw new MalformedException("nested deeper than " + Json.DEEPEST_NESTING);
+        if (depth > (isStrict ? Json.MAX_NESTING : MAX_LENIENT_NESTING)) {
+            throw new MalformedException("nested deeper than " + Json.MAX_NESTING);
         }
     }
 
@@ -195,6 +195,6 @@ final class JsonReader {
     }
 
     private static String shown(String key) {
-        return "'" + SafeText.of(key, LONGEST_SHOWN) + "'";
+        return "'" + SafeText.of(key, MAX_SHOWN_LENGTH) + "'";
     }
 }

@@ -9,13 +9,11 @@ final class JsonTextReader {
     private int at;
     private boolean hasSurrogateEscape;
 
-    /** Starts after the opening quote. */
     JsonTextReader(String source, int start) {
         this.source = source;
         at = start;
     }
 
-    /** Returns the text. */
     String read() throws MalformedException {
         int plain = at;
         StringBuilder pieces = null;

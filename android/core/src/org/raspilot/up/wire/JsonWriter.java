@@ -11,7 +11,7 @@ final class JsonWriter {
     private static final char[] HEX = "0123456789abcdef".toCharArray();
 
     private final StringBuilder out = new StringBuilder();
-    private final Object[] place = new Object[Json.DEEPEST_NESTING];
+    private final Object[] place = new Object[Json.MAX_NESTING];
     private int depth;
 
     /** Returns the text of a value. */
@@ -103,8 +103,8 @@ final class JsonWriter {
     }
 
     private void enter() {
-        if (depth == Json.DEEPEST_NESTING) {
-            throw fault("is nested deeper than " + Json.DEEPEST_NESTING);
+        if (depth == Json.MAX_NESTING) {
+            throw fault("is nested deeper than " + Json.MAX_NESTING);
         }
         depth++;
         place[depth - 1] = null;

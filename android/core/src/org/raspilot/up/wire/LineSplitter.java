@@ -12,7 +12,7 @@ import java.util.List;
  */
 public final class LineSplitter {
     /** Bytes of a General Message line with its LF. */
-    public static final int LONGEST_LINE = 16384;
+    public static final int MAX_LINE_BYTES = 16384;
 
     private final int longestContent;
     private byte[] held = new byte[256];
@@ -22,7 +22,7 @@ public final class LineSplitter {
 
     /** Creates a splitter for lines of General Messages. */
     public LineSplitter() {
-        this(LONGEST_LINE);
+        this(MAX_LINE_BYTES);
     }
 
     /** Creates a splitter for lines of at most {@code longestBytes}, LF included. */
@@ -32,7 +32,7 @@ public final class LineSplitter {
 
     /** Returns the lines that these bytes complete, without their line ends, in order. */
     public List<byte[]> feed(byte[] bytes, int length) {
-        List<byte[]> lines = new ArrayList<byte[]>();
+        List<byte[]> lines = new ArrayList<>();
         int start = 0;
         for (int i = 0; i < length; i++) {
             if (bytes[i] == '\n') {

@@ -8,7 +8,8 @@ package org.raspilot.up.wire;
 public final class MalformedException extends Exception {
     private static final long serialVersionUID = 1L;
 
-    private final String id;
+    /** The id of the message if it was readable, otherwise null. */
+    public final String id;
 
     /** Creates it with the reason, without an id. */
     public MalformedException(String reason) {
@@ -24,10 +25,5 @@ public final class MalformedException extends Exception {
     /** Returns why it is not a message. */
     public String reason() {
         return getMessage();
-    }
-
-    /** Returns the id of the message if it was readable, otherwise null. */
-    public String id() {
-        return id;
     }
 }

@@ -21,9 +21,9 @@ final class MessageId {
         } else if (value instanceof Double) {
             text = ShortestNumber.text((Double) value);
         }
-        if (text == null || !GeneralMessage.hasLength(text, GeneralMessage.LONGEST_ID)) {
+        if (text == null || !GeneralMessage.hasLength(text, GeneralMessage.MAX_ID_LENGTH)) {
             throw new MalformedException(
-                    "id is no text of 1 to " + GeneralMessage.LONGEST_ID + " characters");
+                    "id is no text of 1 to " + GeneralMessage.MAX_ID_LENGTH + " characters");
         }
         return text;
     }

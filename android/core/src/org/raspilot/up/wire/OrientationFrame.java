@@ -11,17 +11,15 @@ import java.nio.ByteBuffer;
 public final class OrientationFrame {
     /** Bytes of a frame. */
     public static final int SIZE = 24;
-    /** Greatest magnitude of an angle. */
-    public static final float LARGEST_ANGLE_DEG = 360f;
-    /** Greatest magnitude of a rate. */
-    public static final float LARGEST_RATE_DEG_S = 4000f;
+    public static final float MAX_ANGLE_DEG = 360f;
+    public static final float MAX_RATE_DEG_S = 4000f;
 
-    private final float rollDeg;
-    private final float pitchDeg;
-    private final float yawDeg;
-    private final float rollRateDegS;
-    private final float pitchRateDegS;
-    private final float yawRateDegS;
+    public final float rollDeg;
+    public final float pitchDeg;
+    public final float yawDeg;
+    public final float rollRateDegS;
+    public final float pitchRateDegS;
+    public final float yawRateDegS;
 
     /** Creates a frame of any values; see {@link #isInRange}. */
     public OrientationFrame(float rollDeg, float pitchDeg, float yawDeg, float rollRateDegS,
@@ -34,44 +32,14 @@ public final class OrientationFrame {
         this.yawRateDegS = yawRateDegS;
     }
 
-    /** Returns the roll in deg. */
-    public float rollDeg() {
-        return rollDeg;
-    }
-
-    /** Returns the pitch in deg. */
-    public float pitchDeg() {
-        return pitchDeg;
-    }
-
-    /** Returns the yaw in deg. */
-    public float yawDeg() {
-        return yawDeg;
-    }
-
-    /** Returns the roll rate in deg/s. */
-    public float rollRateDegS() {
-        return rollRateDegS;
-    }
-
-    /** Returns the pitch rate in deg/s. */
-    public float pitchRateDegS() {
-        return pitchRateDegS;
-    }
-
-    /** Returns the yaw rate in deg/s. */
-    public float yawRateDegS() {
-        return yawRateDegS;
-    }
-
     /** Returns whether a receiver accepts it: all six finite and within their limits. */
     public boolean isInRange() {
-        return isWithin(rollDeg, LARGEST_ANGLE_DEG)
-                && isWithin(pitchDeg, LARGEST_ANGLE_DEG)
-                && isWithin(yawDeg, LARGEST_ANGLE_DEG)
-                && isWithin(rollRateDegS, LARGEST_RATE_DEG_S)
-                && isWithin(pitchRateDegS, LARGEST_RATE_DEG_S)
-                && isWithin(yawRateDegS, LARGEST_RATE_DEG_S);
+        return isWithin(rollDeg, MAX_ANGLE_DEG)
+                && isWithin(pitchDeg, MAX_ANGLE_DEG)
+                && isWithin(yawDeg, MAX_ANGLE_DEG)
+                && isWithin(rollRateDegS, MAX_RATE_DEG_S)
+                && isWithin(pitchRateDegS, MAX_RATE_DEG_S)
+                && isWithin(yawRateDegS, MAX_RATE_DEG_S);
     }
 
     /** Returns the 24 bytes. */

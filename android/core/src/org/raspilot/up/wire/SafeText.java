@@ -2,7 +2,7 @@ package org.raspilot.up.wire;
 
 /** Makes received texts safe to display. */
 public final class SafeText {
-    private static final int MOST_MARKS = 2;
+    private static final int MAX_MARKS = 2;
     private static final char CUT = '\u2026';
 
     private SafeText() {
@@ -26,7 +26,7 @@ public final class SafeText {
                 marks = 0;
             } else if (isMark(letter)) {
                 marks++;
-                if (marks <= MOST_MARKS && shown.length() > 0) {
+                if (marks <= MAX_MARKS && shown.length() > 0) {
                     shown.appendCodePoint(letter);
                 }
             } else if (isShown(letter)) {

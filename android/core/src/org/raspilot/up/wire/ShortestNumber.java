@@ -10,7 +10,7 @@ import java.math.RoundingMode;
  * <p>{@code Double.toString} is neither: it has digits too many for some numbers, and another form.
  */
 final class ShortestNumber {
-    private static final int MOST_DIGITS = 17;
+    private static final int MAX_DIGITS = 17;
 
     private ShortestNumber() {
     }
@@ -30,7 +30,7 @@ final class ShortestNumber {
 
     private static BigDecimal shortest(double number) {
         BigDecimal exact = new BigDecimal(number);
-        int digits = Math.min(MOST_DIGITS, digitsOf(number));
+        int digits = Math.min(MAX_DIGITS, digitsOf(number));
         BigDecimal best = nearest(exact, digits, number);
         while (best == null) {
             digits++;

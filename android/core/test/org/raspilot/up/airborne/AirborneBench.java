@@ -7,7 +7,7 @@ import java.util.Random;
 import org.raspilot.up.loop.Faults;
 import org.raspilot.up.loop.ManualLoop;
 import org.raspilot.up.loop.ScriptedNetwork;
-import org.raspilot.up.net.Place;
+import org.raspilot.up.net.Endpoint;
 import org.raspilot.up.providers.BatteryLevel;
 import org.raspilot.up.providers.Fix;
 import org.raspilot.up.providers.Pressure;
@@ -28,13 +28,14 @@ final class AirborneBench implements Sensors, Speaker, AirborneListener {
     final ScriptedNetwork network = new ScriptedNetwork();
     final Faults faults = new Faults();
     final ManualLoop loop = new ManualLoop(network, faults);
-    final TestSource<Fix> gps = new TestSource<Fix>("GPS");
-    final TestSource<Rotation> rotation = new TestSource<Rotation>("rotation vector");
-    final TestSource<RotationRate> gyroscope = new TestSource<RotationRate>("gyroscope");
-    final TestSource<Pressure> barometer = new TestSource<Pressure>("barometer");
-    final TestSource<BatteryLevel> battery = new TestSource<BatteryLevel>("battery");
-    final List<String> events = new ArrayList<String>();
-    final List<String> said = new ArrayList<String>();
+    final TestSource<Fix> gps = new TestSource<>("GPS");
+    final TestSource<Rotation> rotation = new TestSource<>("rotation vector");
+    final TestSource<RotationRate> gyroscope = new TestSource<>("gyroscope");
+    final TestSource<Pressure> barometer = new TestSource<>("barometer");
+    final TestSource<BatteryLevel> battery = new TestSource<>("battery");
+    final List<String> events = new ArrayList<>();
+    final List<String> sentences = new ArrayList<>();
+    final List<String> said = new ArrayList<>();
     Airborne airborne;
 
     /** Returns settings with a Raspberry Pi at a fixed host. */
@@ -58,7 +59,7 @@ final class AirborneBench implements Sensors, Speaker, AirborneListener {
     /** Starts it with the link for Commands connected. */
     Airborne connected(AirborneSettings settings) {
         start(settings);
-        accept(settings.generalPort());
+        accept(settings.generalPort);
         return airborne;
     }
 
@@ -104,7 +105,7 @@ final class AirborneBench implements Sensors, Speaker, AirborneListener {
 
     /** Returns all datagrams that left, with their destinations. */
     List<String> datagrams() {
-        List<String> sent = new ArrayList<String>();
+        List<String> sent = new ArrayList<>();
         for (ScriptedNetwork.Port port : network.ports) {
             sent.addAll(port.sent);
         }
@@ -117,7 +118,7 @@ final class AirborneBench implements Sensors, Speaker, AirborneListener {
         if (written.isEmpty()) {
             return Collections.emptyList();
         }
-        List<String> lines = new ArrayList<String>();
+        List<String> lines = new ArrayList<>();
         for (String line : written.split("\n", -1)) {
             lines.add(line);
         }
@@ -149,7 +150,7 @@ final class AirborneBench implements Sensors, Speaker, AirborneListener {
     }
 
     @Override
-    public void onConnected(Place place) {
+    public void onConnected(Endpoint place) {
         events.add("connected " + place);
     }
 
@@ -164,8 +165,9 @@ final class AirborneBench implements Sensors, Speaker, AirborneListener {
     }
 
     @Override
-    public void onEvent(String sentence) {
-        events.add(sentence);
+    public void onEvent(String code, String sentence) {
+        events.add(code);
+        sentences.add(sentence);
     }
 
     @Override

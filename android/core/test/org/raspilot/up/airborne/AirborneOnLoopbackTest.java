@@ -11,7 +11,6 @@ import java.net.ServerSocket;
 import java.net.Socket;
 import java.nio.charset.Charset;
 import java.util.Random;
-import java.util.concurrent.Callable;
 import org.junit.After;
 import org.junit.Before;
 import org.junit.Rule;
@@ -26,7 +25,7 @@ import org.raspilot.up.wire.OrientationFrame;
 
 /** The airborne side on its real loop and real sockets, against a server of a few lines. */
 public final class AirborneOnLoopbackTest {
-    private static final int LONGEST_WAIT_MS = 20000;
+    private static final int MAX_WAIT_MS = 20000;
     private static final Charset UTF_8 = Charset.forName("UTF-8");
 
     @Rule
@@ -52,60 +51,49 @@ public final class AirborneOnLoopbackTest {
     @Test
     public void sensorsLeaveCommandsAreAnsweredAndALostLinkComesBack() throws Exception {
         final Mounting mounting = Mounting.of(Side.LEFT, Side.BACK);
-        final Airborne airborne = running.call(new Callable<Airborne>() {
-            @Override
-            public Airborne call() {
-                Airborne made = new Airborne(running.loop, AirborneBench.blackBox()
-                        .host("127.0.0.1").generalPort(general.getLocalPort())
-                        .orientationPort(orientation.getLocalPort()).mounting(mounting).build(),
-                        sensors, sensors, sensors, new Random(1));
-                made.start();
-                return made;
-            }
+        final Airborne airborne = running.call(() -> {
+            Airborne made = new Airborne(running.loop, AirborneBench.blackBox()
+                    .host("127.0.0.1").generalPort(general.getLocalPort())
+                    .orientationPort(orientation.getLocalPort()).mounting(mounting).build(),
+                    sensors, sensors, sensors, new Random(1));
+            made.start();
+            return made;
         });
         Socket link = accept(general);
         give(airborne, mounting, 20);
         BufferedReader lines = reader(link);
-        assertEquals("up.location.update", read(lines).name());
-        assertEquals("up.heading.change", read(lines).name());
-        assertEquals(83L, read(lines).data().get("level"));
+        assertEquals("up.location.update", read(lines).name);
+        assertEquals("up.heading.change", read(lines).name);
+        assertEquals(83L, read(lines).data.get("level"));
 
         Socket frames = accept(orientation);
-        running.await("the link for orientation", new Callable<Boolean>() {
-            @Override
-            public Boolean call() {
-                return airborne.outlet().isOrientationOpen();
-            }
-        });
+        running.await("the link for orientation", () -> airborne.sink().isOrientationOpen());
         give(airborne, mounting, 20);
         OrientationFrame frame = frame(frames);
-        assertEquals(20, frame.rollDeg(), 0.01);
-        assertEquals(-5, frame.pitchDeg(), 0.01);
+        assertEquals(20, frame.rollDeg, 0.01);
+        assertEquals(-5, frame.pitchDeg, 0.01);
 
         link.getOutputStream().write(("{\"name\": \"android.speak\", "
                 + "\"data\": {\"text\": \"ahoj\"}, \"id\": \"q\"}\n").getBytes(UTF_8));
         GeneralMessage answer = read(lines);
-        while (!answer.name().equals("up.ack")) {
+        while (!answer.name.equals("up.ack")) {
             answer = read(lines);
         }
-        assertEquals("q", answer.data().get("id"));
+        assertEquals("q", answer.data.get("id"));
 
         link.close();
         Socket again = accept(general);
         give(airborne, mounting, 30);
         BufferedReader fresh = reader(again);
         GeneralMessage battery = read(fresh);
-        while (!battery.name().equals("android.battery")) {
+        while (!battery.name.equals("android.battery")) {
             battery = read(fresh);
         }
-        running.call(new Callable<Void>() {
-            @Override
-            public Void call() {
-                assertEquals("[ahoj]", sensors.said.toString());
-                assertEquals(2, airborne.status().connections());
-                airborne.stop();
-                return null;
-            }
+        running.call(() -> {
+            assertEquals("[ahoj]", sensors.said.toString());
+            assertEquals(2, airborne.status().connections());
+            airborne.stop();
+            return null;
         });
         while (fresh.readLine() != null) {
             // Until everything sent before the stop has arrived.
@@ -116,30 +104,27 @@ public final class AirborneOnLoopbackTest {
 
     /** Makes the sensors deliver on the loop, once there is a link for their readings. */
     private void give(final Airborne airborne, final Mounting mounting, final double rollDeg) {
-        running.await("the link for Commands", new Callable<Boolean>() {
-            @Override
-            public Boolean call() {
-                if (!airborne.status().isConnected()) {
-                    return false;
-                }
-                sensors.gps.give(AirborneBench.HERE);
-                sensors.rotation.give(mounting.rotation(
-                        new Attitude(rollDeg, -5, 80), running.loop.nowMs()));
-                sensors.battery.give(new BatteryLevel(83));
-                return true;
+        running.await("the link for Commands", () -> {
+            if (!airborne.status().isConnected) {
+                return false;
             }
+            sensors.gps.give(AirborneBench.HERE);
+            sensors.rotation.give(mounting.rotation(
+                    new Attitude(rollDeg, -5, 80), running.loop.nowMs()));
+            sensors.battery.give(new BatteryLevel(83));
+            return true;
         });
     }
 
     private static ServerSocket server() throws IOException {
         ServerSocket server = new ServerSocket(0, 5, InetAddress.getByName("127.0.0.1"));
-        server.setSoTimeout(LONGEST_WAIT_MS);
+        server.setSoTimeout(MAX_WAIT_MS);
         return server;
     }
 
     private static Socket accept(ServerSocket server) throws IOException {
         Socket socket = server.accept();
-        socket.setSoTimeout(LONGEST_WAIT_MS);
+        socket.setSoTimeout(MAX_WAIT_MS);
         return socket;
     }
 

@@ -24,7 +24,7 @@ public final class AirborneOrientationTest {
             other.fly(20, 2000);
             assertEquals(1, other.network.connections.size());
             assertEquals(0, other.network.ports.size());
-            assertEquals(OrientationTransport.OFF, other.airborne.status().orientation());
+            assertEquals(OrientationTransport.OFF, other.airborne.status().orientation);
             assertEquals(0, other.airborne.status().orientationHz(), 0);
             assertEquals(null, other.airborne.providers().provider("orientation"));
             assertEquals("the gyroscope is not read in vain", 0, other.gyroscope.periodsMs.size());
@@ -42,12 +42,12 @@ public final class AirborneOrientationTest {
     @Test
     public void inBlackBoxModeItLeavesByTcp() {
         bench.connected(AirborneBench.blackBox().build());
-        assertEquals("connecting to 10.0.0.1:50000", bench.airborne.status().orientationText());
+        assertEquals("connecting to 10.0.0.1:50000", bench.airborne.status().orientationText);
         bench.accept(50000);
         bench.fly(20, 2000);
         assertEquals(100, bench.frames(), 2);
-        assertEquals(OrientationTransport.TCP, bench.airborne.status().orientation());
-        assertEquals("connected to 10.0.0.1:50000", bench.airborne.status().orientationText());
+        assertEquals(OrientationTransport.TCP, bench.airborne.status().orientation);
+        assertEquals("connected to 10.0.0.1:50000", bench.airborne.status().orientationText);
     }
 
     @Test
@@ -69,7 +69,7 @@ public final class AirborneOrientationTest {
         assertEquals(0, bench.frames());
         bench.fly(20, 1000);
         assertEquals(50, bench.frames(), 1);
-        assertTrue(bench.airborne.status().isConnected());
+        assertTrue(bench.airborne.status().isConnected);
     }
 
     @Test

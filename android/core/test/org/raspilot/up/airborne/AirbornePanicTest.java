@@ -8,7 +8,7 @@ import java.util.List;
 import org.junit.After;
 import org.junit.Test;
 import org.raspilot.up.commands.BaseCommand;
-import org.raspilot.up.providers.Cadence;
+import org.raspilot.up.providers.RatePolicy;
 import org.raspilot.up.providers.SensorProvider;
 import org.raspilot.up.providers.TestSource;
 
@@ -25,9 +25,9 @@ public final class AirbornePanicTest {
     public void everySenderKeepsItsDelayOrientationToo() {
         bench.connected(AirborneBench.blackBox().orientationHz(100).build());
         bench.accept(50000);
-        final TestSource<String> own = new TestSource<String>("own sensor");
+        final TestSource<String> own = new TestSource<>("own sensor");
         bench.airborne.providers().register(
-                new SensorProvider<String>("own", own, Cadence.stream(50, 1000)) {
+                new SensorProvider<String>("own", own, RatePolicy.stream(50, 1000)) {
                     @Override
                     protected BaseCommand read(String reading) {
                         return new BaseCommand(
@@ -88,7 +88,7 @@ public final class AirbornePanicTest {
         bench.frames();
         bench.fly(10, 400);
         assertEquals(20, bench.frames(), 1);
-        assertEquals(0, bench.airborne.status().panicDelayMs());
+        assertEquals(0, bench.airborne.status().panicDelayMs);
         assertTrue(bench.events.toString(),
                 bench.events.toString().endsWith("panic 1000, panic 0, lost: gone]"));
     }
@@ -110,6 +110,6 @@ public final class AirbornePanicTest {
     private void panic(boolean isOn, int delayMs) {
         bench.hear("{\"name\": \"up.panic\", \"data\": {\"panic\": " + isOn
                 + ", \"delay_ms\": " + delayMs + "}}");
-        assertEquals(isOn ? delayMs : 0, bench.airborne.status().panicDelayMs());
+        assertEquals(isOn ? delayMs : 0, bench.airborne.status().panicDelayMs);
     }
 }

@@ -15,17 +15,17 @@ public final class AirborneSettingsTest {
     @Test
     public void theDefaultsAreTheRaspberryPis() {
         AirborneSettings settings = new AirborneSettings.Builder().build();
-        assertEquals(AirborneMode.FLIGHT_CONTROLLER, settings.mode());
-        assertEquals(50001, settings.generalPort());
-        assertEquals(50000, settings.orientationPort());
-        assertEquals(3001, settings.discoveryPort());
-        assertEquals(3002, settings.runnerPort());
+        assertEquals(AirborneMode.FLIGHT_CONTROLLER, settings.mode);
+        assertEquals(50001, settings.generalPort);
+        assertEquals(50000, settings.orientationPort);
+        assertEquals(3001, settings.discoveryPort);
+        assertEquals(3002, settings.runnerPort);
         assertEquals(OrientationTransport.OFF, settings.orientationTransport());
         assertFalse(settings.isByRunner());
-        assertEquals(500, settings.locationPeriodMs());
-        assertEquals(200, settings.altitudePeriodMs());
-        assertEquals(50, settings.orientationHz());
-        assertEquals(1013.25, settings.referencePressureHPa(), 0);
+        assertEquals(500, settings.locationPeriodMs);
+        assertEquals(200, settings.altitudePeriodMs);
+        assertEquals(50, settings.orientationHz);
+        assertEquals(1013.25, settings.referencePressureHPa, 0);
     }
 
     @Test
@@ -58,12 +58,12 @@ public final class AirborneSettingsTest {
         List<String> hosts = Arrays.asList("10.0.0.255");
         AirborneSettings settings = builder().discoveryHosts(hosts).build();
         hosts.set(0, "changed");
-        assertEquals("[10.0.0.255]", settings.discoveryHosts().toString());
+        assertEquals("[10.0.0.255]", settings.discoveryHosts.toString());
         try {
-            settings.discoveryHosts().set(0, "changed");
+            settings.discoveryHosts.set(0, "changed");
             fail("changed");
         } catch (UnsupportedOperationException error) {
-            assertEquals(1, settings.discoveryHosts().size());
+            assertEquals(1, settings.discoveryHosts.size());
         }
     }
 

@@ -6,22 +6,19 @@ import org.raspilot.up.wire.GeneralMessage;
 
 /** The far end of a link: keeps the answers as "ack id" and "nack id code reason". */
 final class Answers implements AnswerSink {
-    private final List<String> heard = new ArrayList<String>();
+    private final List<String> heard = new ArrayList<>();
 
     @Override
     public void answer(GeneralMessage answer) {
         BaseCommand command = CommandRegistry.builtin().read(answer);
-        if (command instanceof AckCommand) {
-            heard.add("ack " + ((AckCommand) command).commandId());
-        } else {
-            NackCommand nack = (NackCommand) command;
-            heard.add("nack " + nack.commandId() + " " + nack.code() + " " + nack.reason());
-        }
+        heard.add(command.name().equals(Commands.ACK) ? "ack " + command.data().get("id")
+                : "nack " + command.data().get("id") + " " + command.data().get("code") + " "
+                + command.data().get("reason"));
     }
 
     /** Returns the messages since the last call. */
     List<String> heard() {
-        List<String> all = new ArrayList<String>(heard);
+        List<String> all = new ArrayList<>(heard);
         heard.clear();
         return all;
     }

@@ -49,18 +49,18 @@ public final class CommandFormTest {
     @Test
     public void theCatalogueOfTheAppIsRead() {
         CommandForm arm = installed.form("up.arm");
-        assertTrue(arm.needsBeacon());
-        assertEquals("pilot", arm.role());
+        assertTrue(arm.needsBeacon);
+        assertEquals("pilot", arm.role);
         assertEquals(0, arm.fields().size());
         CommandField period = installed.form("up.telemetry.frequency").field("frequency");
-        assertEquals("ms", period.unit());
-        assertEquals(Double.valueOf(20), period.minimum());
-        assertEquals(Double.valueOf(10000), period.maximum());
+        assertEquals("ms", period.unit);
+        assertEquals(Double.valueOf(20), period.minimum);
+        assertEquals(Double.valueOf(10000), period.maximum);
         assertTrue(period.isRequired());
         assertEquals(Arrays.<Object>asList("RATE", "FBW", "AUTO"),
-                installed.form("up.flight_mode.set").field("mode").choices());
+                installed.form("up.flight_mode.set").field("mode").choices);
         assertEquals(Integer.valueOf(200),
-                installed.form("android.speak").field("text").maxLength());
+                installed.form("android.speak").field("text").maxLength);
         assertNull(installed.form("up.location.update"));
     }
 
@@ -70,17 +70,17 @@ public final class CommandFormTest {
         int compared = 0;
         for (CommandForm form : installed.forms()) {
             CommandRegistry registry = CommandRegistry.builtin();
-            if (!registry.knows(form.name()) || form.field("pids") != null) {
+            if (!registry.knows(form.name) || form.field("pids") != null) {
                 continue;
             }
             for (CommandField field : form.fields()) {
                 for (Object value : values(field)) {
-                    Map<String, Object> data = new LinkedHashMap<String, Object>();
+                    Map<String, Object> data = new LinkedHashMap<>();
                     for (CommandField other : form.fields()) {
-                        data.put(other.name(), other == field ? value : good(other));
+                        data.put(other.name, other == field ? value : good(other));
                     }
-                    assertEquals(form.name() + " " + data, form.validate(data) == null,
-                            takes(registry, form.name(), data));
+                    assertEquals(form.name + " " + data, form.validate(data) == null,
+                            takes(registry, form.name, data));
                     compared++;
                 }
             }
@@ -131,9 +131,9 @@ public final class CommandFormTest {
     @Test
     public void aCommandIsCheckedAsAWhole() {
         BaseCommand mode = installed.form("up.flight_mode.set").command(inputs("mode", "FBW"));
-        assertEquals("FBW", ((FlightModeCommand) mode).mode());
+        assertEquals("FBW", mode.data().get("mode"));
         CommandForm gains = installed.form("arduino.pids.tunings");
-        assertTrue(((PidTuningsCommand) gains.command(inputs("request", "true"))).isRequest());
+        assertEquals(true, gains.command(inputs("request", "true")).data().get("request"));
         assertCommandRefused("either request or pids is needed", gains, inputs());
         assertCommandRefused("pids.ratePIDs is missing", gains, inputs("pids", "{}"));
         assertEquals("app.all", all.command(inputs("must", "3")).name());
@@ -183,7 +183,7 @@ public final class CommandFormTest {
     }
 
     private static Map<String, String> inputs(String... typed) {
-        Map<String, String> inputs = new LinkedHashMap<String, String>();
+        Map<String, String> inputs = new LinkedHashMap<>();
         for (int i = 0; i < typed.length; i += 2) {
             inputs.put(typed[i], typed[i + 1]);
         }
@@ -200,23 +200,23 @@ public final class CommandFormTest {
     }
 
     private static Object good(CommandField field) {
-        if (field.choices() != null) {
-            return field.choices().get(0);
+        if (field.choices != null) {
+            return field.choices.get(0);
         }
-        return field.type() == FieldType.TEXT ? (Object) "text" : field.minimum();
+        return field.type == FieldType.TEXT ? (Object) "text" : field.minimum;
     }
 
     private static List<Object> values(CommandField field) {
-        List<Object> values = new ArrayList<Object>(Arrays.<Object>asList(null, true, 0L, 0.5,
+        List<Object> values = new ArrayList<>(Arrays.<Object>asList(null, true, 0L, 0.5,
                 "no such choice", Collections.emptyList(), Collections.emptyMap(), good(field)));
-        for (Double bound : Arrays.asList(field.minimum(), field.maximum())) {
+        for (Double bound : Arrays.asList(field.minimum, field.maximum)) {
             if (bound != null) {
                 values.addAll(Arrays.asList(bound, Math.nextUp(bound), -Math.nextUp(-bound),
                         bound + 1, bound - 1, bound.longValue()));
             }
         }
-        if (field.maxLength() != null) {
-            String longest = new String(new char[field.maxLength()]).replace('\0', 'x');
+        if (field.maxLength != null) {
+            String longest = new String(new char[field.maxLength]).replace('\0', 'x');
             values.addAll(Arrays.asList(longest, longest + "x"));
         }
         return values;

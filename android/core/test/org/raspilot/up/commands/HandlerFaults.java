@@ -5,10 +5,10 @@ import java.util.List;
 
 /** Records exceptions of handlers. */
 final class HandlerFaults implements HandlerFaultListener {
-    final List<Throwable> faults = new ArrayList<Throwable>();
+    final List<Throwable> faults = new ArrayList<>();
 
     @Override
-    public void onHandlerFailed(BaseCommandHandler handler, BaseCommand command, Throwable fault) {
+    public void onHandlerFailed(CommandHandler handler, BaseCommand command, Throwable fault) {
         faults.add(fault);
     }
 }

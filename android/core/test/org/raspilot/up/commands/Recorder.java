@@ -5,7 +5,7 @@ import java.util.List;
 
 /** A handler that records its Commands and throws on request. */
 final class Recorder extends BaseCommandHandler {
-    final List<BaseCommand> commands = new ArrayList<BaseCommand>();
+    final List<BaseCommand> commands = new ArrayList<>();
     CommandRefusedException refusal;
     RuntimeException fault;
 

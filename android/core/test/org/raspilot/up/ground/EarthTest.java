@@ -15,10 +15,10 @@ public final class EarthTest {
             final Home from = new Home(random.nextDouble() * 140 - 70,
                     random.nextDouble() * 358 - 179);
             final double distanceM = random.nextDouble() * 3000;
-            final Home to = HomeSearch.destination(from.latitudeDeg(), from.longitudeDeg(),
+            final Home to = HomeEstimator.destination(from.latitudeDeg, from.longitudeDeg,
                     random.nextDouble() * 360, distanceM);
-            assertEquals("seed " + seed, distanceM, Earth.distanceM(from.latitudeDeg(),
-                    from.longitudeDeg(), to.latitudeDeg(), to.longitudeDeg()), 0.01);
+            assertEquals("seed " + seed, distanceM, Earth.distanceM(from.latitudeDeg,
+                    from.longitudeDeg, to.latitudeDeg, to.longitudeDeg), 0.01);
         }
     }
 

@@ -11,7 +11,7 @@ import org.raspilot.up.commands.InvalidCommandException;
 
 /** Gains as a person types them. */
 public final class GainsFormTest {
-    private final Map<String, String> cells = GainsForm.cells(GainsDeskTest.set(3));
+    private final Map<String, String> cells = GainsForm.cells(GainsServiceTest.set(3));
 
     private void refused(String path, String typed, String sentence) {
         cells.put(path, typed);
@@ -25,7 +25,7 @@ public final class GainsFormTest {
 
     @Test
     public void aFormThatNobodyTouchedIsTheSetItself() {
-        assertEquals(GainsDeskTest.set(3).toData(), GainsForm.read(cells).toData());
+        assertEquals(GainsServiceTest.set(3).toData(), GainsForm.read(cells).toData());
         assertEquals(27, cells.size());
         assertEquals("0.25", cells.get("ratePIDs.ailerons.d"));
         assertEquals("", cells.get("navPIDs.ailerons.p"));
@@ -36,8 +36,8 @@ public final class GainsFormTest {
         cells.put("ratePIDs.ailerons.p", " 2,5 ");
         cells.put("stabPIDs.rudder.d", "50");
         final GainSet set = GainsForm.read(cells);
-        assertEquals(2.5, set.rate().ailerons().p(), 0);
-        assertEquals(50, set.stabilize().rudder().d(), 0);
+        assertEquals(2.5, set.rate.ailerons.p, 0);
+        assertEquals(50, set.stabilize.rudder.d, 0);
     }
 
     @Test
@@ -71,7 +71,7 @@ public final class GainsFormTest {
         for (String term : GainKey.TERMS) {
             cells.put("ratePIDs.rudder." + term, "");
         }
-        assertNull(GainsForm.read(cells).rate().rudder());
+        assertNull(GainsForm.read(cells).rate.rudder);
         refused("navPIDs.elevator.p", "1",
                 "the set is not whole: navigation roll P is missing");
     }

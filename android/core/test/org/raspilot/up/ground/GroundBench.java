@@ -6,18 +6,15 @@ import java.util.List;
 import java.util.Map;
 import java.util.Random;
 import org.junit.rules.ExternalResource;
-import org.raspilot.up.commands.BaseCommand;
-import org.raspilot.up.commands.BaseCommandHandler;
 import org.raspilot.up.commands.CommandExecutor;
 import org.raspilot.up.commands.CommandRegistry;
-import org.raspilot.up.commands.HandlerFaultListener;
 import org.raspilot.up.loop.Faults;
 import org.raspilot.up.loop.ManualLoop;
 import org.raspilot.up.loop.ScriptedNetwork;
 import org.raspilot.up.wire.GeneralMessage;
 import org.raspilot.up.wire.Json;
 import org.raspilot.up.wire.MalformedException;
-import org.raspilot.up.wire.Seat;
+import org.raspilot.up.wire.ProxyRole;
 
 /** A ground on a stopped clock whose proxy is the test; records all its reports. */
 final class GroundBench extends ExternalResource implements GroundListener {
@@ -28,23 +25,18 @@ final class GroundBench extends ExternalResource implements GroundListener {
     final ScriptedNetwork network = new ScriptedNetwork();
     final ManualLoop loop = new ManualLoop(network, faults);
     final MemoryTokenStore tokens = new MemoryTokenStore();
-    final List<Throwable> handlerFaults = new ArrayList<Throwable>();
+    final List<Throwable> handlerFaults = new ArrayList<>();
     final CommandExecutor executor =
-            new CommandExecutor(CommandRegistry.builtin(), new HandlerFaultListener() {
-                @Override
-                public void onHandlerFailed(BaseCommandHandler handler, BaseCommand command,
-                        Throwable fault) {
-                    handlerFaults.add(fault);
-                }
-            });
-    final List<Telemetry> frames = new ArrayList<Telemetry>();
-    final List<Answer> answers = new ArrayList<Answer>();
+            new CommandExecutor(CommandRegistry.builtin(), (handler, command, fault) ->
+                    handlerFaults.add(fault));
+    final List<Telemetry> frames = new ArrayList<>();
+    final List<Answer> answers = new ArrayList<>();
     GroundStatus status;
     int changes;
-    GroundSettings settings = settings(Seat.COMMAND, false);
+    GroundSettings settings = settings(ProxyRole.COMMAND, false);
     GroundSide ground;
 
-    static GroundSettings settings(Seat seat, boolean isDirect) {
+    static GroundSettings settings(ProxyRole seat, boolean isDirect) {
         return new GroundSettings("192.0.2.9", 3004, "glider", seat, isDirect);
     }
 
@@ -63,16 +55,16 @@ final class GroundBench extends ExternalResource implements GroundListener {
     }
 
     /** Starts, accepts as the proxy, and grants that seat. */
-    GroundBench open(Seat seat) {
+    GroundBench open(ProxyRole seat) {
         start(settings(seat, false));
         accept(seat);
-        say("UP1 seat holder=" + (seat == Seat.COMMAND ? "1" : "none"));
+        say("UP1 seat holder=" + (seat == ProxyRole.COMMAND ? "1" : "none"));
         say("UP1 aircraft online");
         return this;
     }
 
     /** Accepts the newest connection as the proxy and answers the hello. */
-    void accept(Seat seat) {
+    void accept(ProxyRole seat) {
         peer().accept();
         say("UP1 ok aircraft=glider seat=" + seat.word() + " token=" + TOKEN);
     }
@@ -81,7 +73,6 @@ final class GroundBench extends ExternalResource implements GroundListener {
         return network.newest();
     }
 
-    /** The peer sends a line. */
     void say(String line) {
         peer().say(line + "\n");
         loop.advance(0);
@@ -105,7 +96,7 @@ final class GroundBench extends ExternalResource implements GroundListener {
 
     /** Returns the messages sent since the last call. */
     List<GeneralMessage> sent() {
-        final List<GeneralMessage> messages = new ArrayList<GeneralMessage>();
+        final List<GeneralMessage> messages = new ArrayList<>();
         for (String line : peer().written().split("\n")) {
             if (line.startsWith("{")) {
                 try {
@@ -123,7 +114,7 @@ final class GroundBench extends ExternalResource implements GroundListener {
     GeneralMessage sent(String name) {
         GeneralMessage found = null;
         for (GeneralMessage each : sent()) {
-            if (each.name().equals(name)) {
+            if (each.name.equals(name)) {
                 if (found != null) {
                     throw new AssertionError(name + " was sent twice");
                 }
@@ -139,8 +130,8 @@ final class GroundBench extends ExternalResource implements GroundListener {
     /** The aircraft refuses the ground's automatic request for its gains. */
     void skipGains() {
         for (GeneralMessage each : sent()) {
-            if (each.name().equals("arduino.pids.tunings")) {
-                nack(each.id(), "unavailable", "no board");
+            if (each.name.equals("arduino.pids.tunings")) {
+                nack(each.id, "unavailable", "no board");
             }
         }
     }
@@ -154,14 +145,8 @@ final class GroundBench extends ExternalResource implements GroundListener {
                 + "\", \"reason\": \"" + reason + "\"}}");
     }
 
-    /** Records answers. */
     AnswerListener keeping() {
-        return new AnswerListener() {
-            @Override
-            public void onAnswer(Answer answer) {
-                answers.add(answer);
-            }
-        };
+        return answer -> answers.add(answer);
     }
 
     /** Returns the one answer since the last call. */
@@ -172,13 +157,13 @@ final class GroundBench extends ExternalResource implements GroundListener {
         return answers.remove(0);
     }
 
-    /** Returns the texts of the events. */
+    /** Returns the codes of the events. */
     List<String> events() {
-        final List<String> texts = new ArrayList<String>();
-        for (Event each : ground.events().snapshot().events()) {
-            texts.add(each.text());
+        final List<String> codes = new ArrayList<>();
+        for (Event each : ground.events().snapshot().events) {
+            codes.add(each.code);
         }
-        return texts;
+        return codes;
     }
 
     @SuppressWarnings("unchecked")
@@ -191,7 +176,7 @@ final class GroundBench extends ExternalResource implements GroundListener {
     }
 
     static Telemetry telemetry(String data, long nowMs) {
-        return Telemetry.of(new LinkedHashMap<String, Object>(json(data)), 1L, nowMs, 0);
+        return Telemetry.of(new LinkedHashMap<>(json(data)), 1L, nowMs, 0);
     }
 
     @Override

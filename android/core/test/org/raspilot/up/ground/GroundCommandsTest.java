@@ -10,12 +10,10 @@ import java.util.Collections;
 import java.util.Locale;
 import org.junit.Rule;
 import org.junit.Test;
-import org.raspilot.up.commands.ArmCommand;
 import org.raspilot.up.commands.BaseCommand;
-import org.raspilot.up.commands.DisarmCommand;
-import org.raspilot.up.commands.FlightModeCommand;
+import org.raspilot.up.commands.Commands;
 import org.raspilot.up.wire.GeneralMessage;
-import org.raspilot.up.wire.Seat;
+import org.raspilot.up.wire.ProxyRole;
 
 /** When a Command is sent, with which beacon, and what its answer is. */
 public final class GroundCommandsTest {
@@ -27,35 +25,35 @@ public final class GroundCommandsTest {
     }
 
     private void flySeen(long firstBeacon, int count) {
-        bench.ground.seen(bench.fly(firstBeacon, count));
+        bench.ground.onShown(bench.fly(firstBeacon, count));
         bench.skipGains();
     }
 
     private void mustBeRefused(String code) {
         final Answer answer = bench.answer();
-        assertEquals(Answer.Outcome.REFUSED, answer.outcome());
-        assertEquals(code, answer.code());
+        assertEquals(Answer.Outcome.REFUSED, answer.outcome);
+        assertEquals(code, answer.code);
         assertTrue(answer.sentence(), answer.sentence().contains(" was not sent: "));
         assertTrue("something was sent", bench.sent().isEmpty());
     }
 
     @Test
     public void itGoesOutOnceWithAnIdAndTheBeaconThatThePilotHasSeen() {
-        bench.open(Seat.COMMAND);
+        bench.open(ProxyRole.COMMAND);
         flySeen(40, 3);
         bench.loop.advance(100);
         bench.frame(43, "{}");
-        send(new FlightModeCommand("FBW"));
-        final GeneralMessage sent = bench.sent(FlightModeCommand.NAME);
-        assertEquals("drawn was 42", Long.valueOf(42), sent.beacon());
-        assertEquals("FBW", sent.data().get("mode"));
+        send(Commands.flightMode("FBW"));
+        final GeneralMessage sent = bench.sent(Commands.FLIGHT_MODE);
+        assertEquals("drawn was 42", Long.valueOf(42), sent.beacon);
+        assertEquals("FBW", sent.data.get("mode"));
         bench.loop.advance(120);
-        bench.ack(sent.id());
+        bench.ack(sent.id);
         final Answer answer = bench.answer();
-        assertEquals(Answer.Outcome.ACK, answer.outcome());
-        assertEquals(Long.valueOf(120), answer.roundTripMs());
+        assertEquals(Answer.Outcome.ACK, answer.outcome);
+        assertEquals(Long.valueOf(120), answer.roundTripMs);
         assertEquals("up.flight_mode.set carried out after 120 ms", answer.sentence());
-        assertTrue(bench.events().contains("flight mode FBW: carried out"));
+        assertTrue(bench.events().contains("command_ack"));
         bench.loop.advance(5000);
         assertTrue("never sent again", bench.sent().isEmpty());
     }
@@ -65,10 +63,10 @@ public final class GroundCommandsTest {
         final Locale before = Locale.getDefault();
         Locale.setDefault(new Locale("ar", "EG"));
         try {
-            bench.open(Seat.COMMAND);
+            bench.open(ProxyRole.COMMAND);
             flySeen(1, 1);
-            send(new DisarmCommand());
-            final String id = bench.sent(DisarmCommand.NAME).id();
+            send(new BaseCommand(Commands.DISARM));
+            final String id = bench.sent(Commands.DISARM).id;
             assertTrue(id, id.matches("[0-9a-f]{16}-[0-9]+"));
         } finally {
             Locale.setDefault(before);
@@ -77,124 +75,125 @@ public final class GroundCommandsTest {
 
     @Test
     public void aBeaconThatWasSeenTooLongAgoIsNotEchoed() {
-        bench.open(Seat.COMMAND);
+        bench.open(ProxyRole.COMMAND);
         flySeen(1, 1);
         bench.fly(2, 20);
-        send(new DisarmCommand());
+        send(new BaseCommand(Commands.DISARM));
         assertEquals("2 s are no too long", Long.valueOf(1),
-                bench.sent(DisarmCommand.NAME).beacon());
+                bench.sent(Commands.DISARM).beacon);
         bench.fly(22, 1);
-        send(new DisarmCommand());
+        send(new BaseCommand(Commands.DISARM));
         mustBeRefused("stale");
     }
 
     @Test
     public void aBeaconStaysFreshForASlowPeriod() {
-        bench.open(Seat.COMMAND);
+        bench.open(ProxyRole.COMMAND);
         bench.frame(1, "{\"system\": {\"period_ms\": 10000}}");
-        bench.ground.seen(1L);
+        bench.ground.onShown(1L);
         bench.loop.advance(10999);
-        send(new DisarmCommand());
-        assertEquals(Long.valueOf(1), bench.sent(DisarmCommand.NAME).beacon());
+        send(new BaseCommand(Commands.DISARM));
+        assertEquals(Long.valueOf(1), bench.sent(Commands.DISARM).beacon);
         bench.loop.advance(2);
-        send(new DisarmCommand());
+        send(new BaseCommand(Commands.DISARM));
         mustBeRefused("stale");
     }
 
     @Test
     public void theHoldUpOnTheWayCountsForTheBeaconToo() {
-        bench.open(Seat.COMMAND);
+        bench.open(ProxyRole.COMMAND);
         bench.frame(1, "{\"system\": {\"clock_ms\": 0}}");
         bench.loop.advance(1600);
         bench.frame(2, "{\"system\": {\"clock_ms\": 100}}");
-        bench.ground.seen(2L);
+        bench.ground.onShown(2L);
         bench.loop.advance(499);
-        send(new DisarmCommand());
-        assertEquals(Long.valueOf(2), bench.sent(DisarmCommand.NAME).beacon());
+        send(new BaseCommand(Commands.DISARM));
+        assertEquals(Long.valueOf(2), bench.sent(Commands.DISARM).beacon);
         bench.loop.advance(3);
-        send(new DisarmCommand());
+        send(new BaseCommand(Commands.DISARM));
         mustBeRefused("stale");
     }
 
     @Test
     public void nobodyCommandsWhatTheyHaveNotSeen() {
-        bench.open(Seat.COMMAND);
+        bench.open(ProxyRole.COMMAND);
         bench.fly(1, 3);
         bench.skipGains();
-        send(new DisarmCommand());
+        send(new BaseCommand(Commands.DISARM));
         mustBeRefused("no_beacon");
-        bench.ground.seen(77L);
-        bench.ground.seen(null);
-        send(new DisarmCommand());
+        bench.ground.onShown(77L);
+        bench.ground.onShown(null);
+        send(new BaseCommand(Commands.DISARM));
         mustBeRefused("no_beacon");
-        bench.ground.send(new DisarmCommand(), 78L, bench.keeping());
+        bench.ground.send(new BaseCommand(Commands.DISARM), 78L, bench.keeping());
         mustBeRefused("stale");
-        bench.ground.send(new DisarmCommand(), 2L, bench.keeping());
-        assertEquals(Long.valueOf(2), bench.sent(DisarmCommand.NAME).beacon());
+        bench.ground.send(new BaseCommand(Commands.DISARM), 2L, bench.keeping());
+        assertEquals(Long.valueOf(2), bench.sent(Commands.DISARM).beacon);
     }
 
     @Test
     public void anOlderFrameDrawnLaterChangesNothing() {
-        bench.open(Seat.COMMAND);
+        bench.open(ProxyRole.COMMAND);
         bench.fly(1, 5);
-        bench.ground.seen(5L);
-        bench.ground.seen(3L);
-        send(new DisarmCommand());
-        assertEquals(Long.valueOf(5), bench.sent(DisarmCommand.NAME).beacon());
+        bench.ground.onShown(5L);
+        bench.ground.onShown(3L);
+        send(new BaseCommand(Commands.DISARM));
+        assertEquals(Long.valueOf(5), bench.sent(Commands.DISARM).beacon);
     }
 
     @Test
     public void withoutTheSeatNothingIsSent() {
-        bench.open(Seat.LISTEN);
+        bench.open(ProxyRole.LISTEN);
         flySeen(1, 3);
-        send(new DisarmCommand());
-        mustBeRefused("no_seat");
+        send(new BaseCommand(Commands.DISARM));
+        mustBeRefused("no_control");
         bench.say("UP1 seat command token=" + GroundBench.TOKEN);
-        send(new DisarmCommand());
-        bench.sent(DisarmCommand.NAME);
+        send(new BaseCommand(Commands.DISARM));
+        bench.sent(Commands.DISARM);
         bench.say("UP1 seat listen");
-        send(new DisarmCommand());
-        mustBeRefused("no_seat");
+        send(new BaseCommand(Commands.DISARM));
+        mustBeRefused("no_control");
     }
 
     @Test
     public void withoutALinkOrAnAircraftNothingIsSentNorKeptForLater() {
-        bench.start(GroundBench.settings(Seat.COMMAND, false));
-        send(new DisarmCommand());
-        assertEquals("no_link", bench.answer().code());
-        bench.accept(Seat.COMMAND);
+        bench.start(GroundBench.settings(ProxyRole.COMMAND, false));
+        send(new BaseCommand(Commands.DISARM));
+        assertEquals("no_link", bench.answer().code);
+        bench.accept(ProxyRole.COMMAND);
         bench.say("UP1 aircraft offline");
         flySeen(1, 3);
-        send(new DisarmCommand());
+        send(new BaseCommand(Commands.DISARM));
         mustBeRefused("no_aircraft");
         bench.peer().end("gone");
-        send(new DisarmCommand());
-        assertEquals("there is no link: gone", bench.answer().reason());
+        send(new BaseCommand(Commands.DISARM));
+        assertEquals("there is no link: gone", bench.answer().reason);
         bench.loop.advance(700);
-        bench.accept(Seat.COMMAND);
+        bench.accept(ProxyRole.COMMAND);
         flySeen(4, 3);
         assertFalse(bench.peer().written().contains("disarm"));
     }
 
     @Test
     public void whatWasSeenOnTheLastConnectionCountsForNothing() {
-        bench.open(Seat.COMMAND);
+        bench.open(ProxyRole.COMMAND);
         flySeen(1, 3);
         bench.peer().end("lost");
         bench.loop.advance(700);
-        bench.accept(Seat.COMMAND);
-        send(new ArmCommand());
+        bench.accept(ProxyRole.COMMAND);
+        send(new BaseCommand(Commands.ARM));
         mustBeRefused("no_beacon");
     }
 
     @Test
     public void armingNeedsABeaconEvenWhereTheAircraftHasNone() {
-        bench.open(Seat.COMMAND);
+        bench.open(ProxyRole.COMMAND);
         bench.say("{\"name\": \"up.telemetry.update\", \"data\": {}}");
-        send(new FlightModeCommand("FBW"));
+        send(Commands.flightMode("FBW"));
         assertNull("a thesis aircraft tells no beacons",
-                bench.sent(FlightModeCommand.NAME).beacon());
-        for (BaseCommand command : new BaseCommand[] {new ArmCommand(), new DisarmCommand()}) {
+                bench.sent(Commands.FLIGHT_MODE).beacon);
+        for (BaseCommand command : new BaseCommand[] {new BaseCommand(Commands.ARM),
+                new BaseCommand(Commands.DISARM)}) {
             send(command);
             mustBeRefused("no_beacon");
         }
@@ -202,18 +201,18 @@ public final class GroundCommandsTest {
 
     @Test
     public void theAnswerOfAnotherIdIsNotTaken() {
-        bench.open(Seat.COMMAND);
+        bench.open(ProxyRole.COMMAND);
         flySeen(1, 3);
-        send(new DisarmCommand());
-        final String id = bench.sent(DisarmCommand.NAME).id();
+        send(new BaseCommand(Commands.DISARM));
+        final String id = bench.sent(Commands.DISARM).id;
         bench.ack("another");
         bench.say("{\"name\": \"up.ack\", \"data\": {\"id\": 5}}");
         bench.say("{\"name\": \"up.ack\", \"data\": {}}");
         assertTrue(bench.answers.isEmpty());
-        assertEquals(3, bench.ground.status().counters().strangeAnswers());
+        assertEquals(3, bench.ground.status().counters.strangeAnswers);
         bench.nack(id, "refused", "armed by the transmitter\\u0007");
         final Answer answer = bench.answer();
-        assertEquals(Answer.Outcome.NACK, answer.outcome());
+        assertEquals(Answer.Outcome.NACK, answer.outcome);
         assertEquals("the aircraft refused up.disarm: armed by the transmitter",
                 answer.sentence());
         bench.ack(id);
@@ -222,30 +221,30 @@ public final class GroundCommandsTest {
 
     @Test
     public void idsAreDifferentAndAnswersFindTheirs() {
-        bench.open(Seat.COMMAND);
+        bench.open(ProxyRole.COMMAND);
         flySeen(1, 3);
-        send(new DisarmCommand());
-        final String first = bench.sent(DisarmCommand.NAME).id();
-        send(new FlightModeCommand("RATE"));
-        final String second = bench.sent(FlightModeCommand.NAME).id();
+        send(new BaseCommand(Commands.DISARM));
+        final String first = bench.sent(Commands.DISARM).id;
+        send(Commands.flightMode("RATE"));
+        final String second = bench.sent(Commands.FLIGHT_MODE).id;
         assertNotEquals(first, second);
         bench.ack(second);
-        assertEquals(FlightModeCommand.NAME, bench.answer().name());
+        assertEquals(Commands.FLIGHT_MODE, bench.answer().name);
         bench.ack(first);
-        assertEquals(DisarmCommand.NAME, bench.answer().name());
+        assertEquals(Commands.DISARM, bench.answer().name);
     }
 
     @Test
     public void noAnswerForThreeSecondsIsATimeoutAndIsNotRepaired() {
-        bench.open(Seat.COMMAND);
+        bench.open(ProxyRole.COMMAND);
         flySeen(1, 3);
-        send(new DisarmCommand());
-        final String id = bench.sent(DisarmCommand.NAME).id();
+        send(new BaseCommand(Commands.DISARM));
+        final String id = bench.sent(Commands.DISARM).id;
         bench.loop.advance(2999);
         assertTrue(bench.answers.isEmpty());
         bench.loop.advance(1);
         final Answer answer = bench.answer();
-        assertEquals(Answer.Outcome.TIMEOUT, answer.outcome());
+        assertEquals(Answer.Outcome.TIMEOUT, answer.outcome);
         assertEquals("up.disarm: no answer within 3 s; it is not known whether it was carried out",
                 answer.sentence());
         bench.ack(id);
@@ -255,13 +254,13 @@ public final class GroundCommandsTest {
 
     @Test
     public void aLostLinkEndsTheWaiting() {
-        bench.open(Seat.COMMAND);
+        bench.open(ProxyRole.COMMAND);
         flySeen(1, 3);
-        send(new DisarmCommand());
+        send(new BaseCommand(Commands.DISARM));
         bench.peer().end("lost");
-        assertEquals(Answer.Outcome.LOST, bench.answer().outcome());
+        assertEquals(Answer.Outcome.LOST, bench.answer().outcome);
         bench.loop.advance(700);
-        bench.accept(Seat.COMMAND);
+        bench.accept(ProxyRole.COMMAND);
         bench.loop.advance(5000);
         assertTrue(bench.sent().isEmpty());
         assertTrue(bench.answers.isEmpty());
@@ -269,29 +268,29 @@ public final class GroundCommandsTest {
 
     @Test
     public void stoppingEndsTheWaitingToo() {
-        bench.open(Seat.COMMAND);
+        bench.open(ProxyRole.COMMAND);
         flySeen(1, 3);
-        send(new DisarmCommand());
+        send(new BaseCommand(Commands.DISARM));
         bench.ground.stop();
-        assertEquals(Answer.Outcome.LOST, bench.answer().outcome());
+        assertEquals(Answer.Outcome.LOST, bench.answer().outcome);
     }
 
     @Test
     public void tooManyThatWaitAreRefused() {
-        bench.open(Seat.COMMAND);
+        bench.open(ProxyRole.COMMAND);
         flySeen(1, 3);
-        for (int each = 0; each < Answers.MOST; each++) {
-            send(new DisarmCommand());
+        for (int each = 0; each < PendingCommands.MAX_WAITING; each++) {
+            send(new BaseCommand(Commands.DISARM));
         }
         assertTrue(bench.answers.isEmpty());
         bench.sent();
-        send(new DisarmCommand());
+        send(new BaseCommand(Commands.DISARM));
         mustBeRefused("busy");
     }
 
     @Test
     public void whatNoLineCanHoldIsRefused() {
-        bench.open(Seat.COMMAND);
+        bench.open(ProxyRole.COMMAND);
         flySeen(1, 3);
         send(new BaseCommand("x.y", Collections.singletonMap("v", Double.NaN)));
         mustBeRefused("invalid");
@@ -302,22 +301,22 @@ public final class GroundCommandsTest {
 
     @Test
     public void anyCommandOfTheCatalogueCanBeSentByItsName() {
-        bench.open(Seat.COMMAND);
+        bench.open(ProxyRole.COMMAND);
         flySeen(1, 3);
         send(new BaseCommand("new.cog.command", Collections.singletonMap("v", 5L)));
-        assertEquals(5L, bench.sent("new.cog.command").data().get("v"));
+        assertEquals(5L, bench.sent("new.cog.command").data.get("v"));
     }
 
     @Test
     public void whatTheProfileRequestAsksForIsItsAnswersData() {
-        bench.open(Seat.COMMAND);
+        bench.open(ProxyRole.COMMAND);
         bench.fly(1, 1);
         bench.sent();
         send(new BaseCommand("arduino.profile.request", null));
-        final String id = bench.sent("arduino.profile.request").id();
+        final String id = bench.sent("arduino.profile.request").id;
         bench.ack(id);
         assertTrue("the profile has yet to come", bench.answers.isEmpty());
         bench.say("{\"name\": \"arduino.profile.values\", \"data\": {\"mix\": \"elevon\"}}");
-        assertEquals("elevon", bench.answer().data().get("mix"));
+        assertEquals("elevon", bench.answer().data.get("mix"));
     }
 }

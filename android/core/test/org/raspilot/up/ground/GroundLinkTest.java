@@ -7,8 +7,9 @@ import static org.junit.Assert.assertTrue;
 
 import org.junit.Rule;
 import org.junit.Test;
-import org.raspilot.up.commands.DisarmCommand;
-import org.raspilot.up.wire.Seat;
+import org.raspilot.up.commands.BaseCommand;
+import org.raspilot.up.commands.Commands;
+import org.raspilot.up.wire.ProxyRole;
 
 /** Hello, seat and token, and how the link comes back (docs/protocols.md 9). */
 public final class GroundLinkTest {
@@ -17,25 +18,25 @@ public final class GroundLinkTest {
 
     @Test
     public void theHelloIsTheFirstLineAndItsAnswerOpensTheLink() {
-        bench.start(GroundBench.settings(Seat.LISTEN, false));
+        bench.start(GroundBench.settings(ProxyRole.LISTEN, false));
         assertEquals("192.0.2.9", bench.peer().host);
         assertEquals(3004, bench.peer().port);
         bench.peer().accept();
         bench.loop.advance(0);
         assertEquals("UP1 aircraft=glider seat=listen\n", bench.peer().written());
-        assertEquals(LinkState.CONNECTING, bench.ground.status().link());
+        assertEquals(LinkState.CONNECTING, bench.ground.status().link);
         bench.say("UP1 ok aircraft=glider seat=listen token=" + GroundBench.TOKEN);
-        assertEquals(LinkState.OPEN, bench.status.link());
-        assertEquals(Seat.LISTEN, bench.status.seat());
-        assertEquals(SeatStanding.LATER, bench.status.standing());
-        assertEquals("connected, no telemetry yet", bench.status.linkSentence());
+        assertEquals(LinkState.OPEN, bench.status.link);
+        assertEquals(ProxyRole.LISTEN, bench.status.role);
+        assertEquals(ControlStatus.LATER, bench.status.control);
+        assertEquals("connected, no telemetry yet", bench.status.linkText());
         assertNull("a listener's token is worth nothing",
                 bench.tokens.load(bench.settings.tokenKey()));
     }
 
     @Test
     public void theTokenOfTheSeatIsSaidAtTheNextConnectionAndAtTheNextStart() {
-        bench.open(Seat.COMMAND);
+        bench.open(ProxyRole.COMMAND);
         bench.peer().written();
         bench.peer().end("the network is gone");
         bench.loop.advance(700);
@@ -44,18 +45,18 @@ public final class GroundLinkTest {
                 "UP1 aircraft=glider seat=command token=" + GroundBench.TOKEN + "\n";
         assertEquals(hello, bench.peer().written());
         bench.ground.stop();
-        bench.start(GroundBench.settings(Seat.COMMAND, false));
+        bench.start(GroundBench.settings(ProxyRole.COMMAND, false));
         bench.peer().accept();
         assertEquals(hello, bench.peer().written());
     }
 
     @Test
     public void whoLosesTheSeatAsksForItNoMoreAndForgetsTheToken() {
-        bench.open(Seat.COMMAND);
+        bench.open(ProxyRole.COMMAND);
         bench.say("UP1 seat listen");
         bench.say("UP1 seat holder=4");
-        assertEquals(SeatStanding.HELD, bench.status.standing());
-        assertEquals("ground 4 commands", bench.status.seatSentence());
+        assertEquals(ControlStatus.HELD, bench.status.control);
+        assertEquals("ground 4 commands", bench.status.controlText());
         assertNull(bench.tokens.load(bench.settings.tokenKey()));
         bench.peer().end("lost");
         bench.loop.advance(700);
@@ -65,43 +66,43 @@ public final class GroundLinkTest {
 
     @Test
     public void theSeatIsAskedForGivenAndReleased() {
-        bench.open(Seat.LISTEN);
+        bench.open(ProxyRole.LISTEN);
         bench.peer().written();
-        assertEquals(SeatStanding.FREE, bench.status.standing());
-        assertFalse(bench.ground.giveSeat(2));
-        assertFalse(bench.ground.releaseSeat());
-        assertTrue(bench.ground.requestSeat());
+        assertEquals(ControlStatus.FREE, bench.status.control);
+        assertFalse(bench.ground.giveControl(2));
+        assertFalse(bench.ground.releaseControl());
+        assertTrue(bench.ground.requestControl());
         assertEquals("UP1 seat request\n", bench.peer().written());
         bench.say("UP1 seat command token=" + GroundBench.OTHER_TOKEN);
         bench.say("UP1 seat holder=2");
-        assertEquals(SeatStanding.OURS, bench.status.standing());
+        assertEquals(ControlStatus.OURS, bench.status.control);
         assertEquals(GroundBench.OTHER_TOKEN, bench.tokens.load(bench.settings.tokenKey()));
         bench.say("UP1 seat asked by=5");
-        assertEquals(Integer.valueOf(5), bench.status.askedBy());
-        assertEquals("you command, ground 5 asks for it", bench.status.seatSentence());
-        bench.ground.dismissSeatAsk();
-        assertNull(bench.status.askedBy());
-        assertTrue(bench.ground.giveSeat(5));
+        assertEquals(Integer.valueOf(5), bench.status.requestedBy);
+        assertEquals("you command, ground 5 asks for it", bench.status.controlText());
+        bench.ground.dismissControlRequest();
+        assertNull(bench.status.requestedBy);
+        assertTrue(bench.ground.giveControl(5));
         assertEquals("UP1 seat give to=5\n", bench.peer().written());
-        assertEquals("the heir may have gone", SeatStanding.OURS, bench.status.standing());
-        assertTrue(bench.ground.releaseSeat());
+        assertEquals("the heir may have gone", ControlStatus.OURS, bench.status.control);
+        assertTrue(bench.ground.releaseControl());
         assertEquals("UP1 seat release\n", bench.peer().written());
-        assertEquals("what is sent now is dropped", SeatStanding.LATER,
-                bench.status.standing());
-        bench.ground.send(new DisarmCommand(), bench.keeping());
-        assertEquals("no_seat", bench.answer().code());
+        assertEquals("what is sent now is dropped", ControlStatus.LATER,
+                bench.status.control);
+        bench.ground.send(new BaseCommand(Commands.DISARM), bench.keeping());
+        assertEquals("no_control", bench.answer().code);
         bench.say("UP1 seat listen");
         bench.say("UP1 seat holder=none");
-        assertEquals(SeatStanding.FREE, bench.status.standing());
+        assertEquals(ControlStatus.FREE, bench.status.control);
     }
 
     @Test
     public void aListenerThatIsNeverToldWhoCommandsAsksByANewHello() {
         // An aircraft's own listener knows the hello and no seat words.
-        bench.start(GroundBench.settings(Seat.LISTEN, false));
-        bench.accept(Seat.LISTEN);
+        bench.start(GroundBench.settings(ProxyRole.LISTEN, false));
+        bench.accept(ProxyRole.LISTEN);
         bench.loop.advance(1000);
-        assertTrue(bench.ground.requestSeat());
+        assertTrue(bench.ground.requestControl());
         assertEquals(2, bench.network.connections.size());
         bench.peer().accept();
         assertEquals("UP1 aircraft=glider seat=command\n", bench.peer().written());
@@ -109,12 +110,12 @@ public final class GroundLinkTest {
 
     @Test
     public void anotherSideThatAnswersNoHelloIsToldInASentence() {
-        bench.start(GroundBench.settings(Seat.LISTEN, false));
+        bench.start(GroundBench.settings(ProxyRole.LISTEN, false));
         bench.peer().accept();
         bench.say("{\"name\": \"up.telemetry.update\", \"data\": {}}");
-        assertEquals(LinkState.WAITING, bench.status.link());
-        assertTrue(bench.status.linkSentence(),
-                bench.status.linkSentence().startsWith("no link: the other side does not answer"));
+        assertEquals(LinkState.WAITING, bench.status.link);
+        assertTrue(bench.status.linkText(),
+                bench.status.linkText().startsWith("no link: the other side does not answer"));
         assertTrue("its telemetry is not shown", bench.frames.isEmpty());
         bench.loop.advance(700);
         bench.peer().accept();
@@ -122,40 +123,40 @@ public final class GroundLinkTest {
         assertFalse(bench.peer().isClosed);
         bench.loop.advance(1);
         assertTrue(bench.peer().isClosed);
-        assertTrue(bench.status.reason(),
-                bench.status.reason().startsWith("no answer to the hello within 5 s"));
-        assertEquals(2, bench.status.failures());
+        assertTrue(bench.status.reason,
+                bench.status.reason.startsWith("no answer to the hello within 5 s"));
+        assertEquals(2, bench.status.failures);
     }
 
     @Test
     public void aRefusedHelloIsToldWithTheProxysReason() {
-        bench.start(GroundBench.settings(Seat.LISTEN, false));
+        bench.start(GroundBench.settings(ProxyRole.LISTEN, false));
         bench.peer().accept();
         bench.say("UP1 error code=full reason=\"no room for another ground\"");
-        assertEquals("full", bench.status.rejection());
+        assertEquals("full", bench.status.rejection);
         assertEquals("the proxy refuses: no room for another ground (full)",
-                bench.status.reason());
+                bench.status.reason);
         assertTrue(bench.peer().isClosed);
         bench.loop.advance(700);
-        bench.accept(Seat.LISTEN);
+        bench.accept(ProxyRole.LISTEN);
         bench.loop.advance(0);
-        assertEquals("", bench.status.rejection());
-        assertEquals(0, bench.status.failures());
+        assertEquals("", bench.status.rejection);
+        assertEquals(0, bench.status.failures);
     }
 
     @Test
     public void nobodyWhoListensThereIsToldToo() {
-        bench.start(GroundBench.settings(Seat.LISTEN, false));
+        bench.start(GroundBench.settings(ProxyRole.LISTEN, false));
         bench.peer().end("cannot reach 192.0.2.9:3004: connection refused");
         bench.loop.advance(0);
-        assertEquals(LinkState.WAITING, bench.status.link());
-        assertTrue(bench.status.linkSentence().contains("connection refused"));
-        assertEquals(1, bench.status.failures());
+        assertEquals(LinkState.WAITING, bench.status.link);
+        assertTrue(bench.status.linkText().contains("connection refused"));
+        assertEquals(1, bench.status.failures);
     }
 
     @Test
     public void anEmptyLineGoesOutInEachSecondInWhichNothingElseDid() {
-        bench.open(Seat.COMMAND);
+        bench.open(ProxyRole.COMMAND);
         bench.peer().written();
         bench.loop.advance(3000);
         assertEquals("\n\n\n", bench.peer().written());
@@ -163,36 +164,36 @@ public final class GroundLinkTest {
 
     @Test
     public void aDirectLinkSaysNothingOfItself() {
-        bench.start(GroundBench.settings(Seat.COMMAND, true));
+        bench.start(GroundBench.settings(ProxyRole.COMMAND, true));
         bench.peer().accept();
         bench.loop.advance(5000);
         assertEquals("", bench.peer().written());
-        assertEquals(LinkState.OPEN, bench.status.link());
-        assertEquals(SeatStanding.OURS, bench.status.standing());
+        assertEquals(LinkState.OPEN, bench.status.link);
+        assertEquals(ControlStatus.OURS, bench.status.control);
         bench.say("UP1 seat listen");
-        assertEquals(SeatStanding.OURS, bench.status.standing());
+        assertEquals(ControlStatus.OURS, bench.status.control);
         bench.loop.advance(1000);
-        assertEquals(1, bench.status.counters().strangeControl());
-        assertFalse(bench.ground.requestSeat());
+        assertEquals(1, bench.status.counters.strangeControl);
+        assertFalse(bench.ground.requestControl());
     }
 
     @Test
     public void halfALineOfTheOldConnectionIsNoBeginningOfTheNewOne() {
-        bench.open(Seat.LISTEN);
+        bench.open(ProxyRole.LISTEN);
         bench.peer().say("{\"name\": \"up.telemetry.update\", \"data\": {\"altitude\"");
         bench.peer().end("lost");
         bench.loop.advance(700);
-        bench.accept(Seat.LISTEN);
+        bench.accept(ProxyRole.LISTEN);
         bench.say(": 5}}");
         bench.frame(1, "{\"altitude\": 7}");
         assertEquals(1, bench.frames.size());
         assertEquals(7.0, bench.frames.get(0).number("altitude"), 0);
-        assertEquals(1, bench.ground.status().counters().malformed());
+        assertEquals(1, bench.ground.status().counters.malformed);
     }
 
     @Test
     public void linesThatSayNothingKnownAreCounted() {
-        bench.open(Seat.LISTEN);
+        bench.open(ProxyRole.LISTEN);
         bench.say("UP1 seat");
         bench.say("UP1 ok aircraft=glider seat=command token=" + GroundBench.TOKEN);
         bench.say("UP1 seat give to=3");
@@ -203,55 +204,55 @@ public final class GroundLinkTest {
             tooLong.append("aaaaaaaaaa");
         }
         bench.say(tooLong.toString());
-        final GroundCounters counters = bench.ground.status().counters();
-        assertEquals(3, counters.strangeControl());
-        assertEquals(2, counters.malformed());
-        assertEquals(1, counters.tooLong());
+        final GroundCounters counters = bench.ground.status().counters;
+        assertEquals(3, counters.strangeControl);
+        assertEquals(2, counters.malformed);
+        assertEquals(1, counters.tooLong);
         assertEquals(6, counters.dropped());
-        assertEquals("no seat came of it", Seat.LISTEN, bench.ground.status().seat());
+        assertEquals("no seat came of it", ProxyRole.LISTEN, bench.ground.status().role);
     }
 
     @Test
     public void aSilentLinkIsGivenUpAfterAFewOfItsOwnPeriods() {
-        bench.open(Seat.COMMAND);
+        bench.open(ProxyRole.COMMAND);
         bench.fly(1, 20);
         bench.loop.advance(3999);
         assertFalse(bench.peer().isClosed);
         bench.loop.advance(1);
         assertTrue(bench.peer().isClosed);
-        assertEquals("nothing came for 4 s", bench.status.reason());
+        assertEquals("nothing came for 4 s", bench.status.reason);
     }
 
     @Test
     public void slowTelemetryIsNoDeadLink() {
-        bench.open(Seat.COMMAND);
+        bench.open(ProxyRole.COMMAND);
         for (int each = 0; each < 20; each++) {
             bench.loop.advance(10000);
             bench.frame(each, "{}");
         }
         assertEquals(1, bench.network.connections.size());
         bench.loop.advance(12000);
-        assertEquals("nothing came for 12 s", bench.status.reason());
+        assertEquals("nothing came for 12 s", bench.status.reason);
     }
 
     @Test
     public void whereTheAircraftIsAwayNothingHasToComeForLong() {
-        bench.open(Seat.LISTEN);
+        bench.open(ProxyRole.LISTEN);
         bench.fly(1, 20);
         bench.say("UP1 aircraft offline");
         bench.loop.advance(29000);
-        assertEquals("the aircraft is not connected to the proxy", bench.status.linkSentence());
+        assertEquals("the aircraft is not connected to the proxy", bench.status.linkText());
         bench.loop.advance(5000);
         assertEquals(2, bench.network.connections.size());
     }
 
     @Test
     public void stoppedItIsStoppedUntilItIsStartedAgain() {
-        bench.open(Seat.LISTEN);
+        bench.open(ProxyRole.LISTEN);
         bench.ground.stop();
         bench.ground.stop();
         assertTrue(bench.peer().isClosed);
-        assertEquals("stopped", bench.status.linkSentence());
+        assertEquals("stopped", bench.status.linkText());
         bench.loop.advance(60000);
         assertEquals(1, bench.network.connections.size());
         bench.ground.start();
@@ -261,7 +262,7 @@ public final class GroundLinkTest {
 
     @Test
     public void thePhonesNetworkComesBackAndItTriesAtOnce() {
-        bench.start(GroundBench.settings(Seat.LISTEN, false));
+        bench.start(GroundBench.settings(ProxyRole.LISTEN, false));
         bench.peer().end("no network");
         bench.ground.reconnectNow();
         assertEquals(2, bench.network.connections.size());

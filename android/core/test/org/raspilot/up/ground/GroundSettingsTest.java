@@ -5,7 +5,7 @@ import static org.junit.Assert.assertNull;
 import static org.junit.Assert.fail;
 
 import org.junit.Test;
-import org.raspilot.up.wire.Seat;
+import org.raspilot.up.wire.ProxyRole;
 
 /** Settings are valid or not there. */
 public final class GroundSettingsTest {
@@ -29,13 +29,13 @@ public final class GroundSettingsTest {
     @Test
     public void wrongOnesCannotBeMade() {
         try {
-            new GroundSettings("h", 70000, "a", Seat.LISTEN, false);
+            new GroundSettings("h", 70000, "a", ProxyRole.LISTEN, false);
             fail("made with that port");
         } catch (IllegalArgumentException fault) {
             assertEquals("the port must be 1 to 65535, not 70000", fault.getMessage());
         }
         try {
-            new GroundSettings("h", 1, "a", Seat.AIR, false);
+            new GroundSettings("h", 1, "a", ProxyRole.AIR, false);
             fail("made with that seat");
         } catch (IllegalArgumentException fault) {
             assertEquals("a ground commands or listens", fault.getMessage());
@@ -44,7 +44,8 @@ public final class GroundSettingsTest {
 
     @Test
     public void theAddressIsWrittenAsPeopleDo() {
-        assertEquals("h:1", new GroundSettings(" h ", 1, "a", Seat.LISTEN, false).address());
-        assertEquals("[::1]:1", new GroundSettings("::1", 1, "a", Seat.LISTEN, false).address());
+        assertEquals("h:1", new GroundSettings(" h ", 1, "a", ProxyRole.LISTEN, false).address());
+        assertEquals("[::1]:1",
+                new GroundSettings("::1", 1, "a", ProxyRole.LISTEN, false).address());
     }
 }

@@ -11,7 +11,7 @@ import java.util.Arrays;
 import java.util.List;
 import org.junit.Rule;
 import org.junit.Test;
-import org.raspilot.up.wire.Seat;
+import org.raspilot.up.wire.ProxyRole;
 
 /** Frames that a ground receives: their ages, their gaps, their silence, their handlers. */
 public final class GroundTelemetryTest {
@@ -25,7 +25,7 @@ public final class GroundTelemetryTest {
 
     @Test
     public void theHoldUpOnTheWayIsPartOfEveryAge() {
-        bench.open(Seat.LISTEN);
+        bench.open(ProxyRole.LISTEN);
         stamped(1, 70000);
         bench.loop.advance(100);
         assertEquals(Long.valueOf(0), stamped(2, 70100).ageMs(bench.loop.nowMs()));
@@ -36,19 +36,19 @@ public final class GroundTelemetryTest {
         assertEquals(430, held.readingAgeMs("orientation", bench.loop.nowMs()), 1);
         bench.loop.advance(300);
         assertEquals(730, held.readingAgeMs("orientation", bench.loop.nowMs()), 1);
-        assertFalse(bench.status.isSilent());
+        assertFalse(bench.status.isSilent);
         bench.loop.advance(300);
-        assertTrue("900 ms after it was made", bench.status.isSilent());
+        assertTrue("900 ms after it was made", bench.status.isSilent);
     }
 
     @Test
     public void theWayToTheProxyIsHalfOfTheHellosRoundTrip() {
-        bench.start(GroundBench.settings(Seat.LISTEN, false));
+        bench.start(GroundBench.settings(ProxyRole.LISTEN, false));
         bench.loop.advance(80);
         bench.peer().accept();
         bench.loop.advance(60);
         bench.say("UP1 ok aircraft=glider seat=listen token=" + GroundBench.TOKEN);
-        assertEquals(60, bench.status.roundTripMs(), 0);
+        assertEquals(60, bench.status.roundTripMs, 0);
         assertEquals(Long.valueOf(30), stamped(1, 5000).ageMs(bench.loop.nowMs()));
         bench.loop.advance(150);
         assertEquals(Long.valueOf(80), stamped(2, 5100).ageMs(bench.loop.nowMs()));
@@ -56,24 +56,24 @@ public final class GroundTelemetryTest {
 
     @Test
     public void framesThatComeSecondsLateAreAsGoodAsSilence() {
-        bench.open(Seat.LISTEN);
+        bench.open(ProxyRole.LISTEN);
         stamped(1, 0);
         for (int each = 1; each < 50; each++) {
             bench.loop.advance(100);
             stamped(1 + each, each * 50);
         }
-        assertTrue(bench.status.isSilent());
-        assertTrue(bench.status.isLate());
-        assertEquals("telemetry comes too late", bench.status.linkSentence());
+        assertTrue(bench.status.isSilent);
+        assertTrue(bench.status.isLate);
+        assertEquals("telemetry comes too late", bench.status.linkText());
         assertEquals(Freshness.STALE, bench.ground.telemetry()
                 .freshness("orientation.roll", bench.loop.nowMs()));
         assertEquals("telemetry comes too late",
-                bench.ground.alarms().snapshot().active().get(0).text());
+                bench.ground.alarms().snapshot().active.get(0).text);
     }
 
     @Test
     public void anAircraftThatBeganAnewBeginsItsClockAnew() {
-        bench.open(Seat.LISTEN);
+        bench.open(ProxyRole.LISTEN);
         stamped(1, 900000);
         bench.loop.advance(100);
         assertEquals("its clock went back", Long.valueOf(0),
@@ -81,38 +81,38 @@ public final class GroundTelemetryTest {
         bench.loop.advance(100);
         assertEquals("its beacons are others", Long.valueOf(0),
                 stamped(5000000, 150).ageMs(bench.loop.nowMs()));
-        assertEquals(0, bench.ground.status().counters().lostFrames());
+        assertEquals(0, bench.ground.status().counters.lostFrames);
     }
 
     @Test
     public void silenceIsToldWithinASecondAndItsEndAtOnce() {
-        bench.open(Seat.LISTEN);
+        bench.open(ProxyRole.LISTEN);
         bench.fly(1, 5);
-        assertFalse(bench.status.isSilent());
+        assertFalse(bench.status.isSilent);
         bench.loop.advance(900);
-        assertFalse(bench.status.isSilent());
+        assertFalse(bench.status.isSilent);
         bench.loop.advance(1);
-        assertTrue(bench.status.isSilent());
-        assertEquals("the aircraft is silent", bench.status.linkSentence());
+        assertTrue(bench.status.isSilent);
+        assertEquals("the aircraft is silent", bench.status.linkText());
         assertTrue(bench.ground.alarms().snapshot().has(Alarm.Kind.SILENT));
-        assertTrue(bench.events().contains("no telemetry any more"));
+        assertTrue(bench.events().contains("telemetry_lost"));
         bench.frame(6, "{}");
-        assertFalse(bench.status.isSilent());
+        assertFalse(bench.status.isSilent);
     }
 
     @Test
     public void aLostLinkMakesTheNewestFrameStaleAtOnce() {
-        bench.open(Seat.LISTEN);
+        bench.open(ProxyRole.LISTEN);
         bench.frame(1, "{\"altitude\": 5}");
         bench.peer().end("lost");
         assertEquals(2, bench.frames.size());
-        assertTrue(bench.frames.get(1).age().isLinkLost());
+        assertTrue(bench.frames.get(1).age.isLinkLost);
         assertEquals(Freshness.STALE,
                 bench.ground.telemetry().freshness("altitude", bench.loop.nowMs()));
         assertEquals(5, bench.ground.telemetry().number("altitude"), 0);
         bench.loop.advance(700);
-        bench.accept(Seat.LISTEN);
-        assertTrue("an open link alone makes nothing live", bench.ground.status().isSilent());
+        bench.accept(ProxyRole.LISTEN);
+        assertTrue("an open link alone makes nothing live", bench.ground.status().isSilent);
         bench.frame(2, "{\"altitude\": 6}");
         assertEquals(Freshness.LIVE,
                 bench.ground.telemetry().freshness("altitude", bench.loop.nowMs()));
@@ -120,31 +120,31 @@ public final class GroundTelemetryTest {
 
     @Test
     public void framesThatTheBeaconsSayAreMissingAreCountedAndSoIsTheRate() {
-        bench.open(Seat.LISTEN);
-        assertNull(bench.ground.status().rateHz());
+        bench.open(ProxyRole.LISTEN);
+        assertNull(bench.ground.status().rateHz);
         bench.fly(1, 20);
         bench.fly(25, 5);
         final GroundStatus now = bench.ground.status();
-        assertEquals(4, now.counters().lostFrames());
-        assertEquals(25, now.counters().frames());
-        assertEquals(10, now.rateHz(), 0.01);
+        assertEquals(4, now.counters.lostFrames);
+        assertEquals(25, now.counters.frames);
+        assertEquals(10, now.rateHz, 0.01);
         bench.loop.advance(10001);
-        assertNull(bench.ground.status().rateHz());
+        assertNull(bench.ground.status().rateHz);
     }
 
     @Test
     public void beaconsOfAnyValueAreTaken() {
-        bench.open(Seat.LISTEN);
+        bench.open(ProxyRole.LISTEN);
         bench.frame(Long.MAX_VALUE, "{}");
         bench.frame(Long.MIN_VALUE, "{}");
         bench.frame(Long.MAX_VALUE, "{}");
-        assertEquals(0, bench.ground.status().counters().lostFrames());
+        assertEquals(0, bench.ground.status().counters.lostFrames);
     }
 
     @Test
     public void aHandlerReadsWhatItsTypeSaysAndHearsItsAge() {
-        bench.open(Seat.LISTEN);
-        final List<String> rolls = new ArrayList<String>();
+        bench.open(ProxyRole.LISTEN);
+        final List<String> rolls = new ArrayList<>();
         bench.executor.registerCommand(Telemetry.NAME,
                 new BaseTelemetryHandler<Double>(bench.ground) {
                     @Override
@@ -167,7 +167,7 @@ public final class GroundTelemetryTest {
 
     @Test
     public void aHandlerThatFailsKeepsTheFrameFromNobody() {
-        bench.open(Seat.LISTEN);
+        bench.open(ProxyRole.LISTEN);
         bench.executor.registerCommand(Telemetry.NAME,
                 new BaseTelemetryHandler<Telemetry>(bench.ground) {
                     @Override
@@ -186,14 +186,14 @@ public final class GroundTelemetryTest {
 
     @Test
     public void theStatusTellsWhatTheAircraftPermits() {
-        bench.open(Seat.LISTEN);
+        bench.open(ProxyRole.LISTEN);
         bench.frame(1, "{\"ground\": {\"role\": \"operator\", \"tune_in_flight\": true},"
                 + " \"location\": {\"latitude\": 49.0, \"longitude\": 15.0},"
                 + " \"home\": {\"distance\": 1111.95, \"bearing\": 180.0}}");
         final GroundStatus now = bench.ground.status();
-        assertEquals("operator", now.role());
-        assertEquals(true, now.tuneInFlight());
-        assertEquals(48.99, now.home().latitudeDeg(), 1e-5);
-        assertEquals(15.0, now.home().longitudeDeg(), 1e-9);
+        assertEquals("operator", now.commandRole);
+        assertEquals(true, now.tuneInFlight);
+        assertEquals(48.99, now.home.latitudeDeg, 1e-5);
+        assertEquals(15.0, now.home.longitudeDeg, 1e-9);
     }
 }

@@ -35,7 +35,7 @@ public final class TelemetryTest {
         assertEquals("FBW", frame.text("flight_mode"));
         assertEquals(Arrays.asList("no receiver", "a b"), frame.texts("vetoes"));
         assertEquals(4, frame.list("vetoes").size());
-        assertEquals(Long.valueOf(7), frame.beacon());
+        assertEquals(Long.valueOf(7), frame.beacon);
         assertEquals(1, frame.object("location").size());
     }
 
@@ -105,10 +105,10 @@ public final class TelemetryTest {
 
     @Test
     public void aLostLinkMakesEverythingStaleAtOnce() {
-        final Telemetry lost = frame.ofLostLink();
+        final Telemetry lost = frame.withLostLink();
         assertEquals(Freshness.STALE, lost.freshness("altitude", 10000));
         assertTrue(lost.isSilent(10000));
-        assertTrue(lost.age().isLinkLost());
+        assertTrue(lost.age.isLinkLost);
         assertEquals("it is shown all the same", 12, lost.number("altitude"), 0);
     }
 
@@ -116,22 +116,22 @@ public final class TelemetryTest {
     public void aFrameThatWasLongOnItsWayIsLate() {
         final Telemetry late = Telemetry.of(GroundBench.json(FRAME), 7L, 10000, 3000);
         assertTrue(late.isSilent(10000));
-        assertTrue(late.age().isLate(10000));
-        assertFalse(frame.age().isLate(10000));
+        assertTrue(late.age.isLate(10000));
+        assertFalse(frame.age.isLate(10000));
     }
 
     @Test
     public void beforeTheFirstFrameThereIsNothing() {
-        assertNull(Telemetry.NOTHING.ageMs(5));
-        assertNull(Telemetry.NOTHING.number("altitude"));
-        assertTrue(Telemetry.NOTHING.isSilent(5));
-        assertEquals(Freshness.NONE, Telemetry.NOTHING.freshness("altitude", 5));
+        assertNull(Telemetry.EMPTY.ageMs(5));
+        assertNull(Telemetry.EMPTY.number("altitude"));
+        assertTrue(Telemetry.EMPTY.isSilent(5));
+        assertEquals(Freshness.NONE, Telemetry.EMPTY.freshness("altitude", 5));
     }
 
     @Test
     public void aFrameDoesNotChangeWithWhatItWasMadeOf() {
         final Map<String, Object> data =
-                new LinkedHashMap<String, Object>(GroundBench.json(FRAME));
+                new LinkedHashMap<>(GroundBench.json(FRAME));
         final Telemetry made = Telemetry.of(data, 1L, 0, 0);
         data.put("altitude", 99L);
         assertEquals(12, made.number("altitude"), 0);
@@ -150,7 +150,7 @@ public final class TelemetryTest {
         final String[] paths = {"orientation.roll", "age_ms.flight", "vetoes", "location",
             "location.latitude", "armed", "a.b.c", "home.distance"};
         for (int each = 0; each < 3000; each++) {
-            final Map<String, Object> data = new LinkedHashMap<String, Object>();
+            final Map<String, Object> data = new LinkedHashMap<>();
             for (String path : paths) {
                 data.put(path.substring(0, Math.max(1, path.indexOf('.'))), value(random, 3));
             }
@@ -164,14 +164,13 @@ public final class TelemetryTest {
                     hostile.freshness(path, random.nextInt(2000));
                 }
                 final List<TelemetryRow> rows = TelemetryText.rows(hostile);
-                assertTrue(rows.size() <= TelemetryText.MOST_ROWS);
-                new Track().take(hostile, null, 0);
-                new HomeSearch().take(hostile);
-                for (Fact fact : Facts.ALL) {
-                    final Object found = fact.read(hostile);
+                assertTrue(rows.size() <= TelemetryText.MAX_ROWS);
+                new Track().update(hostile, null, 0);
+                new HomeEstimator().update(hostile);
+                for (EventRule rule : EventRule.ALL) {
+                    final Object found = rule.reader.read(hostile);
                     if (found != null) {
-                        fact.words(null, found);
-                        fact.level(null, found);
+                        rule.describer.describe(null, found);
                     }
                 }
             } catch (RuntimeException fault) {
@@ -197,7 +196,7 @@ public final class TelemetryTest {
             case 6:
                 return Arrays.asList(value(random, depth - 1), value(random, depth - 1));
             default:
-                final Map<String, Object> fields = new LinkedHashMap<String, Object>();
+                final Map<String, Object> fields = new LinkedHashMap<>();
                 fields.put("roll", value(random, depth - 1));
                 fields.put("latitude", value(random, depth - 1));
                 fields.put("longitude", value(random, depth - 1));

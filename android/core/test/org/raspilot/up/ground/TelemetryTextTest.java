@@ -50,11 +50,11 @@ public final class TelemetryTextTest {
         assertEquals(Arrays.asList("a[31m b c"), rows("{\"a\\u001b[31m\": \"b\\nc\"}"));
         assertEquals(Arrays.asList("big 1.0E300", "small 1.0E-9", "zero 0"),
                 rows("{\"big\": 1e300, \"small\": 1e-9, \"zero\": 0.0}"));
-        final Map<String, Object> many = new LinkedHashMap<String, Object>();
+        final Map<String, Object> many = new LinkedHashMap<>();
         for (int each = 0; each < 2000; each++) {
             many.put("k" + each, (long) each);
         }
-        assertEquals(TelemetryText.MOST_ROWS,
+        assertEquals(TelemetryText.MAX_ROWS,
                 TelemetryText.rows(Telemetry.of(many, null, 0, 0)).size());
         final StringBuilder list = new StringBuilder("{\"list\": [0");
         for (int each = 1; each < 300; each++) {

@@ -21,7 +21,7 @@ public final class TrackTest {
 
     private void fly(double northM, double eastM, Home home) {
         nowMs += 100;
-        track.take(GroundBench.telemetry("{\"location\": {\"latitude\": "
+        track.update(GroundBench.telemetry("{\"location\": {\"latitude\": "
                 + (60 + northM / DEGREE_M) + ", \"longitude\": "
                 + (15 + eastM / DEGREE_M / 0.5) + ", \"altitude\": 30}}", nowMs), home, nowMs);
     }
@@ -29,26 +29,26 @@ public final class TrackTest {
     /** Returns the track and the aircraft's position, if it is not in the track. */
     private List<TrackPoint> points() {
         final Track.Snapshot now = track.snapshot();
-        final List<TrackPoint> all = new ArrayList<TrackPoint>(now.points());
-        if (now.newest() != null && !all.contains(now.newest())) {
-            all.add(now.newest());
+        final List<TrackPoint> all = new ArrayList<>(now.points);
+        if (now.newest != null && !all.contains(now.newest)) {
+            all.add(now.newest);
         }
         return all;
     }
 
     @Test
     public void pointsAreMetresFromTheFirstPlaceAndLaterFromHome() {
-        assertNull(track.snapshot().origin());
+        assertNull(track.snapshot().origin);
         fly(0, 0, null);
         fly(100, 50, null);
-        assertEquals(100, points().get(1).northM(), 0.1);
-        assertEquals(50, points().get(1).eastM(), 0.1);
-        assertEquals(30, points().get(1).altitudeM(), 0);
-        assertFalse(track.snapshot().isOriginHome());
+        assertEquals(100, points().get(1).northM, 0.1);
+        assertEquals(50, points().get(1).eastM, 0.1);
+        assertEquals(30, points().get(1).altitudeM, 0);
+        assertFalse(track.snapshot().isOriginHome);
         final Home home = new Home(60 - 10 / DEGREE_M, 15);
         fly(200, 50, home);
-        assertTrue(track.snapshot().isOriginHome());
-        assertEquals(110, points().get(1).northM(), 0.1);
+        assertTrue(track.snapshot().isOriginHome);
+        assertEquals(110, points().get(1).northM, 0.1);
         assertEquals(3, points().size());
     }
 
@@ -58,7 +58,7 @@ public final class TrackTest {
             fly(each * 0.5, 0, null);
         }
         assertEquals(4, points().size());
-        assertEquals(5, points().get(3).northM(), 0.01);
+        assertEquals(5, points().get(3).northM, 0.01);
         final long version = track.version();
         fly(5, 0, null);
         assertTrue(track.version() > version);
@@ -69,19 +69,19 @@ public final class TrackTest {
     public void aFrameWithoutAPointOfItsOwnCopiesNoPoint() {
         fly(0, 0, null);
         fly(100, 0, null);
-        final List<TrackPoint> way = track.snapshot().points();
+        final List<TrackPoint> way = track.snapshot().points;
         final TrackPoint first = way.get(0);
         fly(101, 0, null);
-        assertSame(way, track.snapshot().points());
-        assertEquals(101, track.snapshot().newest().northM(), 0.01);
+        assertSame(way, track.snapshot().points);
+        assertEquals(101, track.snapshot().newest.northM, 0.01);
         fly(103, 0, null);
         assertEquals(2, way.size());
-        assertEquals(3, track.snapshot().points().size());
-        assertSame("made once", first, track.snapshot().points().get(0));
-        assertSame(track.snapshot().newest(), track.snapshot().points().get(2));
+        assertEquals(3, track.snapshot().points.size());
+        assertSame("made once", first, track.snapshot().points.get(0));
+        assertSame(track.snapshot().newest, track.snapshot().points.get(2));
         fly(103, 0, new Home(60, 15.1));
-        assertNotSame("from another origin", first, track.snapshot().points().get(0));
-        assertEquals(3, track.snapshot().points().size());
+        assertNotSame("from another origin", first, track.snapshot().points.get(0));
+        assertEquals(3, track.snapshot().points.size());
     }
 
     @Test
@@ -93,9 +93,9 @@ public final class TrackTest {
         fly(500, 0, null);
         fly(510, 0, null);
         final List<TrackPoint> points = points();
-        assertFalse(points.get(9).isAfterSilence());
-        assertTrue(points.get(10).isAfterSilence());
-        assertFalse(points.get(11).isAfterSilence());
+        assertFalse(points.get(9).isAfterSilence);
+        assertTrue(points.get(10).isAfterSilence);
+        assertFalse(points.get(11).isAfterSilence);
     }
 
     @Test
@@ -108,13 +108,13 @@ public final class TrackTest {
             fly(each * 3, 0, null);
         }
         final List<TrackPoint> points = points();
-        assertTrue("" + points.size(), points.size() <= Track.MOST_POINTS + 1);
-        assertTrue("" + points.size(), points.size() >= Track.MOST_POINTS / 2 - 1);
-        assertEquals("the oldest is kept", 0, points.get(0).northM(), 0.01);
-        assertEquals(19999 * 3, points.get(points.size() - 1).northM(), 0.1);
+        assertTrue("" + points.size(), points.size() <= Track.MAX_POINTS + 1);
+        assertTrue("" + points.size(), points.size() >= Track.MAX_POINTS / 2 - 1);
+        assertEquals("the oldest is kept", 0, points.get(0).northM, 0.01);
+        assertEquals(19999 * 3, points.get(points.size() - 1).northM, 0.1);
         int silences = 0;
         for (TrackPoint each : points) {
-            silences += each.isAfterSilence() ? 1 : 0;
+            silences += each.isAfterSilence ? 1 : 0;
         }
         assertEquals(1, silences);
     }
@@ -126,18 +126,18 @@ public final class TrackTest {
             "{\"location\": {\"latitude\": 0, \"longitude\": 181}}",
             "{\"location\": {\"latitude\": \"49\", \"longitude\": 15}}",
             "{\"location\": {\"latitude\": 49}}"}) {
-            track.take(GroundBench.telemetry(place, nowMs), null, nowMs);
+            track.update(GroundBench.telemetry(place, nowMs), null, nowMs);
         }
         assertTrue(points().isEmpty());
     }
 
     @Test
     public void overTheDateLineItIsNotAroundTheWorld() {
-        track.take(GroundBench.telemetry(
+        track.update(GroundBench.telemetry(
                 "{\"location\": {\"latitude\": 0, \"longitude\": 179.9999}}", 1), null, 1);
-        track.take(GroundBench.telemetry(
+        track.update(GroundBench.telemetry(
                 "{\"location\": {\"latitude\": 0, \"longitude\": -179.9999}}", 2), null, 2);
-        assertEquals(0.0002 * DEGREE_M, points().get(1).eastM(), 0.01);
+        assertEquals(0.0002 * DEGREE_M, points().get(1).eastM, 0.01);
     }
 
     @Test
@@ -147,8 +147,8 @@ public final class TrackTest {
         track.clear();
         assertTrue(points().isEmpty());
         fly(100, 0, null);
-        assertEquals(0, points().get(0).northM(), 0.01);
-        assertFalse(points().get(0).isAfterSilence());
+        assertEquals(0, points().get(0).northM, 0.01);
+        assertFalse(points().get(0).isAfterSilence);
     }
 
     @Test
@@ -168,20 +168,20 @@ public final class TrackTest {
                     random.nextDouble() * 358 - 179);
             final double bearing = random.nextDouble() * 360;
             final double distance = random.nextDouble() * 5000;
-            final Home found = HomeSearch.destination(home.latitudeDeg(), home.longitudeDeg(),
+            final Home found = HomeEstimator.destination(home.latitudeDeg, home.longitudeDeg,
                     bearing, distance);
-            assertEquals("seed " + seed, distance, HomeSearch.distanceM(home, found), 0.01);
+            assertEquals("seed " + seed, distance, HomeEstimator.distanceM(home, found), 0.01);
         }
-        final HomeSearch search = new HomeSearch();
-        search.take(home(100));
+        final HomeEstimator search = new HomeEstimator();
+        search.update(home(100));
         final Home first = search.home();
-        search.take(home(110));
+        search.update(home(110));
         assertEquals(first, search.home());
-        search.take(home(150));
-        assertEquals(50, HomeSearch.distanceM(first, search.home()), 0.1);
-        search.take(home(-5));
-        search.take(home(1e9));
-        assertEquals(50, HomeSearch.distanceM(first, search.home()), 0.1);
+        search.update(home(150));
+        assertEquals(50, HomeEstimator.distanceM(first, search.home()), 0.1);
+        search.update(home(-5));
+        search.update(home(1e9));
+        assertEquals(50, HomeEstimator.distanceM(first, search.home()), 0.1);
     }
 
     private static Telemetry home(double distance) {

@@ -12,7 +12,7 @@ import java.util.List;
 /** A port on loopback that accepts no further connection: its accept queue is full. */
 public final class BlackHole implements Closeable {
     private final ServerSocket server;
-    private final List<SocketChannel> queued = new ArrayList<SocketChannel>();
+    private final List<SocketChannel> queued = new ArrayList<>();
 
     public BlackHole() throws IOException {
         server = new ServerSocket(0, 1, InetAddress.getByName("127.0.0.1"));
@@ -24,7 +24,6 @@ public final class BlackHole implements Closeable {
         }
     }
 
-    /** Returns the port. */
     public int port() {
         return server.getLocalPort();
     }

@@ -6,16 +6,15 @@ import java.util.List;
 
 /** Records the faults of a loop for a test. */
 public final class Faults implements FaultListener {
-    private final List<Throwable> all = Collections.synchronizedList(new ArrayList<Throwable>());
+    private final List<Throwable> all = Collections.synchronizedList(new ArrayList<>());
 
     @Override
     public void onFault(Throwable fault) {
         all.add(fault);
     }
 
-    /** Returns those until now. */
     public List<Throwable> all() {
-        return new ArrayList<Throwable>(all);
+        return new ArrayList<>(all);
     }
 
     /** Returns and clears the faults so far: they were intended. */

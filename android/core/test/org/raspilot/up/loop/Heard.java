@@ -7,7 +7,7 @@ import java.util.concurrent.Callable;
 
 /** Records the events of a TCP connection; to be read on the loop. */
 class Heard implements TcpListener {
-    final List<String> told = new ArrayList<String>();
+    final List<String> told = new ArrayList<>();
     final ByteArrayOutputStream bytes = new ByteArrayOutputStream();
 
     @Override
@@ -32,26 +32,18 @@ class Heard implements TcpListener {
 
     /** Returns whether an event with that prefix was recorded. */
     Callable<Boolean> has(final String beginning) {
-        return new Callable<Boolean>() {
-            @Override
-            public Boolean call() {
-                for (String each : told) {
-                    if (each.startsWith(beginning)) {
-                        return true;
-                    }
+        return () -> {
+            for (String each : told) {
+                if (each.startsWith(beginning)) {
+                    return true;
                 }
-                return false;
             }
+            return false;
         };
     }
 
     /** Returns whether that many bytes arrived. */
     Callable<Boolean> hasBytes(final int count) {
-        return new Callable<Boolean>() {
-            @Override
-            public Boolean call() {
-                return bytes.size() >= count;
-            }
-        };
+        return () -> bytes.size() >= count;
     }
 }

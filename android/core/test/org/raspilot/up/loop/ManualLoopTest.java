@@ -13,7 +13,7 @@ import org.junit.Test;
 public final class ManualLoopTest {
     private final Faults faults = new Faults();
     private final ManualLoop loop = new ManualLoop(null, faults);
-    private final List<String> done = new ArrayList<String>();
+    private final List<String> done = new ArrayList<>();
 
     @Test
     public void timersRunInTheOrderOfTheirTimesEachAtItsOwn() {
@@ -46,13 +46,10 @@ public final class ManualLoopTest {
 
     @Test
     public void timersAndCallsOfACallRunInTheSameStep() {
-        loop.schedule(10, new Runnable() {
-            @Override
-            public void run() {
-                loop.schedule(5, note("later"));
-                loop.schedule(-5, note("now"));
-                loop.post(note("posted"));
-            }
+        loop.schedule(10, () -> {
+            loop.schedule(5, note("later"));
+            loop.schedule(-5, note("now"));
+            loop.post(note("posted"));
         });
         loop.advance(20);
         assertEquals(Arrays.asList("posted at 10", "now at 10", "later at 15"), done);
@@ -99,23 +96,15 @@ public final class ManualLoopTest {
     }
 
     private Runnable note(final String name) {
-        return new Runnable() {
-            @Override
-            public void run() {
-                done.add(name + " at " + loop.nowMs());
-            }
-        };
+        return () -> done.add(name + " at " + loop.nowMs());
     }
 
     private static Runnable thrower(final Throwable fault) {
-        return new Runnable() {
-            @Override
-            public void run() {
-                if (fault instanceof Error) {
-                    throw (Error) fault;
-                }
-                throw (RuntimeException) fault;
+        return () -> {
+            if (fault instanceof Error) {
+                throw (Error) fault;
             }
+            throw (RuntimeException) fault;
         };
     }
 }

@@ -14,7 +14,6 @@ import java.util.Arrays;
 import java.util.Collections;
 import java.util.HashSet;
 import java.util.Set;
-import java.util.concurrent.Callable;
 import java.util.concurrent.CountDownLatch;
 import java.util.concurrent.atomic.AtomicInteger;
 import org.junit.After;
@@ -25,7 +24,7 @@ import org.junit.Test;
 public final class NameLookupTest implements NameLookup.Resolver {
     private final CountDownLatch isAnswered = new CountDownLatch(1);
     private final AtomicInteger asked = new AtomicInteger();
-    private final Set<Thread> threads = Collections.synchronizedSet(new HashSet<Thread>());
+    private final Set<Thread> threads = Collections.synchronizedSet(new HashSet<>());
     private final Heard heard = new Heard();
     private ServerSocket server;
 
@@ -110,12 +109,7 @@ public final class NameLookupTest implements NameLookup.Resolver {
             connect("slow" + i, 20000, heard);
         }
         isAnswered.countDown();
-        running.await("every answer", new Callable<Boolean>() {
-            @Override
-            public Boolean call() {
-                return heard.told.size() == 20;
-            }
-        });
+        running.await("every answer", () -> heard.told.size() == 20);
         assertTrue("used " + threads.size(), threads.size() <= 4);
     }
 
@@ -161,20 +155,11 @@ public final class NameLookupTest implements NameLookup.Resolver {
     }
 
     private Thread loopThread() {
-        return running.call(new Callable<Thread>() {
-            @Override
-            public Thread call() {
-                return Thread.currentThread();
-            }
-        });
+        return running.call(() -> Thread.currentThread());
     }
 
     private void connect(final String host, final int timeoutMs, final TcpListener listener) {
-        running.call(new Callable<TcpConnection>() {
-            @Override
-            public TcpConnection call() {
-                return running.loop.connectTcp(host, server.getLocalPort(), timeoutMs, listener);
-            }
-        });
+        running.call(() ->
+                running.loop.connectTcp(host, server.getLocalPort(), timeoutMs, listener));
     }
 }

@@ -12,18 +12,13 @@ import org.junit.rules.ExternalResource;
 
 /** A started {@link SelectorLoop} of one test: runs calls on it, and waits for what must come. */
 public final class RunningLoop extends ExternalResource {
-    private static final int LONGEST_WAIT_S = 20;
+    private static final int MAX_WAIT_S = 20;
     private static final int LOOK_MS = 2;
 
     public final Faults faults = new Faults();
     public final SelectorLoop loop;
     private final AtomicLong sleptNs = new AtomicLong();
-    private final Clock clock = new Clock() {
-        @Override
-        public long nowNs() {
-            return System.nanoTime() + sleptNs.get();
-        }
-    };
+    private final Clock clock = () -> System.nanoTime() + sleptNs.get();
 
     public RunningLoop() {
         loop = new SelectorLoop("test loop", faults, clock);
@@ -45,10 +40,10 @@ public final class RunningLoop extends ExternalResource {
 
     /** Runs a call on the loop and returns what it returns; throws what it throws. */
     public <T> T call(Callable<T> call) {
-        final FutureTask<T> task = new FutureTask<T>(call);
+        final FutureTask<T> task = new FutureTask<>(call);
         loop.post(task);
         try {
-            return task.get(LONGEST_WAIT_S, TimeUnit.SECONDS);
+            return task.get(MAX_WAIT_S, TimeUnit.SECONDS);
         } catch (ExecutionException error) {
             throw new AssertionError(error.getCause());
         } catch (InterruptedException error) {
@@ -91,23 +86,13 @@ public final class RunningLoop extends ExternalResource {
     /** Waits until so much of the loop's own time has passed. */
     public void pass(final int delayMs) {
         final CountDownLatch latch = new CountDownLatch(1);
-        loop.post(new Runnable() {
-            @Override
-            public void run() {
-                loop.schedule(delayMs, new Runnable() {
-                    @Override
-                    public void run() {
-                        latch.countDown();
-                    }
-                });
-            }
-        });
+        loop.post(() -> loop.schedule(delayMs, () -> latch.countDown()));
         wait(latch, "time stands still");
     }
 
     private static void wait(CountDownLatch latch, String complaint) {
         try {
-            if (!latch.await(LONGEST_WAIT_S, TimeUnit.SECONDS)) {
+            if (!latch.await(MAX_WAIT_S, TimeUnit.SECONDS)) {
                 throw new AssertionError(complaint);
             }
         } catch (InterruptedException error) {

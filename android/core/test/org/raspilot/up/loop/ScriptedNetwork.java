@@ -9,8 +9,8 @@ import java.util.List;
 /** The network of a test: the test triggers every event of its connections. */
 public final class ScriptedNetwork implements Network {
     public static final Charset UTF_8 = Charset.forName("UTF-8");
-    public final List<Connection> connections = new ArrayList<Connection>();
-    public final List<Port> ports = new ArrayList<Port>();
+    public final List<Connection> connections = new ArrayList<>();
+    public final List<Port> ports = new ArrayList<>();
     public boolean hasNoSockets;
 
     @Override
@@ -30,7 +30,6 @@ public final class ScriptedNetwork implements Network {
         return port;
     }
 
-    /** Returns the newest connection. */
     public Connection newest() {
         return connections.get(connections.size() - 1);
     }
@@ -70,12 +69,10 @@ public final class ScriptedNetwork implements Network {
             isClosed = true;
         }
 
-        /** The peer accepts. */
         public void accept() {
             listener.onConnected();
         }
 
-        /** The peer sends data. */
         public void say(String text) {
             final byte[] bytes = text.getBytes(UTF_8);
             listener.onBytes(bytes, bytes.length);
@@ -106,10 +103,9 @@ public final class ScriptedNetwork implements Network {
         }
     }
 
-    /** One UDP socket. */
     public static final class Port implements UdpPort {
         public final UdpListener listener;
-        public final List<String> sent = new ArrayList<String>();
+        public final List<String> sent = new ArrayList<>();
         public boolean isClosed;
         public boolean hasNoNetwork;
 
@@ -133,7 +129,6 @@ public final class ScriptedNetwork implements Network {
             isClosed = true;
         }
 
-        /** A datagram comes. */
         public void come(String text, String host, int port) {
             final byte[] bytes = text.getBytes(UTF_8);
             listener.onDatagram(bytes, bytes.length, host, port);

@@ -11,7 +11,6 @@ import java.net.ServerSocket;
 import java.net.Socket;
 import java.util.Arrays;
 import java.util.Random;
-import java.util.concurrent.Callable;
 import org.junit.After;
 import org.junit.Before;
 import org.junit.Rule;
@@ -94,12 +93,7 @@ public final class SelectorLoopTcpTest {
     public void aBlackHoleIsASentenceAfterTheTimeOut() throws Exception {
         final BlackHole hole = new BlackHole();
         try {
-            running.call(new Callable<TcpConnection>() {
-                @Override
-                public TcpConnection call() {
-                    return loop.connectTcp("127.0.0.1", hole.port(), 150, heard);
-                }
-            });
+            running.call(() -> loop.connectTcp("127.0.0.1", hole.port(), 150, heard));
             running.await("the time-out", heard.has("no answer"));
             assertEquals(Arrays.asList("no answer from 127.0.0.1:" + hole.port()
                     + " within 150 ms"), heard.told);
@@ -112,28 +106,22 @@ public final class SelectorLoopTcpTest {
     public void nothingIsToldAfterTheOwnClose() throws Exception {
         final BlackHole hole = new BlackHole();
         try {
-            running.call(new Callable<Void>() {
-                @Override
-                public Void call() {
-                    final TcpConnection connecting =
-                            loop.connectTcp("127.0.0.1", hole.port(), 50, heard);
-                    connecting.close();
-                    connecting.close();
-                    loop.connectTcp("127.0.0.1", 0, 50, heard).close();
-                    return null;
-                }
+            running.call(() -> {
+                final TcpConnection connecting =
+                        loop.connectTcp("127.0.0.1", hole.port(), 50, heard);
+                connecting.close();
+                connecting.close();
+                loop.connectTcp("127.0.0.1", 0, 50, heard).close();
+                return null;
             });
             final TcpConnection connection = connect("127.0.0.1", server.getLocalPort(), heard);
             final Socket peer = accept();
             running.await("connected", heard.has("connected"));
             peer.getOutputStream().write(1);
-            running.call(new Callable<Void>() {
-                @Override
-                public Void call() {
-                    heard.bytes.reset();
-                    connection.close();
-                    return null;
-                }
+            running.call(() -> {
+                heard.bytes.reset();
+                connection.close();
+                return null;
             });
             assertEquals(-1, peer.getInputStream().read());
             running.pass(100);
@@ -168,12 +156,7 @@ public final class SelectorLoopTcpTest {
             }
         });
         accept().getOutputStream().write(1);
-        running.await("the end", new Callable<Boolean>() {
-            @Override
-            public Boolean call() {
-                return heard.told.size() > 1;
-            }
-        });
+        running.await("the end", () -> heard.told.size() > 1);
         assertTrue("wrote " + writes[0], writes[0] < 1000);
         assertEquals(words, heard.bytes.toString("US-ASCII"));
         assertEquals(2, heard.told.size());
@@ -209,12 +192,9 @@ public final class SelectorLoopTcpTest {
                 peer.close();
                 running.await("the end", each.has("the connection to"));
             } else {
-                running.call(new Callable<Void>() {
-                    @Override
-                    public Void call() {
-                        connection.close();
-                        return null;
-                    }
+                running.call(() -> {
+                    connection.close();
+                    return null;
                 });
                 peer.close();
             }
@@ -250,12 +230,7 @@ public final class SelectorLoopTcpTest {
         final TcpConnection connection = connect("127.0.0.1", server.getLocalPort(), heard);
         final Socket peer = accept();
         running.await("connected", heard.has("connected"));
-        loop.post(new Runnable() {
-            @Override
-            public void run() {
-                Thread.currentThread().interrupt();
-            }
-        });
+        loop.post(() -> Thread.currentThread().interrupt());
         assertAsleep();
         assertEquals(1, write(connection, new byte[] {7}));
         assertEquals(7, peer.getInputStream().read());
@@ -273,12 +248,7 @@ public final class SelectorLoopTcpTest {
     }
 
     private TcpConnection connect(final String host, final int port, final TcpListener listener) {
-        return running.call(new Callable<TcpConnection>() {
-            @Override
-            public TcpConnection call() {
-                return loop.connectTcp(host, port, LONG_MS, listener);
-            }
-        });
+        return running.call(() -> loop.connectTcp(host, port, LONG_MS, listener));
     }
 
     private Socket accept() throws IOException {
@@ -288,11 +258,6 @@ public final class SelectorLoopTcpTest {
     }
 
     private int write(final TcpConnection connection, final byte[] bytes) {
-        return running.call(new Callable<Integer>() {
-            @Override
-            public Integer call() {
-                return connection.write(bytes, 0, bytes.length);
-            }
-        });
+        return running.call(() -> connection.write(bytes, 0, bytes.length));
     }
 }

@@ -18,7 +18,7 @@ public final class SelectorLoopTest {
     @Rule
     public final RunningLoop running = new RunningLoop();
     private final SelectorLoop loop = running.loop;
-    private final List<String> done = new ArrayList<String>();
+    private final List<String> done = new ArrayList<>();
 
     @Test
     public void callsOfManyThreadsRunOnTheLoopEachThreadsInTheirOrder() throws Exception {
@@ -28,19 +28,13 @@ public final class SelectorLoopTest {
         final Thread[] all = new Thread[threads];
         for (int i = 0; i < threads; i++) {
             final int thread = i;
-            all[i] = new Thread(new Runnable() {
-                @Override
-                public void run() {
-                    for (int j = 0; j < calls; j++) {
-                        final int number = j;
-                        loop.post(new Runnable() {
-                            @Override
-                            public void run() {
-                                assertTrue(loop.isInLoop());
-                                assertEquals(next[thread]++, number);
-                            }
-                        });
-                    }
+            all[i] = new Thread(() -> {
+                for (int j = 0; j < calls; j++) {
+                    final int number = j;
+                    loop.post(() -> {
+                        assertTrue(loop.isInLoop());
+                        assertEquals(next[thread]++, number);
+                    });
                 }
             });
             all[i].start();
@@ -49,12 +43,8 @@ public final class SelectorLoopTest {
             each.join();
         }
         assertFalse(loop.isInLoop());
-        running.await("every call", new Callable<Boolean>() {
-            @Override
-            public Boolean call() {
-                return Arrays.equals(next, new int[] {calls, calls, calls, calls});
-            }
-        });
+        running.await("every call", () ->
+                Arrays.equals(next, new int[] {calls, calls, calls, calls}));
         running.faults.mustBeNone();
     }
 
@@ -62,25 +52,19 @@ public final class SelectorLoopTest {
     public void timersRunInOrderNeverEarlyAndNotWhenCancelled() {
         final long[] began = new long[1];
         final long[] ended = new long[1];
-        running.call(new Callable<Void>() {
-            @Override
-            public Void call() {
-                began[0] = loop.nowMs();
-                loop.schedule(40, new Runnable() {
-                    @Override
-                    public void run() {
-                        ended[0] = loop.nowMs();
-                        done.add("last");
-                    }
-                });
-                loop.schedule(20, note("second"));
-                loop.schedule(10, note("first"));
-                final Cancellable cancelled = loop.schedule(15, note("cancelled"));
-                assertTrue(cancelled.isPending());
-                cancelled.cancel();
-                assertFalse(cancelled.isPending());
-                return null;
-            }
+        running.call(() -> {
+            began[0] = loop.nowMs();
+            loop.schedule(40, () -> {
+                ended[0] = loop.nowMs();
+                done.add("last");
+            });
+            loop.schedule(20, note("second"));
+            loop.schedule(10, note("first"));
+            final Cancellable cancelled = loop.schedule(15, note("cancelled"));
+            assertTrue(cancelled.isPending());
+            cancelled.cancel();
+            assertFalse(cancelled.isPending());
+            return null;
         });
         running.await("the last timer", has("last"));
         assertEquals(Arrays.asList("first", "second", "last"), done);
@@ -100,12 +84,9 @@ public final class SelectorLoopTest {
         });
         loop.post(note("other"));
         running.await("another call", has("other"));
-        running.call(new Callable<Void>() {
-            @Override
-            public Void call() {
-                isOver[0] = true;
-                return null;
-            }
+        running.call(() -> {
+            isOver[0] = true;
+            return null;
         });
     }
 
@@ -113,12 +94,9 @@ public final class SelectorLoopTest {
     public void whatOneCallThrowsIsToldAndHarmsNoOther() {
         loop.post(thrower(new IllegalStateException("a call")));
         loop.post(thrower(new NoClassDefFoundError("newer than this phone")));
-        loop.post(new Runnable() {
-            @Override
-            public void run() {
-                loop.schedule(1, thrower(new IllegalStateException("a timer")));
-                loop.schedule(1, note("other"));
-            }
+        loop.post(() -> {
+            loop.schedule(1, thrower(new IllegalStateException("a timer")));
+            loop.schedule(1, note("other"));
         });
         running.await("the other timer", has("other"));
         assertEquals(3, loop.faults());
@@ -128,21 +106,13 @@ public final class SelectorLoopTest {
 
     @Test
     public void aListenerOfFaultsThatThrowsEndsNothing() throws Exception {
-        final SelectorLoop other = new SelectorLoop("other", new FaultListener() {
-            @Override
-            public void onFault(Throwable fault) {
-                throw new IllegalStateException("the listener itself");
-            }
+        final SelectorLoop other = new SelectorLoop("other", fault -> {
+            throw new IllegalStateException("the listener itself");
         });
         other.start();
         final CountDownLatch latch = new CountDownLatch(1);
         other.post(thrower(new IllegalStateException("a call")));
-        other.post(new Runnable() {
-            @Override
-            public void run() {
-                latch.countDown();
-            }
-        });
+        other.post(() -> latch.countDown());
         assertTrue(latch.await(20, TimeUnit.SECONDS));
         assertEquals(2, other.faults());
         other.stop();
@@ -160,13 +130,10 @@ public final class SelectorLoopTest {
     @Test
     public void aSleepOfTheDeviceIsTimeThatPassed() {
         final long[] asked = new long[1];
-        running.call(new Callable<Void>() {
-            @Override
-            public Void call() {
-                asked[0] = loop.nowMs();
-                loop.schedule(600000, note("after ten minutes"));
-                return null;
-            }
+        running.call(() -> {
+            asked[0] = loop.nowMs();
+            loop.schedule(600000, note("after ten minutes"));
+            return null;
         });
         running.sleep(600000);
         running.await("the timer", has("after ten minutes"));
@@ -191,14 +158,11 @@ public final class SelectorLoopTest {
 
     @Test
     public void stopEndsTheThreadAndForgetsWhatWaits() throws Exception {
-        final Thread thread = running.call(new Callable<Thread>() {
-            @Override
-            public Thread call() {
-                loop.schedule(0, note("never"));
-                loop.stop();
-                loop.post(note("never"));
-                return Thread.currentThread();
-            }
+        final Thread thread = running.call(() -> {
+            loop.schedule(0, note("never"));
+            loop.stop();
+            loop.post(note("never"));
+            return Thread.currentThread();
         });
         thread.join(1000);
         assertFalse(thread.isAlive());
@@ -215,12 +179,7 @@ public final class SelectorLoopTest {
 
     @Test
     public void stopFromAnotherThreadReturnsAfterTheEnd() {
-        final Thread thread = running.call(new Callable<Thread>() {
-            @Override
-            public Thread call() {
-                return Thread.currentThread();
-            }
-        });
+        final Thread thread = running.call(() -> Thread.currentThread());
         loop.stop();
         assertFalse(thread.isAlive());
     }
@@ -237,44 +196,26 @@ public final class SelectorLoopTest {
     public void callsPostedBeforeTheStartRun() throws Exception {
         final SelectorLoop other = new SelectorLoop("other", running.faults);
         final CountDownLatch latch = new CountDownLatch(1);
-        other.post(new Runnable() {
-            @Override
-            public void run() {
-                latch.countDown();
-            }
-        });
+        other.post(() -> latch.countDown());
         other.start();
         assertTrue(latch.await(20, TimeUnit.SECONDS));
         other.stop();
     }
 
     private Runnable note(final String name) {
-        return new Runnable() {
-            @Override
-            public void run() {
-                done.add(name);
-            }
-        };
+        return () -> done.add(name);
     }
 
     private Callable<Boolean> has(final String name) {
-        return new Callable<Boolean>() {
-            @Override
-            public Boolean call() {
-                return done.contains(name);
-            }
-        };
+        return () -> done.contains(name);
     }
 
     private static Runnable thrower(final Throwable fault) {
-        return new Runnable() {
-            @Override
-            public void run() {
-                if (fault instanceof Error) {
-                    throw (Error) fault;
-                }
-                throw (RuntimeException) fault;
+        return () -> {
+            if (fault instanceof Error) {
+                throw (Error) fault;
             }
+            throw (RuntimeException) fault;
         };
     }
 }

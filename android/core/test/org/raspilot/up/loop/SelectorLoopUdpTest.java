@@ -25,7 +25,7 @@ public final class SelectorLoopUdpTest implements UdpListener {
 
     @Rule
     public final RunningLoop running = new RunningLoop();
-    private final List<String> heard = new ArrayList<String>();
+    private final List<String> heard = new ArrayList<>();
     private DatagramSocket peer;
     private UdpPort port;
 
@@ -33,12 +33,7 @@ public final class SelectorLoopUdpTest implements UdpListener {
     public void open() throws IOException {
         peer = new DatagramSocket(new InetSocketAddress(InetAddress.getByName("0.0.0.0"), 0));
         peer.setSoTimeout(20000);
-        port = running.call(new Callable<UdpPort>() {
-            @Override
-            public UdpPort call() throws IOException {
-                return running.loop.openUdp(SelectorLoopUdpTest.this);
-            }
-        });
+        port = running.call(() -> running.loop.openUdp(SelectorLoopUdpTest.this));
     }
 
     @After
@@ -74,39 +69,22 @@ public final class SelectorLoopUdpTest implements UdpListener {
     @Test
     public void aNameIsLookedUpAsideAndThenUsed() throws Exception {
         assertFalse("the first is lost", send("localhost"));
-        running.await("the name", new Callable<Boolean>() {
-            @Override
-            public Boolean call() {
-                return port.send("where?".getBytes(ASCII), "localhost", peer.getLocalPort());
-            }
-        });
+        running.await("the name", () ->
+                port.send("where?".getBytes(ASCII), "localhost", peer.getLocalPort()));
         assertEquals("where?", text(receive()));
     }
 
     @Test
     public void aNameThatNobodyKnowsIsNotAskedForAtEachDatagram() throws Exception {
         final AtomicInteger looks = new AtomicInteger();
-        final RunningLoop other = new RunningLoop(new SocketSelector(), new NameLookup.Resolver() {
-            @Override
-            public InetAddress[] resolve(String host) throws UnknownHostException {
-                looks.incrementAndGet();
-                throw new UnknownHostException(host);
-            }
+        final RunningLoop other = new RunningLoop(new SocketSelector(), host -> {
+            looks.incrementAndGet();
+            throw new UnknownHostException(host);
         });
         other.before();
         try {
-            final UdpPort from = other.call(new Callable<UdpPort>() {
-                @Override
-                public UdpPort call() throws IOException {
-                    return other.loop.openUdp(SelectorLoopUdpTest.this);
-                }
-            });
-            final Callable<Boolean> send = new Callable<Boolean>() {
-                @Override
-                public Boolean call() {
-                    return from.send(new byte[1], "pi.example", 1);
-                }
-            };
+            final UdpPort from = other.call(() -> other.loop.openUdp(SelectorLoopUdpTest.this));
+            final Callable<Boolean> send = () -> from.send(new byte[1], "pi.example", 1);
             final long beganMs = other.loop.nowMs();
             for (int each = 0; each < 30; each++) {
                 assertFalse(other.call(send));
@@ -116,12 +94,9 @@ public final class SelectorLoopUdpTest implements UdpListener {
             assertTrue(looks + " look-ups", looks.get() >= 1 && looks.get() <= most);
             other.sleep(2001);
             final int before = looks.get();
-            other.await("another look-up", new Callable<Boolean>() {
-                @Override
-                public Boolean call() throws Exception {
-                    send.call();
-                    return looks.get() > before;
-                }
+            other.await("another look-up", () -> {
+                send.call();
+                return looks.get() > before;
             });
         } finally {
             other.after();
@@ -130,13 +105,10 @@ public final class SelectorLoopUdpTest implements UdpListener {
 
     @Test
     public void aClosedPortTakesNothing() {
-        running.call(new Callable<Void>() {
-            @Override
-            public Void call() {
-                port.close();
-                port.close();
-                return null;
-            }
+        running.call(() -> {
+            port.close();
+            port.close();
+            return null;
         });
         assertFalse(send("127.0.0.1"));
     }
@@ -144,22 +116,12 @@ public final class SelectorLoopUdpTest implements UdpListener {
     @Test
     public void anImpossiblePortTakesNothing() {
         for (final int none : new int[] {0, -1, 65536}) {
-            assertFalse(running.call(new Callable<Boolean>() {
-                @Override
-                public Boolean call() {
-                    return port.send(new byte[1], "127.0.0.1", none);
-                }
-            }));
+            assertFalse(running.call(() -> port.send(new byte[1], "127.0.0.1", none)));
         }
     }
 
     private boolean send(final String host) {
-        return running.call(new Callable<Boolean>() {
-            @Override
-            public Boolean call() {
-                return port.send("where?".getBytes(ASCII), host, peer.getLocalPort());
-            }
-        });
+        return running.call(() -> port.send("where?".getBytes(ASCII), host, peer.getLocalPort()));
     }
 
     private DatagramPacket receive() throws IOException {
@@ -178,11 +140,6 @@ public final class SelectorLoopUdpTest implements UdpListener {
     }
 
     private Callable<Boolean> hasHeard(final int count) {
-        return new Callable<Boolean>() {
-            @Override
-            public Boolean call() {
-                return heard.size() >= count;
-            }
-        };
+        return () -> heard.size() >= count;
     }
 }

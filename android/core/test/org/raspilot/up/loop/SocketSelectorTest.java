@@ -19,15 +19,14 @@ import java.util.ArrayList;
 import java.util.HashSet;
 import java.util.List;
 import java.util.Set;
-import java.util.concurrent.Callable;
 import java.util.concurrent.CountDownLatch;
 import java.util.concurrent.TimeUnit;
 import org.junit.Rule;
 import org.junit.Test;
 
 public final class SocketSelectorTest {
-    private final List<Selector> opened = new ArrayList<Selector>();
-    private final List<String> heard = new ArrayList<String>();
+    private final List<Selector> opened = new ArrayList<>();
+    private final List<String> heard = new ArrayList<>();
 
     @Rule
     public final RunningLoop running = new RunningLoop(new SocketSelector() {
@@ -43,32 +42,13 @@ public final class SocketSelectorTest {
     public void aSelectorThatReturnsWithoutReasonIsReplacedAndItsSocketsMove() throws Exception {
         final DatagramSocket peer = new DatagramSocket(0, InetAddress.getByName("127.0.0.1"));
         peer.setSoTimeout(20000);
-        final UdpPort port = running.call(new Callable<UdpPort>() {
-            @Override
-            public UdpPort call() throws IOException {
-                return running.loop.openUdp(new UdpListener() {
-                    @Override
-                    public void onDatagram(byte[] bytes, int length, String host, int from) {
-                        heard.add(host);
-                    }
-                });
-            }
-        });
-        running.call(new Callable<Boolean>() {
-            @Override
-            public Boolean call() {
-                return port.send(new byte[1], "127.0.0.1", peer.getLocalPort());
-            }
-        });
+        final UdpPort port = running.call(() ->
+                running.loop.openUdp((bytes, length, host, from) -> heard.add(host)));
+        running.call(() -> port.send(new byte[1], "127.0.0.1", peer.getLocalPort()));
         final DatagramPacket packet = new DatagramPacket(new byte[1], 1);
         peer.receive(packet);
         peer.send(packet);
-        running.await("a datagram by the new selector", new Callable<Boolean>() {
-            @Override
-            public Boolean call() {
-                return heard.size() == 1;
-            }
-        });
+        running.await("a datagram by the new selector", () -> heard.size() == 1);
         peer.close();
         final long before = running.loop.rounds();
         running.pass(300);
@@ -95,12 +75,7 @@ public final class SocketSelectorTest {
                 final Thread poster = new Thread() {
                     @Override
                     public void run() {
-                        loop[0].post(new Runnable() {
-                            @Override
-                            public void run() {
-                                called.countDown();
-                            }
-                        });
+                        loop[0].post(() -> called.countDown());
                     }
                 };
                 poster.start();
@@ -159,8 +134,8 @@ public final class SocketSelectorTest {
 
     /** A selector that never sleeps and never sees anything. */
     private static final class Spinner extends AbstractSelector {
-        private final Set<SelectionKey> keys = new HashSet<SelectionKey>();
-        private final Set<SelectionKey> selected = new HashSet<SelectionKey>();
+        private final Set<SelectionKey> keys = new HashSet<>();
+        private final Set<SelectionKey> selected = new HashSet<>();
 
         Spinner() {
             super(SelectorProvider.provider());
@@ -211,7 +186,6 @@ public final class SocketSelectorTest {
         }
     }
 
-    /** A key of it. */
     private static final class Key extends AbstractSelectionKey {
         private final Selector selector;
         private final SelectableChannel channel;

@@ -6,8 +6,8 @@ import java.util.List;
 
 /** Records the events of an {@link UpSocket}; a line is recorded with {@code < } before it. */
 class Diary implements UpSocketListener {
-    final List<String> told = new ArrayList<String>();
-    final List<UpSocketStatus.State> states = new ArrayList<UpSocketStatus.State>();
+    final List<String> told = new ArrayList<>();
+    final List<UpSocketStatus.State> states = new ArrayList<>();
 
     @Override
     public void onConnected(UpSocket socket) {
@@ -26,6 +26,6 @@ class Diary implements UpSocketListener {
 
     @Override
     public void onStatus(UpSocket socket) {
-        states.add(socket.status().state());
+        states.add(socket.status().state);
     }
 }

@@ -10,7 +10,6 @@ import java.net.InetAddress;
 import java.util.Arrays;
 import java.util.Collections;
 import java.util.List;
-import java.util.concurrent.Callable;
 import org.junit.Rule;
 import org.junit.Test;
 import org.raspilot.up.loop.Cancellable;
@@ -131,23 +130,15 @@ public final class DiscoveryClientTest implements BroadcastAddresses {
         final DatagramSocket server = new DatagramSocket(0, InetAddress.getByName("0.0.0.0"));
         server.setSoTimeout(20000);
         addresses = Arrays.asList("127.255.255.255");
-        running.call(new Callable<Cancellable>() {
-            @Override
-            public Cancellable call() {
-                return new DiscoveryClient(running.loop, DiscoveryClientTest.this,
-                        server.getLocalPort(), 1, 2).find(found);
-            }
+        running.call(() -> {
+            return new DiscoveryClient(running.loop, DiscoveryClientTest.this,
+                    server.getLocalPort(), 1, 2).find(found);
         });
         final DatagramPacket question = new DatagramPacket(new byte[600], 600);
         server.receive(question);
         final byte[] answer = "127.0.0.1".getBytes("US-ASCII");
         server.send(new DatagramPacket(answer, answer.length, question.getSocketAddress()));
-        running.await("the answer", new Callable<Boolean>() {
-            @Override
-            public Boolean call() {
-                return found.told.contains("127.0.0.1:1:2");
-            }
-        });
+        running.await("the answer", () -> found.told.contains("127.0.0.1:1:2"));
         server.close();
         running.faults.mustBeNone();
     }

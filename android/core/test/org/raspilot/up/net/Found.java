@@ -4,11 +4,11 @@ import java.util.ArrayList;
 import java.util.List;
 
 /** Records the result of a finder. */
-final class Found implements FindListener {
-    final List<String> told = new ArrayList<String>();
+final class Found implements DiscoveryListener {
+    final List<String> told = new ArrayList<>();
 
     @Override
-    public void onFound(Place place) {
+    public void onFound(Endpoint place) {
         told.add(place.toString());
     }
 

@@ -8,7 +8,6 @@ import java.net.DatagramSocket;
 import java.net.InetAddress;
 import java.util.Arrays;
 import java.util.Random;
-import java.util.concurrent.Callable;
 import org.junit.Rule;
 import org.junit.Test;
 import org.raspilot.up.loop.RunningLoop;
@@ -24,12 +23,7 @@ public final class OrientationOnLoopbackTest {
     public void overTcpFramesComeBackToBack() throws Exception {
         final OrientationSender sender = start(peer.place(), OrientationSender.Transport.TCP);
         peer.accept();
-        running.await("ready", new Callable<Boolean>() {
-            @Override
-            public Boolean call() {
-                return sender.isReady();
-            }
-        });
+        running.await("ready", () -> sender.isReady());
         final byte[] got = new byte[48];
         send(sender, 1);
         send(sender, 2);
@@ -43,7 +37,7 @@ public final class OrientationOnLoopbackTest {
     public void overUdpEachFrameIsADatagram() throws Exception {
         final DatagramSocket server = new DatagramSocket(0, InetAddress.getByName("127.0.0.1"));
         server.setSoTimeout(20000);
-        final OrientationSender sender = start(new Place("127.0.0.1", 1, server.getLocalPort()),
+        final OrientationSender sender = start(new Endpoint("127.0.0.1", 1, server.getLocalPort()),
                 OrientationSender.Transport.UDP);
         for (int i = 0; i < 3; i++) {
             send(sender, i);
@@ -56,27 +50,19 @@ public final class OrientationOnLoopbackTest {
         running.faults.mustBeNone();
     }
 
-    private OrientationSender start(final Place place, OrientationSender.Transport transport) {
-        final KnownPlace known = new KnownPlace(new FixedPlace(place));
+    private OrientationSender start(final Endpoint place, OrientationSender.Transport transport) {
+        final LastEndpoint known = new LastEndpoint(new FixedEndpoint(place));
         final OrientationSender sender =
                 new OrientationSender(running.loop, known, transport, new Random(6));
-        return running.call(new Callable<OrientationSender>() {
-            @Override
-            public OrientationSender call() {
-                known.find(new Found());
-                sender.start();
-                return sender;
-            }
+        return running.call(() -> {
+            known.find(new Found());
+            sender.start();
+            return sender;
         });
     }
 
     private void send(final OrientationSender sender, final int content) {
-        assertEquals(true, running.call(new Callable<Boolean>() {
-            @Override
-            public Boolean call() {
-                return sender.send(frame(content));
-            }
-        }));
+        assertEquals(true, running.call(() -> sender.send(frame(content))));
     }
 
     private static byte[] frame(int content) {

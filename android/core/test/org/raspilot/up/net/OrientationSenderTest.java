@@ -9,7 +9,6 @@ import java.util.Arrays;
 import java.util.Random;
 import org.junit.After;
 import org.junit.Test;
-import org.raspilot.up.loop.Cancellable;
 import org.raspilot.up.loop.Faults;
 import org.raspilot.up.loop.ManualLoop;
 import org.raspilot.up.loop.ScriptedNetwork;
@@ -18,17 +17,14 @@ public final class OrientationSenderTest {
     private final Faults faults = new Faults();
     private final ScriptedNetwork network = new ScriptedNetwork();
     private final ManualLoop loop = new ManualLoop(network, faults);
-    private Place answer = new Place("192.0.2.7", 50001, 50000);
-    private final KnownPlace known = new KnownPlace(new PlaceFinder() {
-        @Override
-        public Cancellable find(FindListener listener) {
-            if (answer == null) {
-                listener.onNotFound("nowhere");
-            } else {
-                listener.onFound(answer);
-            }
-            return Search.DONE;
+    private Endpoint answer = new Endpoint("192.0.2.7", 50001, 50000);
+    private final LastEndpoint known = new LastEndpoint(listener -> {
+        if (answer == null) {
+            listener.onNotFound("nowhere");
+        } else {
+            listener.onFound(answer);
         }
+        return Search.DONE;
     });
     private final OrientationSender tcp = sender(OrientationSender.Transport.TCP);
     private final OrientationSender udp = sender(OrientationSender.Transport.UDP);
@@ -114,7 +110,7 @@ public final class OrientationSenderTest {
         tcp.send(frame('b'));
         assertEquals("192.0.2.7", network.newest().host);
         network.newest().accept();
-        answer = new Place("192.0.2.8", 1, 2);
+        answer = new Endpoint("192.0.2.8", 1, 2);
         find();
         assertFalse(tcp.send(frame('c')));
         assertTrue(network.connections.get(0).isClosed);
@@ -122,7 +118,7 @@ public final class OrientationSenderTest {
         network.newest().accept();
         assertTrue(tcp.send(frame('d')));
         assertEquals(text('d'), network.newest().written());
-        answer = new Place("192.0.2.8", 1, 2);
+        answer = new Endpoint("192.0.2.8", 1, 2);
         find();
         assertTrue("the same place", tcp.send(frame('e')));
         assertEquals(2, network.connections.size());
@@ -137,7 +133,7 @@ public final class OrientationSenderTest {
         find();
         assertTrue(udp.isReady());
         assertTrue(udp.send(frame('b')));
-        answer = new Place("192.0.2.8", 1, 2);
+        answer = new Endpoint("192.0.2.8", 1, 2);
         find();
         assertTrue(udp.send(frame('c')));
         assertEquals(Arrays.asList(text('b') + " -> 192.0.2.7:50000",
@@ -147,7 +143,7 @@ public final class OrientationSenderTest {
         assertFalse(udp.send(frame('d')));
         assertEquals(2, udp.sent());
         assertEquals(2, udp.dropped());
-        answer = new Place("192.0.2.8", 1, 0);
+        answer = new Endpoint("192.0.2.8", 1, 0);
         find();
         assertFalse(udp.send(frame('e')));
         assertEquals("192.0.2.8 has no orientation port", udp.sentence());
@@ -206,7 +202,7 @@ public final class OrientationSenderTest {
         answer = null;
         known.find(asked);
         known.follower().find(asked);
-        known.forget();
+        known.clear();
         known.follower().find(asked);
         assertEquals(Arrays.asList("192.0.2.7:50001:50000", "nowhere", "192.0.2.7:50001:50000",
                 "the Raspberry Pi is not found yet"), asked.told);

@@ -38,11 +38,10 @@ final class Peer extends ExternalResource {
         }
     }
 
-    Place place() {
-        return new Place("127.0.0.1", server.getLocalPort(), server.getLocalPort());
+    Endpoint place() {
+        return new Endpoint("127.0.0.1", server.getLocalPort(), server.getLocalPort());
     }
 
-    /** Waits for the next connection. */
     void accept() throws IOException {
         connection = server.accept();
         connection.setSoTimeout(LONG_MS);
@@ -78,7 +77,6 @@ final class Peer extends ExternalResource {
         connection.close();
     }
 
-    /** Ends it by a reset. */
     void cut() throws IOException {
         connection.setSoLinger(true, 0);
         connection.close();

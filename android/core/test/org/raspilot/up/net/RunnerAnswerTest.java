@@ -21,13 +21,13 @@ public final class RunnerAnswerTest {
     @Test
     public void theAnswerOfTheProtocolIsUnderstood() throws Exception {
         final RunnerAnswer answer = RunnerAnswer.read(ANSWER, "runner.example");
-        assertEquals(new Place("runner.example", 50001, 50000), answer.place());
-        assertEquals("Raspilot spawned", answer.message());
-        assertNull(answer.error());
-        assertTrue(answer.isSpawned());
-        assertEquals("glider-1", answer.instance());
-        assertEquals("proxy.example", answer.proxyHost());
-        assertEquals(3004, answer.proxyGroundPort());
+        assertEquals(new Endpoint("runner.example", 50001, 50000), answer.endpoint);
+        assertEquals("Raspilot spawned", answer.message);
+        assertNull(answer.error);
+        assertTrue(answer.isSpawned);
+        assertEquals("glider-1", answer.instance);
+        assertEquals("proxy.example", answer.proxyHost);
+        assertEquals(3004, answer.proxyGroundPort);
     }
 
     @Test
@@ -35,11 +35,11 @@ public final class RunnerAnswerTest {
         final RunnerAnswer answer = RunnerAnswer.read("{\"running\": true, \"spawned\": false,"
                 + " \"error\": \"another configuration runs\", \"proxy\": null,"
                 + " \"ports\": {\"general\": 1, \"orientation\": 65535}}", "h");
-        assertEquals("another configuration runs", answer.error());
-        assertFalse(answer.isSpawned());
-        assertNull(answer.message());
-        assertNull(answer.proxyHost());
-        assertEquals(0, answer.proxyGroundPort());
+        assertEquals("another configuration runs", answer.error);
+        assertFalse(answer.isSpawned);
+        assertNull(answer.message);
+        assertNull(answer.proxyHost);
+        assertEquals(0, answer.proxyGroundPort);
     }
 
     @Test
@@ -109,8 +109,8 @@ public final class RunnerAnswerTest {
                 }
             }
             try {
-                final Place place = RunnerAnswer.read(line.toString(), "h").place();
-                assertTrue(place.generalPort() >= 1 && place.orientationPort() >= 1);
+                final Endpoint place = RunnerAnswer.read(line.toString(), "h").endpoint;
+                assertTrue(place.generalPort >= 1 && place.orientationPort >= 1);
             } catch (RunnerAnswer.RefusedException expected) {
                 assertFalse("seed " + seed, expected.getMessage().isEmpty());
             } catch (RuntimeException error) {

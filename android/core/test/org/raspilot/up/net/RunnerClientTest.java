@@ -13,7 +13,6 @@ import java.net.ServerSocket;
 import java.net.Socket;
 import java.net.SocketException;
 import java.util.Arrays;
-import java.util.concurrent.Callable;
 import org.junit.After;
 import org.junit.Rule;
 import org.junit.Test;
@@ -63,7 +62,7 @@ public final class RunnerClientTest {
         assertEquals(Arrays.asList("runner:50001:50000"), found.told);
         assertTrue(runner.isClosed);
         assertFalse(search.isPending());
-        assertEquals(50001, client.lastAnswer().place().generalPort());
+        assertEquals(50001, client.lastAnswer().endpoint.generalPort);
     }
 
     @Test
@@ -165,21 +164,13 @@ public final class RunnerClientTest {
     }
 
     private void find(final ServerSocket server) {
-        running.call(new Callable<Cancellable>() {
-            @Override
-            public Cancellable call() {
-                return new RunnerClient(running.loop, "127.0.0.1", server.getLocalPort(), REQUEST)
-                        .find(found);
-            }
+        running.call(() -> {
+            return new RunnerClient(running.loop, "127.0.0.1", server.getLocalPort(), REQUEST)
+                    .find(found);
         });
     }
 
     private void await(final String told) {
-        running.await(told, new Callable<Boolean>() {
-            @Override
-            public Boolean call() {
-                return found.told.equals(Arrays.asList(told));
-            }
-        });
+        running.await(told, () -> found.told.equals(Arrays.asList(told)));
     }
 }

@@ -14,7 +14,6 @@ import org.junit.After;
 import org.junit.Rule;
 import org.junit.Test;
 import org.raspilot.up.loop.BlackHole;
-import org.raspilot.up.loop.Cancellable;
 import org.raspilot.up.loop.RunningLoop;
 
 /** An UpSocket on a real loop with a real peer. */
@@ -52,8 +51,8 @@ public final class UpSocketOnLoopbackTest {
         awaitConnects(socket, 7);
         peer.say(" a line\n");
         awaitTold("<  a line");
-        assertEquals(6, counters(socket).lost());
-        assertEquals(7, counters(socket).received());
+        assertEquals(6, counters(socket).lost);
+        assertEquals(7, counters(socket).received);
     }
 
     @Test
@@ -68,9 +67,9 @@ public final class UpSocketOnLoopbackTest {
         }
         assertTrue("held " + mostWaiting, mostWaiting <= 2 * FRAME);
         final UpSocketCounters stalled = counters(socket);
-        final int held = (int) (stalled.bytesOut() / FRAME);
+        final int held = (int) (stalled.bytesOut / FRAME);
         assertTrue("the system held " + held + " frames", held < 10000);
-        assertTrue("replaced " + stalled.replaced(), stalled.replaced() > frames - 10000 - 2);
+        assertTrue("replaced " + stalled.replaced, stalled.replaced > frames - 10000 - 2);
         long last = -1;
         int read = 0;
         while (last != frames - 1) {
@@ -82,7 +81,7 @@ public final class UpSocketOnLoopbackTest {
             read++;
         }
         assertTrue("read " + read, read <= held + 3);
-        assertEquals(1, counters(socket).connects());
+        assertEquals(1, counters(socket).connects);
     }
 
     @Test
@@ -90,28 +89,20 @@ public final class UpSocketOnLoopbackTest {
         final UpSocket socket = start(peer.place(), quick());
         peer.accept();
         awaitConnects(socket, 1);
-        final int taken = running.call(new Callable<Integer>() {
-            @Override
-            public Integer call() {
-                final char[] letters = new char[1000];
-                Arrays.fill(letters, 'x');
-                int count = 0;
-                while (socket.send(bytes(count + " " + new String(letters)))) {
-                    count++;
-                }
-                assertTrue(socket.waitingBytes() <= UpSocketSettings.LONGEST_QUEUE_BYTES + 1100);
-                return count;
+        final int taken = running.call(() -> {
+            final char[] letters = new char[1000];
+            Arrays.fill(letters, 'x');
+            int count = 0;
+            while (socket.send(bytes(count + " " + new String(letters)))) {
+                count++;
             }
+            assertTrue(socket.waitingBytes() <= UpSocketSettings.MAX_QUEUE_BYTES + 1100);
+            return count;
         });
         for (int i = 0; i < taken; i++) {
             assertTrue(peer.readLine().startsWith(i + " xxx"));
         }
-        running.await("all gone", new Callable<Boolean>() {
-            @Override
-            public Boolean call() {
-                return socket.waitingBytes() == 0;
-            }
-        });
+        running.await("all gone", () -> socket.waitingBytes() == 0);
     }
 
     @Test
@@ -119,42 +110,31 @@ public final class UpSocketOnLoopbackTest {
         final UpSocket socket = start(peer.place(), quick());
         peer.accept();
         awaitConnects(socket, 1);
-        running.await("half a line waits", new Callable<Boolean>() {
-            @Override
-            public Boolean call() {
-                final byte[] line = new byte[16000];
-                Arrays.fill(line, (byte) 'a');
-                return !socket.send(line);
-            }
+        running.await("half a line waits", () -> {
+            final byte[] line = new byte[16000];
+            Arrays.fill(line, (byte) 'a');
+            return !socket.send(line);
         });
         peer.cut();
         peer.accept();
         awaitConnects(socket, 2);
         send(socket, "whole");
         assertEquals("whole", peer.readLine());
-        assertTrue(counters(socket).dropped() >= 4);
+        assertTrue(counters(socket).dropped >= 4);
     }
 
     @Test
     public void aRefusalIsRetriedUntilSomebodyListens() throws Exception {
-        final Place place = peer.place();
+        final Endpoint place = peer.place();
         peer.refuse();
         final UpSocket socket = start(place, quick());
-        running.await("attempts", new Callable<Boolean>() {
-            @Override
-            public Boolean call() {
-                return socket.counters().failedAttempts() >= 3;
-            }
-        });
-        final String sentence = running.call(new Callable<String>() {
-            @Override
-            public String call() {
-                socket.stop();
-                return diary.states.toString();
-            }
+        running.await("attempts", () -> socket.counters().failedAttempts >= 3);
+        final String sentence = running.call(() -> {
+            socket.stop();
+            return diary.states.toString();
         });
         assertTrue(sentence, sentence.contains("WAITING"));
-        final ServerSocket again = new ServerSocket(place.generalPort(), 5,
+        final ServerSocket again = new ServerSocket(place.generalPort, 5,
                 InetAddress.getByName("127.0.0.1"));
         again.setSoTimeout(20000);
         running.call(start(socket));
@@ -166,36 +146,30 @@ public final class UpSocketOnLoopbackTest {
     public void aBlackHoleIsGivenUpAndTheWayOutTaken() throws Exception {
         final BlackHole hole = new BlackHole();
         final int[] asked = new int[1];
-        final UpSocket socket = make(new PlaceFinder() {
-            @Override
-            public Cancellable find(FindListener listener) {
-                listener.onFound(asked[0]++ == 0 ? new Place("127.0.0.1", hole.port(), 0)
-                        : peer.place());
-                return Search.DONE;
-            }
+        final UpSocket socket = make(listener -> {
+            listener.onFound(asked[0]++ == 0 ? new Endpoint("127.0.0.1", hole.port(), 0)
+                    : peer.place());
+            return Search.DONE;
         }, quick().withConnectTimeoutMs(100));
         running.call(start(socket));
         peer.accept();
         awaitConnects(socket, 1);
-        assertEquals(1, counters(socket).failedAttempts());
+        assertEquals(1, counters(socket).failedAttempts);
         hole.close();
     }
 
     @Test
     public void stopDuringAnAttemptEndsIt() throws Exception {
         final BlackHole hole = new BlackHole();
-        final UpSocket socket = start(new Place("127.0.0.1", hole.port(), 0),
+        final UpSocket socket = start(new Endpoint("127.0.0.1", hole.port(), 0),
                 quick().withConnectTimeoutMs(50));
-        running.call(new Callable<Void>() {
-            @Override
-            public Void call() {
-                assertEquals(UpSocketStatus.State.CONNECTING, socket.status().state());
-                socket.stop();
-                return null;
-            }
+        running.call(() -> {
+            assertEquals(UpSocketStatus.State.CONNECTING, socket.status().state);
+            socket.stop();
+            return null;
         });
         running.pass(150);
-        assertEquals(0, counters(socket).failedAttempts());
+        assertEquals(0, counters(socket).failedAttempts);
         assertEquals("[]", diary.told.toString());
         hole.close();
     }
@@ -205,7 +179,7 @@ public final class UpSocketOnLoopbackTest {
         final UpSocket socket = start(peer.place(), quick().withSilenceLimitMs(100));
         peer.accept();
         awaitConnects(socket, 1);
-        awaitTold("lost: 127.0.0.1:" + peer.place().generalPort() + " said nothing for 100 ms");
+        awaitTold("lost: 127.0.0.1:" + peer.place().generalPort + " said nothing for 100 ms");
         assertEquals("it hung up", -1, peer.read());
         peer.accept();
         awaitConnects(socket, 2);
@@ -220,75 +194,50 @@ public final class UpSocketOnLoopbackTest {
         return UpSocketSettings.raw().withConnectTimeoutMs(20000).withStallLimitMs(0);
     }
 
-    private UpSocket make(PlaceFinder finder, UpSocketSettings settings) {
-        return new UpSocket(running.loop, finder, diary, settings, new Random(6));
+    private UpSocket make(EndpointDiscovery discovery, UpSocketSettings settings) {
+        return new UpSocket(running.loop, discovery, diary, settings, new Random(6));
     }
 
-    private UpSocket start(Place place, UpSocketSettings settings) {
-        final UpSocket socket = make(new FixedPlace(place), settings);
+    private UpSocket start(Endpoint place, UpSocketSettings settings) {
+        final UpSocket socket = make(new FixedEndpoint(place), settings);
         running.call(start(socket));
         return socket;
     }
 
     private static Callable<Void> start(final UpSocket socket) {
-        return new Callable<Void>() {
-            @Override
-            public Void call() {
-                socket.start();
-                return null;
-            }
+        return () -> {
+            socket.start();
+            return null;
         };
     }
 
     private void send(final UpSocket socket, final String line) {
-        assertTrue(running.call(new Callable<Boolean>() {
-            @Override
-            public Boolean call() {
-                return socket.send(bytes(line));
-            }
-        }));
+        assertTrue(running.call(() -> socket.send(bytes(line))));
     }
 
     /** Sends numbered frames and returns how much waited at most. */
     private int sendFrames(final UpSocket socket, final int first, final int end) {
-        return running.call(new Callable<Integer>() {
-            @Override
-            public Integer call() {
-                int most = 0;
-                for (int i = first; i < end; i++) {
-                    socket.sendNewest("frame", ByteBuffer.allocate(FRAME).putLong(i).array());
-                    most = Math.max(most, socket.waitingBytes());
-                }
-                return most;
+        return running.call(() -> {
+            int most = 0;
+            for (int i = first; i < end; i++) {
+                socket.sendNewest("frame", ByteBuffer.allocate(FRAME).putLong(i).array());
+                most = Math.max(most, socket.waitingBytes());
             }
+            return most;
         });
     }
 
     private UpSocketCounters counters(final UpSocket socket) {
-        return running.call(new Callable<UpSocketCounters>() {
-            @Override
-            public UpSocketCounters call() {
-                return socket.counters();
-            }
-        });
+        return running.call(() -> socket.counters());
     }
 
     private void awaitConnects(final UpSocket socket, final int count) {
-        running.await("connection " + count, new Callable<Boolean>() {
-            @Override
-            public Boolean call() {
-                return socket.isConnected() && socket.counters().connects() == count;
-            }
-        });
+        running.await("connection " + count, () ->
+                socket.isConnected() && socket.counters().connects == count);
     }
 
     private void awaitTold(final String what) {
-        running.await(what, new Callable<Boolean>() {
-            @Override
-            public Boolean call() {
-                return diary.told.contains(what);
-            }
-        });
+        running.await(what, () -> diary.told.contains(what));
     }
 
     private static byte[] bytes(String text) {

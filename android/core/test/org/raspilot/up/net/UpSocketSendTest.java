@@ -39,8 +39,8 @@ public final class UpSocketSendTest {
         assertTrue(send("two\n"));
         assertTrue(newest("k", "three"));
         assertEquals("one\ntwo\nthree\n", network.newest().written());
-        assertEquals(3, socket.counters().sent());
-        assertEquals(14, socket.counters().bytesOut());
+        assertEquals(3, socket.counters().sent);
+        assertEquals(14, socket.counters().bytesOut);
         assertEquals(0, socket.waitingBytes());
     }
 
@@ -55,8 +55,8 @@ public final class UpSocketSendTest {
         assertTrue(socket.waitingBytes() < 40);
         network.newest().makeRoom(1000);
         assertEquals("ack\nlocation 999\nbattery 999\n", network.newest().written());
-        assertEquals(1998, socket.counters().replaced());
-        assertEquals(3, socket.counters().sent());
+        assertEquals(1998, socket.counters().replaced);
+        assertEquals(3, socket.counters().sent);
     }
 
     @Test
@@ -85,7 +85,7 @@ public final class UpSocketSendTest {
         }
         assertEquals(64, taken);
         assertEquals(65536, socket.waitingBytes());
-        assertEquals(1, socket.counters().dropped());
+        assertEquals(1, socket.counters().dropped);
         for (int i = 0; i < 200; i++) {
             socket.sendNewest(i, line);
         }
@@ -102,7 +102,7 @@ public final class UpSocketSendTest {
         assertEquals(0, socket.waitingBytes());
         assertFalse(send("while it is away"));
         assertFalse(newest("location", "while it is away"));
-        assertEquals(5, socket.counters().dropped());
+        assertEquals(5, socket.counters().dropped);
         loop.advance(600);
         assertFalse("while it connects", send("too early"));
         network.newest().accept();
@@ -120,7 +120,7 @@ public final class UpSocketSendTest {
         network.newest().say(" \"data\": {}}\nwhole again\n");
         assertEquals(Arrays.asList("connected", "< whole", "lost: broke", "connected",
                 "<  \"data\": {}}", "< whole again"), diary.told);
-        assertEquals(3, socket.counters().received());
+        assertEquals(3, socket.counters().received);
     }
 
     @Test
@@ -133,13 +133,13 @@ public final class UpSocketSendTest {
         assertEquals(16384, network.newest().written().length());
         network.newest().say(long16k + "\nnext\n");
         assertEquals(Arrays.asList("connected", "< next"), diary.told);
-        assertEquals(1, socket.counters().tooLong());
-        assertEquals(16390, socket.counters().bytesIn());
+        assertEquals(1, socket.counters().tooLong);
+        assertEquals(16390, socket.counters().bytesIn);
     }
 
     @Test
     public void whatItsListenerSendsWhenConnectedGoesFirst() {
-        final UpSocket polite = new UpSocket(loop, new FixedPlace(new Place("a", 1, 2)),
+        final UpSocket polite = new UpSocket(loop, new FixedEndpoint(new Endpoint("a", 1, 2)),
                 new Diary() {
                     @Override
                     public void onConnected(UpSocket made) {
@@ -155,7 +155,7 @@ public final class UpSocketSendTest {
 
     @Test
     public void aLineAtWhichTheListenerThrowsKeepsNoOtherBack() {
-        final UpSocket clumsy = new UpSocket(loop, new FixedPlace(new Place("a", 1, 2)),
+        final UpSocket clumsy = new UpSocket(loop, new FixedEndpoint(new Endpoint("a", 1, 2)),
                 new Diary() {
                     @Override
                     public void onReceived(UpSocket from, byte[] line, int length) {
@@ -167,12 +167,7 @@ public final class UpSocketSendTest {
                 }, UpSocketSettings.lines(), new Random(1));
         clumsy.start();
         network.newest().accept();
-        loop.post(new Runnable() {
-            @Override
-            public void run() {
-                network.newest().say("bad\ngood\nbad\nwell\n");
-            }
-        });
+        loop.post(() -> network.newest().say("bad\ngood\nbad\nwell\n"));
         loop.advance(0);
         assertEquals(Arrays.asList("connected", "< bad", "< good", "< bad", "< well"),
                 diary.told);
@@ -205,7 +200,7 @@ public final class UpSocketSendTest {
     }
 
     private UpSocket socket(UpSocketSettings settings) {
-        return new UpSocket(loop, new FixedPlace(new Place("192.0.2.7", 50001, 50000)), diary,
+        return new UpSocket(loop, new FixedEndpoint(new Endpoint("192.0.2.7", 50001, 50000)), diary,
                 settings, new Random(6));
     }
 

@@ -15,13 +15,13 @@ import org.raspilot.up.loop.ScriptedNetwork;
 
 /** When an UpSocket connects, gives up and tries again. */
 public final class UpSocketTest {
-    private static final Place PLACE = new Place("192.0.2.7", 50001, 50000);
+    private static final Endpoint PLACE = new Endpoint("192.0.2.7", 50001, 50000);
 
     private final Faults faults = new Faults();
     private final ScriptedNetwork network = new ScriptedNetwork();
     private final ManualLoop loop = new ManualLoop(network, faults);
     private final Diary diary = new Diary();
-    private final UpSocket socket = socket(new FixedPlace(PLACE), diary);
+    private final UpSocket socket = socket(new FixedEndpoint(PLACE), diary);
 
     @After
     public void nothingWasThrown() {
@@ -40,14 +40,14 @@ public final class UpSocketTest {
         assertEquals("CONNECTING: connecting to 192.0.2.7:50001", socket.status().toString());
         network.newest().accept();
         assertEquals("CONNECTED: connected to 192.0.2.7:50001", socket.status().toString());
-        assertEquals(PLACE, socket.status().place());
+        assertEquals(PLACE, socket.status().endpoint);
         assertEquals(Arrays.asList("connected"), diary.told);
-        assertEquals(1, socket.counters().connects());
+        assertEquals(1, socket.counters().connects);
     }
 
     @Test
     public void aRawSocketGoesToTheOrientationPort() {
-        new UpSocket(loop, new FixedPlace(PLACE), diary, UpSocketSettings.raw(), new Random(1))
+        new UpSocket(loop, new FixedEndpoint(PLACE), diary, UpSocketSettings.raw(), new Random(1))
                 .start();
         assertEquals(50000, network.newest().port);
     }
@@ -62,14 +62,14 @@ public final class UpSocketTest {
             assertTrue(i + ": " + gotMs[i], Math.abs(gotMs[i] - wantedMs[i]) <= wantedMs[i] / 5);
         }
         assertTrue("no jitter", gotMs[2] != gotMs[3] || gotMs[3] != gotMs[4]);
-        assertEquals(5, socket.counters().failedAttempts());
-        assertEquals(0, socket.counters().lost());
+        assertEquals(5, socket.counters().failedAttempts);
+        assertEquals(0, socket.counters().lost);
         assertTrue(diary.told.isEmpty());
     }
 
     @Test
     public void theSameSeedWaitsTheSame() {
-        final UpSocket twin = socket(new FixedPlace(PLACE), diary);
+        final UpSocket twin = socket(new FixedEndpoint(PLACE), diary);
         twin.start();
         final long firstMs = msToNextAttempt("refused");
         twin.stop();
@@ -106,7 +106,7 @@ public final class UpSocketTest {
             final long waitMs = msToNextAttempt("broke");
             assertTrue("waited " + waitMs, waitMs >= 400 && waitMs <= 600);
         }
-        assertEquals(4, socket.counters().lost());
+        assertEquals(4, socket.counters().lost);
         assertEquals(Arrays.asList("connected", "lost: broke"), diary.told.subList(0, 2));
     }
 
@@ -190,56 +190,48 @@ public final class UpSocketTest {
         assertEquals("STOPPED: stopped", socket.status().toString());
         assertEquals("waiting", 3, network.connections.size());
         assertEquals(0, loop.pendingTimers());
-        assertEquals(0, socket.counters().lost());
+        assertEquals(0, socket.counters().lost);
     }
 
     @Test
     public void theFinderIsAskedAnewBeforeEachAttempt() {
-        final Finder finder = new Finder();
-        final UpSocket moving = socket(finder, diary);
+        final Finder discovery = new Finder();
+        final UpSocket moving = socket(discovery, diary);
         moving.start();
         assertEquals("FINDING: looking for the peer", moving.status().toString());
-        finder.listener.onFound(PLACE);
+        discovery.listener.onFound(PLACE);
         network.newest().end("refused");
         loop.advance(600);
-        assertEquals(2, finder.asked);
-        finder.listener.onFound(new Place("192.0.2.8", 1, 2));
+        assertEquals(2, discovery.asked);
+        discovery.listener.onFound(new Endpoint("192.0.2.8", 1, 2));
         assertEquals("192.0.2.8", network.newest().host);
         moving.stop();
     }
 
     @Test
     public void aPlaceThatIsNotFoundIsLookedForAgain() {
-        final Finder finder = new Finder();
-        final UpSocket lost = socket(finder, diary);
+        final Finder discovery = new Finder();
+        final UpSocket lost = socket(discovery, diary);
         lost.start();
-        finder.listener.onNotFound("no answer from Discovery");
+        discovery.listener.onNotFound("no answer from Discovery");
         assertEquals("WAITING: no answer from Discovery; trying again", lost.status().toString());
-        assertNull(lost.status().place());
+        assertNull(lost.status().endpoint);
         loop.advance(600);
-        assertEquals(2, finder.asked);
+        assertEquals(2, discovery.asked);
         lost.stop();
-        assertTrue("the search is cancelled", finder.isCancelled);
-        finder.listener.onFound(PLACE);
+        assertTrue("the search is cancelled", discovery.isCancelled);
+        discovery.listener.onFound(PLACE);
         assertTrue("too late", network.connections.isEmpty());
     }
 
     @Test
     public void aFinderThatThrowsIsAskedAgain() {
         final int[] asked = new int[1];
-        final UpSocket unlucky = socket(new PlaceFinder() {
-            @Override
-            public Cancellable find(FindListener listener) {
-                asked[0]++;
-                throw new IllegalStateException("a finder");
-            }
+        final UpSocket unlucky = socket(listener -> {
+            asked[0]++;
+            throw new IllegalStateException("a finder");
         }, diary);
-        loop.post(new Runnable() {
-            @Override
-            public void run() {
-                unlucky.start();
-            }
-        });
+        loop.post(() -> unlucky.start());
         loop.advance(600);
         assertEquals(2, asked[0]);
         assertEquals("WAITING: the search failed; trying again", unlucky.status().toString());
@@ -263,7 +255,7 @@ public final class UpSocketTest {
                 from.stop();
             }
         };
-        shy[0] = socket(new FixedPlace(PLACE), stopper);
+        shy[0] = socket(new FixedEndpoint(PLACE), stopper);
         shy[0].start();
         network.newest().accept();
         network.newest().say("one\ntwo\n");
@@ -272,7 +264,7 @@ public final class UpSocketTest {
         network.newest().accept();
         network.newest().end("broke");
         loop.advance(60000);
-        assertEquals(UpSocketStatus.State.STOPPED, shy[0].status().state());
+        assertEquals(UpSocketStatus.State.STOPPED, shy[0].status().state);
         assertEquals(2, network.connections.size());
     }
 
@@ -289,18 +281,18 @@ public final class UpSocketTest {
         return waitedMs;
     }
 
-    private UpSocket socket(PlaceFinder finder, UpSocketListener listener) {
-        return new UpSocket(loop, finder, listener, UpSocketSettings.lines(), new Random(6));
+    private UpSocket socket(EndpointDiscovery discovery, UpSocketListener listener) {
+        return new UpSocket(loop, discovery, listener, UpSocketSettings.lines(), new Random(6));
     }
 
     /** A finder that answers on the test's request. */
-    private static final class Finder implements PlaceFinder, Cancellable {
-        private FindListener listener;
+    private static final class Finder implements EndpointDiscovery, Cancellable {
+        private DiscoveryListener listener;
         private int asked;
         private boolean isCancelled;
 
         @Override
-        public Cancellable find(FindListener asker) {
+        public Cancellable find(DiscoveryListener asker) {
             asked++;
             listener = asker;
             return this;

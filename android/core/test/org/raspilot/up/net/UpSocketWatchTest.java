@@ -40,8 +40,8 @@ public final class UpSocketWatchTest {
         assertEquals("\n", network.newest().written());
         loop.advance(3000);
         assertEquals("\n\n\n", network.newest().written());
-        assertEquals("heartbeats are no lines", 1, socket.counters().sent());
-        assertEquals(7, socket.counters().bytesOut());
+        assertEquals("heartbeats are no lines", 1, socket.counters().sent);
+        assertEquals(7, socket.counters().bytesOut);
     }
 
     @Test
@@ -87,17 +87,14 @@ public final class UpSocketWatchTest {
     @Test
     public void whatCameWhileThePhoneSleptIsReadBeforeItsPeerIsJudged() {
         connect(UpSocketSettings.lines().withSilenceLimitMs(3000));
-        loop.schedule(3000, new Runnable() {
-            @Override
-            public void run() {
-                // The loop reads its sockets between two timers, late as they may be.
-                network.newest().say("telemetry\n");
-            }
+        loop.schedule(3000, () -> {
+            // The loop reads its sockets between two timers, late as they may be.
+            network.newest().say("telemetry\n");
         });
         loop.advance(3000);
         assertTrue(socket.isConnected());
         loop.advance(3000);
-        assertEquals(1, socket.counters().lost());
+        assertEquals(1, socket.counters().lost);
     }
 
     @Test
@@ -161,7 +158,8 @@ public final class UpSocketWatchTest {
     }
 
     private void connect(UpSocketSettings settings) {
-        socket = new UpSocket(loop, new FixedPlace(new Place("192.0.2.7", 50001, 50000)), diary,
+        socket = new UpSocket(loop, new FixedEndpoint(new Endpoint("192.0.2.7", 50001, 50000)),
+                diary,
                 settings, new Random(6));
         socket.start();
         network.newest().accept();

@@ -9,7 +9,7 @@ import org.junit.Test;
 /** The altitude by the pressure, over the sea or over the field. */
 public final class AltitudeProviderTest {
     private final ProvidersBench bench = new ProvidersBench();
-    private final TestSource<Pressure> barometer = new TestSource<Pressure>("barometer");
+    private final TestSource<Pressure> barometer = new TestSource<>("barometer");
     private final AltitudeProvider provider = new AltitudeProvider(barometer, 200);
 
     @Test
@@ -31,7 +31,7 @@ public final class AltitudeProviderTest {
     public void aReadingLeavesAsAnAltitude() {
         bench.run(provider);
         barometer.give(new Pressure(954.61));
-        assertEquals("up.altitude.change {altitude=499.99}", bench.outlet.last());
+        assertEquals("up.altitude.change {altitude=499.99}", bench.sink.last());
     }
 
     @Test
@@ -39,7 +39,7 @@ public final class AltitudeProviderTest {
         bench.run(provider);
         provider.setReferenceHPa(1030);
         barometer.give(new Pressure(1030));
-        assertEquals("up.altitude.change {altitude=0.0}", bench.outlet.last());
+        assertEquals("up.altitude.change {altitude=0.0}", bench.sink.last());
     }
 
     @Test
@@ -49,10 +49,10 @@ public final class AltitudeProviderTest {
         assertEquals(990.5, provider.zeroHere(), 0);
         bench.loop.advance(200);
         barometer.give(new Pressure(990.5));
-        assertEquals("up.altitude.change {altitude=0.0}", bench.outlet.last());
+        assertEquals("up.altitude.change {altitude=0.0}", bench.sink.last());
         bench.loop.advance(200);
         barometer.give(new Pressure(978.7));
-        double altitudeM = (Double) bench.outlet.commands.get(2).data().get("altitude");
+        double altitudeM = (Double) bench.sink.commands.get(2).data().get("altitude");
         assertEquals("8.3 m a hectopascal", 100, altitudeM, 3);
     }
 
@@ -72,7 +72,7 @@ public final class AltitudeProviderTest {
         bench.run(provider);
         bench.feed(barometer, new Pressure(1013.25), 20, 2000);
         bench.feed(barometer, new Pressure(954.61), 20, 220);
-        assertEquals("up.altitude.change {altitude=499.99}", bench.outlet.last());
+        assertEquals("up.altitude.change {altitude=499.99}", bench.sink.last());
     }
 
     @Test
@@ -93,8 +93,8 @@ public final class AltitudeProviderTest {
         bench.run(provider);
         for (double bad : new double[] {0, -3, Double.NaN, Double.POSITIVE_INFINITY, 1e-9}) {
             barometer.give(new Pressure(bad));
-            assertTrue("" + bad, bench.status().problem().startsWith("its reading cannot be used"));
+            assertTrue("" + bad, bench.status().problem.startsWith("its reading cannot be used"));
         }
-        assertEquals(0, bench.outlet.commands.size());
+        assertEquals(0, bench.sink.commands.size());
     }
 }

@@ -17,9 +17,9 @@ public final class AttitudeTest {
                 for (double yaw = 0; yaw < 360; yaw += 30) {
                     Attitude found = Attitude.of(new Attitude(roll, pitch, yaw).bodyToNed());
                     double expected = pitch > 0 ? yaw - roll : yaw + roll;
-                    assertEquals(0, found.rollDeg(), 0);
-                    assertEquals(pitch, found.pitchDeg(), 1e-5);
-                    assertEquals(0, Math.IEEEremainder(found.yawDeg() - expected, 360), 1e-4);
+                    assertEquals(0, found.rollDeg, 0);
+                    assertEquals(pitch, found.pitchDeg, 1e-5);
+                    assertEquals(0, Math.IEEEremainder(found.yawDeg - expected, 360), 1e-4);
                 }
             }
         }
@@ -36,7 +36,7 @@ public final class AttitudeTest {
             Quaternion apart =
                     found.bodyToNed().conjugate().times(given.bodyToNed());
             double sine = Math.sqrt(
-                    apart.x() * apart.x() + apart.y() * apart.y() + apart.z() * apart.z());
+                    apart.x * apart.x + apart.y * apart.y + apart.z * apart.z);
             assertEquals("seed " + SEED + ", trial " + trial,
                     0, Math.toDegrees(2 * Math.asin(Math.min(1, sine))), 1e-4);
         }
@@ -44,10 +44,10 @@ public final class AttitudeTest {
 
     @Test
     public void theYawIsNever360() {
-        assertEquals(0, new Attitude(0, 0, 360).yawDeg(), 0);
-        assertEquals(0, new Attitude(0, 0, -1e-18).yawDeg(), 0);
-        assertEquals(359, new Attitude(0, 0, -1).yawDeg(), 0);
-        assertEquals(10, new Attitude(0, 0, 730).yawDeg(), 0);
+        assertEquals(0, new Attitude(0, 0, 360).yawDeg, 0);
+        assertEquals(0, new Attitude(0, 0, -1e-18).yawDeg, 0);
+        assertEquals(359, new Attitude(0, 0, -1).yawDeg, 0);
+        assertEquals(10, new Attitude(0, 0, 730).yawDeg, 0);
     }
 
     @Test
@@ -66,10 +66,10 @@ public final class AttitudeTest {
     @Test
     public void anOldAndroidsVectorHasNoFourthValue() {
         Rotation three = Rotation.ofVector(new float[] {0, 0, 0.5f}, 7);
-        assertEquals(Math.sqrt(0.75), three.deviceToWorld().w(), 1e-9);
-        assertEquals(7, three.timeMs());
+        assertEquals(Math.sqrt(0.75), three.deviceToWorld.w, 1e-9);
+        assertEquals(7, three.timeMs);
         Rotation four = Rotation.ofVector(new float[] {0, 0, 0.5f, -0.8660254f, 0.1f}, 7);
-        assertEquals(-0.8660254, four.deviceToWorld().w(), 1e-6);
-        assertEquals(1, Rotation.ofVector(new float[] {1.0001f, 0, 0}, 0).deviceToWorld().x(), 0);
+        assertEquals(-0.8660254, four.deviceToWorld.w, 1e-6);
+        assertEquals(1, Rotation.ofVector(new float[] {1.0001f, 0, 0}, 0).deviceToWorld.x, 0);
     }
 }

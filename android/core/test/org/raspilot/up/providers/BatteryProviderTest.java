@@ -8,14 +8,14 @@ import org.junit.Test;
 /** The battery's level: on change, and again and again. */
 public final class BatteryProviderTest {
     private final ProvidersBench bench = new ProvidersBench();
-    private final TestSource<BatteryLevel> battery = new TestSource<BatteryLevel>("battery");
+    private final TestSource<BatteryLevel> battery = new TestSource<>("battery");
     private final BatteryProvider provider = new BatteryProvider(battery);
 
     @Test
     public void theLevelLeavesInWholePercents() {
         bench.run(provider);
         battery.give(new BatteryLevel(83.4));
-        assertEquals("android.battery {level=83}", bench.outlet.last());
+        assertEquals("android.battery {level=83}", bench.sink.last());
     }
 
     @Test
@@ -23,7 +23,7 @@ public final class BatteryProviderTest {
         bench.run(provider);
         battery.give(new BatteryLevel(83));
         bench.loop.advance(35000);
-        assertEquals("[0, 10000, 20000, 30000]", bench.outlet.timesMs.toString());
+        assertEquals("[0, 10000, 20000, 30000]", bench.sink.timesMs.toString());
         assertEquals(ProviderState.SENDING, provider.state());
     }
 
@@ -36,7 +36,7 @@ public final class BatteryProviderTest {
         bench.loop.advance(1000);
         battery.give(new BatteryLevel(82));
         bench.loop.advance(10000);
-        assertEquals("[0, 5000, 15000]", bench.outlet.timesMs.toString());
+        assertEquals("[0, 5000, 15000]", bench.sink.timesMs.toString());
     }
 
     @Test
@@ -53,11 +53,11 @@ public final class BatteryProviderTest {
     public void onANewLinkTheLevelIsToldHoweverOldItIs() {
         bench.run(provider);
         battery.give(new BatteryLevel(60));
-        bench.outlet.isOpen = false;
+        bench.sink.isOpen = false;
         bench.loop.advance(300000);
-        bench.outlet.isOpen = true;
+        bench.sink.isOpen = true;
         bench.controller.linkOpened();
-        assertEquals("[0, 300000]", bench.outlet.timesMs.toString());
+        assertEquals("[0, 300000]", bench.sink.timesMs.toString());
     }
 
     @Test
@@ -65,9 +65,9 @@ public final class BatteryProviderTest {
         bench.run(provider);
         for (double bad : new double[] {-1, 100.6, Double.NaN}) {
             battery.give(new BatteryLevel(bad));
-            assertTrue(bench.status().problem(), bench.status().problem().contains("percent"));
+            assertTrue(bench.status().problem, bench.status().problem.contains("percent"));
         }
-        assertEquals(0, bench.outlet.commands.size());
+        assertEquals(0, bench.sink.commands.size());
     }
 
     @Test

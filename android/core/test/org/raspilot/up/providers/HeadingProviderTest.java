@@ -7,7 +7,7 @@ import org.junit.Test;
 /** Where the nose points, by the mounting and the declination. */
 public final class HeadingProviderTest {
     private final ProvidersBench bench = new ProvidersBench();
-    private final TestSource<Rotation> compass = new TestSource<Rotation>("rotation vector");
+    private final TestSource<Rotation> compass = new TestSource<>("rotation vector");
     private final HeadingProvider provider =
             new HeadingProvider(compass, Mounting.of(Side.RIGHT, Side.SCREEN), 200);
 
@@ -15,7 +15,7 @@ public final class HeadingProviderTest {
     public void itIsTheNosesNotThePhones() {
         bench.run(provider);
         compass.give(new Rotation(1, 0, 0, 0, 0));
-        assertEquals("up.heading.change {heading=90.0, mode=actual}", bench.outlet.last());
+        assertEquals("up.heading.change {heading=90.0, mode=actual}", bench.sink.last());
     }
 
     @Test
@@ -23,7 +23,7 @@ public final class HeadingProviderTest {
         bench.run(provider);
         provider.setDeclinationDeg(-4.26);
         compass.give(new Rotation(1, 0, 0, 0, 0));
-        assertEquals("up.heading.change {heading=85.7, mode=actual}", bench.outlet.last());
+        assertEquals("up.heading.change {heading=85.7, mode=actual}", bench.sink.last());
     }
 
     @Test
@@ -31,7 +31,7 @@ public final class HeadingProviderTest {
         bench.run(provider);
         provider.setMounting(Mounting.FLAT);
         compass.give(new Rotation(1, 0, 0, 0, 0));
-        assertEquals("up.heading.change {heading=0.0, mode=actual}", bench.outlet.last());
+        assertEquals("up.heading.change {heading=0.0, mode=actual}", bench.sink.last());
     }
 
     @Test
@@ -39,6 +39,6 @@ public final class HeadingProviderTest {
         bench.run(provider);
         provider.setMounting(Mounting.FLAT);
         compass.give(Mounting.FLAT.rotation(new Attitude(0, 0, 359.98), 0));
-        assertEquals("up.heading.change {heading=0.0, mode=actual}", bench.outlet.last());
+        assertEquals("up.heading.change {heading=0.0, mode=actual}", bench.sink.last());
     }
 }

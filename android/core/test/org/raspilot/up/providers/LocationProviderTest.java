@@ -8,7 +8,7 @@ import org.junit.Test;
 /** The sent values of a fix, their times, and their display. */
 public final class LocationProviderTest {
     private final ProvidersBench bench = new ProvidersBench();
-    private final TestSource<Fix> gps = new TestSource<Fix>("GPS");
+    private final TestSource<Fix> gps = new TestSource<>("GPS");
     private final LocationProvider provider = new LocationProvider(gps, 500);
 
     @Test
@@ -16,14 +16,14 @@ public final class LocationProviderTest {
         bench.run(provider);
         gps.give(new Fix(48.14859123456, 17.10774987654, 151.26, 3.14, 12.346, 271.27));
         assertEquals("up.location.update {latitude=48.1485912, longitude=17.1077499, "
-                + "altitude=151.3, accuracy=3.1, speed=12.35, bearing=271.3}", bench.outlet.last());
+                + "altitude=151.3, accuracy=3.1, speed=12.35, bearing=271.3}", bench.sink.last());
     }
 
     @Test
     public void whatGpsDoesNotKnowIsLeftOut() {
         bench.run(provider);
         gps.give(new Fix(1, 2, null, Double.NaN, Double.POSITIVE_INFINITY, null));
-        assertEquals("up.location.update {latitude=1.0, longitude=2.0}", bench.outlet.last());
+        assertEquals("up.location.update {latitude=1.0, longitude=2.0}", bench.sink.last());
     }
 
     @Test
@@ -31,7 +31,7 @@ public final class LocationProviderTest {
         bench.run(provider);
         gps.give(new Fix(1, 2, null, null, null, 359.97));
         assertEquals("up.location.update {latitude=1.0, longitude=2.0, bearing=0.0}",
-                bench.outlet.last());
+                bench.sink.last());
     }
 
     @Test
@@ -39,13 +39,13 @@ public final class LocationProviderTest {
         bench.run(provider);
         gps.give(new Fix(90.5, 2, null, null, null, null));
         gps.give(new Fix(Double.NaN, 2, null, null, null, null));
-        assertEquals(0, bench.outlet.commands.size());
+        assertEquals(0, bench.sink.commands.size());
         assertEquals(2, bench.told.size());
         assertTrue(bench.told.get(0), bench.told.get(0).startsWith(
                 "location: its reading cannot be used: latitude must be a number between -90"));
         gps.give(new Fix(1, 2, null, null, null, null));
-        assertEquals("", bench.status().problem());
-        assertEquals(1, bench.outlet.commands.size());
+        assertEquals("", bench.status().problem);
+        assertEquals(1, bench.sink.commands.size());
     }
 
     @Test
@@ -54,7 +54,7 @@ public final class LocationProviderTest {
         gps.give(new Fix(1, 2, null, 1200.0, null, null));
         gps.give(new Fix(1, 2, null, 50.1, null, null));
         gps.give(new Fix(1, 2, null, Double.POSITIVE_INFINITY, null, null));
-        assertEquals(0, bench.outlet.commands.size());
+        assertEquals(0, bench.sink.commands.size());
         assertEquals("told once", "[location: its reading cannot be used: "
                 + "a fix that may be off by more than 50 m is none to fly by]",
                 bench.told.toString());
@@ -62,8 +62,8 @@ public final class LocationProviderTest {
         assertEquals(ProviderState.SILENT, provider.state());
         gps.give(new Fix(1, 2, null, 50.0, null, null));
         assertEquals("up.location.update {latitude=1.0, longitude=2.0, accuracy=50.0}",
-                bench.outlet.last());
-        assertEquals("", bench.status().problem());
+                bench.sink.last());
+        assertEquals("", bench.status().problem);
     }
 
     @Test
@@ -75,10 +75,10 @@ public final class LocationProviderTest {
         assertEquals("asking may take the system long", asked, gps.namesAsked);
         gps.name = "GPS, the permission is missing";
         bench.controller.restart("location");
-        assertEquals("GPS, the permission is missing", bench.status().sensor());
+        assertEquals("GPS, the permission is missing", bench.status().sensor);
         gps.name = null;
         bench.controller.restart("location");
-        assertEquals("one that has no name", "", bench.status().sensor());
+        assertEquals("one that has no name", "", bench.status().sensor);
     }
 
     @Test
@@ -88,8 +88,8 @@ public final class LocationProviderTest {
             gps.give(new Fix(at, 0, null, null, null, null));
             bench.loop.advance(100);
         }
-        assertEquals("[0, 400, 900, 1400, 1900]", bench.outlet.timesMs.toString());
-        assertEquals(14.0, bench.outlet.commands.get(3).data().get("latitude"));
+        assertEquals("[0, 400, 900, 1400, 1900]", bench.sink.timesMs.toString());
+        assertEquals(14.0, bench.sink.commands.get(3).data().get("latitude"));
     }
 
     @Test
@@ -99,8 +99,8 @@ public final class LocationProviderTest {
         bench.loop.advance(200);
         gps.give(new Fix(2, 0, null, null, null, null));
         bench.loop.advance(5000);
-        assertEquals("[0, 625]", bench.outlet.timesMs.toString());
-        assertEquals(2.0, bench.outlet.commands.get(1).data().get("latitude"));
+        assertEquals("[0, 625]", bench.sink.timesMs.toString());
+        assertEquals(2.0, bench.sink.commands.get(1).data().get("latitude"));
     }
 
     @Test
@@ -110,7 +110,7 @@ public final class LocationProviderTest {
             gps.give(new Fix(at, 0, null, null, null, null));
             bench.loop.advance(at % 2 == 0 ? 420 : 580);
         }
-        assertEquals(40, bench.outlet.commands.size());
+        assertEquals(40, bench.sink.commands.size());
     }
 
     @Test
@@ -118,7 +118,7 @@ public final class LocationProviderTest {
         bench.run(provider);
         gps.give(new Fix(1, 2, null, null, null, null));
         bench.loop.advance(60000);
-        assertEquals(1, bench.outlet.commands.size());
+        assertEquals(1, bench.sink.commands.size());
     }
 
     @Test
@@ -126,22 +126,22 @@ public final class LocationProviderTest {
         bench.run(provider);
         bench.feed(gps, new Fix(1, 2, null, null, null, null), 500, 5000);
         ProviderStatus status = bench.status();
-        assertEquals(ProviderState.SENDING, status.state());
-        assertEquals(2, status.rateHz(), 0);
-        assertEquals(0, status.ageMs());
-        assertEquals(10, status.sent());
-        assertEquals("GPS", status.sensor());
-        assertEquals("latitude 1.0, longitude 2.0", status.lastText());
+        assertEquals(ProviderState.SENDING, status.state);
+        assertEquals(2, status.rateHz, 0);
+        assertEquals(0, status.ageMs);
+        assertEquals(10, status.sent);
+        assertEquals("GPS", status.sensor);
+        assertEquals("latitude 1.0, longitude 2.0", status.lastText);
         bench.loop.advance(700);
-        assertEquals(700, bench.status().ageMs());
-        assertEquals(1, bench.status().rateHz(), 0);
+        assertEquals(700, bench.status().ageMs);
+        assertEquals(1, bench.status().rateHz, 0);
     }
 
     @Test
     public void aGpsThatSaysNothingForTenSecondsIsSilent() {
         bench.run(provider);
         assertEquals(ProviderState.WAITING, provider.state());
-        assertEquals(-1, bench.status().ageMs());
+        assertEquals(-1, bench.status().ageMs);
         bench.loop.advance(10000);
         assertEquals(ProviderState.WAITING, provider.state());
         bench.loop.advance(1);
@@ -155,16 +155,16 @@ public final class LocationProviderTest {
     @Test
     public void withoutALinkItWaitsAndKeepsNothingOld() {
         bench.run(provider);
-        bench.outlet.isOpen = false;
+        bench.sink.isOpen = false;
         bench.feed(gps, new Fix(1, 2, null, null, null, null), 500, 5000);
         assertEquals(ProviderState.WAITING, provider.state());
         bench.loop.advance(3000);
-        bench.outlet.isOpen = true;
+        bench.sink.isOpen = true;
         bench.controller.linkOpened();
         bench.loop.advance(3000);
-        assertEquals("a fix of three seconds ago", 0, bench.outlet.commands.size());
+        assertEquals("a fix of three seconds ago", 0, bench.sink.commands.size());
         gps.give(new Fix(3, 4, null, null, null, null));
-        assertEquals(1, bench.outlet.commands.size());
+        assertEquals(1, bench.sink.commands.size());
     }
 
     @Test
@@ -173,6 +173,6 @@ public final class LocationProviderTest {
         gps.give(new Fix(1, 2, null, null, null, null));
         bench.loop.advance(300);
         bench.controller.linkOpened();
-        assertEquals("[0, 300]", bench.outlet.timesMs.toString());
+        assertEquals("[0, 300]", bench.sink.timesMs.toString());
     }
 }

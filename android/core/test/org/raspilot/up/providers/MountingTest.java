@@ -95,8 +95,8 @@ public final class MountingTest {
 
     @Test
     public void aQuaternionAndItsNegativeAreTheSameAttitude() {
-        Quaternion q = Mounting.FLAT.rotation(new Attitude(33, -21, 250), 0).deviceToWorld();
-        Rotation negative = new Rotation(-q.w(), -q.x(), -q.y(), -q.z(), 0);
+        Quaternion q = Mounting.FLAT.rotation(new Attitude(33, -21, 250), 0).deviceToWorld;
+        Rotation negative = new Rotation(-q.w, -q.x, -q.y, -q.z, 0);
         assertAttitude(33, -21, 250, Mounting.FLAT.attitude(negative, 0));
     }
 
@@ -161,13 +161,13 @@ public final class MountingTest {
             Rotation rotation = new Rotation(anyRotation(random), 0);
             for (Side nose : Side.values()) {
                 double[] ahead =
-                        rotation.deviceToWorld().turn(nose.x(), nose.y(), nose.z());
+                        rotation.deviceToWorld.turn(nose.x(), nose.y(), nose.z());
                 try {
                     Attitude level = Mounting.level(rotation, nose).attitude(rotation, 0);
-                    assertEquals(0, level.rollDeg(), EXACT_DEG);
-                    assertEquals(0, level.pitchDeg(), EXACT_DEG);
+                    assertEquals(0, level.rollDeg, EXACT_DEG);
+                    assertEquals(0, level.pitchDeg, EXACT_DEG);
                     double yaw = Math.toDegrees(Math.atan2(ahead[0], ahead[1]));
-                    assertAngle(yaw, level.yawDeg());
+                    assertAngle(yaw, level.yawDeg);
                     assertTrue(Math.abs(ahead[2]) <= 0.867);
                 } catch (IllegalArgumentException error) {
                     refused++;
@@ -183,7 +183,7 @@ public final class MountingTest {
     @Test
     public void afterCalibrationTheAeroplanesOwnAttitudeIsTold() {
         // In its mount the phone's top edge points 7 degrees up and its right edge 4 degrees down.
-        Mounting inMount = new Mounting(Mounting.FLAT.bodyToDevice()
+        Mounting inMount = new Mounting(Mounting.FLAT.bodyToDevice
                 .times(new Attitude(4, 7, 0).bodyToNed().conjugate()));
         Rotation onTheGround = inMount.rotation(new Attitude(0, 0, 200), 0);
         assertAttitude(4, 7, 200, Mounting.FLAT.attitude(onTheGround, 0));
@@ -228,10 +228,10 @@ public final class MountingTest {
 
     private static void assertAttitude(double roll, double pitch, double yaw, Attitude found) {
         String what = "roll " + roll + ", pitch " + pitch + ", yaw " + yaw + " (seed " + SEED + ")";
-        assertAngle(what, roll, found.rollDeg());
-        assertEquals(what, pitch, found.pitchDeg(), EXACT_DEG);
-        assertAngle(what, yaw, found.yawDeg());
-        assertTrue(what, found.yawDeg() >= 0 && found.yawDeg() < 360);
+        assertAngle(what, roll, found.rollDeg);
+        assertEquals(what, pitch, found.pitchDeg, EXACT_DEG);
+        assertAngle(what, yaw, found.yawDeg);
+        assertTrue(what, found.yawDeg >= 0 && found.yawDeg < 360);
     }
 
     private static void assertAngle(double expectedDeg, double foundDeg) {

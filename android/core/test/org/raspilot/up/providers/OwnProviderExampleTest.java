@@ -5,7 +5,7 @@ import static org.junit.Assert.assertEquals;
 import java.util.Collections;
 import org.junit.Test;
 import org.raspilot.up.commands.BaseCommand;
-import org.raspilot.up.commands.RecordCommand;
+import org.raspilot.up.commands.Commands;
 
 /**
  * How to add your own sensor: one class and one registration.
@@ -19,17 +19,16 @@ public final class OwnProviderExampleTest {
     /** Sends how bright it is on board, once a second, into the flight log. */
     static final class LightProvider extends SensorProvider<Light> {
         LightProvider(SensorSource<Light> source) {
-            super("light", source, Cadence.stream(1000, 5000));
+            super("light", source, RatePolicy.stream(1000, 5000));
         }
 
         @Override
         protected BaseCommand read(Light light) {
-            return new RecordCommand(
-                    "phone.light", Collections.<String, Object>singletonMap("lux", light.lux));
+            return Commands.record(
+                    "phone.light", Collections.singletonMap("lux", light.lux));
         }
     }
 
-    /** What the sensor reads. */
     static final class Light {
         final double lux;
 
@@ -41,14 +40,14 @@ public final class OwnProviderExampleTest {
     @Test
     public void aProviderIsOneClassAndOneRegistration() {
         ProvidersBench bench = new ProvidersBench();
-        TestSource<Light> sensor = new TestSource<Light>("light sensor");
+        TestSource<Light> sensor = new TestSource<>("light sensor");
 
         bench.controller.register(new LightProvider(sensor));
 
-        bench.controller.start(bench.outlet);
+        bench.controller.start(bench.sink);
         sensor.give(new Light(740));
         assertEquals("black_box.record {topic=phone.light, content={lux=740.0}}",
-                bench.outlet.last());
-        assertEquals(ProviderState.SENDING, bench.status().state());
+                bench.sink.last());
+        assertEquals(ProviderState.SENDING, bench.status().state);
     }
 }

@@ -14,17 +14,17 @@ public final class PanicTest {
 
     private final ProvidersBench bench = new ProvidersBench();
     private final Panic panic = bench.controller.panic();
-    private final TestSource<Fix> gps = new TestSource<Fix>("GPS");
+    private final TestSource<Fix> gps = new TestSource<>("GPS");
 
     @Test
     public void itTakesDelaysOfUpTo10SecondsAndNothingElse() {
-        panic.follow(0.2);
+        panic.apply(0.2);
         assertEquals("a fraction is not quicker than it says", 1, panic.delayMs());
-        panic.follow(10000);
+        panic.apply(10000);
         assertEquals(10000, panic.delayMs());
         for (double bad : new double[] {-1, 10000.5, Double.NaN, Double.POSITIVE_INFINITY}) {
             try {
-                panic.follow(bad);
+                panic.apply(bad);
                 fail("taken: " + bad);
             } catch (IllegalArgumentException error) {
                 assertEquals("delay_ms: 0 to 10000", error.getMessage());
@@ -35,10 +35,10 @@ public final class PanicTest {
 
     @Test
     public void itLengthensPeriodsAndShortensNone() {
-        panic.follow(300);
+        panic.apply(300);
         assertEquals(300, panic.periodMs(200));
         assertEquals(500, panic.periodMs(500));
-        panic.forget();
+        panic.clear();
         assertFalse(panic.isOn());
         assertEquals(200, panic.periodMs(200));
     }
@@ -47,29 +47,29 @@ public final class PanicTest {
     public void noStreamIsQuickerThanItsDelay() {
         bench.run(new LocationProvider(gps, 200));
         bench.feed(gps, HERE, 50, 1000);
-        bench.outlet.timesMs.clear();
-        panic.follow(700);
+        bench.sink.timesMs.clear();
+        panic.apply(700);
         bench.feed(gps, HERE, 50, 7000);
         assertEquals(700, bench.shortestGapMs());
-        assertEquals(10, bench.outlet.timesMs.size(), 1);
+        assertEquals(10, bench.sink.timesMs.size(), 1);
     }
 
     @Test
     public void orientationKeepsToItToo() {
-        TestSource<Rotation> rotation = new TestSource<Rotation>("rotation");
-        bench.run(new OrientationProvider(rotation, new TestSource<RotationRate>("gyroscope"),
+        TestSource<Rotation> rotation = new TestSource<>("rotation");
+        bench.run(new OrientationProvider(rotation, new TestSource<>("gyroscope"),
                 Mounting.FLAT, 100));
-        panic.follow(150);
+        panic.apply(150);
         bench.feed(rotation, LEVEL, 10, 3000);
-        assertEquals(20, bench.outlet.frames.size(), 1);
+        assertEquals(20, bench.sink.frames.size(), 1);
         assertTrue("gap " + bench.shortestGapMs(), bench.shortestGapMs() >= 150);
     }
 
     @Test
     public void whatIsRepeatedKeepsToItToo() {
-        TestSource<BatteryLevel> battery = new TestSource<BatteryLevel>("battery");
+        TestSource<BatteryLevel> battery = new TestSource<>("battery");
         bench.run(new BatteryProvider(battery));
-        panic.follow(4000);
+        panic.apply(4000);
         battery.give(new BatteryLevel(90));
         for (int level = 89; level > 69; level--) {
             bench.loop.advance(1000);
@@ -82,24 +82,24 @@ public final class PanicTest {
     public void afterItsEndStreamsResumeTheirOwnPeriodsAtOnce() {
         bench.run(new LocationProvider(gps, 200));
         bench.feed(gps, HERE, 50, 1000);
-        panic.follow(10000);
+        panic.apply(10000);
         bench.feed(gps, HERE, 50, 1000);
-        bench.outlet.timesMs.clear();
+        bench.sink.timesMs.clear();
         long endMs = bench.loop.nowMs();
-        panic.forget();
-        assertEquals("what waited leaves", endMs, (long) bench.outlet.timesMs.get(0));
+        panic.clear();
+        assertEquals("what waited leaves", endMs, (long) bench.sink.timesMs.get(0));
         bench.feed(gps, HERE, 50, 2000);
-        assertEquals(11, bench.outlet.timesMs.size(), 1);
+        assertEquals(11, bench.sink.timesMs.size(), 1);
     }
 
     @Test
     public void aShorterDelayHoldsAtOnce() {
         bench.run(new LocationProvider(gps, 200));
         gps.give(HERE);
-        panic.follow(10000);
+        panic.apply(10000);
         bench.feed(gps, HERE, 50, 400);
-        panic.follow(500);
+        panic.apply(500);
         bench.feed(gps, HERE, 50, 600);
-        assertEquals("[0, 500, 1000]", bench.outlet.timesMs.toString());
+        assertEquals("[0, 500, 1000]", bench.sink.timesMs.toString());
     }
 }

@@ -10,22 +10,16 @@ final class ProvidersBench {
     final Faults faults = new Faults();
     final ManualLoop loop = new ManualLoop(null, faults);
     final ProvidersController controller = new ProvidersController(loop);
-    final TestOutlet outlet = new TestOutlet(loop);
-    final List<String> told = new ArrayList<String>();
+    final TestOutlet sink = new TestOutlet(loop);
+    final List<String> told = new ArrayList<>();
 
     ProvidersBench() {
-        controller.addListener(new ProvidersListener() {
-            @Override
-            public void onProvider(String name, String sentence) {
-                told.add(name + ": " + sentence);
-            }
-        });
+        controller.addListener((name, sentence) -> told.add(name + ": " + sentence));
     }
 
-    /** Registers a provider and starts. */
     void run(UpProvider provider) {
         controller.register(provider);
-        controller.start(outlet);
+        controller.start(sink);
     }
 
     /** Returns the status of the only provider. */
@@ -44,8 +38,8 @@ final class ProvidersBench {
     /** Returns the shortest time between two that were sent. */
     long shortestGapMs() {
         long shortest = Long.MAX_VALUE;
-        for (int at = 1; at < outlet.timesMs.size(); at++) {
-            shortest = Math.min(shortest, outlet.timesMs.get(at) - outlet.timesMs.get(at - 1));
+        for (int at = 1; at < sink.timesMs.size(); at++) {
+            shortest = Math.min(shortest, sink.timesMs.get(at) - sink.timesMs.get(at - 1));
         }
         return shortest;
     }

@@ -13,21 +13,21 @@ import org.raspilot.up.commands.BaseCommand;
 /** Registering, starting and stopping, and the isolation of a provider's fault. */
 public final class ProvidersControllerTest {
     private final ProvidersBench bench = new ProvidersBench();
-    private final List<String> calls = new ArrayList<String>();
+    private final List<String> calls = new ArrayList<>();
 
     @Test
     public void allStartInTheirOrderAndStopInTheReverse() {
         for (String name : new String[] {"one", "two", "three"}) {
             bench.controller.register(new Named(name, new Noted(name)));
         }
-        bench.controller.start(bench.outlet);
+        bench.controller.start(bench.sink);
         bench.controller.stop();
         assertEquals("[+one, +two, +three, -three, -two, -one]", calls.toString());
     }
 
     @Test
     public void oneThatIsRegisteredLaterStartsAtOnceAndOneUnregisteredStops() {
-        bench.controller.start(bench.outlet);
+        bench.controller.start(bench.sink);
         bench.controller.register(new Named("late", new Noted("late")));
         assertTrue(bench.controller.unregister("late"));
         assertFalse(bench.controller.unregister("late"));
@@ -48,15 +48,15 @@ public final class ProvidersControllerTest {
 
     @Test
     public void anAbsentSensorIsToldAndIsNoError() {
-        TestSource<Fix> absent = new TestSource<Fix>("this phone has no GPS");
+        TestSource<Fix> absent = new TestSource<>("this phone has no GPS");
         absent.isPresent = false;
         bench.run(new LocationProvider(absent, 500));
         assertEquals("[location: this phone has no GPS]", bench.told.toString());
-        assertEquals(ProviderState.ABSENT, bench.status().state());
-        assertEquals("", bench.status().problem());
+        assertEquals(ProviderState.ABSENT, bench.status().state);
+        assertEquals("", bench.status().problem);
         assertEquals(0, absent.periodsMs.size());
         bench.loop.advance(60000);
-        assertEquals(ProviderState.ABSENT, bench.status().state());
+        assertEquals(ProviderState.ABSENT, bench.status().state);
         assertEquals(1, bench.told.size());
         bench.controller.stop();
         bench.faults.mustBeNone();
@@ -64,29 +64,29 @@ public final class ProvidersControllerTest {
 
     @Test
     public void aSourceThatIsNotThereNeverReads() {
-        SensorSource<Fix> absent = new AbsentSource<Fix>("no GPS");
+        SensorSource<Fix> absent = new AbsentSource<>("no GPS");
         bench.run(new LocationProvider(absent, 500));
-        assertEquals(ProviderState.ABSENT, bench.status().state());
-        assertEquals("no GPS", bench.status().sensor());
+        assertEquals(ProviderState.ABSENT, bench.status().state);
+        assertEquals("no GPS", bench.status().sensor);
     }
 
     @Test
     public void aSensorThatRefusesHarmsNoOther() {
-        TestSource<Fix> gps = new TestSource<Fix>("GPS");
+        TestSource<Fix> gps = new TestSource<>("GPS");
         gps.fault = new SecurityException("no permission");
         bench.controller.register(new LocationProvider(gps, 500));
-        TestSource<Pressure> barometer = new TestSource<Pressure>("barometer");
+        TestSource<Pressure> barometer = new TestSource<>("barometer");
         bench.controller.register(new AltitudeProvider(barometer, 200));
-        bench.controller.start(bench.outlet);
+        bench.controller.start(bench.sink);
         barometer.give(new Pressure(1000));
-        assertEquals(1, bench.outlet.commands.size());
-        assertEquals(ProviderState.STOPPED, bench.status().state());
-        assertEquals("the sensor cannot be read: no permission", bench.status().problem());
+        assertEquals(1, bench.sink.commands.size());
+        assertEquals(ProviderState.STOPPED, bench.status().state);
+        assertEquals("the sensor cannot be read: no permission", bench.status().problem);
         gps.fault = null;
         assertTrue(bench.controller.restart("location"));
         gps.give(new Fix(1, 2, null, null, null, null));
-        assertEquals(2, bench.outlet.commands.size());
-        assertEquals("", bench.status().problem());
+        assertEquals(2, bench.sink.commands.size());
+        assertEquals("", bench.status().problem);
     }
 
     @Test
@@ -98,7 +98,7 @@ public final class ProvidersControllerTest {
                 throw new IllegalStateException("stuck");
             }
         }));
-        bench.controller.start(bench.outlet);
+        bench.controller.start(bench.sink);
         bench.controller.stop();
         assertEquals("[+first, +bad, -first]", calls.toString());
         assertEquals("[bad: the sensor cannot be left: stuck]", bench.told.toString());
@@ -106,8 +106,8 @@ public final class ProvidersControllerTest {
 
     @Test
     public void aProviderThatThrowsAtAReadingHarmsNobodyAndIsTold() {
-        TestSource<Fix> gps = new TestSource<Fix>("GPS");
-        bench.run(new SensorProvider<Fix>("broken", gps, Cadence.stream(100, 1000)) {
+        TestSource<Fix> gps = new TestSource<>("GPS");
+        bench.run(new SensorProvider<Fix>("broken", gps, RatePolicy.stream(100, 1000)) {
             @Override
             protected BaseCommand read(Fix reading) {
                 throw new IllegalStateException("a mistake");
@@ -120,21 +120,21 @@ public final class ProvidersControllerTest {
 
     @Test
     public void afterTheStopNothingLeaves() {
-        TestSource<BatteryLevel> battery = new TestSource<BatteryLevel>("battery");
+        TestSource<BatteryLevel> battery = new TestSource<>("battery");
         bench.run(new BatteryProvider(battery));
         battery.give(new BatteryLevel(50));
         SensorListener<BatteryLevel> late = battery.listener;
         bench.controller.stop();
         late.onReading(new BatteryLevel(40));
         bench.loop.advance(60000);
-        assertEquals(1, bench.outlet.commands.size());
-        assertEquals(ProviderState.STOPPED, bench.status().state());
+        assertEquals(1, bench.sink.commands.size());
+        assertEquals(ProviderState.STOPPED, bench.status().state);
         assertEquals(0, bench.loop.pendingTimers());
     }
 
     private final class Named extends SensorProvider<String> {
         Named(String name, SensorSource<String> source) {
-            super(name, source, Cadence.stream(100, 1000));
+            super(name, source, RatePolicy.stream(100, 1000));
         }
 
         @Override

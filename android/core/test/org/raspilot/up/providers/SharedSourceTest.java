@@ -9,11 +9,11 @@ import org.junit.Test;
 
 /** One sensor for several readers: the fastest sets the rate, each subscribes independently. */
 public final class SharedSourceTest {
-    private final TestSource<String> sensor = new TestSource<String>("sensor");
-    private final SharedSource<String> shared = new SharedSource<String>(sensor);
+    private final TestSource<String> sensor = new TestSource<>("sensor");
+    private final SharedSource<String> shared = new SharedSource<>(sensor);
     private final SensorSource<String> slow = shared.branch();
     private final SensorSource<String> quick = shared.branch();
-    private final List<String> heard = new ArrayList<String>();
+    private final List<String> heard = new ArrayList<>();
 
     @Test
     public void bothHearEachReadingAtTheQuickersPeriod() {
@@ -61,11 +61,6 @@ public final class SharedSourceTest {
     }
 
     private SensorListener<String> listener(final String name) {
-        return new SensorListener<String>() {
-            @Override
-            public void onReading(String reading) {
-                heard.add(name + " " + reading);
-            }
-        };
+        return reading -> heard.add(name + " " + reading);
     }
 }

@@ -7,10 +7,10 @@ import org.raspilot.up.loop.Loop;
 import org.raspilot.up.wire.OrientationFrame;
 
 /** A link that records messages with their times. */
-public final class TestOutlet implements Outlet {
-    public final List<BaseCommand> commands = new ArrayList<BaseCommand>();
-    public final List<OrientationFrame> frames = new ArrayList<OrientationFrame>();
-    public final List<Long> timesMs = new ArrayList<Long>();
+public final class TestOutlet implements MessageSink {
+    public final List<BaseCommand> commands = new ArrayList<>();
+    public final List<OrientationFrame> frames = new ArrayList<>();
+    public final List<Long> timesMs = new ArrayList<>();
     public boolean isOpen = true;
     private final Loop loop;
 

@@ -9,7 +9,7 @@ public final class TestSource<R> implements SensorSource<R> {
     public int namesAsked;
     public boolean isPresent = true;
     public RuntimeException fault;
-    public final List<Long> periodsMs = new ArrayList<Long>();
+    public final List<Long> periodsMs = new ArrayList<>();
     public SensorListener<R> listener;
 
     public TestSource(String name) {

@@ -17,7 +17,7 @@ public final class ControlLineTest {
 
     @Test
     public void everyLineOfTheProtocolIsReadAndWritten() {
-        Map<String, ControlLine> lines = new LinkedHashMap<String, ControlLine>();
+        Map<String, ControlLine> lines = new LinkedHashMap<>();
         lines.put("UP1 seat request", ControlLine.of(Kind.SEAT_REQUEST));
         lines.put("UP1 seat asked by=3", ControlLine.of(Kind.SEAT_ASKED, 3));
         lines.put("UP1 seat give to=3", ControlLine.of(Kind.SEAT_GIVE, 3));
@@ -75,9 +75,9 @@ public final class ControlLineTest {
 
     private static void assertReads(String line, ControlLine wanted) {
         ControlLine read = read(line);
-        assertEquals(wanted.kind(), read.kind());
-        assertEquals(wanted.number(), read.number());
-        assertEquals(wanted.token(), read.token());
+        assertEquals(wanted.kind, read.kind);
+        assertEquals(wanted.number, read.number);
+        assertEquals(wanted.token, read.token);
     }
 
     private static ControlLine read(String line) {

@@ -64,10 +64,10 @@ public final class GeneralMessageTest {
     @Test
     public void lengthsAreCountedInCharacters() throws Exception {
         String name = repeated("\ud83d\ude00", 128);
-        assertEquals(name, read("{\"name\": \"" + name + "\"}").name());
+        assertEquals(name, read("{\"name\": \"" + name + "\"}").name);
         assertMalformed("{\"name\": \"" + name + "a\"}", null);
         String id = repeated("\ud83d\ude00", 64);
-        assertEquals(id, read("{\"name\": \"a\", \"id\": \"" + id + "\"}").id());
+        assertEquals(id, read("{\"name\": \"a\", \"id\": \"" + id + "\"}").id);
         assertMalformed("{\"name\": \"a\", \"id\": \"" + id + "a\"}", null);
     }
 
@@ -90,13 +90,13 @@ public final class GeneralMessageTest {
     public void aLineHasAtMostSixteenKibibytes() throws Exception {
         int frame = new GeneralMessage("a", Collections.singletonMap("x", "")).toLine().length;
         GeneralMessage longest = new GeneralMessage("a",
-                Collections.singletonMap("x", repeated("y", LineSplitter.LONGEST_LINE - frame)));
+                Collections.singletonMap("x", repeated("y", LineSplitter.MAX_LINE_BYTES - frame)));
         byte[] line = longest.toLine();
-        assertEquals(LineSplitter.LONGEST_LINE, line.length);
-        assertEquals(longest.data(), GeneralMessage.read(line, line.length).data());
+        assertEquals(LineSplitter.MAX_LINE_BYTES, line.length);
+        assertEquals(longest.data, GeneralMessage.read(line, line.length).data);
         try {
             new GeneralMessage("a", Collections.singletonMap("x",
-                    repeated("y", LineSplitter.LONGEST_LINE - frame + 1))).toLine();
+                    repeated("y", LineSplitter.MAX_LINE_BYTES - frame + 1))).toLine();
             fail("written");
         } catch (IllegalArgumentException fault) {
             assertEquals("a: a line of 16385 bytes, at most 16384", fault.getMessage());
@@ -115,10 +115,10 @@ public final class GeneralMessageTest {
     public void dataCannotBeChangedAtAnyDepth() throws Exception {
         GeneralMessage message = read("{\"name\": \"a\", \"data\": {\"x\": [{}]}}");
         try {
-            fields(((List<?>) message.data().get("x")).get(0)).put("y", 1);
+            fields(((List<?>) message.data.get("x")).get(0)).put("y", 1);
             fail("changed");
         } catch (UnsupportedOperationException expected) {
-            assertEquals("{x=[{}]}", message.data().toString());
+            assertEquals("{x=[{}]}", message.data.toString());
         }
     }
 
@@ -130,10 +130,10 @@ public final class GeneralMessageTest {
             GeneralMessage message = RandomMessage.of(random);
             byte[] line = message.toLine();
             GeneralMessage read = GeneralMessage.read(line, line.length);
-            assertEquals(message.name(), read.name());
-            assertEquals(message.data(), read.data());
-            assertEquals(message.id(), read.id());
-            assertEquals(message.beacon(), read.beacon());
+            assertEquals(message.name, read.name);
+            assertEquals(message.data, read.data);
+            assertEquals(message.id, read.id);
+            assertEquals(message.beacon, read.beacon);
             assertArrayEquals(line, read.toLine());
         }
     }
@@ -160,17 +160,17 @@ public final class GeneralMessageTest {
 
     private static void assertReads(Map<String, Object> vector) throws Exception {
         GeneralMessage message = read((String) vector.get("line"));
-        assertEquals(vector.get("name"), message.name());
-        assertEquals(vector.get("data"), message.data());
-        assertEquals(vector.get("id"), message.id());
-        assertEquals(vector.get("beacon"), message.beacon());
+        assertEquals(vector.get("name"), message.name);
+        assertEquals(vector.get("data"), message.data);
+        assertEquals(vector.get("id"), message.id);
+        assertEquals(vector.get("beacon"), message.beacon);
     }
 
     private static void assertMalformed(String line, String id) {
         try {
-            fail(line + " was read as " + read(line).name());
+            fail(line + " was read as " + read(line).name);
         } catch (MalformedException fault) {
-            assertEquals(line, id, fault.id());
+            assertEquals(line, id, fault.id);
         }
     }
 

@@ -26,10 +26,10 @@ public final class HelloTest {
                 continue;
             }
             Hello hello = read(line, isGround);
-            assertEquals(vector.get("aircraft"), hello.aircraft());
-            assertEquals(vector.get("token"), hello.token());
+            assertEquals(vector.get("aircraft"), hello.aircraft);
+            assertEquals(vector.get("token"), hello.token);
             Object seat = vector.get("seat");
-            assertEquals(seat == null ? null : Seat.ofWord((String) seat), hello.seat());
+            assertEquals(seat == null ? null : ProxyRole.ofWord((String) seat), hello.role);
             if (!line.contains("future")) {
                 assertEquals(line, Vectors.text(hello.toLine()));
             }
@@ -38,8 +38,8 @@ public final class HelloTest {
 
     @Test
     public void aGroundThatNamesNoSeatAsksToCommand() throws Exception {
-        assertEquals(Seat.COMMAND, read("UP1 aircraft=a\n", true).seat());
-        assertNull(read("UP1 aircraft=a", false).seat());
+        assertEquals(ProxyRole.COMMAND, read("UP1 aircraft=a\n", true).role);
+        assertNull(read("UP1 aircraft=a", false).role);
     }
 
     @Test
@@ -66,7 +66,7 @@ public final class HelloTest {
             }
         }
         try {
-            Hello.ofGround("a", Seat.AIR, null);
+            Hello.ofGround("a", ProxyRole.AIR, null);
             fail("made");
         } catch (IllegalArgumentException fault) {
             assertTrue(fault.getMessage(), fault.getMessage().contains("command or to listen"));
@@ -83,16 +83,16 @@ public final class HelloTest {
     public void answersAreReadAndWritten() {
         HelloAnswer taken = answer("UP1 ok aircraft=glider-1 seat=command token=" + TOKEN);
         assertTrue(taken.isAccepted());
-        assertEquals(Seat.COMMAND, taken.seat());
-        assertEquals(TOKEN, taken.token());
-        assertEquals("glider-1", taken.aircraft());
+        assertEquals(ProxyRole.COMMAND, taken.role);
+        assertEquals(TOKEN, taken.token);
+        assertEquals("glider-1", taken.aircraft);
         assertEquals("UP1 ok aircraft=glider-1 seat=command token=" + TOKEN + "\n",
                 Vectors.text(taken.toLine()));
-        assertEquals(Seat.AIR, answer("UP1 ok aircraft=a seat=air token=" + TOKEN).seat());
+        assertEquals(ProxyRole.AIR, answer("UP1 ok aircraft=a seat=air token=" + TOKEN).role);
         HelloAnswer refused = answer("UP1 error code=taken reason=\"the name is in use\"");
         assertFalse(refused.isAccepted());
-        assertEquals("taken", refused.code());
-        assertEquals("the name is in use", refused.reason());
+        assertEquals("taken", refused.code);
+        assertEquals("the name is in use", refused.reason);
         assertEquals("UP1 error code=taken reason=\"the name is in use\"\n",
                 Vectors.text(refused.toLine()));
     }

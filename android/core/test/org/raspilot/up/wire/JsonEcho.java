@@ -21,7 +21,6 @@ public final class JsonEcho {
     private JsonEcho() {
     }
 
-    /** Answers until stdin ends. */
     public static void main(String[] arguments) throws IOException {
         CommandRegistry registry = CommandRegistry.builtin();
         BufferedReader in = new BufferedReader(new InputStreamReader(System.in, "US-ASCII"));
@@ -33,14 +32,14 @@ public final class JsonEcho {
     }
 
     private static Map<String, Object> answer(byte[] line, CommandRegistry registry) {
-        Map<String, Object> answer = new LinkedHashMap<String, Object>();
+        Map<String, Object> answer = new LinkedHashMap<>();
         try {
             GeneralMessage message = GeneralMessage.read(line, line.length);
             answer.put("line", written(message));
             answer.put("invalid", complaint(message, registry));
         } catch (MalformedException fault) {
             answer.put("malformed", fault.reason());
-            answer.put("id", fault.id());
+            answer.put("id", fault.id);
         }
         return answer;
     }

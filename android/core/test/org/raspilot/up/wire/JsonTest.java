@@ -80,9 +80,9 @@ public final class JsonTest {
     public void textIsWrittenAsPythonWritesIt() {
         assertEquals("\"\\\"\\\\/\\b\\f\\n\\r\\t\\u0000\\u001f \\u007f~\\u010d\\ud83d\\ude00\"",
                 Json.write("\"\\/\b\f\n\r\t\u0000\u001f \u007f~\u010d\ud83d\ude00"));
-        Map<String, Object> fields = new LinkedHashMap<String, Object>();
+        Map<String, Object> fields = new LinkedHashMap<>();
         fields.put("a", Arrays.asList(1, 2L, true, null));
-        fields.put("b", new LinkedHashMap<String, Object>());
+        fields.put("b", new LinkedHashMap<>());
         fields.put("c", Collections.emptyList());
         assertEquals("{\"a\": [1, 2, true, null], \"b\": {}, \"c\": []}", Json.write(fields));
     }
@@ -122,7 +122,7 @@ public final class JsonTest {
 
     @Test
     public void whatCannotBeWrittenIsNamedByItsPlace() {
-        Map<String, Object> fields = new LinkedHashMap<String, Object>();
+        Map<String, Object> fields = new LinkedHashMap<>();
         fields.put("good", 1);
         fields.put("x", Arrays.<Object>asList(1, Double.NaN));
         assertUnwritable("x[1] is nan", fields);

@@ -71,7 +71,7 @@ public final class LineSplitterTest {
             LineSplitter whole = new LineSplitter(8);
             LineSplitter pieces = new LineSplitter(8);
             List<String> wanted = feed(whole, stream.toString());
-            List<String> got = new ArrayList<String>();
+            List<String> got = new ArrayList<>();
             int at = 0;
             while (at < stream.length()) {
                 int to = Math.min(stream.length(), at + 1 + random.nextInt(10));
@@ -84,7 +84,7 @@ public final class LineSplitterTest {
     }
 
     private static List<String> feed(LineSplitter splitter, String text) {
-        List<String> lines = new ArrayList<String>();
+        List<String> lines = new ArrayList<>();
         byte[] bytes = Vectors.bytes(text);
         for (byte[] line : splitter.feed(bytes, bytes.length)) {
             lines.add(Vectors.text(line));

@@ -15,7 +15,7 @@ public final class OrientationDecoder {
 
     /** Returns the frames that these bytes complete, in order. */
     public List<OrientationFrame> feed(byte[] bytes, int length) {
-        List<OrientationFrame> frames = new ArrayList<OrientationFrame>();
+        List<OrientationFrame> frames = new ArrayList<>();
         int at = 0;
         while (at < length) {
             int taken = Math.min(OrientationFrame.SIZE - heldLength, length - at);

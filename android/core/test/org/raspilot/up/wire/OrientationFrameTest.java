@@ -83,7 +83,7 @@ public final class OrientationFrameTest {
                 int to = Math.min(stream.length, at + 1 + random.nextInt(80));
                 for (OrientationFrame frame : decoder.feed(Arrays.copyOfRange(stream, at, to),
                         to - at)) {
-                    assertTrue(frame.rollDeg() % 7 != 0);
+                    assertTrue(frame.rollDeg % 7 != 0);
                     frames++;
                 }
                 at = to;
@@ -106,8 +106,8 @@ public final class OrientationFrameTest {
     }
 
     private static float[] values(OrientationFrame frame) {
-        return new float[] {frame.rollDeg(), frame.pitchDeg(), frame.yawDeg(),
-            frame.rollRateDegS(), frame.pitchRateDegS(), frame.yawRateDegS()};
+        return new float[] {frame.rollDeg, frame.pitchDeg, frame.yawDeg,
+            frame.rollRateDegS, frame.pitchRateDegS, frame.yawRateDegS};
     }
 
     private static byte[] bytes(String hex) {

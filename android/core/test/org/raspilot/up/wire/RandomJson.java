@@ -33,7 +33,7 @@ final class RandomJson {
             case 7:
                 return fields(random, depth);
             default:
-                List<Object> items = new ArrayList<Object>();
+                List<Object> items = new ArrayList<>();
                 for (int i = random.nextInt(4); i > 0; i--) {
                     items.add(value(random, depth - 1));
                 }
@@ -43,7 +43,7 @@ final class RandomJson {
 
     /** Returns an object that is nested at most so deep. */
     static Map<String, Object> fields(Random random, int depth) {
-        Map<String, Object> fields = new LinkedHashMap<String, Object>();
+        Map<String, Object> fields = new LinkedHashMap<>();
         for (int i = random.nextInt(4); i > 0; i--) {
             fields.put(text(random, 5), value(random, depth - 1));
         }

@@ -21,7 +21,7 @@ public final class Vectors {
     public static List<Map<String, Object>> read(String name) throws Exception {
         Map<String, Object> file = (Map<String, Object>) Json.parse(
                 text(new File(System.getProperty("vectors"), name)));
-        List<Map<String, Object>> vectors = new ArrayList<Map<String, Object>>();
+        List<Map<String, Object>> vectors = new ArrayList<>();
         for (Object vector : (List<Object>) file.get("vectors")) {
             vectors.add((Map<String, Object>) vector);
         }

@@ -14,7 +14,7 @@ import org.raspilot.up.airborne.AirborneListener;
 import org.raspilot.up.airborne.AirborneSettings;
 import org.raspilot.up.airborne.AirborneStatus;
 import org.raspilot.up.loop.SelectorLoop;
-import org.raspilot.up.net.Place;
+import org.raspilot.up.net.Endpoint;
 import org.raspilot.up.providers.Mounting;
 
 /**
@@ -27,7 +27,6 @@ final class AirborneRun {
         /** Registers handlers and providers; on the loop, before the start. */
         void onUp(Up up);
 
-        /** Takes the current status. */
         void onStatus(AirborneStatus status);
 
         /** Takes a line of the log. */
@@ -47,7 +46,7 @@ final class AirborneRun {
     private final AndroidSpeaker speaker;
     private final AwakeLocks locks;
     private final NetworkWatch network;
-    private final WifiWay way;
+    private final WifiBinding way;
     private final Airborne airborne;
     private boolean isEnded;
 
@@ -56,35 +55,20 @@ final class AirborneRun {
      *
      * @throws IllegalStateException when this process has another Up: nothing runs then
      */
-    AirborneRun(Context context, AirborneSettings settings, boolean isOnWifi, SourceTexts texts,
+    AirborneRun(Context context, AirborneSettings settings, boolean isOnWifi, SensorTexts texts,
             Host host) throws IOException {
         this.host = host;
         loop = new SelectorLoop("up", new Faults("up"), new SleepClock());
         loop.start();
         sensorsThread = new HandlerThread("up sensors", Process.THREAD_PRIORITY_FOREGROUND);
         sensorsThread.start();
-        ProblemListener problems = new ProblemListener() {
-            @Override
-            public void onProblem(String sentence) {
-                tellEvent(sentence);
-            }
-        };
+        ProblemListener problems = sentence -> reportEvent(sentence);
         AndroidSources sensors = new AndroidSources(context, sensorsThread.getLooper(), loop,
-                texts, problems, new Declination(new Declination.Listener() {
-                    @Override
-                    public void onDeclination(double deg) {
-                        turnNorth(deg);
-                    }
-                }));
+                texts, problems, new Declination(deg -> setDeclination(deg)));
         speaker = new AndroidSpeaker(context, texts, problems);
         locks = new AwakeLocks(context);
-        way = new WifiWay(new ProcessWifi(context), isOnWifi, settings.host());
-        network = new NetworkWatch(context, new Runnable() {
-            @Override
-            public void run() {
-                comeBack();
-            }
-        });
+        way = new WifiBinding(new ProcessWifi(context), isOnWifi, settings.host);
+        network = new NetworkWatch(context, () -> onNetworkChanged());
         airborne = new Airborne(loop, settings, sensors, speaker, new Listener(), new Random());
         begin();
     }
@@ -99,13 +83,10 @@ final class AirborneRun {
             throw another;
         }
         locks.acquire();
-        loop.post(new Runnable() {
-            @Override
-            public void run() {
-                setUp();
-                airborne.start();
-                tick();
-            }
+        loop.post(() -> {
+            setUp();
+            airborne.start();
+            tick();
         });
         network.begin();
     }
@@ -116,7 +97,7 @@ final class AirborneRun {
             host.onUp(airborne.up());
         } catch (RuntimeException fault) {
             Log.e(TAG, "the application's own set-up failed", fault);
-            tellEvent("The application's own set-up failed: " + fault);
+            reportEvent("The application's own set-up failed: " + fault);
         }
     }
 
@@ -126,16 +107,13 @@ final class AirborneRun {
         Up.setInstance(null);
         network.end();
         speaker.end();
-        loop.post(new Runnable() {
-            @Override
-            public void run() {
-                try {
-                    airborne.stop();
-                } finally {
-                    way.end();
-                    sensorsThread.quit();
-                    loop.stop();
-                }
+        loop.post(() -> {
+            try {
+                airborne.stop();
+            } finally {
+                way.end();
+                sensorsThread.quit();
+                loop.stop();
             }
         });
         locks.release();
@@ -143,126 +121,76 @@ final class AirborneRun {
 
     /** Restarts the location, as after a permission was granted or revoked. */
     void restart(final String provider) {
-        loop.post(new Runnable() {
-            @Override
-            public void run() {
-                airborne.providers().restart(provider);
-            }
-        });
+        loop.post(() -> airborne.providers().restart(provider));
     }
 
-    /** Takes another mounting. */
     void setMounting(final Mounting mounting) {
-        loop.post(new Runnable() {
-            @Override
-            public void run() {
-                airborne.setMounting(mounting);
-            }
-        });
+        loop.post(() -> airborne.setMounting(mounting));
     }
 
     /** Sets the altitude at the phone's position to zero. */
     void zeroAltitudeHere() {
-        loop.post(new Runnable() {
-            @Override
-            public void run() {
-                try {
-                    tellPressure(airborne.zeroAltitudeHere());
-                } catch (IllegalStateException refusal) {
-                    tellEvent(refusal.getMessage());
-                }
+        loop.post(() -> {
+            try {
+                reportPressure(airborne.zeroAltitudeHere());
+            } catch (IllegalStateException refusal) {
+                reportEvent(refusal.getMessage());
             }
         });
     }
 
     /** Takes the pressure at altitude zero, hPa. */
     void setReferencePressureHPa(final double hPa) {
-        loop.post(new Runnable() {
-            @Override
-            public void run() {
-                airborne.setReferencePressureHPa(hPa);
-            }
-        });
+        loop.post(() -> airborne.setReferencePressureHPa(hPa));
     }
 
-    private void turnNorth(final double deg) {
-        loop.post(new Runnable() {
-            @Override
-            public void run() {
-                airborne.setDeclinationDeg(deg);
-            }
-        });
+    private void setDeclination(final double deg) {
+        loop.post(() -> airborne.setDeclinationDeg(deg));
     }
 
-    private void comeBack() {
-        loop.post(new Runnable() {
-            @Override
-            public void run() {
-                way.networksChanged();
-                lookAtWay(airborne.status());
-                airborne.networkChanged();
-            }
+    private void onNetworkChanged() {
+        loop.post(() -> {
+            way.networksChanged();
+            checkBinding(airborne.status());
+            airborne.networkChanged();
         });
     }
 
     private void tick() {
-        loop.schedule(STATUS_MS, new Runnable() {
-            @Override
-            public void run() {
-                tick();
-            }
-        });
+        loop.schedule(STATUS_MS, () -> tick());
         AirborneStatus status = airborne.status();
-        if (lookAtWay(status)) {
+        if (checkBinding(status)) {
             airborne.networkChanged();
         }
-        tellStatus(status);
+        reportStatus(status);
     }
 
     /** Returns whether the network path has changed. */
-    private boolean lookAtWay(AirborneStatus status) {
-        return way.look(loop.nowMs(), status.isConnected() ? status.place().host() : null);
+    private boolean checkBinding(AirborneStatus status) {
+        return way.check(loop.nowMs(), status.isConnected ? status.endpoint.host : null);
     }
 
-    private void tellStatus() {
-        tellStatus(airborne.status());
+    private void reportStatus() {
+        reportStatus(airborne.status());
     }
 
-    private void tellStatus(final AirborneStatus status) {
-        tell(new Runnable() {
-            @Override
-            public void run() {
-                host.onStatus(status);
-            }
-        });
+    private void reportStatus(final AirborneStatus status) {
+        runOnMain(() -> host.onStatus(status));
     }
 
-    private void tellEvent(final String sentence) {
-        tell(new Runnable() {
-            @Override
-            public void run() {
-                host.onEvent(sentence);
-            }
-        });
+    private void reportEvent(final String sentence) {
+        runOnMain(() -> host.onEvent(sentence));
     }
 
-    private void tellPressure(final double hPa) {
-        tell(new Runnable() {
-            @Override
-            public void run() {
-                host.onReferencePressure(hPa);
-            }
-        });
+    private void reportPressure(final double hPa) {
+        runOnMain(() -> host.onReferencePressure(hPa));
     }
 
     /** Runs a call on the main thread, unless the run has ended by then. */
-    private void tell(final Runnable call) {
-        main.post(new Runnable() {
-            @Override
-            public void run() {
-                if (!isEnded) {
-                    call.run();
-                }
+    private void runOnMain(final Runnable call) {
+        main.post(() -> {
+            if (!isEnded) {
+                call.run();
             }
         });
     }
@@ -270,25 +198,25 @@ final class AirborneRun {
     /** Receives the events of the airborne side on the loop. */
     private final class Listener implements AirborneListener {
         @Override
-        public void onConnected(Place place) {
-            tellStatus();
-            tellEvent(airborne.status().linkText());
+        public void onConnected(Endpoint place) {
+            reportStatus();
+            reportEvent(airborne.status().linkText);
         }
 
         @Override
         public void onDisconnected(String reason) {
-            tellStatus();
-            tellEvent(reason);
+            reportStatus();
+            reportEvent(reason);
         }
 
         @Override
         public void onPanic(long delayMs) {
-            tellStatus();
+            reportStatus();
         }
 
         @Override
-        public void onEvent(String sentence) {
-            tellEvent(sentence);
+        public void onEvent(String code, String sentence) {
+            reportEvent(sentence);
         }
     }
 }

@@ -31,16 +31,11 @@ public final class AndroidSources implements Sensors {
      * @param looper whose thread the system calls on
      * @param fixes receives each fix in addition to its provider
      */
-    public AndroidSources(Context context, Looper looper, final Loop loop, SourceTexts texts,
+    public AndroidSources(Context context, Looper looper, final Loop loop, SensorTexts texts,
             ProblemListener problems, FixListener fixes) {
         Context lasting = context.getApplicationContext();
-        Executor posting = new Executor() {
-            @Override
-            public void execute(Runnable call) {
-                loop.post(call);
-            }
-        };
-        SensorDesk desk = new SensorDesk(lasting, looper);
+        Executor posting = call -> loop.post(call);
+        SensorAccess desk = new SensorAccess(lasting, looper);
         location = new LocationSource(lasting, looper, posting, texts, problems, fixes);
         rotation = rotation(desk, posting, texts, problems);
         rotationRate = new GyroscopeSource(desk, posting, texts, problems);
@@ -49,7 +44,7 @@ public final class AndroidSources implements Sensors {
     }
 
     /** Returns the best source of a phone; its own fusion includes north and its gyroscope. */
-    static SensorSource<Rotation> rotation(SensorDesk desk, Executor loop, SourceTexts texts,
+    static SensorSource<Rotation> rotation(SensorAccess desk, Executor loop, SensorTexts texts,
             ProblemListener problems) {
         SensorSource<Rotation> vector = new VectorSource(desk, loop, texts, problems);
         return vector.isPresent() ? vector : new FieldSource(desk, loop, texts, problems);

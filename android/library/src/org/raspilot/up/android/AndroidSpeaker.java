@@ -11,10 +11,10 @@ import org.raspilot.up.airborne.Speaker;
 
 /** Speaks texts by the phone's own text to speech; texts wait until it is ready. */
 final class AndroidSpeaker implements Speaker, TextToSpeech.OnInitListener {
-    private static final int MOST_WAITING = 5;
+    private static final int MAX_WAITING = 5;
 
     private final Handler main = new Handler(Looper.getMainLooper());
-    private final List<String> waiting = new ArrayList<String>();
+    private final List<String> waiting = new ArrayList<>();
     private final ProblemListener problems;
     private final String absence;
     private TextToSpeech speech;
@@ -22,31 +22,21 @@ final class AndroidSpeaker implements Speaker, TextToSpeech.OnInitListener {
     private boolean isEnded;
 
     /** Starts to initialize text to speech; on the main thread. */
-    AndroidSpeaker(Context context, SourceTexts texts, ProblemListener problems) {
+    AndroidSpeaker(Context context, SensorTexts texts, ProblemListener problems) {
         this.problems = problems;
-        absence = texts.of(Lack.SPEECH);
+        absence = texts.of(SensorProblem.SPEECH);
         speech = new TextToSpeech(context.getApplicationContext(), this);
     }
 
     @Override
     public void speak(final String text) {
-        main.post(new Runnable() {
-            @Override
-            public void run() {
-                say(text);
-            }
-        });
+        main.post(() -> speakNow(text));
     }
 
     @Override
     public void onInit(final int status) {
         // Some systems call while the constructor still runs.
-        main.post(new Runnable() {
-            @Override
-            public void run() {
-                begin(status == TextToSpeech.SUCCESS);
-            }
-        });
+        main.post(() -> begin(status == TextToSpeech.SUCCESS));
     }
 
     /** Falls silent for good; on the main thread. */
@@ -70,18 +60,18 @@ final class AndroidSpeaker implements Speaker, TextToSpeech.OnInitListener {
             problems.onProblem(absence);
         }
         for (String text : waiting) {
-            say(text);
+            speakNow(text);
         }
         waiting.clear();
     }
 
-    private void say(String text) {
+    private void speakNow(String text) {
         if (isEnded || speech == null) {
             return;
         }
         if (isReady) {
-            speech.speak(text, TextToSpeech.QUEUE_ADD, new HashMap<String, String>());
-        } else if (waiting.size() < MOST_WAITING) {
+            speech.speak(text, TextToSpeech.QUEUE_ADD, new HashMap<>());
+        } else if (waiting.size() < MAX_WAITING) {
             waiting.add(text);
         }
     }

@@ -6,8 +6,8 @@ import org.raspilot.up.providers.Pressure;
 
 /** The air's pressure, by the phone's barometer. */
 final class BarometerSource extends HardwareSource<Pressure> {
-    BarometerSource(SensorDesk desk, Executor loop, SourceTexts texts, ProblemListener problems) {
-        super(desk, Sensor.TYPE_PRESSURE, loop, texts, Lack.BAROMETER, problems);
+    BarometerSource(SensorAccess desk, Executor loop, SensorTexts texts, ProblemListener problems) {
+        super(desk, Sensor.TYPE_PRESSURE, loop, texts, SensorProblem.BAROMETER, problems);
     }
 
     @Override

@@ -26,12 +26,11 @@ import org.raspilot.up.providers.Mounting;
  * without creating it.
  */
 public abstract class BaseUpService extends Service {
-    /** Stops the service. */
     public static final String ACTION_STOP = "org.raspilot.up.android.STOP";
 
-    private final List<UpWatcher> watchers = new ArrayList<UpWatcher>();
+    private final List<UpWatcher> watchers = new ArrayList<>();
     private final Airside airside = new Airside();
-    private Notice notice;
+    private ForegroundNotification notice;
     private AirborneRun run;
     private AirborneStatus newest;
 
@@ -65,10 +64,10 @@ public abstract class BaseUpService extends Service {
     protected abstract boolean isOnWifi();
 
     /** Returns the texts for missing parts of the phone. */
-    protected abstract SourceTexts sourceTexts();
+    protected abstract SensorTexts sourceTexts();
 
     /** Returns the texts and icons of the notification. */
-    protected abstract NoticeTexts noticeTexts();
+    protected abstract NotificationTexts noticeTexts();
 
     /** Returns the notification's line for a status; null: nothing is known yet. */
     protected abstract String noticeText(AirborneStatus status);
@@ -100,7 +99,7 @@ public abstract class BaseUpService extends Service {
     @Override
     public void onCreate() {
         super.onCreate();
-        notice = new Notice(this, noticeTexts());
+        notice = new ForegroundNotification(this, noticeTexts());
     }
 
     @Override
@@ -163,7 +162,7 @@ public abstract class BaseUpService extends Service {
         public void onStatus(AirborneStatus status) {
             newest = status;
             notice.show(noticeText(status));
-            for (UpWatcher watcher : new ArrayList<UpWatcher>(watchers)) {
+            for (UpWatcher watcher : new ArrayList<>(watchers)) {
                 watcher.onStatus(status);
             }
         }
@@ -191,7 +190,6 @@ public abstract class BaseUpService extends Service {
             }
         }
 
-        /** Takes a watcher away. */
         public void remove(UpWatcher watcher) {
             watchers.remove(watcher);
         }

@@ -16,15 +16,15 @@ final class BatterySource extends BroadcastReceiver implements SensorSource<Batt
     private final Context context;
     private final Handler handler;
     private final String absence;
-    private final Handover<BatteryLevel> handover;
+    private final LatestReading<BatteryLevel> handover;
     private boolean isListening;
 
     /** Takes a context that outlives every subscription. */
-    BatterySource(Context context, Handler handler, Executor loop, SourceTexts texts) {
+    BatterySource(Context context, Handler handler, Executor loop, SensorTexts texts) {
         this.context = context;
         this.handler = handler;
-        absence = texts.of(Lack.BATTERY);
-        handover = new Handover<BatteryLevel>(loop);
+        absence = texts.of(SensorProblem.BATTERY);
+        handover = new LatestReading<>(loop);
     }
 
     @Override
@@ -45,7 +45,7 @@ final class BatterySource extends BroadcastReceiver implements SensorSource<Batt
 
     @Override
     public void subscribe(long periodMs, SensorListener<BatteryLevel> listener) {
-        handover.to(listener);
+        handover.setListener(listener);
         if (!isListening) {
             isListening = true;
             context.registerReceiver(this, filter(), null, handler);
@@ -54,7 +54,7 @@ final class BatterySource extends BroadcastReceiver implements SensorSource<Batt
 
     @Override
     public void unsubscribe() {
-        handover.to(null);
+        handover.setListener(null);
         if (isListening) {
             isListening = false;
             context.unregisterReceiver(this);
@@ -65,7 +65,7 @@ final class BatterySource extends BroadcastReceiver implements SensorSource<Batt
     public void onReceive(Context unused, Intent intent) {
         BatteryLevel level = level(intent);
         if (level != null) {
-            handover.give(level);
+            handover.put(level);
         }
     }
 

@@ -5,7 +5,6 @@ import org.raspilot.up.providers.Fix;
 
 /** Reports the magnetic declination along the flight, by Android's model. */
 final class Declination implements FixListener {
-    /** Takes the angle. */
     interface Listener {
         /** Takes degrees from magnetic to true north, east positive; on any thread. */
         void onDeclination(double deg);
@@ -27,14 +26,14 @@ final class Declination implements FixListener {
             return;
         }
         told = fix;
-        float altitudeM = fix.altitudeM() == null ? 0 : fix.altitudeM().floatValue();
-        GeomagneticField field = new GeomagneticField((float) fix.latitudeDeg(),
-                (float) fix.longitudeDeg(), altitudeM, System.currentTimeMillis());
+        float altitudeM = fix.altitudeM == null ? 0 : fix.altitudeM.floatValue();
+        GeomagneticField field = new GeomagneticField((float) fix.latitudeDeg,
+                (float) fix.longitudeDeg, altitudeM, System.currentTimeMillis());
         listener.onDeclination(field.getDeclination());
     }
 
     private static boolean isNear(Fix fix, Fix other) {
-        return Math.abs(fix.latitudeDeg() - other.latitudeDeg()) < NEAR_DEG
-                && Math.abs(fix.longitudeDeg() - other.longitudeDeg()) < NEAR_DEG;
+        return Math.abs(fix.latitudeDeg - other.latitudeDeg) < NEAR_DEG
+                && Math.abs(fix.longitudeDeg - other.longitudeDeg) < NEAR_DEG;
     }
 }

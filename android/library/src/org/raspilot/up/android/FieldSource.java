@@ -18,25 +18,25 @@ import org.raspilot.up.providers.SensorSource;
 final class FieldSource implements SensorSource<Rotation>, SensorEventListener {
     private static final double SMOOTH_MS = 200;
 
-    private final SensorDesk desk;
+    private final SensorAccess desk;
     private final Sensor accelerometer;
     private final Sensor magnetometer;
     private final String absence;
     private final String refusal;
     private final BadReadings bad;
-    private final Handover<Rotation> handover;
+    private final LatestReading<Rotation> handover;
     private final ProblemListener problems;
-    private final Smooth gravity = new Smooth(SMOOTH_MS);
-    private final Smooth field = new Smooth(SMOOTH_MS);
+    private final LowPass gravity = new LowPass(SMOOTH_MS);
+    private final LowPass field = new LowPass(SMOOTH_MS);
     private final float[] matrix = new float[9];
 
-    FieldSource(SensorDesk desk, Executor loop, SourceTexts texts, ProblemListener problems) {
+    FieldSource(SensorAccess desk, Executor loop, SensorTexts texts, ProblemListener problems) {
         this.desk = desk;
         accelerometer = desk.find(Sensor.TYPE_ACCELEROMETER);
         magnetometer = desk.find(Sensor.TYPE_MAGNETIC_FIELD);
-        absence = texts.of(Lack.ROTATION);
-        refusal = texts.of(Lack.REFUSED);
-        handover = new Handover<Rotation>(loop);
+        absence = texts.of(SensorProblem.ROTATION);
+        refusal = texts.of(SensorProblem.REFUSED);
+        handover = new LatestReading<>(loop);
         this.problems = problems;
         bad = new BadReadings(problems, refusal);
     }
@@ -56,39 +56,39 @@ final class FieldSource implements SensorSource<Rotation>, SensorEventListener {
         if (!isPresent()) {
             throw new IllegalStateException(absence);
         }
-        desk.forget(this);
-        handover.to(listener);
+        desk.unregister(this);
+        handover.setListener(listener);
         listen(accelerometer, periodMs);
         listen(magnetometer, periodMs);
     }
 
     @Override
     public void unsubscribe() {
-        desk.forget(this);
-        handover.to(null);
+        desk.unregister(this);
+        handover.setListener(null);
     }
 
     @Override
     public void onSensorChanged(SensorEvent event) {
         try {
-            take(event);
+            update(event);
         } catch (RuntimeException wrong) {
             // Catches every exception: on the system's thread it would end the flight.
             bad.add(event.sensor.getName(), wrong);
         }
     }
 
-    private void take(SensorEvent event) {
+    private void update(SensorEvent event) {
         long timeMs = TimeUnit.NANOSECONDS.toMillis(event.timestamp);
         if (event.sensor.getType() == Sensor.TYPE_MAGNETIC_FIELD) {
-            field.take(event.values, timeMs);
+            field.update(event.values, timeMs);
             return;
         }
-        gravity.take(event.values, timeMs);
+        gravity.update(event.values, timeMs);
         boolean isKnown = gravity.isKnown() && field.isKnown() && SensorManager.getRotationMatrix(
                 matrix, null, gravity.values(), field.values());
         if (isKnown) {
-            handover.give(new Rotation(RotationMatrix.quaternion(matrix), timeMs));
+            handover.put(new Rotation(RotationMatrix.quaternion(matrix), timeMs));
         }
     }
 
@@ -97,7 +97,7 @@ final class FieldSource implements SensorSource<Rotation>, SensorEventListener {
     }
 
     private void listen(Sensor sensor, long periodMs) {
-        if (!desk.listen(this, sensor, periodMs)) {
+        if (!desk.register(this, sensor, periodMs)) {
             problems.onProblem(refusal + ": " + sensor.getName());
         }
     }

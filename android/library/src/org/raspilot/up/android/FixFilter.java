@@ -6,7 +6,7 @@ package org.raspilot.up.android;
  */
 final class FixFilter {
     /** A fix older than this, ms, is not usable in flight. */
-    static final long OLDEST_MS = 2000;
+    static final long MAX_AGE_MS = 2000;
 
     private long knownBeforeMs = Long.MIN_VALUE;
 
@@ -27,6 +27,6 @@ final class FixFilter {
      * @param timeMs the fix's own time, UTC
      */
     boolean takes(long ageMs, long timeMs) {
-        return ageMs <= OLDEST_MS && timeMs != knownBeforeMs;
+        return ageMs <= MAX_AGE_MS && timeMs != knownBeforeMs;
     }
 }

@@ -8,9 +8,8 @@ import java.io.IOException;
 import java.util.Random;
 import org.raspilot.up.Up;
 import org.raspilot.up.commands.BaseCommand;
-import org.raspilot.up.commands.BaseCommandHandler;
+import org.raspilot.up.commands.CommandHandler;
 import org.raspilot.up.commands.HandlerFaultListener;
-import org.raspilot.up.ground.Answer;
 import org.raspilot.up.ground.AnswerListener;
 import org.raspilot.up.ground.GroundListener;
 import org.raspilot.up.ground.GroundSettings;
@@ -27,7 +26,6 @@ import org.raspilot.up.loop.SelectorLoop;
  * delivered.
  */
 final class GroundRun implements GroundListener, HandlerFaultListener {
-    /** Registers an application's own handlers. */
     interface Setup {
         /** Takes the registry for handlers; on the loop, before the start. */
         void onUp(Up up, TelemetrySource telemetry);
@@ -35,7 +33,6 @@ final class GroundRun implements GroundListener, HandlerFaultListener {
 
     /** Something to do with the ground side on its loop. */
     interface Call {
-        /** Does it. */
         void with(GroundSide side);
     }
 
@@ -45,7 +42,7 @@ final class GroundRun implements GroundListener, HandlerFaultListener {
     private final SelectorLoop loop;
     private final GroundSide side;
     private final NetworkWatch network;
-    private final WifiWay way;
+    private final WifiBinding way;
     private final String host;
     private final GroundView view;
     private final Up up;
@@ -60,22 +57,14 @@ final class GroundRun implements GroundListener, HandlerFaultListener {
         up = new Up(loop, this);
         side = new GroundSide(loop, settings, new PreferencesTokenStore(context),
                 up.commandExecutor(), this, new Random());
-        way = new WifiWay(new ProcessWifi(context), isOnWifi, settings.host());
-        host = settings.host();
-        network = new NetworkWatch(context, new Runnable() {
-            @Override
-            public void run() {
-                comeBack();
-            }
-        });
-        loop.post(new Runnable() {
-            @Override
-            public void run() {
-                setUp(setup);
-                side.start();
-                onStatus(side.status());
-                onChanged();
-            }
+        way = new WifiBinding(new ProcessWifi(context), isOnWifi, settings.host);
+        host = settings.host;
+        network = new NetworkWatch(context, () -> onNetworkChanged());
+        loop.post(() -> {
+            setUp(setup);
+            side.start();
+            onStatus(side.status());
+            onChanged();
         });
         network.begin();
     }
@@ -93,15 +82,12 @@ final class GroundRun implements GroundListener, HandlerFaultListener {
     void end() {
         isEnded = true;
         network.end();
-        loop.post(new Runnable() {
-            @Override
-            public void run() {
-                try {
-                    side.stop();
-                } finally {
-                    way.end();
-                    loop.stop();
-                }
+        loop.post(() -> {
+            try {
+                side.stop();
+            } finally {
+                way.end();
+                loop.stop();
             }
         });
     }
@@ -113,42 +99,27 @@ final class GroundRun implements GroundListener, HandlerFaultListener {
 
     /** Does something with the ground side on its loop. */
     void post(final Call call) {
-        loop.post(new Runnable() {
-            @Override
-            public void run() {
-                call.with(side);
-            }
-        });
+        loop.post(() -> call.with(side));
     }
 
     /** Returns a listener for the loop that hands the answer to one on the main thread. */
     AnswerListener onMain(final AnswerListener listener) {
-        return new AnswerListener() {
-            @Override
-            public void onAnswer(final Answer answer) {
-                main.post(new Runnable() {
-                    @Override
-                    public void run() {
-                        listener.onAnswer(answer);
-                    }
-                });
-            }
-        };
+        return answer -> main.post(() -> listener.onAnswer(answer));
     }
 
     @Override
     public void onTelemetry(Telemetry telemetry) {
         if (!isEnded) {
-            view.take(telemetry);
+            view.update(telemetry);
         }
     }
 
     @Override
     public void onStatus(GroundStatus status) {
         if (!isEnded) {
-            view.take(status);
-            if (lookAtWay(status)) {
-                comeBack();
+            view.update(status);
+            if (checkBinding(status)) {
+                onNetworkChanged();
             }
         }
     }
@@ -156,30 +127,27 @@ final class GroundRun implements GroundListener, HandlerFaultListener {
     @Override
     public void onChanged() {
         if (!isEnded) {
-            view.take(side.track().snapshot(), side.events().snapshot(),
+            view.update(side.track().snapshot(), side.events().snapshot(),
                     side.alarms().snapshot(), side.gains().snapshot());
         }
     }
 
     @Override
-    public void onHandlerFailed(BaseCommandHandler handler, BaseCommand command,
+    public void onHandlerFailed(CommandHandler handler, BaseCommand command,
             Throwable fault) {
         Log.e(TAG, handler.getClass().getName() + " failed at " + command.name(), fault);
     }
 
     /** Returns whether the network path has changed. */
-    private boolean lookAtWay(GroundStatus status) {
-        return way.look(loop.nowMs(), status.link() == LinkState.OPEN ? host : null);
+    private boolean checkBinding(GroundStatus status) {
+        return way.check(loop.nowMs(), status.link == LinkState.OPEN ? host : null);
     }
 
-    private void comeBack() {
-        post(new Call() {
-            @Override
-            public void with(GroundSide ground) {
-                way.networksChanged();
-                lookAtWay(ground.status());
-                ground.reconnectNow();
-            }
+    private void onNetworkChanged() {
+        post(ground -> {
+            way.networksChanged();
+            checkBinding(ground.status());
+            ground.reconnectNow();
         });
     }
 }

@@ -6,7 +6,7 @@ import java.util.ArrayList;
 import java.util.List;
 import org.raspilot.up.ground.Alarms;
 import org.raspilot.up.ground.EventLog;
-import org.raspilot.up.ground.GainsDesk;
+import org.raspilot.up.ground.GainsService;
 import org.raspilot.up.ground.GroundStatus;
 import org.raspilot.up.ground.Telemetry;
 import org.raspilot.up.ground.Track;
@@ -17,18 +17,18 @@ import org.raspilot.up.ground.Track;
  */
 final class GroundView implements Runnable {
     private final Handler main = new Handler(Looper.getMainLooper());
-    private final List<GroundWatcher> watchers = new ArrayList<GroundWatcher>();
+    private final List<GroundWatcher> watchers = new ArrayList<>();
     private final Object lock = new Object();
     private boolean isPosted;
     private boolean isTelemetryNew;
     private boolean isStatusNew;
     private boolean isChanged;
-    private Telemetry telemetry = Telemetry.NOTHING;
+    private Telemetry telemetry = Telemetry.EMPTY;
     private GroundStatus status;
     private Track.Snapshot track;
     private EventLog.Snapshot events;
     private Alarms.Snapshot alarms;
-    private GainsDesk.Snapshot gains;
+    private GainsService.Snapshot gains;
 
     /** Adds a watcher; on the main thread. */
     void add(GroundWatcher watcher) {
@@ -42,7 +42,7 @@ final class GroundView implements Runnable {
         watchers.remove(watcher);
     }
 
-    void take(Telemetry newest) {
+    void update(Telemetry newest) {
         synchronized (lock) {
             telemetry = newest;
             isTelemetryNew = true;
@@ -50,7 +50,7 @@ final class GroundView implements Runnable {
         }
     }
 
-    void take(GroundStatus newest) {
+    void update(GroundStatus newest) {
         synchronized (lock) {
             status = newest;
             isStatusNew = true;
@@ -58,8 +58,8 @@ final class GroundView implements Runnable {
         }
     }
 
-    void take(Track.Snapshot newTrack, EventLog.Snapshot newEvents, Alarms.Snapshot newAlarms,
-            GainsDesk.Snapshot newGains) {
+    void update(Track.Snapshot newTrack, EventLog.Snapshot newEvents, Alarms.Snapshot newAlarms,
+            GainsService.Snapshot newGains) {
         synchronized (lock) {
             track = newTrack;
             events = newEvents;
@@ -71,9 +71,9 @@ final class GroundView implements Runnable {
     }
 
     /** Clears everything, as before another link; the watchers are notified. */
-    void forget() {
+    void clear() {
         synchronized (lock) {
-            telemetry = Telemetry.NOTHING;
+            telemetry = Telemetry.EMPTY;
             status = null;
             track = null;
             events = null;
@@ -115,7 +115,7 @@ final class GroundView implements Runnable {
         }
     }
 
-    GainsDesk.Snapshot gains() {
+    GainsService.Snapshot gains() {
         synchronized (lock) {
             return gains;
         }
@@ -135,12 +135,13 @@ final class GroundView implements Runnable {
             isChanged = false;
             isPosted = false;
         }
-        for (GroundWatcher watcher : new ArrayList<GroundWatcher>(watchers)) {
-            tell(watcher, newStatus, newTelemetry, isOtherNew);
+        for (GroundWatcher watcher : new ArrayList<>(watchers)) {
+            notifyWatcher(watcher, newStatus, newTelemetry, isOtherNew);
         }
     }
 
-    private static void tell(GroundWatcher watcher, GroundStatus status, Telemetry telemetry,
+    private static void notifyWatcher(GroundWatcher watcher, GroundStatus status,
+            Telemetry telemetry,
             boolean isOtherNew) {
         if (status != null) {
             watcher.onStatus(status);

@@ -6,8 +6,8 @@ import org.raspilot.up.providers.RotationRate;
 
 /** How quickly the phone turns, by its gyroscope. */
 final class GyroscopeSource extends HardwareSource<RotationRate> {
-    GyroscopeSource(SensorDesk desk, Executor loop, SourceTexts texts, ProblemListener problems) {
-        super(desk, Sensor.TYPE_GYROSCOPE, loop, texts, Lack.GYROSCOPE, problems);
+    GyroscopeSource(SensorAccess desk, Executor loop, SensorTexts texts, ProblemListener problems) {
+        super(desk, Sensor.TYPE_GYROSCOPE, loop, texts, SensorProblem.GYROSCOPE, problems);
     }
 
     @Override

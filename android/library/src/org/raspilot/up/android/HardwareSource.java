@@ -14,22 +14,23 @@ import org.raspilot.up.providers.SensorSource;
  * @param <R> what one reading is
  */
 abstract class HardwareSource<R> implements SensorSource<R>, SensorEventListener {
-    private final SensorDesk desk;
+    private final SensorAccess desk;
     private final Sensor sensor;
     private final String absence;
-    private final Handover<R> handover;
+    private final LatestReading<R> handover;
     private final ProblemListener problems;
     private final String refusal;
     private final BadReadings bad;
 
     /** Takes the type of {@link Sensor} and the reason to report if the phone has none. */
-    HardwareSource(SensorDesk desk, int type, Executor loop, SourceTexts texts, Lack lack,
+    HardwareSource(SensorAccess desk, int type, Executor loop, SensorTexts texts,
+            SensorProblem lack,
             ProblemListener problems) {
         this.desk = desk;
         sensor = desk.find(type);
         absence = texts.of(lack);
-        refusal = texts.of(Lack.REFUSED);
-        handover = new Handover<R>(loop);
+        refusal = texts.of(SensorProblem.REFUSED);
+        handover = new LatestReading<>(loop);
         this.problems = problems;
         bad = new BadReadings(problems, refusal);
     }
@@ -57,17 +58,17 @@ abstract class HardwareSource<R> implements SensorSource<R>, SensorEventListener
         if (sensor == null) {
             throw new IllegalStateException(absence);
         }
-        desk.forget(this);
-        handover.to(listener);
-        if (!desk.listen(this, sensor, periodMs)) {
+        desk.unregister(this);
+        handover.setListener(listener);
+        if (!desk.register(this, sensor, periodMs)) {
             problems.onProblem(refusal + ": " + sensor.getName());
         }
     }
 
     @Override
     public final void unsubscribe() {
-        desk.forget(this);
-        handover.to(null);
+        desk.unregister(this);
+        handover.setListener(null);
     }
 
     @Override
@@ -75,7 +76,7 @@ abstract class HardwareSource<R> implements SensorSource<R>, SensorEventListener
         try {
             R reading = read(event.values, TimeUnit.NANOSECONDS.toMillis(event.timestamp));
             if (reading != null) {
-                handover.give(reading);
+                handover.put(reading);
             }
         } catch (RuntimeException wrong) {
             // Catches every exception: on the system's thread it would end the flight.

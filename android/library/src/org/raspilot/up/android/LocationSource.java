@@ -28,14 +28,14 @@ final class LocationSource implements SensorSource<Fix>, LocationListener {
     private final Context context;
     private final LocationManager manager;
     private final Looper looper;
-    private final SourceTexts texts;
+    private final SensorTexts texts;
     private final ProblemListener problems;
     private final FixListener besides;
-    private final Handover<Fix> handover;
+    private final LatestReading<Fix> handover;
     private final FixFilter filter = new FixFilter();
     private final BadReadings bad;
 
-    LocationSource(Context context, Looper looper, Executor loop, SourceTexts texts,
+    LocationSource(Context context, Looper looper, Executor loop, SensorTexts texts,
             ProblemListener problems, FixListener besides) {
         this.context = context;
         this.looper = looper;
@@ -43,32 +43,32 @@ final class LocationSource implements SensorSource<Fix>, LocationListener {
         this.problems = problems;
         this.besides = besides;
         manager = (LocationManager) context.getSystemService(Context.LOCATION_SERVICE);
-        handover = new Handover<Fix>(loop);
-        bad = new BadReadings(problems, texts.of(Lack.REFUSED));
+        handover = new LatestReading<>(loop);
+        bad = new BadReadings(problems, texts.of(SensorProblem.REFUSED));
     }
 
     @Override
     public boolean isPresent() {
-        return lack() == null;
+        return problem() == null;
     }
 
     @Override
     public String name() {
-        Lack lack = lack();
+        SensorProblem lack = problem();
         return lack == null ? GPS : texts.of(lack);
     }
 
     @Override
     public void subscribe(long periodMs, SensorListener<Fix> listener) {
         unsubscribe();
-        handover.to(listener);
-        tellRough();
+        handover.setListener(listener);
+        reportRough();
         begin(periodMs);
     }
 
     @Override
     public void unsubscribe() {
-        handover.to(null);
+        handover.setListener(null);
         if (manager != null) {
             manager.removeUpdates(this);
         }
@@ -79,7 +79,7 @@ final class LocationSource implements SensorSource<Fix>, LocationListener {
         try {
             Fix fix = fix(location);
             if (filter.takes(ageMs(location), location.getTime())) {
-                handover.give(fix);
+                handover.put(fix);
             }
             besides.onFix(fix);
         } catch (RuntimeException wrong) {
@@ -99,7 +99,7 @@ final class LocationSource implements SensorSource<Fix>, LocationListener {
     @Override
     public void onProviderDisabled(String provider) {
         if (GPS.equals(provider)) {
-            problems.onProblem(texts.of(Lack.LOCATION_OFF));
+            problems.onProblem(texts.of(SensorProblem.LOCATION_OFF));
         }
     }
 
@@ -116,13 +116,13 @@ final class LocationSource implements SensorSource<Fix>, LocationListener {
         return Build.VERSION.SDK_INT >= 23 ? FixTime.ageMs(location) : 0;
     }
 
-    private Lack lack() {
+    private SensorProblem problem() {
         if (!has(GPS)) {
-            return Lack.LOCATION;
+            return SensorProblem.LOCATION;
         }
         // The approximate location alone is blurred by kilometres: not usable in flight.
         boolean isPermitted = Permissions.has(context, Manifest.permission.ACCESS_FINE_LOCATION);
-        return isPermitted ? null : Lack.LOCATION_PERMISSION;
+        return isPermitted ? null : SensorProblem.LOCATION_PERMISSION;
     }
 
     private boolean has(String provider) {
@@ -130,7 +130,7 @@ final class LocationSource implements SensorSource<Fix>, LocationListener {
     }
 
     /** Also reports the phone's last network position, possibly very old. */
-    private void tellRough() {
+    private void reportRough() {
         try {
             Location known = has(ROUGH) ? manager.getLastKnownLocation(ROUGH) : null;
             if (known != null) {
@@ -144,7 +144,7 @@ final class LocationSource implements SensorSource<Fix>, LocationListener {
 
     private void begin(long periodMs) {
         if (!has(GPS)) {
-            problems.onProblem(texts.of(Lack.LOCATION));
+            problems.onProblem(texts.of(SensorProblem.LOCATION));
             return;
         }
         try {
@@ -157,11 +157,11 @@ final class LocationSource implements SensorSource<Fix>, LocationListener {
             }
             manager.requestLocationUpdates(GPS, periodMs, 0, this, looper);
             if (!manager.isProviderEnabled(GPS)) {
-                problems.onProblem(texts.of(Lack.LOCATION_OFF));
+                problems.onProblem(texts.of(SensorProblem.LOCATION_OFF));
             }
         } catch (SecurityException refusal) {
             // Taken away between the question and now.
-            problems.onProblem(texts.of(Lack.LOCATION_PERMISSION) + ": " + GPS);
+            problems.onProblem(texts.of(SensorProblem.LOCATION_PERMISSION) + ": " + GPS);
         }
     }
 }

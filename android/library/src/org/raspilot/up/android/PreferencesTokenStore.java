@@ -25,7 +25,7 @@ final class PreferencesTokenStore implements TokenStore {
     }
 
     @Override
-    public void forget(String key) {
+    public void remove(String key) {
         tokens.edit().remove(key).apply();
     }
 }

@@ -5,7 +5,7 @@ import android.os.Build;
 import org.raspilot.up.android.api23.NetworkCalls;
 
 /** The process's sockets and the phone's Wi-Fi, from Android 6 on. */
-final class ProcessWifi implements WifiWay.Wifi {
+final class ProcessWifi implements WifiBinding.Wifi {
     private final Context context;
 
     ProcessWifi(Context context) {

@@ -3,7 +3,6 @@ package org.raspilot.up.android;
 import android.content.Context;
 import android.os.Handler;
 import android.os.Looper;
-import java.util.concurrent.Executor;
 import org.raspilot.up.providers.Rotation;
 import org.raspilot.up.providers.SensorListener;
 import org.raspilot.up.providers.SensorSource;
@@ -15,16 +14,11 @@ public final class RotationFeed {
     private final SensorSource<Rotation> source;
 
     /** Finds the available source of orientation. */
-    public RotationFeed(Context context, SourceTexts texts, ProblemListener problems) {
+    public RotationFeed(Context context, SensorTexts texts, ProblemListener problems) {
         final Handler main = new Handler(Looper.getMainLooper());
-        SensorDesk desk = new SensorDesk(context.getApplicationContext(),
+        SensorAccess desk = new SensorAccess(context.getApplicationContext(),
                 Looper.getMainLooper());
-        source = AndroidSources.rotation(desk, new Executor() {
-            @Override
-            public void execute(Runnable call) {
-                main.post(call);
-            }
-        }, texts, problems);
+        source = AndroidSources.rotation(desk, call -> main.post(call), texts, problems);
     }
 
     /** Returns whether this phone has an orientation source. */
@@ -44,7 +38,6 @@ public final class RotationFeed {
         }
     }
 
-    /** Stops it. */
     public void end() {
         source.unsubscribe();
     }

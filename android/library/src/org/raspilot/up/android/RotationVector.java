@@ -11,7 +11,7 @@ final class RotationVector {
     private static final int FOURTH = 18;
 
     /** A rotation's is 1; rounding and poor fusions are far from this. */
-    private static final double SHORTEST = 0.5;
+    private static final double MIN_LENGTH = 0.5;
 
     private RotationVector() {
     }
@@ -29,7 +29,7 @@ final class RotationVector {
         }
         boolean isFinite = !Double.isNaN(square) && !Double.isInfinite(square);
         // Without the fourth value three zeros mean: flat, with the top to the north.
-        boolean isLong = !hasFourth || square >= SHORTEST * SHORTEST;
+        boolean isLong = !hasFourth || square >= MIN_LENGTH * MIN_LENGTH;
         return isFinite && isLong ? Rotation.ofVector(known, timeMs) : null;
     }
 }

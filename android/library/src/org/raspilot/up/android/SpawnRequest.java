@@ -4,8 +4,8 @@ import java.util.concurrent.ArrayBlockingQueue;
 import java.util.concurrent.BlockingQueue;
 import java.util.concurrent.TimeUnit;
 import org.raspilot.up.loop.Loop;
-import org.raspilot.up.net.FindListener;
-import org.raspilot.up.net.Place;
+import org.raspilot.up.net.DiscoveryListener;
+import org.raspilot.up.net.Endpoint;
 import org.raspilot.up.net.RunnerAnswer;
 import org.raspilot.up.net.RunnerClient;
 import org.raspilot.up.net.RunnerRequest;
@@ -13,7 +13,7 @@ import org.raspilot.up.net.RunnerRequest;
 /** One request to a runner, waited for on a thread that may wait. */
 final class SpawnRequest {
     /** Longer than the runner's own 20 s. */
-    private static final long LONGEST_S = 30;
+    private static final long MAX_S = 30;
 
     private final String host;
     private final int port;
@@ -29,15 +29,10 @@ final class SpawnRequest {
 
     /** Sends the request on the loop and waits for the result; not on the loop's thread. */
     SpawnResult run(final Loop loop) {
-        final BlockingQueue<SpawnResult> results = new ArrayBlockingQueue<SpawnResult>(1);
-        loop.post(new Runnable() {
-            @Override
-            public void run() {
-                ask(loop, results);
-            }
-        });
+        final BlockingQueue<SpawnResult> results = new ArrayBlockingQueue<>(1);
+        loop.post(() -> send(loop, results));
         try {
-            SpawnResult result = results.poll(LONGEST_S, TimeUnit.SECONDS);
+            SpawnResult result = results.poll(MAX_S, TimeUnit.SECONDS);
             return result == null ? SpawnResult.refused("the runner does not answer") : result;
         } catch (InterruptedException interruption) {
             Thread.currentThread().interrupt();
@@ -45,7 +40,7 @@ final class SpawnRequest {
         }
     }
 
-    private void ask(Loop loop, final BlockingQueue<SpawnResult> results) {
+    private void send(Loop loop, final BlockingQueue<SpawnResult> results) {
         final RunnerClient client;
         try {
             String chosen = profile == null || profile.isEmpty() ? null : profile;
@@ -55,9 +50,9 @@ final class SpawnRequest {
             results.add(SpawnResult.refused(wrong.getMessage()));
             return;
         }
-        client.find(new FindListener() {
+        client.find(new DiscoveryListener() {
             @Override
-            public void onFound(Place place) {
+            public void onFound(Endpoint place) {
                 results.add(result(client.lastAnswer(), place));
             }
 
@@ -68,10 +63,10 @@ final class SpawnRequest {
         });
     }
 
-    private static SpawnResult result(RunnerAnswer answer, Place place) {
-        String sentence = answer.error() == null ? answer.message()
-                : answer.message() + ": " + answer.error();
-        return SpawnResult.running(answer.isSpawned(), sentence, place.toString(),
-                answer.proxyHost(), answer.proxyGroundPort());
+    private static SpawnResult result(RunnerAnswer answer, Endpoint place) {
+        String sentence = answer.error == null ? answer.message
+                : answer.message + ": " + answer.error;
+        return SpawnResult.running(answer.isSpawned, sentence, place.toString(),
+                answer.proxyHost, answer.proxyGroundPort);
     }
 }

@@ -47,7 +47,6 @@ public final class SpawnResult {
         return new Bundle(values);
     }
 
-    /** Returns whether an instance runs. */
     public boolean isRunning() {
         return values.getBoolean(IS_RUNNING);
     }

@@ -23,7 +23,6 @@ public final class SpawnService extends IntentService {
     private static final String PROFILE = "profile";
     private static final String ANSWER = "answer";
 
-    /** Made by the system. */
     public SpawnService() {
         super("up spawn");
         // A request that the system interrupted is not repeated behind the user's back.
@@ -37,7 +36,7 @@ public final class SpawnService extends IntentService {
      * @param profile a ready-made configuration of the runner; empty: none
      * @param answer receives one message with {@link #result}
      */
-    public static void ask(Context context, String host, int port, String aircraft,
+    public static void request(Context context, String host, int port, String aircraft,
             String profile, Messenger answer) {
         context.startService(new Intent(context, SpawnService.class)
                 .putExtra(HOST, host)
@@ -61,7 +60,7 @@ public final class SpawnService extends IntentService {
                 intent.getIntExtra(PORT, 0), intent.getStringExtra(AIRCRAFT),
                 intent.getStringExtra(PROFILE));
         Messenger answer = intent.getParcelableExtra(ANSWER);
-        tell(answer, run(request));
+        reply(answer, run(request));
     }
 
     private static SpawnResult run(SpawnRequest request) {
@@ -77,7 +76,7 @@ public final class SpawnService extends IntentService {
         }
     }
 
-    private static void tell(Messenger answer, SpawnResult result) {
+    private static void reply(Messenger answer, SpawnResult result) {
         Message message = Message.obtain();
         message.setData(result.toBundle());
         try {

@@ -8,13 +8,13 @@ import android.os.SystemClock;
 import java.io.IOException;
 import org.raspilot.up.Up;
 import org.raspilot.up.commands.BaseCommand;
+import org.raspilot.up.commands.Commands;
 import org.raspilot.up.commands.GainSet;
-import org.raspilot.up.commands.PidTuningsCommand;
 import org.raspilot.up.ground.Alarms;
 import org.raspilot.up.ground.Answer;
 import org.raspilot.up.ground.AnswerListener;
 import org.raspilot.up.ground.EventLog;
-import org.raspilot.up.ground.GainsDesk;
+import org.raspilot.up.ground.GainsService;
 import org.raspilot.up.ground.GroundSettings;
 import org.raspilot.up.ground.GroundSide;
 import org.raspilot.up.ground.GroundStatus;
@@ -75,12 +75,8 @@ public abstract class TelemetryService extends Service {
     private void begin() {
         fault = "";
         try {
-            run = new GroundRun(this, readSettings(), isOnWifi(), view, new GroundRun.Setup() {
-                @Override
-                public void onUp(Up up, TelemetrySource telemetry) {
-                    TelemetryService.this.onUp(up, telemetry);
-                }
-            });
+            run = new GroundRun(this, readSettings(), isOnWifi(), view, (up, telemetry) ->
+                    TelemetryService.this.onUp(up, telemetry));
         } catch (IllegalArgumentException wrong) {
             fault = wrong.getMessage();
         } catch (IOException failure) {
@@ -115,7 +111,7 @@ public abstract class TelemetryService extends Service {
         /** Closes the link and restarts it with the current settings. */
         public void reload() {
             end();
-            view.forget();
+            view.clear();
             begin();
         }
 
@@ -124,7 +120,7 @@ public abstract class TelemetryService extends Service {
             return run == null ? SystemClock.elapsedRealtime() : run.nowMs();
         }
 
-        /** Returns the newest frame; {@link Telemetry#NOTHING} before the first. */
+        /** Returns the newest frame; {@link Telemetry#EMPTY} before the first. */
         public Telemetry telemetry() {
             return view.telemetry();
         }
@@ -150,90 +146,49 @@ public abstract class TelemetryService extends Service {
         }
 
         /** Returns the gains; null: nothing is known yet. */
-        public GainsDesk.Snapshot gains() {
+        public GainsService.Snapshot gains() {
             return view.gains();
         }
 
         /** Sends a Command; {@code shownBeacon} is that of the frame on the screen, or null. */
         public void send(final BaseCommand command, final Long shownBeacon,
                 AnswerListener listener) {
-            ask(command.name(), listener, new Asking() {
-                @Override
-                public void ask(GroundSide side, AnswerListener answers) {
-                    side.send(command, shownBeacon, answers);
-                }
-            });
+            request(command.name(), listener, (side, answers) ->
+                    side.send(command, shownBeacon, answers));
         }
 
-        /** Requests the active gains. */
-        public void askGains(AnswerListener listener) {
-            ask(PidTuningsCommand.NAME, listener, new Asking() {
-                @Override
-                public void ask(GroundSide side, AnswerListener answers) {
-                    side.gains().ask(answers);
-                }
-            });
+        public void requestGains(AnswerListener listener) {
+            request(Commands.PIDS, listener, (side, answers) -> side.gains().request(answers));
         }
 
-        /** Sets the gains. */
         public void setGains(final GainSet gains, final Long shownBeacon,
                 AnswerListener listener) {
-            ask(PidTuningsCommand.NAME, listener, new Asking() {
-                @Override
-                public void ask(GroundSide side, AnswerListener answers) {
-                    side.gains().set(gains, shownBeacon, answers);
-                }
-            });
+            request(Commands.PIDS, listener, (side, answers) ->
+                    side.gains().set(gains, shownBeacon, answers));
         }
 
         /** Sets what flew before the newest set. */
         public void undoGains(final Long shownBeacon, AnswerListener listener) {
-            ask(PidTuningsCommand.NAME, listener, new Asking() {
-                @Override
-                public void ask(GroundSide side, AnswerListener answers) {
-                    side.gains().undo(shownBeacon, answers);
-                }
-            });
+            request(Commands.PIDS, listener, (side, answers) ->
+                    side.gains().undo(shownBeacon, answers));
         }
 
-        /** Requests the seat that commands. */
-        public void requestSeat() {
-            post(new GroundRun.Call() {
-                @Override
-                public void with(GroundSide side) {
-                    side.requestSeat();
-                }
-            });
+        public void requestControl() {
+            post(side -> side.requestControl());
         }
 
         /** Called when the user keeps the seat that another ground requested. */
-        public void dismissSeatAsk() {
-            post(new GroundRun.Call() {
-                @Override
-                public void with(GroundSide side) {
-                    side.dismissSeatAsk();
-                }
-            });
+        public void dismissControlRequest() {
+            post(side -> side.dismissControlRequest());
         }
 
         /** Hands the seat to the ground of a number. */
-        public void giveSeat(final int to) {
-            post(new GroundRun.Call() {
-                @Override
-                public void with(GroundSide side) {
-                    side.giveSeat(to);
-                }
-            });
+        public void giveControl(final int to) {
+            post(side -> side.giveControl(to));
         }
 
-        /** Leaves the seat free. */
-        public void releaseSeat() {
-            post(new GroundRun.Call() {
-                @Override
-                public void with(GroundSide side) {
-                    side.releaseSeat();
-                }
-            });
+        public void releaseControl() {
+            post(side -> side.releaseControl());
         }
 
         private void post(GroundRun.Call call) {
@@ -242,24 +197,18 @@ public abstract class TelemetryService extends Service {
             }
         }
 
-        private void ask(String name, AnswerListener listener, final Asking asking) {
+        private void request(String name, AnswerListener listener, final Asking asking) {
             if (run == null) {
                 listener.onAnswer(Answer.refused(name, "no_link", fault));
                 return;
             }
             final AnswerListener answers = run.onMain(listener);
-            run.post(new GroundRun.Call() {
-                @Override
-                public void with(GroundSide side) {
-                    asking.ask(side, answers);
-                }
-            });
+            run.post(side -> asking.ask(side, answers));
         }
     }
 
     /** A request to the aircraft, on the loop. */
     private interface Asking {
-        /** Sends it. */
         void ask(GroundSide side, AnswerListener answers);
     }
 }

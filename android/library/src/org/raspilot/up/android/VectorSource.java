@@ -10,8 +10,8 @@ import org.raspilot.up.providers.Rotation;
  * has no north: its yaw would be sent as a heading.)
  */
 final class VectorSource extends HardwareSource<Rotation> {
-    VectorSource(SensorDesk desk, Executor loop, SourceTexts texts, ProblemListener problems) {
-        super(desk, Sensor.TYPE_ROTATION_VECTOR, loop, texts, Lack.ROTATION, problems);
+    VectorSource(SensorAccess desk, Executor loop, SensorTexts texts, ProblemListener problems) {
+        super(desk, Sensor.TYPE_ROTATION_VECTOR, loop, texts, SensorProblem.ROTATION, problems);
     }
 
     @Override

@@ -9,20 +9,20 @@ import java.util.Collections;
 import java.util.List;
 import java.util.Map;
 import org.raspilot.app.R;
-import org.raspilot.app.ground.Picture;
+import org.raspilot.app.ground.GroundSnapshot;
 import org.raspilot.app.view.HoldButton;
-import org.raspilot.app.view.Texts;
+import org.raspilot.app.view.TextViews;
 import org.raspilot.up.commands.BaseCommand;
 import org.raspilot.up.commands.CommandForm;
 import org.raspilot.up.ground.Freshness;
 
 /** Arm and disarm, each by a press that is held: nothing happens by a slip of the hand. */
 final class ArmPage implements Page, HoldButton.HoldListener {
-    private static final Map<String, Object> NOTHING = Collections.<String, Object>emptyMap();
+    private static final Map<String, Object> NOTHING = Collections.emptyMap();
 
     private final CommandForm arm;
     private final CommandForm disarm;
-    private final Desk desk;
+    private final CommandContext desk;
     private final View element;
     private final HoldButton armButton;
     private final HoldButton disarmButton;
@@ -33,7 +33,7 @@ final class ArmPage implements Page, HoldButton.HoldListener {
     private final TextView note;
 
     /** Creates the page; a form that the catalogue lacks is null. */
-    ArmPage(CommandForm arm, CommandForm disarm, Desk desk) {
+    ArmPage(CommandForm arm, CommandForm disarm, CommandContext desk) {
         this.arm = arm;
         this.disarm = disarm;
         this.desk = desk;
@@ -58,56 +58,51 @@ final class ArmPage implements Page, HoldButton.HoldListener {
     @Override
     public void update() {
         Resources words = desk.context().getResources();
-        Picture picture = desk.picture();
+        GroundSnapshot picture = desk.picture();
         boolean isLive = picture.telemetry.freshness("armed", picture.nowMs) == Freshness.LIVE;
         Boolean isArmed = isLive ? picture.telemetry.flag("armed") : null;
-        Texts.show(state, words.getString(isArmed == null ? R.string.arm_state_unknown
+        TextViews.show(state, words.getString(isArmed == null ? R.string.arm_state_unknown
                 : isArmed ? R.string.arm_state_armed : R.string.arm_state_disarmed));
-        Texts.show(vetoes, vetoes(words, picture, isArmed));
+        TextViews.show(vetoes, vetoes(words, picture, isArmed));
         offer(armButton, armWhy, arm);
         offer(disarmButton, disarmWhy, disarm);
     }
 
     @Override
     public void onHeld(View button) {
-        Texts.show(note, "");
+        TextViews.show(note, "");
         carryOut(formOf(button));
     }
 
     @Override
     public void onClickedOnly(View button) {
         final CommandForm form = formOf(button);
-        if (form == null || desk.objection(form, NOTHING) != Objection.NONE) {
+        if (form == null || desk.objection(form, NOTHING) != DisabledReason.NONE) {
             return;
         }
         Context context = desk.context();
-        String title = CommandWords.title(context.getResources(), form.name());
-        desk.confirm(context.getString(R.string.arm_question, title), form.text(), title,
-                new Runnable() {
-                    @Override
-                    public void run() {
-                        carryOut(form);
-                    }
-                });
+        String title = CommandTexts.title(context.getResources(), form.name);
+        desk.confirm(context.getString(R.string.arm_question, title), form.text, title,
+                () -> carryOut(form));
     }
 
     @Override
     public void onTooShort(View button) {
-        Texts.show(note, desk.context().getString(R.string.arm_too_short));
+        TextViews.show(note, desk.context().getString(R.string.arm_too_short));
     }
 
     private void carryOut(CommandForm form) {
         // Between the press and now the seat or the link may be gone.
-        if (form != null && desk.objection(form, NOTHING) == Objection.NONE) {
-            desk.send(new BaseCommand(form.name(), NOTHING),
-                    CommandWords.title(desk.context().getResources(), form.name()));
+        if (form != null && desk.objection(form, NOTHING) == DisabledReason.NONE) {
+            desk.send(new BaseCommand(form.name, NOTHING),
+                    CommandTexts.title(desk.context().getResources(), form.name));
         }
     }
 
     private void offer(HoldButton button, TextView why, CommandForm form) {
         String objection = form == null ? desk.context().getString(R.string.why_unknown)
                 : desk.objectionText(form, NOTHING);
-        Texts.show(why, objection);
+        TextViews.show(why, objection);
         if (button.isEnabled() != objection.isEmpty()) {
             button.setEnabled(objection.isEmpty());
         }
@@ -117,7 +112,7 @@ final class ArmPage implements Page, HoldButton.HoldListener {
         return button == armButton ? arm : disarm;
     }
 
-    private static String vetoes(Resources words, Picture picture, Boolean isArmed) {
+    private static String vetoes(Resources words, GroundSnapshot picture, Boolean isArmed) {
         List<String> all = picture.telemetry.texts("vetoes");
         if (Boolean.TRUE.equals(isArmed)) {
             return words.getString(R.string.arm_disarms_when);

@@ -12,21 +12,21 @@ import java.util.Collections;
 import java.util.List;
 import java.util.Map;
 import org.raspilot.app.R;
-import org.raspilot.app.view.Texts;
+import org.raspilot.app.view.TextViews;
 import org.raspilot.up.commands.BaseCommand;
 import org.raspilot.up.commands.CommandField;
 import org.raspilot.up.commands.CommandForm;
 
 /** A Command whose one field is a choice of few values: a button for each, with a confirmation. */
 final class ChoicePage implements Page {
-    private static final int MOST = 6;
+    private static final int MAX_CHOICES = 6;
 
     private final CommandForm form;
-    private final Desk desk;
+    private final CommandContext desk;
     private final View element;
     private final TextView why;
     private final TextView now;
-    private final List<Button> buttons = new ArrayList<Button>();
+    private final List<Button> buttons = new ArrayList<>();
 
     /** Returns whether a form is of that kind. */
     static boolean fits(CommandForm form) {
@@ -34,29 +34,28 @@ final class ChoicePage implements Page {
             return false;
         }
         CommandField field = form.fields().get(0);
-        return field.isRequired() && field.choices() != null && field.choices().size() <= MOST;
+        return field.isRequired() && field.choices != null && field.choices.size() <= MAX_CHOICES;
     }
 
-    /** Creates the page. */
-    ChoicePage(CommandForm form, Desk desk) {
+    ChoicePage(CommandForm form, CommandContext desk) {
         this.form = form;
         this.desk = desk;
         LayoutInflater inflater = LayoutInflater.from(desk.context());
         element = inflater.inflate(R.layout.page_form, null);
         Resources words = desk.context().getResources();
         ((TextView) element.findViewById(R.id.page_title))
-                .setText(CommandWords.title(words, form.name()));
-        ((TextView) element.findViewById(R.id.page_name)).setText(form.name());
-        ((TextView) element.findViewById(R.id.page_text)).setText(form.text());
+                .setText(CommandTexts.title(words, form.name));
+        ((TextView) element.findViewById(R.id.page_name)).setText(form.name);
+        ((TextView) element.findViewById(R.id.page_text)).setText(form.text);
         why = (TextView) element.findViewById(R.id.page_why);
         now = (TextView) element.findViewById(R.id.page_now);
         element.findViewById(R.id.page_send).setVisibility(View.GONE);
         ViewGroup list = (ViewGroup) element.findViewById(R.id.page_fields);
         CommandField field = form.fields().get(0);
-        for (Object choice : field.choices()) {
+        for (Object choice : field.choices) {
             Button button = (Button) inflater.inflate(R.layout.button_choice, list, false);
             button.setText(String.valueOf(choice).replace('_', ' '));
-            button.setOnClickListener(new Choose(Collections.singletonMap(field.name(), choice)));
+            button.setOnClickListener(new Choose(Collections.singletonMap(field.name, choice)));
             list.addView(button);
             buttons.add(button);
         }
@@ -70,9 +69,9 @@ final class ChoicePage implements Page {
 
     @Override
     public void update() {
-        String objection = desk.objectionText(form, Collections.<String, Object>emptyMap());
-        Texts.showOrHide(why, objection);
-        Texts.showOrHide(now, CommandWords.now(desk.context().getResources(), form.name(),
+        String objection = desk.objectionText(form, Collections.emptyMap());
+        TextViews.showOrHide(why, objection);
+        TextViews.showOrHide(now, CommandTexts.now(desk.context().getResources(), form.name,
                 desk.picture()));
         for (Button button : buttons) {
             button.setEnabled(objection.isEmpty());
@@ -84,8 +83,8 @@ final class ChoicePage implements Page {
         private final String words;
 
         private Choose(Map<String, ?> data) {
-            command = new BaseCommand(form.name(), data);
-            words = CommandWords.asked(desk.context().getResources(), form.name(), data);
+            command = new BaseCommand(form.name, data);
+            words = CommandTexts.asked(desk.context().getResources(), form.name, data);
         }
 
         @Override

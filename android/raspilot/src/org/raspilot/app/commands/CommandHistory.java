@@ -7,10 +7,8 @@ import java.util.List;
 
 /** The sent Commands with their outcomes, newest first. Main thread only. */
 final class CommandHistory {
-    /** Maximum number of entries. */
-    static final int KEPT = 50;
+    static final int MAX_ENTRIES = 50;
 
-    /** The outcome of a Command. */
     enum Outcome {
         /** The answer is waited for. */
         WAITING,
@@ -28,11 +26,9 @@ final class CommandHistory {
     static final class Entry {
         /** Counts up from 1. */
         final int number;
-        /** The request in words. */
         final String words;
         /** When, by a monotonic clock, ms. */
         final long atMs;
-        /** The outcome. */
         final Outcome outcome;
         /** The reason, without a full stop, or an empty text. */
         final String reason;
@@ -50,14 +46,14 @@ final class CommandHistory {
         }
     }
 
-    private final LinkedList<Entry> entries = new LinkedList<Entry>();
+    private final LinkedList<Entry> entries = new LinkedList<>();
     private int numbers;
 
     /** Adds a sent Command; returns the number to report its outcome with. */
     int sent(String words, long nowMs) {
         numbers++;
         entries.addFirst(new Entry(numbers, words, nowMs, Outcome.WAITING, "", null));
-        if (entries.size() > KEPT) {
+        if (entries.size() > MAX_ENTRIES) {
             entries.removeLast();
         }
         return numbers;
@@ -76,7 +72,7 @@ final class CommandHistory {
 
     /** Returns all, the newest first; a copy. */
     List<Entry> entries() {
-        return Collections.unmodifiableList(new ArrayList<Entry>(entries));
+        return Collections.unmodifiableList(new ArrayList<>(entries));
     }
 
     /** Returns the newest; null: nothing was sent. */

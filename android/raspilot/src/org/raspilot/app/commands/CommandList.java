@@ -11,8 +11,8 @@ import java.util.BitSet;
 import java.util.Collections;
 import java.util.List;
 import org.raspilot.app.R;
-import org.raspilot.app.view.Inks;
-import org.raspilot.app.view.Texts;
+import org.raspilot.app.view.InstrumentColors;
+import org.raspilot.app.view.TextViews;
 import org.raspilot.up.commands.CommandForm;
 
 /** Every Command of the catalogue in groups, filtered by the searched words. */
@@ -22,20 +22,20 @@ final class CommandList extends BaseAdapter {
 
     private final LayoutInflater inflater;
     private final Resources words;
-    private final Desk desk;
-    private final Inks inks;
+    private final CommandContext desk;
+    private final InstrumentColors colors;
     private final List<CommandForm> forms;
     /** Groups and forms as they stand below each other. */
-    private final List<Object> lines = new ArrayList<Object>();
+    private final List<Object> lines = new ArrayList<>();
     private BitSet offered = new BitSet();
 
     /** Creates a list of all forms. */
-    CommandList(Desk desk, List<CommandForm> forms) {
+    CommandList(CommandContext desk, List<CommandForm> forms) {
         this.desk = desk;
         this.forms = forms;
         inflater = LayoutInflater.from(desk.context());
         words = desk.context().getResources();
-        inks = Inks.of(desk.context());
+        colors = InstrumentColors.of(desk.context());
         search("");
     }
 
@@ -45,7 +45,7 @@ final class CommandList extends BaseAdapter {
         for (CommandGroup group : CommandGroup.values()) {
             boolean isBegun = false;
             for (CommandForm form : forms) {
-                if (CommandGroup.of(form.name()) == group && matches(form, wanted)) {
+                if (CommandGroup.of(form.name) == group && matches(form, wanted)) {
                     if (!isBegun) {
                         lines.add(group);
                         isBegun = true;
@@ -117,28 +117,28 @@ final class CommandList extends BaseAdapter {
         if (form == null) {
             View heading = used == null
                     ? inflater.inflate(R.layout.heading_commands, list, false) : used;
-            ((TextView) heading).setText(CommandWords.group((CommandGroup) lines.get(place)));
+            ((TextView) heading).setText(CommandTexts.group((CommandGroup) lines.get(place)));
             return heading;
         }
         View row = used == null ? inflater.inflate(R.layout.row_command, list, false) : used;
         TextView title = (TextView) row.findViewById(R.id.command_title);
-        title.setText(CommandWords.title(words, form.name()));
-        ((TextView) row.findViewById(R.id.command_name)).setText(form.name());
+        title.setText(CommandTexts.title(words, form.name));
+        ((TextView) row.findViewById(R.id.command_name)).setText(form.name);
         // It opens nevertheless: its page states why it is not offered.
-        Texts.colour(title, isOffered(form) ? inks.ink : inks.dim);
+        TextViews.colour(title, isOffered(form) ? colors.ink : colors.dim);
         return row;
     }
 
     private boolean isOffered(CommandForm form) {
-        return desk.objection(form, Collections.<String, Object>emptyMap()) == Objection.NONE;
+        return desk.objection(form, Collections.emptyMap()) == DisabledReason.NONE;
     }
 
     private boolean matches(CommandForm form, String wanted) {
         StringBuilder aliases = new StringBuilder();
-        for (String alias : form.aliases()) {
+        for (String alias : form.aliases) {
             aliases.append(alias).append(' ');
         }
-        return CommandGroup.matches(wanted, form.name(), form.text(), aliases.toString(),
-                CommandWords.title(words, form.name()));
+        return CommandGroup.matches(wanted, form.name, form.text, aliases.toString(),
+                CommandTexts.title(words, form.name));
     }
 }

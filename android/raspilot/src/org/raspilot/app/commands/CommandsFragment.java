@@ -15,10 +15,10 @@ import org.raspilot.up.commands.CommandForm;
 /**
  * The commands screen: every Command with its form, its answer and the history (thesis 4.5.3).
  *
- * <p>{@link CommandsMemory} preserves typed and sent data across a rotation. Main thread only.
+ * <p>{@link CommandsState} preserves typed and sent data across a rotation. Main thread only.
  */
-public final class CommandsFragment extends WatchingFragment implements CommandsMemory.Listener {
-    private CommandsMemory memory;
+public final class CommandsFragment extends WatchingFragment implements CommandsState.Listener {
+    private CommandsState memory;
     private List<CommandForm> forms = Collections.emptyList();
     private String fault = "";
     private CommandsScreen screen;
@@ -26,7 +26,7 @@ public final class CommandsFragment extends WatchingFragment implements Commands
     @Override
     public void onCreate(Bundle saved) {
         super.onCreate(saved);
-        memory = CommandsMemory.of(getFragmentManager());
+        memory = CommandsState.of(getFragmentManager());
         try {
             forms = CatalogueAsset.read(getActivity()).forms();
         } catch (IOException failure) {

@@ -14,24 +14,25 @@ import java.util.List;
 import java.util.Map;
 import org.raspilot.app.R;
 import org.raspilot.app.ground.FrameLine;
-import org.raspilot.app.ground.Picture;
-import org.raspilot.app.ground.SeatPanel;
+import org.raspilot.app.ground.GroundSnapshot;
+import org.raspilot.app.ground.ControlPanel;
 import org.raspilot.app.view.FrameText;
-import org.raspilot.app.view.Texts;
+import org.raspilot.app.view.TextViews;
 import org.raspilot.up.android.TelemetryService;
 import org.raspilot.up.commands.BaseCommand;
 import org.raspilot.up.commands.CommandForm;
 import org.raspilot.up.commands.GainSet;
-import org.raspilot.up.ground.GainsDesk;
+import org.raspilot.up.ground.GainsService;
 
 /** The list of Commands and the page of the one that is open, while their views live. */
 final class CommandsScreen
-        implements Desk, AdapterView.OnItemClickListener, TextWatcher, View.OnClickListener {
+        implements CommandContext, AdapterView.OnItemClickListener, TextWatcher,
+                View.OnClickListener {
     private final Activity activity;
-    private final CommandsMemory memory;
+    private final CommandsState memory;
     private final List<CommandForm> forms;
     private final FrameLine frame;
-    private final SeatPanel seat;
+    private final ControlPanel seat;
     private final HistoryPanel history;
     private final Confirmation confirmation;
     private final CommandList list;
@@ -43,17 +44,17 @@ final class CommandsScreen
     private Page page;
 
     /** Finds all views and restores the open page; {@code fault}: why there is no catalogue. */
-    CommandsScreen(Activity activity, View root, CommandsMemory memory, List<CommandForm> forms,
+    CommandsScreen(Activity activity, View root, CommandsState memory, List<CommandForm> forms,
             String fault) {
         this.activity = activity;
         this.memory = memory;
         this.forms = forms;
         frame = new FrameLine((FrameText) root.findViewById(R.id.ground_frame));
         // If the ground screen is visible beside this one, the seat is there.
-        seat = root.findViewById(R.id.seat_line) == null ? null : new SeatPanel(root);
+        seat = root.findViewById(R.id.control_line) == null ? null : new ControlPanel(root);
         history = new HistoryPanel(root, memory.history());
         confirmation = new Confirmation(activity);
-        Texts.showOrHide((TextView) root.findViewById(R.id.commands_fault), fault);
+        TextViews.showOrHide((TextView) root.findViewById(R.id.commands_fault), fault);
         listBox = root.findViewById(R.id.commands_list_box);
         pageBox = root.findViewById(R.id.commands_page_box);
         pagePlace = (ViewGroup) root.findViewById(R.id.commands_page);
@@ -75,18 +76,16 @@ final class CommandsScreen
     /** Sets the ground; null: none. Frames seen of another ground do not count. */
     void setGround(TelemetryService.Ground newGround) {
         ground = newGround;
-        frame.forget();
+        frame.clear();
         if (seat != null) {
             seat.setGround(newGround);
         }
     }
 
-    /** Shows what each frame changes. */
     void showFrame() {
         frame.update(picture());
     }
 
-    /** Shows the current state. */
     void show() {
         showFrame();
         if (seat != null) {
@@ -101,12 +100,10 @@ final class CommandsScreen
         history.update();
     }
 
-    /** Closes an open confirmation. */
     void dismiss() {
         confirmation.dismiss();
     }
 
-    /** Releases the views. */
     void close() {
         dismiss();
         setGround(null);
@@ -119,7 +116,7 @@ final class CommandsScreen
     public void onItemClick(AdapterView<?> parent, View row, int place, long id) {
         CommandForm form = list.form(place);
         if (form != null) {
-            open(form.name());
+            open(form.name);
         }
     }
 
@@ -148,30 +145,30 @@ final class CommandsScreen
     }
 
     @Override
-    public Picture picture() {
-        return Picture.of(ground);
+    public GroundSnapshot picture() {
+        return GroundSnapshot.of(ground);
     }
 
     @Override
-    public GainsDesk.Snapshot gains() {
+    public GainsService.Snapshot gains() {
         return ground == null ? null : ground.gains();
     }
 
     @Override
-    public CommandsMemory memory() {
+    public CommandsState memory() {
         return memory;
     }
 
     @Override
-    public Objection objection(CommandForm form, Map<String, ?> data) {
-        Picture picture = picture();
-        return Permission.objection(form.name(), form.role(), data, picture.status,
+    public DisabledReason objection(CommandForm form, Map<String, ?> data) {
+        GroundSnapshot picture = picture();
+        return Permission.objection(form.name, form.role, data, picture.status,
                 picture.telemetry, picture.nowMs);
     }
 
     @Override
     public String objectionText(CommandForm form, Map<String, ?> data) {
-        return CommandWords.objection(activity.getResources(), objection(form, data), picture());
+        return CommandTexts.objection(activity.getResources(), objection(form, data), picture());
     }
 
     @Override
@@ -182,10 +179,10 @@ final class CommandsScreen
     }
 
     @Override
-    public void askGains() {
+    public void requestGains() {
         String words = activity.getString(R.string.gains_ask_words);
         if (isThere(words)) {
-            ground.askGains(memory.sent(words));
+            ground.requestGains(memory.sent(words));
         }
     }
 
@@ -207,7 +204,7 @@ final class CommandsScreen
 
     @Override
     public void confirm(String title, String text, String yes, Runnable then) {
-        confirmation.ask(title, text, yes, then);
+        confirmation.show(title, text, yes, then);
     }
 
     /** Opens the form of a Command; empty or unknown: none. */
@@ -235,10 +232,10 @@ final class CommandsScreen
     }
 
     private Page pageOf(CommandForm form) {
-        if (form.name().equals("up.arm") || form.name().equals("up.disarm")) {
+        if (form.name.equals("up.arm") || form.name.equals("up.disarm")) {
             return new ArmPage(formOf("up.arm"), formOf("up.disarm"), this);
         }
-        if (form.name().equals("arduino.pids.tunings")) {
+        if (form.name.equals("arduino.pids.tunings")) {
             return new GainsPage(form, this);
         }
         return ChoicePage.fits(form) ? new ChoicePage(form, this) : new FormPage(form, this);
@@ -246,7 +243,7 @@ final class CommandsScreen
 
     private CommandForm formOf(String name) {
         for (CommandForm form : forms) {
-            if (form.name().equals(name)) {
+            if (form.name.equals(name)) {
                 return form;
             }
         }

@@ -2,7 +2,6 @@ package org.raspilot.app.commands;
 
 import android.app.AlertDialog;
 import android.content.Context;
-import android.content.DialogInterface;
 
 import org.raspilot.app.R;
 
@@ -17,18 +16,13 @@ final class Confirmation {
     }
 
     /** Shows the dialog; {@code then} runs only when the user confirms. */
-    void ask(String title, String text, String yes, final Runnable then) {
+    void show(String title, String text, String yes, final Runnable then) {
         dismiss();
         dialog = new AlertDialog.Builder(context)
                 .setTitle(title)
                 .setMessage(text)
                 .setNegativeButton(R.string.commands_leave, null)
-                .setPositiveButton(yes, new DialogInterface.OnClickListener() {
-                    @Override
-                    public void onClick(DialogInterface asked, int which) {
-                        then.run();
-                    }
-                })
+                .setPositiveButton(yes, (asked, which) -> then.run())
                 .create();
         dialog.show();
     }

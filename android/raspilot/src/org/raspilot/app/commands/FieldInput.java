@@ -22,19 +22,18 @@ import org.raspilot.up.commands.FieldType;
 
 /** The input of a field's value: a text, a choice or a switch. */
 abstract class FieldInput {
-    private static final int LONGEST = 4096;
+    private static final int MAX_LENGTH = 4096;
     private static final String DIGITS = "0123456789.,-";
 
     /** Called when text was typed or a choice made. */
     interface ChangeListener {
-        /** Validates the text again. */
         void onChange();
     }
 
     /** Returns the input that a field needs. */
     static FieldInput of(Context context, CommandField field, ChangeListener listener) {
-        List<Object> choices = field.choices();
-        if (choices == null && field.type() == FieldType.BOOLEAN) {
+        List<Object> choices = field.choices;
+        if (choices == null && field.type == FieldType.BOOLEAN) {
             if (field.isRequired()) {
                 return new SwitchInput(context, listener);
             }
@@ -44,7 +43,6 @@ abstract class FieldInput {
                 : new ChoiceInput(context, choices, listener);
     }
 
-    /** Returns the view. */
     abstract View view();
 
     /** Returns the typed or chosen value, or an empty text. */
@@ -61,13 +59,13 @@ abstract class FieldInput {
             this.listener = listener;
             view = new EditText(context);
             view.setInputType(inputType(field));
-            if (field.type() == FieldType.NUMBER) {
+            if (field.type == FieldType.NUMBER) {
                 // Some phones' keyboards for numbers have a comma only, which is refused otherwise.
                 view.setKeyListener(DigitsKeyListener.getInstance(DIGITS));
                 view.setRawInputType(inputType(field));
             }
             // The aircraft counts characters, this counts UTF-16 units: never split a pair.
-            view.setFilters(new InputFilter[] {new InputFilter.LengthFilter(LONGEST)});
+            view.setFilters(new InputFilter[] {new InputFilter.LengthFilter(MAX_LENGTH)});
             view.addTextChangedListener(this);
         }
 
@@ -101,9 +99,9 @@ abstract class FieldInput {
         }
 
         private static int inputType(CommandField field) {
-            boolean isSigned = field.minimum() == null || field.minimum() < 0;
+            boolean isSigned = field.minimum == null || field.minimum < 0;
             int sign = isSigned ? InputType.TYPE_NUMBER_FLAG_SIGNED : 0;
-            switch (field.type()) {
+            switch (field.type) {
                 case INTEGER:
                     return InputType.TYPE_CLASS_NUMBER | sign;
                 case NUMBER:
@@ -121,12 +119,12 @@ abstract class FieldInput {
     private static final class ChoiceInput extends FieldInput
             implements AdapterView.OnItemSelectedListener {
         private final Spinner view;
-        private final List<String> texts = new ArrayList<String>();
+        private final List<String> texts = new ArrayList<>();
         private final ChangeListener listener;
 
         private ChoiceInput(Context context, List<Object> choices, ChangeListener listener) {
             this.listener = listener;
-            List<String> shown = new ArrayList<String>();
+            List<String> shown = new ArrayList<>();
             shown.add(context.getString(R.string.commands_choose));
             texts.add("");
             for (Object choice : choices) {
@@ -134,7 +132,7 @@ abstract class FieldInput {
                 shown.add(String.valueOf(choice));
             }
             view = new Spinner(context);
-            ArrayAdapter<String> adapter = new ArrayAdapter<String>(context,
+            ArrayAdapter<String> adapter = new ArrayAdapter<>(context,
                     android.R.layout.simple_spinner_item, shown);
             adapter.setDropDownViewResource(android.R.layout.simple_spinner_dropdown_item);
             view.setAdapter(adapter);

@@ -8,7 +8,7 @@ import android.view.ViewGroup;
 import android.widget.TextView;
 import java.util.Map;
 import org.raspilot.app.R;
-import org.raspilot.app.view.Texts;
+import org.raspilot.app.view.TextViews;
 import org.raspilot.up.commands.CommandField;
 import org.raspilot.up.commands.FieldType;
 import org.raspilot.up.commands.InvalidCommandException;
@@ -36,14 +36,14 @@ final class FieldView implements FieldInput.ChangeListener {
         view.setContentDescription(label(context.getResources()));
         ((ViewGroup) element.findViewById(R.id.field_input)).addView(view);
         ((TextView) element.findViewById(R.id.field_label)).setText(label(context.getResources()));
-        ((TextView) element.findViewById(R.id.field_hint)).setText(field.text());
-        String kept = draft.get(field.name());
+        ((TextView) element.findViewById(R.id.field_hint)).setText(field.text);
+        String kept = draft.get(field.name);
         if (kept != null) {
             input.setText(kept);
         }
         if (!input.text().isEmpty()) {
             // A switch has a value from the start.
-            draft.put(field.name(), input.text());
+            draft.put(field.name, input.text());
         }
         isReady = true;
     }
@@ -59,7 +59,7 @@ final class FieldView implements FieldInput.ChangeListener {
     }
 
     /** Shows the error of the value; returns whether it is valid. */
-    boolean judge() {
+    boolean validate() {
         String sentence = sentence(input.text());
         show(sentence);
         return sentence.isEmpty();
@@ -73,7 +73,7 @@ final class FieldView implements FieldInput.ChangeListener {
     @Override
     public void onChange() {
         String text = input.text();
-        draft.put(field.name(), text);
+        draft.put(field.name, text);
         if (isReady) {
             // An empty, untouched field shows no error.
             show(text.trim().isEmpty() ? "" : sentence(text));
@@ -94,13 +94,13 @@ final class FieldView implements FieldInput.ChangeListener {
     }
 
     private void show(String sentence) {
-        Texts.showOrHide(problem, sentence);
+        TextViews.showOrHide(problem, sentence);
     }
 
     private String label(Resources words) {
-        String name = field.unit().isEmpty() ? field.name()
-                : words.getString(R.string.field_unit, field.name(), field.unit());
-        boolean isSwitch = field.type() == FieldType.BOOLEAN && field.isRequired();
+        String name = field.unit.isEmpty() ? field.name
+                : words.getString(R.string.field_unit, field.name, field.unit);
+        boolean isSwitch = field.type == FieldType.BOOLEAN && field.isRequired();
         return field.isRequired() || isSwitch ? name
                 : words.getString(R.string.field_optional, name);
     }

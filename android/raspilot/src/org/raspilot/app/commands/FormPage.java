@@ -12,7 +12,7 @@ import java.util.Collections;
 import java.util.List;
 import java.util.Map;
 import org.raspilot.app.R;
-import org.raspilot.app.view.Texts;
+import org.raspilot.app.view.TextViews;
 import org.raspilot.up.commands.BaseCommand;
 import org.raspilot.up.commands.CommandField;
 import org.raspilot.up.commands.CommandForm;
@@ -23,28 +23,28 @@ final class FormPage implements Page, View.OnClickListener {
     private static final int[] PERIODS_MS = {50, 100, 200, 500, 1000, 2000};
 
     private final CommandForm form;
-    private final Desk desk;
+    private final CommandContext desk;
     private final Map<String, String> draft;
     private final View element;
-    private final List<FieldView> fields = new ArrayList<FieldView>();
-    private final List<View> presets = new ArrayList<View>();
+    private final List<FieldView> fields = new ArrayList<>();
+    private final List<View> presets = new ArrayList<>();
     private final TextView why;
     private final TextView now;
     private final TextView problem;
     private final Button send;
 
     /** Creates the form and restores its typed text. */
-    FormPage(CommandForm form, Desk desk) {
+    FormPage(CommandForm form, CommandContext desk) {
         this.form = form;
         this.desk = desk;
-        draft = desk.memory().draft(form.name());
+        draft = desk.memory().draft(form.name);
         LayoutInflater inflater = LayoutInflater.from(desk.context());
         element = inflater.inflate(R.layout.page_form, null);
         Resources words = desk.context().getResources();
         ((TextView) element.findViewById(R.id.page_title))
-                .setText(CommandWords.title(words, form.name()));
-        ((TextView) element.findViewById(R.id.page_name)).setText(form.name());
-        ((TextView) element.findViewById(R.id.page_text)).setText(form.text());
+                .setText(CommandTexts.title(words, form.name));
+        ((TextView) element.findViewById(R.id.page_name)).setText(form.name);
+        ((TextView) element.findViewById(R.id.page_text)).setText(form.text);
         why = (TextView) element.findViewById(R.id.page_why);
         now = (TextView) element.findViewById(R.id.page_now);
         problem = (TextView) element.findViewById(R.id.page_problem);
@@ -54,7 +54,7 @@ final class FormPage implements Page, View.OnClickListener {
         for (CommandField field : form.fields()) {
             fields.add(new FieldView(list, field, draft));
         }
-        if (form.name().equals("up.telemetry.frequency") && fields.size() == 1) {
+        if (form.name.equals("up.telemetry.frequency") && fields.size() == 1) {
             addPresets((ViewGroup) element.findViewById(R.id.page_presets));
         }
         update();
@@ -68,9 +68,9 @@ final class FormPage implements Page, View.OnClickListener {
     @Override
     public void update() {
         Resources words = desk.context().getResources();
-        String objection = desk.objectionText(form, Collections.<String, String>emptyMap());
-        Texts.showOrHide(why, objection);
-        Texts.showOrHide(now, CommandWords.now(words, form.name(), desk.picture()));
+        String objection = desk.objectionText(form, Collections.emptyMap());
+        TextViews.showOrHide(why, objection);
+        TextViews.showOrHide(now, CommandTexts.now(words, form.name, desk.picture()));
         boolean isOffered = objection.isEmpty();
         send.setEnabled(isOffered);
         for (View preset : presets) {
@@ -80,10 +80,10 @@ final class FormPage implements Page, View.OnClickListener {
 
     @Override
     public void onClick(View button) {
-        Texts.showOrHide(problem, "");
+        TextViews.showOrHide(problem, "");
         boolean isRight = true;
         for (FieldView field : fields) {
-            boolean isFieldRight = field.judge();
+            boolean isFieldRight = field.validate();
             if (isRight && !isFieldRight) {
                 field.focus();
             }
@@ -99,23 +99,18 @@ final class FormPage implements Page, View.OnClickListener {
         try {
             command = form.command(draft);
         } catch (InvalidCommandException wrong) {
-            Texts.showOrHide(problem, wrong.getMessage());
+            TextViews.showOrHide(problem, wrong.getMessage());
             return;
         }
-        final String words = CommandWords.asked(desk.context().getResources(), form.name(),
+        final String words = CommandTexts.asked(desk.context().getResources(), form.name,
                 command.data());
-        if (!Caution.isConfirmed(form.name(), command.data())) {
+        if (!ConfirmationPolicy.isConfirmed(form.name, command.data())) {
             desk.send(command, words);
             return;
         }
         Context context = desk.context();
         desk.confirm(context.getString(R.string.commands_send_question), words,
-                context.getString(R.string.commands_send), new Runnable() {
-                    @Override
-                    public void run() {
-                        desk.send(command, words);
-                    }
-                });
+                context.getString(R.string.commands_send), () -> desk.send(command, words));
     }
 
     private void addPresets(ViewGroup row) {
@@ -123,12 +118,7 @@ final class FormPage implements Page, View.OnClickListener {
         for (final int periodMs : PERIODS_MS) {
             Button preset = (Button) inflater.inflate(R.layout.button_preset, row, false);
             preset.setText(desk.context().getString(R.string.commands_preset, periodMs));
-            preset.setOnClickListener(new View.OnClickListener() {
-                @Override
-                public void onClick(View button) {
-                    fields.get(0).setText(Integer.toString(periodMs));
-                }
-            });
+            preset.setOnClickListener(button -> fields.get(0).setText(Integer.toString(periodMs)));
             row.addView(preset);
             presets.add(preset);
         }

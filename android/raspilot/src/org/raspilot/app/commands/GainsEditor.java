@@ -14,7 +14,7 @@ import org.raspilot.up.commands.InvalidCommandException;
 import org.raspilot.up.commands.LoopGains;
 import org.raspilot.up.ground.GainChange;
 import org.raspilot.up.ground.GainKey;
-import org.raspilot.up.ground.GainsDesk;
+import org.raspilot.up.ground.GainsService;
 import org.raspilot.up.ground.GainsForm;
 
 /**
@@ -34,7 +34,7 @@ final class GainsEditor {
         }
     }
 
-    private final Map<GainKey, Edit> edits = new LinkedHashMap<GainKey, Edit>();
+    private final Map<GainKey, Edit> edits = new LinkedHashMap<>();
     private GainSet flying;
 
     /** Returns the active gains, or null if unknown. */
@@ -43,13 +43,13 @@ final class GainsEditor {
     }
 
     /** Takes the active gains; an edit that equals its active value is dropped. */
-    void takeFlying(GainSet set) {
+    void setActive(GainSet set) {
         flying = set;
         if (set == null) {
             // During a new request, edits wait for the answer.
             return;
         }
-        for (GainKey key : new ArrayList<GainKey>(edits.keySet())) {
+        for (GainKey key : new ArrayList<>(edits.keySet())) {
             if (isAsFlying(key, edits.get(key).written)) {
                 edits.remove(key);
             }
@@ -97,12 +97,13 @@ final class GainsEditor {
     /** Returns whether the edit of a cell is not a valid gain. */
     boolean isWrong(GainKey key) {
         Edit edit = edits.get(key);
-        return edit != null && !edit.written.trim().isEmpty() && GainsForm.number(edit.written) == null;
+        return edit != null && !edit.written.trim().isEmpty()
+                && GainsForm.number(edit.written) == null;
     }
 
     /** Returns the gains that fly otherwise than their writer saw; unmodifiable. */
     List<GainKey> conflicts() {
-        List<GainKey> found = new ArrayList<GainKey>();
+        List<GainKey> found = new ArrayList<>();
         for (Map.Entry<GainKey, Edit> each : edits.entrySet()) {
             Double now = each.getKey().of(flying);
             if (flying != null && !text(now).equals(text(each.getValue().seen))) {
@@ -124,7 +125,7 @@ final class GainsEditor {
      * @throws InvalidCommandException with one sentence that names the gain
      */
     GainSet wanted() {
-        Map<String, String> cells = new LinkedHashMap<String, String>();
+        Map<String, String> cells = new LinkedHashMap<>();
         for (GainKey key : GainKey.ALL) {
             Edit edit = edits.get(key);
             Double now = key.of(flying);
@@ -152,7 +153,7 @@ final class GainsEditor {
     /** Returns what sending would change; empty while a cell has no valid gain. */
     List<GainChange> changes() {
         try {
-            return GainsDesk.difference(flying, wanted());
+            return GainsService.difference(flying, wanted());
         } catch (InvalidCommandException notYet) {
             // The sentence stands beside the form already.
             return Collections.emptyList();

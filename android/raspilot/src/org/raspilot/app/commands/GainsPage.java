@@ -9,9 +9,9 @@ import java.util.Collections;
 import java.util.List;
 import java.util.Map;
 import org.raspilot.app.R;
-import org.raspilot.app.ground.Picture;
-import org.raspilot.app.ground.SeatPanel;
-import org.raspilot.app.view.Texts;
+import org.raspilot.app.ground.GroundSnapshot;
+import org.raspilot.app.ground.ControlPanel;
+import org.raspilot.app.view.TextViews;
 import org.raspilot.up.commands.CommandForm;
 import org.raspilot.up.commands.GainSet;
 import org.raspilot.up.commands.InvalidCommandException;
@@ -19,17 +19,17 @@ import org.raspilot.up.ground.Age;
 import org.raspilot.up.ground.Freshness;
 import org.raspilot.up.ground.GainChange;
 import org.raspilot.up.ground.GainKey;
-import org.raspilot.up.ground.GainsDesk;
+import org.raspilot.up.ground.GainsService;
 import org.raspilot.up.ground.GainsEntry;
 
 /** The gains of every axis: active values, edits, their differences, and undo. */
 final class GainsPage implements Page, View.OnClickListener, GainsTable.ChangeListener {
     private static final Map<String, Object> SET = Collections.emptyMap();
     private static final Map<String, Object> REQUEST =
-            Collections.<String, Object>singletonMap("request", true);
+            Collections.singletonMap("request", true);
 
     private final CommandForm form;
-    private final Desk desk;
+    private final CommandContext desk;
     private final GainsEditor editor;
     private final View element;
     private final GainsTable table;
@@ -42,10 +42,10 @@ final class GainsPage implements Page, View.OnClickListener, GainsTable.ChangeLi
     private final Button undo;
     private final Button discard;
     private final Button send;
-    private GainsDesk.Snapshot shown;
+    private GainsService.Snapshot shown;
 
     /** Creates the page and restores its edits. */
-    GainsPage(CommandForm form, Desk desk) {
+    GainsPage(CommandForm form, CommandContext desk) {
         this.form = form;
         this.desk = desk;
         editor = desk.memory().gains();
@@ -59,7 +59,7 @@ final class GainsPage implements Page, View.OnClickListener, GainsTable.ChangeLi
         undo = button(R.id.gains_undo);
         discard = button(R.id.gains_discard);
         send = button(R.id.gains_send);
-        takeFlying();
+        updateActive();
         table = new GainsTable(element, editor, this);
         update();
     }
@@ -71,20 +71,20 @@ final class GainsPage implements Page, View.OnClickListener, GainsTable.ChangeLi
 
     @Override
     public void update() {
-        takeFlying();
+        updateActive();
         String objection = desk.objectionText(form, SET);
         boolean isOffered = objection.isEmpty();
-        Texts.showOrHide(why, isOffered ? warning() : objection);
-        Texts.show(state, stateText());
+        TextViews.showOrHide(why, isOffered ? warning() : objection);
+        TextViews.show(state, stateText());
         table.update(isOffered && editor.flying() != null);
         String wrong = wrong();
-        Texts.showOrHide(problem, editor.hasEdits() ? wrong : "");
-        Texts.showOrHide(difference, differenceText());
+        TextViews.showOrHide(problem, editor.hasEdits() ? wrong : "");
+        TextViews.showOrHide(difference, differenceText());
         ask.setEnabled(desk.objectionText(form, REQUEST).isEmpty());
         send.setEnabled(isOffered && editor.hasEdits() && wrong.isEmpty());
         discard.setEnabled(editor.hasEdits());
-        undo.setEnabled(isOffered && shown != null && shown.undo() != null);
-        Texts.showOrHide(past, pastText());
+        undo.setEnabled(isOffered && shown != null && shown.undo != null);
+        TextViews.showOrHide(past, pastText());
     }
 
     @Override
@@ -95,76 +95,68 @@ final class GainsPage implements Page, View.OnClickListener, GainsTable.ChangeLi
     @Override
     public void onClick(View button) {
         if (button == ask) {
-            desk.askGains();
+            desk.requestGains();
         } else if (button == discard) {
             editor.discard();
             table.refill();
             update();
         } else if (button == undo) {
-            askUndo();
+            confirmUndo();
         } else {
-            askSend();
+            confirmSend();
         }
     }
 
-    private void takeFlying() {
-        GainsDesk.Snapshot newest = desk.gains();
+    private void updateActive() {
+        GainsService.Snapshot newest = desk.gains();
         if (newest != shown) {
             shown = newest;
-            editor.takeFlying(newest == null ? null : newest.flying());
+            editor.setActive(newest == null ? null : newest.flying);
             if (table != null) {
                 table.refill();
             }
         }
     }
 
-    private void askSend() {
+    private void confirmSend() {
         final GainSet wanted;
         try {
             wanted = editor.wanted();
         } catch (InvalidCommandException wrong) {
-            Texts.showOrHide(problem, SeatPanel.sentence(wrong.getMessage()));
+            TextViews.showOrHide(problem, ControlPanel.sentence(wrong.getMessage()));
             return;
         }
         Context context = desk.context();
         String text = joined(differenceText(), warning());
         desk.confirm(context.getString(R.string.gains_question), text,
-                context.getString(R.string.commands_send), new Runnable() {
-                    @Override
-                    public void run() {
-                        editor.accept();
-                        desk.setGains(wanted);
-                    }
+                context.getString(R.string.commands_send), () -> {
+                    editor.accept();
+                    desk.setGains(wanted);
                 });
     }
 
-    private void askUndo() {
-        if (shown == null || shown.undo() == null) {
+    private void confirmUndo() {
+        if (shown == null || shown.undo == null) {
             return;
         }
         Context context = desk.context();
-        String changes = lines(GainsDesk.difference(shown.flying(), shown.undo()));
+        String changes = lines(GainsService.difference(shown.flying, shown.undo));
         desk.confirm(context.getString(R.string.gains_undo_question), joined(changes, warning()),
-                context.getString(R.string.gains_undo), new Runnable() {
-                    @Override
-                    public void run() {
-                        desk.undoGains();
-                    }
-                });
+                context.getString(R.string.gains_undo), () -> desk.undoGains());
     }
 
     private String stateText() {
         Context context = desk.context();
-        if (shown == null || shown.flying() == null || shown.toldMs() == null) {
+        if (shown == null || shown.flying == null || shown.reportedMs == null) {
             return context.getString(R.string.gains_unknown);
         }
-        long agoMs = Math.max(0, desk.picture().nowMs - shown.toldMs()) / 1000 * 1000;
+        long agoMs = Math.max(0, desk.picture().nowMs - shown.reportedMs) / 1000 * 1000;
         return context.getString(R.string.gains_told,
                 agoMs < 100000 ? agoMs / 1000 + " s" : Age.text(agoMs));
     }
 
     private String warning() {
-        Picture picture = desk.picture();
+        GroundSnapshot picture = desk.picture();
         boolean isLive = picture.telemetry.freshness("armed", picture.nowMs) == Freshness.LIVE;
         boolean isArmed = isLive && Boolean.TRUE.equals(picture.telemetry.flag("armed"));
         return isArmed ? desk.context().getString(R.string.gains_armed) : "";
@@ -175,7 +167,7 @@ final class GainsPage implements Page, View.OnClickListener, GainsTable.ChangeLi
             editor.wanted();
             return "";
         } catch (InvalidCommandException wrong) {
-            return SeatPanel.sentence(wrong.getMessage());
+            return ControlPanel.sentence(wrong.getMessage());
         }
     }
 
@@ -194,12 +186,12 @@ final class GainsPage implements Page, View.OnClickListener, GainsTable.ChangeLi
             return "";
         }
         StringBuilder all = new StringBuilder();
-        List<GainsEntry> history = shown.history();
+        List<GainsEntry> history = shown.history;
         for (int each = history.size() - 1; each >= 0; each--) {
             GainsEntry entry = history.get(each);
             all.append(all.length() == 0 ? "" : "\n");
-            all.append(desk.context().getString(R.string.gains_entry, entry.number(),
-                    entry.answer().sentence(), lines(entry.changes()).replace("\n", "; ")));
+            all.append(desk.context().getString(R.string.gains_entry, entry.number,
+                    entry.answer.sentence(), lines(entry.changes()).replace("\n", "; ")));
         }
         return all.toString();
     }

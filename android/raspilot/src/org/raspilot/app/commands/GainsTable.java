@@ -11,8 +11,8 @@ import java.util.ArrayList;
 import java.util.List;
 import java.util.Locale;
 import org.raspilot.app.R;
-import org.raspilot.app.view.Inks;
-import org.raspilot.app.view.Texts;
+import org.raspilot.app.view.InstrumentColors;
+import org.raspilot.app.view.TextViews;
 import org.raspilot.up.ground.GainKey;
 
 /** The cells of the gains that are used: a heading a loop, a row an axis, P, I and D in it. */
@@ -28,21 +28,20 @@ final class GainsTable {
 
     /** Called when a cell was edited. */
     interface ChangeListener {
-        /** Refreshes from the editor. */
         void onWritten();
     }
 
     private final GainsEditor editor;
     private final ChangeListener listener;
-    private final Inks inks;
-    private final List<Cell> cells = new ArrayList<Cell>();
+    private final InstrumentColors colors;
+    private final List<Cell> cells = new ArrayList<>();
     private boolean isFilling;
 
     /** Creates the cells in the list that the page has for them. */
     GainsTable(View page, GainsEditor editor, ChangeListener listener) {
         this.editor = editor;
         this.listener = listener;
-        inks = Inks.of(page.getContext());
+        colors = InstrumentColors.of(page.getContext());
         ViewGroup list = (ViewGroup) page.findViewById(R.id.gains_table);
         LayoutInflater inflater = LayoutInflater.from(page.getContext());
         for (int loop = 0; loop < LOOPS.length; loop++) {
@@ -83,9 +82,9 @@ final class GainsTable {
             Double now = cell.key.of(editor.flying());
             String flies = now == null ? "" : cell.input.getResources()
                     .getString(R.string.gains_flies, GainsEditor.text(now));
-            Texts.showOrHide(cell.flying, isEdited ? flies : "");
-            Texts.colour(cell.input, editor.isWrong(cell.key) ? inks.alarm
-                    : isEdited ? inks.accent : inks.ink);
+            TextViews.showOrHide(cell.flying, isEdited ? flies : "");
+            TextViews.colour(cell.input, editor.isWrong(cell.key) ? colors.alarm
+                    : isEdited ? colors.accent : colors.ink);
         }
     }
 

@@ -6,8 +6,8 @@ import android.view.View;
 import android.widget.TextView;
 import java.util.List;
 import org.raspilot.app.R;
-import org.raspilot.app.view.Inks;
-import org.raspilot.app.view.Texts;
+import org.raspilot.app.view.InstrumentColors;
+import org.raspilot.app.view.TextViews;
 
 /** The newest answer; a tap on it opens all sent Commands with their outcomes. */
 final class HistoryPanel implements View.OnClickListener {
@@ -15,12 +15,11 @@ final class HistoryPanel implements View.OnClickListener {
     private final TextView newest;
     private final View box;
     private final TextView all;
-    private final Inks inks;
+    private final InstrumentColors colors;
 
-    /** Finds its views. */
     HistoryPanel(View root, CommandHistory history) {
         this.history = history;
-        inks = Inks.of(root.getContext());
+        colors = InstrumentColors.of(root.getContext());
         newest = (TextView) root.findViewById(R.id.commands_newest);
         box = root.findViewById(R.id.commands_history_box);
         all = (TextView) root.findViewById(R.id.commands_history);
@@ -32,7 +31,6 @@ final class HistoryPanel implements View.OnClickListener {
         return box.getVisibility() == View.VISIBLE;
     }
 
-    /** Opens all, or closes it. */
     void setOpen(boolean isOpen) {
         box.setVisibility(isOpen ? View.VISIBLE : View.GONE);
         update();
@@ -43,19 +41,18 @@ final class HistoryPanel implements View.OnClickListener {
         setOpen(!isOpen());
     }
 
-    /** Shows the current state. */
     void update() {
         Resources words = newest.getResources();
         CommandHistory.Entry entry = history.newest();
         if (entry == null) {
-            Texts.show(newest, words.getString(R.string.commands_nothing_sent));
-            Texts.colour(newest, inks.dim);
+            TextViews.show(newest, words.getString(R.string.commands_nothing_sent));
+            TextViews.colour(newest, colors.dim);
         } else {
-            Texts.show(newest, line(words, entry));
-            Texts.colour(newest, colour(entry.outcome));
+            TextViews.show(newest, line(words, entry));
+            TextViews.colour(newest, colour(entry.outcome));
         }
         if (isOpen()) {
-            Texts.show(all, allText(words));
+            TextViews.show(all, allText(words));
         }
     }
 
@@ -94,14 +91,14 @@ final class HistoryPanel implements View.OnClickListener {
     private int colour(CommandHistory.Outcome outcome) {
         switch (outcome) {
             case GOOD:
-                return inks.good;
+                return colors.good;
             case REFUSED:
             case UNSENT:
-                return inks.alarm;
+                return colors.alarm;
             case UNKNOWN:
-                return inks.warning;
+                return colors.warning;
             default:
-                return inks.ink;
+                return colors.ink;
         }
     }
 }

@@ -4,7 +4,6 @@ import android.view.View;
 
 /** The form of one Command, while it is open. Main thread only. */
 interface Page {
-    /** Returns its view. */
     View element();
 
     /** Shows the current state: offered Commands, active gains. */

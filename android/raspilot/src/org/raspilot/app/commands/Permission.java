@@ -3,9 +3,7 @@ package org.raspilot.app.commands;
 import java.util.Arrays;
 import java.util.List;
 import java.util.Map;
-import org.raspilot.up.commands.ArmCommand;
-import org.raspilot.up.commands.DisarmCommand;
-import org.raspilot.up.commands.PidTuningsCommand;
+import org.raspilot.up.commands.Commands;
 import org.raspilot.up.ground.Freshness;
 import org.raspilot.up.ground.GroundStatus;
 import org.raspilot.up.ground.Telemetry;
@@ -28,7 +26,7 @@ final class Permission {
 
     /** Returns whether a Command with such data is only a request. */
     static boolean isOnlyRequest(String name, Map<String, ?> data) {
-        return name.equals(PROFILE) || name.equals(PidTuningsCommand.NAME)
+        return name.equals(PROFILE) || name.equals(Commands.PIDS)
                 && Boolean.TRUE.equals(data.get("request"));
     }
 
@@ -44,7 +42,7 @@ final class Permission {
         if (isOnlyRequest(name, data)) {
             return OBSERVER;
         }
-        return name.equals(PidTuningsCommand.NAME) ? PILOT : OPERATOR;
+        return name.equals(Commands.PIDS) ? PILOT : OPERATOR;
     }
 
     /** Returns whether a role includes the required one; an unknown role is no reason to object. */
@@ -60,71 +58,71 @@ final class Permission {
      * @param data as far as it is known already
      * @param status null: there is no service yet
      */
-    static Objection objection(String name, String told, Map<String, ?> data,
+    static DisabledReason objection(String name, String told, Map<String, ?> data,
             GroundStatus status, Telemetry telemetry, long nowMs) {
-        Objection ofLink = ofLink(status);
-        if (ofLink != Objection.NONE) {
+        DisabledReason ofLink = ofLink(status);
+        if (ofLink != DisabledReason.NONE) {
             return ofLink;
         }
-        if (!allows(status.role(), neededRole(name, told, data))) {
-            return Objection.ROLE;
+        if (!allows(status.commandRole, neededRole(name, told, data))) {
+            return DisabledReason.ROLE;
         }
-        return ofAircraft(name, data, status.tuneInFlight(), telemetry, nowMs);
+        return ofAircraft(name, data, status.tuneInFlight, telemetry, nowMs);
     }
 
     /** Returns the objection from the aircraft's telemetry, or from its silence. */
-    static Objection ofAircraft(String name, Map<String, ?> data, Boolean tuneInFlight,
+    static DisabledReason ofAircraft(String name, Map<String, ?> data, Boolean tuneInFlight,
             Telemetry telemetry, long nowMs) {
         if (isOnlyRequest(name, data)) {
-            return Objection.NONE;
+            return DisabledReason.NONE;
         }
         if (telemetry.isSilent(nowMs)) {
-            return Objection.SILENT;
+            return DisabledReason.SILENT;
         }
         boolean isLive = telemetry.freshness("armed", nowMs) == Freshness.LIVE;
-        boolean isForAir = name.equals(PidTuningsCommand.NAME)
+        boolean isForAir = name.equals(Commands.PIDS)
                 && telemetry.flag("in_flight") != null;
         Boolean flag = telemetry.flag(isForAir ? "in_flight" : "armed");
         return ofMotor(name, isLive ? flag : null, tuneInFlight);
     }
 
     /** Returns why nothing can be sent at all. */
-    static Objection ofLink(GroundStatus status) {
+    static DisabledReason ofLink(GroundStatus status) {
         if (status == null || !status.isOpen()) {
-            return Objection.NO_LINK;
+            return DisabledReason.NO_LINK;
         }
-        if (Boolean.FALSE.equals(status.isAircraftOnline())) {
-            return Objection.NO_AIRCRAFT;
+        if (Boolean.FALSE.equals(status.isAircraftOnline)) {
+            return DisabledReason.NO_AIRCRAFT;
         }
-        switch (status.standing()) {
+        switch (status.control) {
             case OURS:
-                return Objection.NONE;
+                return DisabledReason.NONE;
             case FREE:
-                return Objection.SEAT_FREE;
+                return DisabledReason.CONTROL_FREE;
             case HELD:
-                return Objection.SEAT_HELD;
+                return DisabledReason.CONTROL_TAKEN;
             case LATER:
-                return Objection.LISTENING;
+                return DisabledReason.LISTENING;
             default:
-                return Objection.NO_LINK;
+                return DisabledReason.NO_LINK;
         }
     }
 
     /** Returns the objection while armed (for gains: in flight); {@code isArmed} null: unknown. */
-    static Objection ofMotor(String name, Boolean isArmed, Boolean tuneInFlight) {
+    static DisabledReason ofMotor(String name, Boolean isArmed, Boolean tuneInFlight) {
         if (isArmed == null) {
-            return Objection.NONE;
+            return DisabledReason.NONE;
         }
-        if (name.equals(PidTuningsCommand.NAME)) {
+        if (name.equals(Commands.PIDS)) {
             boolean isForbidden = isArmed && Boolean.FALSE.equals(tuneInFlight);
-            return isForbidden ? Objection.ARMED : Objection.NONE;
+            return isForbidden ? DisabledReason.ARMED : DisabledReason.NONE;
         }
-        if (name.equals(ArmCommand.NAME)) {
-            return isArmed ? Objection.ARMED_ALREADY : Objection.NONE;
+        if (name.equals(Commands.ARM)) {
+            return isArmed ? DisabledReason.ARMED_ALREADY : DisabledReason.NONE;
         }
-        if (name.equals(DisarmCommand.NAME)) {
-            return isArmed ? Objection.NONE : Objection.DISARMED_ALREADY;
+        if (name.equals(Commands.DISARM)) {
+            return isArmed ? DisabledReason.NONE : DisabledReason.DISARMED_ALREADY;
         }
-        return Objection.NONE;
+        return DisabledReason.NONE;
     }
 }

@@ -13,12 +13,9 @@ import java.util.Set;
  * when it returns or escalates from a warning to an alarm.
  */
 final class AlarmBell {
-    /** Repetition period of an alarm. */
     static final long ALARM_EACH_MS = 2000;
-    /** Repetition period of a warning. */
     static final long WARNING_EACH_MS = 10000;
 
-    /** The sound to play. */
     enum Ring {
         /** Nothing. */
         NONE,
@@ -28,21 +25,20 @@ final class AlarmBell {
         ALARM
     }
 
-    private final Set<String> silenced = new HashSet<String>();
-    private final Set<String> heard = new HashSet<String>();
-    private Map<String, Ring> loud = new HashMap<String, Ring>();
+    private final Set<String> silenced = new HashSet<>();
+    private final Set<String> heard = new HashSet<>();
+    private Map<String, Ring> loud = new HashMap<>();
     private long rangMs;
     private boolean hasRung;
 
     /** Takes the current audible alarms, by their kind. */
-    void take(Map<String, Ring> wrong) {
-        loud = new HashMap<String, Ring>(wrong);
+    void update(Map<String, Ring> wrong) {
+        loud = new HashMap<>(wrong);
         Set<String> words = words();
         silenced.retainAll(words);
         heard.retainAll(words);
     }
 
-    /** Silences the current alarms. */
     void silence() {
         silenced.addAll(words());
     }
@@ -68,7 +64,7 @@ final class AlarmBell {
     }
 
     /** Returns the sound to play at this moment. */
-    Ring look(long nowMs) {
+    Ring ringAt(long nowMs) {
         Ring worst = worst();
         if (worst == Ring.NONE) {
             return Ring.NONE;
@@ -100,7 +96,7 @@ final class AlarmBell {
     }
 
     private Set<String> words() {
-        Set<String> words = new HashSet<String>();
+        Set<String> words = new HashSet<>();
         for (Map.Entry<String, Ring> each : loud.entrySet()) {
             words.add(word(each));
         }

@@ -7,8 +7,8 @@ import java.util.HashMap;
 import java.util.List;
 import java.util.Map;
 import org.raspilot.app.R;
-import org.raspilot.app.view.Inks;
-import org.raspilot.app.view.Texts;
+import org.raspilot.app.view.InstrumentColors;
+import org.raspilot.app.view.TextViews;
 import org.raspilot.up.ground.Alarm;
 import org.raspilot.up.ground.EventLevel;
 
@@ -17,7 +17,7 @@ final class AlarmPanel implements View.OnClickListener {
     private final View element;
     private final TextView text;
     private final Button silence;
-    private final Inks inks;
+    private final InstrumentColors colors;
     private final AlarmBell bell;
     private final Sounder sounder;
 
@@ -25,7 +25,7 @@ final class AlarmPanel implements View.OnClickListener {
     AlarmPanel(View root, AlarmBell bell, Sounder sounder) {
         this.bell = bell;
         this.sounder = sounder;
-        inks = Inks.of(root.getContext());
+        colors = InstrumentColors.of(root.getContext());
         element = root.findViewById(R.id.ground_alarms);
         text = (TextView) root.findViewById(R.id.ground_alarm_text);
         silence = (Button) root.findViewById(R.id.ground_silence);
@@ -33,35 +33,35 @@ final class AlarmPanel implements View.OnClickListener {
     }
 
     /** Shows the current state, and sounds the due alarms. */
-    void update(Picture picture) {
+    void update(GroundSnapshot picture) {
         List<Alarm> active = picture.alarms == null
-                ? java.util.Collections.<Alarm>emptyList() : picture.alarms.active();
+                ? java.util.Collections.emptyList() : picture.alarms.active;
         if (picture.alarms != null) {
             // While the alarms are unknown, silenced ones stay silenced.
-            bell.take(loud(active));
-            sounder.ring(bell.look(picture.nowMs));
+            bell.update(loud(active));
+            sounder.ring(bell.ringAt(picture.nowMs));
         }
         element.setVisibility(active.isEmpty() ? View.GONE : View.VISIBLE);
         String words = words(active);
         // A live region: a screen reader speaks its changes.
-        Texts.show(text, words);
-        Texts.colour(text, hasAlarm(active) ? inks.alarm : inks.warning);
+        TextViews.show(text, words);
+        TextViews.colour(text, hasAlarm(active) ? colors.alarm : colors.warning);
         silence.setVisibility(bell.isRinging() ? View.VISIBLE : View.GONE);
     }
 
     @Override
     public void onClick(View button) {
         bell.silence();
-        sounder.hush();
+        sounder.stop();
         silence.setVisibility(View.GONE);
     }
 
     private static Map<String, AlarmBell.Ring> loud(List<Alarm> active) {
-        Map<String, AlarmBell.Ring> loud = new HashMap<String, AlarmBell.Ring>();
+        Map<String, AlarmBell.Ring> loud = new HashMap<>();
         for (Alarm each : active) {
             if (each.isLoud()) {
-                boolean isAlarm = each.level() == EventLevel.ALARM;
-                loud.put(each.kind().name(),
+                boolean isAlarm = each.level == EventLevel.ALARM;
+                loud.put(each.kind.name(),
                         isAlarm ? AlarmBell.Ring.ALARM : AlarmBell.Ring.WARNING);
             }
         }
@@ -70,7 +70,7 @@ final class AlarmPanel implements View.OnClickListener {
 
     private static boolean hasAlarm(List<Alarm> active) {
         for (Alarm each : active) {
-            if (each.level() == EventLevel.ALARM) {
+            if (each.level == EventLevel.ALARM) {
                 return true;
             }
         }
@@ -80,7 +80,7 @@ final class AlarmPanel implements View.OnClickListener {
     private static String words(List<Alarm> active) {
         StringBuilder all = new StringBuilder();
         for (Alarm each : active) {
-            all.append(all.length() == 0 ? "" : " ").append(SeatPanel.sentence(each.text()));
+            all.append(all.length() == 0 ? "" : " ").append(ControlPanel.sentence(each.text));
         }
         return all.toString();
     }

@@ -4,8 +4,8 @@ import android.content.res.Resources;
 
 import org.raspilot.app.R;
 import org.raspilot.app.view.FrameText;
-import org.raspilot.app.view.Inks;
-import org.raspilot.app.view.Texts;
+import org.raspilot.app.view.InstrumentColors;
+import org.raspilot.app.view.TextViews;
 import org.raspilot.up.ground.Age;
 import org.raspilot.up.ground.Freshness;
 import org.raspilot.up.ground.Telemetry;
@@ -16,13 +16,13 @@ import org.raspilot.up.ground.Telemetry;
  */
 public final class FrameLine implements FrameText.DrawnListener {
     private final FrameText view;
-    private final Inks inks;
+    private final InstrumentColors colors;
     private Long shownBeacon;
 
     /** Takes the view that shows it. */
     public FrameLine(FrameText view) {
         this.view = view;
-        inks = Inks.of(view.getContext());
+        colors = InstrumentColors.of(view.getContext());
         view.setDrawnListener(this);
     }
 
@@ -38,7 +38,7 @@ public final class FrameLine implements FrameText.DrawnListener {
     }
 
     /** Resets the seen frames: another link, another aircraft. */
-    public void forget() {
+    public void clear() {
         shownBeacon = null;
     }
 
@@ -47,35 +47,34 @@ public final class FrameLine implements FrameText.DrawnListener {
         shownBeacon = beacon;
     }
 
-    /** Shows the current state. */
-    public void update(Picture picture) {
+    public void update(GroundSnapshot picture) {
         Telemetry telemetry = picture.telemetry;
         Resources words = view.getResources();
         Long ageMs = telemetry.ageMs(picture.nowMs);
         if (ageMs == null) {
-            show(words.getString(R.string.frame_none), inks.dim, null);
+            show(words.getString(R.string.frame_none), colors.dim, null);
         } else if (telemetry.isSilent(picture.nowMs)) {
-            int text = telemetry.age().isLate(picture.nowMs)
+            int text = telemetry.age.isLate(picture.nowMs)
                     ? R.string.frame_late : R.string.frame_silent;
-            show(words.getString(text, Age.text(ageMs)), inks.alarm, telemetry.beacon());
+            show(words.getString(text, Age.text(ageMs)), colors.alarm, telemetry.beacon);
         } else {
             String text = words.getString(R.string.frame_live, mode(picture, words),
                     armed(picture, words), Age.text(ageMs));
-            show(text, inks.ink, telemetry.beacon());
+            show(text, colors.ink, telemetry.beacon);
         }
     }
 
     private void show(String text, int colour, Long beacon) {
-        Texts.colour(view, colour);
+        TextViews.colour(view, colour);
         view.setFrame(text, beacon);
     }
 
-    private static String mode(Picture picture, Resources words) {
+    private static String mode(GroundSnapshot picture, Resources words) {
         String mode = picture.telemetry.text("flight_mode");
         return isLive(picture, "flight_mode") ? mode : words.getString(R.string.mode_unknown);
     }
 
-    private static String armed(Picture picture, Resources words) {
+    private static String armed(GroundSnapshot picture, Resources words) {
         Boolean isArmed = picture.telemetry.flag("armed");
         if (isArmed == null || !isLive(picture, "armed")) {
             return words.getString(R.string.armed_unknown);
@@ -83,7 +82,7 @@ public final class FrameLine implements FrameText.DrawnListener {
         return words.getString(isArmed ? R.string.armed_yes : R.string.armed_no);
     }
 
-    private static boolean isLive(Picture picture, String path) {
+    private static boolean isLive(GroundSnapshot picture, String path) {
         return picture.telemetry.freshness(path, picture.nowMs) == Freshness.LIVE;
     }
 }

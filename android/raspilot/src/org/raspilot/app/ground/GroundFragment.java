@@ -79,14 +79,14 @@ public final class GroundFragment extends WatchingFragment {
     @Override
     protected void showNewest() {
         if (screen != null) {
-            screen.showNewest(Picture.of(ground()));
+            screen.showNewest(GroundSnapshot.of(ground()));
         }
     }
 
     @Override
     protected void showAll() {
         if (screen != null) {
-            screen.showAll(Picture.of(ground()));
+            screen.showAll(GroundSnapshot.of(ground()));
         }
     }
 }

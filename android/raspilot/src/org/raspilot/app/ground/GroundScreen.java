@@ -11,7 +11,7 @@ import org.raspilot.up.android.TelemetryService;
 final class GroundScreen {
     private final FrameLine frame;
     private final AlarmPanel alarms;
-    private final SeatPanel seat;
+    private final ControlPanel seat;
     private final InstrumentPanel instruments;
     private final TrackPanel track;
     private final StatePanel state;
@@ -23,7 +23,7 @@ final class GroundScreen {
     GroundScreen(Activity activity, View root, int panel, GroundSpeed speed, AlarmPanel alarms) {
         this.alarms = alarms;
         frame = new FrameLine((FrameText) root.findViewById(R.id.ground_frame));
-        seat = new SeatPanel(root);
+        seat = new ControlPanel(root);
         instruments = new InstrumentPanel(root, speed);
         track = new TrackPanel(activity, root);
         state = new StatePanel(root);
@@ -34,7 +34,7 @@ final class GroundScreen {
 
     /** Sets the ground; null: none. */
     void setGround(TelemetryService.Ground ground) {
-        frame.forget();
+        frame.clear();
         seat.setGround(ground);
     }
 
@@ -43,15 +43,13 @@ final class GroundScreen {
         return panels.chosen(otherwise);
     }
 
-    /** Shows what each frame changes. */
-    void showNewest(Picture picture) {
+    void showNewest(GroundSnapshot picture) {
         frame.update(picture);
         instruments.update(picture);
         track.update(picture);
     }
 
-    /** Shows everything. */
-    void showAll(Picture picture) {
+    void showAll(GroundSnapshot picture) {
         showNewest(picture);
         alarms.update(picture);
         seat.update(picture);
@@ -60,7 +58,6 @@ final class GroundScreen {
         values.update(picture);
     }
 
-    /** Releases the views. */
     void close() {
         seat.setGround(null);
         frame.close();

@@ -8,16 +8,16 @@ import org.raspilot.up.ground.Earth;
  * <p>Main thread only.
  */
 final class GroundSpeed {
-    private static final int KEPT = 16;
-    private static final long LONGEST_MS = 6000;
-    private static final long SHORTEST_MS = 400;
+    private static final int MAX_FIXES = 16;
+    private static final long MAX_MS = 6000;
+    private static final long MIN_MS = 400;
     private static final long WINDOW_MS = 2200;
     private static final long JITTER_MS = 50;
     private static final long AGAIN_MS = 300;
 
-    private final double[] latitudesDeg = new double[KEPT];
-    private final double[] longitudesDeg = new double[KEPT];
-    private final long[] timesMs = new long[KEPT];
+    private final double[] latitudesDeg = new double[MAX_FIXES];
+    private final double[] longitudesDeg = new double[MAX_FIXES];
+    private final long[] timesMs = new long[MAX_FIXES];
     private int count;
 
     /**
@@ -27,7 +27,7 @@ final class GroundSpeed {
      * @param longitudeDeg -180 to 180 degrees
      * @param measuredMs time of measurement, by one monotonic clock
      */
-    void take(double latitudeDeg, double longitudeDeg, long measuredMs) {
+    void update(double latitudeDeg, double longitudeDeg, long measuredMs) {
         if (count > 0) {
             long sinceMs = measuredMs - timesMs[count - 1];
             boolean isSame = latitudeDeg == latitudesDeg[count - 1]
@@ -35,11 +35,11 @@ final class GroundSpeed {
             if (sinceMs < JITTER_MS || sinceMs < AGAIN_MS && isSame) {
                 return;
             }
-            if (sinceMs > LONGEST_MS) {
+            if (sinceMs > MAX_MS) {
                 count = 0;
             }
         }
-        if (count == KEPT) {
+        if (count == MAX_FIXES) {
             count--;
             System.arraycopy(latitudesDeg, 1, latitudesDeg, 0, count);
             System.arraycopy(longitudesDeg, 1, longitudesDeg, 0, count);
@@ -51,7 +51,6 @@ final class GroundSpeed {
         count++;
     }
 
-    /** Clears all positions. */
     void clear() {
         count = 0;
     }
@@ -64,7 +63,7 @@ final class GroundSpeed {
             from++;
         }
         long timeMs = last < 1 ? 0 : timesMs[last] - timesMs[from];
-        if (timeMs < SHORTEST_MS) {
+        if (timeMs < MIN_MS) {
             return null;
         }
         return 1000 * distanceM(from, last) / timeMs;

@@ -40,8 +40,7 @@ final class InstrumentPanel {
         servos.setTitle(root.getResources().getString(R.string.ground_servos), SERVOS);
     }
 
-    /** Shows the current state. */
-    void update(Picture picture) {
+    void update(GroundSnapshot picture) {
         Telemetry telemetry = picture.telemetry;
         Double roll = telemetry.number("orientation.roll");
         Double pitch = telemetry.number("orientation.pitch");
@@ -65,13 +64,13 @@ final class InstrumentPanel {
         showBars(servos, picture, "servo", SERVOS);
     }
 
-    private void showSpeed(Picture picture) {
+    private void showSpeed(GroundSnapshot picture) {
         Telemetry telemetry = picture.telemetry;
         Double latitude = telemetry.number("location.latitude");
         Double longitude = telemetry.number("location.longitude");
         Long ageMs = telemetry.readingAgeMs("location", picture.nowMs);
         if (latitude != null && longitude != null && ageMs != null) {
-            groundSpeed.take(latitude, longitude, picture.nowMs - ageMs);
+            groundSpeed.update(latitude, longitude, picture.nowMs - ageMs);
         }
         Double now = groundSpeed.metresPerSecond();
         if (now != null) {
@@ -80,7 +79,7 @@ final class InstrumentPanel {
         age(speed, picture, "location.latitude", now != null);
     }
 
-    private void showBars(BarsView bars, Picture picture, String part, int count) {
+    private void showBars(BarsView bars, GroundSnapshot picture, String part, int count) {
         boolean isThere = false;
         for (int channel = 0; channel < count; channel++) {
             Double pulse = picture.telemetry.number(part + "." + CHANNELS[channel]);
@@ -90,7 +89,7 @@ final class InstrumentPanel {
         age(bars, picture, part, isThere);
     }
 
-    private static void age(Instrument instrument, Picture picture, String path,
+    private static void age(Instrument instrument, GroundSnapshot picture, String path,
             boolean isThere) {
         Freshness freshness = isThere ? picture.telemetry.freshness(path, picture.nowMs)
                 : Freshness.NONE;
@@ -98,7 +97,7 @@ final class InstrumentPanel {
     }
 
     /** Returns the age of the value at a path: the reading's age, otherwise its frame's. */
-    static String ageText(Picture picture, String path) {
+    static String ageText(GroundSnapshot picture, String path) {
         Telemetry telemetry = picture.telemetry;
         Long ageMs = telemetry.readingAgeMs(Telemetry.readingOf(path), picture.nowMs);
         return Age.text(ageMs == null ? telemetry.ageMs(picture.nowMs) : ageMs);

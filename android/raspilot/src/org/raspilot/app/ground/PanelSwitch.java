@@ -52,7 +52,6 @@ final class PanelSwitch implements RadioGroup.OnCheckedChangeListener {
         return kept < 0 || kept >= BUTTONS.length ? 0 : kept;
     }
 
-    /** Stores the visible panel. */
     static void keep(Bundle state, int chosen) {
         state.putInt(CHOSEN, chosen);
     }

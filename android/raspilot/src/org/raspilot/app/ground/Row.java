@@ -7,9 +7,9 @@ import android.widget.TextView;
 
 import org.raspilot.app.R;
 import org.raspilot.app.view.Hatch;
-import org.raspilot.app.view.Inks;
+import org.raspilot.app.view.InstrumentColors;
 import org.raspilot.app.view.Instrument;
-import org.raspilot.app.view.Texts;
+import org.raspilot.app.view.TextViews;
 import org.raspilot.up.ground.Freshness;
 
 /** A label and a value that is greyed out when stale. */
@@ -29,32 +29,31 @@ final class Row {
     private final View element;
     private final TextView label;
     private final TextView value;
-    private final Inks inks;
+    private final InstrumentColors colors;
     private final Hatch hatch;
     private Boolean wasStale;
 
     /** Takes an element that was inflated from row_ground. */
-    Row(View element, Inks inks) {
+    Row(View element, InstrumentColors colors) {
         this.element = element;
-        this.inks = inks;
-        hatch = new Hatch(element.getContext(), inks.hatch);
+        this.colors = colors;
+        hatch = new Hatch(element.getContext(), colors.hatch);
         label = (TextView) element.findViewById(R.id.row_label);
         value = (TextView) element.findViewById(R.id.row_value);
     }
 
     /** Creates a row at the end of a list of rows. */
-    static Row in(ViewGroup list, int labelText, Inks inks) {
+    static Row in(ViewGroup list, int labelText, InstrumentColors colors) {
         LayoutInflater inflater = LayoutInflater.from(list.getContext());
         View element = inflater.inflate(R.layout.row_ground, list, false);
         list.addView(element);
-        Row row = new Row(element, inks);
+        Row row = new Row(element, colors);
         row.label.setText(labelText);
         return row;
     }
 
-    /** Sets the value. */
     void label(String text) {
-        Texts.show(label, text);
+        TextViews.show(label, text);
     }
 
     /**
@@ -70,8 +69,8 @@ final class Row {
         if (isStale) {
             shown = element.getResources().getString(R.string.ground_old, text, age);
         }
-        Texts.show(value, shown);
-        Texts.colour(value, freshness == Freshness.LIVE ? colourOf(look) : inks.dim);
+        TextViews.show(value, shown);
+        TextViews.colour(value, freshness == Freshness.LIVE ? colourOf(look) : colors.dim);
         if (wasStale == null || wasStale != isStale) {
             wasStale = isStale;
             hatch.setActive(isStale);
@@ -79,7 +78,6 @@ final class Row {
         }
     }
 
-    /** Shows or hides the row. */
     void setVisible(boolean isVisible) {
         element.setVisibility(isVisible ? View.VISIBLE : View.GONE);
     }
@@ -93,13 +91,13 @@ final class Row {
     private int colourOf(Look look) {
         switch (look) {
             case GOOD:
-                return inks.good;
+                return colors.good;
             case WARNING:
-                return inks.warning;
+                return colors.warning;
             case ALARM:
-                return inks.alarm;
+                return colors.alarm;
             default:
-                return inks.ink;
+                return colors.ink;
         }
     }
 }

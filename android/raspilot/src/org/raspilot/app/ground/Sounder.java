@@ -42,8 +42,7 @@ final class Sounder {
         }
     }
 
-    /** Stops what sounds. */
-    void hush() {
+    void stop() {
         if (tones != null) {
             tones.stopTone();
         }
@@ -56,7 +55,7 @@ final class Sounder {
     /** Stops the sound and releases its resources. */
     void release() {
         if (tones != null) {
-            hush();
+            stop();
             tones.release();
             tones = null;
         }

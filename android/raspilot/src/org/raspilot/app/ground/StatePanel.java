@@ -10,8 +10,8 @@ import android.view.ViewGroup;
 import java.util.List;
 import java.util.Locale;
 import org.raspilot.app.R;
-import org.raspilot.app.view.Inks;
-import org.raspilot.up.ground.Busy;
+import org.raspilot.app.view.InstrumentColors;
+import org.raspilot.up.ground.BusyState;
 import org.raspilot.up.ground.Freshness;
 import org.raspilot.up.ground.Telemetry;
 
@@ -50,27 +50,26 @@ final class StatePanel {
         context = root.getContext().getApplicationContext();
         words = root.getResources();
         ViewGroup list = (ViewGroup) root.findViewById(R.id.ground_state);
-        Inks inks = Inks.of(root.getContext());
-        mode = Row.in(list, R.string.state_mode, inks);
-        armed = Row.in(list, R.string.state_motor, inks);
-        vetoes = Row.in(list, R.string.state_vetoes, inks);
-        failsafe = Row.in(list, R.string.state_failsafe, inks);
-        panic = Row.in(list, R.string.state_panic, inks);
-        stale = Row.in(list, R.string.state_stale, inks);
-        switchRow = Row.in(list, R.string.state_switch, inks);
-        raspilot = Row.in(list, R.string.state_raspilot, inks);
-        receiver = Row.in(list, R.string.state_receiver, inks);
-        imu = Row.in(list, R.string.state_imu, inks);
-        board = Row.in(list, R.string.state_board, inks);
-        home = Row.in(list, R.string.state_home, inks);
-        aircraftBattery = Row.in(list, R.string.state_aircraft_battery, inks);
-        phoneBattery = Row.in(list, R.string.state_phone_battery, inks);
-        load = Row.in(list, R.string.state_load, inks);
-        blackBox = Row.in(list, R.string.state_black_box, inks);
+        InstrumentColors colors = InstrumentColors.of(root.getContext());
+        mode = Row.in(list, R.string.state_mode, colors);
+        armed = Row.in(list, R.string.state_motor, colors);
+        vetoes = Row.in(list, R.string.state_vetoes, colors);
+        failsafe = Row.in(list, R.string.state_failsafe, colors);
+        panic = Row.in(list, R.string.state_panic, colors);
+        stale = Row.in(list, R.string.state_stale, colors);
+        switchRow = Row.in(list, R.string.state_switch, colors);
+        raspilot = Row.in(list, R.string.state_raspilot, colors);
+        receiver = Row.in(list, R.string.state_receiver, colors);
+        imu = Row.in(list, R.string.state_imu, colors);
+        board = Row.in(list, R.string.state_board, colors);
+        home = Row.in(list, R.string.state_home, colors);
+        aircraftBattery = Row.in(list, R.string.state_aircraft_battery, colors);
+        phoneBattery = Row.in(list, R.string.state_phone_battery, colors);
+        load = Row.in(list, R.string.state_load, colors);
+        blackBox = Row.in(list, R.string.state_black_box, colors);
     }
 
-    /** Shows the current state. */
-    void update(Picture picture) {
+    void update(GroundSnapshot picture) {
         Telemetry telemetry = picture.telemetry;
         text(mode, picture, "flight_mode");
         text(raspilot, picture, "mode");
@@ -95,7 +94,7 @@ final class StatePanel {
         showBlackBox(picture);
     }
 
-    private void showVetoes(Picture picture, Boolean isArmed) {
+    private void showVetoes(GroundSnapshot picture, Boolean isArmed) {
         List<String> all = picture.telemetry.texts("vetoes");
         boolean isFree = all != null && all.isEmpty();
         String text = all == null ? "" : isFree ? words.getString(R.string.state_none)
@@ -106,16 +105,17 @@ final class StatePanel {
                 isWarning ? Row.Look.WARNING : Row.Look.PLAIN);
     }
 
-    private void showPanic(Picture picture) {
+    private void showPanic(GroundSnapshot picture) {
         Boolean isPanic = picture.telemetry.flag("load.panic");
         String text = null;
         if (isPanic != null) {
-            text = isPanic ? Busy.words(picture.telemetry) : words.getString(R.string.state_no);
+            text = isPanic
+                    ? BusyState.words(picture.telemetry) : words.getString(R.string.state_no);
         }
         show(panic, picture, "load.panic", text, Row.Look.PLAIN);
     }
 
-    private void showLoad(Picture picture) {
+    private void showLoad(GroundSnapshot picture) {
         Double cpu = picture.telemetry.number("load.cpu");
         Double ram = picture.telemetry.number("load.ram");
         String text = cpu == null || ram == null ? null
@@ -123,7 +123,7 @@ final class StatePanel {
         show(load, picture, "load.cpu", text, Row.Look.PLAIN);
     }
 
-    private void showHome(Picture picture) {
+    private void showHome(GroundSnapshot picture) {
         Double distance = picture.telemetry.number("home.distance");
         Double bearing = picture.telemetry.number("home.bearing");
         String text = distance == null || bearing == null ? null
@@ -132,7 +132,7 @@ final class StatePanel {
         show(home, picture, "home.distance", text, Row.Look.PLAIN);
     }
 
-    private void showStale(Picture picture) {
+    private void showStale(GroundSnapshot picture) {
         Telemetry telemetry = picture.telemetry;
         if (telemetry.isSilent(picture.nowMs)) {
             boolean wasThere = telemetry.ageMs(picture.nowMs) != null;
@@ -143,7 +143,7 @@ final class StatePanel {
         StringBuilder all = new StringBuilder();
         for (String reading : READINGS) {
             if (telemetry.readingAgeMs(reading, picture.nowMs) != null
-                    && telemetry.age().isStale(reading, picture.nowMs)) {
+                    && telemetry.age.isStale(reading, picture.nowMs)) {
                 all.append(all.length() == 0 ? "" : ", ").append(reading);
             }
         }
@@ -152,7 +152,7 @@ final class StatePanel {
                 Freshness.LIVE, "", isFresh ? Row.Look.PLAIN : Row.Look.WARNING);
     }
 
-    private void showBatteries(Picture picture) {
+    private void showBatteries(GroundSnapshot picture) {
         Double percent = picture.telemetry.number("android.batteryLevel");
         String text = percent == null ? null : percent(percent);
         show(aircraftBattery, picture, "android.batteryLevel", text,
@@ -160,14 +160,14 @@ final class StatePanel {
         long nowMs = android.os.SystemClock.elapsedRealtime();
         if (phonePercent.isEmpty() || nowMs - batteryLookedMs > BATTERY_EACH_MS) {
             batteryLookedMs = nowMs;
-            lookAtBattery();
+            readBattery();
         }
         phoneBattery.show(phonePercent,
                 phonePercent.isEmpty() ? Freshness.NONE : Freshness.LIVE, "",
                 isPhoneLow ? Row.Look.WARNING : Row.Look.PLAIN);
     }
 
-    private void lookAtBattery() {
+    private void readBattery() {
         Intent told = context.registerReceiver(null,
                 new IntentFilter(Intent.ACTION_BATTERY_CHANGED));
         int level = told == null ? -1 : told.getIntExtra(BatteryManager.EXTRA_LEVEL, -1);
@@ -178,7 +178,7 @@ final class StatePanel {
         isPhoneLow = isKnown && percent < LOW_PERCENT;
     }
 
-    private void showBlackBox(Picture picture) {
+    private void showBlackBox(GroundSnapshot picture) {
         String problem = picture.telemetry.text("black_box.problem");
         Boolean isRecording = picture.telemetry.flag("black_box.recording");
         blackBox.setVisible(isRecording != null);
@@ -191,18 +191,20 @@ final class StatePanel {
                 problem != null ? Row.Look.WARNING : Row.Look.PLAIN);
     }
 
-    private void text(Row row, Picture picture, String path) {
+    private void text(Row row, GroundSnapshot picture, String path) {
         show(row, picture, path, picture.telemetry.text(path), Row.Look.PLAIN);
     }
 
-    private void flag(Row row, Picture picture, String path, int yes, int no, Row.Look lookOfYes,
+    private void flag(Row row, GroundSnapshot picture, String path, int yes, int no,
+            Row.Look lookOfYes,
             Row.Look lookOfNo) {
         Boolean flag = picture.telemetry.flag(path);
         String text = flag == null ? null : words.getString(flag ? yes : no);
         show(row, picture, path, text, Boolean.TRUE.equals(flag) ? lookOfYes : lookOfNo);
     }
 
-    private static void show(Row row, Picture picture, String path, String text, Row.Look look) {
+    private static void show(Row row, GroundSnapshot picture, String path, String text,
+            Row.Look look) {
         Freshness freshness = text == null ? Freshness.NONE
                 : picture.telemetry.freshness(path, picture.nowMs);
         row.show(text == null ? "" : text, freshness,

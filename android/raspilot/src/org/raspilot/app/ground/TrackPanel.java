@@ -9,7 +9,7 @@ import android.widget.TextView;
 import android.widget.Toast;
 import java.util.List;
 import org.raspilot.app.R;
-import org.raspilot.app.view.Texts;
+import org.raspilot.app.view.TextViews;
 import org.raspilot.app.view.TrackView;
 import org.raspilot.up.ground.Freshness;
 import org.raspilot.up.ground.Telemetry;
@@ -26,7 +26,6 @@ final class TrackPanel implements View.OnClickListener {
     private Double latitudeDeg;
     private Double longitudeDeg;
 
-    /** Finds its views. */
     TrackPanel(Activity activity, View root) {
         this.activity = activity;
         view = (TrackView) root.findViewById(R.id.ground_track);
@@ -38,8 +37,7 @@ final class TrackPanel implements View.OnClickListener {
         root.findViewById(R.id.ground_smaller).setOnClickListener(this);
     }
 
-    /** Shows the current state. */
-    void update(Picture picture) {
+    void update(GroundSnapshot picture) {
         Track.Snapshot track = picture.track;
         // Most frames add no point: the track is long, and copied only when it grew.
         if (isNew(track)) {
@@ -47,13 +45,13 @@ final class TrackPanel implements View.OnClickListener {
         }
         shown = track;
         Telemetry telemetry = picture.telemetry;
-        TrackPoint newest = track == null ? null : track.newest();
+        TrackPoint newest = track == null ? null : track.newest;
         boolean hasTrack = newest != null;
         boolean isThere = telemetry.number("location.latitude") != null;
         boolean isHeadingLive = telemetry.freshness("heading.actual", picture.nowMs)
                 == Freshness.LIVE;
-        view.setAircraft(newest == null ? null : newest.northM(),
-                newest == null ? null : newest.eastM(),
+        view.setAircraft(newest == null ? null : newest.northM,
+                newest == null ? null : newest.eastM,
                 isHeadingLive ? telemetry.number("heading.actual") : null);
         Freshness freshness = telemetry.freshness("location.latitude", picture.nowMs);
         if (!hasTrack) {
@@ -83,26 +81,26 @@ final class TrackPanel implements View.OnClickListener {
 
     private boolean isNew(Track.Snapshot track) {
         return track == null || shown == null ? track != shown
-                : track.points() != shown.points()
-                || track.isOriginHome() != shown.isOriginHome();
+                : track.points != shown.points
+                || track.isOriginHome != shown.isOriginHome;
     }
 
     private void showTrack(Track.Snapshot track) {
         List<TrackPoint> points = track == null
-                ? java.util.Collections.<TrackPoint>emptyList() : track.points();
+                ? java.util.Collections.emptyList() : track.points;
         float[] north = new float[points.size()];
         float[] east = new float[north.length];
         boolean[] hasGapBefore = new boolean[north.length];
         for (int each = 0; each < north.length; each++) {
             TrackPoint point = points.get(each);
-            north[each] = (float) point.northM();
-            east[each] = (float) point.eastM();
-            hasGapBefore[each] = point.isAfterSilence();
+            north[each] = (float) point.northM;
+            east[each] = (float) point.eastM;
+            hasGapBefore[each] = point.isAfterSilence;
         }
-        view.setTrack(north, east, hasGapBefore, track != null && track.isOriginHome());
+        view.setTrack(north, east, hasGapBefore, track != null && track.isOriginHome);
     }
 
-    private void showPlace(Picture picture, String age) {
+    private void showPlace(GroundSnapshot picture, String age) {
         Telemetry telemetry = picture.telemetry;
         Double latitude = telemetry.number("location.latitude");
         Double longitude = telemetry.number("location.longitude");
@@ -112,13 +110,13 @@ final class TrackPanel implements View.OnClickListener {
         }
         map.setEnabled(latitudeDeg != null);
         if (latitudeDeg == null) {
-            Texts.show(place, activity.getString(R.string.ground_place_unknown));
+            TextViews.show(place, activity.getString(R.string.ground_place_unknown));
             return;
         }
         boolean isLive = telemetry.freshness("location.latitude", picture.nowMs)
                 == Freshness.LIVE;
         int text = isLive ? R.string.ground_place : R.string.ground_place_old;
-        Texts.show(place, activity.getString(text, latitudeDeg, longitudeDeg, age));
+        TextViews.show(place, activity.getString(text, latitudeDeg, longitudeDeg, age));
     }
 
     private void openMap() {

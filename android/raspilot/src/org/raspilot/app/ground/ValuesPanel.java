@@ -13,7 +13,7 @@ import java.util.Collections;
 import java.util.List;
 import java.util.Locale;
 import org.raspilot.app.R;
-import org.raspilot.app.view.Inks;
+import org.raspilot.app.view.InstrumentColors;
 import org.raspilot.up.ground.Telemetry;
 import org.raspilot.up.ground.TelemetryRow;
 import org.raspilot.up.ground.TelemetryText;
@@ -24,16 +24,15 @@ final class ValuesPanel extends BaseAdapter implements TextWatcher {
     private final EditText filter;
     private final ListView list;
     private final LayoutInflater inflater;
-    private final Inks inks;
+    private final InstrumentColors colors;
     private List<TelemetryRow> all = Collections.emptyList();
     private List<TelemetryRow> rows = Collections.emptyList();
     private Telemetry shown;
-    private Picture picture = Picture.of(null);
+    private GroundSnapshot picture = GroundSnapshot.of(null);
 
-    /** Finds its views. */
     ValuesPanel(View root) {
         inflater = LayoutInflater.from(root.getContext());
-        inks = Inks.of(root.getContext());
+        colors = InstrumentColors.of(root.getContext());
         element = root.findViewById(R.id.ground_values_box);
         filter = (EditText) root.findViewById(R.id.ground_filter);
         filter.addTextChangedListener(this);
@@ -42,7 +41,7 @@ final class ValuesPanel extends BaseAdapter implements TextWatcher {
     }
 
     /** Shows the current state, while it is visible. */
-    void update(Picture now) {
+    void update(GroundSnapshot now) {
         if (!element.isShown()) {
             return;
         }
@@ -69,10 +68,10 @@ final class ValuesPanel extends BaseAdapter implements TextWatcher {
 
     /** Returns the rows whose path contains each of the words, ignoring case. */
     private static List<TelemetryRow> chosen(List<TelemetryRow> all, String words) {
-        List<TelemetryRow> found = new ArrayList<TelemetryRow>();
+        List<TelemetryRow> found = new ArrayList<>();
         String[] each = words.trim().toLowerCase(Locale.ROOT).split("\\s+");
         for (TelemetryRow row : all) {
-            String path = row.path().toLowerCase(Locale.ROOT);
+            String path = row.path.toLowerCase(Locale.ROOT);
             boolean isChosen = true;
             for (String word : each) {
                 isChosen &= path.contains(word);
@@ -114,14 +113,14 @@ final class ValuesPanel extends BaseAdapter implements TextWatcher {
         View element = used;
         if (element == null) {
             element = inflater.inflate(R.layout.row_ground, list, false);
-            element.setTag(new Row(element, inks));
+            element.setTag(new Row(element, colors));
         }
         TelemetryRow row = rows.get(position);
         Row view = (Row) element.getTag();
-        view.label(row.path());
-        String value = row.unit().isEmpty() ? row.value() : row.value() + " " + row.unit();
-        view.show(value, picture.telemetry.freshness(row.path(), picture.nowMs),
-                InstrumentPanel.ageText(picture, row.path()), Row.Look.PLAIN);
+        view.label(row.path);
+        String value = row.unit.isEmpty() ? row.value : row.value + " " + row.unit;
+        view.show(value, picture.telemetry.freshness(row.path, picture.nowMs),
+                InstrumentPanel.ageText(picture, row.path), Row.Look.PLAIN);
         return element;
     }
 

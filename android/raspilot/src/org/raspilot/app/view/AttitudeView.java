@@ -74,38 +74,38 @@ public final class AttitudeView extends Instrument {
     }
 
     private void drawBall(Canvas canvas) {
-        Inks inks = inks();
+        InstrumentColors colors = colors();
         float far = FAR * Math.max(getWidth(), getHeight());
         canvas.save();
         canvas.rotate(geometry.ballRotationDeg());
         canvas.translate(0, geometry.ballShift());
-        canvas.drawRect(-far, -far, far, 0, area(inks.sky));
-        canvas.drawRect(-far, 0, far, far, area(inks.earth));
-        canvas.drawLine(-far, 0, far, 0, line(inks.horizonInk, 2));
+        canvas.drawRect(-far, -far, far, 0, area(colors.sky));
+        canvas.drawRect(-far, 0, far, far, area(colors.earth));
+        canvas.drawLine(-far, 0, far, 0, line(colors.horizonInk, 2));
         for (int rung = 0; rung < labels.length; rung++) {
             if (geometry.isRungVisible(rung)) {
-                drawRung(canvas, rung, inks);
+                drawRung(canvas, rung, colors);
             }
         }
         canvas.restore();
     }
 
-    private void drawRung(Canvas canvas, int rung, Inks inks) {
+    private void drawRung(Canvas canvas, int rung, InstrumentColors colors) {
         float y = geometry.rungY(rung);
         float half = geometry.rungHalfWidth(rung);
-        canvas.drawLine(-half, y, half, y, line(inks.horizonInk, 1.5f));
+        canvas.drawLine(-half, y, half, y, line(colors.horizonInk, 1.5f));
         // Next to the aircraft's own symbol there is not enough room for a number.
         boolean isBesideWings = Math.abs(y + geometry.ballShift()) < dp(12);
         if (geometry.isLabelled(rung) && !isBesideWings) {
-            before(canvas, labels[rung], -half - dp(4), y, 11, inks.horizonInk);
-            after(canvas, labels[rung], half + dp(4), y, 11, inks.horizonInk);
+            before(canvas, labels[rung], -half - dp(4), y, 11, colors.horizonInk);
+            after(canvas, labels[rung], half + dp(4), y, 11, colors.horizonInk);
         }
     }
 
     private void drawScale(Canvas canvas) {
-        Inks inks = inks();
+        InstrumentColors colors = colors();
         float radius = geometry.radius();
-        canvas.drawArc(arc, -150, 120, false, line(inks.horizonInk, 1.5f));
+        canvas.drawArc(arc, -150, 120, false, line(colors.horizonInk, 1.5f));
         for (int mark = 0; mark < geometry.rollMarkCount(); mark++) {
             float angle = geometry.rollMarkDeg(mark);
             float outer = radius + geometry.rollMarkLength(mark);
@@ -114,19 +114,19 @@ public final class AttitudeView extends Instrument {
                     HorizonGeometry.circleX(angle, outer),
                     HorizonGeometry.circleY(angle, outer), pen);
         }
-        canvas.drawPath(zero, area(inks.horizonInk));
+        canvas.drawPath(zero, area(colors.horizonInk));
         canvas.save();
         canvas.rotate(geometry.ballRotationDeg());
-        canvas.drawPath(pointer, area(inks.horizonInk));
+        canvas.drawPath(pointer, area(colors.horizonInk));
         canvas.restore();
     }
 
     private void drawAircraft(Canvas canvas) {
         float wing = geometry.radius() * 0.8f;
         float root = geometry.radius() * 0.38f;
-        drawWings(canvas, wing, root, inks().ground, 6);
-        drawWings(canvas, wing, root, inks().warning, 3);
-        canvas.drawCircle(0, 0, dp(3.5f), area(inks().warning));
+        drawWings(canvas, wing, root, colors().ground, 6);
+        drawWings(canvas, wing, root, colors().warning, 3);
+        canvas.drawCircle(0, 0, dp(3.5f), area(colors().warning));
     }
 
     private void drawWings(Canvas canvas, float wing, float root, int colour, float widthDp) {

@@ -4,7 +4,7 @@ package org.raspilot.app.view;
 public final class BarsGeometry {
     private static final float MIDDLE_US = 1500;
     private static final float HALF_US = 500;
-    private static final float MOST = 1.1f;
+    private static final float MAX_SHARE = 1.1f;
 
     private BarsGeometry() {
     }
@@ -16,7 +16,7 @@ public final class BarsGeometry {
      * @return -1 at 1000 us, 0 at 1500 us, 1 at 2000 us, and never beyond 1.1
      */
     public static float share(double pulseUs) {
-        return Math.max(-MOST, Math.min(MOST, (float) (pulseUs - MIDDLE_US) / HALF_US));
+        return Math.max(-MAX_SHARE, Math.min(MAX_SHARE, (float) (pulseUs - MIDDLE_US) / HALF_US));
     }
 
     /** Returns whether a pulse lies outside the scale of 1000 to 2000 us. */

@@ -68,7 +68,7 @@ public final class BarsView extends Instrument {
     @Override
     protected void drawReadings(Canvas canvas) {
         float row = getHeight() / (shown + 1f);
-        after(canvas, title, dp(4), row / 2, 12, inks().dim);
+        after(canvas, title, dp(4), row / 2, 12, colors().dim);
         for (int channel = 0; channel < shown; channel++) {
             drawChannel(canvas, channel, row * (channel + 1.5f), row);
         }
@@ -77,7 +77,7 @@ public final class BarsView extends Instrument {
     @Override
     protected void drawEmpty(Canvas canvas) {
         super.drawEmpty(canvas);
-        after(canvas, title, dp(4), getHeight() / (shown + 1f) / 2, 12, inks().dim);
+        after(canvas, title, dp(4), getHeight() / (shown + 1f) / 2, 12, colors().dim);
     }
 
     @Override
@@ -96,22 +96,22 @@ public final class BarsView extends Instrument {
     }
 
     private void drawChannel(Canvas canvas, int channel, float y, float row) {
-        Inks inks = inks();
+        InstrumentColors colors = colors();
         float left = sp(62);
         float right = getWidth() - sp(38);
         float middle = (left + right) / 2;
         float half = (right - left) / 2;
         float thick = Math.min(row * 0.3f, dp(6));
-        after(canvas, names[channel], dp(4), y, 12, inks.ink);
-        before(canvas, figures[channel], getWidth() - dp(4), y, 12, inks.ink);
-        canvas.drawRect(left, y - thick, right, y + thick, line(inks.line, 1));
+        after(canvas, names[channel], dp(4), y, 12, colors.ink);
+        before(canvas, figures[channel], getWidth() - dp(4), y, 12, colors.ink);
+        canvas.drawRect(left, y - thick, right, y + thick, line(colors.line, 1));
         canvas.drawLine(middle, y - thick * 1.4f, middle, y + thick * 1.4f, pen);
         double pulse = pulsesUs[channel];
         if (Double.isNaN(pulse)) {
             return;
         }
         float at = middle + half / 1.1f * BarsGeometry.share(pulse);
-        area(BarsGeometry.isBeyond(pulse) ? inks.warning : inks.accent);
+        area(BarsGeometry.isBeyond(pulse) ? colors.warning : colors.accent);
         canvas.drawRect(Math.min(middle, at), y - thick, Math.max(middle, at), y + thick, pen);
     }
 

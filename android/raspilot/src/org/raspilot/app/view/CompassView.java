@@ -69,7 +69,7 @@ public final class CompassView extends Instrument {
             drawMark(canvas, place);
         }
         drawHome(canvas);
-        canvas.drawPath(pointer, area(inks().ink));
+        canvas.drawPath(pointer, area(colors().ink));
         drawWindow(canvas);
         canvas.restore();
     }
@@ -93,24 +93,24 @@ public final class CompassView extends Instrument {
     private void drawMark(Canvas canvas, int place) {
         float x = geometry.x(place);
         boolean isLabelled = geometry.isEach(place, LABEL_EACH);
-        canvas.drawLine(x, 0, x, dp(isLabelled ? 10 : 6), line(inks().dim, 1.5f));
+        canvas.drawLine(x, 0, x, dp(isLabelled ? 10 : 6), line(colors().dim, 1.5f));
         if (isLabelled) {
             int of = (int) ((geometry.firstMark() + place) / LABEL_EACH);
             int name = (of % names.length + names.length) % names.length;
-            centred(canvas, names[name], x, dp(10) + sp(9), 12, inks().dim);
+            centred(canvas, names[name], x, dp(10) + sp(9), 12, colors().dim);
         }
     }
 
     private void drawWindow(Canvas canvas) {
         float half = sp(21);
         float top = getHeight() - dp(11) - sp(20);
-        canvas.drawRect(-half, top, half, top + sp(19), area(inks().ground));
-        centred(canvas, figures, 0, top + sp(9.5f), 17, inks().ink);
+        canvas.drawRect(-half, top, half, top + sp(19), area(colors().ground));
+        centred(canvas, figures, 0, top + sp(9.5f), 17, colors().ink);
     }
 
     private void drawHome(Canvas canvas) {
         if (!Float.isNaN(homeDeg)) {
-            centred(canvas, homeLetter, xOf(homeDeg), getHeight() - sp(9), 13, inks().good);
+            centred(canvas, homeLetter, xOf(homeDeg), getHeight() - sp(9), 13, colors().good);
         }
     }
 

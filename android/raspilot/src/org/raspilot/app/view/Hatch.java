@@ -24,7 +24,6 @@ public final class Hatch extends Drawable {
         pen.setStrokeWidth(1.5f * density);
     }
 
-    /** Returns whether it is visible. */
     public void setActive(boolean isNowActive) {
         if (isActive != isNowActive) {
             isActive = isNowActive;

@@ -10,9 +10,8 @@ public final class HeldPress {
     /** How long a press must last. */
     public static final long HOLD_MS = 1000;
     /** Maximum time between two checks: a screen that hung must not fire when it resumes. */
-    public static final long LONGEST_LOOK_MS = 400;
+    public static final long MAX_CHECK_INTERVAL_MS = 400;
 
-    /** What a press is. */
     public enum State {
         /** Nothing presses. */
         IDLE,
@@ -59,13 +58,13 @@ public final class HeldPress {
      *
      * @return true once, when the press was held long enough
      */
-    public boolean look(long nowMs) {
+    public boolean check(long nowMs) {
         if (state != State.PRESSED) {
             return false;
         }
         long sinceMs = nowMs - lookedMs;
         lookedMs = nowMs;
-        if (sinceMs < 0 || sinceMs > LONGEST_LOOK_MS) {
+        if (sinceMs < 0 || sinceMs > MAX_CHECK_INTERVAL_MS) {
             state = State.VOID;
             return false;
         }

@@ -41,12 +41,7 @@ public final class HoldButton extends Button {
     private final float density;
     private final int ringColour;
     private final int trackColour;
-    private final Runnable look = new Runnable() {
-        @Override
-        public void run() {
-            lookAtClock();
-        }
-    };
+    private final Runnable look = () -> checkTime();
     private HoldListener listener;
     private boolean isByKey;
     private float downX;
@@ -56,9 +51,9 @@ public final class HoldButton extends Button {
     public HoldButton(Context context, AttributeSet attributes) {
         super(context, attributes);
         density = getResources().getDisplayMetrics().density;
-        Inks inks = Inks.of(context);
-        ringColour = inks.warning;
-        trackColour = inks.line;
+        InstrumentColors colors = InstrumentColors.of(context);
+        ringColour = colors.warning;
+        trackColour = colors.line;
         pen.setStyle(Paint.Style.STROKE);
         pen.setStrokeWidth(4 * density);
         setClickable(true);
@@ -243,8 +238,8 @@ public final class HoldButton extends Button {
         invalidate();
     }
 
-    private void lookAtClock() {
-        boolean hasLasted = press.look(SystemClock.uptimeMillis());
+    private void checkTime() {
+        boolean hasLasted = press.check(SystemClock.uptimeMillis());
         invalidate();
         if (hasLasted && listener != null && isEnabled()) {
             listener.onHeld(this);

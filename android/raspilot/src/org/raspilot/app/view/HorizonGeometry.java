@@ -15,7 +15,7 @@ public final class HorizonGeometry {
     };
     /** How many degrees of pitch fit between the middle and the upper edge. */
     private static final float VISIBLE_DEG = 28f;
-    private static final float MOST_PITCH_DEG = 90f;
+    private static final float MAX_PITCH_DEG = 90f;
 
     private float radius;
     private float unitsPerDeg;
@@ -41,7 +41,7 @@ public final class HorizonGeometry {
      */
     public void turn(float roll, float pitch) {
         rollDeg = roll;
-        pitchDeg = Math.max(-MOST_PITCH_DEG, Math.min(MOST_PITCH_DEG, pitch));
+        pitchDeg = Math.max(-MAX_PITCH_DEG, Math.min(MAX_PITCH_DEG, pitch));
     }
 
     /** Returns by how many degrees the ball is turned, clockwise. */

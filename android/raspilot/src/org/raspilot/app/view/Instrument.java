@@ -30,8 +30,8 @@ public abstract class Instrument extends View {
 
     private final float density;
     private final float scaledDensity;
-    private final Inks liveInks;
-    private final Inks staleInks;
+    private final InstrumentColors liveColors;
+    private final InstrumentColors staleColors;
     private Freshness freshness = Freshness.NONE;
     private String age = "";
     private float[] hatching = new float[0];
@@ -41,8 +41,8 @@ public abstract class Instrument extends View {
         super(context, attributes);
         density = getResources().getDisplayMetrics().density;
         scaledDensity = getResources().getDisplayMetrics().scaledDensity;
-        liveInks = Inks.of(context);
-        staleInks = liveInks.stale();
+        liveColors = InstrumentColors.of(context);
+        staleColors = liveColors.stale();
         letters.setTypeface(Typeface.DEFAULT_BOLD);
         if (getImportantForAccessibility() == IMPORTANT_FOR_ACCESSIBILITY_AUTO) {
             setImportantForAccessibility(IMPORTANT_FOR_ACCESSIBILITY_YES);
@@ -74,15 +74,15 @@ public abstract class Instrument extends View {
 
     /** Draws the parts without readings: the frame of the instrument. */
     protected void drawEmpty(Canvas canvas) {
-        centred(canvas, UNKNOWN, getWidth() / 2f, getHeight() / 2f, 24, inks().dim);
+        centred(canvas, UNKNOWN, getWidth() / 2f, getHeight() / 2f, 24, colors().dim);
     }
 
     /** Returns the readings in words for screen readers, without their age. */
     protected abstract String describe();
 
     /** Returns the current colours: greys where the reading is stale. */
-    protected final Inks inks() {
-        return freshness == Freshness.LIVE ? liveInks : staleInks;
+    protected final InstrumentColors colors() {
+        return freshness == Freshness.LIVE ? liveColors : staleColors;
     }
 
     /** Converts density-independent pixels to pixels. */
@@ -97,7 +97,7 @@ public abstract class Instrument extends View {
 
     @Override
     protected final void onDraw(Canvas canvas) {
-        canvas.drawColor(liveInks.ground);
+        canvas.drawColor(liveColors.ground);
         if (freshness == Freshness.NONE) {
             drawEmpty(canvas);
             return;
@@ -191,7 +191,6 @@ public abstract class Instrument extends View {
         return pen;
     }
 
-    /** Makes the pen fill areas. */
     protected final Paint area(int colour) {
         pen.setStyle(Paint.Style.FILL);
         pen.setColor(colour);
@@ -206,14 +205,14 @@ public abstract class Instrument extends View {
     }
 
     private void drawAge(Canvas canvas) {
-        canvas.drawLines(hatching, line(liveInks.hatch, 1.5f));
+        canvas.drawLines(hatching, line(liveColors.hatch, 1.5f));
         float size = sp(13);
         float wide = Math.min(getWidth(), letterWidth(age, 13) + dp(8));
         float x = Math.max(wide / 2, getWidth() * ageAcross());
         float y = isAgeAbove() ? size : getHeight() - size;
         canvas.drawRect(x - wide / 2, y - size * 0.8f, x + wide / 2, y + size * 0.8f,
-                area(liveInks.ground));
-        centred(canvas, age, x, y, 13, liveInks.warning);
+                area(liveColors.ground));
+        centred(canvas, age, x, y, 13, liveColors.warning);
     }
 
     /** Returns how wide letters are, pixels; the size in sp. */

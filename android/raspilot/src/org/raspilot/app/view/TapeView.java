@@ -19,7 +19,7 @@ public final class TapeView extends Instrument {
     private final String unit;
     private final int labelEach;
     private final boolean isLeft;
-    private final boolean hasLeast;
+    private final boolean hasMinimum;
     private final Path window = new Path();
     private String[] labels = new String[0];
     private long labelledFrom = Long.MIN_VALUE;
@@ -36,7 +36,7 @@ public final class TapeView extends Instrument {
             geometry = new TapeGeometry(has.getFloat(R.styleable.TapeView_tapeStep, 1));
             labelEach = Math.max(1, has.getInt(R.styleable.TapeView_tapeLabelEach, 5));
             isLeft = has.getBoolean(R.styleable.TapeView_tapeIsLeft, true);
-            hasLeast = has.getBoolean(R.styleable.TapeView_tapeHasLeast, false);
+            hasMinimum = has.getBoolean(R.styleable.TapeView_tapeHasLeast, false);
         } finally {
             has.recycle();
         }
@@ -81,9 +81,9 @@ public final class TapeView extends Instrument {
         for (int place = 0; place < labels.length; place++) {
             drawMark(canvas, place);
         }
-        canvas.drawPath(window, area(inks().ground));
-        canvas.drawPath(window, line(inks().ink, 1.5f));
-        centred(canvas, valueText, getWidth() / 2f, 0, 18, inks().ink);
+        canvas.drawPath(window, area(colors().ground));
+        canvas.drawPath(window, line(colors().ink, 1.5f));
+        centred(canvas, valueText, getWidth() / 2f, 0, 18, colors().ink);
         canvas.restore();
         drawCaps(canvas);
     }
@@ -115,28 +115,28 @@ public final class TapeView extends Instrument {
         float length = dp(isLabelled ? 8 : 4);
         float edge = isLeft ? getWidth() : 0;
         float inner = isLeft ? edge - length : length;
-        canvas.drawLine(edge, y, inner, y, line(inks().dim, 1.5f));
+        canvas.drawLine(edge, y, inner, y, line(colors().dim, 1.5f));
         if (!isLabelled) {
             return;
         }
         if (isLeft) {
-            before(canvas, labels[place], inner - dp(3), y, 12, inks().dim);
+            before(canvas, labels[place], inner - dp(3), y, 12, colors().dim);
         } else {
-            after(canvas, labels[place], inner + dp(3), y, 12, inks().dim);
+            after(canvas, labels[place], inner + dp(3), y, 12, colors().dim);
         }
     }
 
     private void drawCaps(Canvas canvas) {
         float high = capHeight();
         float middle = getWidth() / 2f;
-        canvas.drawRect(0, 0, getWidth(), high, area(inks().ground));
-        centred(canvas, title, middle, high / 2, 11, inks().dim);
+        canvas.drawRect(0, 0, getWidth(), high, area(colors().ground));
+        centred(canvas, title, middle, high / 2, 11, colors().dim);
         if (freshness() == Freshness.STALE) {
             return;
         }
         float foot = getHeight() - high;
-        canvas.drawRect(0, foot, getWidth(), getHeight(), area(inks().ground));
-        centred(canvas, unit, middle, foot + high / 2, 11, inks().dim);
+        canvas.drawRect(0, foot, getWidth(), getHeight(), area(colors().ground));
+        centred(canvas, unit, middle, foot + high / 2, 11, colors().dim);
     }
 
     private float capHeight() {
@@ -156,7 +156,7 @@ public final class TapeView extends Instrument {
     }
 
     private String labelOf(int place) {
-        if (hasLeast && geometry.value(place) < 0) {
+        if (hasMinimum && geometry.value(place) < 0) {
             return null;
         }
         return geometry.isEach(place, labelEach)

@@ -8,10 +8,10 @@ package org.raspilot.app.view;
  * 100 km.
  */
 public final class TrackGeometry {
-    private static final double LEAST_PIXELS_PER_M = 1e-4;
-    private static final double MOST_PIXELS_PER_M = 40;
+    private static final double MIN_PIXELS_PER_M = 1e-4;
+    private static final double MAX_PIXELS_PER_M = 40;
     /** The minimum span of the picture, m. */
-    private static final double LEAST_SPAN_M = 40;
+    private static final double MIN_SPAN_M = 40;
     private static final double MARGIN = 0.12;
 
     private float width = 1;
@@ -51,8 +51,8 @@ public final class TrackGeometry {
         }
         northM = (southM + mostNorthM) / 2;
         eastM = (westM + mostEastM) / 2;
-        double spanNorthM = Math.max(LEAST_SPAN_M, mostNorthM - southM);
-        double spanEastM = Math.max(LEAST_SPAN_M, mostEastM - westM);
+        double spanNorthM = Math.max(MIN_SPAN_M, mostNorthM - southM);
+        double spanEastM = Math.max(MIN_SPAN_M, mostEastM - westM);
         double room = 1 - 2 * MARGIN;
         scaleTo(Math.min(height * room / spanNorthM, width * room / spanEastM));
     }
@@ -162,6 +162,6 @@ public final class TrackGeometry {
     }
 
     private void scaleTo(double wanted) {
-        pixelsPerM = Math.max(LEAST_PIXELS_PER_M, Math.min(MOST_PIXELS_PER_M, wanted));
+        pixelsPerM = Math.max(MIN_PIXELS_PER_M, Math.min(MAX_PIXELS_PER_M, wanted));
     }
 }

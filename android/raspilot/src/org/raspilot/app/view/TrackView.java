@@ -91,7 +91,6 @@ public final class TrackView extends Instrument {
         refit();
     }
 
-    /** Shows everything again. */
     public void follow() {
         geometry.follow();
         refit();
@@ -102,12 +101,10 @@ public final class TrackView extends Instrument {
         return !geometry.isAutomatic();
     }
 
-    /** Enlarges the middle. */
     public void enlarge() {
         zoomMiddle(BUTTON_FACTOR);
     }
 
-    /** Shows more around the middle. */
     public void shrink() {
         zoomMiddle(1 / BUTTON_FACTOR);
     }
@@ -218,7 +215,7 @@ public final class TrackView extends Instrument {
     private void drawGrid(Canvas canvas) {
         double eastMost = geometry.eastAt(getWidth());
         double southMost = geometry.northAt(getHeight());
-        line(inks().line, 1);
+        line(colors().line, 1);
         for (double at = TrackGeometry.firstLineM(geometry.eastAt(0), stepM); at <= eastMost;
                 at += stepM) {
             float x = geometry.x(at);
@@ -242,19 +239,19 @@ public final class TrackView extends Instrument {
                 lines[filled++] = geometry.y(northM[point]);
             }
         }
-        canvas.drawLines(lines, 0, filled, line(inks().accent, 2));
+        canvas.drawLines(lines, 0, filled, line(colors().accent, 2));
     }
 
     private void drawHome(Canvas canvas) {
         float x = geometry.x(0);
         float y = geometry.y(0);
         if (!isOriginHome) {
-            canvas.drawCircle(x, y, dp(3), area(inks().dim));
+            canvas.drawCircle(x, y, dp(3), area(colors().dim));
             return;
         }
-        canvas.drawCircle(x, y, dp(10), area(inks().ground));
-        canvas.drawCircle(x, y, dp(10), line(inks().good, 2));
-        centred(canvas, homeLetter, x, y, 12, inks().good);
+        canvas.drawCircle(x, y, dp(10), area(colors().ground));
+        canvas.drawCircle(x, y, dp(10), line(colors().good, 2));
+        centred(canvas, homeLetter, x, y, 12, colors().good);
     }
 
     private void drawAircraft(Canvas canvas) {
@@ -264,11 +261,11 @@ public final class TrackView extends Instrument {
         canvas.save();
         canvas.translate(geometry.x(aircraftEastM), geometry.y(aircraftNorthM));
         if (Double.isNaN(headingDeg)) {
-            canvas.drawCircle(0, 0, dp(7), line(inks().ink, 3));
+            canvas.drawCircle(0, 0, dp(7), line(colors().ink, 3));
         } else {
             canvas.rotate((float) headingDeg);
-            canvas.drawPath(arrow, area(inks().ink));
-            canvas.drawPath(arrow, line(inks().ground, 1));
+            canvas.drawPath(arrow, area(colors().ink));
+            canvas.drawPath(arrow, line(colors().ground, 1));
         }
         canvas.restore();
     }
@@ -277,19 +274,19 @@ public final class TrackView extends Instrument {
         float left = dp(10);
         float y = getHeight() - dp(12);
         float right = left + (float) (stepM * geometry.pixelsPerM());
-        line(inks().ink, 2);
+        line(colors().ink, 2);
         canvas.drawLine(left, y, right, y, pen);
         canvas.drawLine(left, y - dp(5), left, y, pen);
         canvas.drawLine(right, y - dp(5), right, y, pen);
-        centred(canvas, stepText, (left + right) / 2, y - sp(9), 12, inks().ink);
+        centred(canvas, stepText, (left + right) / 2, y - sp(9), 12, colors().ink);
     }
 
     private void drawNorth(Canvas canvas) {
         float x = getWidth() - dp(14);
-        canvas.drawLine(x, dp(8), x, dp(24), line(inks().ink, 2));
+        canvas.drawLine(x, dp(8), x, dp(24), line(colors().ink, 2));
         canvas.drawLine(x, dp(8), x - dp(4), dp(14), pen);
         canvas.drawLine(x, dp(8), x + dp(4), dp(14), pen);
-        centred(canvas, northLetter, x, dp(24) + sp(8), 12, inks().ink);
+        centred(canvas, northLetter, x, dp(24) + sp(8), 12, colors().ink);
     }
 
     private final class Pinch extends ScaleGestureDetector.SimpleOnScaleGestureListener {

@@ -32,10 +32,10 @@ public final class CommandHistoryTest {
     @Test
     public void theOldestAreForgottenAndTheirAnswersToo() {
         int first = history.sent("first", 0);
-        for (int each = 0; each < CommandHistory.KEPT; each++) {
+        for (int each = 0; each < CommandHistory.MAX_ENTRIES; each++) {
             history.sent("another", each);
         }
-        assertEquals(CommandHistory.KEPT, history.entries().size());
+        assertEquals(CommandHistory.MAX_ENTRIES, history.entries().size());
         history.answered(first, CommandHistory.Outcome.GOOD, "", null);
         for (CommandHistory.Entry entry : history.entries()) {
             assertEquals(CommandHistory.Outcome.WAITING, entry.outcome);

@@ -29,18 +29,18 @@ public final class GainsEditorTest {
 
     @Test
     public void untouchedGainsGoBackExactlyAsTheyCame() {
-        editor.takeFlying(set(3));
+        editor.setActive(set(3));
         editor.write(RATE_ROLL_P, "2.4");
         GainSet wanted = editor.wanted();
-        assertEquals(2.4, wanted.rate().ailerons().p(), 0);
-        assertEquals(SINGLE, wanted.rate().elevator().i(), 0);
-        assertEquals(null, wanted.rate().rudder());
-        assertEquals(null, wanted.navigation());
+        assertEquals(2.4, wanted.rate.ailerons.p, 0);
+        assertEquals(SINGLE, wanted.rate.elevator.i, 0);
+        assertEquals(null, wanted.rate.rudder);
+        assertEquals(null, wanted.navigation);
     }
 
     @Test
     public void cellsShowWhatFliesUntilTheyAreWritten() {
-        editor.takeFlying(set(3));
+        editor.setActive(set(3));
         assertEquals("3.0", editor.textOf(RATE_ROLL_P));
         assertEquals("0.3", editor.textOf(RATE_PITCH_I));
         assertEquals("", editor.textOf(RATE_YAW_P));
@@ -52,7 +52,7 @@ public final class GainsEditorTest {
 
     @Test
     public void writingWhatFliesIsNoEdit() {
-        editor.takeFlying(set(3));
+        editor.setActive(set(3));
         editor.write(RATE_ROLL_P, "2");
         editor.write(RATE_ROLL_P, "3.00");
         assertFalse(editor.hasEdits());
@@ -62,20 +62,20 @@ public final class GainsEditorTest {
 
     @Test
     public void whatWasSentAndFliesNowIsNoEditAnyMore() {
-        editor.takeFlying(set(3));
+        editor.setActive(set(3));
         editor.write(RATE_ROLL_P, "2.4");
-        editor.takeFlying(null);
+        editor.setActive(null);
         assertTrue("asked anew: what is being written waits", editor.hasEdits());
-        editor.takeFlying(set(2.4));
+        editor.setActive(set(2.4));
         assertFalse(editor.hasEdits());
     }
 
     @Test
     public void gainsThatChangedMeanwhileAreAConflictUntilTheyWereSeen() {
-        editor.takeFlying(set(3));
+        editor.setActive(set(3));
         editor.write(RATE_ROLL_P, "2.4");
         assertTrue(editor.conflicts().isEmpty());
-        editor.takeFlying(set(7));
+        editor.setActive(set(7));
         assertEquals(Collections.singletonList(RATE_ROLL_P), editor.conflicts());
         assertEquals("3.0", editor.seenText(RATE_ROLL_P));
         assertEquals("2.4", editor.textOf(RATE_ROLL_P));
@@ -87,7 +87,7 @@ public final class GainsEditorTest {
 
     @Test
     public void noSetIsMadeOfWhatIsNoGain() {
-        editor.takeFlying(set(3));
+        editor.setActive(set(3));
         for (String written : new String[] {"x", "-1", "50.1", "NaN", "1e999", ""}) {
             editor.write(RATE_ROLL_P, written);
             try {
@@ -103,31 +103,31 @@ public final class GainsEditorTest {
 
     @Test
     public void aCommaIsAPoint() {
-        editor.takeFlying(set(3));
+        editor.setActive(set(3));
         editor.write(RATE_ROLL_P, "2,4");
         assertFalse(editor.isWrong(RATE_ROLL_P));
-        assertEquals(2.4, editor.wanted().rate().ailerons().p(), 0);
+        assertEquals(2.4, editor.wanted().rate.ailerons.p, 0);
     }
 
     @Test
     public void aVerySmallGainIsKept() {
-        editor.takeFlying(set(1e-5));
+        editor.setActive(set(1e-5));
         editor.write(RATE_PITCH_I, "1");
-        assertEquals(1e-5, editor.wanted().rate().ailerons().p(), 0);
+        assertEquals(1e-5, editor.wanted().rate.ailerons.p, 0);
     }
 
     @Test
     public void theDifferenceNamesWhatSendingWouldChange() {
-        editor.takeFlying(set(3));
+        editor.setActive(set(3));
         editor.write(RATE_ROLL_P, "2.4");
         assertEquals(1, editor.changes().size());
-        assertEquals(RATE_ROLL_P, editor.changes().get(0).key());
-        assertEquals(2.4, editor.changes().get(0).after(), 0);
+        assertEquals(RATE_ROLL_P, editor.changes().get(0).key);
+        assertEquals(2.4, editor.changes().get(0).after, 0);
     }
 
     @Test
     public void whatWasWrittenCanBeTakenBack() {
-        editor.takeFlying(set(3));
+        editor.setActive(set(3));
         editor.write(RATE_ROLL_P, "2.4");
         editor.discard();
         assertFalse(editor.hasEdits());

@@ -13,7 +13,7 @@ import org.raspilot.up.ground.Telemetry;
 public final class PermissionTest {
     private static final Map<String, Object> NOTHING = Collections.emptyMap();
     private static final Map<String, Object> REQUEST =
-            Collections.<String, Object>singletonMap("request", true);
+            Collections.singletonMap("request", true);
 
     @Test
     public void aRoleMayWhatTheOnesBeforeMay() {
@@ -49,21 +49,21 @@ public final class PermissionTest {
 
     @Test
     public void withoutAServiceNothingIsOffered() {
-        assertEquals(Objection.NO_LINK, Permission.ofLink(null));
+        assertEquals(DisabledReason.NO_LINK, Permission.ofLink(null));
     }
 
     @Test
     public void theMotorsStateDecidesWhatIsLeftToAsk() {
-        assertEquals(Objection.ARMED_ALREADY, Permission.ofMotor("up.arm", true, null));
-        assertEquals(Objection.NONE, Permission.ofMotor("up.arm", false, null));
-        assertEquals(Objection.DISARMED_ALREADY, Permission.ofMotor("up.disarm", false, null));
-        assertEquals(Objection.NONE, Permission.ofMotor("up.disarm", true, null));
-        assertEquals(Objection.NONE, Permission.ofMotor("up.arm", null, null));
+        assertEquals(DisabledReason.ARMED_ALREADY, Permission.ofMotor("up.arm", true, null));
+        assertEquals(DisabledReason.NONE, Permission.ofMotor("up.arm", false, null));
+        assertEquals(DisabledReason.DISARMED_ALREADY, Permission.ofMotor("up.disarm", false, null));
+        assertEquals(DisabledReason.NONE, Permission.ofMotor("up.disarm", true, null));
+        assertEquals(DisabledReason.NONE, Permission.ofMotor("up.arm", null, null));
     }
 
-    private static Objection ofAircraft(String name, Boolean isArmed, long flightAgeMs,
+    private static DisabledReason ofAircraft(String name, Boolean isArmed, long flightAgeMs,
             long nowMs) {
-        Map<String, Object> data = new HashMap<String, Object>();
+        Map<String, Object> data = new HashMap<>();
         data.put("armed", isArmed);
         data.put("age_ms", Collections.singletonMap("flight", flightAgeMs));
         Telemetry frame = Telemetry.of(data, 7L, 10000, 0);
@@ -72,49 +72,51 @@ public final class PermissionTest {
 
     @Test
     public void nobodyCommandsWhatTheyDoNotSee() {
-        assertEquals(Objection.NONE, ofAircraft("up.arm", false, 100, 10500));
-        assertEquals(Objection.SILENT, ofAircraft("up.arm", false, 100, 11000));
-        assertEquals(Objection.SILENT, Permission.ofAircraft("up.heading.change", NOTHING, null,
-                Telemetry.NOTHING, 0));
-        assertEquals(Objection.NONE, Permission.ofAircraft("arduino.pids.tunings", REQUEST, null,
-                Telemetry.NOTHING, 0));
+        assertEquals(DisabledReason.NONE, ofAircraft("up.arm", false, 100, 10500));
+        assertEquals(DisabledReason.SILENT, ofAircraft("up.arm", false, 100, 11000));
+        assertEquals(DisabledReason.SILENT,
+                Permission.ofAircraft("up.heading.change", NOTHING, null,
+                Telemetry.EMPTY, 0));
+        assertEquals(DisabledReason.NONE,
+                Permission.ofAircraft("arduino.pids.tunings", REQUEST, null,
+                Telemetry.EMPTY, 0));
     }
 
     @Test
     public void aMotorsStateThatIsOldIsNoState() {
-        assertEquals(Objection.ARMED_ALREADY, ofAircraft("up.arm", true, 100, 10500));
-        assertEquals(Objection.NONE, ofAircraft("up.arm", true, 5000, 10500));
+        assertEquals(DisabledReason.ARMED_ALREADY, ofAircraft("up.arm", true, 100, 10500));
+        assertEquals(DisabledReason.NONE, ofAircraft("up.arm", true, 5000, 10500));
     }
 
     @Test
     public void gainsAreRefusedInFlightWhereTheAircraftSaysSo() {
         String name = "arduino.pids.tunings";
-        assertEquals(Objection.ARMED, Permission.ofMotor(name, true, false));
-        assertEquals(Objection.NONE, Permission.ofMotor(name, true, true));
-        assertEquals(Objection.NONE, Permission.ofMotor(name, true, null));
-        assertEquals(Objection.NONE, Permission.ofMotor(name, false, false));
-        Map<String, Object> data = new HashMap<String, Object>();
+        assertEquals(DisabledReason.ARMED, Permission.ofMotor(name, true, false));
+        assertEquals(DisabledReason.NONE, Permission.ofMotor(name, true, true));
+        assertEquals(DisabledReason.NONE, Permission.ofMotor(name, true, null));
+        assertEquals(DisabledReason.NONE, Permission.ofMotor(name, false, false));
+        Map<String, Object> data = new HashMap<>();
         data.put("armed", false);
         data.put("in_flight", true);
         data.put("age_ms", Collections.singletonMap("flight", 100L));
         Telemetry glider = Telemetry.of(data, 7L, 10000, 0);
-        assertEquals(Objection.ARMED,
+        assertEquals(DisabledReason.ARMED,
                 Permission.ofAircraft(name, NOTHING, false, glider, 10500));
-        assertEquals(Objection.NONE,
+        assertEquals(DisabledReason.NONE,
                 Permission.ofAircraft("up.arm", NOTHING, false, glider, 10500));
     }
 
     @Test
     public void whatChangesTheFlightIsConfirmedAndWhatNobodyKnowsToo() {
-        assertTrue(Caution.isConfirmed("up.heading.change", NOTHING));
-        assertTrue(Caution.isConfirmed("up.flight_mode.set", NOTHING));
-        assertTrue(Caution.isConfirmed("arduino.calibrate", NOTHING));
-        assertTrue(Caution.isConfirmed("chute.open", NOTHING));
-        assertTrue(Caution.isConfirmed("android.reboot", NOTHING));
-        assertFalse(Caution.isConfirmed("android.speak", NOTHING));
-        assertFalse(Caution.isConfirmed("up.telemetry.frequency", NOTHING));
-        assertFalse(Caution.isConfirmed("black_box.mark", NOTHING));
-        assertFalse(Caution.isConfirmed("arduino.profile.request", NOTHING));
+        assertTrue(ConfirmationPolicy.isConfirmed("up.heading.change", NOTHING));
+        assertTrue(ConfirmationPolicy.isConfirmed("up.flight_mode.set", NOTHING));
+        assertTrue(ConfirmationPolicy.isConfirmed("arduino.calibrate", NOTHING));
+        assertTrue(ConfirmationPolicy.isConfirmed("chute.open", NOTHING));
+        assertTrue(ConfirmationPolicy.isConfirmed("android.reboot", NOTHING));
+        assertFalse(ConfirmationPolicy.isConfirmed("android.speak", NOTHING));
+        assertFalse(ConfirmationPolicy.isConfirmed("up.telemetry.frequency", NOTHING));
+        assertFalse(ConfirmationPolicy.isConfirmed("black_box.mark", NOTHING));
+        assertFalse(ConfirmationPolicy.isConfirmed("arduino.profile.request", NOTHING));
     }
 
     @Test

@@ -14,7 +14,7 @@ public final class GroundSpeedTest {
     @Test
     public void theSpeedIsTheWayOverTheTime() {
         for (int second = 0; second < 5; second++) {
-            speed.take(47 + 12 * second * METRE_DEG, 8, 1000L * second);
+            speed.update(47 + 12 * second * METRE_DEG, 8, 1000L * second);
         }
         assertEquals(12, speed.metresPerSecond(), 0.01);
     }
@@ -22,7 +22,7 @@ public final class GroundSpeedTest {
     @Test
     public void aPlaceAloneTellsNoSpeed() {
         assertNull(speed.metresPerSecond());
-        speed.take(47, 8, 0);
+        speed.update(47, 8, 0);
         assertNull(speed.metresPerSecond());
     }
 
@@ -31,7 +31,7 @@ public final class GroundSpeedTest {
         for (int second = 0; second < 4; second++) {
             for (int frame = 0; frame < 10; frame++) {
                 // Ages jitter by some ms from frame to frame.
-                speed.take(47 + 10 * second * METRE_DEG, 8, 1000L * second + frame % 3 * 10);
+                speed.update(47 + 10 * second * METRE_DEG, 8, 1000L * second + frame % 3 * 10);
             }
         }
         assertEquals(10, speed.metresPerSecond(), 0.2);
@@ -39,31 +39,31 @@ public final class GroundSpeedTest {
 
     @Test
     public void afterASilenceTheOldPlacesCountNoMore() {
-        speed.take(47, 8, 0);
-        speed.take(47 + 10 * METRE_DEG, 8, 1000);
-        speed.take(47.1, 8, 20000);
+        speed.update(47, 8, 0);
+        speed.update(47 + 10 * METRE_DEG, 8, 1000);
+        speed.update(47.1, 8, 20000);
         assertNull(speed.metresPerSecond());
     }
 
     @Test
     public void theDateLineIsNoWay() {
-        speed.take(0, 179.99999, 0);
-        speed.take(0, -179.99999, 1000);
+        speed.update(0, 179.99999, 0);
+        speed.update(0, -179.99999, 1000);
         assertEquals(2.22, speed.metresPerSecond(), 0.05);
     }
 
     @Test
     public void whatStandsStillHasNoSpeed() {
         for (int second = 0; second < 30; second++) {
-            speed.take(47, 8, 1000L * second);
+            speed.update(47, 8, 1000L * second);
         }
         assertEquals(0, speed.metresPerSecond(), 0);
     }
 
     @Test
     public void nothingIsKnownAfterClear() {
-        speed.take(47, 8, 0);
-        speed.take(47.001, 8, 1000);
+        speed.update(47, 8, 0);
+        speed.update(47.001, 8, 1000);
         speed.clear();
         assertNull(speed.metresPerSecond());
     }

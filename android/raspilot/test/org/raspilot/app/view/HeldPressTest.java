@@ -13,7 +13,7 @@ public final class HeldPressTest {
     private boolean look(long fromMs, long toMs) {
         boolean hasFired = false;
         for (long now = fromMs; now <= toMs; now += 20) {
-            hasFired |= press.look(now);
+            hasFired |= press.check(now);
         }
         return hasFired;
     }
@@ -22,7 +22,7 @@ public final class HeldPressTest {
     public void aPressOfASecondFiresOnce() {
         press.press(0);
         assertFalse(look(0, 980));
-        assertTrue(press.look(1000));
+        assertTrue(press.check(1000));
         assertFalse(look(1020, 5000));
         assertEquals(HeldPress.State.DONE, press.state());
     }
@@ -53,14 +53,14 @@ public final class HeldPressTest {
     public void aScreenThatHungFiresNothingWhenItWakes() {
         press.press(0);
         look(0, 500);
-        assertFalse(press.look(1500));
+        assertFalse(press.check(1500));
         assertEquals(HeldPress.State.VOID, press.state());
     }
 
     @Test
     public void aClockThatGoesBackFiresNothing() {
         press.press(1000);
-        assertFalse(press.look(900));
+        assertFalse(press.check(900));
         assertFalse(look(920, 3000));
     }
 

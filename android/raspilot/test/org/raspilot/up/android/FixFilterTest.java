@@ -12,13 +12,13 @@ public final class FixFilterTest {
     public void aFixOfNowIsTaken() {
         filter.begin();
         assertTrue(filter.takes(0, 1000));
-        assertTrue(filter.takes(FixFilter.OLDEST_MS, 2000));
+        assertTrue(filter.takes(FixFilter.MAX_AGE_MS, 2000));
     }
 
     @Test
     public void anOldFixIsNotTaken() {
         filter.begin();
-        assertFalse(filter.takes(FixFilter.OLDEST_MS + 1, 1000));
+        assertFalse(filter.takes(FixFilter.MAX_AGE_MS + 1, 1000));
     }
 
     @Test

@@ -17,15 +17,15 @@ public final class RotationVectorTest {
     @Test
     public void beforeAndroid43TheFourthIsNotLookedAt() {
         assertEquals(1, RotationVector.read(new float[] {0, 0, 0, 0}, 0, 17)
-                .deviceToWorld().w(), NEAR);
+                .deviceToWorld.w, NEAR);
         assertEquals(0.8, RotationVector.read(new float[] {0.6f, 0, 0}, 0, 16)
-                .deviceToWorld().w(), NEAR);
+                .deviceToWorld.w, NEAR);
     }
 
     @Test
     public void theFifthIsTheAccuracy() {
         assertEquals(0.8, RotationVector.read(new float[] {0.6f, 0, 0, 0.8f, 3}, 0, 29)
-                .deviceToWorld().w(), NEAR);
+                .deviceToWorld.w, NEAR);
     }
 
     @Test

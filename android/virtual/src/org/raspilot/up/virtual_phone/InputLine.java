@@ -7,7 +7,6 @@ import org.raspilot.up.wire.MalformedException;
 
 /** One line of input. */
 final class InputLine {
-    /** Its keys and values. */
     final Map<?, ?> fields;
 
     private InputLine(Map<?, ?> fields) {
@@ -22,16 +21,16 @@ final class InputLine {
                 return new InputLine((Map<?, ?>) value);
             }
         } catch (MalformedException error) {
-            throw new OptionException("a line is no JSON: " + error.getMessage());
+            throw new OptionException("a line is not JSON: " + error.getMessage());
         }
-        throw new OptionException("a line is no JSON object");
+        throw new OptionException("a line must be a JSON object");
     }
 
     /** Returns the time of a stepped line, ms; throws OptionException if it is missing. */
     long timeMs() throws OptionException {
         Object value = fields.get("t");
         if (!(value instanceof Long)) {
-            throw new OptionException("a line has no time 't'");
+            throw new OptionException("a line needs the time 't', ms");
         }
         return (Long) value;
     }
@@ -40,7 +39,7 @@ final class InputLine {
     List<?> network() throws OptionException {
         Object value = fields.get("net");
         if (value != null && !(value instanceof List)) {
-            throw new OptionException("net is no list");
+            throw new OptionException("net must be a list");
         }
         return (List<?>) value;
     }

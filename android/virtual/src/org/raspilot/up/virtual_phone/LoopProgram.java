@@ -14,14 +14,13 @@ import org.raspilot.up.loop.SelectorLoop;
 /** A program in real time with its own sockets: it runs until its standard input ends. */
 final class LoopProgram implements FaultListener {
     /** A process that closes standard input may give the JVM some other file in its place. */
-    private static final int MOST_WRONG = 100;
+    private static final int MAX_WRONG = 100;
 
-    private final Words words;
+    private final EventWriter words;
     private final SelectorLoop loop;
 
     /** What it consists of; all calls come on the loop. */
     interface Part {
-        /** Starts on this loop. */
         void start(Loop loop);
 
         /**
@@ -29,14 +28,13 @@ final class LoopProgram implements FaultListener {
          *
          * @throws OptionException when it is invalid (a sentence, which is printed)
          */
-        void take(Map<?, ?> line) throws OptionException;
+        void onLine(Map<?, ?> line) throws OptionException;
 
-        /** Stops. */
         void stop();
     }
 
     /** Creates a loop of that name. */
-    LoopProgram(String name, Words words) {
+    LoopProgram(String name, EventWriter words) {
         this.words = words;
         loop = new SelectorLoop(name, this);
     }
@@ -44,58 +42,48 @@ final class LoopProgram implements FaultListener {
     /** Runs a part until input ends, or a hundred lines in a row are invalid. */
     void run(InputStream input, final Part part) throws IOException {
         loop.start();
-        loop.post(new Runnable() {
-            @Override
-            public void run() {
-                part.start(loop);
-            }
-        });
+        loop.post(() -> part.start(loop));
         BufferedReader lines =
                 new BufferedReader(new InputStreamReader(input, Charset.forName("UTF-8")));
         String text = lines.readLine();
-        for (int wrong = 0; text != null && wrong < MOST_WRONG; text = lines.readLine()) {
+        for (int wrong = 0; text != null && wrong < MAX_WRONG; text = lines.readLine()) {
             try {
-                take(part, InputLine.read(text));
+                handle(part, InputLine.read(text));
                 wrong = 0;
             } catch (OptionException error) {
-                words.notice(error.getMessage());
+                words.notice("invalid_input", error.getMessage());
                 wrong++;
             }
         }
         if (text != null) {
-            words.notice(MOST_WRONG + " lines in a row are no JSON objects: this is no input");
+            words.notice("input_ended",
+                    MAX_WRONG + " lines in a row are not JSON objects: giving up");
         }
         end(part);
     }
 
     @Override
     public void onFault(Throwable fault) {
-        words.notice(Words.faultText(fault));
+        words.fault(fault);
     }
 
-    private void take(final Part part, final InputLine line) {
-        loop.post(new Runnable() {
-            @Override
-            public void run() {
-                try {
-                    part.take(line.fields);
-                } catch (OptionException error) {
-                    words.notice(error.getMessage());
-                }
+    private void handle(final Part part, final InputLine line) {
+        loop.post(() -> {
+            try {
+                part.onLine(line.fields);
+            } catch (OptionException error) {
+                words.notice("invalid_input", error.getMessage());
             }
         });
     }
 
     private void end(final Part part) {
         final CountDownLatch isOver = new CountDownLatch(1);
-        loop.post(new Runnable() {
-            @Override
-            public void run() {
-                try {
-                    part.stop();
-                } finally {
-                    isOver.countDown();
-                }
+        loop.post(() -> {
+            try {
+                part.stop();
+            } finally {
+                isOver.countDown();
             }
         });
         try {

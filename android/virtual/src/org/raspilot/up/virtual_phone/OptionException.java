@@ -4,7 +4,6 @@ package org.raspilot.up.virtual_phone;
 final class OptionException extends Exception {
     private static final long serialVersionUID = 1;
 
-    /** Takes the sentence. */
     OptionException(String sentence) {
         super(sentence);
     }

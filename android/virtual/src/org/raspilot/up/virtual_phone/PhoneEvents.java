@@ -5,57 +5,57 @@ import org.raspilot.up.airborne.AirborneListener;
 import org.raspilot.up.airborne.AirborneStatus;
 import org.raspilot.up.airborne.Speaker;
 import org.raspilot.up.loop.FaultListener;
-import org.raspilot.up.net.Place;
+import org.raspilot.up.net.Endpoint;
 
 /** Prints the events of the airborne side as lines. */
 final class PhoneEvents implements AirborneListener, Speaker, FaultListener {
-    private final Words words;
+    private final EventWriter words;
 
     /** Prints events through {@code words}. */
-    PhoneEvents(Words words) {
+    PhoneEvents(EventWriter words) {
         this.words = words;
     }
 
     @Override
-    public void onConnected(Place place) {
-        Map<String, Object> event = Words.event("connected", "host", place.host());
-        event.put("general", (long) place.generalPort());
-        event.put("orientation", (long) place.orientationPort());
-        words.say(event);
+    public void onConnected(Endpoint place) {
+        Map<String, Object> event = EventWriter.event("connected", "host", place.host);
+        event.put("general", (long) place.generalPort);
+        event.put("orientation", (long) place.orientationPort);
+        words.write(event);
     }
 
     @Override
     public void onDisconnected(String reason) {
-        words.say(Words.event("lost", "reason", reason));
+        words.write(EventWriter.event("lost", "reason", reason));
     }
 
     @Override
     public void onPanic(long delayMs) {
-        words.say(Words.event("panic", "delay_ms", delayMs));
+        words.write(EventWriter.event("panic", "delay_ms", delayMs));
     }
 
     @Override
-    public void onEvent(String sentence) {
-        words.notice(sentence);
+    public void onEvent(String code, String sentence) {
+        words.notice(code, sentence);
     }
 
     @Override
     public void speak(String text) {
-        words.say(Words.event("says", "text", text));
+        words.write(EventWriter.event("says", "text", text));
     }
 
     @Override
     public void onFault(Throwable fault) {
-        words.notice(Words.faultText(fault));
+        words.fault(fault);
     }
 
-    /** Prints the last line. */
     void counters(AirborneStatus status) {
-        Map<String, Object> event = Words.event("counters", "connections", status.connections());
+        Map<String,
+                Object> event = EventWriter.event("counters", "connections", status.connections());
         event.put("telemetry", status.telemetry());
         event.put("executed", status.executed());
         event.put("refused", status.refused());
         event.put("malformed", status.malformed());
-        words.say(event);
+        words.write(event);
     }
 }

@@ -41,7 +41,6 @@ final class PhoneOptions {
 
     /** How the airborne side is to be. */
     final AirborneSettings settings;
-    /** The seed of random numbers. */
     final long seed;
     /** Whether time and network are the simulator's. */
     final boolean isStepped;
@@ -66,7 +65,8 @@ final class PhoneOptions {
     static PhoneOptions read(String[] arguments) throws OptionException {
         Reader reader = new Reader();
         for (int at = 0; at < arguments.length; at++) {
-            at += reader.take(arguments[at], at + 1 < arguments.length ? arguments[at + 1] : null);
+            at += reader.readOption(arguments[at], at + 1 < arguments.length ? arguments[at
+                    + 1] : null);
         }
         return new PhoneOptions(reader);
     }
@@ -87,7 +87,7 @@ final class PhoneOptions {
         }
 
         /** Takes an option and returns the number of its arguments. */
-        int take(String name, String value) throws OptionException {
+        int readOption(String name, String value) throws OptionException {
             if ("--stepped".equals(name)) {
                 isStepped = true;
                 return 0;
@@ -101,39 +101,39 @@ final class PhoneOptions {
                 return 0;
             }
             if (value == null) {
-                throw OptionWords.unknown(name, true);
+                throw OptionParser.unknown(name, true);
             }
-            if (!takeWay(name, value) && !takeManner(name, value)) {
-                throw OptionWords.unknown(name, false);
+            if (!readEndpoint(name, value) && !readMode(name, value)) {
+                throw OptionParser.unknown(name, false);
             }
             return 1;
         }
 
-        private boolean takeWay(String name, String value) throws OptionException {
+        private boolean readEndpoint(String name, String value) throws OptionException {
             if ("--aircraft".equals(name)) {
                 settings.aircraft(value);
                 return true;
             }
             if ("--raspberry".equals(name)) {
-                String[] parts = OptionWords.parts(name, value, 3, "HOST:GENERAL:ORIENTATION");
+                String[] parts = OptionParser.parts(name, value, 3, "HOST:GENERAL:ORIENTATION");
                 settings.host(parts[0]);
-                settings.generalPort(OptionWords.port(name, parts[1]));
-                settings.orientationPort(OptionWords.port(name, parts[2]));
+                settings.generalPort(OptionParser.port(name, parts[1]));
+                settings.orientationPort(OptionParser.port(name, parts[2]));
                 return true;
             }
             if ("--discover".equals(name)) {
-                String[] parts = OptionWords.parts(name, value, 2, "HOST:PORT");
+                String[] parts = OptionParser.parts(name, value, 2, "HOST:PORT");
                 settings.host("");
                 settings.discoveryHosts(Collections.singletonList(parts[0]));
-                settings.discoveryPort(OptionWords.port(name, parts[1]));
+                settings.discoveryPort(OptionParser.port(name, parts[1]));
                 choose(name);
                 return true;
             }
             if ("--runner".equals(name)) {
-                String[] parts = OptionWords.parts(name, value, 2, "HOST:PORT");
+                String[] parts = OptionParser.parts(name, value, 2, "HOST:PORT");
                 settings.mode(AirborneMode.BLACK_BOX);
                 settings.runnerHost(parts[0]);
-                settings.runnerPort(OptionWords.port(name, parts[1]));
+                settings.runnerPort(OptionParser.port(name, parts[1]));
                 choose(name);
                 return true;
             }
@@ -142,23 +142,22 @@ final class PhoneOptions {
 
         private void choose(String name) throws OptionException {
             if (!way.isEmpty() && !way.equals(name)) {
-                throw new OptionException(way + " and " + name + " are two ways of finding the"
-                        + " same: choose one");
+                throw new OptionException(way + " and " + name + " exclude each other");
             }
             way = name;
         }
 
-        private boolean takeManner(String name, String value) throws OptionException {
+        private boolean readMode(String name, String value) throws OptionException {
             if ("--orientation".equals(name)) {
                 OrientationTransport transport = transport(value);
                 settings.orientation(transport);
                 settings.redundantOrientation(transport != OrientationTransport.OFF);
             } else if ("--orientation-hz".equals(name)) {
-                settings.orientationHz((int) OptionWords.number(name, value, 1, 1000));
+                settings.orientationHz((int) OptionParser.number(name, value, 1, 1000));
             } else if ("--mounting".equals(name)) {
                 settings.mounting(mounting(value));
             } else if ("--seed".equals(name)) {
-                seed = OptionWords.number(name, value, 0, Integer.MAX_VALUE);
+                seed = OptionParser.number(name, value, 0, Integer.MAX_VALUE);
             } else {
                 return false;
             }

@@ -9,14 +9,13 @@ import org.raspilot.up.providers.Side;
 /** The phone itself with its simulated sensors, on whatever loop. */
 final class PhoneSide implements LoopProgram.Part {
     private final PhoneOptions options;
-    private final Words words;
+    private final EventWriter words;
     private final PhoneEvents events;
     private SimulatedSensors sensors;
     private SimulatedSource<Map<?, ?>> record;
     private Airborne airborne;
 
-    /** Builds nothing yet. */
-    PhoneSide(PhoneOptions options, Words words) {
+    PhoneSide(PhoneOptions options, EventWriter words) {
         this.options = options;
         this.words = words;
         events = new PhoneEvents(words);
@@ -29,7 +28,7 @@ final class PhoneSide implements LoopProgram.Part {
         Random random = options.isStepped ? new Random(options.seed) : new Random();
         airborne = new Airborne(loop, options.settings, sensors, events, events, random);
         if (options.isRecording) {
-            record = new SimulatedSource<Map<?, ?>>("record", words);
+            record = new SimulatedSource<>("record", words);
             airborne.providers().register(new RecordProvider(record));
         }
         airborne.start();
@@ -42,15 +41,15 @@ final class PhoneSide implements LoopProgram.Part {
     }
 
     @Override
-    public void take(Map<?, ?> fields) throws OptionException {
-        sensors.take(fields);
+    public void onLine(Map<?, ?> fields) throws OptionException {
+        sensors.update(fields);
         Object content = fields.get("record");
         if (content != null && record == null) {
             throw new OptionException("record: only with --record");
         } else if (content instanceof Map) {
-            record.take((Map<?, ?>) content);
+            record.deliver((Map<?, ?>) content);
         } else if (content != null) {
-            throw new OptionException("record is no object");
+            throw new OptionException("record must be an object");
         }
         Object level = fields.get("level");
         if (level != null) {
@@ -60,7 +59,7 @@ final class PhoneSide implements LoopProgram.Part {
 
     private void calibrate(String nose) throws OptionException {
         try {
-            words.notice("mounting: " + airborne.calibrate(Side.valueOf(nose)).toText());
+            words.notice("mounting", "mounting: " + airborne.calibrate(Side.valueOf(nose)).toText());
         } catch (IllegalArgumentException error) {
             throw new OptionException("not calibrated: " + error.getMessage());
         } catch (IllegalStateException error) {

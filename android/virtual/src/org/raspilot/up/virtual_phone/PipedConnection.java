@@ -16,10 +16,8 @@ final class PipedConnection implements TcpConnection {
     private boolean isClosed;
     private boolean isFull;
 
-    /** One event of a connection. */
     interface Event {
-        /** Runs it. */
-        void happen(PipedConnection connection);
+        void apply(PipedConnection connection);
     }
 
     /** Takes its number on the pipe. */
@@ -35,45 +33,29 @@ final class PipedConnection implements TcpConnection {
      * @param detail the third element of its line
      * @throws OptionException for an unknown kind (a sentence)
      */
-    static Event event(String kind, final Object detail) throws OptionException {
+    static Event parse(String kind, final Object detail) throws OptionException {
         if ("connected".equals(kind)) {
-            return new Event() {
-                @Override
-                public void happen(PipedConnection connection) {
-                    connection.isConnected = true;
-                    connection.listener.onConnected();
-                }
+            return connection -> {
+                connection.isConnected = true;
+                connection.listener.onConnected();
             };
         }
         if ("bytes".equals(kind)) {
             final byte[] bytes = ((String) detail).getBytes(PipedNetwork.BYTES);
-            return new Event() {
-                @Override
-                public void happen(PipedConnection connection) {
-                    connection.listener.onBytes(bytes, bytes.length);
-                }
-            };
+            return connection -> connection.listener.onBytes(bytes, bytes.length);
         }
         if ("room".equals(kind)) {
             final int count = ((Long) detail).intValue();
-            return new Event() {
-                @Override
-                public void happen(PipedConnection connection) {
-                    connection.makeRoom(count);
-                }
-            };
+            return connection -> connection.makeRoom(count);
         }
         if ("closed".equals(kind)) {
             final String reason = (String) detail;
-            return new Event() {
-                @Override
-                public void happen(PipedConnection connection) {
-                    connection.end();
-                    connection.listener.onClosed(reason);
-                }
+            return connection -> {
+                connection.end();
+                connection.listener.onClosed(reason);
             };
         }
-        throw new OptionException("net: there is no event '" + kind + "'");
+        throw new OptionException("net: unknown event '" + kind + "'");
     }
 
     @Override
@@ -84,11 +66,11 @@ final class PipedConnection implements TcpConnection {
         int taken = Math.min(length, room);
         if (taken > 0) {
             room -= taken;
-            network.ask("write", id, new String(bytes, offset, taken, PipedNetwork.BYTES));
+            network.request("write", id, new String(bytes, offset, taken, PipedNetwork.BYTES));
         }
         if (taken < length && !isFull) {
             isFull = true;
-            network.ask("full", id);
+            network.request("full", id);
         }
         return taken;
     }
@@ -97,7 +79,7 @@ final class PipedConnection implements TcpConnection {
     public void close() {
         if (!isClosed) {
             end();
-            network.ask("close", id);
+            network.request("close", id);
         }
     }
 
@@ -111,6 +93,6 @@ final class PipedConnection implements TcpConnection {
 
     private void end() {
         isClosed = true;
-        network.forget(id);
+        network.remove(id);
     }
 }

@@ -18,16 +18,16 @@ final class PipedNetwork implements Network {
     /** How bytes become text: each byte one character. */
     static final Charset BYTES = Charset.forName("ISO-8859-1");
 
-    private final Map<Long, PipedConnection> connections = new HashMap<Long, PipedConnection>();
-    private final Map<Long, PipedUdpPort> ports = new HashMap<Long, PipedUdpPort>();
-    private List<Object> toDo = new ArrayList<Object>();
+    private final Map<Long, PipedConnection> connections = new HashMap<>();
+    private final Map<Long, PipedUdpPort> ports = new HashMap<>();
+    private List<Object> toDo = new ArrayList<>();
     private long lastId;
 
     @Override
     public TcpConnection connectTcp(String host, int port, int timeoutMs, TcpListener listener) {
         PipedConnection connection = new PipedConnection(this, ++lastId, listener);
         connections.put(lastId, connection);
-        ask("connect", lastId, host, (long) port, (long) timeoutMs);
+        request("connect", lastId, host, (long) port, (long) timeoutMs);
         return connection;
     }
 
@@ -35,25 +35,25 @@ final class PipedNetwork implements Network {
     public UdpPort openUdp(UdpListener listener) {
         PipedUdpPort port = new PipedUdpPort(this, ++lastId, listener);
         ports.put(lastId, port);
-        ask("open", lastId);
+        request("open", lastId);
         return port;
     }
 
     /** Sends a request to the simulator. */
-    void ask(Object... words) {
+    void request(Object... words) {
         toDo.add(Arrays.asList(words));
     }
 
     /** Discards a connection or a socket. */
-    void forget(long id) {
+    void remove(long id) {
         connections.remove(id);
         ports.remove(id);
     }
 
     /** Returns and clears the requests to the simulator. */
-    List<Object> takeToDo() {
+    List<Object> takeRequests() {
         List<Object> taken = toDo;
-        toDo = new ArrayList<Object>();
+        toDo = new ArrayList<>();
         return taken;
     }
 
@@ -67,7 +67,7 @@ final class PipedNetwork implements Network {
             try {
                 loop.post(happening((List<?>) each));
             } catch (ClassCastException error) {
-                throw new OptionException("net: an event is not understood: " + each);
+                throw new OptionException("net: invalid event: " + each);
             } catch (IndexOutOfBoundsException error) {
                 throw new OptionException("net: an event is too short: " + each);
             }
@@ -82,25 +82,19 @@ final class PipedNetwork implements Network {
             final byte[] datagram = ((String) first).getBytes(BYTES);
             final String host = (String) words.get(3);
             final int port = ((Long) words.get(4)).intValue();
-            return new Runnable() {
-                @Override
-                public void run() {
-                    PipedUdpPort target = ports.get(id);
-                    if (target != null) {
-                        target.take(datagram, host, port);
-                    }
+            return () -> {
+                PipedUdpPort target = ports.get(id);
+                if (target != null) {
+                    target.deliver(datagram, host, port);
                 }
             };
         }
-        final PipedConnection.Event event = PipedConnection.event(kind, first);
-        return new Runnable() {
-            @Override
-            public void run() {
-                PipedConnection connection = connections.get(id);
-                // Connections closed before the event are not called.
-                if (connection != null) {
-                    event.happen(connection);
-                }
+        final PipedConnection.Event event = PipedConnection.parse(kind, first);
+        return () -> {
+            PipedConnection connection = connections.get(id);
+            // Connections closed before the event are not called.
+            if (connection != null) {
+                event.apply(connection);
             }
         };
     }

@@ -22,7 +22,7 @@ final class PipedUdpPort implements UdpPort {
         if (isClosed) {
             return false;
         }
-        network.ask("send", id, new String(datagram, PipedNetwork.BYTES), host, (long) port);
+        network.request("send", id, new String(datagram, PipedNetwork.BYTES), host, (long) port);
         return true;
     }
 
@@ -30,13 +30,12 @@ final class PipedUdpPort implements UdpPort {
     public void close() {
         if (!isClosed) {
             isClosed = true;
-            network.forget(id);
-            network.ask("shut", id);
+            network.remove(id);
+            network.request("shut", id);
         }
     }
 
-    /** Hands a datagram on. */
-    void take(byte[] datagram, String host, int port) {
+    void deliver(byte[] datagram, String host, int port) {
         listener.onDatagram(datagram, datagram.length, host, port);
     }
 }

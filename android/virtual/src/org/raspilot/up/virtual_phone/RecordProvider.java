@@ -3,8 +3,8 @@ package org.raspilot.up.virtual_phone;
 import java.util.LinkedHashMap;
 import java.util.Map;
 import org.raspilot.up.commands.BaseCommand;
-import org.raspilot.up.commands.RecordCommand;
-import org.raspilot.up.providers.Cadence;
+import org.raspilot.up.commands.Commands;
+import org.raspilot.up.providers.RatePolicy;
 import org.raspilot.up.providers.SensorProvider;
 import org.raspilot.up.providers.SensorSource;
 
@@ -17,14 +17,14 @@ final class RecordProvider extends SensorProvider<Map<?, ?>> {
 
     /** Takes the {@code "record"} of an input line: topic and content. */
     RecordProvider(SensorSource<Map<?, ?>> source) {
-        super("record", source, Cadence.stream(PERIOD_MS, SILENCE_MS));
+        super("record", source, RatePolicy.stream(PERIOD_MS, SILENCE_MS));
     }
 
     @Override
     protected BaseCommand read(Map<?, ?> reading) {
-        Map<String, Object> data = new LinkedHashMap<String, Object>();
+        Map<String, Object> data = new LinkedHashMap<>();
         data.put("topic", reading.get("topic"));
         data.put("content", reading.get("content"));
-        return new BaseCommand(RecordCommand.NAME, data);
+        return new BaseCommand(Commands.RECORD, data);
     }
 }

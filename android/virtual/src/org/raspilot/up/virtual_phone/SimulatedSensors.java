@@ -21,13 +21,13 @@ final class SimulatedSensors implements Sensors {
     private final SimulatedSource<BatteryLevel> battery;
 
     /** Makes them; readings get the loop's time. */
-    SimulatedSensors(Loop loop, Words words) {
+    SimulatedSensors(Loop loop, EventWriter words) {
         this.loop = loop;
-        location = new SimulatedSource<Fix>("fix", words);
-        rotation = new SimulatedSource<Rotation>("rotation", words);
-        rate = new SimulatedSource<RotationRate>("rate", words);
-        pressure = new SimulatedSource<Pressure>("pressure", words);
-        battery = new SimulatedSource<BatteryLevel>("battery", words);
+        location = new SimulatedSource<>("fix", words);
+        rotation = new SimulatedSource<>("rotation", words);
+        rate = new SimulatedSource<>("rate", words);
+        pressure = new SimulatedSource<>("pressure", words);
+        battery = new SimulatedSource<>("battery", words);
     }
 
     /**
@@ -36,29 +36,29 @@ final class SimulatedSensors implements Sensors {
      *
      * @throws OptionException when one is not a reading (a sentence)
      */
-    void take(Map<?, ?> line) throws OptionException {
+    void update(Map<?, ?> line) throws OptionException {
         long nowMs = loop.nowMs();
         Object each = line.get("fix");
         if (each != null) {
-            location.take(fix(each));
+            location.deliver(fix(each));
         }
         each = line.get("pressure");
         if (each != null) {
-            pressure.take(new Pressure(number("pressure", each)));
+            pressure.deliver(new Pressure(number("pressure", each)));
         }
         each = line.get("rate");
         if (each != null) {
             double[] values = numbers("rate", each, 3);
-            rate.take(new RotationRate(values[0], values[1], values[2], nowMs));
+            rate.deliver(new RotationRate(values[0], values[1], values[2], nowMs));
         }
         each = line.get("rotation");
         if (each != null) {
             double[] values = numbers("rotation", each, 4);
-            rotation.take(turned(values, nowMs));
+            rotation.deliver(turned(values, nowMs));
         }
         each = line.get("battery");
         if (each != null) {
-            battery.take(new BatteryLevel(number("battery", each)));
+            battery.deliver(new BatteryLevel(number("battery", each)));
         }
     }
 
@@ -97,7 +97,7 @@ final class SimulatedSensors implements Sensors {
 
     private static Fix fix(Object value) throws OptionException {
         if (!(value instanceof Map)) {
-            throw new OptionException("fix is no object");
+            throw new OptionException("fix must be an object");
         }
         Map<?, ?> fields = (Map<?, ?>) value;
         return new Fix(
@@ -111,7 +111,7 @@ final class SimulatedSensors implements Sensors {
 
     private static double[] numbers(String name, Object value, int count) throws OptionException {
         if (!(value instanceof List) || ((List<?>) value).size() != count) {
-            throw new OptionException(name + " is no list of " + count + " numbers");
+            throw new OptionException(name + " must be a list of " + count + " numbers");
         }
         double[] found = new double[count];
         for (int at = 0; at < count; at++) {
@@ -126,7 +126,7 @@ final class SimulatedSensors implements Sensors {
 
     private static double number(String name, Object value) throws OptionException {
         if (!(value instanceof Number)) {
-            throw new OptionException(name + " is no number");
+            throw new OptionException(name + " must be a number");
         }
         return ((Number) value).doubleValue();
     }

@@ -11,11 +11,11 @@ import org.raspilot.up.providers.SensorSource;
  */
 final class SimulatedSource<R> implements SensorSource<R> {
     private final String key;
-    private final Words words;
+    private final EventWriter words;
     private SensorListener<R> listener;
 
     /** Takes the sensor's name in the simulator's lines. */
-    SimulatedSource(String key, Words words) {
+    SimulatedSource(String key, EventWriter words) {
         this.key = key;
         this.words = words;
     }
@@ -33,27 +33,27 @@ final class SimulatedSource<R> implements SensorSource<R> {
     @Override
     public void subscribe(long periodMs, SensorListener<R> who) {
         listener = who;
-        say(periodMs);
+        reportPeriod(periodMs);
     }
 
     @Override
     public void unsubscribe() {
         if (listener != null) {
             listener = null;
-            say(0);
+            reportPeriod(0);
         }
     }
 
     /** Delivers a reading to the subscriber; on the loop. */
-    void take(R reading) {
+    void deliver(R reading) {
         if (listener != null) {
             listener.onReading(reading);
         }
     }
 
-    private void say(long periodMs) {
-        Map<String, Object> wants = Words.event("wants", "sensor", key);
+    private void reportPeriod(long periodMs) {
+        Map<String, Object> wants = EventWriter.event("wants", "sensor", key);
         wants.put("period_ms", periodMs);
-        words.say(wants);
+        words.write(wants);
     }
 }

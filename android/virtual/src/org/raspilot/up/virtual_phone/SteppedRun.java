@@ -8,27 +8,21 @@ import java.nio.charset.Charset;
 import java.util.LinkedHashMap;
 import java.util.List;
 import java.util.Map;
-import org.raspilot.up.loop.FaultListener;
 import org.raspilot.up.loop.ManualLoop;
 
 /** The phone in the simulator's time, with the simulator's network: one answer a line. */
 final class SteppedRun {
     private final LoopProgram.Part phone;
-    private final Words words;
+    private final EventWriter words;
     private final PipedNetwork network = new PipedNetwork();
     private final ManualLoop loop;
     private boolean isStarted;
 
     /** Takes the phone; the first line starts it. */
-    SteppedRun(LoopProgram.Part phone, final Words words) {
+    SteppedRun(LoopProgram.Part phone, final EventWriter words) {
         this.phone = phone;
         this.words = words;
-        loop = new ManualLoop(network, new FaultListener() {
-            @Override
-            public void onFault(Throwable fault) {
-                words.notice(Words.faultText(fault));
-            }
-        });
+        loop = new ManualLoop(network, fault -> words.fault(fault));
     }
 
     /** Answers every line until the input ends. */
@@ -39,7 +33,7 @@ final class SteppedRun {
             try {
                 step(InputLine.read(text));
             } catch (OptionException error) {
-                words.notice(error.getMessage());
+                words.notice("invalid_input", error.getMessage());
             }
             loop.advance(0);
             answer();
@@ -58,21 +52,13 @@ final class SteppedRun {
         loop.advance(stepMs);
         if (!isStarted) {
             isStarted = true;
-            loop.post(new Runnable() {
-                @Override
-                public void run() {
-                    phone.start(loop);
-                }
-            });
+            loop.post(() -> phone.start(loop));
         }
-        loop.post(new Runnable() {
-            @Override
-            public void run() {
-                try {
-                    phone.take(line.fields);
-                } catch (OptionException error) {
-                    words.notice(error.getMessage());
-                }
+        loop.post(() -> {
+            try {
+                phone.onLine(line.fields);
+            } catch (OptionException error) {
+                words.notice("invalid_input", error.getMessage());
             }
         });
         List<?> brought = line.network();
@@ -83,10 +69,10 @@ final class SteppedRun {
 
     private void answer() {
         long dueMs = loop.nextDueMs();
-        Map<String, Object> answer = new LinkedHashMap<String, Object>();
+        Map<String, Object> answer = new LinkedHashMap<>();
         answer.put("due", dueMs < 0 ? null : (Object) dueMs);
-        answer.put("net", network.takeToDo());
-        words.say(answer);
+        answer.put("net", network.takeRequests());
+        words.write(answer);
         words.flush();
     }
 }

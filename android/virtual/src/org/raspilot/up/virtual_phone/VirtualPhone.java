@@ -31,7 +31,7 @@ import java.io.IOException;
  * {"event": "lost", "reason"}                    the link for Commands is lost, or failed
  * {"event": "says", "text"}                      android.speak
  * {"event": "panic", "delay_ms"}                 0: it is over
- * {"event": "notice", "text"}                    anything else to report, in a sentence
+ * {"event": "notice", "code", "text"}            anything else to report, in a sentence
  * {"event": "counters", "connections", ...}      the last line
  * </pre>
  *
@@ -72,7 +72,7 @@ public final class VirtualPhone {
             System.out.print(PhoneOptions.HELP);
             return;
         }
-        Words words = new Words(System.out, !options.isStepped);
+        EventWriter words = new EventWriter(System.out, !options.isStepped);
         PhoneSide phone = new PhoneSide(options, words);
         if (options.isStepped) {
             new SteppedRun(phone, words).run(System.in);

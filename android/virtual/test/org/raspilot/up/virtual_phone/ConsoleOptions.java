@@ -5,7 +5,7 @@ import java.util.Arrays;
 import java.util.Collections;
 import java.util.List;
 import org.raspilot.up.ground.GroundSettings;
-import org.raspilot.up.wire.Seat;
+import org.raspilot.up.wire.ProxyRole;
 
 /** The command line options of the ground console. */
 final class ConsoleOptions {
@@ -32,7 +32,6 @@ final class ConsoleOptions {
 
     /** The peer; null with {@link #wantsHelp}. */
     final GroundSettings settings;
-    /** What to print of telemetry. */
     final List<String> values;
     /** Whether to print only the help. */
     final boolean wantsHelp;
@@ -48,10 +47,10 @@ final class ConsoleOptions {
         String host = "127.0.0.1";
         int port = GroundSettings.PROXY_PORT;
         String aircraft = GroundSettings.DEFAULT_AIRCRAFT;
-        Seat seat = Seat.COMMAND;
+        ProxyRole seat = ProxyRole.COMMAND;
         boolean isDirect = false;
         boolean wantsHelp = false;
-        List<String> values = new ArrayList<String>(Arrays.asList("flight_mode"));
+        List<String> values = new ArrayList<>(Arrays.asList("flight_mode"));
         for (int at = 0; at < arguments.length; at++) {
             String name = arguments[at];
             if ("--help".equals(name) || "-h".equals(name)) {
@@ -59,25 +58,25 @@ final class ConsoleOptions {
                 continue;
             }
             if (++at == arguments.length) {
-                throw OptionWords.unknown(name, true);
+                throw OptionParser.unknown(name, true);
             }
             String value = arguments[at];
             if ("--proxy".equals(name) || "--direct".equals(name)) {
-                String[] parts = OptionWords.parts(name, value, 2, "HOST:PORT");
+                String[] parts = OptionParser.parts(name, value, 2, "HOST:PORT");
                 host = parts[0];
-                port = OptionWords.port(name, parts[1]);
+                port = OptionParser.port(name, parts[1]);
                 isDirect = "--direct".equals(name);
             } else if ("--aircraft".equals(name)) {
                 aircraft = value;
             } else if ("--seat".equals(name)) {
-                seat = Seat.ofWord(value);
-                if (seat == null || seat == Seat.AIR) {
+                seat = ProxyRole.ofWord(value);
+                if (seat == null || seat == ProxyRole.AIR) {
                     throw new OptionException("--seat '" + value + "' is not command or listen");
                 }
             } else if ("--values".equals(name)) {
                 values = Arrays.asList(value.split(","));
             } else {
-                throw OptionWords.unknown(name, false);
+                throw OptionParser.unknown(name, false);
             }
         }
         String fault = GroundSettings.fault(host, port, aircraft);

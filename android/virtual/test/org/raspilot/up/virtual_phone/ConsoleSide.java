@@ -4,7 +4,7 @@ import java.util.LinkedHashMap;
 import java.util.Map;
 import java.util.Random;
 import org.raspilot.up.commands.BaseCommand;
-import org.raspilot.up.commands.BaseCommandHandler;
+import org.raspilot.up.commands.CommandHandler;
 import org.raspilot.up.commands.CommandExecutor;
 import org.raspilot.up.commands.CommandRegistry;
 import org.raspilot.up.commands.GainSet;
@@ -22,12 +22,11 @@ import org.raspilot.up.loop.Loop;
 /** The ground side with lines in the place of a screen. */
 final class ConsoleSide implements LoopProgram.Part, GroundListener, HandlerFaultListener {
     private final ConsoleOptions options;
-    private final Words words;
+    private final EventWriter words;
     private GroundSide ground;
     private GainSet told;
 
-    /** Builds nothing yet. */
-    ConsoleSide(ConsoleOptions options, Words words) {
+    ConsoleSide(ConsoleOptions options, EventWriter words) {
         this.options = options;
         this.words = words;
     }
@@ -48,7 +47,7 @@ final class ConsoleSide implements LoopProgram.Part, GroundListener, HandlerFaul
     }
 
     @Override
-    public void take(Map<?, ?> line) throws OptionException {
+    public void onLine(Map<?, ?> line) throws OptionException {
         Answers answers = new Answers(line.get("tag"));
         if (line.containsKey("send")) {
             send(line, answers);
@@ -63,47 +62,47 @@ final class ConsoleSide implements LoopProgram.Part, GroundListener, HandlerFaul
 
     @Override
     public void onTelemetry(Telemetry telemetry) {
-        if (telemetry.beacon() != null) {
-            ground.seen(telemetry.beacon());
+        if (telemetry.beacon != null) {
+            ground.onShown(telemetry.beacon);
         }
     }
 
     @Override
     public void onStatus(GroundStatus status) {
-        Map<String, Object> event = Words.event("status", "link", status.link().name());
-        event.put("sentence", status.linkSentence() + "; " + status.seatSentence());
-        event.put("seat", status.seat() == null ? null : status.seat().word());
-        event.put("standing", status.standing().name());
-        event.put("holder", number(status.holder()));
-        event.put("asked_by", number(status.askedBy()));
-        event.put("online", status.isAircraftOnline());
-        event.put("role", status.role());
-        event.put("tune_in_flight", status.tuneInFlight());
-        event.put("reason", status.reason());
-        event.put("rejection", status.rejection());
-        words.say(event);
+        Map<String, Object> event = EventWriter.event("status", "link", status.link.name());
+        event.put("sentence", status.linkText() + "; " + status.controlText());
+        event.put("seat", status.role == null ? null : status.role.word());
+        event.put("standing", status.control.name());
+        event.put("holder", number(status.owner));
+        event.put("asked_by", number(status.requestedBy));
+        event.put("online", status.isAircraftOnline);
+        event.put("role", status.commandRole);
+        event.put("tune_in_flight", status.tuneInFlight);
+        event.put("reason", status.reason);
+        event.put("rejection", status.rejection);
+        words.write(event);
     }
 
     @Override
     public void onChanged() {
-        GainSet flying = ground.gains().snapshot().flying();
+        GainSet flying = ground.gains().snapshot().flying;
         if (flying != told) {
             told = flying;
             Object data = flying == null ? null : flying.toData();
-            words.say(Words.event("gains", "flying", data));
+            words.write(EventWriter.event("gains", "flying", data));
         }
     }
 
     @Override
-    public void onHandlerFailed(BaseCommandHandler handler, BaseCommand command, Throwable fault) {
-        words.notice(command.name() + ": " + Words.faultText(fault));
+    public void onHandlerFailed(CommandHandler handler, BaseCommand command, Throwable fault) {
+        words.fault(fault);
     }
 
     private void send(Map<?, ?> line, Answers answers) throws OptionException {
         Object name = line.get("send");
         Object data = line.get("data");
         if (data == null) {
-            data = new LinkedHashMap<String, Object>();
+            data = new LinkedHashMap<>();
         }
         if (!(name instanceof String) || !(data instanceof Map)) {
             throw new OptionException("send is a Command's name, data an object");
@@ -112,9 +111,9 @@ final class ConsoleSide implements LoopProgram.Part, GroundListener, HandlerFaul
     }
 
     private void gains(Object wanted, Answers answers) throws OptionException {
-        Long beacon = ground.telemetry().beacon();
+        Long beacon = ground.telemetry().beacon;
         if ("ask".equals(wanted)) {
-            ground.gains().ask(answers);
+            ground.gains().request(answers);
         } else if ("undo".equals(wanted)) {
             ground.gains().undo(beacon, answers);
         } else if (wanted instanceof Map) {
@@ -131,21 +130,21 @@ final class ConsoleSide implements LoopProgram.Part, GroundListener, HandlerFaul
     private void seat(Object wanted) throws OptionException {
         boolean isDone;
         if ("request".equals(wanted)) {
-            isDone = ground.requestSeat();
+            isDone = ground.requestControl();
         } else if ("release".equals(wanted)) {
-            isDone = ground.releaseSeat();
+            isDone = ground.releaseControl();
         } else if (wanted instanceof Map && ((Map<?, ?>) wanted).get("give") instanceof Long) {
-            isDone = ground.giveSeat(((Long) ((Map<?, ?>) wanted).get("give")).intValue());
+            isDone = ground.giveControl(((Long) ((Map<?, ?>) wanted).get("give")).intValue());
         } else {
             throw new OptionException("seat: 'request', 'release' or {\"give\": number}");
         }
         if (!isDone) {
-            words.notice("the seat is not for us to ask for or to give now");
+            words.notice("no_control", "control cannot be requested or given now");
         }
     }
 
     private static Map<String, Object> keyed(Object object) {
-        Map<String, Object> keyed = new LinkedHashMap<String, Object>();
+        Map<String, Object> keyed = new LinkedHashMap<>();
         for (Map.Entry<?, ?> each : ((Map<?, ?>) object).entrySet()) {
             keyed.put((String) each.getKey(), each.getValue());
         }
@@ -166,14 +165,14 @@ final class ConsoleSide implements LoopProgram.Part, GroundListener, HandlerFaul
 
         @Override
         public void onAnswer(Answer answer) {
-            Map<String, Object> event = Words.event("answer", "tag", tag);
-            event.put("name", answer.name());
-            event.put("outcome", answer.outcome().name());
-            event.put("code", answer.code());
-            event.put("reason", answer.reason());
-            event.put("round_trip_ms", answer.roundTripMs());
-            event.put("data", answer.data());
-            words.say(event);
+            Map<String, Object> event = EventWriter.event("answer", "tag", tag);
+            event.put("name", answer.name);
+            event.put("outcome", answer.outcome.name());
+            event.put("code", answer.code);
+            event.put("reason", answer.reason);
+            event.put("round_trip_ms", answer.roundTripMs);
+            event.put("data", answer.data);
+            words.write(event);
         }
     }
 }

@@ -14,10 +14,10 @@ final class ConsoleTelemetry extends BaseTelemetryHandler<Map<String, Object>> {
     private final GroundSide ground;
     private final List<String> paths;
     private final Loop loop;
-    private final Words words;
+    private final EventWriter words;
 
     /** Takes the wanted values, as paths. */
-    ConsoleTelemetry(GroundSide ground, List<String> paths, Loop loop, Words words) {
+    ConsoleTelemetry(GroundSide ground, List<String> paths, Loop loop, EventWriter words) {
         super(ground);
         this.ground = ground;
         this.paths = paths;
@@ -27,7 +27,7 @@ final class ConsoleTelemetry extends BaseTelemetryHandler<Map<String, Object>> {
 
     @Override
     protected Map<String, Object> read(Telemetry telemetry) {
-        Map<String, Object> values = new LinkedHashMap<String, Object>();
+        Map<String, Object> values = new LinkedHashMap<>();
         for (String path : paths) {
             values.put(path, value(telemetry, path));
         }
@@ -38,12 +38,12 @@ final class ConsoleTelemetry extends BaseTelemetryHandler<Map<String, Object>> {
     protected void onTelemetry(Map<String, Object> values, Age age) {
         long nowMs = loop.nowMs();
         Map<String, Object> event =
-                Words.event("telemetry", "beacon", ground.telemetry().beacon());
-        event.put("way_ms", age.wayMs());
+                EventWriter.event("telemetry", "beacon", ground.telemetry().beacon);
+        event.put("way_ms", age.transitMs);
         event.put("age_ms", age.frameMs(nowMs));
         event.put("is_stale", age.isSilent(nowMs));
         event.put("values", values);
-        words.say(event);
+        words.write(event);
     }
 
     private static Object value(Telemetry telemetry, String path) {

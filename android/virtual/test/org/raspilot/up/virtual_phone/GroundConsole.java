@@ -25,7 +25,7 @@ import java.io.IOException;
  *  "role", "tune_in_flight", "reason", "rejection"}      whenever it changed
  * {"event": "answer", "tag", "name", "outcome", "code", "reason", "round_trip_ms", "data"}
  * {"event": "gains", "flying": {...} or null}            whenever they changed
- * {"event": "notice", "text"}
+ * {"event": "notice", "code", "text"}
  * </pre>
  */
 public final class GroundConsole {
@@ -47,7 +47,7 @@ public final class GroundConsole {
             System.out.print(ConsoleOptions.HELP);
             return;
         }
-        Words words = new Words(System.out, true);
+        EventWriter words = new EventWriter(System.out, true);
         new LoopProgram("ground console", words).run(System.in, new ConsoleSide(options, words));
     }
 }

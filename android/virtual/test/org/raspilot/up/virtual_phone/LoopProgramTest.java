@@ -18,7 +18,7 @@ public final class LoopProgramTest {
     private static final int LONG_MS = 20000;
 
     private final ByteArrayOutputStream said = new ByteArrayOutputStream();
-    private final List<String> done = new ArrayList<String>();
+    private final List<String> done = new ArrayList<>();
     private final LoopProgram.Part part = new LoopProgram.Part() {
         @Override
         public void start(Loop loop) {
@@ -26,7 +26,7 @@ public final class LoopProgramTest {
         }
 
         @Override
-        public void take(Map<?, ?> line) {
+        public void onLine(Map<?, ?> line) {
             done.add(line.toString());
         }
 
@@ -40,7 +40,7 @@ public final class LoopProgramTest {
     public void itTakesEachLineAndEndsWithTheLast() throws Exception {
         run(new ByteArrayInputStream("{\"a\": 1}\nnonsense\n{\"b\": 2}\n".getBytes("UTF-8")));
         assertEquals("[start, {a=1}, {b=2}, stop]", done.toString());
-        assertEquals(1, said.toString("UTF-8").split("no JSON", -1).length - 1);
+        assertEquals(1, said.toString("UTF-8").split("invalid_input", -1).length - 1);
     }
 
     @Test(timeout = LONG_MS)
@@ -55,11 +55,11 @@ public final class LoopProgramTest {
         });
         assertEquals("[start, stop]", done.toString());
         String told = said.toString("UTF-8");
-        assertTrue(told, told.contains("100 lines in a row are no JSON objects"));
+        assertTrue(told, told.contains("\"input_ended\""));
         assertTrue(told.length() < 100000);
     }
 
     private void run(InputStream input) throws IOException {
-        new LoopProgram("test program", new Words(said, false)).run(input, part);
+        new LoopProgram("test program", new EventWriter(said, false)).run(input, part);
     }
 }

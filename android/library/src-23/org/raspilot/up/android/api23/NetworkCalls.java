@@ -31,12 +31,7 @@ public final class NetworkCalls {
         // An aeroplane's own access point has no internet.
         manager.registerNetworkCallback(new NetworkRequest.Builder()
                 .removeCapability(NetworkCapabilities.NET_CAPABILITY_INTERNET).build(), calls);
-        return new Runnable() {
-            @Override
-            public void run() {
-                manager.unregisterNetworkCallback(calls);
-            }
-        };
+        return () -> manager.unregisterNetworkCallback(calls);
     }
 
     /**

@@ -1,0 +1,62 @@
+package org.raspilot.up.ground;
+
+/**
+ * Estimates how much longer than the fastest one a message was in transit, by its sender's clock.
+ *
+ * <p>The clocks need not be synchronized, so the transit time of the fastest message is not
+ * included. The minimum rises only by {@link #DRIFT}, so a queue that stays full for minutes is
+ * not taken for transit time: after a time t the estimate is too small by up to 2 t {@link #DRIFT},
+ * and never too large. A clock that goes back, or falls behind by {@link #NEW_CLOCK_MS} in one
+ * step, is another clock: the estimate is reset.
+ */
+public final class OneWayDelay {
+    /** The maximum drift between two clocks: 0.1 ms in a second. */
+    public static final double DRIFT = 1e-4;
+    /** No message is held up by so much more than the one before: links are given up sooner. */
+    public static final double NEW_CLOCK_MS = 30000;
+
+    private boolean hasMinimum;
+    private boolean isReset;
+    private double leastMs;
+    private double excessMs;
+    private double stampMs;
+    private double nowMs;
+
+    /** Returns whether the last message was the first of its clock. */
+    public boolean isReset() {
+        return isReset;
+    }
+
+    /** Resets the estimate, for another clock or another path. */
+    public void reset() {
+        hasMinimum = false;
+    }
+
+    /**
+     * Takes a message that arrives at {@code arrivalMs}; returns its delay in ms.
+     *
+     * @param stamp its sender's clock in ms when it was sent; if null, the result is null
+     */
+    public Double update(Double stamp, double arrivalMs) {
+        isReset = false;
+        if (stamp == null) {
+            return null;
+        }
+        final double apartMs = arrivalMs - stamp;
+        if (hasMinimum) {
+            final double least = Math.min(apartMs, leastMs + DRIFT * (arrivalMs - nowMs));
+            final boolean hasJumped = apartMs - least > excessMs + NEW_CLOCK_MS;
+            hasMinimum = stamp >= stampMs && !hasJumped;
+            leastMs = least;
+        }
+        if (!hasMinimum) {
+            isReset = true;
+            hasMinimum = true;
+            leastMs = apartMs;
+        }
+        stampMs = stamp;
+        nowMs = arrivalMs;
+        excessMs = apartMs - leastMs;
+        return excessMs;
+    }
+}

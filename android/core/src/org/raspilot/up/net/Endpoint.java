@@ -1,0 +1,52 @@
+package org.raspilot.up.net;
+
+/** The address of a peer: a host, its General Message port and its orientation port. */
+public final class Endpoint {
+    public final String host;
+    public final int generalPort;
+    /** The orientation port; 0: absent. */
+    public final int orientationPort;
+
+    /**
+     * Creates a place.
+     *
+     * @param host a name or an address
+     * @param generalPort TCP, 1 to 65535
+     * @param orientationPort TCP and UDP, 1 to 65535; 0: absent
+     * @throws IllegalArgumentException with a sentence when the host is empty or a port is invalid
+     */
+    public Endpoint(String host, int generalPort, int orientationPort) {
+        if (host == null || host.isEmpty()) {
+            throw new IllegalArgumentException("the host is empty");
+        }
+        if (generalPort < 1 || generalPort > 65535) {
+            throw new IllegalArgumentException("no port: " + generalPort);
+        }
+        if (orientationPort < 0 || orientationPort > 65535) {
+            throw new IllegalArgumentException("no port: " + orientationPort);
+        }
+        this.host = host;
+        this.generalPort = generalPort;
+        this.orientationPort = orientationPort;
+    }
+
+    @Override
+    public boolean equals(Object other) {
+        if (!(other instanceof Endpoint)) {
+            return false;
+        }
+        final Endpoint place = (Endpoint) other;
+        return host.equals(place.host) && generalPort == place.generalPort
+                && orientationPort == place.orientationPort;
+    }
+
+    @Override
+    public int hashCode() {
+        return (host.hashCode() * 31 + generalPort) * 31 + orientationPort;
+    }
+
+    @Override
+    public String toString() {
+        return host + ":" + generalPort + ":" + orientationPort;
+    }
+}

@@ -1,0 +1,100 @@
+package org.raspilot.app;
+
+import android.os.Handler;
+import android.os.Looper;
+import android.os.Message;
+import android.os.Messenger;
+import org.raspilot.up.airborne.AirborneSettings;
+import org.raspilot.up.android.BaseUpService;
+import org.raspilot.up.android.SpawnResult;
+import org.raspilot.up.android.SpawnService;
+
+/**
+ * Has an instance spawned and starts the service that connects to it; every answer is a line of
+ * the log, whichever screen is seen then. Lives with the process, on the main thread.
+ */
+final class SpawnRequests {
+    /** Called when a request starts and ends. */
+    interface Watcher {
+        /** Called when {@link SpawnRequests#isAsking} has changed. */
+        void onSpawning();
+    }
+
+    private final RaspilotApplication application;
+    private final Messenger answers;
+    private Watcher watcher;
+    private boolean isAsking;
+
+    SpawnRequests(RaspilotApplication application) {
+        this.application = application;
+        answers = new Messenger(new Handler(Looper.getMainLooper()) {
+            @Override
+            public void handleMessage(Message message) {
+                onResult(SpawnService.result(message));
+            }
+        });
+    }
+
+    /** Returns whether a request waits for its answer. */
+    boolean isAsking() {
+        return isAsking;
+    }
+
+    /** Sets the watcher, or null. */
+    void setWatcher(Watcher now) {
+        watcher = now;
+    }
+
+    /** Sends a request; no effect while one waits for its answer. */
+    void request(AirborneSettings settings) {
+        if (isAsking) {
+            return;
+        }
+        SpawnService.request(application, settings.runnerHost, settings.runnerPort,
+                settings.aircraft, settings.profile, answers);
+        setAsking(true);
+    }
+
+    /** Gives up: whatever the answer, nothing is started. */
+    void cancel() {
+        setAsking(false);
+    }
+
+    private void onResult(SpawnResult result) {
+        if (result.isRunning()) {
+            application.log(application.getString(R.string.spawn_runs, result.sentence(),
+                    result.place()));
+            logProxy(result);
+        } else {
+            application.log(application.getString(R.string.spawn_failed, result.sentence()));
+        }
+        boolean isStillWanted = isAsking;
+        setAsking(false);
+        if (result.isRunning() && isStillWanted) {
+            start();
+        }
+    }
+
+    private void logProxy(SpawnResult result) {
+        if (result.proxyHost() != null && result.proxyPort() > 0) {
+            application.log(application.getString(R.string.spawn_proxy, result.proxyHost(),
+                    result.proxyPort()));
+        }
+    }
+
+    private void start() {
+        try {
+            BaseUpService.start(application, RaspilotUpService.class);
+        } catch (IllegalStateException refusal) {
+            // The user has left the app, and this system starts no service from the background.
+            application.log(application.getString(R.string.start_refused));
+        }
+    }
+
+    private void setAsking(boolean now) {
+        isAsking = now;
+        if (watcher != null) {
+            watcher.onSpawning();
+        }
+    }
+}

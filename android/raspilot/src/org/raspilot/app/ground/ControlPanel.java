@@ -1,0 +1,99 @@
+package org.raspilot.app.ground;
+
+import android.view.View;
+import android.widget.Button;
+import android.widget.TextView;
+
+import org.raspilot.app.R;
+import org.raspilot.app.view.TextViews;
+import org.raspilot.up.android.TelemetryService;
+import org.raspilot.up.ground.GroundStatus;
+import org.raspilot.up.ground.ControlStatus;
+
+/** Who commands and the state of the link, with the button that requests or leaves the seat. */
+public final class ControlPanel implements View.OnClickListener {
+    private final TextView link;
+    private final TextView seat;
+    private final Button take;
+    private final Button give;
+    private TelemetryService.Ground ground;
+    private Integer asker;
+    private boolean isOurs;
+
+    public ControlPanel(View root) {
+        link = (TextView) root.findViewById(R.id.control_link);
+        seat = (TextView) root.findViewById(R.id.control_line);
+        take = (Button) root.findViewById(R.id.control_take);
+        give = (Button) root.findViewById(R.id.control_give);
+        take.setOnClickListener(this);
+        give.setOnClickListener(this);
+    }
+
+    /** Sets the ground; null: none. */
+    public void setGround(TelemetryService.Ground newGround) {
+        ground = newGround;
+    }
+
+    public void update(GroundSnapshot picture) {
+        GroundStatus status = picture.status;
+        if (status == null) {
+            TextViews.show(link, link.getResources().getString(R.string.control_no_service));
+            TextViews.show(seat, "");
+            take.setEnabled(false);
+            give.setVisibility(View.GONE);
+            return;
+        }
+        TextViews.show(link, linkText(status));
+        TextViews.show(seat, sentence(status.controlText()));
+        ControlStatus standing = status.control;
+        isOurs = standing == ControlStatus.OURS;
+        asker = isOurs ? status.requestedBy : null;
+        take.setEnabled(standing != ControlStatus.UNKNOWN && ground != null);
+        take.setVisibility(status.isDirect ? View.GONE : View.VISIBLE);
+        String text = take.getResources().getString(
+                isOurs ? R.string.control_release : R.string.control_request);
+        TextViews.show(take, text);
+        give.setVisibility(asker == null ? View.GONE : View.VISIBLE);
+        if (asker != null) {
+            TextViews.show(give, give.getResources().getString(R.string.control_give, asker));
+        }
+    }
+
+    @Override
+    public void onClick(View button) {
+        if (ground == null) {
+            return;
+        }
+        if (button.getId() == R.id.control_give) {
+            if (asker != null) {
+                ground.giveControl(asker);
+            }
+        } else if (isOurs) {
+            ground.releaseControl();
+        } else {
+            ground.requestControl();
+        }
+    }
+
+    private String linkText(GroundStatus status) {
+        String text = sentence(status.linkText());
+        if (!status.isOpen() || status.isSilent || status.rateHz == null) {
+            return text;
+        }
+        Double wayMs = status.roundTripMs;
+        String rate = link.getResources().getString(R.string.control_rate, status.rateHz,
+                status.counters.lostFrames);
+        return text + " " + (wayMs == null ? rate : rate + " "
+                + link.getResources().getString(R.string.control_way, Math.round(wayMs)));
+    }
+
+    /** Converts a text to a sentence: with a capital and a full stop. */
+    public static String sentence(String words) {
+        if (words == null || words.isEmpty()) {
+            return "";
+        }
+        String text = words.substring(0, 1).toUpperCase(java.util.Locale.ROOT)
+                + words.substring(1);
+        return text.endsWith(".") ? text : text + ".";
+    }
+}

@@ -1,0 +1,183 @@
+"""The data that a report needs from a log, read in a few passes."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from functools import partial
+from itertools import pairwise
+from typing import Any
+
+from black_box_cog.pictures.chart import Band
+from black_box_cog.report.demand import Demand
+from up.flight_log.estimate_error import ORIENTATION, TRUTH
+from up.flight_log.flight_context import FlightContext
+from up.flight_log.flight_log import FlightLog
+from up.flight_log.followed import followed
+from up.flight_log.origin_text import KEY, link_and_role
+from up.flight_log.series import Columns, Series, columns
+from up.flight_log.telemetry_frames import frames
+
+STICKS, SERVOS = "up.rx.update", "up.servo.update"
+STATUS, STATE = "arduino.status", "up.flight.state"
+ALTITUDE, LOCATION, LINK_STATE = "up.altitude.change", "up.location.update", "up.link.state"
+ANGLES = ("roll", "pitch", "yaw")
+CHANNELS = ("ailerons", "elevator", "throttle", "rudder")
+INPUTS = (*CHANNELS, "aux1", "aux2")
+TRUTHS = (
+    *("roll_deg", "pitch_deg", "yaw_deg", "altitude_m", "latitude_deg", "longitude_deg"),
+    *("airspeed_m_s", "ground_speed_m_s", "wind_north_m_s", "wind_east_m_s"),
+)
+FRAME_FIELDS = (
+    *(f"orientation.{name}" for name in ANGLES),
+    *(f"rx.{name}" for name in INPUTS),
+    *(f"servo.{name}" for name in CHANNELS),
+    *("altitude", "android.batteryLevel", "load.cpu", "load.ram", "load.delay_ms"),
+    *("arduino.loop_us", "arduino.late_us"),
+)
+BOARD_TOPICS = (STATUS, STICKS, SERVOS, STATE)
+PHONE_TOPICS = (LOCATION, ALTITUDE, "up.heading.change", "android.battery")
+_MAX_STEPS = 600
+GROUND_LINKS = ("ground", "mission_control")
+
+
+@dataclass(slots=True)
+class ReportData:
+    """Series by name; empty if the log does not contain them."""
+
+    log: FlightLog
+    attitude: dict[str, Series]
+    demand: Demand
+    sticks: dict[str, Series]
+    servos: dict[str, Series]
+    status: dict[str, Series]
+    frames: dict[str, Series]
+    altitude: Series
+    required_altitude: Series
+    speed: Series
+    truth: dict[str, Series]
+    bands: list[Band]
+    blocked: Series
+    silences: dict[str, Series]
+
+
+def read_report_data(log: FlightLog, context: FlightContext) -> ReportData:
+    """Read it; raises FlightLogError when a file can no longer be read."""
+    read = partial(_messages, log)
+    known, blocked = _from_frames(log)
+    followed_by = partial(followed, log)
+    attitude = columns(followed_by("orientation", ORIENTATION), ANGLES)
+    sticks, servos = columns(read(STICKS), INPUTS), columns(read(SERVOS), CHANNELS)
+    altitude = columns(followed_by("altitude", ALTITUDE), ("altitude",))
+    wanted = (each for each in read(ALTITUDE) if each[1].get("mode") == "required")
+    return ReportData(
+        log=log,
+        attitude={name: attitude[name] or known[f"orientation.{name}"] for name in ANGLES},
+        demand=Demand(log),
+        sticks={name: sticks[name] or known[f"rx.{name}"] for name in INPUTS},
+        servos={name: servos[name] or known[f"servo.{name}"] for name in CHANNELS},
+        status=columns(read(STATUS), ("loop_us", "late_us")),
+        frames=known,
+        altitude=altitude["altitude"] or known["altitude"],
+        required_altitude=columns(wanted, ("altitude",))["altitude"],
+        speed=columns(followed_by("location", LOCATION), ("speed",))["speed"],
+        truth=columns(read(TRUTH), TRUTHS),
+        bands=list(bands_of(context)),
+        blocked=blocked,
+        silences=_silences(log),
+    )
+
+
+def bands_of(context: FlightContext) -> Iterator[Band]:
+    """Yield the modes and their times; the circle of the receiver's failsafe is a separate one."""
+    begin_s, name = 0.0, ""
+    for state in context.states:
+        now = "failsafe" if state.is_failsafe else state.flight_mode or ""
+        if now != name:
+            if name:
+                yield Band(begin_s, state.time_s, name)
+            begin_s, name = state.time_s, now
+    if name:
+        yield Band(begin_s, context.log.length_s, name)
+
+
+def _messages(log: FlightLog, *topics: str) -> Iterator[tuple[float, Mapping[str, Any]]]:
+    known = [topic for topic in topics if topic in log.topics]
+    if known:
+        for message in log.messages(*known):
+            yield message.time_s, message.data
+
+
+def _from_frames(log: FlightLog) -> tuple[dict[str, Series], Series]:
+    """Return the series of telemetry, and how often the event loop was blocked.
+
+    The frames of an hour would take too much memory together: each is read and released.
+    """
+    found, blocked = Columns(FRAME_FIELDS), Series()
+    for frame in frames(log):
+        found.add(frame.time_s, frame.data)
+        counters = frame.data.get("counters")
+        reactor = counters.get("reactor") if isinstance(counters, dict) else None
+        if isinstance(reactor, dict):
+            times = sum(each for each in reactor.values() if type(each) is int)
+            blocked.add(frame.time_s, float(times))
+    return found.series, blocked
+
+
+def _silences(log: FlightLog) -> dict[str, Series]:
+    """Return the length of the silence around each moment: of board, phone and ground."""
+    found = {}
+    positions = first_link(log, LOCATION)
+    phone = "phone" if positions in ("", "android") else f"positions ({positions})"
+    for name, topics in (("board", BOARD_TOPICS), (phone, PHONE_TOPICS)):
+        times_s = sorted(
+            time_s for topic in topics if topic in log.topics for time_s in log.times(topic)
+        )
+        if times_s:
+            found[name] = _silence(times_s, log.length_s)
+    ground = _ground_away(log)
+    if ground:
+        found["ground"] = ground
+    return found
+
+
+def first_link(log: FlightLog, topic: str) -> str:
+    """Return the link of a topic's first message; empty without one."""
+    return next((link_and_role(data.get(KEY))[0] for _, data in _messages(log, topic)), "")
+
+
+def _silence(times_s: list[float], end_s: float) -> Series:
+    """Return the longest silence that overlaps each second (in a long flight: each step)."""
+    step_s = max(1.0, end_s / _MAX_STEPS)
+    longest: dict[int, float] = {}
+    for last_s, next_s in pairwise((*times_s, end_s)):
+        for step in range(int(last_s / step_s), int(next_s / step_s) + 1):
+            longest[step] = max(longest.get(step, 0.0), next_s - last_s)
+    series = Series()
+    for step in sorted(longest):
+        series.add(step * step_s, longest[step])
+    return series
+
+
+def _ground_away(log: FlightLog) -> Series:
+    """Return the length of each period without a ground station."""
+    series = Series()
+    connected: dict[str, bool] = {}
+    since_s: float | None = None
+    for time_s, data in _messages(log, LINK_STATE):
+        if data.get("link") not in GROUND_LINKS:
+            continue
+        connected[data["link"]] = data.get("connected") is True
+        is_there = any(connected.values())
+        if is_there and since_s is not None:
+            series.add(since_s, time_s - since_s)
+            since_s = None
+        if is_there:
+            series.add(time_s, 0.0)
+        elif since_s is None:
+            since_s = time_s
+    if since_s is not None:
+        series.add(since_s, log.length_s - since_s)
+    if series:
+        series.add(log.length_s, series.values[-1])
+    return series

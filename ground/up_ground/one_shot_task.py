@@ -1,0 +1,163 @@
+"""One-shot tasks on the link, with an exit status and a last message."""
+
+from __future__ import annotations
+
+import json
+import os
+import signal
+import sys
+from collections.abc import Callable, Mapping
+from typing import Any, TextIO
+
+from twisted.internet.defer import Deferred
+
+from up.log.setup import FORMAT_VARIABLE
+from up.protocols.general_message import GeneralMessage
+from up.system.clock import use_monotonic_time
+from up.system.pid_file import service
+from up_ground.ground_link import GroundLink
+from up_ground.link_status import ASK_INTERVAL_S, ControlStatus, LinkState, control_status
+from up_ground.sanitize_text import sanitize_text
+from up_ground.settings import Settings
+from up_ground.token_store import TokenStore
+
+EXIT_DONE = 0
+EXIT_REFUSED = 1
+EXIT_USAGE = 2
+EXIT_NO_ANSWER = 3
+EXIT_INTERRUPTED = 130
+
+
+class OneShotTask:
+    """A one-shot task over a link; ``finished`` fires with the exit status."""
+
+    def __init__(self) -> None:
+        self.finished: Deferred[int] = Deferred()
+        self._timers: dict[str, Any] = {}
+
+    def finish(self, status: int) -> None:
+        """End; the first status counts."""
+        for timer in self._timers.values():
+            if timer.active():
+                timer.cancel()
+        if not self.finished.called:
+            self.finished.callback(status)
+
+    def echo(self, text: str, code: str = "", **fields: object) -> None:
+        """Print a line for the user; a closed output ends the task."""
+        try:
+            echo(text, code, **fields)
+        except OSError:
+            self.finish(EXIT_DONE)
+
+    def fail(self, text: str, code: str, status: int, **fields: object) -> None:
+        """Print an error and end."""
+        print_error(sanitize_text(text, 600), code, **fields)
+        self.finish(status)
+
+    @property
+    def is_finished(self) -> bool:
+        """Return whether the task has ended."""
+        return bool(self.finished.called)
+
+    def after(self, reactor: Any, name: str, delay_s: float, call: Callable[[], object]) -> None:
+        """Call later, unless the task ends or another call of that name replaces it."""
+        self.cancel_timer(name)
+        if not self.is_finished:
+            self._timers[name] = reactor.callLater(delay_s, call)
+
+    def cancel_timer(self, name: str) -> None:
+        """Take a call back."""
+        timer = self._timers.pop(name, None)
+        if timer is not None and timer.active():
+            timer.cancel()
+
+
+class LinkTask(OneShotTask):
+    """A task over a link to an aircraft, whose listener it is."""
+
+    def __init__(self, reactor: Any, settings: Settings, tokens: TokenStore) -> None:
+        super().__init__()
+        self.link = GroundLink(reactor, settings, self, tokens)
+        self._reactor = reactor
+        self._settings = settings
+
+    async def stop(self) -> None:
+        """Close the link; returns when it is closed."""
+        await self.link.stop()
+
+    def on_message(self, message: GeneralMessage) -> None:
+        """Handle a message of the aircraft."""
+
+    def on_link(self) -> None:
+        """End when the link is lost; otherwise continue with `on_control`."""
+        status = self.link.status
+        if self.is_finished:
+            return
+        if status.state is LinkState.WAITING:
+            exit_status = EXIT_REFUSED if status.rejection else EXIT_NO_ANSWER
+            code = status.rejection or status.code
+            self.fail(status.reason, code, exit_status)
+        elif status.is_open:
+            self.on_control(control_status(status, self._settings.direct))
+
+    def on_control(self, control: ControlStatus) -> None:
+        """Handle the state of control."""
+
+    def request_control(self) -> None:
+        """Request control until the task ends or cancels the timer ``request``."""
+        self.link.request_seat()
+        self.after(self._reactor, "request", ASK_INTERVAL_S, self.request_control)
+
+
+def echo(text: str, code: str = "", **fields: object) -> None:
+    """Write a line for the user; with UP_LOG_FORMAT=json one that has a code is JSON."""
+    _write(sys.stdout, text, "info", text, code, fields)
+
+
+def print_error(text: str, code: str, **fields: object) -> None:
+    """Write a line to stderr, as JSON with UP_LOG_FORMAT=json."""
+    _write(sys.stderr, f"up-ground: {text}", "error", text, code, fields)
+
+
+def _write(
+    stream: TextIO, line: str, level: str, text: str, code: str, fields: Mapping[str, object]
+) -> None:
+    if code and os.environ.get(FORMAT_VARIABLE) == "json":
+        line = json.dumps({"level": level, "text": text, "fields": {"code": code, **fields}})
+    stream.write(line + "\n")
+    stream.flush()
+
+
+MakeTask = Callable[[Any], Any]
+
+
+@service()
+def run(make: MakeTask) -> int:
+    """Run a task on the real reactor until it is finished or interrupted."""
+    from twisted.internet import reactor
+
+    loop: Any = reactor
+    use_monotonic_time(loop)
+    task = make(loop)
+    status = [EXIT_INTERRUPTED]
+
+    async def do() -> None:
+        task.start()
+        status[0] = await task.finished
+        await task.stop()
+        loop.stop()
+
+    def begin() -> None:
+        for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+            signal.signal(number, lambda *_: loop.callFromThread(task.finish, EXIT_INTERRUPTED))
+        Deferred.fromCoroutine(do()).addErrback(_crash)
+
+    def _crash(failure: Any) -> None:
+        print_error(f"error in the program: {failure.getErrorMessage()}", "internal")
+        status[0] = EXIT_REFUSED
+        loop.stop()
+
+    loop.callWhenRunning(begin)
+    loop.run(installSignalHandlers=False)
+    return status[0]

@@ -1,0 +1,52 @@
+"""Estimates the transit delay of messages by their sender's clock."""
+
+from __future__ import annotations
+
+DRIFT = 1e-4
+"""Two clocks run apart by no more than this: 0.1 ms in a second."""
+NEW_CLOCK_S = 30.0
+"""No message is held up by so much more than the one before: links are given up sooner."""
+
+
+class OneWayDelayEstimator:
+    """Estimates how much longer a message was under way than the quickest one.
+
+    The two clocks need no common zero: the delay of the quickest message is excluded from every
+    figure. The minimum is forgotten only at the rate of the clock drift, so that a queue that
+    stands for minutes does not count as transit time: after a time t the figure is too small by
+    up to 2 t ``DRIFT``, and never too great. A clock that steps back, or falls behind by
+    ``NEW_CLOCK_S`` in one step, counts as a new clock and resets the estimate.
+    """
+
+    def __init__(self) -> None:
+        self.has_begun = False
+        """Whether the last message was the first of its clock."""
+        self._least_s: float | None = None
+        self._excess_s = 0.0
+        self._stamp_s = 0.0
+        self._now_s = 0.0
+
+    def reset(self) -> None:
+        """Reset, for another clock or another path."""
+        self._least_s = None
+
+    def update(self, stamp_ms: float | None, now_s: float) -> float | None:
+        """Take a message that arrives now; return its delay in seconds.
+
+        ``stamp_ms`` is the sender's clock at departure; without it the result is None.
+        """
+        self.has_begun = False
+        if stamp_ms is None:
+            return None
+        stamp_s = stamp_ms / 1000
+        apart_s = now_s - stamp_s
+        if self._least_s is not None:
+            least_s = min(apart_s, self._least_s + DRIFT * (now_s - self._now_s))
+            has_jumped = apart_s - least_s > self._excess_s + NEW_CLOCK_S
+            self._least_s = None if stamp_s < self._stamp_s or has_jumped else least_s
+        if self._least_s is None:
+            self.has_begun = True
+            self._least_s = apart_s
+        self._stamp_s, self._now_s = stamp_s, now_s
+        self._excess_s = apart_s - self._least_s
+        return self._excess_s

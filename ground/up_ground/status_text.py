@@ -1,0 +1,103 @@
+"""Numbers, ages and the aircraft's state as lines of text; unknown is ``--``."""
+
+from __future__ import annotations
+
+from up_ground.link_status import LinkState, LinkStatus
+from up_ground.settings import Seat
+from up_ground.telemetry import Telemetry
+
+UNKNOWN = "--"
+
+
+def number_text(value: float | None, decimals: int = 1, width: int = 0, sign: bool = False) -> str:
+    """Return a number right-aligned in ``width``; one that does not fit is shown as stars."""
+    if value is None:
+        return UNKNOWN.rjust(width)
+    text = f"{value:{'+' if sign else ''}.{decimals}f}"
+    if float(text) == 0:
+        text = text.replace("-", "+" if sign else "")
+    return "*" * width if 0 < width < len(text) else text.rjust(width)
+
+
+def age_text(age_s: float | None) -> str:
+    """Return an age in at most six characters: ``0.03 s``, ``12.4 s``, ``3 min``, ``2 h``."""
+    if age_s is None:
+        return UNKNOWN
+    if age_s < 9.995:
+        return f"{max(0.0, age_s):.2f} s"
+    if age_s < 99.95:
+        return f"{age_s:.1f} s"
+    if age_s < 3600:
+        return f"{age_s / 60:.0f} min"
+    return f"{age_s / 3600:.0f} h" if age_s < 360_000 else "days"
+
+
+def flag_text(value: bool | None, yes: str = "yes", no: str = "no") -> str:
+    """Return the word for a flag."""
+    return UNKNOWN if value is None else (yes if value else no)
+
+
+def busy_text(telemetry: Telemetry) -> str:
+    """Return the load and telemetry's period while the Raspberry Pi is busy (Panic Mode)."""
+    percent = number_text(telemetry.number("load", "cpu"), 0)
+    period_ms = telemetry.number("system", "period_ms") or telemetry.number("load", "delay_ms")
+    return f"Raspberry Pi busy ({percent} %): telemetry every {number_text(period_ms, 0)} ms"
+
+
+def control_text(status: LinkStatus) -> str:
+    """Return the owner of control: ours, free, or the number of a ground."""
+    if status.seat is None:
+        return UNKNOWN
+    if status.seat is Seat.COMMAND:
+        return "ours"
+    if not status.is_holder_known:
+        return "not ours"
+    return "free" if status.holder is None else f"ground {status.holder}"
+
+
+def link_text(status: LinkStatus, now_s: float) -> str:
+    """Return the state of the connection, with its last error."""
+    if status.state is LinkState.OPEN or not status.failures:
+        return status.state.value
+    return f"down for {age_text(now_s - status.since_s)}, attempt {status.failures + 1}"
+
+
+def plain_line(status: LinkStatus, telemetry: Telemetry, now_s: float) -> str:
+    """Return link, age and flight values; stale values are shown as unknown."""
+    link = f"link {link_text(status, now_s)}"
+    if not status.is_open and status.reason:
+        return f"{link}: {status.reason}"
+    online = flag_text(status.is_aircraft_online, "online", "offline")
+    age = age_text(telemetry.age_s(now_s))
+    parts = [link, f"control {control_text(status)}", f"aircraft {online}", f"age {age}"]
+    if telemetry.is_silent(now_s):
+        return " | ".join([*parts, "silent"])
+    orientation = [_fresh(telemetry, now_s, "orientation", name) for name in _AXES]
+    roll, pitch, yaw = (number_text(each, sign=name != "yaw") for name, each in orientation)
+    altitude = number_text(_fresh(telemetry, now_s, "altitude")[1])
+    heading = number_text(_fresh(telemetry, now_s, "heading", "actual")[1], 0)
+    vetoes = telemetry.texts("vetoes") or []
+    parts += [
+        f"roll {roll} pitch {pitch} yaw {yaw}",
+        f"altitude {altitude} m",
+        f"heading {heading}",
+        f"flight mode {telemetry.text('flight_mode') or UNKNOWN}",
+        flag_text(telemetry.flag("armed"), "ARMED", "disarmed"),
+    ]
+    competitor = telemetry.text("android", "competitor")
+    if competitor is not None:
+        parts.append(f"a second phone is refused: {competitor}")
+    if vetoes:
+        word = "against arming again" if telemetry.flag("armed") else "vetoes"
+        parts.append(f"{word}: {'; '.join(vetoes)}"[:200])
+    if telemetry.flag("load", "panic"):
+        parts.append(busy_text(telemetry))
+    return " | ".join(parts)
+
+
+_AXES = ("roll", "pitch", "yaw")
+
+
+def _fresh(telemetry: Telemetry, now_s: float, *path: str) -> tuple[str, float | None]:
+    stale = telemetry.is_stale(path[0], now_s)
+    return path[-1], None if stale else telemetry.number(*path)

@@ -1,0 +1,225 @@
+"""Events and alarms of an aircraft."""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from functools import partial
+from typing import Any
+
+from up_ground.telemetry import Telemetry
+from up_ground.web.event_rules import (
+    ALARM,
+    ALARM_HOLD_S,
+    EVENT_RULES,
+    INFO,
+    WARNING,
+    Alarm,
+    EventRule,
+    LinkSnapshot,
+    Report,
+    board_state,
+    faults,
+)
+
+INITIAL_HOLD_S = 3.0
+MAX_HOLD_S = 30.0
+QUIET_S = 60.0
+EVENTS_KEPT = 200
+
+OnChange = Callable[[Any, Any], object]
+
+
+@dataclass(slots=True)
+class _Value:
+    reported: Any
+    newest: Any
+    notify: OnChange
+    reported_s: float
+    hold_s: float = INITIAL_HOLD_S
+
+
+class Debouncer:
+    """Reports a change immediately, the next one of the same key only after a growing pause.
+
+    A flapping value is reported with its newest value, in the long run twice a minute. A key's
+    first value is reported with None as the value before.
+    """
+
+    def __init__(self) -> None:
+        self._values: dict[str, _Value] = {}
+
+    def update(self, key: str, value: Any, now_s: float, notify: OnChange) -> None:
+        """Take the present value; ``notify(before, now)`` is called when it is reported."""
+        known = self._values.get(key)
+        if known is None:
+            self._values[key] = _Value(value, value, notify, now_s - QUIET_S)
+            notify(None, value)
+            return
+        known.newest, known.notify = value, notify
+        if value != known.reported:
+            self._try(known, now_s)
+
+    def on_moment(self, now_s: float) -> None:
+        """Report the changes whose pause is over."""
+        for known in self._values.values():
+            if known.newest != known.reported:
+                self._try(known, now_s)
+
+    def _try(self, known: _Value, now_s: float) -> None:
+        rest_s = now_s - known.reported_s
+        if rest_s < known.hold_s:
+            return
+        known.hold_s = INITIAL_HOLD_S if rest_s >= QUIET_S else min(MAX_HOLD_S, known.hold_s * 2)
+        before, known.reported, known.reported_s = known.reported, known.newest, now_s
+        known.notify(before, known.reported)
+
+
+class Alarms:
+    """The active alarms. One begins immediately and ends ``hold_s`` after its cause."""
+
+    def __init__(self, hold_s: float = ALARM_HOLD_S) -> None:
+        self._hold_s = hold_s
+        self._had_board = False
+        self.active: tuple[Alarm, ...] = ()
+        self._seen_s: dict[str, float] = {}
+        self._known: dict[str, Alarm] = {}
+
+    def update(self, telemetry: Telemetry, link: LinkSnapshot, now_s: float) -> bool:
+        """Update to this moment; return whether the alarms changed."""
+        self._had_board = self._had_board or board_state(telemetry) is True
+        present = faults(telemetry, link, "battery" in self._known, self._had_board)
+        found = {each.kind: each for each in present}
+        self._known.update(found)
+        self._seen_s.update(dict.fromkeys(found, now_s))
+        for kind, seen_s in list(self._seen_s.items()):
+            if kind not in found and now_s - seen_s >= self._hold_s:
+                del self._seen_s[kind], self._known[kind]
+        before, self.active = self.active, tuple(self._known[kind] for kind in sorted(self._known))
+        return self.active != before
+
+    def message(self, aircraft: str) -> dict[str, Any]:
+        """Return the message for the pages."""
+        active = [
+            {"kind": each.kind, "code": each.code, "level": each.level, "text": each.text}
+            for each in self.active
+        ]
+        return {"type": "alarms", "aircraft": aircraft, "active": active}
+
+
+@dataclass(frozen=True, slots=True)
+class Event:
+    """Something that happened; ``at_s`` is the clock's, on the ground."""
+
+    number: int
+    at_s: float
+    kind: str
+    report: Report
+
+    def message(self, aircraft: str, now_s: float, is_past: bool) -> dict[str, Any]:
+        """Return the message for the pages."""
+        return {
+            "type": "event",
+            "aircraft": aircraft,
+            "number": self.number,
+            "age_ms": round(max(0.0, now_s - self.at_s) * 1000),
+            "level": self.report.level,
+            "kind": self.kind,
+            "code": self.report.code,
+            "fields": self.report.fields,
+            "text": self.report.text,
+            **({"is_past": True} if is_past else {}),
+        }
+
+
+class EventMonitor:
+    """Takes frames and link states, reports each change once and debounces values that flap.
+
+    ``notify`` gets the messages for the pages. An alarm ends ``hold_s`` after its cause.
+    """
+
+    def __init__(
+        self,
+        aircraft: str,
+        notify: Callable[[dict[str, Any]], object],
+        hold_s: float = ALARM_HOLD_S,
+    ) -> None:
+        self._aircraft = aircraft
+        self._notify = notify
+        self._events: deque[Event] = deque(maxlen=EVENTS_KEPT)
+        self._debouncer = Debouncer()
+        self._alarms = Alarms(hold_s)
+        self._number = 0
+
+    def report(self, kind: str, report: Report | None, now_s: float) -> None:
+        """Report an event; None: no event."""
+        if report is not None:
+            self._number += 1
+            event = Event(self._number, now_s, kind, report)
+            self._events.append(event)
+            self._notify(event.message(self._aircraft, now_s, is_past=False))
+
+    def on_frame(self, telemetry: Telemetry, link: LinkSnapshot, now_s: float) -> None:
+        """Process a new frame."""
+        for rule in EVENT_RULES:
+            value = rule.read(telemetry)
+            if value is not None:
+                self._debouncer.update(rule.key, value, now_s, partial(self._apply, rule, now_s))
+        self.on_moment(telemetry, link, now_s)
+
+    def on_link(self, link: LinkSnapshot, now_s: float) -> None:
+        """Process the state of the link."""
+        state: tuple[bool, bool | None] = (link.is_open, link.is_aircraft_online)
+
+        def on_change(before: Any, now: Any) -> None:
+            self.report("link", _link_report(link, before, now), now_s)
+
+        self._debouncer.update("link", state, now_s, on_change)
+
+    def on_moment(self, telemetry: Telemetry, link: LinkSnapshot, now_s: float) -> None:
+        """Process the changes by time alone."""
+        self._debouncer.on_moment(now_s)
+        if self._alarms.update(telemetry, link, now_s):
+            kinds = {each.kind for each in self._alarms.active}
+            silent = Report(ALARM, "silent", "no telemetry")
+            if link.is_late:
+                silent = Report(ALARM, "late", "telemetry arrives too late")
+            self._on_alarm("silent", "link", kinds, silent, _HEARD, now_s)
+            self._on_alarm("battery", "battery", kinds, _BATTERY_LOW, _BATTERY_CHARGED, now_s)
+            self._notify(self._alarms.message(self._aircraft))
+
+    def past(self, now_s: float) -> Iterator[dict[str, Any]]:
+        """Yield the messages for a page that joins later."""
+        for event in self._events:
+            yield event.message(self._aircraft, now_s, is_past=True)
+        yield self._alarms.message(self._aircraft)
+
+    def _apply(self, rule: EventRule, now_s: float, before: Any, now: Any) -> None:
+        self.report(rule.kind, rule.describe(before, now), now_s)
+
+    def _on_alarm(
+        self, alarm: str, kind: str, active: set[str], begin: Report, end: Report, now_s: float
+    ) -> None:
+        def on_change(before: Any, now: Any) -> None:
+            self.report(kind, begin if now else None if before is None else end, now_s)
+
+        self._debouncer.update(f"alarm {alarm}", alarm in active, now_s, on_change)
+
+
+_HEARD = Report(INFO, "heard", "telemetry arrives again")
+_BATTERY_LOW = Report(WARNING, "battery_low", "the phone's battery is low")
+_BATTERY_CHARGED = Report(INFO, "battery_charged", "the phone's battery is charged")
+
+
+def _link_report(link: LinkSnapshot, before: Any, now: tuple[bool, bool | None]) -> Report | None:
+    is_open, is_online = now
+    if not is_open:
+        text = f"the link to the proxy is lost: {link.reason}"[:300]
+        return None if before is None else Report(WARNING, "link_lost", text)
+    if is_online is False:
+        text = "the aircraft is not connected to the proxy"
+        return Report(WARNING, "aircraft_offline", text)
+    if is_online:
+        return Report(INFO, "aircraft_online", "the aircraft is connected")
+    return Report(INFO, "link_open", "the link is open")

@@ -1,0 +1,177 @@
+"""The port of one side: accepts, limits, checks addresses, closes idle connections."""
+
+import errno
+import socket
+from collections import Counter
+from contextlib import suppress
+from dataclasses import dataclass
+
+from up.log import UpLogger
+from up.protocols.proxy_lines import ADDRESS, FULL, HelloError, Refused, Side
+from up.system.addresses import is_private, neighbourhood, plain
+from up.system.clock import Clock, Timer
+from up_proxy.connection import Connection
+from up_proxy.handshake import Handshake
+from up_proxy.poller import Poller
+
+_ACCEPT_BATCH = 64
+_OUT_OF_DESCRIPTORS = (errno.EMFILE, errno.ENFILE, errno.ENOBUFS, errno.ENOMEM)
+_RETRY_S = 1.0
+_log = UpLogger.get_logger("proxy")
+
+
+@dataclass(frozen=True, slots=True)
+class AcceptorLimits:
+    """The limits of one side: number of connections and permitted addresses."""
+
+    connections: int
+    per_address: int
+    queue_bytes: int
+    accepts_public: bool
+
+
+class Acceptor:
+    """The listening socket of one side and all its connections."""
+
+    def __init__(
+        self,
+        listener: socket.socket,
+        handshake: Handshake,
+        poller: Poller,
+        clock: Clock,
+        side: Side,
+        limits: AcceptorLimits,
+    ) -> None:
+        self._listener = listener
+        self._handshake = handshake
+        self._poller = poller
+        self._clock = clock
+        self._side = side
+        self._limits = limits
+        self._sources: Counter[str] = Counter()
+        self._retry: Timer | None = None
+        self._on_closed = self._discard
+        self._public_logged = False
+        self.connections: set[Connection] = set()
+        self.accepted = 0
+        self.over_limit = 0
+        self.idle_closed = 0
+        self.refused = handshake.refused
+
+    @property
+    def port(self) -> int:
+        """The port that is listened on."""
+        return int(self._listener.getsockname()[1])
+
+    def open(self) -> None:
+        """Start accepting."""
+        self._poller.watch(self._listener.fileno(), self)
+        _log.info(
+            "{side} side listens on port {port}",
+            code="port_open",
+            side=self._side.value,
+            port=self.port,
+        )
+
+    def close(self) -> None:
+        """Stop accepting and end every connection."""
+        if self._retry is not None:
+            self._retry.cancel()
+            self._retry = None
+        self.end()
+        for connection in self.connections:
+            connection.fail("the proxy is stopping")
+
+    def on_ready(self, events: int) -> None:
+        """Accept the waiting peers."""
+        for _ in range(_ACCEPT_BATCH):
+            try:
+                peer, address = self._listener.accept()
+            except BlockingIOError:
+                return
+            except OSError as error:
+                if error.errno in _OUT_OF_DESCRIPTORS:
+                    self._pause()
+                    return
+                continue  # the peer closed before it was accepted
+            self._accept(peer, plain(address[0]))
+
+    def fail(self, reason: str) -> None:
+        """Pause: one failure must not close the listening socket."""
+        self._pause()
+
+    def end(self) -> None:
+        """Close the listening socket."""
+        self._poller.discard(self._listener.fileno())
+        self._listener.close()
+
+    def is_open(self) -> bool:
+        """Return whether the port is listened on or will be after a pause."""
+        return self._listener.fileno() >= 0
+
+    def sweep(self, now_s: float) -> None:
+        """End idle connections, and call the handshake's timer."""
+        for connection in self.connections:
+            if connection.is_idle(now_s):
+                self.idle_closed += 1
+                connection.fail("idle")
+        self._handshake.sweep(now_s)
+
+    def _accept(self, peer: socket.socket, host: str) -> None:
+        error = self._check(host)
+        if error is not None:
+            with suppress(OSError):
+                peer.send(Refused(error.code, error.reason).encode())
+            peer.close()
+            return
+        peer.setblocking(False)
+        self.accepted += 1
+        self._sources[neighbourhood(host)] += 1
+        connection = Connection(
+            peer, self._poller, host, self._handshake, self._on_closed, self._limits.queue_bytes
+        )
+        self.connections.add(connection)
+        self._handshake.begin(connection)
+
+    def _check(self, host: str) -> HelloError | None:
+        if not self._limits.accepts_public and not is_private(host):
+            self.refused[ADDRESS] += 1
+            if not self._public_logged:
+                self._public_logged = True
+                _log.warn(
+                    "refused {host} on the {side} side: plain traffic over a public network needs "
+                    "'i_accept_plain: true' in proxy.yml (logged once)",
+                    code="public_peer_refused",
+                    host=host,
+                    side=self._side.value,
+                )
+            return HelloError(ADDRESS, "plain connections from public addresses are not accepted")
+        if len(self.connections) >= self._limits.connections:
+            self.over_limit += 1
+            return HelloError(FULL, "too many connections on this side")
+        if self._sources[neighbourhood(host)] >= self._limits.per_address:
+            self.over_limit += 1
+            return HelloError(FULL, "too many connections from your address")
+        return None
+
+    def _discard(self, connection: Connection) -> None:
+        self.connections.discard(connection)
+        source = neighbourhood(connection.host)
+        self._sources[source] -= 1
+        if self._sources[source] <= 0:
+            del self._sources[source]
+
+    def _pause(self) -> None:
+        if self._retry is None and self.is_open():
+            _log.error(
+                "{side} side accepts nothing for {pause_s:g} s: too many open files",
+                code="out_of_descriptors",
+                side=self._side.value,
+                pause_s=_RETRY_S,
+            )
+            self._poller.discard(self._listener.fileno())
+            self._retry = self._clock.callLater(_RETRY_S, self._resume)
+
+    def _resume(self) -> None:
+        self._retry = None
+        self._poller.watch(self._listener.fileno(), self)

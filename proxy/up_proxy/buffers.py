@@ -1,0 +1,94 @@
+"""The buffers of a connection: a partial line received, whole lines to send."""
+
+LINE_MAX_BYTES = 65536
+"""A connection that sends a longer line is closed."""
+
+
+class LineBuffer:
+    """Cuts a stream of chunks at its last LF, so that only whole lines pass."""
+
+    __slots__ = ("_partial",)
+
+    def __init__(self) -> None:
+        self._partial = bytearray()
+
+    def __len__(self) -> int:
+        return len(self._partial)
+
+    def starts_with(self, prefix: bytes) -> bool:
+        """Return whether the partial line begins with `prefix`."""
+        return self._partial.startswith(prefix)
+
+    def feed(self, chunk: bytes) -> bytes:
+        """Return the whole lines that `chunk` completes, or empty bytes."""
+        cut = chunk.rfind(b"\n") + 1
+        if not cut:
+            self._partial += chunk
+            return b""
+        whole = bytes(self._partial) + chunk[:cut] if self._partial else chunk[:cut]
+        self._partial = bytearray(chunk[cut:])
+        return whole
+
+
+class SendBuffer:
+    """Whole lines that the socket has not taken yet.
+
+    With `limit_bytes` the oldest whole lines are dropped when more waits (telemetry: the newest
+    wins); with 0 nothing is dropped and the sender must wait. The rest of a partly sent line, and
+    control lines, are never dropped.
+    """
+
+    __slots__ = ("_buffer", "_kept", "dropped_lines", "limit_bytes")
+
+    def __init__(self, limit_bytes: int = 0) -> None:
+        self.limit_bytes = limit_bytes
+        self.dropped_lines = 0
+        self._buffer = bytearray()
+        self._kept = 0
+        """Length of the head that must be sent unchanged."""
+
+    def __len__(self) -> int:
+        return len(self._buffer)
+
+    @property
+    def kept_bytes(self) -> int:
+        """Length of the head that must not be dropped."""
+        return self._kept
+
+    def put_rest(self, rest: bytes) -> None:
+        """Start the queue; the first line, which is never dropped, may be partly sent."""
+        assert not self._buffer
+        self._buffer += rest
+        self._kept = rest.find(b"\n") + 1
+
+    def put(self, lines: bytes) -> None:
+        """Append whole lines."""
+        buffer = self._buffer
+        buffer += lines
+        if not self.limit_bytes or len(buffer) <= self.limit_bytes:
+            return
+        last = min(self._kept + len(buffer) - self.limit_bytes, len(buffer)) - 1
+        cut = buffer.find(b"\n", max(last, self._kept)) + 1
+        if cut > self._kept:
+            self.dropped_lines += buffer.count(b"\n", self._kept, cut)
+            del buffer[self._kept : cut]
+
+    def put_control(self, line: bytes) -> None:
+        """Insert a control line at the first line boundary, ahead of all droppable lines."""
+        self._buffer[self._kept : self._kept] = line
+        self._kept += len(line)
+
+    def head(self, size: int = 65536) -> bytes:
+        """Return the next bytes to send."""
+        return bytes(self._buffer[:size])
+
+    def sent(self, count: int) -> None:
+        """Remove bytes that the socket took."""
+        buffer = self._buffer
+        if count < self._kept:
+            self._kept -= count
+        elif count and buffer[count - 1] != 0x0A:
+            self._kept = buffer.find(b"\n", count) + 1 - count
+        else:
+            self._kept = 0
+        del buffer[:count]

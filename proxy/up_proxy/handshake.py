@@ -1,0 +1,172 @@
+"""The handshake of a connection: from its first byte to its role or its refusal."""
+
+import secrets
+
+from up.protocols.proxy_lines import (
+    CODES,
+    HELLO_MAX_BYTES,
+    MALFORMED,
+    PREFIX,
+    TAKEN,
+    TOKEN,
+    Accepted,
+    Access,
+    Hello,
+    HelloError,
+    Refused,
+    Side,
+    parse_hello,
+)
+from up_proxy.connection import Connection, Owner
+from up_proxy.lingering_close import LingeringClose
+from up_proxy.poller import Poller
+from up_proxy.registry import AircraftRegistry
+
+HELLO_TIMEOUT_S = 5.0
+"""Time limit for completing a hello."""
+SILENCE_S = 1.0
+"""A connection that sends nothing for this long is a legacy client."""
+LEGACY_AIRCRAFT = "default"
+"""The aircraft of clients that never send a name."""
+
+
+def new_token() -> str:
+    """Return an unguessable resume token."""
+    return secrets.token_hex(16)
+
+
+class Handshake(Owner):
+    """Owns the connections of one side until their first line identifies them."""
+
+    def __init__(self, side: Side, registry: AircraftRegistry, poller: Poller) -> None:
+        self._side = side
+        self._registry = registry
+        self._poller = poller
+        self._lingering = LingeringClose()
+        self._since_s: dict[Connection, float] = {}
+        self.refused = dict.fromkeys(CODES, 0)
+
+    def begin(self, connection: Connection) -> None:
+        """Take a new connection."""
+        connection.owner = self
+        self._since_s[connection] = self._poller.now_s
+
+    def on_lines(self, connection: Connection, lines: bytes) -> None:
+        """Check the first line; the new owner gets the rest."""
+        del self._since_s[connection]
+        if lines.startswith(b"{"):
+            rest = lines
+            self._admit_legacy(connection, silent=False)
+        else:
+            first, _, rest = lines.partition(b"\n")
+            try:
+                self._admit(connection, parse_hello(first + b"\n", self._side))
+            except HelloError as error:
+                self._refuse(connection, error)
+        if rest and connection.failure is None:
+            connection.owner.on_lines(connection, rest)
+
+    def on_partial_line(self, connection: Connection) -> None:
+        """Recognise a legacy client by its first byte; bound the length of a hello."""
+        partial = connection.partial
+        if partial is None:
+            return
+        if partial.starts_with(b"{"):
+            del self._since_s[connection]
+            self._admit_legacy(connection, silent=False)
+        elif len(partial) >= HELLO_MAX_BYTES:
+            del self._since_s[connection]
+            reason = f"a hello is at most {HELLO_MAX_BYTES} bytes"
+            self._refuse(connection, HelloError(MALFORMED, reason))
+
+    def on_end(self, connection: Connection, reason: str) -> None:
+        """Remove the connection."""
+        self._since_s.pop(connection, None)
+
+    def sweep(self, now_s: float) -> None:
+        """Accept silent clients as legacy clients, refuse slow ones, close refused ones."""
+        for connection, since_s in list(self._since_s.items()):
+            if connection.partial is None:
+                if now_s - since_s >= SILENCE_S:
+                    del self._since_s[connection]
+                    self._admit_legacy(connection, silent=True)
+            elif now_s - since_s >= HELLO_TIMEOUT_S:
+                del self._since_s[connection]
+                reason = f"no hello within {HELLO_TIMEOUT_S:g} s"
+                self._refuse(connection, HelloError(MALFORMED, reason))
+        self._lingering.sweep(now_s)
+
+    def _refuse(self, connection: Connection, error: HelloError) -> None:
+        self.refused[error.code] += 1
+        self._lingering.begin(connection, self._poller.now_s)
+        connection.refuse(Refused(error.code, error.reason).encode(), error.reason)
+
+    def _admit(self, connection: Connection, hello: Hello) -> None:
+        session = self._registry.session(hello.aircraft)
+        connection.speaks_hello = True
+        if self._side is Side.AIRBORNE:
+            lease = session.air_lease
+            resumed = lease.is_resumed_by(hello.token)
+            if not resumed and not lease.is_free(self._poller.now_s):
+                if hello.token is None:
+                    raise HelloError(TAKEN, "an aircraft of this name is connected")
+                raise HelloError(TOKEN, "this token is not that of the connected aircraft")
+            connection.token = lease.token if resumed and lease.token else new_token()
+            access = Access.AIR
+            connection.send(Accepted(hello.aircraft, access, connection.token).encode())
+            session.admit(connection)
+        else:
+            self._registry.check_room(session, hello.token)
+            connection.token = new_token()
+            access = session.grounds.admit(connection, hello.access, hello.token)
+            connection.send(Accepted(hello.aircraft, access, connection.token).encode())
+            session.announce(newcomer=connection)
+
+    def _admit_legacy(self, connection: Connection, silent: bool) -> None:
+        try:
+            session = self._registry.session(LEGACY_AIRCRAFT)
+            if self._side is Side.AIRBORNE:
+                if not session.air_lease.is_free(self._poller.now_s):
+                    raise HelloError(TAKEN, "an aircraft of this name is connected")
+                session.admit(connection)
+            else:
+                self._registry.check_room(session)
+                session.grounds.admit(connection, Access.COMMAND, None)
+                session.announce(newcomer=connection)
+        except HelloError as error:
+            # A legacy client would read an error line as a malformed message: it gets none.
+            self.refused[error.code] += 1
+            self._lingering.begin(connection, self._poller.now_s)
+            connection.fail(error.reason)
+            return
+        if silent:
+            connection.owner = LegacyClientAdapter(connection.owner, self)
+
+
+class LegacyClientAdapter(Owner):
+    """Owns a connection that counts as a legacy client because it sent nothing.
+
+    A hello that the network delayed past the time limit is still accepted if it is the first data
+    of the connection.
+    """
+
+    def __init__(self, owner: Owner, handshake: Handshake) -> None:
+        self._owner = owner
+        self._handshake = handshake
+
+    def on_lines(self, connection: Connection, lines: bytes) -> None:
+        """Continue according to the first line."""
+        if lines.startswith(PREFIX):
+            self._owner.on_end(connection, "late hello")
+            self._handshake.begin(connection)
+        else:
+            connection.owner = self._owner
+        connection.owner.on_lines(connection, lines)
+
+    def on_drained(self, connection: Connection) -> None:
+        """Forward the call."""
+        self._owner.on_drained(connection)
+
+    def on_end(self, connection: Connection, reason: str) -> None:
+        """Forward the call."""
+        self._owner.on_end(connection, reason)

@@ -1,0 +1,95 @@
+"""All aircraft with connections, by name."""
+
+from dataclasses import dataclass
+
+from up.log import Limited
+from up.protocols.proxy_lines import FULL, HelloError
+from up.system.clock import Clock
+from up_proxy.aircraft import AircraftSession
+from up_proxy.poller import Poller
+
+LOG_INTERVAL_S = 10.0
+"""Minimum time between two log lines of one kind about one aircraft."""
+MAX_LOG_KEYS = 100
+"""More kinds than this in one interval share one line."""
+
+
+@dataclass(slots=True)
+class Totals:
+    """Counters since the start, including aircraft that are gone."""
+
+    air_bytes: int = 0
+    ground_bytes: int = 0
+    dropped_lines: int = 0
+    rejected_lines: int = 0
+
+    def add(self, counted: "AircraftSession | Totals") -> None:
+        """Add the counters of one aircraft, or other sums."""
+        self.air_bytes += counted.air_bytes
+        self.ground_bytes += counted.ground_bytes
+        self.dropped_lines += counted.dropped_lines
+        self.rejected_lines += counted.rejected_lines
+
+
+class AircraftRegistry:
+    """Creates an aircraft when its first connection names it, removes it after its last one."""
+
+    def __init__(self, clock: Clock, poller: Poller, max_aircraft: int, max_listeners: int) -> None:
+        self._poller = poller
+        self._log = Limited(clock, LOG_INTERVAL_S, MAX_LOG_KEYS)
+        self._max_aircraft = max_aircraft
+        self._max_listeners = max_listeners
+        self._sessions: dict[str, AircraftSession] = {}
+        self._gone = Totals()
+
+    def __len__(self) -> int:
+        return len(self._sessions)
+
+    def aircraft(self) -> list[AircraftSession]:
+        """Return every known aircraft."""
+        return list(self._sessions.values())
+
+    def totals(self) -> Totals:
+        """Return the sums over all aircraft since the start."""
+        totals = Totals()
+        totals.add(self._gone)
+        for session in self._sessions.values():
+            totals.add(session)
+        return totals
+
+    def session(self, name: str) -> AircraftSession:
+        """Return the aircraft of this name, creating it if it is unknown.
+
+        Raises HelloError with code `full` if there are too many.
+        """
+        session = self._sessions.get(name)
+        if session is None:
+            if len(self._sessions) >= self._max_aircraft:
+                raise HelloError(FULL, "too many aircraft on this proxy")
+            session = self._sessions[name] = AircraftSession(name, self._poller, self._log)
+        return session
+
+    def check_room(self, session: AircraftSession, token: str | None = None) -> None:
+        """Raise HelloError with code `full` if no further ground may listen.
+
+        A ground that takes free control, or resumes it with its token, is always accepted.
+        """
+        lease = session.grounds.lease
+        listeners = len(session.grounds.connections) - (lease.owner is not None)
+        if listeners >= self._max_listeners and not (
+            lease.is_free(self._poller.now_s) or lease.is_resumed_by(token)
+        ):
+            raise HelloError(FULL, "too many grounds for this aircraft")
+
+    def sweep(self, now_s: float) -> None:
+        """Detect silent peers, and remove aircraft without connections."""
+        for name, session in list(self._sessions.items()):
+            session.grounds.keep_paused_alive(now_s)
+            session.announce()
+            if session.is_deserted(now_s):
+                self._gone.add(session)
+                del self._sessions[name]
+
+    def stop(self) -> None:
+        """Log the suppressed events."""
+        self._log.stop()

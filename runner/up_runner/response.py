@@ -1,0 +1,68 @@
+"""The runner's response: one JSON line (docs/protocols.md, section 8)."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+SPAWNED = "Raspilot spawned"
+ALREADY_RUNNING = "Raspilot already running"
+NOT_RUNNING = "Raspilot not running"
+
+
+@dataclass(frozen=True, slots=True)
+class Problem:
+    """Why an instance does not run, or a request is refused: a code and one sentence."""
+
+    code: str
+    text: str
+
+    def __str__(self) -> str:
+        return self.text
+
+
+BUG = Problem("runner_bug", "the runner failed, see its log")
+
+
+@dataclass(frozen=True, slots=True)
+class Response:
+    """The state of one instance at the moment of the response.
+
+    `spawned` is true only if this request started the running process. `pid`, `ports`: None without
+    a process.
+    """
+
+    instance: str | None
+    pid: int | None = None
+    ports: Mapping[str, int] | None = None
+    spawned: bool = False
+    error: Problem | None = None
+
+    @property
+    def running(self) -> bool:
+        """Return whether the instance runs with its ports bound."""
+        return self.pid is not None
+
+    @property
+    def message(self) -> str:
+        """Return the prototype's message."""
+        if not self.running:
+            return NOT_RUNNING
+        return SPAWNED if self.spawned else ALREADY_RUNNING
+
+    def encode(self, my_address: str, proxy: Mapping[str, object] | None) -> bytes:
+        """Return the line for a client that reaches us at `my_address`, with its line feed."""
+        response = {
+            "message": self.message,
+            "spawned": self.spawned,
+            "error": self.error and self.error.text,
+            "myAddress": my_address,
+            "running": self.running,
+            "pid": self.pid,
+            "instance": self.instance,
+            "ports": None if self.ports is None else dict(self.ports),
+            "proxy": proxy,
+            "code": self.error and self.error.code,
+        }
+        return json.dumps(response, ensure_ascii=True, allow_nan=False).encode("ascii") + b"\n"

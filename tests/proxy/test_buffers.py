@@ -1,0 +1,111 @@
+"""Partial lines received, and lines waiting for a slow peer."""
+
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from up_proxy.buffers import LineBuffer, SendBuffer
+
+CHUNKS = st.lists(st.sampled_from([b"\n", b"a", b"bc\n", b"d\ne", b"\n\n"]) | st.binary(min_size=1))
+
+
+@given(CHUNKS)
+def test_only_whole_lines_pass_and_unchanged(chunks):
+    buffer = LineBuffer()
+    whole = []
+    for chunk in chunks:
+        lines = buffer.feed(chunk)
+        assert not lines or lines.endswith(b"\n")
+        whole.append(lines)
+    text = b"".join(chunks)
+    cut = text.rfind(b"\n") + 1
+    assert b"".join(whole) == text[:cut]
+    assert len(buffer) == len(text) - cut
+    assert buffer.starts_with(text[cut:])
+
+
+def drain(queue, step=7):
+    out = b""
+    while queue:
+        piece = queue.head(step)
+        queue.sent(len(piece))
+        out += piece
+    return out
+
+
+def test_the_oldest_whole_lines_are_dropped():
+    queue = SendBuffer(12)
+    for line in (b"one\n", b"two\n", b"three\n", b"four\n"):
+        queue.put(line)
+    assert queue.dropped_lines == 2
+    assert drain(queue) == b"three\nfour\n"
+
+
+def test_a_line_that_has_begun_to_leave_is_finished():
+    queue = SendBuffer(12)
+    queue.put_rest(b"rest\nold\n")
+    queue.put(b"newer\n")
+    assert drain(queue) == b"rest\nnewer\n"
+    queue = SendBuffer(12)
+    queue.put(b"begun\nnext\n")
+    queue.sent(2)
+    queue.put(b"0123456\n")
+    assert drain(queue) == b"gun\n0123456\n"
+
+
+def test_a_control_line_stands_between_lines_and_is_never_dropped():
+    queue = SendBuffer(8)
+    queue.put(b"begun\n")
+    queue.sent(2)
+    queue.put_control(b"UP1 x\n")
+    queue.put(b"a\nb\nc\nd\ne\n")
+    assert drain(queue) == b"gun\nUP1 x\n"
+    queue = SendBuffer(8)
+    queue.put_control(b"UP1 x\n")
+    queue.put(b"aaaaaaa\n")
+    queue.put(b"b\n")
+    assert drain(queue) == b"UP1 x\nb\n"
+
+
+def test_without_a_limit_nothing_is_dropped():
+    queue = SendBuffer()
+    for _ in range(1000):
+        queue.put(b"x" * 999 + b"\n")
+    assert len(queue) == 1_000_000
+    assert queue.dropped_lines == 0
+
+
+LINE = st.binary(max_size=12).map(lambda text: text.replace(b"\n", b"") + b"\n")
+ACTION = st.one_of(
+    st.tuples(st.just("put"), st.lists(LINE, min_size=1, max_size=4)),
+    st.tuples(st.just("control"), st.just([b"UP1 control\n"])),
+    st.tuples(st.just("sent"), st.integers(1, 40)),
+)
+
+
+@settings(max_examples=300)
+@given(st.integers(1, 60), st.lists(ACTION, max_size=40))
+def test_whatever_happens_whole_lines_leave_in_order(limit, actions):
+    """Lines are numbered, so that any glued, torn, doubled or reordered one shows."""
+    queue = SendBuffer(limit)
+    out, put, control = b"", [], 0
+    for what, value in actions:
+        if what == "put":
+            lines = [b"%d:" % (len(put) + n) + line for n, line in enumerate(value)]
+            put += lines
+            queue.put(b"".join(lines))
+            assert len(queue) <= queue.kept_bytes + limit
+        elif what == "control":
+            queue.put_control(value[0])
+            control += 1
+        else:
+            piece = queue.head(value)
+            queue.sent(len(piece))
+            out += piece
+    out += drain(queue)
+    left = [line + b"\n" for line in out.split(b"\n")[:-1]]
+    assert out == b"".join(left)
+    assert left.count(b"UP1 control\n") == control
+    relayed = [line for line in left if line != b"UP1 control\n"]
+    numbers = [put.index(line) for line in relayed]
+    assert numbers == sorted(set(numbers))
+    assert queue.dropped_lines == len(put) - len(relayed)

@@ -1,0 +1,62 @@
+"""The garbage collector works only where the program lets it."""
+
+import gc
+
+import pytest
+from twisted.internet.task import Clock
+
+from up.system import gc_scheduler
+from up.system.gc_scheduler import OLDEST_EVERY, GcScheduler
+
+
+@pytest.fixture
+def rounds(monkeypatch):
+    found = []
+    monkeypatch.setattr(gc_scheduler.gc, "collect", lambda generation=2: found.append(generation))
+    return found
+
+
+@pytest.fixture
+def clock():
+    return Clock()
+
+
+def test_it_takes_over_and_gives_back(clock):
+    collector = GcScheduler(clock)
+    collector.start()
+    try:
+        assert not gc.isenabled()
+        assert gc.get_freeze_count() > 1000
+    finally:
+        collector.stop()
+    assert gc.isenabled()
+    assert gc.get_freeze_count() == 0
+    assert not clock.getDelayedCalls()
+    collector.stop()
+
+
+def test_young_garbage_every_second_and_old_now_and_then(clock, rounds):
+    collector = GcScheduler(clock)
+    collector.start()
+    clock.pump([1.0] * OLDEST_EVERY)
+    collector.stop()
+    assert rounds == [2, *[1] * (OLDEST_EVERY - 1), 2]
+
+
+def test_cycles_that_modules_make_are_really_freed(clock):
+    class Node:
+        pass
+
+    import weakref
+
+    collector = GcScheduler(clock)
+    collector.start()
+    try:
+        node = Node()
+        node.itself = node
+        gone = weakref.ref(node)
+        del node
+        clock.advance(1.0)
+        assert gone() is None
+    finally:
+        collector.stop()

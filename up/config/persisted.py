@@ -1,0 +1,90 @@
+"""Values that the program itself learns and saves, such as gains tuned in flight."""
+
+from __future__ import annotations
+
+import contextlib
+from pathlib import Path
+from typing import Generic, TypeVar
+
+from up.config.atomic_writer import write_atomically
+from up.config.file import ConfigFile
+from up.config.loader import read_text
+from up.config.problems import ConfigErrors
+
+T = TypeVar("T")
+_HEAD = "# Written by the program; a file that lacks its last line, '# end', is not used.\n\n"
+_END = "# end"
+
+
+class PersistedFile(Generic[T]):
+    """A file of learned values; the first save also writes a good copy, `<name>.good`.
+
+    A set is valid only as a whole: a map with a missing value, or a missing end mark, makes the
+    file corrupt. People may edit the file; a file from elsewhere needs no end mark.
+    """
+
+    def __init__(self, path: Path, config_file: ConfigFile[T]) -> None:
+        self.path = Path(path)
+        self.good_path = self.path.with_name(self.path.name + ".good")
+        self._file = config_file
+
+    def load(self) -> tuple[T, str | None]:
+        """Return the values and None, or the best available values and the reason, one sentence.
+
+        For a corrupt or lost file this is the last good copy, otherwise the defaults. Never raises.
+        If neither file exists, nothing was ever learned: returns the defaults and no problem.
+        """
+        values, problem = self._read(self.path)
+        if values is not None:
+            self._keep_good(values)
+            return values, None
+        good, good_problem = self._read(self.good_path)
+        if good is not None:
+            reason = problem or f"{self.path}: is gone"
+            return good, f"{reason}; the last good copy {self.good_path.name} is used"
+        if problem is None and good_problem is None:
+            return self._file.cls(), None
+        return self._file.cls(), f"{problem or good_problem}; the defaults are used"
+
+    def save(self, values: T) -> None:
+        """Write the values and their good copy, each atomically.
+
+        Raises ValueError, before any file is changed, for values that could not be read back, and
+        OSError for a failed write; the previously saved values then remain.
+        """
+        data = self._render(values)
+        try:
+            self._file.parse(data, self.path, whole=True)
+        except ConfigErrors as errors:
+            raise ValueError(str(errors)) from None
+        self.path.parent.mkdir(parents=True, exist_ok=True)
+        write_atomically(self.path, data)
+        write_atomically(self.good_path, data)
+
+    def _read(self, path: Path) -> tuple[T | None, str | None]:
+        found: list[str] = []
+
+        def report(line: int, column: int, what: str) -> None:
+            found.append(f"{path}:{line}:{column}: {what}")
+
+        text = read_text(path, report)
+        if text is not None and text.startswith(_HEAD) and not text.rstrip().endswith(_END):
+            report(text.count("\n") + 1, 1, "is cut short")
+        elif text is not None:
+            try:
+                return self._file.parse(text, path, whole=True), None
+            except ConfigErrors as errors:
+                found.extend(str(problem) for problem in errors.problems)
+        if not found:
+            return None, None
+        rest = f" (and {len(found) - 1} more)" if len(found) > 1 else ""
+        return None, found[0] + rest
+
+    def _keep_good(self, values: T) -> None:
+        """Update the good copy of a saved set with later edits by people."""
+        if self.good_path.exists() and self._read(self.good_path)[0] != values:
+            with contextlib.suppress(OSError):
+                write_atomically(self.good_path, self._render(values))
+
+    def _render(self, values: T) -> bytes:
+        return f"{_HEAD}{self._file.render(values)}\n{_END}\n".encode()

@@ -1,0 +1,188 @@
+"""Faults of the board: receiver, IMU, resets, its loop and its line."""
+
+from __future__ import annotations
+
+from bisect import bisect_left, bisect_right
+from collections.abc import Iterator
+from dataclasses import asdict
+from math import inf
+
+from up.flight_log.board_status import (
+    IMU_VALID,
+    PI_HEARD,
+    RECEIVER_VALID,
+    has_bit,
+    reset_causes_of,
+)
+from up.flight_log.finding import Detector, Finding, Level, lasting
+from up.flight_log.flight_context import FlightContext
+from up.flight_log.json_message import number_at
+from up.flight_log.spans import Span, joined
+
+RX = "up.rx.update"
+CHANNELS = ("ailerons", "elevator", "throttle", "rudder", "aux1", "aux2")
+MIN_LOSS_S = 0.1
+"""Shorter gaps are not reported: one bad pulse is not a loss."""
+LATE_US = 1000
+ESTIMATE_LIMIT_DEG = 2.0
+_ALL_VALID = 0b111111
+_FREQUENT = 100
+_RESTORED = 7
+
+
+def _level(context: FlightContext, span: Span) -> Level:
+    """A loss while armed is an alarm; switching the transmitter off after landing is not."""
+    if context.was_armed(span):
+        return "alarm"
+    return "info" if span.is_open else "warning"
+
+
+def receiver_lost(context: FlightContext) -> Iterator[Finding]:
+    """The pilot's pulses: from the inputs themselves, otherwise from the board's status."""
+    bad: list[tuple[float, int]] = []
+    if RX in context.log.topics:
+        lost = context.lost(_validity(context, bad))
+    else:
+        lost = context.flag_lost(RECEIVER_VALID)
+    for span in joined(lost, 2 * MIN_LOSS_S):
+        if span.length_s < MIN_LOSS_S:
+            continue
+        within = bad[bisect_left(bad, (span.begin_s,)) : bisect_left(bad, (span.end_s,))]
+        gone = [
+            name for bit, name in enumerate(CHANNELS) if any(not v >> bit & 1 for _, v in within)
+        ]
+        if 0 < len(gone) < len(CHANNELS):
+            names = ", ".join(gone)
+            text = f"no valid pulses of {names}"
+            yield lasting(span, _level(context, span), "channels_lost", text, subject=names)
+        else:
+            yield lasting(span, _level(context, span), "receiver_lost", "the receiver was lost")
+
+
+def _validity(context: FlightContext, bad: list[tuple[float, int]]) -> Iterator[tuple[float, bool]]:
+    for each in context.log.messages(RX):
+        valid = each.data.get("valid")
+        if type(valid) is int and 0 <= valid <= _ALL_VALID:
+            if valid != _ALL_VALID:
+                bad.append((each.time_s, valid))
+            yield each.time_s, valid == _ALL_VALID
+
+
+def failsafe(context: FlightContext) -> Iterator[Finding]:
+    """The receiver's failsafe: the board circled without the pilot."""
+    for span in context.spans((each.time_s, each.is_failsafe is True) for each in context.states):
+        text = "the receiver failsafe was active"
+        yield lasting(span, _level(context, span), "failsafe", text)
+
+
+def imu_invalid(context: FlightContext) -> Iterator[Finding]:
+    """No attitude: the board could not stabilise."""
+    for span in context.flag_lost(IMU_VALID):
+        yield lasting(span, _level(context, span), "imu_invalid", "the IMU was invalid")
+
+
+def board_reset(context: FlightContext) -> Iterator[Finding]:
+    """A restart of the board: its uptime went back, or its status reports a restart in flight."""
+    before: float | None = None
+    for each in context.statuses():
+        uptime_s = number_at(each.data, ("uptime_s",))
+        restored = has_bit(each.data, "reset_cause", _RESTORED)
+        if uptime_s is None:
+            continue
+        if (before is not None and uptime_s < before) or (before is None and restored):
+            in_flight = bool(restored or context.was_armed(Span(each.time_s, each.time_s)))
+            cause = reset_causes_of(each.data)
+            yield Finding(
+                each.time_s,
+                "alarm" if in_flight else "warning",
+                "board_reset",
+                f"the board was reset {'in flight ' if in_flight else ''}({cause})",
+                subject=cause,
+                fields={"in_flight": in_flight, "cause": cause},
+            )
+        before = uptime_s
+
+
+def board_silent(context: FlightContext) -> Iterator[Finding]:
+    """The serial line: no frame came."""
+    for span in context.link_lost(lambda link: link == "arduino"):
+        # A program that stood still logs the loss and its end at the same moment.
+        if span.length_s >= MIN_LOSS_S:
+            yield lasting(span, _level(context, span), "board_silent", "the board was silent")
+
+
+def raspberry_unheard(context: FlightContext) -> Iterator[Finding]:
+    """The other direction: the board received nothing from Raspilot."""
+    for span in context.flag_lost(PI_HEARD):
+        text = "the board received nothing from Raspilot"
+        yield lasting(span, _level(context, span), "raspilot_silent", text)
+
+
+def loop_late(context: FlightContext) -> Iterator[Finding]:
+    """The control loop on the board ran late."""
+    late = [(each.time_s, number_at(each.data, ("late_us",)) or 0.0) for each in context.statuses()]
+    spans = context.spans((time_s, late_us >= LATE_US) for time_s, late_us in late)
+    for span in joined(spans, 1.0):
+        within = late[bisect_left(late, (span.begin_s,)) : bisect_right(late, (span.end_s, inf))]
+        worst_us = max(us for _, us in within)
+        yield Finding(
+            span.begin_s,
+            "warning" if context.was_armed(span) else "info",
+            "board_loop_late",
+            f"the board's control loop was up to {worst_us / 1000:.1f} ms late",
+            fields={"late_us": worst_us},
+        )
+
+
+def frames_damaged(context: FlightContext) -> Iterator[Finding]:
+    """Frames that the board dropped: the line between it and the Raspberry Pi is bad."""
+    count, first_s = 0, 0.0
+    before: float | None = None
+    for each in context.statuses():
+        errors = number_at(each.data, ("frame_errors",))
+        if errors is None:
+            continue
+        if before is not None and errors > before:
+            first_s = first_s if count else each.time_s
+            count += int(errors - before)
+        before = errors
+    if count:
+        plural = "" if count == 1 else "s"
+        yield Finding(
+            first_s,
+            "warning" if count >= _FREQUENT else "info",
+            "frames_damaged",
+            f"the board dropped {count} damaged frame{plural} of the serial line",
+            fields={"count": count},
+        )
+
+
+def estimate_wrong(context: FlightContext) -> Iterator[Finding]:
+    """The attitude that the board estimates against the true one, in simulated flights."""
+    for error in context.estimate_errors:
+        if error.worst_deg > ESTIMATE_LIMIT_DEG:
+            text = (
+                f"the estimated {error.axis} was up to {error.worst_deg:.1f} deg from the true one"
+                f" ({error.rms_deg:.1f} deg rms)"
+            )
+            yield Finding(
+                error.worst_s,
+                "warning",
+                "estimate_error",
+                text,
+                subject=error.axis,
+                fields=asdict(error),
+            )
+
+
+BOARD_CHECKS: tuple[Detector, ...] = (
+    receiver_lost,
+    failsafe,
+    imu_invalid,
+    board_reset,
+    board_silent,
+    raspberry_unheard,
+    loop_late,
+    frames_damaged,
+    estimate_wrong,
+)

@@ -1,0 +1,50 @@
+"""The faults of a flight in the order of time."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import replace
+
+from up.fields import printable
+from up.flight_log.board_checks import BOARD_CHECKS
+from up.flight_log.finding import Detector, Finding
+from up.flight_log.flight_context import FlightContext
+from up.flight_log.flight_log import FlightLog
+from up.flight_log.link_checks import LINK_CHECKS
+from up.flight_log.program_checks import PROGRAM_CHECKS
+
+DETECTORS: tuple[Detector, ...] = (*BOARD_CHECKS, *LINK_CHECKS, *PROGRAM_CHECKS)
+_MAX_PER_DETECTOR = 50
+_MAX_TEXT = 500
+
+
+def findings(log: FlightLog, context: FlightContext | None = None) -> list[Finding]:
+    """Return the faults; texts are one line, safe for a terminal.
+
+    ``context`` reuses the data that another summary of the same log has read.
+    """
+    context = context or FlightContext(log)
+    found = [each for detector in DETECTORS for each in _bounded(detector(context))]
+    return sorted(found, key=lambda each: each.time_s)
+
+
+def _bounded(found: Iterable[Finding]) -> Iterator[Finding]:
+    """Yield the first findings of a detector; the last one counts the rest."""
+    more: Finding | None = None
+    count = 0
+    for count, each in enumerate(found, 1):
+        if count <= _MAX_PER_DETECTOR:
+            yield _one_line(each)
+        elif more is None:
+            more = _one_line(each)
+    if more is not None:
+        rest = count - _MAX_PER_DETECTOR - 1
+        yield replace(more, detail=f"{more.detail} (and {rest} more of this kind)")
+
+
+def _one_line(finding: Finding) -> Finding:
+    return replace(finding, summary=_line(finding.summary), detail=_line(finding.detail))
+
+
+def _line(text: str) -> str:
+    return printable(text if len(text) <= _MAX_TEXT else text[:_MAX_TEXT] + "...")

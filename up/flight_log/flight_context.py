@@ -1,0 +1,196 @@
+"""Data that several detectors of one flight need, computed once."""
+
+from __future__ import annotations
+
+from bisect import bisect_right
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import Any
+
+from up.flight_log import board_status
+from up.flight_log.board_status import has_bit
+from up.flight_log.estimate_error import EstimateError, estimate_errors
+from up.flight_log.flight_log import FlightLog, LoggedMessage
+from up.flight_log.spans import Span, spans_of
+
+TELEMETRY = "up.telemetry.update"
+FLIGHT_STATE = "up.flight.state"
+LINK_STATE = "up.link.state"
+LOG = "log"
+WARNING, ERROR = 3, 4
+"""Levels of foxglove.Log."""
+_CODES = frozenset({"command_refused", "recording_resumed"})
+"""Lines of level info that are read."""
+_NEAR_S = 1.0
+_ENDING_S = 2.0
+"""A program that stops closes its links up to this long before the log ends."""
+
+
+@dataclass(frozen=True, slots=True)
+class State:
+    """The authority from that moment on; None: unknown."""
+
+    time_s: float
+    flight_mode: str | None
+    is_armed: bool | None
+    is_auto: bool | None
+    is_failsafe: bool | None
+
+
+@dataclass(frozen=True, slots=True)
+class LogLine:
+    """A line of the program's log; ``level`` is foxglove.Log's; ``code`` is "" without one."""
+
+    time_s: float
+    level: int
+    name: str
+    text: str
+    code: str = ""
+    fields: Mapping[str, Any] = field(default_factory=dict)
+
+
+class FlightContext:
+    """A flight with its states and spans, each read from the log on first use."""
+
+    def __init__(self, log: FlightLog) -> None:
+        self.log = log
+
+    @cached_property
+    def states(self) -> list[State]:
+        """Return the changes of authority: from the board's status, otherwise from telemetry."""
+        if FLIGHT_STATE in self.log.topics:
+            found = (_state_of(each) for each in self.log.messages(FLIGHT_STATE))
+        else:
+            found = (_state_of_telemetry(each) for each in self.log.messages(TELEMETRY))
+        return list(_changes(found))
+
+    @cached_property
+    def armed(self) -> list[Span]:
+        """Return when it was armed."""
+        return self.spans((state.time_s, state.is_armed is True) for state in self.states)
+
+    @cached_property
+    def log_lines(self) -> list[LogLine]:
+        """Return the warnings and errors of the program's log, and infos that are findings."""
+        lines = self._all_lines()
+        return [line for line in lines if line.level >= WARNING or line.code in _CODES]
+
+    @cached_property
+    def estimate_errors(self) -> list[EstimateError]:
+        """Return the attitude's error against the truth, for simulated flights."""
+        return list(estimate_errors(self.log))
+
+    @cached_property
+    def last_telemetry(self) -> dict[str, Any]:
+        """Return the last logged frame of telemetry; empty without one."""
+        times_s = self.log.times(TELEMETRY)
+        if not times_s:
+            return {}
+        newest: dict[str, Any] = {}
+        for message in self.log.messages(TELEMETRY, since_s=times_s[-1]):
+            newest = message.data
+        return newest
+
+    def first_telemetry(self, since_s: float) -> dict[str, Any]:
+        """Return the first frame of telemetry from a time on; empty without one."""
+        for message in self.log.messages(TELEMETRY, since_s=since_s):
+            return message.data
+        return {}
+
+    def spans(self, states: Iterable[tuple[float, bool]]) -> list[Span]:
+        """Return the spans in which a condition held, up to the end of the log."""
+        return spans_of(states, self.log.length_s)
+
+    def was_armed(self, span: Span) -> bool:
+        """Return whether it was armed in a span or just before: a lost board reports nothing."""
+        before = bisect_right(self.armed, span.end_s, key=lambda each: each.begin_s)
+        return before > 0 and self.armed[before - 1].end_s >= span.begin_s - _NEAR_S
+
+    def state_at(self, time_s: float) -> State | None:
+        """Return the authority at a time; None if it was not logged yet."""
+        before = bisect_right(self.states, time_s, key=lambda each: each.time_s)
+        return self.states[before - 1] if before else None
+
+    def lost(self, states: Iterable[tuple[float, bool | None]]) -> list[Span]:
+        """Return the spans in which a condition was false after it had been true."""
+        return self.spans(_after_first(states))
+
+    def flag_lost(self, bit: int) -> list[Span]:
+        """Return the spans in which a status flag was clear after it had been set."""
+        return self.lost(
+            (each.time_s, has_bit(each.data, "flags", bit)) for each in self.statuses()
+        )
+
+    def statuses(self) -> Iterator[LoggedMessage]:
+        """Yield the board's status messages."""
+        return self.log.messages(board_status.TOPIC)
+
+    def link_lost(self, is_it: Callable[[str], bool]) -> list[Span]:
+        """Return the spans in which a link was down; the program's own end is excluded."""
+        lost = self.lost(
+            (each.time_s, each.data.get("connected") is True)
+            for each in self.log.messages(LINK_STATE)
+            if is_it(str(each.data.get("link")))
+        )
+        return [span for span in lost if not span.is_open or span.length_s > _ENDING_S]
+
+    def _all_lines(self) -> Iterator[LogLine]:
+        for each in self.log.messages(LOG):
+            level = each.data.get("level")
+            yield LogLine(
+                each.time_s,
+                level if type(level) is int else 0,
+                str(each.data.get("name", "")),
+                str(each.data.get("message", "")),
+                str(each.data.get("code", "")),
+                fields if isinstance(fields := each.data.get("fields"), dict) else {},
+            )
+
+
+def _after_first(states: Iterable[tuple[float, bool | None]]) -> Iterator[tuple[float, bool]]:
+    was_good = False
+    for time_s, is_good in states:
+        was_good = was_good or is_good is True
+        if was_good and is_good is not None:
+            yield time_s, not is_good
+
+
+def _changes(states: Iterable[State]) -> Iterator[State]:
+    before: tuple[object, ...] = ()
+    for state in states:
+        now = (state.flight_mode, state.is_armed, state.is_auto, state.is_failsafe)
+        if now != before:
+            before = now
+            yield state
+
+
+def _state_of(message: LoggedMessage) -> State:
+    data = message.data
+    return State(
+        message.time_s,
+        _text(data.get("flight_mode")),
+        _flag(data.get("armed")),
+        _flag(data.get("auto")),
+        _flag(data.get("failsafe")),
+    )
+
+
+def _state_of_telemetry(message: LoggedMessage) -> State:
+    data, board = message.data, message.data.get("arduino")
+    failsafe = board.get("failsafe") if isinstance(board, dict) else None
+    return State(
+        message.time_s,
+        _text(data.get("flight_mode")),
+        _flag(data.get("armed")),
+        None,
+        _flag(failsafe),
+    )
+
+
+def _text(value: Any) -> str | None:
+    return value if isinstance(value, str) else None
+
+
+def _flag(value: Any) -> bool | None:
+    return value if isinstance(value, bool) else None
