@@ -145,7 +145,7 @@ def test_the_daemon_is_killed_within_a_frame_and_restarted(raspilot, line, tmp_p
     raspilot.wait_for("started")
     raspilot.check()
     log = (tmp_path / "raspilot.log").read_text()
-    assert log.count('"started"') == 2, "both runs are in one log"
+    assert log.count('"code": "started"') == 2, "both runs are in one log"
     raspilot.stop()
     assert not raspilot.is_running
 
