@@ -116,6 +116,7 @@ def _parser() -> argparse.ArgumentParser:
     verbs = "\n".join(f"  {name:<9}{about}" for name, (about, _) in VERBS.items())
     parser = OptionParser(
         prog="up-sim",
+        allow_abbrev=False,
         usage="up-sim VERB ...",
         description=f"{DESCRIPTION}\n\nverbs:\n{verbs}",
         epilog=EPILOG,

@@ -81,6 +81,7 @@ def main(arguments: Sequence[str]) -> int:
 def _parser() -> argparse.ArgumentParser:
     parser = OptionParser(
         prog="up-sim tune",
+        allow_abbrev=False,
         description="Flies steps with many gains, measures the margins of the loop, and"
         " proposes a set.",
         epilog=EPILOG,

@@ -93,6 +93,7 @@ def _fly(options: argparse.Namespace, folder: Path) -> int:
 def _options(arguments: Sequence[str] | None) -> argparse.Namespace:
     parser = OptionParser(
         prog="make run",
+        allow_abbrev=False,
         description="Flies the virtual aircraft with the real firmware, daemon, proxy and ground"
         " station. From make: make run CONTROLLER=raspberry RADIO=keyboard ARGS='--wind 6'",
     )

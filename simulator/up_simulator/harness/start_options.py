@@ -69,6 +69,7 @@ def read_options(arguments: list[str] | None = None) -> argparse.Namespace:
     """Return the options; a wrong one ends the program with status 2 and one sentence."""
     parser = OptionParser(
         prog="up-sim start",
+        allow_abbrev=False,
         description=DESCRIPTION,
         epilog=EPILOG,
     )

@@ -135,7 +135,7 @@ def _radio(link: RadioLink, options: argparse.Namespace, on_leave: Callable[[], 
 
 
 def _options(arguments: list[str] | None) -> argparse.Namespace:
-    parser = OptionParser(prog="up-sim radio", description=DESCRIPTION)
+    parser = OptionParser(prog="up-sim radio", description=DESCRIPTION, allow_abbrev=False)
     parser.add_argument("who", nargs="?", default="keyboard", help="keyboard (default), js0, ...")
     parser.add_argument("--socket", type=Path, default=DEFAULT_SOCKET, help="default %(default)s")
     parser.add_argument(

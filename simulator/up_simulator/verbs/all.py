@@ -247,6 +247,7 @@ def _print_failure(job: Job) -> None:
 def _parser() -> argparse.ArgumentParser:
     parser = OptionParser(
         prog="up-sim all",
+        allow_abbrev=False,
         description="Flies every scenario that is shipped and closes with how many held.",
         epilog=EPILOG,
     )

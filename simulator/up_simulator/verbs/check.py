@@ -24,6 +24,7 @@ def main(arguments: Sequence[str]) -> int:
     """Check files; return the exit status."""
     parser = OptionParser(
         prog="up-sim check",
+        allow_abbrev=False,
         description="Reads scenario files and reports all their errors.",
         epilog=EPILOG,
     )

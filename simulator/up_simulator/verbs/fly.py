@@ -141,6 +141,7 @@ def _print_table(results: list[tuple[str, Result]], count: int) -> None:
 def _parser() -> argparse.ArgumentParser:
     parser = OptionParser(
         prog="up-sim fly",
+        allow_abbrev=False,
         description="Flies scenarios and reports whether what they expect is true.",
         epilog=EPILOG,
     )

@@ -23,6 +23,7 @@ def main(arguments: Sequence[str]) -> int:
     """List scenarios; return the exit status."""
     parser = OptionParser(
         prog="up-sim list",
+        allow_abbrev=False,
         description="Lists scenarios: name, how long, title, tags, and the rule that each guards.",
         epilog=EPILOG,
     )

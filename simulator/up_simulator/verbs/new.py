@@ -23,6 +23,7 @@ def main(arguments: Sequence[str]) -> int:
     """Write the file; return the exit status."""
     parser = OptionParser(
         prog="up-sim new",
+        allow_abbrev=False,
         description="Writes a scenario with a comment at every key that it uses.",
         epilog=EPILOG,
     )

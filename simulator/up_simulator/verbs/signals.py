@@ -19,6 +19,7 @@ def main(arguments: Sequence[str]) -> int:
     """List signals; return the exit status."""
     parser = OptionParser(
         prog="up-sim signals",
+        allow_abbrev=False,
         description="Lists the signals for expectations and logs.",
         epilog=EPILOG,
     )
