@@ -102,9 +102,15 @@ class BaseProvider(BaseStartedModule, Generic[_T]):
                 reading=self.READING,
                 source=source,
                 previous=previous,
+                code="source_switched",
             )
         else:
-            self.log.info("{reading} comes from {source}", reading=self.READING, source=source)
+            self.log.info(
+                "{reading} comes from {source}",
+                reading=self.READING,
+                source=source,
+                code="source_selected",
+            )
 
     def _ages(self) -> dict[str, Any]:
         """Return the part of telemetry common to all readings."""

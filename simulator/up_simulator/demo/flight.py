@@ -76,7 +76,7 @@ class DemoFlight:
         aircraft.wait_for("board_selected", BUILD_LIMIT_S, on_line=self._log_part)
         daemon = self._add("raspilot", self._root / "main.py", "--config", folder / "config")
         aircraft.wait_for("board_ready", START_LIMIT_S)
-        daemon.wait_for("modules_running", START_LIMIT_S)
+        daemon.wait_for("started", START_LIMIT_S)
         log(f"  raspilot   the daemon; the phone on ports {ports.general}, {ports.orientation}")
         if options.controller == "raspberry":
             daemon.wait_for("control_changed", START_LIMIT_S, flies=True)

@@ -125,10 +125,11 @@ class Child:
         deadline_s = time.monotonic() + limit_s
         while True:
             status = self.poll()
+            found = next((line for line in self.lines() if line.has(code, **fields)), None)
+            # After the search, so that the line itself is passed on.
             if on_line is not None:
                 for line in self.new_lines():
                     on_line(line)
-            found = next((line for line in self.lines() if line.has(code, **fields)), None)
             if found is not None:
                 return found
             if status is not None:

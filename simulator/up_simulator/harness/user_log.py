@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 import sys
 from collections.abc import Callable, Mapping
 from contextlib import suppress
@@ -10,7 +11,6 @@ from dataclasses import dataclass, field
 from typing import Any, Protocol
 
 from up.log.setup import FORMAT_VARIABLE
-from up.log.user_line import user_line
 
 JSON_ENVIRONMENT = {FORMAT_VARIABLE: "json"}
 """Makes a program of the project log JSON lines, which ``read_line`` reads."""
@@ -38,9 +38,11 @@ def text_log(write: Callable[[str], None]) -> Log:
 
 def print_line(text: str, /, *, code: str = "", **fields: Any) -> None:
     """Print a line, or JSON with its code and fields if ``UP_LOG_FORMAT=json``."""
+    if os.environ.get(FORMAT_VARIABLE) == "json":
+        text = json.dumps({"text": text, "fields": {**fields, "code": code}}, default=str)
     # The terminal may be closed already.
     with suppress(OSError):
-        sys.stdout.write(user_line(text, "up_simulator", code=code, **fields) + "\n")
+        sys.stdout.write(f"{text}\n")
         sys.stdout.flush()
 
 

@@ -133,7 +133,7 @@ def test_the_daemon_is_killed_within_a_frame_and_restarted(raspilot, line, tmp_p
     raspilot.start()
     with pytest.raises(ParticipantError, match="already"):
         raspilot.start()
-    raspilot.wait_for("modules_running")
+    raspilot.wait_for("started")
     assert raspilot.is_running
     whole = checked_frame(0, "x", bytes(20))
     line.write(whole[: len(whole) // 2])
@@ -142,17 +142,17 @@ def test_the_daemon_is_killed_within_a_frame_and_restarted(raspilot, line, tmp_p
     with pytest.raises(ParticipantError, match="signal 9"):
         raspilot.check()
     raspilot.start()
-    raspilot.wait_for("modules_running")
+    raspilot.wait_for("started")
     raspilot.check()
     log = (tmp_path / "raspilot.log").read_text()
-    assert log.count('"modules_running"') == 2, "both runs are in one log"
+    assert log.count('"code": "started"') == 2, "both runs are in one log"
     raspilot.stop()
     assert not raspilot.is_running
 
 
 def test_a_frozen_daemon_is_stopped(raspilot):
     raspilot.start()
-    raspilot.wait_for("modules_running")
+    raspilot.wait_for("started")
     raspilot.freeze()
     stat = Path(f"/proc/{raspilot.pid}/stat")
     wait(lambda: stat.read_text().rsplit(")", 1)[1].split()[0] == "T", "it stands still")
@@ -165,7 +165,7 @@ def test_a_daemon_with_a_wrong_configuration_is_reported(raspilot, tmp_path):
     (tmp_path / "config" / "config.yml").write_text("log levle: info\n")
     raspilot.start()
     with pytest.raises(ParticipantError) as caught:
-        raspilot.wait_for("modules_running")
+        raspilot.wait_for("started")
     assert "status 2" in str(caught.value) and "config.yml" in str(caught.value)
     assert raspilot.log
 

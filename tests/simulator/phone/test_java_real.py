@@ -84,7 +84,7 @@ class System:
             seed=3, record=record_of,
         )  # fmt: skip
         self.daemon.start()
-        self.daemon.wait_for("modules_running")
+        self.daemon.wait_for("started")
         self.phone.start()
         self.console = Console(program, folder, ports.ground)
 
