@@ -28,7 +28,7 @@ ARROWS: dict[str, set[str]] = {
     "up_rig": set(),
 }
 # The parts of Up for a program on another machine: the proxy uses no modules and no bus.
-PROXY_MAY_USE = {"config", "log", "protocols", "system", "fields", "version"}
+PROXY_MAY_USE = {"cli", "config", "log", "protocols", "system", "fields", "version"}
 
 # The layers of Up, from the highest to the lowest: a part imports only from the lines below it.
 LAYERS = (
@@ -51,7 +51,7 @@ LAYERS = (
     "config | mode",
     "log",
     "system",
-    "fields | version",
+    "fields | version | errors",
 )
 # Imports that still go upwards, each with the change that removes it.
 EXCEPTIONS = (

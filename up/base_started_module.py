@@ -7,6 +7,7 @@ from enum import Enum
 from typing import Any, ClassVar
 
 from up.base_module import BaseModule
+from up.errors import UserError
 
 
 class BaseStartedModule(BaseModule):
@@ -45,7 +46,7 @@ class BaseStartedModule(BaseModule):
         outcome = self.on_start()
         if isinstance(outcome, Awaitable):
             outcome = await outcome
-        result = self._judge(outcome)
+        result = self._result_of(outcome)
         self._started = result is StartResult.STARTED
         return result
 
@@ -63,7 +64,7 @@ class BaseStartedModule(BaseModule):
     def on_stop(self) -> Any:
         """Close what the start opened, also after a partial start."""
 
-    def _judge(self, outcome: Any) -> StartResult:
+    def _result_of(self, outcome: Any) -> StartResult:
         if isinstance(outcome, StartResult):
             return outcome
         if outcome is None or outcome is True:
@@ -86,5 +87,5 @@ class StartResult(Enum):
     FAILED_STOP = "failed, stop"
 
 
-class StartFailedError(Exception):
+class StartFailedError(UserError):
     """Raised by a start that failed for a reason that a user can fix; the text is one sentence."""

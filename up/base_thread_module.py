@@ -13,7 +13,7 @@ from up.base_started_module import BaseStartedModule
 
 # Shorter than the limit for all stops, so that the module can still close its resources.
 STOP_LIMIT_S = 1.2
-_LOOK_S = 0.01
+_POLL_S = 0.01
 _PAUSE_AFTER_FAULT_S = 1.0
 
 
@@ -53,11 +53,13 @@ class BaseThreadModule(BaseStartedModule):
         deadline_s = self.context.reactor.seconds() + STOP_LIMIT_S
         while self._is_thread_alive and self.context.reactor.seconds() < deadline_s:
             try:
-                await self._pause(_LOOK_S)
+                await self._pause(_POLL_S)
             except CancelledError:
                 break
         if self._is_thread_alive:
-            self.log.warn("its thread did not end in time and is left behind")
+            self.log.warn(
+                "its thread did not end in time and is left behind", code="thread_left_behind"
+            )
         await super().stop()
 
     def call_in_reactor(self, call: Callable[..., Any], *arguments: Any) -> None:
@@ -65,7 +67,7 @@ class BaseThreadModule(BaseStartedModule):
 
     def _loop(self) -> None:
         """Do one piece of the work."""
-        raise NotImplementedError(f"{self.class_name} does not say what its thread does")
+        raise NotImplementedError(f"{self.class_name} must override _loop")
 
     def _run(self) -> None:
         while not self.stop_event.is_set():

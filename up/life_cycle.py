@@ -12,6 +12,7 @@ from twisted.python.failure import Failure
 from up.base_module import BaseModule
 from up.base_started_module import BaseStartedModule, StartFailedError, StartResult
 from up.config import ConfigErrors
+from up.errors import UserError
 from up.up import Up
 
 START_LIMIT_S = 10.0
@@ -23,7 +24,7 @@ ONE_STOP_LIMIT_S = 1.5
 _FAULTS = (Exception, SystemExit)
 
 
-class BootStoppedError(Exception):
+class BootStoppedError(UserError):
     """The start ended in a state in which the system must not run; the text is one sentence."""
 
 
@@ -64,7 +65,8 @@ class LifeCycle:
             result = await self._start_one(module)
             if result is StartResult.FAILED_STOP:
                 raise BootStoppedError(
-                    f"{module.class_name} did not start, and without it the system does not run"
+                    f"{module.class_name} did not start, and without it the system does not run",
+                    code="required_module_failed",
                 )
         if not self._is_stopping:
             self._check_sources()
@@ -89,9 +91,13 @@ class LifeCycle:
             try:
                 await self._bounded(module.stop(), limit_s)
             except TimeoutError:
-                self.log.error("{name} did not stop in time", name=module.class_name)
+                self.log.error(
+                    "{name} did not stop in time", name=module.class_name, code="stop_timeout"
+                )
             except _FAULTS:
-                self.log.failure("{name} failed to stop", name=module.class_name)
+                self.log.failure(
+                    "{name} failed to stop", name=module.class_name, code="stop_failed"
+                )
             self._up.command_executor.control.release(module.class_name)
         self._up.command_executor.limited.stop()
 
@@ -122,7 +128,7 @@ class LifeCycle:
         except (StartFailedError, ConfigErrors) as error:
             result, reason = module.failure_result, str(error)
         except _FAULTS as error:
-            self.log.failure("{name} failed to start", name=module.path)
+            self.log.failure("{name} failed to start", name=module.path, code="start_failed")
             result, reason = module.failure_result, f"{type(error).__name__}: {error}"
         finally:
             self._starting = self._unfinished = None
@@ -130,7 +136,7 @@ class LifeCycle:
             self.started.append(module)
             self._up.cleanup_of(module).discard()
         else:
-            self._note_failure(module, reason or "its start says that it failed")
+            self._note_failure(module, reason or "its start reports a failure")
             if not self._is_stopping:
                 await self._close(module, ONE_STOP_LIMIT_S)
         return result
@@ -163,7 +169,8 @@ class LifeCycle:
                 f"neither {' nor '.join(names)} has" if names[1:] else f"not even {names[0]} has"
             )
             raise BootStoppedError(
-                f"{which} its port open: no data could come, so there is nothing to run"
+                f"{which} its port open: no data could come, so there is nothing to run",
+                code="no_source",
             )
 
     def _bounded(self, work: Coroutine[Any, Any, Any], limit_s: float) -> Deferred[Any]:

@@ -7,8 +7,8 @@ from collections.abc import Callable, Iterable, Mapping
 from typing import Any
 
 Conflict = Callable[[str, str, str], object]
-DEEPEST = 16
-LONGEST = 1000
+MAX_DEPTH = 16
+MAX_LENGTH = 1000
 _INT_LIMIT = 2**63
 _PLAIN = frozenset((bool, int, float, str, type(None)))
 """Types that are never a map: skips the slow isinstance check."""
@@ -22,7 +22,7 @@ def merge(
     Two different values under one key are a conflict: calls ``on_conflict(key path, first module,
     later module)``, keeps the earlier value and drops only the later module's key. Numbers that are
     not finite become null. Values that JSON or a General Message cannot hold (other types, nesting
-    beyond ``DEEPEST``, text or lists beyond ``LONGEST``, integers of more than 64 bits, lone
+    beyond ``MAX_DEPTH``, text or lists beyond ``MAX_LENGTH``, integers of more than 64 bits, lone
     surrogates) are dropped as a conflict of the module with itself, and so is the rest of a map
     that raises while being read.
     """
@@ -47,7 +47,7 @@ def _merge_into(
     for raw_key, raw in content.items():
         key = raw_key if isinstance(raw_key, str) else str(raw_key)
         here = (*path, key)
-        if len(here) > DEEPEST or not _is_sound(key):
+        if len(here) > MAX_DEPTH or not _is_sound(key):
             on_conflict(".".join(path), module, module)
             continue
         if type(raw) not in _PLAIN and isinstance(raw, Mapping):
@@ -81,15 +81,15 @@ def _json_value(value: Any, depth: int = 0) -> Any:
         return value
     if isinstance(value, str) and _is_sound(value):
         return value
-    if isinstance(value, list | tuple) and len(value) <= LONGEST and depth < DEEPEST:
+    if isinstance(value, list | tuple) and len(value) <= MAX_LENGTH and depth < MAX_DEPTH:
         return [_json_value(each, depth + 1) for each in value]
-    if isinstance(value, Mapping) and depth < DEEPEST:
+    if isinstance(value, Mapping) and depth < MAX_DEPTH:
         return {str(key): _json_value(each, depth + 1) for key, each in value.items()}
     raise TypeError("no JSON, or too much of it")
 
 
 def _is_sound(text: str) -> bool:
-    if len(text) > LONGEST:
+    if len(text) > MAX_LENGTH:
         return False
     try:
         text.encode()

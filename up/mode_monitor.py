@@ -10,7 +10,7 @@ from up.commands.system_commands import LinkStateCommand
 from up.mode import Mode
 from up.system.clock import Timer
 
-PATIENCE_S = 5.0
+BOARD_TIMEOUT_S = 5.0
 BOARD_LINK = "arduino"
 
 
@@ -55,7 +55,7 @@ class ModeMonitor(BaseStartedModule):
 
     def on_stop(self) -> None:
         self._is_over = True
-        self._forget()
+        self._cancel_timer()
 
     def _on_link(self, command: LinkStateCommand) -> None:
         if command.link != BOARD_LINK:
@@ -63,16 +63,18 @@ class ModeMonitor(BaseStartedModule):
         if not command.connected:
             self._wait()
             return
-        self._forget()
+        self._cancel_timer()
         if self.is_provisional:
             self.is_provisional = False
-            self.log.warn("the Arduino answers: back in Flight Controller Mode")
+            self.log.warn(
+                "the Arduino answers: back in Flight Controller Mode", code="mode_restored"
+            )
 
     def _wait(self) -> None:
         if self._timer is None and not self.is_provisional and not self._is_over:
-            self._timer = self.context.reactor.callLater(PATIENCE_S, self._give_up)
+            self._timer = self.context.reactor.callLater(BOARD_TIMEOUT_S, self._give_up)
 
-    def _forget(self) -> None:
+    def _cancel_timer(self) -> None:
         if self._timer is not None:
             self._timer.cancel()
             self._timer = None
@@ -83,5 +85,6 @@ class ModeMonitor(BaseStartedModule):
         self.log.error(
             "no frame from the Arduino for {patience_s:.0f} s: provisionally in Black Box Mode,"
             " orientation from the phone; nothing is controlled from here",
-            patience_s=PATIENCE_S,
+            patience_s=BOARD_TIMEOUT_S,
+            code="mode_provisional",
         )

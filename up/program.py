@@ -91,7 +91,9 @@ class Program:
         self._notifier.stopping(why)
         self._exit_watchdog.request(self._exit_status or EXIT_STOPPED)
         done = Deferred.fromCoroutine(self._end())
-        done.addErrback(lambda failure: self.log.failure("stopping failed", failure))
+        done.addErrback(
+            lambda failure: self.log.failure("stopping failed", failure, code="stop_failed")
+        )
         done.addCallback(self._ended)
 
     def _ended(self, result: None) -> None:
@@ -107,8 +109,8 @@ class Program:
         if self._stopping:
             return
         self._running = True
-        self._up.on_ports_changed = self._tell_ports
-        self._tell_ports()
+        self._up.on_ports_changed = self._notify_ports
+        self._notify_ports()
         self._notifier.ready(f"{len(self._life.started)} modules run")
         self._gc_scheduler.start()
         # Runs after the reactor's next wait: the current turn belongs to the start.
@@ -116,9 +118,13 @@ class Program:
         later(0, later, 0, setattr, self._monitor, "has_started", True)
         self.log.info("{count} modules run", count=len(self._life.started), code="started")
         if self._up.vetoes.own:
-            self.log.warn("arming is refused: {vetoes}", vetoes="; ".join(self._up.vetoes.own))
+            self.log.warn(
+                "arming is refused: {vetoes}",
+                vetoes="; ".join(self._up.vetoes.own),
+                code="arming_refused",
+            )
 
-    def _tell_ports(self) -> None:
+    def _notify_ports(self) -> None:
         ports = " ".join(f"{name}:{port}" for name, port in sorted(self._up.ports.items()))
         self._notifier.variable("X_UP_PORTS", ports)
 
@@ -128,7 +134,7 @@ class Program:
             print(failure.getErrorMessage(), file=sys.stderr)  # noqa: T201 - the last word
             self.stop("the boot was stopped")
         else:
-            self.log.failure("the boot failed", failure)
+            self.log.failure("the boot failed", failure, code="boot_failed")
             self.stop("the boot failed")
 
     async def _end(self) -> None:
@@ -175,7 +181,7 @@ def run_application(
         files = config_files(plan.modules)
         nothing = no_configuration(context.config_folder, files)
         if nothing and not use_defaults:
-            raise BootError(nothing)
+            raise BootError(nothing, code="no_configuration")
         load_all(context.config_folder, files)
         remove_unfinished(context.config_folder)
         up = Up(plan, context)
@@ -219,17 +225,21 @@ def make_context(
     """Return the context of a run; raises ConfigErrors, or BootError for an invalid UP_MODE."""
     folder = application.config_folder if config_folder is None else config_folder.resolve()
     if config_folder is not None and not folder.is_dir():
-        raise BootError(f"--config {config_folder}: no such folder")
+        raise BootError(f"--config {config_folder}: no such folder", code="folder_missing")
     instance = environ.get("UP_INSTANCE", "")
     if instance and not AIRCRAFT_NAME.fullmatch(instance):
-        raise BootError(f"UP_INSTANCE={instance!r}: must be {AIRCRAFT_NAME_RULE}")
+        raise BootError(
+            f"UP_INSTANCE={instance!r}: must be {AIRCRAFT_NAME_RULE}", code="instance_invalid"
+        )
     context = Context(reactor, Mode.AUTO, folder, instance=instance)
     wanted = environ.get("UP_MODE") or context.application.mode
     try:
         context.mode = Mode(wanted.strip().lower())
     except ValueError:
         words = ", ".join(mode.value for mode in Mode)
-        raise BootError(f"UP_MODE={wanted!r} is no mode; the modes are: {words}") from None
+        raise BootError(
+            f"UP_MODE={wanted!r} is not a mode; the modes are: {words}", code="mode_invalid"
+        ) from None
     return context
 
 

@@ -56,7 +56,7 @@ class UpRegistrar:
     def _register_modules_from_file(self) -> bool:
         package = importlib.import_module(self.cog_name)
         if package.__file__ is None:
-            raise CogError(f"the cog {self.cog_name} has no __init__.py")
+            raise CogError(f"the cog {self.cog_name} has no __init__.py", code="not_a_package")
         manifest = load_manifest(Path(package.__file__).parent, self.cog_name)
         for each in manifest.modules:
             self._register_module(each.class_name, each.prefix)

@@ -18,7 +18,7 @@ from up.merge import merge
 from up.system.clock import Timer
 
 DEFAULT_PERIOD_MS = 100.0
-IDLE_LOOK_S = 2.0
+IDLE_POLL_S = 2.0
 """Polling period for a subscriber that starts to want telemetry without a new link."""
 
 
@@ -89,7 +89,9 @@ class TelemetryController(BaseStartedModule):
                 Code.OVERLOADED,
             )
         self.wanted_period_ms = command.period_ms
-        self.log.info("telemetry every {period_ms:.0f} ms", period_ms=command.period_ms)
+        self.log.info(
+            "telemetry every {period_ms:.0f} ms", period_ms=command.period_ms, code="period_changed"
+        )
         self._reschedule()
 
     def _on_panic(self, command: PanicCommand) -> None:
@@ -117,8 +119,8 @@ class TelemetryController(BaseStartedModule):
     def _transmit(self) -> None:
         # The first frame is always collected, so that failing telemetry is reported immediately.
         if self.frames and not self.is_wanted:
-            self._timer = self.context.reactor.callLater(IDLE_LOOK_S, self._transmit)
-            self._due_s = self.context.reactor.seconds() + IDLE_LOOK_S
+            self._timer = self.context.reactor.callLater(IDLE_POLL_S, self._transmit)
+            self._due_s = self.context.reactor.seconds() + IDLE_POLL_S
             return
         self._sent_s = self._due_s
         self._schedule()
@@ -143,7 +145,11 @@ class TelemetryController(BaseStartedModule):
         except (Exception, SystemExit):  # noqa: BLE001 - a fault costs one module's part only
             self.faults += 1
             if self._said.first(module.path):
-                self.log.failure("the telemetry of {name} failed", name=module.class_name)
+                self.log.failure(
+                    "the telemetry of {name} failed",
+                    name=module.class_name,
+                    code="telemetry_failed",
+                )
             return None
 
     def _on_conflict(self, key: str, first: str, later: str) -> None:
@@ -155,6 +161,7 @@ class TelemetryController(BaseStartedModule):
                 "{later} gives telemetry {key} a value that JSON does not have",
                 later=later,
                 key=key,
+                code="telemetry_not_json",
             )
         else:
             self.log.error(
@@ -163,4 +170,5 @@ class TelemetryController(BaseStartedModule):
                 key=key,
                 first=first,
                 later=later,
+                code="telemetry_conflict",
             )

@@ -62,7 +62,7 @@ class Up:
         self._handlers: Sequence[BaseCommandHandler] = plan.handlers
         self.started_at_s = context.reactor.seconds()
         for problem in plan.problems:
-            self.log.error("{problem}", problem=str(problem))
+            self.log.error("{problem}", problem=str(problem), code="load_problem")
             self.vetoes.set(problem.name, problem.what)
 
     @property
@@ -124,7 +124,7 @@ class Up:
     def advertise_port(self, name: str, port: int) -> None:
         """Set the port that a module bound; it is logged and reported to the supervisor."""
         self.ports[name] = port
-        add_cleanup(lambda: self._take_port_back(name, port))
+        add_cleanup(lambda: self._withdraw_port(name, port))
         self.log.info("{name} listens on port {port}", name=name, port=port, code="port_open")
         self.on_ports_changed()
 
@@ -150,7 +150,9 @@ class Up:
                 with self.cleanup_of(module).recording():
                     module.initialize(self)
             except (Exception, SystemExit) as error:  # noqa: BLE001 - a fault costs one module
-                self.log.failure("{name} failed to initialize", name=module.path)
+                self.log.failure(
+                    "{name} failed to initialize", name=module.path, code="initialize_failed"
+                )
                 self.exclude(module, f"failed to initialize: {type(error).__name__}: {error}")
         for handler in self._handlers:
             self._register(handler)
@@ -174,7 +176,9 @@ class Up:
         self._modules = [each for each in self._modules if each is not module]
         for each in self._modules:
             discard_wanted(each, self._excluded)
-        self.log.error("{name} is left out: {reason}", name=module.path, reason=reason)
+        self.log.error(
+            "{name} is left out: {reason}", name=module.path, reason=reason, code="module_excluded"
+        )
         self.vetoes.set(module.path, reason)
 
     def _register(self, handler: BaseCommandHandler) -> None:
@@ -182,10 +186,15 @@ class Up:
             self.command_executor.register_command(handler.COMMAND, handler)
         except (ValueError, TypeError, NameError) as error:
             name = type(handler).__name__
-            self.log.error("{name} cannot be registered: {error}", name=name, error=error)
+            self.log.error(
+                "{name} cannot be registered: {error}",
+                name=name,
+                error=error,
+                code="handler_invalid",
+            )
             self.vetoes.set(name, f"cannot be registered: {error}")
 
-    def _take_port_back(self, name: str, port: int) -> None:
+    def _withdraw_port(self, name: str, port: int) -> None:
         if self.ports.get(name) == port:
             del self.ports[name]
             self.on_ports_changed()

@@ -8,7 +8,7 @@ from up.builtin_modules import BUILTIN_MODULES
 from up.config.application import DISABLED_MODULES
 from up.context import Context
 from up.loading.application import Application
-from up.loading.commands import take_commands
+from up.loading.commands import add_commands
 from up.loading.discovery import discover
 from up.loading.order import order
 from up.loading.plan import Plan
@@ -33,7 +33,7 @@ class UpLoader:
         found = discover(self._application, disabled)
         plan = select(found, BUILTIN_MODULES, self._context, disabled)
         plan.modules = order(plan.modules, plan.left_out)
-        take_commands(plan, found, disabled)
+        add_commands(plan, found, disabled)
         return plan
 
     def create(self) -> Up:

@@ -28,11 +28,11 @@ class Vetoes:
         before = self._on_changed
         self._on_changed = call
 
-        def take_back() -> None:
+        def remove_callback() -> None:
             if self._on_changed == call:
                 self._on_changed = before
 
-        add_cleanup(take_back)
+        add_cleanup(remove_callback)
 
     def set(self, name: str, reason: str) -> None:
         """Forbid arming under a name until it is cleared."""

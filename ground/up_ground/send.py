@@ -6,7 +6,7 @@ import json
 import secrets
 from typing import Any
 
-from up.commands.telemetry_commands import SLOWEST_MS
+from up.commands.telemetry_commands import MAX_PERIOD_MS
 from up.protocols.general_message import GeneralMessage, encode
 from up_ground.catalogue import requested_content
 from up_ground.link_status import KEPT_S, ControlStatus, control_status
@@ -18,7 +18,7 @@ from up_ground.telemetry import Telemetry
 from up_ground.token_store import TokenStore
 
 CONNECT_LIMIT_S = 8.0
-TELEMETRY_LIMIT_S = SLOWEST_MS / 1000 + 1.0
+TELEMETRY_LIMIT_S = MAX_PERIOD_MS / 1000 + 1.0
 OFFLINE_LIMIT_S = 5.0
 ANSWER_LIMIT_S = 3.0
 CONTENT_LIMIT_S = 2.0

@@ -4,12 +4,12 @@ import errno
 import socket
 from collections import Counter
 from contextlib import suppress
-from dataclasses import dataclass
 
 from up.log import UpLogger
 from up.protocols.proxy_lines import ADDRESS, FULL, HelloError, Refused, Side
 from up.system.addresses import is_private, neighbourhood, plain
 from up.system.clock import Clock, Timer
+from up_proxy.config import ProxyConfig
 from up_proxy.connection import Connection
 from up_proxy.handshake import Handshake
 from up_proxy.poller import Poller
@@ -18,16 +18,6 @@ _ACCEPT_BATCH = 64
 _OUT_OF_DESCRIPTORS = (errno.EMFILE, errno.ENFILE, errno.ENOBUFS, errno.ENOMEM)
 _RETRY_S = 1.0
 _log = UpLogger.get_logger("proxy")
-
-
-@dataclass(frozen=True, slots=True)
-class AcceptorLimits:
-    """The limits of one side: number of connections and permitted addresses."""
-
-    connections: int
-    per_address: int
-    queue_bytes: int
-    accepts_public: bool
 
 
 class Acceptor:
@@ -40,14 +30,17 @@ class Acceptor:
         poller: Poller,
         clock: Clock,
         side: Side,
-        limits: AcceptorLimits,
+        config: ProxyConfig,
     ) -> None:
         self._listener = listener
         self._handshake = handshake
         self._poller = poller
         self._clock = clock
         self._side = side
-        self._limits = limits
+        self._limits = config.limits
+        self._accepts_public = config.i_accept_plain
+        # The queue of an aircraft is bounded by pausing the ground, never by dropping lines.
+        self._queue_bytes = config.limits.queue_bytes if side is Side.GROUND else 0
         self._sources: Counter[str] = Counter()
         self._retry: Timer | None = None
         self._on_closed = self._discard
@@ -128,13 +121,13 @@ class Acceptor:
         self.accepted += 1
         self._sources[neighbourhood(host)] += 1
         connection = Connection(
-            peer, self._poller, host, self._handshake, self._on_closed, self._limits.queue_bytes
+            peer, self._poller, host, self._handshake, self._on_closed, self._queue_bytes
         )
         self.connections.add(connection)
         self._handshake.begin(connection)
 
     def _check(self, host: str) -> HelloError | None:
-        if not self._limits.accepts_public and not is_private(host):
+        if not self._accepts_public and not is_private(host):
             self.refused[ADDRESS] += 1
             if not self._public_logged:
                 self._public_logged = True

@@ -1,62 +1,23 @@
 """The program `up-proxy`."""
 
-import argparse
 import gc
 import resource
 import signal
 import sys
 from collections.abc import Sequence
-from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from up.config import ConfigErrors
+from up.cli.server_parser import ServerParser
 from up.log import UpLogger, start_logging
 from up.system.clock import use_monotonic_time
 from up.system.notify import Notifier, WatchdogPinger
 from up.system.pid_file import service
-from up.version import VERSION
 from up_proxy.config import PROXY, ProxyConfig
 from up_proxy.listener import StartError
 
-EXIT_CONFIGURATION = 2
 _SPARE_DESCRIPTORS = 64
 _log = UpLogger.get_logger("proxy")
-
-
-def _port(text: str) -> int:
-    port = int(text) if text.isascii() and text.isdigit() else -1
-    if not 0 <= port <= 65535:
-        raise argparse.ArgumentTypeError(f"a port is a number from 0 to 65535, not {text!r}")
-    return port
-
-
-def parse_arguments(arguments: Sequence[str] | None = None) -> argparse.Namespace:
-    """Return the command line's options; ports are None if not given."""
-    parser = argparse.ArgumentParser(
-        prog="up-proxy",
-        description="Relay between aircraft and ground stations: the Ground Station Proxy.",
-    )
-    parser.add_argument(
-        "--config", type=Path, metavar="DIR", help="folder of proxy.yml (default: config)"
-    )
-    parser.add_argument("--airborne-port", type=_port, metavar="N", help="0: any free port")
-    parser.add_argument("--ground-port", type=_port, metavar="N", help="0: any free port")
-    parser.add_argument("--metrics-port", type=_port, metavar="N", help="0: any free port")
-    parser.add_argument("--log-level", choices=("debug", "info", "warning", "error"))
-    parser.add_argument("--version", action="version", version=f"up-proxy {VERSION}")
-    return parser.parse_args(arguments)
-
-
-def configured(options: argparse.Namespace) -> ProxyConfig:
-    """Return proxy.yml with the overrides of the command line; raises ConfigErrors."""
-    config = PROXY.load(options.config or Path("config"))
-    overrides = {
-        name: value
-        for name in ("airborne_port", "ground_port", "metrics_port", "log_level")
-        if (value := getattr(options, name)) is not None
-    }
-    return replace(config, **overrides)
 
 
 def raise_descriptor_limit(config: ProxyConfig) -> None:
@@ -116,15 +77,13 @@ def run(reactor: Any, config: ProxyConfig) -> int:
 @service()
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the program and return its exit status."""
-    options = parse_arguments(arguments)
-    if options.config is not None and not options.config.is_dir():
-        sys.stderr.write(f"--config {options.config}: no such folder\n")
-        return EXIT_CONFIGURATION
-    try:
-        config = configured(options)
-    except ConfigErrors as errors:
-        sys.stderr.write(f"{errors}\n")
-        return EXIT_CONFIGURATION
+    parser = ServerParser(
+        PROXY,
+        ("--airborne-port", "--ground-port", "--metrics-port"),
+        prog="up-proxy",
+        description="Relay between aircraft and ground stations: the Ground Station Proxy.",
+    )
+    _, _, config = parser.load(arguments, Path("config"))
     start_logging(config.log_level, json_path=Path(config.log_file) if config.log_file else None)
     raise_descriptor_limit(config)
     from twisted.internet import reactor

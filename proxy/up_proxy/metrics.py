@@ -27,104 +27,63 @@ def render(
     def by_side(airborne: float, on_ground: float) -> Samples:
         return [({"side": "airborne"}, airborne), ({"side": "ground"}, on_ground)]
 
-    def ports(of: Callable[[Acceptor], float]) -> Samples:
-        return by_side(of(air), of(ground))
+    def ports(counter: str) -> Samples:
+        return by_side(getattr(air, counter), getattr(ground, counter))
 
     def each(of: Callable[[AircraftSession], float]) -> Samples:
         return [({"aircraft": craft.name}, of(craft)) for craft in present]
 
+    def one(value: float) -> Samples:
+        return [({}, value)]
+
+    connections = by_side(len(air.connections), len(ground.connections))
     refused: Samples = [
         ({"side": side, "code": code}, count)
         for side, acceptor in (("airborne", air), ("ground", ground))
         for code, count in acceptor.refused.items()
     ]
-    aircraft_bytes: Samples = [
+    received = by_side(totals.air_bytes, totals.ground_bytes)
+    aircraft_received: Samples = [
         ({"aircraft": craft.name, "side": side}, count)
         for craft in present
         for side, count in (("airborne", craft.air_bytes), ("ground", craft.ground_bytes))
     ]
-    metrics: list[Metric] = [
-        ("connections", "gauge", "Open connections.", ports(lambda port: len(port.connections))),
-        ("accepted_total", "counter", "Accepted connections.", ports(lambda port: port.accepted)),
-        (
-            "over_limit_total",
-            "counter",
-            "Connections closed because of a limit.",
-            ports(lambda port: port.over_limit),
-        ),
-        (
-            "idle_closed_total",
-            "counter",
-            "Closed idle connections.",
-            ports(lambda port: port.idle_closed),
-        ),
-        ("refused_total", "counter", "Refused connections, by code.", refused),
-        ("aircraft", "gauge", "Aircraft with at least one connection.", [({}, len(registry))]),
-        (
-            "bytes_total",
-            "counter",
-            "Bytes received from a side.",
-            by_side(totals.air_bytes, totals.ground_bytes),
-        ),
-        (
-            "dropped_lines_total",
-            "counter",
-            "Old lines to slow grounds that newer ones replaced.",
-            [({}, totals.dropped_lines)],
-        ),
-        (
-            "rejected_lines_total",
-            "counter",
-            "Lines from grounds without control or for an absent aircraft.",
-            [({}, totals.rejected_lines)],
-        ),
-        (
-            "aircraft_online",
-            "gauge",
-            "1 while the airborne side is alive.",
-            each(lambda craft: int(craft.is_online(now_s))),
-        ),
-        (
-            "aircraft_commanded",
-            "gauge",
-            "1 while a ground has control.",
-            each(lambda craft: int(craft.grounds.lease.live_owner(now_s) is not None)),
-        ),
-        (
-            "aircraft_grounds",
-            "gauge",
-            "Connected grounds.",
-            each(lambda craft: len(craft.grounds.connections)),
-        ),
-        ("aircraft_queue_bytes", "gauge", "Bytes waiting for slow peers.", each(_waiting_bytes)),
-        (
-            "aircraft_bytes_total",
-            "counter",
-            "Bytes received, by aircraft and side.",
-            aircraft_bytes,
-        ),
-        ("uptime_seconds", "gauge", "Time since the start.", [({}, tick.uptime_s)]),
-        (
-            "loop_lag_seconds",
-            "gauge",
-            "Lateness of the event loop's last tick.",
-            [({}, tick.lag_s)],
-        ),
-        (
-            "loop_lag_max_seconds",
-            "gauge",
-            "Maximum lateness of the event loop in the last minute.",
-            [({}, tick.lag_max_s)],
-        ),
+    online = each(lambda craft: int(craft.is_online(now_s)))
+    commanded = each(lambda craft: int(craft.grounds.lease.live_owner(now_s) is not None))
+    grounds = each(lambda craft: len(craft.grounds.connections))
+    dropped, rejected = one(totals.dropped_lines), one(totals.rejected_lines)
+    counters: list[tuple[str, str, Samples]] = [
+        ("accepted", "Accepted connections.", ports("accepted")),
+        ("over_limit", "Connections closed because of a limit.", ports("over_limit")),
+        ("idle_closed", "Closed idle connections.", ports("idle_closed")),
+        ("refused", "Refused connections, by code.", refused),
+        ("bytes", "Bytes received from a side.", received),
+        ("dropped_lines", "Old lines to slow grounds that newer ones replaced.", dropped),
+        ("rejected_lines", "Lines from grounds without control or to no aircraft.", rejected),
+        ("aircraft_bytes", "Bytes received, by aircraft and side.", aircraft_received),
     ]
-    resident: Metric = (
-        "process_resident_memory_bytes",
-        "gauge",
-        "Resident memory.",
-        [({}, resident_bytes())],
+    gauges: list[tuple[str, str, Samples]] = [
+        ("connections", "Open connections.", connections),
+        ("aircraft", "Aircraft with at least one connection.", one(len(registry))),
+        ("aircraft_online", "1 while the airborne side is alive.", online),
+        ("aircraft_commanded", "1 while a ground has control.", commanded),
+        ("aircraft_grounds", "Connected grounds.", grounds),
+        ("aircraft_queue_bytes", "Bytes waiting for slow peers.", each(_waiting_bytes)),
+        ("uptime_seconds", "Time since the start.", one(tick.uptime_s)),
+        ("loop_lag_seconds", "Lateness of the last tick.", one(tick.lag_s)),
+        ("loop_lag_max_seconds", "Maximum lateness in a minute.", one(tick.lag_max_s)),
+    ]
+    resident = ("process_resident_memory_bytes", "gauge", "Resident memory.", one(resident_bytes()))
+    return page(
+        [
+            *(
+                (f"up_proxy_{name}_total", "counter", text, values)
+                for name, text, values in counters
+            ),
+            *((f"up_proxy_{name}", "gauge", text, values) for name, text, values in gauges),
+            resident,
+        ]
     )
-    named = [("up_proxy_" + name, kind, text, samples) for name, kind, text, samples in metrics]
-    return page([*named, resident])
 
 
 def page(metrics: Iterable[Metric]) -> str:

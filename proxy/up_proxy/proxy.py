@@ -4,8 +4,8 @@ from typing import Any
 
 from up.log import UpLogger
 from up.protocols.proxy_lines import Side
-from up.system.addresses import is_private, is_wildcard
-from up_proxy.acceptor import Acceptor, AcceptorLimits
+from up.system.peer_filter import PeerFilter
+from up_proxy.acceptor import Acceptor
 from up_proxy.config import ProxyConfig
 from up_proxy.handshake import Handshake
 from up_proxy.listener import StartError, listen
@@ -44,11 +44,13 @@ class Proxy:
     def start(self) -> None:
         """Open the ports.
 
-        Raises StartError with code `cannot_listen`, `bad_address` or, if the address is public and
-        `i_accept_plain` is false, `public_address`; no port stays open then.
+        Raises StartError: code `cannot_listen`, or `bad_address` for an address that is invalid
+        or, without `i_accept_plain`, public; no port stays open then.
         """
         config = self._config
-        self._check_address()
+        peers = PeerFilter(config.i_accept_plain, "proxy.yml: i_accept_plain")
+        if refusal := peers.refusal_of(config.address):
+            raise StartError("bad_address", f"{refusal} (proxy.yml: address)", status=2)
         try:
             for side, port in (
                 (Side.AIRBORNE, config.airborne_port),
@@ -96,30 +98,10 @@ class Proxy:
 
     def _acceptor(self, side: Side, port: int) -> Acceptor:
         config = self._config
-        limits = config.limits
         label = f"{side.value} port"
-        listener = listen(label, config.address, port, limits.user_timeout_ms)
-        # The queue of an aircraft is bounded by pausing the ground, never by dropping lines.
-        queue_bytes = limits.queue_bytes if side is Side.GROUND else 0
-        acceptor_limits = AcceptorLimits(
-            limits.connections, limits.per_address, queue_bytes, config.i_accept_plain
-        )
+        listener = listen(label, config.address, port, config.limits.user_timeout_ms)
         handshake = Handshake(side, self.registry, self._poller)
-        return Acceptor(listener, handshake, self._poller, self._reactor, side, acceptor_limits)
-
-    def _check_address(self) -> None:
-        address = self._config.address
-        try:
-            public = not is_wildcard(address) and not is_private(address)
-        except ValueError:
-            reason = f"cannot listen on address {address!r} (proxy.yml: address): not an address"
-            raise StartError("bad_address", reason) from None
-        if public and not self._config.i_accept_plain:
-            reason = (
-                f"address {address} is public and the proxy uses the plain protocol: set "
-                "'i_accept_plain: true' in proxy.yml to accept that"
-            )
-            raise StartError("public_address", reason, status=2)
+        return Acceptor(listener, handshake, self._poller, self._reactor, side, config)
 
     def _tick(self) -> None:
         now_s = self._poller.tick()

@@ -30,9 +30,9 @@ from up.providers.base_mission_control_provider import BaseMissionControlProvide
 
 ROLL_RATE_LIMIT_DEG_S = 120.0
 PITCH_RATE_LIMIT_DEG_S = 80.0
-SHORTEST_STEP_S, LONGEST_STEP_S = 1e-3, 0.1
-ASK_AGAIN_S = 5.0
-LOWEST_US, HIGHEST_US = 1000, 2000
+MIN_STEP_S, MAX_STEP_S = 1e-3, 0.1
+REQUEST_PERIOD_S = 5.0
+MIN_US, MAX_US = 1000, 2000
 STICK_THROTTLE = 0
 _NO_GAINS = Gains(0.0)
 _NOT_PERMITTED = "does not fly: the board does not let it"
@@ -93,10 +93,10 @@ class RaspilotFlightController(BaseFlightController):
     def on_init(self) -> None:
         super().on_init()
         pids = PidsFile(self.context.config_folder)
-        self._keeper = GainsStore(pids, self.context.reactor)
+        self._gains_store = GainsStore(pids, self.context.reactor)
         self.gains, problem = pids.load()
         if problem:
-            self.log.error("{reason}", reason=problem)
+            self.log.error("{reason}", reason=problem, code="gains_invalid")
             self.up.vetoes.set("pids.yml", problem)
         self._build(self.gains)
         executor = self.up.command_executor
@@ -127,16 +127,16 @@ class RaspilotFlightController(BaseFlightController):
         now_s = reading.time_s
         dt_s = now_s - self._computed_at_s
         self._computed_at_s = now_s
-        if dt_s > LONGEST_STEP_S or self.flight_mode in (None, "ACRO"):
+        if dt_s > MAX_STEP_S or self.flight_mode in (None, "ACRO"):
             # The controllers paused: their state belongs to an earlier part of the flight.
             self._reset()
-            dt_s = min(dt_s, LONGEST_STEP_S)
+            dt_s = min(dt_s, MAX_STEP_S)
         if command.roll_rate_deg_s is None:
             self.flight_mode = "ACRO"
             output = _pass_through(command.sequence, rx.value)
         else:
             self.flight_mode = "FBW"
-            output = self._fly_by_wire(command, rx.value, max(dt_s, SHORTEST_STEP_S))
+            output = self._fly_by_wire(command, rx.value, max(dt_s, MIN_STEP_S))
         self.outputs += 1
         self.up.command_executor.execute_command(output)
 
@@ -179,7 +179,7 @@ class RaspilotFlightController(BaseFlightController):
         if not command.is_auto:
             self._is_asked = True
         if command.is_auto and not ready and self._is_asked:
-            self._ask_for_control(is_news)
+            self._request_control(is_news)
 
     def _log_change_of_control(self) -> None:
         owner = self.up.command_executor.control.owner
@@ -188,7 +188,7 @@ class RaspilotFlightController(BaseFlightController):
         elif self.is_flying:
             text = "flies"
         else:
-            text = f"does not fly: {owner or 'nobody'} has control"
+            text = f"does not fly: {owner or 'no module'} has control"
         if text != self._logged:
             self._logged = text
             self.log.info(
@@ -200,10 +200,10 @@ class RaspilotFlightController(BaseFlightController):
                 owner=owner,
             )
 
-    def _ask_for_control(self, at_once: bool) -> None:
+    def _request_control(self, at_once: bool) -> None:
         """Request AUTO from the board: after a state change, and periodically in case of loss."""
         now_s = self.context.reactor.seconds()
-        if at_once or now_s - self._asked_at_s >= ASK_AGAIN_S:
+        if at_once or now_s - self._asked_at_s >= REQUEST_PERIOD_S:
             self._asked_at_s = now_s
             self.up.command_executor.execute_command(FlightModeCommand("AUTO"))
 
@@ -223,8 +223,8 @@ class RaspilotFlightController(BaseFlightController):
             self._roll.tune(self.gains.rate.ailerons, self.gains.stabilize.ailerons)
             self._pitch.tune(self.gains.rate.elevator, self.gains.stabilize.elevator)
             self._yaw.tune(self.gains.rate.rudder or _NO_GAINS)
-            self.log.info("flies with other gains")
-            return self._keeper.save(self.gains).addCallbacks(self._on_saved, self._on_unsaved)
+            self.log.info("flies with other gains", code="gains_changed")
+            return self._gains_store.save(self.gains).addCallbacks(self._on_saved, self._on_unsaved)
         if self.mission_control is None:
             raise CommandRefusedError("no ground station is configured", Code.UNAVAILABLE)
         if not self.mission_control.send_command(PIDTuningsValuesCommand.of(self.gains)):
@@ -235,7 +235,7 @@ class RaspilotFlightController(BaseFlightController):
         self.up.vetoes.clear("pids.yml")
 
     def _on_unsaved(self, failure: Failure) -> Failure:
-        self.log.error("{reason}", reason=failure.getErrorMessage())
+        self.log.error("{reason}", reason=failure.getErrorMessage(), code="gains_not_saved")
         return failure
 
 
@@ -250,4 +250,4 @@ def _pass_through(sequence: int, rx: Any) -> OutputCommand:
 
 
 def _pulse(us: float) -> int:
-    return round(min(HIGHEST_US, max(LOWEST_US, us)))
+    return round(min(MAX_US, max(MIN_US, us)))

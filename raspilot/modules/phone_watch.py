@@ -40,11 +40,11 @@ class PhoneWatch(BaseStartedModule):
     def _on_link(self, command: LinkStateCommand) -> None:
         if command.link == PHONE_LINK:
             self._is_connected = command.connected
-            self._tell()
+            self._report()
 
     def _repeat(self) -> None:
         self._timer = self.context.reactor.callLater(REPEAT_S, self._repeat)
-        self._tell()
+        self._report()
 
-    def _tell(self) -> None:
+    def _report(self) -> None:
         self.notifier.variable("X_UP_PHONE", "1" if self._is_connected else "0")

@@ -353,7 +353,7 @@ class Instance:
         listener, self._listener = self._listener, None
         if listener is not None:
             listener.close(remove=True)
-        self._host.forget(self.name)
+        self._host.discard(self.name)
 
     def _resolve_waiters(self) -> None:
         problem = self.waiting_problem() if self.state is State.WAITING else self.last_end

@@ -123,7 +123,7 @@ class InstanceHost:
             text = "cannot save the state of an instance: {error}"
             self._log.error(text, code="state_not_saved", error=str(error))
 
-    def forget(self, name: str) -> None:
+    def discard(self, name: str) -> None:
         """Remove the saved state: the next runner does not restart the instance."""
         instance_state.discard(self.run_folder.instance(name))
         with suppress(OSError):

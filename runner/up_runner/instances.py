@@ -164,7 +164,7 @@ class Instances:
             request = saved.request if saved else Request(name)
             saved = InstanceState(request, keep=bool(saved and saved.keep))
         if saved is None or (child is None and not saved.keep):
-            self._host.forget(name)
+            self._host.discard(name)
             return
         instance = Instance(saved.request, self._host.reactor, self._policy, self._host)
         self._instances[name] = instance

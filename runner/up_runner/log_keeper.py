@@ -126,9 +126,9 @@ def last_log_line(text: str) -> str | None:
     for line in text.splitlines():
         logged = _LOGGED.match(line)
         if logged is not None:
-            level, said = logged[1] or logged[2], logged[3]
+            level, message = logged[1] or logged[2], logged[3]
             kind = "quiet" if level in _QUIET else "warning" if level in _WARNING else "error"
-            found[kind] = said
+            found[kind] = message
             is_block_open = False
         # An indented line belongs to the line above, usually to a traceback.
         elif line.strip() and not (line[0].isspace() or line.startswith("Traceback (")):
@@ -136,8 +136,8 @@ def last_log_line(text: str) -> str | None:
             is_block_open = True
     if plain:
         return "; ".join(_shown(each) for each in plain)
-    said = found.get("error") or found.get("warning") or found.get("quiet") or ""
-    return _shown(said) if said else None
+    message = found.get("error") or found.get("warning") or found.get("quiet") or ""
+    return _shown(message) if message else None
 
 
 def _shown(line: str) -> str:

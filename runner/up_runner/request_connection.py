@@ -3,43 +3,24 @@
 from __future__ import annotations
 
 import enum
-import typing
-from collections import Counter
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from twisted.internet.defer import Deferred
 from twisted.internet.interfaces import IHalfCloseableProtocol
 from twisted.internet.protocol import Protocol, connectionDone
-from twisted.logger import Logger
 from twisted.python.failure import Failure
 from zope.interface import implementer
 
-from up.system.clock import Clock, Timer
+from up.system.clock import Timer
 from up_runner.request import MAX_LINE, MalformedRequest, Request, parse
 from up_runner.response import BUG, Problem, Response
 from up_runner.watchdog import Watchdog
 
+if TYPE_CHECKING:
+    from up_runner.request_server import RequestServer
+
 SILENCE_S = 1.0
 UNFINISHED_S = 10.0
 CLOSE_S = 1.0
-
-
-class Port(typing.Protocol):
-    """The services of the port for a connection."""
-
-    clock: Clock
-    idle_s: float
-    counts: Counter[str]
-    log: Logger
-
-    def ask(self, connection: RequestConnection, request: Request) -> Deferred[Response]:
-        """Start answering a request."""
-
-    def encode(self, response: Response, host: str) -> bytes:
-        """Return the line for the client."""
-
-    def on_gone(self, connection: RequestConnection) -> None:
-        """Remove a connection."""
 
 
 class Dialect(enum.Enum):
@@ -56,19 +37,19 @@ class RequestConnection(Protocol):
 
     transport: Any
 
-    def __init__(self, port: Port, host: str) -> None:
+    def __init__(self, server: RequestServer, host: str) -> None:
         self.host = host
         self.last_rx_s = 0.0
         self.busy = False
-        self._port = port
+        self._server = server
         self._dialect = Dialect.UNKNOWN
         self._buffer = bytearray()
         self._searched = 0
         """Bytes of the buffer known to hold no line feed."""
         self._closing = False
         self._answered = False
-        self._idle = Watchdog(port.clock, port.idle_s, self._on_idle)
-        self._unfinished = Watchdog(port.clock, UNFINISHED_S, self._on_unfinished)
+        self._idle = Watchdog(server.clock, server.idle_s, self._on_idle)
+        self._unfinished = Watchdog(server.clock, UNFINISHED_S, self._on_unfinished)
         self._silence: Timer | None = None
         self._output_full = False
         self._parsing = False
@@ -86,7 +67,7 @@ class RequestConnection(Protocol):
         self._idle.stop()
         self._unfinished.stop()
         self._cancel_silence()
-        self._port.on_gone(self)
+        self._server.on_gone(self)
 
     def dataReceived(self, data: bytes) -> None:  # noqa: N802 - Twisted's name
         """Handle received data."""
@@ -104,7 +85,7 @@ class RequestConnection(Protocol):
         self._handle_lines()
 
     def readConnectionLost(self) -> None:  # noqa: N802 - Twisted's name
-        """Response a client that sends no more but still reads, as `nc -N` does."""
+        """Handle a client that sends no more but still reads, as `nc -N` does."""
         self._input_ended = True
         self._set_reading()
         if self.busy or self._closing:
@@ -175,7 +156,7 @@ class RequestConnection(Protocol):
             # Counted from its first byte: sending byte by byte gains no time.
             self._unfinished.reset()
         if not self._answered:
-            self._silence = self._port.clock.callLater(SILENCE_S, self._on_silence)
+            self._silence = self._server.clock.callLater(SILENCE_S, self._on_silence)
 
     def _on_silence(self) -> None:
         self._silence = None
@@ -197,12 +178,12 @@ class RequestConnection(Protocol):
         self._idle.stop()
         self._unfinished.stop()
         self._set_reading()
-        self._port.ask(self, request).addBoth(self._on_response, request)
+        self._server.handle(self, request).addBoth(self._on_response, request)
 
     def _on_response(self, response: Response | Failure, request: Request) -> None:
         self.busy = False
         if isinstance(response, Failure):
-            self._port.log.failure("a bug in the runner", response, code="runner_bug")
+            self._server.log.failure("a bug in the runner", response, code="runner_bug")
             response = Response(request.aircraft, error=BUG)
         if self._closing:
             return
@@ -215,12 +196,12 @@ class RequestConnection(Protocol):
             self.transport.loseConnection()
 
     def _reject(self, code: str, text: str) -> None:
-        self._port.counts["malformed"] += 1
+        self._server.counts["malformed"] += 1
         self._write(Response(None, error=Problem(code, text)))
 
     def _write(self, response: Response) -> None:
         self._answered = True
-        self.transport.write(self._port.encode(response, self.host))
+        self.transport.write(self._server.encode(response, self.host))
 
     def _close(self) -> None:
         """Send the answer, read nothing more, and close soon."""
@@ -233,7 +214,7 @@ class RequestConnection(Protocol):
         self._set_reading()
         self.transport.unregisterProducer()
         self.transport.loseWriteConnection()
-        self._silence = self._port.clock.callLater(CLOSE_S, self.drop)
+        self._silence = self._server.clock.callLater(CLOSE_S, self.drop)
 
     def _set_reading(self) -> None:
         if self.busy or self._output_full or self._closing or self._input_ended:
@@ -242,11 +223,11 @@ class RequestConnection(Protocol):
             self.transport.resumeProducing()
 
     def _on_activity(self) -> None:
-        self.last_rx_s = self._port.clock.seconds()
+        self.last_rx_s = self._server.clock.seconds()
         self._idle.reset()
 
     def _on_idle(self) -> None:
-        self._port.counts["idle"] += 1
+        self._server.counts["idle"] += 1
         self.drop()
 
     def _cancel_silence(self) -> None:

@@ -18,11 +18,11 @@ from up_runner.request_connection import RequestConnection
 from up_runner.response import Response
 
 LOG_INTERVAL_S = 10.0
-Ask = Callable[[Request], Deferred[Response]]
+Handle = Callable[[Request], Deferred[Response]]
 
 
 class RequestServer(Factory):
-    """Accepts clients within limits and passes their requests to `ask`.
+    """Accepts clients within limits and passes their requests to `handle`.
 
     Rejects a public peer unless `accept_public`. `counts` has the rejections by reason.
     """
@@ -32,7 +32,7 @@ class RequestServer(Factory):
     def __init__(
         self,
         clock: Clock,
-        ask: Ask,
+        handle: Handle,
         encode: Callable[[Response, str], bytes],
         *,
         limit: int,
@@ -45,7 +45,7 @@ class RequestServer(Factory):
         self._encode = encode
         self.counts: Counter[str] = Counter()
         self.log = Logger(namespace="runner.requests")
-        self._ask = ask
+        self._handle = handle
         self._limit = limit
         self._address_limit = address_limit
         self._accept_public = accept_public
@@ -76,17 +76,18 @@ class RequestServer(Factory):
         self._by_source[source] += 1
         return connection
 
-    def ask(self, connection: RequestConnection, request: Request) -> Deferred[Response]:
-        """Start answering a request."""
+    def handle(self, connection: RequestConnection, request: Request) -> Deferred[Response]:
+        """Start handling a request."""
         self._limited.log(
             self.log.info,
-            "{host} asks: {action} {aircraft}",
+            "{host} requests {action} of {aircraft}",
+            code="request",
             key=(connection.host, request.action, request.aircraft),
             host=connection.host,
             action=request.action,
             aircraft=request.aircraft,
         )
-        return self._ask(request)
+        return self._handle(request)
 
     def encode(self, answer: Response, host: str) -> bytes:
         """Return the line for the client at `host`."""

@@ -13,8 +13,8 @@ from twisted.internet.error import CannotListenError
 from twisted.logger import Logger
 from twisted.python.failure import Failure
 
-from up.system.addresses import is_private, is_wildcard
 from up.system.notify import Notifier, WatchdogPinger
+from up.system.peer_filter import PeerFilter
 from up_runner.config import RunnerConfig
 from up_runner.instance_config import InstanceConfig
 from up_runner.instance_host import Application, InstanceHost
@@ -28,6 +28,8 @@ from up_runner.response import Response
 from up_runner.run_folder import RunFolder, RunFolderError
 
 KILL_DELAY_S = 5.0
+LISTEN_BACKLOG = 1024
+"""With a short one a burst of connections delays a phone's by the kernel's repetition of 1 s."""
 _SUPERVISED = ("NOTIFY_SOCKET", "INVOCATION_ID", "UPSTART_JOB")
 
 
@@ -68,7 +70,7 @@ class Runner:
         )
         self.server = RequestServer(
             reactor,
-            self._ask,
+            self._handle,
             self._encode,
             limit=config.connections.limit,
             address_limit=config.connections.address_limit,
@@ -91,7 +93,10 @@ class Runner:
             raise CannotStart(error.code, str(error)) from None
         try:
             self._port = self._reactor.listenTCP(
-                self._config.port, self.server, interface=self._config.address
+                self._config.port,
+                self.server,
+                backlog=LISTEN_BACKLOG,
+                interface=self._config.address,
             )
         except CannotListenError as error:
             self._run_folder.release()
@@ -160,19 +165,9 @@ class Runner:
         return {"mission_control.yml": {"remote_server": server}} if proxy.host else {}
 
     def _check(self) -> None:
-        address = self._config.address
-        try:
-            public = not is_wildcard(address) and not is_private(address)
-        except ValueError:
-            raise CannotStart(
-                "bad_address", f"address in runner.yml is not an IP address: {address!r}"
-            ) from None
-        if public and not self._config.i_accept_plain:
-            raise CannotStart(
-                "public_address",
-                f"{address} is a public address and requests are not authenticated; "
-                "i_accept_plain: true in runner.yml accepts that",
-            )
+        peers = PeerFilter(self._config.i_accept_plain, "runner.yml: i_accept_plain")
+        if refusal := peers.refusal_of(self._config.address):
+            raise CannotStart("bad_address", f"{refusal} (runner.yml: address)")
         if os.geteuid() == 0 and not self._config.i_accept_root:
             raise CannotStart(
                 "root",
@@ -210,7 +205,7 @@ class Runner:
     def _on_bug(self, failure: Failure) -> None:
         self._log.failure("a bug in the runner", failure, code="runner_bug")
 
-    def _ask(self, request: Request) -> Deferred[Response]:
+    def _handle(self, request: Request) -> Deferred[Response]:
         if request.action == "status":
             response: Deferred[Response] = Deferred()
             response.callback(self.instances.status(request.aircraft))

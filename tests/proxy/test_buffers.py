@@ -84,7 +84,7 @@ ACTION = st.one_of(
 
 @settings(max_examples=300)
 @given(st.integers(1, 60), st.lists(ACTION, max_size=40))
-def test_whatever_happens_whole_lines_leave_in_order(limit, actions):
+def test_any_sequence_sends_whole_lines_in_order(limit, actions):
     """Lines are numbered, so that any glued, torn, doubled or reordered one shows."""
     queue = SendBuffer(limit)
     out, put, control = b"", [], 0

@@ -29,7 +29,7 @@ def test_the_first_ground_commands_and_a_newcomer_listens(bench):
     assert bench.aircraft().rejected_lines == 1
 
 
-def test_everybody_hears_the_aircraft(bench):
+def test_all_grounds_receive_the_aircraft(bench):
     air, _ = bench.hello_air()
     grounds = [bench.hello_ground()[0]] + [bench.hello_ground(asks="listen")[0] for _ in range(3)]
     air.say('{"name": "telemetry"}\n')
@@ -56,13 +56,13 @@ def test_aircraft_are_apart(bench):
 
 def test_handing_over(bench):
     air, _ = bench.hello_air()
-    holder, old_token = bench.hello_ground()
+    owner, old_token = bench.hello_ground()
     asker, _ = bench.hello_ground(gets="listen")
     asker.say("UP1 seat request\n")
-    assert holder.line() == "UP1 seat asked by=2\n"
-    holder.say("before\nUP1 seat give to=2\nafter\n")
-    assert holder.line() == "UP1 seat listen\n"
-    assert holder.line() == "UP1 seat holder=2\n"
+    assert owner.line() == "UP1 seat asked by=2\n"
+    owner.say("before\nUP1 seat give to=2\nafter\n")
+    assert owner.line() == "UP1 seat listen\n"
+    assert owner.line() == "UP1 seat holder=2\n"
     token = command_token(asker)
     assert token != old_token
     assert asker.line() == "UP1 seat holder=2\n"
@@ -73,100 +73,100 @@ def test_handing_over(bench):
     assert air.heard == b""
 
 
-def test_releasing_leaves_the_seat_free_to_who_asks(bench):
+def test_released_control_goes_to_the_next_request(bench):
     bench.hello_air()
-    holder, old_token = bench.hello_ground()
+    owner, old_token = bench.hello_ground()
     other, _ = bench.hello_ground(gets="listen")
-    holder.say("UP1 seat release\n")
-    assert holder.line() == "UP1 seat listen\n"
-    assert holder.line() == other.line() == "UP1 seat holder=none\n"
+    owner.say("UP1 seat release\n")
+    assert owner.line() == "UP1 seat listen\n"
+    assert owner.line() == other.line() == "UP1 seat holder=none\n"
     other.say("UP1 seat request\n")
     command_token(other)
-    assert other.line() == holder.line() == "UP1 seat holder=2\n"
-    thief = bench.ground(f"UP1 aircraft=a seat=command token={old_token}\n")
-    assert "seat=listen" in thief.line()
+    assert other.line() == owner.line() == "UP1 seat holder=2\n"
+    other = bench.ground(f"UP1 aircraft=a seat=command token={old_token}\n")
+    assert "seat=listen" in other.line()
 
 
-def test_only_the_holder_gives_and_releases(bench):
+def test_only_the_owner_gives_and_releases(bench):
     air, _ = bench.hello_air()
-    holder, _ = bench.hello_ground()
-    thief, _ = bench.hello_ground(gets="listen")
-    thief.say("UP1 seat give to=2\nUP1 seat release\nUP1 seat command token=0\nUP1 nonsense\n")
-    holder.say("still here\n")
+    owner, _ = bench.hello_ground()
+    other, _ = bench.hello_ground(gets="listen")
+    other.say("UP1 seat give to=2\nUP1 seat release\nUP1 seat command token=0\nUP1 nonsense\n")
+    owner.say("still here\n")
     assert air.line() == "still here\n"
     assert bench.aircraft().rejected_lines == 4
-    holder.say("UP1 seat give to=77\nstill\n")
+    owner.say("UP1 seat give to=77\nstill\n")
     assert air.line() == "still\n"
 
 
-def test_requests_reach_the_holder_once_a_second(bench):
-    holder, _ = bench.hello_ground()
+def test_requests_reach_the_owner_once_a_second(bench):
+    owner, _ = bench.hello_ground()
     asker, _ = bench.hello_ground(gets="listen")
     asker.say("UP1 seat request\n" * 1000)
-    assert holder.line() == "UP1 seat asked by=2\n"
+    assert owner.line() == "UP1 seat asked by=2\n"
     bench.settle()
-    assert holder.heard == b""
-    bench.pass_time(1, heartbeats=(holder, asker))
+    assert owner.heard == b""
+    bench.pass_time(1, heartbeats=(owner, asker))
     asker.say("UP1 seat request\n")
-    assert holder.line() == "UP1 seat asked by=2\n"
+    assert owner.line() == "UP1 seat asked by=2\n"
 
 
-def test_a_silent_holder_keeps_its_seat_for_three_seconds(bench):
+def test_a_silent_owner_keeps_control_for_three_seconds(bench):
     air, _ = bench.hello_air()
-    holder, _ = bench.hello_ground()
+    owner, _ = bench.hello_ground()
     bench.pass_time(2.75, heartbeats=(air,))
     bench.hello_ground(gets="listen")[0].close()
     bench.pass_time(0.5, heartbeats=(air,))
-    holder.expect("UP1 seat holder=none\n")
+    owner.expect("UP1 seat holder=none\n")
     taker, _ = bench.hello_ground(gets="command")
-    holder.expect("UP1 seat listen\n")
-    holder.say("too late\n")
+    owner.expect("UP1 seat listen\n")
+    owner.say("too late\n")
     taker.say("new\n")
     air.expect("new\n")
     assert b"too late" not in air.heard
 
 
-def test_a_holder_that_comes_back_before_anybody_took_its_seat_has_it_still(bench):
+def test_a_silent_owner_that_sends_again_still_has_control(bench):
     air, _ = bench.hello_air()
-    holder, _ = bench.hello_ground()
+    owner, _ = bench.hello_ground()
     bench.pass_time(5, heartbeats=(air,))
-    holder.expect("UP1 seat holder=none\n")
-    holder.say("back\n")
+    owner.expect("UP1 seat holder=none\n")
+    owner.say("back\n")
     bench.pass_time(0.25)
-    holder.expect("UP1 seat holder=1\n")
+    owner.expect("UP1 seat holder=1\n")
     air.expect("back\n")
 
 
-def test_heartbeats_keep_the_seat(bench):
-    holder, _ = bench.hello_ground()
-    bench.pass_time(60, heartbeats=(holder,))
+def test_heartbeats_keep_control(bench):
+    owner, _ = bench.hello_ground()
+    bench.pass_time(60, heartbeats=(owner,))
     bench.hello_ground(gets="listen")
-    assert not holder.closed
+    assert not owner.closed
 
 
-def test_the_resume_token_takes_the_seat_at_once(bench):
+def test_the_resume_token_regains_control_immediately(bench):
     air, _ = bench.hello_air()
-    holder, token = bench.hello_ground()
+    owner, token = bench.hello_ground()
     again, same = bench.hello_ground(extra=f" token={token}")
     assert same == token
-    holder.expect_closed()
+    owner.expect_closed()
     again.say("resumed\n")
     assert air.line() == "resumed\n"
 
 
-def test_a_closed_connection_leaves_its_seat_to_its_token_for_three_seconds(bench):
-    holder, token = bench.hello_ground()
-    holder.close()
-    thief, _ = bench.hello_ground(gets="listen")
+def test_control_is_reserved_for_the_token_of_a_closed_connection(bench):
+    owner, token = bench.hello_ground()
+    owner.close()
+    other, _ = bench.hello_ground(gets="listen")
     again, _ = bench.hello_ground(extra=f" token={token}")
     again.close()
-    bench.pass_time(3.25, heartbeats=(thief,))
+    bench.pass_time(3.25, heartbeats=(other,))
     bench.hello_ground(gets="command")
 
 
-def test_a_thousand_guesses_and_newcomers_hijack_nothing(bench):
+def test_wrong_tokens_and_newcomers_gain_nothing(bench):
     air, air_token = bench.hello_air()
-    holder, token = bench.hello_ground()
+    owner, token = bench.hello_ground()
     for number in range(200):
         guess = f"{number:032x}"
         for line in (
@@ -177,10 +177,10 @@ def test_a_thousand_guesses_and_newcomers_hijack_nothing(bench):
         ):
             bench.ground(line).close()
         bench.air(f"UP1 aircraft=a token={guess}\nforged\n").close()
-    holder.say("mine\n")
+    owner.say("mine\n")
     assert air.line() == "mine\n"
-    assert b"forged" not in holder.heard
-    assert not holder.closed
+    assert b"forged" not in owner.heard
+    assert not owner.closed
     assert not air.closed
 
 
@@ -201,7 +201,7 @@ def test_the_aircraft_of_a_name_is_not_displaced_while_it_lives(bench):
     assert not successor.closed
 
 
-def test_grounds_are_told_when_the_aircraft_comes_and_goes(bench):
+def test_grounds_are_notified_of_the_aircraft(bench):
     ground = bench.ground("UP1 aircraft=a seat=command\n")
     ground.expect("UP1 aircraft offline\nUP1 seat holder=1\n")
     air, token = bench.hello_air()
@@ -226,7 +226,7 @@ def test_commands_for_an_absent_aircraft_are_counted_not_kept(bench):
     assert bench.aircraft().rejected_lines == 2
 
 
-def test_an_aircraft_that_all_have_left_is_forgotten_but_its_counts_stay(bench):
+def test_an_aircraft_without_connections_is_removed_but_its_counts_stay(bench):
     air, _ = bench.hello_air()
     ground, _ = bench.hello_ground()
     air.say("12345678\n")

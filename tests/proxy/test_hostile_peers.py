@@ -52,10 +52,12 @@ def pair(proxy):
 
 def test_a_thousand_idle_sockets(proxy, pair):
     before = proxy.rss_bytes()
-    idle = [socket.create_connection(("127.0.0.1", proxy.ground_port)) for _ in range(500)]
-    idle += [socket.create_connection(("127.0.0.1", proxy.airborne_port)) for _ in range(500)]
+    ports = (proxy.ground_port, proxy.airborne_port)
+    idle = [socket.create_connection(("127.0.0.1", port)) for port in ports for _ in range(500)]
     pair.round_trips(100)
     assert proxy.rss_bytes() - before < GROWTH_BYTES
+    for each in idle:
+        each.close()
 
     def all_gone():
         pair.round_trips(1)
@@ -64,8 +66,6 @@ def test_a_thousand_idle_sockets(proxy, pair):
         return all(value(page, f'up_proxy_connections{{side="{side}"}}') == 1 for side in sides)
 
     until(all_gone, "the end of every idle socket", deadline_s=60)
-    for each in idle:
-        each.close()
 
 
 @pytest.mark.parametrize("start", [b"", b"{", b"UP1 aircraft=liar\n", b"UP1 aircraft=good\n"])

@@ -30,7 +30,7 @@ def test_its_first_line_may_come_in_pieces(bench):
     assert ground.line() == '{"a": 1}\n'
 
 
-def test_who_says_nothing_for_a_second_is_a_legacy_client_and_may_only_listen(bench):
+def test_a_client_silent_for_a_second_is_a_legacy_client(bench):
     ground = bench.ground()
     bench.pump()
     assert len(bench.proxy.registry) == 0
@@ -41,7 +41,7 @@ def test_who_says_nothing_for_a_second_is_a_legacy_client_and_may_only_listen(be
     assert air.line() == '{"name": "command"}\n'
 
 
-def test_a_second_thesis_ground_listens(bench):
+def test_a_second_legacy_ground_listens(bench):
     air = bench.air("{}\n")
     first = bench.ground('{"first": 1}\n')
     second = bench.ground('{"second": 1}\n')
@@ -51,7 +51,7 @@ def test_a_second_thesis_ground_listens(bench):
     assert b"second" not in air.heard
 
 
-def test_a_listening_legacy_client_takes_a_free_seat_by_speaking(bench):
+def test_a_listening_legacy_client_takes_free_control_by_sending(bench):
     air = bench.air("{}\n")
     first = bench.ground('{"first": 1}\n')
     second = bench.ground('{"second": 1}\n')
@@ -61,7 +61,7 @@ def test_a_listening_legacy_client_takes_a_free_seat_by_speaking(bench):
     assert air.line() == '{"second": 2}\n'
 
 
-def test_its_seat_is_taken_after_three_seconds_without_data(bench):
+def test_its_control_is_free_after_three_seconds_without_data(bench):
     air = bench.air("{}\n")
     first = bench.ground("{}\n")
     air.line()
@@ -77,7 +77,7 @@ def test_its_seat_is_taken_after_three_seconds_without_data(bench):
     assert not second.closed
 
 
-def test_a_legacy_client_never_hears_a_control_line(bench):
+def test_a_legacy_client_never_receives_a_control_line(bench):
     ground = bench.ground("{}\n")
     air = bench.air("{}\n")
     other = bench.ground("UP1 aircraft=default seat=command\n")
@@ -92,7 +92,7 @@ def test_a_legacy_client_never_hears_a_control_line(bench):
     assert ground.heard == b"{}\n".replace(b"{}\n", b"") or ground.heard == b"{}\n"
 
 
-def test_a_legacy_client_may_not_speak_control_lines(bench):
+def test_control_lines_of_a_legacy_client_are_rejected(bench):
     air = bench.air("{}\n")
     ground = bench.ground("{}\nUP1 seat release\nUP1 seat give to=1\n{}\n")
     air.expect("{}\n{}\n")
@@ -101,7 +101,7 @@ def test_a_legacy_client_may_not_speak_control_lines(bench):
     assert not ground.closed
 
 
-def test_a_second_thesis_aircraft_is_closed_without_a_word(bench):
+def test_a_second_legacy_aircraft_is_closed_without_a_line(bench):
     bench.air("{}\n")
     second = bench.air("{}\n")
     second.expect_closed()

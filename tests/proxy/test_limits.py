@@ -28,10 +28,10 @@ def test_listeners_are_bounded():
         bench.hello_ground("b")
 
 
-def test_the_holder_finds_room_for_its_token_among_full_listeners():
+def test_the_owner_resumes_control_beyond_the_limit_of_listeners():
     with Bench(listeners=1) as bench:
-        holder, token = bench.hello_ground()
+        owner, token = bench.hello_ground()
         bench.hello_ground(asks="listen")
         again, _ = bench.hello_ground(extra=f" token={token}")
-        holder.expect_closed()
+        owner.expect_closed()
         assert not again.closed

@@ -11,7 +11,7 @@ def option(sock, name):
     return sock.getsockopt(socket.IPPROTO_TCP, name)
 
 
-def test_accepted_sockets_inherit_what_the_relay_needs():
+def test_accepted_sockets_inherit_the_options():
     with listen("test port", "127.0.0.1", 0, 1500) as listener:
         peer = socket.create_connection(listener.getsockname())
         listener.setblocking(True)

@@ -23,7 +23,7 @@ def failures():
     globalLogPublisher.removeObserver(observe)
 
 
-def test_a_bug_costs_one_connection_and_is_logged(failures):
+def test_a_bug_ends_one_connection_and_is_logged(failures):
     class Broken:
         def on_lines(self, connection, lines):
             raise ZeroDivisionError

@@ -99,14 +99,11 @@ def test_a_port_in_use_is_one_sentence_and_exit_1(tmp_path, which):
     assert "Traceback" not in proxy.log
 
 
-@pytest.mark.parametrize(
-    ("address", "code", "status"),
-    [("203.0.113.7", "public_address", 2), ("nonsense", "bad_address", 1)],
-)
-def test_an_address_it_cannot_use(address, code, status):
+@pytest.mark.parametrize("address", ["203.0.113.7", "nonsense"])
+def test_an_address_it_cannot_use(address):
     with pytest.raises(StartError) as error:
         Proxy(HandReactor(), ProxyConfig(address=address)).start()
-    assert (error.value.code, error.value.status) == (code, status)
+    assert (error.value.code, error.value.status) == ("bad_address", 2)
     assert address in str(error.value)
 
 
@@ -118,17 +115,21 @@ def test_version_and_help_need_no_configuration():
     assert "--airborne-port" in shown.stdout
 
 
+def status(arguments):
+    with pytest.raises(SystemExit) as exit_:
+        main(arguments)
+    return exit_.value.code
+
+
 @pytest.mark.parametrize("port", ["-1", "65536", "x", "٣"])
 def test_a_wrong_port_is_exit_2(port, capsys):
-    with pytest.raises(SystemExit) as exit_:
-        main([f"--ground-port={port}"])
-    assert exit_.value.code == 2
+    assert status([f"--ground-port={port}"]) == 2
     assert "--ground-port" in capsys.readouterr().err
 
 
 def test_a_missing_configuration_folder_is_one_sentence_and_exit_2(tmp_path, capsys):
     folder = tmp_path / "nowhere"
-    assert main(["--config", str(folder)]) == 2
+    assert status(["--config", str(folder)]) == 2
     error = capsys.readouterr().err
     assert f"--config {folder}" in error
     assert len(error.splitlines()) == 1
@@ -137,7 +138,7 @@ def test_a_missing_configuration_folder_is_one_sentence_and_exit_2(tmp_path, cap
 def test_every_error_of_the_configuration_has_its_place(tmp_path, capsys):
     text = "airborn port: 1\nground port: x\nlimits:\n  aircraft: 0\n"
     (tmp_path / "proxy.yml").write_text(text)
-    assert main(["--config", str(tmp_path)]) == 2
+    assert status(["--config", str(tmp_path)]) == 2
     lines = capsys.readouterr().err.splitlines()
     assert len(lines) == 3
     for line, number in zip(lines, (1, 2, 4), strict=True):

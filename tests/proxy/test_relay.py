@@ -18,7 +18,7 @@ def numbered(first, count, width=200):
     return b"".join(b"%08d" % n + b"." * (width - 9) + b"\n" for n in range(first, first + count))
 
 
-def test_half_a_line_waits_for_its_end(bench):
+def test_a_partial_line_waits_for_its_end(bench):
     air, _ = bench.hello_air()
     ground, _ = bench.hello_ground()
     air.say("half")
@@ -29,7 +29,7 @@ def test_half_a_line_waits_for_its_end(bench):
     assert ground.heard == b""
 
 
-def test_the_aircraft_never_sees_the_halves_of_two_grounds_glued(bench):
+def test_partial_lines_of_two_grounds_are_never_joined(bench):
     air, _ = bench.hello_air()
     old, token = bench.hello_ground()
     old.say('{"old": ')
@@ -39,7 +39,7 @@ def test_the_aircraft_never_sees_the_halves_of_two_grounds_glued(bench):
     assert air.line() == '"new"}\n'
 
 
-def test_a_buffers_of_a_broken_connection_is_never_relayed(bench):
+def test_a_partial_line_of_a_broken_connection_is_never_relayed(bench):
     air, token = bench.hello_air()
     ground, _ = bench.hello_ground()
     air.say("torn")
@@ -111,16 +111,16 @@ def test_a_stalled_listener_loses_old_lines_and_the_good_ones_lose_nothing(bench
 
 def test_control_lines_stand_between_relayed_lines_behind_a_stall(bench):
     air, _ = bench.hello_air()
-    holder, _ = bench.hello_ground()
+    owner, _ = bench.hello_ground()
     asker, _ = bench.hello_ground(gets="listen")
-    bench.peers.remove(holder)
+    bench.peers.remove(owner)
     for first in range(0, 3_000, 100):
         air.say(numbered(first, 100))
     asker.say("UP1 seat request\n")
     air.say(numbered(3_000, 1))
-    bench.peers.append(holder)
-    bench.until(lambda: numbered(3_000, 1) in holder.heard, "the newest line")
-    lines = holder.heard.split(b"\n")[:-1]
+    bench.peers.append(owner)
+    bench.until(lambda: numbered(3_000, 1) in owner.heard, "the newest line")
+    lines = owner.heard.split(b"\n")[:-1]
     assert lines.count(b"UP1 seat asked by=2") == 1
     assert all(len(line) == 199 for line in lines if not line.startswith(b"UP1 "))
 
@@ -156,11 +156,11 @@ def test_a_slow_aircraft_slows_the_ground_that_commands_and_loses_nothing(bench)
 
 def test_a_listener_may_flood_without_being_relayed_or_kept(bench):
     air, _ = bench.hello_air()
-    holder, _ = bench.hello_ground()
+    owner, _ = bench.hello_ground()
     flooder, _ = bench.hello_ground(gets="listen")
     for _ in range(50):
         flooder.say(b"x" * 60_000 + b"\n")
-    holder.say("good\n")
+    owner.say("good\n")
     assert air.line() == "good\n"
     assert air.heard == b""
     assert bench.aircraft().rejected_lines == 50

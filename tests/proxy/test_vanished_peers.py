@@ -16,7 +16,7 @@ def proxy(tmp_path):
         yield proxy
 
 
-def test_a_vanished_aircraft_and_holder_are_noticed_and_replaced(proxy):
+def test_a_vanished_aircraft_and_owner_are_detected_and_replaced(proxy):
     air, token = accepted(proxy.airborne_port, "UP1 aircraft=a\n", THERE)
     ground, _ = accepted(proxy.ground_port, "UP1 aircraft=a seat=command\n", THERE)
     assert figure(proxy.inside, proxy, 'up_proxy_aircraft_online{aircraft="a"}') == 1
@@ -28,7 +28,7 @@ def test_a_vanished_aircraft_and_holder_are_noticed_and_replaced(proxy):
     )
     until(
         lambda: figure(proxy.inside, proxy, 'up_proxy_aircraft_commanded{aircraft="a"}') == 0,
-        "no holder",
+        "no owner",
     )
     assert time.monotonic() - begin_s > 2
     light(proxy.inside)
@@ -44,7 +44,7 @@ def test_a_vanished_aircraft_and_holder_are_noticed_and_replaced(proxy):
         client.close()
 
 
-def test_what_is_sent_to_a_vanished_peer_ends_its_connection(proxy):
+def test_data_to_a_vanished_peer_end_its_connection(proxy):
     listener, _ = accepted(proxy.ground_port, "UP1 aircraft=local seat=listen\n", THERE)
     connections = 'up_proxy_connections{side="ground"}'
     assert figure(proxy.inside, proxy, connections) == 1

@@ -19,7 +19,7 @@ from up.commands.orientation_command import OrientationCommand
 from up.commands.origin import Origin
 from up.commands.output_command import OutputCommand
 from up.commands.pid_tunings_commands import PIDTuningsCommand, PIDTuningsValuesCommand
-from up.commands.refusal import CommandRefusedError
+from up.commands.refusal import Code, CommandRefusedError
 from up.commands.roles import Role
 from up.commands.rx_command import ALL_VALID, RXCommand
 from up.flight_controller.gains import Gains, GainSet, LoopGains, gain_set_to_data
@@ -441,7 +441,7 @@ class TestGains:
             monkeypatch.setattr(PidsFile, "save", refuse)
             got = rig.outcome(PIDTuningsCommand(pids=gain_set_to_data(OTHER_GAINS)))
             await until(lambda: got)
-            assert "No space left" in got[0].getErrorMessage()
+            assert got[0].value.code is Code.FAILED
             assert rig.controller.gains.rate == LOOP
             rig.bus.limited.stop()
 

@@ -4,12 +4,12 @@ import contextlib
 import itertools
 import json
 import os
-import select
 import shutil
 import signal
 import socket
 import subprocess
 import sys
+import threading
 import time
 from pathlib import Path
 
@@ -106,6 +106,7 @@ class RunnerProcess:
         self.prefix = []
         self.process = None
         self.port = None
+        self._since = 0
         self.name = "glider-1"
         """The aircraft of requests that name none."""
         self._talks = []
@@ -144,9 +145,12 @@ class RunnerProcess:
             env=environ | self.environ,
             stdout=subprocess.DEVNULL,
             stderr=subprocess.PIPE,
+            text=True,
         )
-        os.set_blocking(self.process.stderr.fileno(), False)
         self.printed = ""
+        self._since = 0
+        self._reader = threading.Thread(target=self._read, args=(self.process.stderr,), daemon=True)
+        self._reader.start()
         return self
 
     def start(self, *options, under_systemd=True):
@@ -155,20 +159,16 @@ class RunnerProcess:
         self.port = self.logs("port_open")["port"]
         return self
 
-    def output(self):
-        """Return the output of the program so far."""
-        while select.select([self.process.stderr], [], [], 0)[0]:
-            data = self.process.stderr.read()
-            if not data:
-                break
-            self.printed += data.decode()
-        return self.printed
+    def _read(self, stream):
+        # A full pipe would block the program.
+        for line in stream:
+            self.printed += line
 
     def events(self):
-        """Return the fields of each log line so far."""
-        lines = self.output().splitlines(keepends=True)
+        """Return the fields of each log line since the start, or since `reset`."""
+        lines = self.printed.splitlines(keepends=True)
         parsed = [json.loads(line) for line in lines if line[0] == "{" and line[-1] == "\n"]
-        return [line.get("fields", {}) for line in parsed]
+        return [line.get("fields", {}) for line in parsed][self._since :]
 
     def logs(self, code, **fields):
         """Wait until the program has logged a line with this code and these fields; return all."""
@@ -214,7 +214,7 @@ class RunnerProcess:
 
     def _finish(self):
         status = self.process.wait(LIMIT_S)
-        self.output()
+        self._reader.join(LIMIT_S)
         self.process.stderr.close()
         self.process = None
         return status
@@ -248,6 +248,7 @@ class RunnerProcess:
         wait_until(lambda: not self.instances(), "all instances ended")
         for folder in ("blackbox", "profiles"):
             shutil.rmtree(self.config_folder / folder, ignore_errors=True)
+        self._since += len(self.events())
         self.name = f"glider-{next(_NUMBERS)}"
 
     def clean(self):

@@ -94,7 +94,7 @@ class RecordingHost:
     def save(self, record):
         self.records.append(record)
 
-    def forget(self, name):
+    def discard(self, name):
         self.records.append(None)
 
     def on_change(self, name):
@@ -258,7 +258,7 @@ def test_a_waiting_report_of_the_phone_counts(host):
     assert instance.state is State.RUNNING and host.child.signals == []
 
 
-def test_a_phone_gone_for_a_day_never_stops_one_that_may_be_flying(host):
+def test_a_lost_phone_never_stops_an_instance_that_may_be_flying(host):
     instance = host.run(AIRBORNE)
     host.say(phone=True)
     host.say(phone=False)
@@ -321,7 +321,7 @@ def test_restarts_back_off_and_give_up(host):
     assert instance.last_end.code == "gave_up"
 
 
-def test_one_that_may_be_flying_is_restarted_without_limit(host):
+def test_an_instance_that_may_be_flying_is_restarted_without_limit(host):
     instance = host.run(AIRBORNE)
     for _ in range(200):
         host.child.on_end(-signal.SIGSEGV)

@@ -29,5 +29,5 @@ def test_another_process_has_its_own():
         assert server.getsockname()[1] not in (listening_ports(1) or ())
 
 
-def test_nobody_knows_about_a_process_that_is_not_there():
+def test_the_ports_of_a_missing_process_are_unknown():
     assert listening_ports(2**22 + 1) is None

@@ -31,7 +31,7 @@ def test_after_a_rotation_the_log_starts_empty(tmp_path):
     assert files(tmp_path) == {"a.log": b"new", "a.log.1": b"3" * 10, "a.log.2": b"2" * 10}
 
 
-def test_with_none_to_keep_the_log_is_only_cut(tmp_path):
+def test_without_older_logs_the_log_is_truncated(tmp_path):
     keeper = LogKeeper(tmp_path, 10, 0)
     os.write(log := keeper.open("a"), b"x" * 10)
     os.close(log)
@@ -84,7 +84,7 @@ def test_without_a_log_there_is_no_last_line(tmp_path):
     assert LogKeeper(tmp_path / "nowhere", 10, 1).last_log_line("a") is None
 
 
-def test_names_with_dots_are_told_apart(tmp_path):
+def test_names_with_dots_are_distinguished(tmp_path):
     for name in ("a.log", "a.log.1", "a.log.1.log", "a.log.log.2", "a.b.log", "other.txt"):
         (tmp_path / name).write_text("")
     keeper = LogKeeper(tmp_path, 10, 1)

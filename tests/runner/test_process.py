@@ -52,7 +52,7 @@ def gone(pid):
     ("code", "status"),
     [("raise SystemExit(3)", 3), ("pass", 0), ("import os; os.abort()", -signal.SIGABRT)],
 )
-def test_the_exit_status_of_a_child_is_told_once(code, status):
+def test_the_exit_status_of_a_child_is_reported_once(code, status):
     async def body():
         process, ends = spawn(code)
         await until(lambda: ends)
@@ -76,7 +76,7 @@ def test_terminate_asks_and_kill_does_not():
     run_in_reactor(body)
 
 
-def test_what_a_child_left_running_ends_with_it(tmp_path):
+def test_processes_of_a_child_end_with_it(tmp_path):
     async def body():
         helper = (
             "import subprocess, sys;"
@@ -131,7 +131,7 @@ def test_another_process_of_the_same_number_is_not_adopted():
     run_in_reactor(body)
 
 
-def test_a_dead_child_that_nobody_waited_for_is_gone():
+def test_a_zombie_is_gone():
     child = subprocess.Popen([sys.executable, "-c", "pass"])
     with child:
         os.waitid(os.P_PID, child.pid, os.WEXITED | os.WNOWAIT)

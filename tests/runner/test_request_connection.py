@@ -178,7 +178,7 @@ def test_public_peers_are_rejected_on_connect(host, in_):
         port.server.close()
 
 
-def test_the_address_is_written_as_people_write_it():
+def test_an_ipv4_mapped_address_is_shown_as_ipv4():
     port = Port(accept_public=True)
     connection = port.connect("::ffff:203.0.113.9")
     connection.dataReceived(b"x")

@@ -36,14 +36,14 @@ def test_it_is_made_private(short_path):
 
 
 @pytest.mark.parametrize("mode", [0o777, 0o755, 0o710])
-def test_one_that_others_can_look_into_is_refused_and_left_as_it_is(short_path, mode):
+def test_a_folder_open_to_others_is_refused_and_not_changed(short_path, mode):
     short_path.chmod(mode)
     with refused("open_folder"):
         RunFolder(short_path).take()
     assert stat.S_IMODE(short_path.stat().st_mode) == mode
 
 
-def test_one_that_belongs_to_another_is_refused(short_path):
+def test_a_folder_of_another_user_is_refused(short_path):
     need_root()
     os.chown(short_path, 12345, -1)
     with refused("foreign_folder"):
@@ -76,7 +76,7 @@ def test_the_second_is_refused_until_the_first_lets_go(short_path):
     second.release()
 
 
-def test_a_killed_holder_holds_nothing(short_path):
+def test_the_lock_of_a_killed_process_is_free(short_path):
     code = (
         "import sys, pathlib; from up_runner.run_folder import RunFolder;"
         "f = RunFolder(pathlib.Path(sys.argv[1])); f.take(); print('held', flush=True);"
@@ -97,7 +97,7 @@ def test_a_killed_holder_holds_nothing(short_path):
     folder.release()
 
 
-def test_a_path_too_long_for_sockets_is_refused_at_once(short_path):
+def test_a_path_too_long_for_sockets_is_refused(short_path):
     folder = short_path / ("x" * (MAX_PATH_BYTES + 1 - len(str(short_path)) - 1))
     assert len(str(folder)) == MAX_PATH_BYTES + 1
     with refused("path_too_long"):

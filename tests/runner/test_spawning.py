@@ -3,7 +3,6 @@
 import os
 import signal
 import socket
-import threading
 from pathlib import Path
 
 import pytest
@@ -239,21 +238,3 @@ def test_files_of_an_instance_are_kept_until_the_profile_changes(runner):
         wait_until(lambda: runner.status()["error"] is None, "it is removed")
         runner.spawn(**({"profile": profile} if profile else {}))
         assert runner.config("pids.yml") == {"p": expected}
-
-
-def test_a_thousand_requests_get_a_thousand_responses(runner):
-    runner.spawn()
-    pids = []
-
-    def ask_often():
-        talk = Talk(runner.port)
-        for _ in range(100):
-            pids.append(talk.ask({"aircraft": runner.name})["pid"])
-        talk.close()
-
-    threads = [threading.Thread(target=ask_often) for _ in range(10)]
-    for thread in threads:
-        thread.start()
-    for thread in threads:
-        thread.join()
-    assert len(pids) == 1000 and len(set(pids)) == 1

@@ -122,7 +122,7 @@ def test_a_controller_that_starts_flies(tmp_path):
     system.start()
     system.up.command_executor.execute_command(OrientationCommand(1.0, 2.0, 3.0))
     assert len(outputs) == 1
-    with pytest.raises(ValueError, match="is taken"):
+    with pytest.raises(ValueError):
         system.up.command_receiver.register_route("servo", lambda *_: None)
 
 

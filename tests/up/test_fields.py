@@ -68,15 +68,18 @@ def test_a_refusal_is_one_sentence_with_range_unit_and_what_came():
     assert refusal(Constraint(dict), [1]) == "must be a map, not a list"
 
 
-@pytest.mark.parametrize("constraint", [Constraint(int), Constraint(float), Constraint(int, 0, 1)])
-@pytest.mark.parametrize("value", [True, False])
-def test_a_bool_is_no_number(constraint, value):
-    refusal(constraint, value)
-
-
-@pytest.mark.parametrize("value", [1, 0, "true", None])
-def test_a_number_is_no_bool(value):
-    refusal(Constraint(bool), value)
+@pytest.mark.parametrize(
+    ("constraint", "values"),
+    [
+        (Constraint(int), (True, False, 1.0, "1", None)),
+        (Constraint(float), (True, False, "1", None)),
+        (Constraint(int, choices=(0, 1)), (True, "1")),
+        (Constraint(bool), (1, 0, "true", None)),
+    ],
+)
+def test_a_value_of_another_type_is_refused(constraint, values):
+    for value in values:
+        refusal(constraint, value)
 
 
 @pytest.mark.parametrize("constraint", [Constraint(float), LATITUDE, Constraint(float, minimum=0)])
@@ -95,11 +98,6 @@ def test_an_unbounded_int_holds_64_bits():
     assert Constraint(int).check(2**63 - 1) == 2**63 - 1
     assert Constraint(int).check(-(2**63)) == -(2**63)
     refusal(Constraint(int), 2**63)
-
-
-@pytest.mark.parametrize("value", [1.0, "1", None])
-def test_an_int_must_be_whole_by_type(value):
-    refusal(Constraint(int), value)
 
 
 def test_lone_surrogates_are_no_text():
@@ -128,11 +126,6 @@ def test_choices_may_ignore_case_and_come_back_as_they_are_spelled():
     level = Constraint(str, choices=("debug", "info"), ignore_case=True)
     assert level.check("INFO") == "info"
     refusal(Constraint(str, choices=("debug", "info")), "INFO")
-
-
-def test_a_choice_of_numbers_is_no_bool():
-    assert Constraint(int, choices=(0, 1)).check(1) == 1
-    refusal(Constraint(int, choices=(0, 1)), True)
 
 
 def test_a_tuple_passes_as_a_list():

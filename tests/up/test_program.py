@@ -113,12 +113,8 @@ def test_a_module_may_stop_the_program():
 @pytest.mark.parametrize(
     ("trouble", "words"),
     [
-        ("construct", "trouble: construct"),
         ("construct exit", "SystemExit"),
-        ("load", "trouble: load"),
-        ("initialize", "failed to initialize"),
         ("start", "RuntimeError: trouble: start"),
-        ("telemetry", "the telemetry of Troubled failed"),
         ("timer raises", "trouble: timer raises"),
     ],
 )
@@ -126,17 +122,9 @@ def test_a_module_that_raises_is_named_and_the_rest_runs(trouble, words):
     with Daemon(trouble) as daemon:
         daemon.expect(words)
         daemon.expect("modules run")
-        if trouble not in ("telemetry", "timer raises"):
+        if trouble != "timer raises":
             daemon.expect("arming is refused")
         assert daemon.end()[0] == 0
-        assert "before stops" in daemon.text
-
-
-def test_a_module_that_raises_in_its_stop_is_named_and_the_rest_stops():
-    with Daemon("stop") as daemon:
-        daemon.expect("modules run")
-        assert daemon.end()[0] == 0
-        assert "Troubled failed to stop" in daemon.text
         assert "before stops" in daemon.text
 
 
@@ -170,14 +158,6 @@ def test_a_signal_that_another_thread_hears_wakes_the_reactor():
         status, took_s = daemon.end(None)
         assert status == 0
         assert took_s < 2
-        assert "before stops" in daemon.text
-
-
-def test_a_stop_that_hangs_is_given_up():
-    with Daemon("stop hangs") as daemon:
-        daemon.expect("modules run")
-        assert daemon.end()[0] == 0
-        assert "Troubled did not stop in time" in daemon.text
         assert "before stops" in daemon.text
 
 
@@ -225,24 +205,6 @@ def test_a_folder_without_configuration_is_refused_unless_the_defaults_are_wante
         assert not unfinished.exists(), "what a killed write left"
         daemon.process.terminate()
         assert daemon.process.wait(DEADLINE_S) == 0
-
-
-def test_a_wrong_mode_is_one_sentence():
-    with Daemon(UP_MODE="glider") as daemon:
-        status, _ = daemon.end(None)
-        assert status == 2
-        assert daemon.text.strip().count("\n") == 0
-        assert "flight controller" in daemon.text
-
-
-def test_black_box_mode_builds_nothing_for_the_arduino():
-    with Daemon(UP_MODE=" Black Box ") as daemon:
-        daemon.expect("modules run")
-        assert "built for the Arduino" not in daemon.text
-        assert daemon.end()[0] == 0
-    with Daemon(UP_MODE="auto") as daemon:
-        daemon.expect("modules run")
-        assert "built for the Arduino" in daemon.text
 
 
 class Supervisor:

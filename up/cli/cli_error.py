@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from up.errors import UserError
 
-class CliError(Exception):
+
+class CliError(UserError):
     """A verb failed; the text is one sentence, ``status`` the exit status."""
 
-    def __init__(self, text: str, status: int = 1) -> None:
-        super().__init__(text)
+    def __init__(self, text: str, status: int = 1, code: str = "") -> None:
+        super().__init__(text, code)
         self.status = status

@@ -59,10 +59,10 @@ def may_overwrite(path: Path, yes: bool) -> bool:
     if yes:
         return True
     if not sys.stdin.isatty():
-        raise CliError(f"{path} is there already: say --yes to overwrite it")
+        raise CliError(f"{path} exists already: use --yes to overwrite it", code="exists")
     while True:
         try:
-            answer = input(f"{path} is there already. Overwrite it? (y)es, (n)o, (c)ancel: ")
+            answer = input(f"{path} exists already. Overwrite it? (y)es, (n)o, (c)ancel: ")
         except EOFError:
             return False
         answer = answer.strip().lower()
@@ -104,7 +104,7 @@ def _create_cog(values: argparse.Namespace) -> int:
     package = f"{name.snake}_cog"
     root = Path.cwd() / package
     if root.exists():
-        raise CliError(f"{root} is there already: choose another name or remove it")
+        raise CliError(f"{root} exists already: choose another name or remove it", code="exists")
     words = _words(name, package=package)
     for target, template in _COG.items():
         _write(root / Template(target).substitute(words), template, words)

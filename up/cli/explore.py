@@ -20,9 +20,7 @@ def run(values: argparse.Namespace) -> int:
     """List the module classes, and write the manifest on request."""
     start = Path(values.file) if values.file else Path.cwd()
     if values.type == "recorders":
-        echo(
-            "there are no recorders: they are Thread Modules now, see 'up create module -t thread'"
-        )
+        echo("recorders were replaced by Thread Modules, see 'up create module -t thread'")
         return 0
     package = package_at(start.resolve())
     found = Discovered()
@@ -35,7 +33,7 @@ def run(values: argparse.Namespace) -> int:
     for problem in found.problems:
         print(problem, file=sys.stderr)  # noqa: T201 - the user's answer
     if found.problems:
-        raise CliError(f"mend them first; {MANIFEST_FILE} is as it was")
+        raise CliError(f"correct them first; {MANIFEST_FILE} is unchanged", code="module_broken")
     if not entries:
         echo(
             f"no module class in {' or '.join(str(package.root / each) for each in MODULE_FOLDERS)}"

@@ -18,5 +18,8 @@ def application_of(values: argparse.Namespace) -> Application:
     if start.name == UP_FILE and start.is_file():
         start = start.parent
     if not start.is_dir():
-        raise CliError(f"--file {values.file}: neither an application's folder nor its {UP_FILE}")
+        raise CliError(
+            f"--file {values.file}: neither an application's folder nor its {UP_FILE}",
+            code="file_missing",
+        )
     return Application.find(start)

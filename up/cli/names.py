@@ -13,8 +13,8 @@ _GIVEN = re.compile(r"[A-Za-z][A-Za-z0-9_ -]*", re.ASCII)
 _IDENTIFIER = re.compile(r"[a-z][a-z0-9_]*(\.[a-z0-9_]+)+", re.ASCII)
 _WORD = re.compile(r"[A-Z]+(?![a-z])|[A-Z]?[a-z0-9]+|[0-9]+")
 _TAKEN = {"up", "raspilot", "twisted", "yaml", "serial", "psutil", "tests", "modules", "config"}
-_LONGEST = 24
-_LONGEST_IDENTIFIER = 45
+_MAX_NAME = 24
+_MAX_IDENTIFIER = 45
 
 
 @dataclass(frozen=True, slots=True)
@@ -30,15 +30,19 @@ class Name:
         Drops an ``ending`` that the generated name gets anyway. Raises CliError.
         """
         words = tuple(word.lower() for word in _WORD.findall(given))
-        if not _GIVEN.fullmatch(given) or len("_".join(words)) > _LONGEST:
+        if not _GIVEN.fullmatch(given) or len("_".join(words)) > _MAX_NAME:
             raise CliError(
                 f'"{given[:40]}" cannot be a name: use letters, digits and _, beginning with'
-                " a letter, like FuelGauge"
+                " a letter, like FuelGauge",
+                code="name_invalid",
             )
         if len(words) > 1 and words[-1] == ending:
             words = words[:-1]
         if keyword.iskeyword("_".join(words)):
-            raise CliError(f'"{given}" cannot be a name: Python has another use for that word')
+            raise CliError(
+                f'"{given}" cannot be a name: Python has another use for that word',
+                code="name_invalid",
+            )
         return cls(words)
 
     @property
@@ -58,19 +62,26 @@ class Name:
 
     def check_free(self) -> None:
         if self.snake in _TAKEN or self.snake in sys.stdlib_module_names:
-            raise CliError(f"{self.snake} is the name of another Python package: choose one more")
+            raise CliError(
+                f"{self.snake} is the name of another Python package: choose one more",
+                code="name_taken",
+            )
 
 
 def check_identifier(identifier: str) -> str:
     """Return a Command's name; raises CliError for an invalid or taken name."""
     from up.commands.builtin import BUILTIN_COMMANDS
 
-    if not _IDENTIFIER.fullmatch(identifier) or len(identifier) > _LONGEST_IDENTIFIER:
+    if not _IDENTIFIER.fullmatch(identifier) or len(identifier) > _MAX_IDENTIFIER:
         raise CliError(
-            f'"{identifier[:40]}" cannot name a Command: use at most {_LONGEST_IDENTIFIER}'
-            " characters, words with dots between, like plane.bay.open"
+            f'"{identifier[:40]}" cannot name a Command: use at most {_MAX_IDENTIFIER}'
+            " characters, words with dots between, like plane.bay.open",
+            code="name_invalid",
         )
     for cls in BUILTIN_COMMANDS:
         if identifier in (cls.NAME, *cls.ALIASES):
-            raise CliError(f"{identifier} is a Command of Up ({cls.__name__}): choose another name")
+            raise CliError(
+                f"{identifier} is a Command of Up ({cls.__name__}): choose another name",
+                code="name_taken",
+            )
     return identifier

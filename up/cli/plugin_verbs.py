@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from importlib.metadata import EntryPoint
 
 UP_VERBS = "up.verbs"
-_LONGEST_REASON = 200
+_MAX_REASON = 200
 
 
 @dataclass(frozen=True, slots=True)
@@ -106,7 +106,7 @@ def _add_broken(verbs: Any, plugin: _Plugin, why: str) -> None:
     )
 
     def carry_out(values: argparse.Namespace) -> int:
-        raise CliError(sentence)
+        raise CliError(sentence, code="verb_broken")
 
     parser = verbs.add_parser(
         plugin.name,
@@ -127,7 +127,7 @@ def _reason(error: BaseException) -> str:
     text = " ".join(str(error).split()) or type(error).__name__
     if not isinstance(error, ImportError):
         text = f"{type(error).__name__}: {text}"
-    return text if len(text) <= _LONGEST_REASON else f"{text[:_LONGEST_REASON]}..."
+    return text if len(text) <= _MAX_REASON else f"{text[:_MAX_REASON]}..."
 
 
 def _listed(names: Collection[str]) -> str:

@@ -34,7 +34,9 @@ def _what() -> list[str]:
     try:
         found = importlib.metadata.distribution(pip.FRAMEWORK)
     except importlib.metadata.PackageNotFoundError:
-        raise CliError("Up runs from its source folder and is not installed: update that") from None
+        raise CliError(
+            "Up runs from its source folder and is not installed: update that", code="not_installed"
+        ) from None
     origin: dict[str, Any] = json.loads(found.read_text("direct_url.json") or "{}")
     url = str(origin.get("url", ""))
     if not url:
@@ -46,7 +48,10 @@ def _what() -> list[str]:
         return ["--upgrade", f"{pip.FRAMEWORK} @ {address}"]
     folder = urllib.parse.unquote(urllib.parse.urlsplit(url).path)
     if "dir_info" not in origin:
-        raise CliError(f"Up was installed from the file {folder}: install a newer file with pip")
+        raise CliError(
+            f"Up was installed from the file {folder}: install a newer file with pip",
+            code="not_upgradable",
+        )
     echo(f"Up is installed from the folder {folder}: bring that up to date first (git pull)")
     if origin["dir_info"].get("editable"):
         return ["--no-build-isolation", "--editable", folder]

@@ -43,7 +43,9 @@ def _from(module: str, verb: str) -> Callable[[argparse.Namespace], int]:
         try:
             run = getattr(importlib.import_module(name), function or "run")
         except ModuleNotFoundError as error:
-            raise CliError(f"'{verb}' needs {error.name}, which is not installed") from error
+            raise CliError(
+                f"'{verb}' needs {error.name}, which is not installed", code="import_missing"
+            ) from error
         status: int = run(values)
         return status
 

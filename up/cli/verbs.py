@@ -88,7 +88,7 @@ def modules(values: argparse.Namespace) -> int:
         echo("not loaded:")
         _table(("", each.path, each.reason) for each in plan.rejected)
     if plan.commands:
-        echo("Commands besides those of Up:")
+        echo("further Commands:")
         _table(("", cls.NAME, f"{cls.__module__}.{cls.__qualname__}") for cls in plan.commands)
     _print_errors((*_cogfile_problems(system.application), *findings.problems))
     return EXIT_USAGE if findings.problems else EXIT_OK

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
+from up.errors import UserError
 
-class CogError(Exception):
+
+class CogError(UserError):
     """A cog cannot be installed, registered or removed; the text is one sentence."""
 
 
@@ -16,7 +18,10 @@ def package_name(label: str) -> str:
     """
     name = label.strip().replace("-", "_")
     if not name.isidentifier():
-        raise CogError(f'"{label}" is no name of a cog: a cog is called like its Python package')
+        raise CogError(
+            f'"{label}" is not the name of a cog, which is that of its Python package',
+            code="name_invalid",
+        )
     return name
 
 

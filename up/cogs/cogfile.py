@@ -102,7 +102,7 @@ class _Entry:
             self._refuse(str(error))
             cog = ""
         if cog and cog in seen:
-            self._refuse(f"{self.label} stands here twice, first as {seen[cog]}")
+            self._refuse(f"{self.label} is repeated, first as {seen[cog]}")
         seen[cog] = self.label
         spec = CogSpec() if is_null(value) else Validator(self.report, {}).read(_SCHEMA, value)
         if not isinstance(spec, CogSpec):
@@ -120,7 +120,7 @@ class _Entry:
             return None
         folder = (self.root / spec.path).resolve()
         if not any((folder / name).is_file() for name in ("setup.py", "pyproject.toml")):
-            self._refuse(f"{self.label}: there is no setup.py in {folder}")
+            self._refuse(f"{self.label}: setup.py is missing in {folder}")
         return folder
 
     def _refuse(self, what: str) -> None:

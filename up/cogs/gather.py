@@ -39,7 +39,7 @@ def gather(application: Application, *, may_install: bool = True, echo: Echo = e
         return
     if missing:
         names = ", ".join(each.cog for each in missing)
-        raise CogError(f"not installed as {COGFILE} says: {names}")
+        raise CogError(f"not installed, but listed in {COGFILE}: {names}", code="not_installed")
     _register_all(wanted, application, echo)
 
 
@@ -56,7 +56,9 @@ def _register_anew(application: Application) -> None:
     command = [sys.executable, "-P", "-m", "up.cli", "--file", str(application.root)]
     done = subprocess.run([*command, "gather", "--no-install"], check=False)
     if done.returncode != 0:
-        raise CogError("the cogs are installed but not all of them are registered")
+        raise CogError(
+            "the cogs are installed but not all of them are registered", code="registration_failed"
+        )
 
 
 def _register_all(wanted: Sequence[WantedCog], application: Application, echo: Echo) -> None:
@@ -67,7 +69,7 @@ def _register_all(wanted: Sequence[WantedCog], application: Application, echo: E
         except (CogError, ConfigErrors) as error:
             failed.append(str(error))
     if failed:
-        raise CogError("\n".join(failed))
+        raise CogError("\n".join(failed), code="registration_failed")
     count = len(wanted)
     echo(f"{count} {'cog' if count == 1 else 'cogs'} of {COGFILE} installed and registered")
 

@@ -34,7 +34,8 @@ def load_manifest(folder: Path, cog: str) -> Manifest:
     """
     if not (folder / MANIFEST_FILE).exists():
         raise CogError(
-            f"the cog {cog} has no {MANIFEST_FILE} in {folder}: write it with 'up explore -w'"
+            f"the cog {cog} has no {MANIFEST_FILE} in {folder}: write it with 'up explore -w'",
+            code="manifest_missing",
         )
     return MANIFEST.load(folder)
 

@@ -78,11 +78,14 @@ def run_pip(command: Sequence[str], echo: Echo) -> None:
             check=False,
         )
     except OSError as error:
-        raise CogError(f"pip cannot be run: {error}") from error
+        raise CogError(f"pip cannot be run: {error}", code="pip_failed") from error
     if done.returncode != 0:
         for line in done.stdout.rstrip().splitlines()[-_SHOWN_LINES:]:
             echo(f"  pip: {line}")
-        raise CogError(f"pip could not install what is missing (exit status {done.returncode})")
+        raise CogError(
+            f"pip could not install the missing cogs (exit status {done.returncode})",
+            code="pip_failed",
+        )
 
 
 def check_environment() -> None:
@@ -93,18 +96,21 @@ def check_environment() -> None:
         if marker.exists():
             raise CogError(
                 "this Python belongs to the operating system, which does not let pip change it:"
-                " make a virtual environment (python3 -m venv) and run 'up' from there"
+                " make a virtual environment (python3 -m venv) and run 'up' from there",
+                code="environment_managed",
             )
     if not os.access(place, os.W_OK):
         raise CogError(
-            f"{place} cannot be written: run 'up gather' as the owner of that environment"
+            f"{place} cannot be written: run 'up gather' as the owner of that environment",
+            code="environment_readonly",
         )
     try:
         importlib.metadata.distribution(FRAMEWORK)
     except importlib.metadata.PackageNotFoundError:
         raise CogError(
             f"Up itself is not installed in {sys.prefix}, and pip would look for it on the"
-            " package index: install it first, with 'pip install -e .' in its folder"
+            " package index: install it first, with 'pip install -e .' in its folder",
+            code="framework_missing",
         ) from None
 
 

@@ -35,10 +35,13 @@ def register(cog: str, application: Application, source: Source, echo: Echo = ec
     except (CogError, ConfigErrors, BrokenPipeError):
         raise
     except OSError as error:
-        raise CogError(f"the cog {cog} cannot be registered: {error}") from error
+        raise CogError(
+            f"the cog {cog} cannot be registered: {error}", code="registration_failed"
+        ) from error
     except Exception as error:
         raise CogError(
-            f"the Registrant of the cog {cog} failed: {type(error).__name__}: {error}"
+            f"the Registrant of the cog {cog} failed: {type(error).__name__}: {error}",
+            code="registrant_failed",
         ) from error
 
 
@@ -57,18 +60,25 @@ def find_registrant(cog: str) -> type[Any]:
     except ModuleNotFoundError as error:
         if error.name == cog:
             raise CogError(
-                f"no cog {cog} is installed: list it in Cogfile.yml and run 'up gather'"
+                f"no cog {cog} is installed: list it in Cogfile.yml and run 'up gather'",
+                code="not_installed",
             ) from None
         if error.name == name:
-            raise CogError(f"{cog} is no cog: it has no {REGISTRANT_MODULE}.py") from None
-        raise CogError(f"{name} cannot be imported: {error}") from error
+            raise CogError(
+                f"{cog} is not a cog: it lacks {REGISTRANT_MODULE}.py", code="registrar_missing"
+            ) from None
+        raise CogError(f"{name} cannot be imported: {error}", code="import_failed") from error
     except Exception as error:
-        raise CogError(f"{name} cannot be imported: {type(error).__name__}: {error}") from error
+        raise CogError(
+            f"{name} cannot be imported: {type(error).__name__}: {error}", code="import_failed"
+        ) from error
     for wanted in REGISTRANT_CLASSES:
         found = getattr(module, wanted, None)
         if inspect.isclass(found) and issubclass(found, UpRegistrant | UpRegistrar):
             return found
-    raise CogError(f"{name} has no class Registrant that extends UpRegistrant")
+    raise CogError(
+        f"{name} has no class Registrant that extends UpRegistrant", code="registrant_missing"
+    )
 
 
 def _check_importable(registrant: UpRegistrant, application: Application) -> None:
@@ -83,7 +93,8 @@ def _check_importable(registrant: UpRegistrant, application: Application) -> Non
         except Exception as error:
             raise CogError(
                 f"the cog {registrant.cog_name} lists {each.path}, which cannot be imported:"
-                f" {type(error).__name__}: {error}"
+                f" {type(error).__name__}: {error}",
+                code="import_failed",
             ) from error
 
 
@@ -95,6 +106,8 @@ def _register_old(
         registrar = found()
         registrar.source = source
         if registrar.register() is False:
-            raise CogError(f"the Registrar of the cog {cog} says that it failed")
+            raise CogError(
+                f"the Registrar of the cog {cog} reports a failure", code="registrant_failed"
+            )
         changed = registrar.finish()
     echo(f"{cog}: {'registered' if changed else 'is registered'}")

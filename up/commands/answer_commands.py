@@ -33,7 +33,7 @@ class NackCommand(BaseCommand):
 
 @dataclass(frozen=True, slots=True)
 class CommandAnsweredCommand(BaseCommand):
-    """What became of a Command of a link; ``untold``: how many before it were not told."""
+    """The outcome of a Command of a link; ``untold`` counts unreported outcomes before it."""
 
     NAME: ClassVar[str] = "up.command.answered"
     link: str = value(max_length=64)

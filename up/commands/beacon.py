@@ -7,15 +7,15 @@ from random import Random, SystemRandom
 
 from up.system.clock import Clock
 
-KEPT = 4096
+MAX_BEACONS = 4096
 FRESH_S = 2.0
-WAY_S = 1.0
+ROUND_TRIP_S = 1.0
 """Allowance for the round trip of frame and Command, in addition to the telemetry period."""
 
 
 def fresh_s(period_ms: float) -> float:
     """Return the maximum age of an echoed beacon; a ground that gets every frame stays below it."""
-    return max(FRESH_S, period_ms / 1000 + WAY_S)
+    return max(FRESH_S, period_ms / 1000 + ROUND_TRIP_S)
 
 
 class Beacons:
@@ -28,14 +28,14 @@ class Beacons:
     def __init__(self, clock: Clock, random: Random | None = None) -> None:
         self._clock = clock
         self._run_start = self._first = self._next = (random or SystemRandom()).randrange(2**31)
-        self._times: deque[float] = deque(maxlen=KEPT)
+        self._times: deque[float] = deque(maxlen=MAX_BEACONS)
         self.limit_s = FRESH_S
 
     def draw(self) -> int:
         """Return the number for a frame that is being sent."""
         number = self._next
         self._next += 1
-        if len(self._times) == KEPT:
+        if len(self._times) == MAX_BEACONS:
             self._first += 1
         self._times.append(self._clock.seconds())
         return number

@@ -302,7 +302,7 @@ class CommandExecutor:
         self.counters["unhandled"] += 1
         if name not in self._logged_names and len(self._logged_names) < _LOGGED_NAMES_LIMIT:
             self._logged_names.add(name)
-            self.log.debug("nobody handles {name}", name=name)
+            self.log.debug("no module handles {name}", name=name, code="command_unhandled")
 
     def _failed(
         self,
@@ -340,6 +340,7 @@ class CommandExecutor:
                 owner=owner,
                 name=command.NAME,
                 count=count,
+                code="handler_failed",
             )
         self.on_handler_failed(owner)
         return awaited

@@ -63,7 +63,7 @@ class CommandLink:
         """
         if message.id is None:
             return False
-        self._forget()
+        self._expire_answers()
         content = hash((message.name, repr(message.data)))
         known = self._answers.get(message.id)
         if known is None or known.content != content:
@@ -92,7 +92,7 @@ class CommandLink:
             answer.message = message
         self._send(message)
 
-    def _forget(self) -> None:
+    def _expire_answers(self) -> None:
         oldest = self._clock.seconds() - REMEMBERED_S
         answers = self._answers
         while answers and next(iter(answers.values())).time_s < oldest:

@@ -11,17 +11,17 @@ from twisted.logger import Logger
 from twisted.python.failure import Failure
 
 from up.cleanup import add_cleanup
-from up.commands.answer_reports import AnswerReports
 from up.commands.beacon import Beacons
 from up.commands.command import BaseCommand, InvalidCommandError
 from up.commands.command_executor import CommandExecutor
 from up.commands.command_link import CommandLink
 from up.commands.origin import INTERNAL, Origin
+from up.commands.outcome_publisher import OutcomePublisher
 from up.commands.refusal import Code, CommandRefusedError, UnhandledCommandError
 from up.protocols.general_message import GeneralMessage, MalformedMessage
 
 OUTCOME_LIMIT_S = 2.0
-_FAILED = "carrying it out failed; the log says where"
+_FAILED = "execution failed; see the log of the aircraft"
 Route = Callable[[BaseCommand, CommandLink, str | None], "Deferred[None] | None"]
 
 
@@ -40,7 +40,7 @@ class CommandReceiver:
         self._beacons = beacons
         self._clock = clock
         self._routes: dict[str, Route] = {}
-        self._reports = AnswerReports(executor, clock)
+        self._outcomes = OutcomePublisher(executor, clock)
 
     def execute_command(self, command: BaseCommand, origin: Origin = INTERNAL) -> None:
         """Publish a Command from a module of this program (the prototype's name)."""
@@ -95,7 +95,7 @@ class CommandReceiver:
         if command.unsupported:
             self._refuse(link, message, Code.NOT_SUPPORTED, command.unsupported)
             return
-        refusal = self._judge_beacon(command, message)
+        refusal = self._check_beacon(command, message)
         if refusal is not None:
             self._refuse(link, message, *refusal)
             return
@@ -109,9 +109,9 @@ class CommandReceiver:
         link.nack(malformed.id, Code.MALFORMED, malformed.reason)
         if malformed.id is not None:
             code = Code.MALFORMED.value
-            self._reports.tell(link.name, "", malformed.id, code, malformed.reason)
+            self._outcomes.report(link.name, "", malformed.id, code, malformed.reason)
 
-    def _judge_beacon(
+    def _check_beacon(
         self, command: BaseCommand, message: GeneralMessage
     ) -> tuple[Code, str] | None:
         if message.beacon is None:
@@ -142,7 +142,7 @@ class CommandReceiver:
     def _carried_out(self, _: object, message: GeneralMessage, link: CommandLink) -> None:
         link.ack(message.id)
         if message.id is not None:
-            self._reports.tell(link.name, message.name, message.id)
+            self._outcomes.report(link.name, message.name, message.id)
 
     def _route(
         self, command: BaseCommand, message: GeneralMessage, link: CommandLink
@@ -150,7 +150,7 @@ class CommandReceiver:
         route = self._routes.get(command.ROUTE)
         if route is None:
             self._refuse(
-                link, message, Code.UNAVAILABLE, f"nobody carries Commands to {command.ROUTE}"
+                link, message, Code.UNAVAILABLE, f"no module forwards Commands to {command.ROUTE}"
             )
             return None
         try:
@@ -166,7 +166,7 @@ class CommandReceiver:
         elif isinstance(error, UnhandledCommandError):
             self._refuse(link, message, Code.UNAVAILABLE, f"no module handles {message.name}")
         elif isinstance(error, TimeoutError):
-            self._refuse(link, message, Code.TIMEOUT, "no answer from whoever carries it out")
+            self._refuse(link, message, Code.TIMEOUT, "the module that executes it did not answer")
         else:
             self._refuse(link, message, Code.FAILED, _FAILED)
 
@@ -183,7 +183,7 @@ class CommandReceiver:
         name = "" if code is Code.UNKNOWN else message.name
         self._log_refusal(link, (code, name), f"refused: {reason}")
         link.nack(message.id, code, reason)
-        self._reports.tell(link.name, message.name, message.id, code.value, reason)
+        self._outcomes.report(link.name, message.name, message.id, code.value, reason)
 
     def _log_refusal(self, link: CommandLink, key: tuple[Code, str], text: str) -> None:
         limited = self._executor.limited

@@ -22,7 +22,7 @@ class CommandRegistry:
     def add(self, cls: type[BaseCommand]) -> None:
         """Register a class; idempotent. A name that another class uses is an error."""
         if not (isinstance(cls, type) and issubclass(cls, BaseCommand)):
-            raise TypeError(f"{cls!r} is no Command")
+            raise TypeError(f"{cls!r} is not a Command")
         if not cls.NAME:
             raise ValueError(f"{cls.__module__}.{cls.__qualname__} has no NAME")
         wire_fields(cls)

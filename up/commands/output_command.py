@@ -26,7 +26,7 @@ class OutputCommand(BaseCommand):
 
 @dataclass(frozen=True, slots=True)
 class SetpointCommand(BaseCommand):
-    """An attitude asked of the Arduino; after ``lifetime_ms`` it holds level by itself."""
+    """An attitude asked of the Arduino; after ``lifetime_ms`` it levels the aircraft."""
 
     NAME: ClassVar[str] = "up.setpoint.set"
     NEEDS_CONTROL: ClassVar[bool] = True

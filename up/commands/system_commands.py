@@ -22,7 +22,7 @@ class SystemStateCommand(BaseCommand):
 
 @dataclass(frozen=True, slots=True)
 class SystemStopCommand(BaseCommand):
-    """Stops the program; for nobody outside the machine."""
+    """Stops the program; only modules of the program may send it."""
 
     NAME: ClassVar[str] = "up.system.stop"
 

@@ -8,8 +8,8 @@ from typing import Any, ClassVar
 from up.commands.command import BaseCommand, value
 from up.commands.roles import Role
 
-FASTEST_MS = 20
-SLOWEST_MS = 10_000
+MIN_PERIOD_MS = 20
+MAX_PERIOD_MS = 10_000
 
 
 @dataclass(frozen=True, slots=True)
@@ -32,4 +32,6 @@ class TelemetryFrequencyCommand(BaseCommand):
 
     NAME: ClassVar[str] = "up.telemetry.frequency"
     ROLES: ClassVar[frozenset[Role]] = frozenset({Role.OPERATOR})
-    period_ms: float = value(key="frequency", minimum=FASTEST_MS, maximum=SLOWEST_MS, unit="ms")
+    period_ms: float = value(
+        key="frequency", minimum=MIN_PERIOD_MS, maximum=MAX_PERIOD_MS, unit="ms"
+    )

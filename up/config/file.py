@@ -144,7 +144,7 @@ def _entry_schema(entry: Entry) -> dict[str, Any]:
 
 
 V = TypeVar("V")
-_GREATEST_LENGTH = 1000
+_MAX_ENTRIES = 1000
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -167,7 +167,7 @@ class MapFile(Generic[V]):
         if text is not None:
             root = compose(text, problems.report)
             if root is not None and not is_null(root):
-                spec: Any = MapOf(self.key, schema_of(self.cls), _GREATEST_LENGTH)
+                spec: Any = MapOf(self.key, schema_of(self.cls), _MAX_ENTRIES)
                 entries = Validator(problems.report, {}).read(spec, root)
         problems.raise_if_any()
         return entries

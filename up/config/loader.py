@@ -20,7 +20,7 @@ def read_text(path: Path, report: Report) -> str | None:
         data = _read_bytes(path)
     except FileNotFoundError:
         if path.is_symlink():
-            report(1, 1, "is a link to a file that is not there")
+            report(1, 1, "is a link to a missing file")
         return None
     except OSError as error:
         report(1, 1, f"cannot be read: {error.strerror or error}")

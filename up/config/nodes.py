@@ -58,7 +58,7 @@ def compose(text: str, report: Report) -> Node | None:
     builder = _Builder(report)
     try:
         for event in yaml.parse(text, Loader=yaml.SafeLoader):
-            if not builder.take(event):
+            if not builder.process(event):
                 return None
     except yaml.MarkedYAMLError as error:
         mark = error.problem_mark or error.context_mark
@@ -117,7 +117,7 @@ class _Builder:
         self._count = 0
         self._documents = 0
 
-    def take(self, event: yaml.Event) -> bool:
+    def process(self, event: yaml.Event) -> bool:
         """Process the next event; return False if the rest of the file is unusable."""
         mark = event.start_mark
         if mark is not None:
@@ -131,10 +131,10 @@ class _Builder:
             self._open.pop()
             self._keys.pop()
         elif isinstance(event, yaml.NodeEvent):
-            return self._take_node(event)
+            return self._process_node(event)
         return True
 
-    def _take_node(self, event: yaml.NodeEvent) -> bool:
+    def _process_node(self, event: yaml.NodeEvent) -> bool:
         self._count += 1
         if self._count > MAX_NODES:
             self._refuse(f"the file has more than {MAX_NODES} values")

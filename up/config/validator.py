@@ -155,7 +155,7 @@ class Validator:
                 continue
             name = key_node.text
             if name in lines:
-                what = f"the key {show(name)} stands here twice, first in line {lines[name]}"
+                what = f"the key {show(name)} is repeated, first in line {lines[name]}"
                 self._refuse(key_node, path, what)
                 continue
             lines[name] = key_node.line
@@ -164,7 +164,7 @@ class Validator:
     def _unknown(self, schema: Schema, name: str, node: Node, path: str) -> None:
         sentence = self._removed.get(_join(path, name))
         if sentence is not None:
-            self._refuse(node, path, f"the key {show(name)} is no longer used: {sentence}")
+            self._refuse(node, path, f"the key {show(name)} was removed: {sentence}")
             return
         for entry in schema.entries:
             if name in entry.replaced:

@@ -8,9 +8,9 @@ from typing import Any
 
 from up.fields import Constraint
 
-GREATEST = 50.0
+MAX_GAIN = 50.0
 AXES = ("ailerons", "elevator", "rudder")
-_GAIN = Constraint(float, minimum=0, maximum=GREATEST)
+_GAIN = Constraint(float, minimum=0, maximum=MAX_GAIN)
 
 
 @dataclass(frozen=True, slots=True)

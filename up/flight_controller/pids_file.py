@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from up.config import ConfigFile, PersistedFile, key, section
-from up.flight_controller.gains import GREATEST, Gains, GainSet, LoopGains
+from up.flight_controller.gains import MAX_GAIN, Gains, GainSet, LoopGains
 
 _RATE_UNIT = "1.25 us per deg/s"
 _STABILIZE_UNIT = "deg/s per deg"
@@ -16,44 +16,44 @@ _STABILIZE_UNIT = "deg/s per deg"
 class Controller:
     """The gains of one PID controller."""
 
-    p: float = key(0.0, "Proportional gain.", minimum=0, maximum=GREATEST)
-    i: float = key(0.0, "Integral gain.", minimum=0, maximum=GREATEST)
-    d: float = key(0.0, "Derivative gain.", minimum=0, maximum=GREATEST)
+    p: float = key(0.0, "Proportional gain.", minimum=0, maximum=MAX_GAIN)
+    i: float = key(0.0, "Integral gain.", minimum=0, maximum=MAX_GAIN)
+    d: float = key(0.0, "Derivative gain.", minimum=0, maximum=MAX_GAIN)
 
 
 @dataclass(frozen=True, slots=True)
 class AileronsRate(Controller):
     """Roll rate."""
 
-    p: float = key(2.0, "Proportional gain.", unit=_RATE_UNIT, minimum=0, maximum=GREATEST)
+    p: float = key(2.0, "Proportional gain.", unit=_RATE_UNIT, minimum=0, maximum=MAX_GAIN)
 
 
 @dataclass(frozen=True, slots=True)
 class ElevatorRate(Controller):
     """Pitch rate."""
 
-    p: float = key(1.5, "Proportional gain.", unit=_RATE_UNIT, minimum=0, maximum=GREATEST)
+    p: float = key(1.5, "Proportional gain.", unit=_RATE_UNIT, minimum=0, maximum=MAX_GAIN)
 
 
 @dataclass(frozen=True, slots=True)
 class RudderRate(Controller):
     """Yaw rate, washed out: a damper."""
 
-    p: float = key(1.0, "Proportional gain.", unit=_RATE_UNIT, minimum=0, maximum=GREATEST)
+    p: float = key(1.0, "Proportional gain.", unit=_RATE_UNIT, minimum=0, maximum=MAX_GAIN)
 
 
 @dataclass(frozen=True, slots=True)
 class AileronsStabilize(Controller):
     """Roll angle."""
 
-    p: float = key(8.0, "Proportional gain.", unit=_STABILIZE_UNIT, minimum=0, maximum=GREATEST)
+    p: float = key(8.0, "Proportional gain.", unit=_STABILIZE_UNIT, minimum=0, maximum=MAX_GAIN)
 
 
 @dataclass(frozen=True, slots=True)
 class ElevatorStabilize(Controller):
     """Pitch angle."""
 
-    p: float = key(8.0, "Proportional gain.", unit=_STABILIZE_UNIT, minimum=0, maximum=GREATEST)
+    p: float = key(8.0, "Proportional gain.", unit=_STABILIZE_UNIT, minimum=0, maximum=MAX_GAIN)
 
 
 @dataclass(frozen=True, slots=True)
@@ -92,7 +92,7 @@ class PidsConfig:
 
     units: str = key(
         "degrees per second",
-        "Says that the gains are in the units of these comments.",
+        "The units of the gains, as in these comments.",
         choices=("degrees per second",),
     )
     rate: Rate = section(Rate)

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from up.config import ConfigFile, key
+from up.errors import UserError
 
 UP_FILE = "UpFile"
 
@@ -24,7 +25,7 @@ class UpFileConfig:
 UP_FILE_CONFIG = ConfigFile(UP_FILE, UpFileConfig)
 
 
-class NoApplicationError(Exception):
+class NoApplicationError(UserError):
     """The search found no UpFile, or more than one; the text is one sentence."""
 
 
@@ -59,10 +60,14 @@ class Application:
             return cls.at(inside[0])
         if inside:
             names = ", ".join(folder.name for folder in inside)
-            raise NoApplicationError(f"{start} holds several applications ({names}): go into one")
+            raise NoApplicationError(
+                f"{start} holds several applications ({names}): go into one",
+                code="several_applications",
+            )
         raise NoApplicationError(
-            f"no {UP_FILE} in {start}, above it or one folder below: this is no application on Up"
-            " (create one with: up create new -n NAME)"
+            f"no {UP_FILE} in {start}, above it or one folder below: not an application on Up"
+            " (create one with: up create new -n NAME)",
+            code="no_application",
         )
 
     def make_importable(self) -> None:

@@ -13,7 +13,7 @@ from up.config import ConfigErrors, ConfigFile, unknown_files
 from up.config.application import APPLICATION, DISABLED_MODULES
 from up.context import Context
 from up.loading.application import Application
-from up.loading.commands import take_commands
+from up.loading.commands import add_commands
 from up.loading.discovery import Discovered, survey
 from up.loading.order import order
 from up.loading.plan import BootError, Plan
@@ -72,7 +72,7 @@ def _check_graph(
     findings.plan.problems = list(found.problems)
     try:
         plan = findings.plan = select(found, BUILTIN_MODULES, context, disabled)
-        take_commands(plan, found, disabled)
+        add_commands(plan, found, disabled)
         # A module that needs one of a cog that cannot be imported would only repeat that error.
         if not found.cog_errors:
             plan.modules = order(plan.modules, plan.left_out)
@@ -92,7 +92,7 @@ def _disabled_for_nothing(disabled: Iterable[str], found: Discovered) -> list[st
     known = {f"{cls.__module__}.{cls.__qualname__}" for cls in classes}
     known |= {cls.__module__ for cls in classes} | found.disabled_files
     return [
-        f"{DISABLED_MODULES.filename}: {name} is not there to be disabled"
+        f"{DISABLED_MODULES.filename}: {name} does not exist, so it cannot be disabled"
         for name in disabled
         if name not in known
     ]

@@ -12,10 +12,10 @@ from up.commands.command_registry import CommandRegistry, DuplicateCommandError
 from up.loading.discovery import IMPORT_FAULTS, Discovered
 from up.loading.plan import LoadProblem, Plan, Rejected
 
-_FAULTS = (DuplicateCommandError, ValueError, TypeError, NameError)
+_REGISTRATION_FAULTS = (DuplicateCommandError, ValueError, TypeError, NameError)
 
 
-def take_commands(plan: Plan, found: Discovered, disabled: Container[str]) -> None:
+def add_commands(plan: Plan, found: Discovered, disabled: Container[str]) -> None:
     """Add the valid Commands, and the handlers that register themselves.
 
     A broken one becomes a problem, a disabled one is rejected, and a rejected Command's handlers
@@ -27,16 +27,16 @@ def take_commands(plan: Plan, found: Discovered, disabled: Container[str]) -> No
             continue
         try:
             registry.add(cls)
-        except _FAULTS as error:
+        except _REGISTRATION_FAULTS as error:
             plan.problems.append(LoadProblem(_path(cls), found.origins[cls], str(error)))
         else:
             plan.commands.append(cls)
     for handler in found.handlers:
         if handler.COMMAND and not _is_rejected(plan, handler, disabled):
-            _take_handler(plan, found, handler, registry)
+            _add_handler(plan, found, handler, registry)
 
 
-def _take_handler(
+def _add_handler(
     plan: Plan, found: Discovered, cls: type[BaseCommandHandler], registry: CommandRegistry
 ) -> None:
     if cls.COMMAND in found.commands and cls.COMMAND not in plan.commands:
@@ -66,7 +66,7 @@ def _check_command(cls: type[BaseCommandHandler], registry: CommandRegistry) -> 
         )
     try:
         registry.add(command)
-    except _FAULTS as error:
+    except _REGISTRATION_FAULTS as error:
         raise _NoCommandError(f"{cls.__name__}.COMMAND: {error}") from error
 
 

@@ -13,6 +13,7 @@ from types import ModuleType
 from up.base_module import BaseModule
 from up.commands.base_command_handler import BaseCommandHandler
 from up.commands.command import BaseCommand
+from up.errors import UserError
 from up.loading.application import Application
 from up.loading.external_modules import EXTERNAL_MODULES, CogEntry
 from up.loading.plan import LoadProblem, problem_of
@@ -23,7 +24,7 @@ MODULE_FOLDERS = ("modules", "flight_controller")
 COMMAND_FOLDER = "commands"
 
 
-class CogImportError(Exception):
+class CogImportError(UserError):
     """A registered cog cannot be imported; the text is one sentence that names the remedy."""
 
 
@@ -61,7 +62,7 @@ def discover(application: Application, disabled: Iterable[str] = ()) -> Discover
     """
     found = survey(application, disabled)
     if found.cog_errors:
-        raise CogImportError("\n".join(found.cog_errors))
+        raise CogImportError("\n".join(found.cog_errors), code="cog_import_failed")
     return found
 
 
@@ -88,7 +89,7 @@ def _discover_cog(found: Discovered, cog: str, entry: CogEntry) -> None:
             continue
         if not (inspect.isclass(cls) and issubclass(cls, BaseModule)):
             found.cog_errors.append(
-                f"{each.path} of the cog {cog} is no module: it does not extend BaseModule"
+                f"{each.path} of the cog {cog} is not a module: it does not extend BaseModule"
             )
             continue
         found.add(cls, cog)
@@ -138,7 +139,7 @@ def discover_folder(
             continue
         if not path.stem.isidentifier():
             found.problems.append(
-                LoadProblem(name, str(path), "the file's name is no Python identifier")
+                LoadProblem(name, str(path), "the file's name is not a Python identifier")
             )
             continue
         try:

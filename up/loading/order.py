@@ -22,7 +22,7 @@ def order(
     uses = {id(module): _fill(module, modules, absent) for module in modules}
     missing = [_missing(module, wanted, left_out) for module, wanted in absent]
     if missing:
-        raise BootError("\n".join(missing))
+        raise BootError("\n".join(missing), code="need_missing")
     ranked = sorted(modules, key=lambda module: module.LOAD_ORDER)
     ordered: list[BaseModule] = []
     placed: set[int] = set()
@@ -37,7 +37,7 @@ def order(
         )
         if ready is None:
             left = [module for module in ranked if id(module) not in placed]
-            raise BootError(_circle(left, uses))
+            raise BootError(_circle(left, uses), code="need_circle")
         placed.add(id(ready))
         ordered.append(ready)
     return ordered
@@ -69,7 +69,7 @@ def _missing(
         if issubclass(cls, wanted)
     ]
     known = f" ({'; '.join(reasons)})" if reasons else ""
-    way = "mend that" if reasons else "register the cog that brings it"
+    way = "fix that" if reasons else "register the cog that brings it"
     return (
         f"{module.path} needs {wanted.__name__}, which is not loaded{known}: {way}, or list"
         f" {module.path} in disabled_modules.yml"

@@ -9,6 +9,7 @@ from pathlib import Path
 from up.base_module import BaseModule
 from up.commands.base_command_handler import BaseCommandHandler
 from up.commands.command import BaseCommand
+from up.errors import UserError
 
 
 @dataclass(frozen=True, slots=True)
@@ -33,7 +34,7 @@ class Plan:
     """The reason why a discovered module class is left out, rejected or broken."""
 
 
-class BootError(Exception):
+class BootError(UserError):
     """The configured system cannot boot; the text is one sentence."""
 
 

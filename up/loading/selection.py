@@ -62,7 +62,7 @@ def _build(cls: type[BaseModule], context: Context, plan: Plan) -> BaseModule | 
         plan.left_out[cls] = problem.what
         return None
     if not wanted:
-        _reject(plan, cls, "its load() says no")
+        _reject(plan, cls, "its load() returned False")
         return None
     return module
 
@@ -86,7 +86,7 @@ def _without_overridden(
             kept.append(module)
     conflicts = _conflicts(kept, dict.fromkeys((*builtins, *replaced)))
     if conflicts:
-        raise BootError("\n".join(conflicts))
+        raise BootError("\n".join(conflicts), code="replacement_conflict")
     return kept
 
 
@@ -109,7 +109,7 @@ def _way_out(base: type[BaseModule]) -> str:
         return ""
     return (
         f" (if {base.__name__} is only what they have in common, begin its name with an"
-        " underscore, then it is no module)"
+        " underscore, then it is not a module)"
     )
 
 

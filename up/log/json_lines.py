@@ -94,7 +94,6 @@ class JsonLinesObserver:
         self._writing = False
 
     def start(self) -> None:
-        """Open the file."""
         self._writing = True
         self._guarded(self._file.open)
 

@@ -27,7 +27,7 @@ class Once:
 
 
 @dataclass(slots=True)
-class _Held:
+class _Suppressed:
     """The events suppressed in the current interval, with the newest one."""
 
     call: Timer
@@ -47,16 +47,16 @@ class Limited:
         self._clock = clock
         self._interval_s = interval_s
         self._limit = limit
-        self._held: dict[Hashable, _Held] = {}
+        self._suppressed: dict[Hashable, _Suppressed] = {}
 
     def log(self, emit: Emit, format_: str, *, key: Hashable = None, **fields: Any) -> None:
         """Log by `emit` (a logger's method), now or counted; the format is the default key."""
         key = format_ if key is None else key
-        if key not in self._held and len(self._held) >= self._limit:
+        if key not in self._suppressed and len(self._suppressed) >= self._limit:
             key = _OTHERS
-        held = self._held.get(key)
+        held = self._suppressed.get(key)
         if held is None:
-            self._held[key] = _Held(self._schedule(key), emit, format_, fields)
+            self._suppressed[key] = _Suppressed(self._schedule(key), emit, format_, fields)
             emit(format_, **fields)
         else:
             held.emit, held.format_, held.fields = emit, format_, fields
@@ -64,24 +64,24 @@ class Limited:
 
     def stop(self) -> None:
         """Report the suppressed events and reset."""
-        held_back, self._held = self._held, {}
+        held_back, self._suppressed = self._suppressed, {}
         for held in held_back.values():
             held.call.cancel()
-            self._tell(held)
+            self._report(held)
 
     def _schedule(self, key: Hashable) -> Timer:
         return self._clock.callLater(self._interval_s, self._end_interval, key)
 
     def _end_interval(self, key: Hashable) -> None:
-        held = self._held[key]
+        held = self._suppressed[key]
         if not held.more:
-            del self._held[key]
+            del self._suppressed[key]
             return
-        self._tell(held)
+        self._report(held)
         held.more = 0
         held.call = self._schedule(key)
 
-    def _tell(self, held: _Held) -> None:
+    def _report(self, held: _Suppressed) -> None:
         if held.more:
             held.emit(
                 held.format_ + " (and {more} more in {interval_s:g} s)",

@@ -42,7 +42,6 @@ class Logging:
         self._json_lines = json_lines
 
     def stop(self) -> None:
-        """Remove the observers and close the file."""
         for observer in self._observers:
             self._publisher.removeObserver(observer)
         if self._json_lines is not None:
@@ -78,7 +77,7 @@ def start_logging(
     json_lines = None
     if json_path is not None:
         file = RotatingFile(json_path, rotate_bytes, keep)
-        json_lines = JsonLinesObserver(file, least, lambda what: _say(text, what))
+        json_lines = JsonLinesObserver(file, least, lambda what: _log_directly(text, what))
         observers.append(cast(ILogObserver, json_lines))
         json_lines.start()
     beginner.beginLoggingTo(observers, redirectStandardIO=False)
@@ -90,7 +89,7 @@ def json_lines_of(event: LogEvent, least: NamedConstant) -> Iterator[str]:
     yield line_of(event, least).decode("ascii").rstrip("\n")
 
 
-def _say(observer: TextObserver, what: str) -> None:
+def _log_directly(observer: TextObserver, what: str) -> None:
     """Write directly to the stream, bypassing the publisher that is handling an event."""
     observer(
         {

@@ -7,12 +7,12 @@ from collections.abc import Mapping
 
 from up.protocols import cobs
 from up.protocols.crc16 import INITIAL, crc16
-from up.protocols.frame import LONGEST_PAYLOAD, Frame, FrameCounters, SilenceTimer
+from up.protocols.frame import MAX_PAYLOAD, Frame, FrameCounters, SilenceTimer
 
-LONGEST_ENCODED = 101
+MAX_ENCODED = 101
 """Bytes of the longest frame without its closing zero."""
 
-_SHORTEST_ENCODED = 5
+_MIN_ENCODED = 5
 
 
 def _states_before() -> tuple[int, ...]:
@@ -41,8 +41,8 @@ class CheckedEncoder:
 
     def encode(self, type_: int, payload: bytes = b"") -> bytes:
         """Return one frame with its closing zero; ValueError for more than 96 bytes."""
-        if len(payload) > LONGEST_PAYLOAD:
-            raise ValueError(f"a payload of {len(payload)} bytes, at most {LONGEST_PAYLOAD} fit")
+        if len(payload) > MAX_PAYLOAD:
+            raise ValueError(f"a payload of {len(payload)} bytes, at most {MAX_PAYLOAD} fit")
         body = bytes((self._next_sequence, type_)) + payload
         self._next_sequence = (self._next_sequence + 1) & 0xFF
         return cobs.encode(body + crc16(body).to_bytes(2, "big")) + b"\0"
@@ -67,7 +67,7 @@ class CheckedDecoder:
         """Return the frames that `data` completes, in order."""
         if now is not None and self._silence.has_expired(now):
             self._drop_unfinished()
-        self._silence.heard(now)
+        self._silence.on_bytes(now)
         pieces = (self._tail + data).split(b"\0")
         tail = pieces.pop()
         if self._is_skipping and pieces:
@@ -75,7 +75,7 @@ class CheckedDecoder:
             pieces[0] = b""
         if self._is_skipping:
             tail = b""
-        elif len(tail) > LONGEST_ENCODED:
+        elif len(tail) > MAX_ENCODED:
             self.counters.format_errors += 1
             self._is_skipping = True
             tail = b""
@@ -110,7 +110,7 @@ class CheckedDecoder:
         frames: list[Frame] = []
         for piece in pieces:
             length = len(piece)
-            if not _SHORTEST_ENCODED <= length <= LONGEST_ENCODED:
+            if not _MIN_ENCODED <= length <= MAX_ENCODED:
                 if length:
                     counters.format_errors += 1
                 continue
@@ -136,7 +136,7 @@ class CheckedDecoder:
             size = size_of(type_)
             if size is None:
                 counters.unknown_types += 1
-            elif size != length - _SHORTEST_ENCODED:
+            elif size != length - _MIN_ENCODED:
                 counters.format_errors += 1
             else:
                 frames.append((type_, piece[3:-2], sequence))

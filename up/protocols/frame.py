@@ -10,7 +10,7 @@ Frame = tuple[int, bytes, int]
 UNFINISHED_TIMEOUT_S = 0.1
 """Timeout of an unfinished frame (docs/protocols.md 2.1)."""
 
-LONGEST_PAYLOAD = 96
+MAX_PAYLOAD = 96
 
 
 @dataclass(slots=True)
@@ -28,8 +28,8 @@ class FrameCounters:
 class SilenceTimer:
     """Reports when the newest byte is more than 100 ms old.
 
-    `heard` may not know the time; then the age counts from the next clock reading, which is later
-    and so never drops a frame too early. Times are monotonic seconds.
+    Without a time in `on_bytes` the age counts from the next clock reading, which is later and so
+    never drops a frame too early. Times are monotonic seconds.
     """
 
     __slots__ = ("_heard_s", "_is_fresh")
@@ -38,7 +38,7 @@ class SilenceTimer:
         self._heard_s: float | None = None
         self._is_fresh = False
 
-    def heard(self, now: float | None) -> None:
+    def on_bytes(self, now: float | None) -> None:
         """Note that bytes arrived."""
         self._heard_s = now
         self._is_fresh = now is None
@@ -46,6 +46,6 @@ class SilenceTimer:
     def has_expired(self, now: float) -> bool:
         """Return whether the newest byte is too old for its frame to continue."""
         if self._is_fresh:
-            self.heard(now)
+            self.on_bytes(now)
         # Added, not subtracted: a timer set for exactly this time must find it expired.
         return self._heard_s is not None and now >= self._heard_s + UNFINISHED_TIMEOUT_S

@@ -9,15 +9,15 @@ from collections import Counter
 from dataclasses import dataclass, field
 from typing import Any, NoReturn
 
-from up.protocols.line_decoder import LONGEST_LINE
+from up.protocols.line_decoder import MAX_LINE_BYTES
 
-DEEPEST_NESTING = 32
-LONGEST_NAME = 128
-LONGEST_ID = 64
+MAX_NESTING = 32
+MAX_NAME = 128
+MAX_ID = 64
 MAX_KEYS = 512
 """Keys of one object; it bounds the work per message."""
 
-_LONGEST_WHOLE_NUMBER = 20
+_MAX_WHOLE_NUMBER = 20
 _STRING_OR_BRACKET = re.compile(rb'"(?:[^"\\]++|\\.)*+(?:"|\\?\Z)|[\[\]{}]', re.DOTALL)
 _OPENING = b"[{"
 _CLOSING = b"]}"
@@ -42,7 +42,7 @@ class MalformedMessage(ValueError):  # noqa: N818 - the protocol's term
         self.id = id
 
 
-def decode(line: bytes, longest: int = LONGEST_LINE) -> GeneralMessage:
+def decode(line: bytes, longest: int = MAX_LINE_BYTES) -> GeneralMessage:
     """Return the message in `line`, with or without its line end; raises MalformedMessage."""
     fields, may_hold_surrogates = _decode(line, longest)
     return _message_of(fields, may_hold_surrogates=may_hold_surrogates)
@@ -67,8 +67,8 @@ def _decode(line: bytes, longest: int) -> tuple[dict[str, Any], bool]:
         text = line.decode("utf-8")
     except UnicodeDecodeError:
         raise MalformedMessage("not UTF-8") from None
-    if line.count(b"[") + line.count(b"{") > DEEPEST_NESTING and _is_too_deep(line):
-        raise MalformedMessage(f"nested deeper than {DEEPEST_NESTING}", _id_despite_fault(text))
+    if line.count(b"[") + line.count(b"{") > MAX_NESTING and _is_too_deep(line):
+        raise MalformedMessage(f"nested deeper than {MAX_NESTING}", _id_despite_fault(text))
     try:
         fields = _STRICT.decode(text)
     except json.JSONDecodeError as error:
@@ -76,7 +76,7 @@ def _decode(line: bytes, longest: int) -> tuple[dict[str, Any], bool]:
     except ValueError as error:
         raise MalformedMessage(str(error), _id_despite_fault(text)) from None
     except RecursionError:
-        raise MalformedMessage(f"nested deeper than {DEEPEST_NESTING}") from None
+        raise MalformedMessage(f"nested deeper than {MAX_NESTING}") from None
     if not isinstance(fields, dict):
         raise MalformedMessage("not a JSON object")
     return fields, "\\ud" in text or "\\uD" in text
@@ -99,11 +99,11 @@ def encode(
         fault = _find_fault(data, "data") or str(error)
         raise ValueError(f"{name}: {fault}") from None
     except RecursionError:
-        raise ValueError(f"{name}: nested deeper than {DEEPEST_NESTING}") from None
+        raise ValueError(f"{name}: nested deeper than {MAX_NESTING}") from None
     if "\\ud" in text and _has_lone_surrogate(fields):
         raise ValueError(f"{name}: text with a lone surrogate")
-    if len(text) >= LONGEST_LINE:
-        raise ValueError(f"{name}: a line of {len(text) + 1} bytes, at most {LONGEST_LINE}")
+    if len(text) >= MAX_LINE_BYTES:
+        raise ValueError(f"{name}: a line of {len(text) + 1} bytes, at most {MAX_LINE_BYTES}")
     return text.encode("ascii") + b"\n"
 
 
@@ -112,16 +112,16 @@ def _message_of(fields: dict[str, Any], *, may_hold_surrogates: bool) -> General
     if may_hold_surrogates and _has_lone_surrogate(fields):
         raise MalformedMessage("text with a lone surrogate", _encodable(id_))
     name = fields.get("name")
-    if not isinstance(name, str) or not 1 <= len(name) <= LONGEST_NAME:
-        raise MalformedMessage(f"name is no text of 1 to {LONGEST_NAME} characters", id_)
+    if not isinstance(name, str) or not 1 <= len(name) <= MAX_NAME:
+        raise MalformedMessage(f"name is not a text of 1 to {MAX_NAME} characters", id_)
     data = fields.get("data")
     if data is None:
         data = {}
     elif not isinstance(data, dict):
-        raise MalformedMessage("data is no object", id_)
+        raise MalformedMessage("data is not an object", id_)
     beacon = fields.get("beacon")
     if beacon is not None and type(beacon) is not int:
-        raise MalformedMessage("beacon is no whole number", id_)
+        raise MalformedMessage("beacon is not a whole number", id_)
     return GeneralMessage(name, data, id_, beacon)
 
 
@@ -130,8 +130,8 @@ def _read_id(value: object) -> str | None:
         return None
     if type(value) in (int, float):
         value = str(value)
-    if not isinstance(value, str) or not 1 <= len(value) <= LONGEST_ID:
-        raise MalformedMessage(f"id is no text of 1 to {LONGEST_ID} characters")
+    if not isinstance(value, str) or not 1 <= len(value) <= MAX_ID:
+        raise MalformedMessage(f"id is not a text of 1 to {MAX_ID} characters")
     return value
 
 
@@ -155,7 +155,7 @@ def _is_too_deep(line: bytes) -> bool:
         token = match[0]
         if token in _OPENING:
             depth += 1
-            if depth > DEEPEST_NESTING:
+            if depth > MAX_NESTING:
                 return True
         elif token in _CLOSING:
             depth -= 1
@@ -172,8 +172,8 @@ def _has_lone_surrogate(value: object) -> bool:
 
 def _find_fault(value: object, path: str, depth: int = 2) -> str | None:
     """Return a sentence with the key path of a value that JSON cannot hold, or None."""
-    if depth > DEEPEST_NESTING:
-        return f"{path} is nested deeper than {DEEPEST_NESTING}"
+    if depth > MAX_NESTING:
+        return f"{path} is nested deeper than {MAX_NESTING}"
     if isinstance(value, float):
         return None if math.isfinite(value) else f"{path} is {value}"
     if value is None or isinstance(value, str | int):
@@ -196,13 +196,13 @@ def _finite_float(text: str) -> float:
 
 
 def _bounded_int(text: str) -> int:
-    if len(text) > _LONGEST_WHOLE_NUMBER:
-        raise ValueError(f"a whole number of more than {_LONGEST_WHOLE_NUMBER} characters")
+    if len(text) > _MAX_WHOLE_NUMBER:
+        raise ValueError(f"a whole number of more than {_MAX_WHOLE_NUMBER} characters")
     return int(text)
 
 
 def _refuse_constant(text: str) -> NoReturn:
-    raise ValueError(f"{text} is no JSON number")
+    raise ValueError(f"{text} is not a JSON number")
 
 
 def _unique_object(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
@@ -229,7 +229,7 @@ _STRICT = json.JSONDecoder(
     object_pairs_hook=_unique_object,
 )
 _LENIENT = json.JSONDecoder(
-    parse_int=lambda text: int(text) if len(text) <= LONGEST_ID else None,
+    parse_int=lambda text: int(text) if len(text) <= MAX_ID else None,
     object_pairs_hook=_lenient_object,
 )
 _ENCODER = json.JSONEncoder(allow_nan=False)

@@ -11,7 +11,7 @@ from twisted.logger import Logger
 from twisted.python.failure import Failure
 
 from up.protocols.general_message import GeneralMessage, MalformedMessage, decode
-from up.protocols.line_decoder import LONGEST_LINE, LineDecoder
+from up.protocols.line_decoder import MAX_LINE_BYTES, LineDecoder
 from up.protocols.link_output import LinkOutput
 from up.protocols.tcp_options import watch_peer, why_lost
 from up.system.clock import Clock, Timer
@@ -66,6 +66,7 @@ def permits(bucket: TokenBucket, peer: str, waiting: int = 1) -> bool:
             "{peer} sends more than {rate:g} messages a second: the excess is dropped and counted",
             peer=peer,
             rate=MAX_MESSAGES_HZ,
+            code="rate_exceeded",
         )
     return False
 
@@ -97,7 +98,7 @@ class GeneralMessageProtocol(Protocol):
         self.output = LinkOutput()
         self.bucket = bucket or TokenBucket(clock, MAX_MESSAGES_HZ, MAX_BURST)
         self.malformed = 0
-        self.longest_line = LONGEST_LINE
+        self.longest_line = MAX_LINE_BYTES
         self._clock = clock
         self._on_message = on_message
         self._on_malformed = on_malformed

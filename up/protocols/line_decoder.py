@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-LONGEST_LINE = 16384
+MAX_LINE_BYTES = 16384
 """Bytes of a General Message line with its LF (docs/protocols.md 4)."""
 
 
@@ -13,7 +13,7 @@ class LineDecoder:
     stays below that bound for any input. Empty lines are heartbeats and are left out.
     """
 
-    def __init__(self, max_length: int = LONGEST_LINE) -> None:
+    def __init__(self, max_length: int = MAX_LINE_BYTES) -> None:
         self.dropped_too_long = 0
         self._max_content = max_length - 1
         self._parts: list[bytes] = []

@@ -99,7 +99,7 @@ class SerialDescriptor:
     def doWrite(self) -> Exception | None:  # noqa: N802 - Twisted's name
         while not self._is_stopped:
             if not self._rest:
-                self._rest = self._take_next()
+                self._rest = self._pop_next()
                 if not self._rest:
                     self._is_writing = False
                     self._reactor.removeWriter(self)
@@ -134,7 +134,7 @@ class SerialDescriptor:
             self._is_writing = True
             self._reactor.addWriter(self)
 
-    def _take_next(self) -> bytes:
+    def _pop_next(self) -> bytes:
         if self._frames:
             frame = self._frames.popleft()
             self._frames_size -= len(frame)

@@ -11,8 +11,8 @@ from up.protocols.serial_descriptor import SerialDescriptor
 from up.protocols.serial_port import close_serial
 from up.system.clock import Timer
 
-FIRST_DELAY_S = 0.2
-LONGEST_DELAY_S = 1.6
+INITIAL_DELAY_S = 0.2
+MAX_DELAY_S = 1.6
 """Between attempts to open; below the 2 s within which a restored line is used again."""
 
 PENDING_LIMIT = 1024
@@ -69,7 +69,7 @@ class SerialLine:
         self._port: int | SerialLike | None = None
         self._descriptor: SerialDescriptor | None = None
         self._timer: Timer | None = None
-        self._delay_s = FIRST_DELAY_S
+        self._delay_s = INITIAL_DELAY_S
         self._is_started = False
 
     @property
@@ -80,7 +80,7 @@ class SerialLine:
         """Try to open the port, and retry until it opens; return whether it is open already."""
         if not self._is_started:
             self._is_started = True
-            self._delay_s = FIRST_DELAY_S
+            self._delay_s = INITIAL_DELAY_S
             self._open()
         return self.is_open
 
@@ -113,7 +113,7 @@ class SerialLine:
         """Close the port and reopen it, as after a fault."""
         if self._descriptor is not None:
             self._descriptor.stop()
-            self._lost("to be opened anew")
+            self._lost("reopening")
 
     def _open(self) -> None:
         try:
@@ -144,7 +144,7 @@ class SerialLine:
 
     def _received(self, data: bytes) -> None:
         # Only received bytes prove the port: one that opens and then fails is retried slowly.
-        self._delay_s = FIRST_DELAY_S
+        self._delay_s = INITIAL_DELAY_S
         self._on_bytes(data)
 
     def _lost(self, why: str) -> None:
@@ -157,7 +157,7 @@ class SerialLine:
 
     def _try_again(self) -> None:
         self._timer = self._reactor.callLater(self._delay_s, self._open)
-        self._delay_s = min(self._delay_s * 2, LONGEST_DELAY_S)
+        self._delay_s = min(self._delay_s * 2, MAX_DELAY_S)
 
     def _close(self) -> None:
         port, self._port, self._descriptor = self._port, None, None

@@ -11,7 +11,11 @@ _IFLAG, _OFLAG, _CFLAG, _LFLAG, _ISPEED, _OSPEED, _CC = range(7)
 
 
 class SerialPortError(OSError):
-    """A serial port that cannot be used; its text is one sentence for the user."""
+    """A serial port that cannot be used; its text is one sentence for the user, ``code`` a name."""
+
+    def __init__(self, text: str, code: str = "") -> None:
+        super().__init__(text)
+        self.code = code
 
 
 def open_serial(path: str, baud: int, clear_hupcl: bool = True) -> int:
@@ -22,11 +26,14 @@ def open_serial(path: str, baud: int, clear_hupcl: bool = True) -> int:
     """
     speed = getattr(termios, f"B{baud}", None)
     if speed is None:
-        raise SerialPortError(f"{path} cannot run at {baud} baud, a speed this system has not")
+        raise SerialPortError(
+            f"{path} cannot run at {baud} baud, a speed this system has not",
+            code="speed_unsupported",
+        )
     try:
         descriptor = os.open(path, os.O_RDWR | os.O_NOCTTY | os.O_NONBLOCK | os.O_CLOEXEC)
     except (OSError, ValueError) as error:
-        raise SerialPortError(_why_not_opened(path, error)) from None
+        raise _not_opened(path, error) from None
     try:
         _set_up(descriptor, speed, clear_hupcl=clear_hupcl)
         _claim(descriptor, path)
@@ -37,8 +44,8 @@ def open_serial(path: str, baud: int, clear_hupcl: bool = True) -> int:
     except (OSError, termios.error) as error:
         os.close(descriptor)
         code = error.args[0]
-        why = "is no serial port" if code == errno.ENOTTY else f"failed: {os.strerror(code)}"
-        raise SerialPortError(f"{path} {why}") from None
+        why = "is not a serial port" if code == errno.ENOTTY else f"failed: {os.strerror(code)}"
+        raise SerialPortError(f"{path} {why}", code="not_a_port") from None
     return descriptor
 
 
@@ -77,16 +84,18 @@ def _claim(descriptor: int, path: str) -> None:
     try:
         fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
     except BlockingIOError:
-        raise SerialPortError(f"{path} is in use by another program") from None
+        raise SerialPortError(f"{path} is in use by another program", code="port_in_use") from None
     fcntl.ioctl(descriptor, termios.TIOCEXCL)
 
 
-def _why_not_opened(path: str, error: OSError | ValueError) -> str:
-    code = error.errno if isinstance(error, OSError) else errno.EINVAL
-    if code in (errno.ENOENT, errno.ENODEV, errno.ENXIO):
-        return f"{path} is missing: is the Arduino plugged in?"
-    if code == errno.EBUSY:
-        return f"{path} is in use by another program"
-    if code in (errno.EACCES, errno.EPERM):
-        return f"{path} may not be opened: add this user to the group dialout and log in again"
-    return f"{path} cannot be opened: {os.strerror(code or errno.EIO)}"
+def _not_opened(path: str, error: OSError | ValueError) -> SerialPortError:
+    number = error.errno if isinstance(error, OSError) else errno.EINVAL
+    if number in (errno.ENOENT, errno.ENODEV, errno.ENXIO):
+        return SerialPortError(f"{path} is missing: is the Arduino plugged in?", "port_missing")
+    if number == errno.EBUSY:
+        return SerialPortError(f"{path} is in use by another program", "port_in_use")
+    if number in (errno.EACCES, errno.EPERM):
+        advice = "add this user to the group dialout and log in again"
+        return SerialPortError(f"{path} may not be opened: {advice}", "permission_denied")
+    text = f"{path} cannot be opened: {os.strerror(number or errno.EIO)}"
+    return SerialPortError(text, "port_unusable")

@@ -37,7 +37,7 @@ class ThesisDecoder:
     def feed(self, data: bytes, now: float | None = None) -> list[Frame]:
         """Return the frames that `data` completes, in order."""
         frames = self.expire(now) if now is not None else []
-        self._silence.heard(now)
+        self._silence.on_bytes(now)
         buffer = self._tail + data
         frames += self._take(buffer, is_silent=False)
         return frames

@@ -128,7 +128,6 @@ class Reading(Generic[_T]):
     valid: bool = True
 
     def age_s(self, now_s: float) -> float:
-        """Return the age in seconds."""
         return now_s - self.time_s
 
     def is_fresh(self, now_s: float, max_age_s: float) -> bool:

@@ -12,7 +12,7 @@ import gc
 from up.system.clock import Clock, Timer
 
 PERIOD_S = 1.0
-OLDEST_EVERY = 300
+FULL_COLLECTION_EVERY = 300
 
 
 class GcScheduler:
@@ -42,4 +42,4 @@ class GcScheduler:
     def _collect(self) -> None:
         self._schedule()
         self._rounds += 1
-        gc.collect(1 if self._rounds % OLDEST_EVERY else 2)
+        gc.collect(1 if self._rounds % FULL_COLLECTION_EVERY else 2)

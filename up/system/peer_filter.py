@@ -30,9 +30,9 @@ class PeerFilter:
             if self._accepts_public or is_wildcard(address) or is_private(address):
                 return ""
         except ValueError:
-            return f"{address!r} is no literal IP address to listen on"
+            return f"{address!r} is not a literal IP address"
         return (
-            f"{address} is a public address and this listener authenticates nobody; use a private"
+            f"{address} is public and this listener does not authenticate peers; use a private"
             f" address, or accept it with {self._key}: true"
         )
 
@@ -50,8 +50,9 @@ class PeerFilter:
         if host not in self._logged and len(self._logged) < _LOGGED_LIMIT:
             self._logged.add(host)
             self.log.warn(
-                "refused the public address {host} on a plain listener ({key}); said once a host",
+                "refused the public address {host} on a plain listener ({key}); logged once",
                 host=host,
                 key=self._key,
+                code="peer_refused",
             )
         return False

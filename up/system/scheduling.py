@@ -21,12 +21,17 @@ def use_realtime_priority(priority: int) -> bool:
     except PermissionError:
         log.warn(
             "real-time priority {priority} is not permitted: run as root, or let systemd do it"
-            " (CPUSchedulingPolicy=fifo) or 'ulimit -r'; going on without",
+            " (CPUSchedulingPolicy=fifo) or 'ulimit -r'; continuing without it",
             priority=priority,
+            code="realtime_denied",
         )
         return False
     except OSError as error:
-        log.warn("real-time priority is not to be had: {error}; going on without", error=error)
+        log.warn(
+            "cannot set real-time priority: {error}; continuing without it",
+            error=error,
+            code="realtime_failed",
+        )
         return False
-    log.info("real-time priority {priority} (SCHED_FIFO)", priority=priority)
+    log.info("real-time priority {priority} (SCHED_FIFO)", priority=priority, code="realtime_set")
     return True

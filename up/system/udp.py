@@ -30,7 +30,7 @@ class _FairPort(Port):
             try:
                 self.protocol.datagramReceived(datagram, address[:2])
             except Exception:  # noqa: BLE001 - as in Twisted's port: a fault costs one datagram
-                self.log.failure("a datagram could not be handled")
+                self.log.failure("a datagram could not be handled", code="datagram_failed")
 
 
 def listen_udp(reactor: Any, number: int, protocol: Any, address: str = "") -> Any:

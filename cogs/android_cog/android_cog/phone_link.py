@@ -20,7 +20,7 @@ from up.protocols.general_message_link import (
     GeneralMessageProtocol,
 )
 from up.protocols.general_message_udp import SILENCE_TIMEOUT_S, GeneralMessageDatagrams
-from up.protocols.line_decoder import LONGEST_LINE
+from up.protocols.line_decoder import MAX_LINE_BYTES
 from up.system.clock import Clock, Timer
 from up.system.peer_filter import PeerFilter
 from up.system.token_bucket import TokenBucket
@@ -170,7 +170,7 @@ class PhoneLink:
         if isinstance(link, GeneralMessageProtocol):
             # A separate bucket until here, so that no other phone can empty the owner's.
             link.bucket = self.bucket
-            link.longest_line = LONGEST_LINE
+            link.longest_line = MAX_LINE_BYTES
         self._owner, self._address, self._identity = link, address, identity
         self._on_connected(link)
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from struct import Struct, error
 
-from up.flight_controller.gains import GREATEST, Gains, GainSet, LoopGains
+from up.flight_controller.gains import MAX_GAIN, Gains, GainSet, LoopGains
 
 _F32 = Struct(">f")
 _TWO_AXES = Struct(">12f")
@@ -21,8 +21,8 @@ def pack_gains(gains: GainSet) -> bytes:
     Raises ValueError when a gain is not finite or not within 0 to 50; then nothing is sent.
     """
     values = list(_values(gains))
-    if not all(0 <= value <= GREATEST for value in values):
-        raise ValueError(f"a gain is not within 0 to {GREATEST:g}")
+    if not all(0 <= value <= MAX_GAIN for value in values):
+        raise ValueError(f"a gain is not within 0 to {MAX_GAIN:g}")
     form = _THREE_AXES if gains.has_rudder else _TWO_AXES
     try:
         return form.pack(*values)
@@ -37,8 +37,8 @@ def read_gains(payload: bytes) -> GainSet:
     """
     form = _THREE_AXES if len(payload) == THREE_AXES_SIZE else _TWO_AXES
     values = form.unpack(payload)
-    if not all(0 <= value <= GREATEST for value in values):
-        raise ValueError(f"a gain is not within 0 to {GREATEST:g}")
+    if not all(0 <= value <= MAX_GAIN for value in values):
+        raise ValueError(f"a gain is not within 0 to {MAX_GAIN:g}")
     exact = [_shortest(value) for value in values]
     half = len(exact) // 2
     return GainSet(_loop(exact[:half]), _loop(exact[half:]))

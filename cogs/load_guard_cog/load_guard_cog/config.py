@@ -29,11 +29,11 @@ class LoadGuardConfig:
         maximum=99,
     )
     interval: float = key(
-        1.0, "Time between two looks at the load.", unit="s", minimum=0.1, maximum=10
+        1.0, "Time between two measurements of the load.", unit="s", minimum=0.1, maximum=10
     )
     dwell_s: float = key(
         5.0,
-        "Least time between two switches.",
+        "Minimum time between two switches.",
         name="dwell (s)",
         unit="s",
         minimum=5,
@@ -41,7 +41,7 @@ class LoadGuardConfig:
     )
     panic_delay_ms: int = key(
         150,
-        "Period that everybody who sends to the Raspberry Pi keeps in Panic Mode.",
+        "Minimum period of every sender to the Raspberry Pi in Panic Mode.",
         name="panic delay (ms)",
         unit="ms",
         minimum=10,
@@ -49,7 +49,7 @@ class LoadGuardConfig:
     )
     normal_delay_ms: int = key(
         20,
-        "Period that they go back to.",
+        "Minimum period outside Panic Mode.",
         name="normal delay (ms)",
         unit="ms",
         minimum=10,

@@ -21,19 +21,19 @@ class SerialConfig:
     )
     baud_rate: int = key(
         115200,
-        "The speed for which the firmware was built. An old firmware (framing: thesis) has 9600.",
+        "The speed for which the firmware was built. An old firmware (framing: thesis) uses 9600.",
         unit="baud",
         choices=(9600, 19200, 38400, 57600, 115200, 230400),
     )
     framing: str = key(
         "checked",
-        "How messages are wrapped: checked (COBS, sequence, CRC) for the firmware of this project,"
+        "The framing of messages: checked (COBS, sequence, CRC) for the firmware of this project,"
         " thesis (bare) for an old one, which takes no arming, setpoint or Output.",
         choices=FRAMINGS,
     )
     silence_s: float = key(
         1.0,
-        "After this long without a frame the Arduino counts as not connected.",
+        "Without a frame for this time the Arduino counts as not connected.",
         unit="s",
         minimum=0.2,
         maximum=10,
@@ -43,7 +43,7 @@ class SerialConfig:
 ARDUINO = ConfigFile(
     "arduino.yml",
     SerialConfig,
-    removed={"wait_for_arduino": "is gone: Raspilot always starts, and goes on looking for it"},
+    removed={"wait_for_arduino": "Raspilot always starts and keeps looking for the Arduino"},
 )
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 
-from up.protocols.frame import LONGEST_PAYLOAD
+from up.protocols.frame import MAX_PAYLOAD
 
 FrameHandler = Callable[[bytes], object]
 FrameType = str | int | bytes
@@ -38,8 +38,8 @@ class HandlerTable:
         Raises ValueError for a size outside 0 to 96 or other than an earlier handler's.
         """
         number = type_byte(type_)
-        if not 0 <= payload_size <= LONGEST_PAYLOAD:
-            raise ValueError(f"a payload has 0 to {LONGEST_PAYLOAD} bytes, not {payload_size}")
+        if not 0 <= payload_size <= MAX_PAYLOAD:
+            raise ValueError(f"a payload has 0 to {MAX_PAYLOAD} bytes, not {payload_size}")
         is_new = number not in self._sizes
         if self._sizes.setdefault(number, payload_size) != payload_size:
             raise ValueError(

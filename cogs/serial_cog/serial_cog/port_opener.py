@@ -135,7 +135,9 @@ class PortOpener:
     def _open_found(self) -> int:
         ports = self._found()
         if not ports:
-            raise SerialPortError(f"no serial port found: looking for {WANTED}")
+            raise SerialPortError(
+                f"no serial port found: looking for {WANTED}", code="port_missing"
+            )
         failure: SerialPortError | None = None
         for port in sorted(ports, key=lambda each: each.device in self._silent):
             try:

@@ -251,7 +251,7 @@ def test_a_public_address_is_no_address_to_listen_on(tmp_path):
             async with f:
                 pass
         (reason,) = f.up.vetoes.own.values()
-        assert "203.0.113.4 is a public address" in reason
+        assert "203.0.113.4 is public" in reason
         assert "android.yml: i_accept_plain: true" in reason
 
     run_in_reactor(flight)

@@ -32,12 +32,6 @@ def test_between_the_thresholds_nothing_changes():
     assert len(switches) == 1
 
 
-def test_calm_ends_it():
-    switch, switches = run([100] * 20 + [10] * 40)
-    assert not switch.is_on
-    assert len(switches) == 2
-
-
 def test_an_oscillating_load_switches_at_most_twelve_times_a_minute():
     loads = ([100] * 6 + [0] * 6) * 10
     _, switches = run(loads)

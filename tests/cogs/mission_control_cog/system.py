@@ -3,7 +3,8 @@
 from mission_control_cog.modules.ground_listener import GroundListener
 from mission_control_cog.modules.mission_control_provider import MissionControlProvider
 
-from tests.support.reactor import reactor
+from tests.cogs.peers import Server
+from tests.support.reactor import reactor, run_in_reactor
 from tests.support.system import build_up
 from up.life_cycle import LifeCycle
 
@@ -30,3 +31,32 @@ class Aircraft:
     def listen_to(self, *commands):
         for cls in commands:
             self.up.command_executor.register_command(cls, self.heard.append)
+
+
+def uplinked(folder, text=""):
+    """Run a coroutine with an aircraft, and the test's own proxy that it connects to."""
+
+    def run(body):
+        async def fly():
+            server = Server(reactor)
+            port = await server.open()
+            async with Aircraft(folder, port, text) as a:
+                await body(a, server)
+            await server.close()
+
+        run_in_reactor(fly)
+
+    return run
+
+
+def listening(folder, text):
+    """Run a coroutine with an aircraft that has no proxy."""
+
+    def run(body):
+        async def fly():
+            async with Aircraft(folder, None, text) as a:
+                await body(a)
+
+        run_in_reactor(fly)
+
+    return run

@@ -81,23 +81,3 @@ def test_phone_to_ground_and_back(proxy, tmp_path):
         await life.stop()
 
     run_in_reactor(flight)
-
-
-def test_an_old_beacon_is_refused(proxy, tmp_path):
-    async def flight():
-        up = build_up(MODULES, reactor, tmp_path / "config", config=config(proxy))
-        life = await started(up)
-        ground = await connect(reactor, proxy.ground_port)
-        ground.say(b"UP1 aircraft=glider seat=command\n")
-        first = await until(lambda: ground.named("up.telemetry.update"))
-        command = {"name": "up.telemetry.frequency", "data": {"frequency": 50}}
-        seen = first[0]["beacon"]
-        ground.say({**command, "id": "u", "beacon": seen - 1000})
-        assert (await ground.answer("u"))["data"]["code"] == "unknown_beacon"
-        await until(lambda: up.beacons.age_s(seen) > up.beacons.limit_s)
-        ground.say({**command, "id": "o", "beacon": seen})
-        assert (await ground.answer("o"))["data"]["code"] == "stale"
-        await ground.close()
-        await life.stop()
-
-    run_in_reactor(flight)

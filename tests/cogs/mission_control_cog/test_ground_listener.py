@@ -11,7 +11,7 @@ from mission_control_cog.grounds import MAX_STATIONS, Grounds
 from twisted.internet.task import Clock
 from twisted.internet.testing import StringTransport
 
-from tests.cogs.mission_control_cog.system import Aircraft
+from tests.cogs.mission_control_cog.system import Aircraft, listening
 from tests.cogs.peers import connect
 from tests.support.reactor import reactor, run_in_reactor, until
 from up.commands.altitude_command import AltitudeCommand
@@ -44,120 +44,109 @@ async def grounds(aircraft, *hellos):
 
 
 def test_the_first_has_control_and_the_others_listen(tmp_path):
-    async def fly():
-        async with Aircraft(tmp_path, None, LISTENER) as a:
-            a.listen_to(TelemetryFrequencyCommand, LinkStateCommand)
-            one, two = await grounds(a, b"", b"")
-            one.say(period(100, "a"))
-            assert (await one.answer("a"))["name"] == "up.ack"
-            two.say(period(200, "a"))
-            refused = await two.answer("a")
-            assert refused["data"]["code"] == "forbidden"
-            one.say(period(300, "b"))
-            await one.answer("b")
-            commands = [c.period_ms for c in a.heard if isinstance(c, TelemetryFrequencyCommand)]
-            assert commands == [100, 300]
-            a.provider.send_command(AltitudeCommand(5))
-            for each in (one, two):
-                await until(lambda each=each: each.named("up.altitude.change"))
-            counters = a.up.telemetry_controller.collect()["counters"]["ground"]
-            assert counters == {"stations": 2, "not_holder": 1, "too_many": 0, "refused_peers": 0}
-            # The holder leaves; without a token its seat goes to the next sender.
-            await one.close()
-            two.say(period(400, "c"))
-            assert (await two.answer("c"))["name"] == "up.ack"
-            states = [c.connected for c in a.heard if isinstance(c, LinkStateCommand)]
-            assert states == [True, False, True]
-            await two.close()
-
-    run_in_reactor(fly)
+    @listening(tmp_path, LISTENER)
+    async def _(a):
+        a.listen_to(TelemetryFrequencyCommand, LinkStateCommand)
+        one, two = await grounds(a, b"", b"")
+        one.say(period(100, "a"))
+        assert (await one.answer("a"))["name"] == "up.ack"
+        two.say(period(200, "a"))
+        refused = await two.answer("a")
+        assert refused["data"]["code"] == "forbidden"
+        one.say(period(300, "b"))
+        await one.answer("b")
+        commands = [c.period_ms for c in a.heard if isinstance(c, TelemetryFrequencyCommand)]
+        assert commands == [100, 300]
+        a.provider.send_command(AltitudeCommand(5))
+        for each in (one, two):
+            await until(lambda each=each: each.named("up.altitude.change"))
+        counters = a.up.telemetry_controller.collect()["counters"]["ground"]
+        assert counters == {"stations": 2, "not_holder": 1, "too_many": 0, "refused_peers": 0}
+        # The holder leaves; without a token its seat goes to the next sender.
+        await one.close()
+        two.say(period(400, "c"))
+        assert (await two.answer("c"))["name"] == "up.ack"
+        states = [c.connected for c in a.heard if isinstance(c, LinkStateCommand)]
+        assert states == [True, False, True]
+        await two.close()
 
 
 def test_a_hello_is_answered_as_by_a_proxy_and_its_token_resumes_control(tmp_path):
-    async def fly():
-        text = LISTENER + "aircraft: glider\n"
-        async with Aircraft(tmp_path, None, text) as a:
-            hello = b"UP1 aircraft=glider seat=command\n"
-            one, two = await grounds(a, hello, hello)
-            assert one.lines[0].startswith(b"UP1 ok aircraft=glider seat=command token=")
-            assert two.lines[0].startswith(b"UP1 ok aircraft=glider seat=listen token=")
-            token = one.lines[0].rpartition(b"=")[2]
-            await one.close()
-            # The seat is kept for its token.
-            two.say(period(200, "t"))
-            assert (await two.answer("t"))["data"]["code"] == "forbidden"
-            (again,) = await grounds(a, hello[:-1] + b" token=" + token + b"\n")
-            assert again.lines[0] == b"UP1 ok aircraft=glider seat=command token=" + token
-            again.say(b"UP1 seat release\n", period(300, "r"))
-            assert (await again.answer("r"))["name"] == "up.ack"
-            # A half-open holder is displaced by its own token immediately.
-            (third,) = await grounds(a, hello[:-1] + b" token=" + token + b"\n")
-            await again.closed
-            third.say(period(330, "s"))
-            assert (await third.answer("s"))["name"] == "up.ack"
-            for peer in (two, third):
-                await peer.close()
-
-    run_in_reactor(fly)
+    @listening(tmp_path, LISTENER + "aircraft: glider\n")
+    async def _(a):
+        hello = b"UP1 aircraft=glider seat=command\n"
+        one, two = await grounds(a, hello, hello)
+        assert one.lines[0].startswith(b"UP1 ok aircraft=glider seat=command token=")
+        assert two.lines[0].startswith(b"UP1 ok aircraft=glider seat=listen token=")
+        token = one.lines[0].rpartition(b"=")[2]
+        await one.close()
+        # The seat is kept for its token.
+        two.say(period(200, "t"))
+        assert (await two.answer("t"))["data"]["code"] == "forbidden"
+        (again,) = await grounds(a, hello[:-1] + b" token=" + token + b"\n")
+        assert again.lines[0] == b"UP1 ok aircraft=glider seat=command token=" + token
+        again.say(b"UP1 seat release\n", period(300, "r"))
+        assert (await again.answer("r"))["name"] == "up.ack"
+        # A half-open holder is displaced by its own token immediately.
+        (third,) = await grounds(a, hello[:-1] + b" token=" + token + b"\n")
+        await again.closed
+        third.say(period(330, "s"))
+        assert (await third.answer("s"))["name"] == "up.ack"
+        for peer in (two, third):
+            await peer.close()
 
 
-def test_another_token_gains_no_control_and_a_listener_none(tmp_path):
-    async def fly():
-        async with Aircraft(tmp_path, None, LISTENER) as a:
-            (watcher,) = await grounds(a, b"UP1 aircraft=default seat=listen\n")
-            assert b"seat=listen" in watcher.lines[0]
-            (owner,) = await grounds(a, b"UP1 aircraft=default seat=command\n")
-            assert b"seat=command" in owner.lines[0]
-            token = b"00" * 16
-            (other,) = await grounds(a, b"UP1 aircraft=default seat=command token=%s\n" % token)
-            assert b"seat=listen" in other.lines[0]
-            assert token not in other.lines[0]
-            malformed = await connect(reactor, a.up.ports["ground"])
-            malformed.say(b"UP1 aircraft=default token=ab\n")
-            await malformed.closed
-            assert malformed.lines[0].startswith(b"UP1 error code=malformed ")
-            owner.say(period(50, "mine"))
-            assert (await owner.answer("mine"))["name"] == "up.ack"
-            for peer in (watcher, owner, other):
-                await peer.close()
-
-    run_in_reactor(fly)
+def test_a_wrong_token_and_a_listener_gain_no_control(tmp_path):
+    @listening(tmp_path, LISTENER)
+    async def _(a):
+        (watcher,) = await grounds(a, b"UP1 aircraft=default seat=listen\n")
+        assert b"seat=listen" in watcher.lines[0]
+        (owner,) = await grounds(a, b"UP1 aircraft=default seat=command\n")
+        assert b"seat=command" in owner.lines[0]
+        token = b"00" * 16
+        (other,) = await grounds(a, b"UP1 aircraft=default seat=command token=%s\n" % token)
+        assert b"seat=listen" in other.lines[0]
+        assert token not in other.lines[0]
+        malformed = await connect(reactor, a.up.ports["ground"])
+        malformed.say(b"UP1 aircraft=default token=ab\n")
+        await malformed.closed
+        assert malformed.lines[0].startswith(b"UP1 error code=malformed ")
+        owner.say(period(50, "mine"))
+        assert (await owner.answer("mine"))["name"] == "up.ack"
+        for peer in (watcher, owner, other):
+            await peer.close()
 
 
-def test_the_role_is_the_links_and_half_lines_die_with_their_connection(tmp_path):
-    async def fly():
-        async with Aircraft(tmp_path, None, LISTENER) as a:
-            a.listen_to(ArmCommand, TelemetryFrequencyCommand)
-            (one,) = await grounds(a, b"")
-            beacon = one.named("up.telemetry.update")[-1]["beacon"]
-            one.say({"name": "up.arm", "id": "arm", "beacon": beacon})
-            assert (await one.answer("arm"))["data"]["code"] == "forbidden"
-            one.say(b'{"name": "up.telemetry.frequency", "data": {"frequency": 1')
-            await one.close()
-            (two,) = await grounds(a, b"")
-            two.say(b"50}}\n", period(900, "arm"))
-            # An id that another station used is its own.
-            assert (await two.answer("arm"))["name"] == "up.ack"
-            assert a.heard == [TelemetryFrequencyCommand(900)]
-            await two.close()
-
-    run_in_reactor(fly)
+def test_the_role_is_the_links_and_partial_lines_end_with_their_connection(tmp_path):
+    @listening(tmp_path, LISTENER)
+    async def _(a):
+        a.listen_to(ArmCommand, TelemetryFrequencyCommand)
+        (one,) = await grounds(a, b"")
+        beacon = one.named("up.telemetry.update")[-1]["beacon"]
+        one.say({"name": "up.arm", "id": "arm", "beacon": beacon})
+        assert (await one.answer("arm"))["data"]["code"] == "forbidden"
+        one.say(b'{"name": "up.telemetry.frequency", "data": {"frequency": 1')
+        await one.close()
+        (two,) = await grounds(a, b"")
+        two.say(b"50}}\n", period(900, "arm"))
+        # An id that another station used is its own.
+        assert (await two.answer("arm"))["name"] == "up.ack"
+        assert a.heard == [TelemetryFrequencyCommand(900)]
+        await two.close()
 
 
 def test_hostile_stations_are_bounded(tmp_path):
-    async def fly():
-        async with Aircraft(tmp_path, None, LISTENER) as a:
-            peers = await grounds(a, *[b""] * MAX_STATIONS)
-            late = await connect(reactor, a.up.ports["ground"])
-            await late.closed
-            peers[0].say(b"\xff\xff\n", b"[" * 20000 + b"\n", b"UP1 " + b"x" * 30000 + b"\n")
-            peers[0].say({"name": "up.system.stop", "id": "s"}, period(50, "end"))
-            assert (await peers[0].answer("s"))["data"]["code"] == "forbidden"
-            assert (await peers[0].answer("end"))["name"] == "up.ack"
-            for peer in peers:
-                await peer.close()
-
-    run_in_reactor(fly)
+    @listening(tmp_path, LISTENER)
+    async def _(a):
+        peers = [await connect(reactor, a.up.ports["ground"]) for _ in range(MAX_STATIONS)]
+        late = await connect(reactor, a.up.ports["ground"])
+        await late.closed
+        peers[0].say(b"\xff\xff\n", b"[" * 20000 + b"\n", b"UP1 " + b"x" * 30000 + b"\n")
+        peers[0].say({"name": "up.system.stop", "id": "s"}, period(50, "end"))
+        assert (await peers[0].answer("s"))["data"]["code"] == "forbidden"
+        assert (await peers[0].answer("end"))["name"] == "up.ack"
+        for peer in peers:
+            await peer.close()
 
 
 def test_a_port_in_use_is_a_veto_and_the_uplink_runs(tmp_path):
@@ -238,7 +227,7 @@ def quiet(monkeypatch):
     monkeypatch.setattr("up.protocols.general_message_link.watch_peer", lambda *_: None)
 
 
-def test_a_holder_that_was_silent_for_three_seconds_loses_control(monkeypatch):
+def test_an_owner_that_is_silent_for_three_seconds_loses_control(monkeypatch):
     quiet(monkeypatch)
     clock, heard = Clock(), []
     all_ = virtual(clock, heard)
@@ -303,8 +292,6 @@ def test_nothing_reaches_a_station_before_the_answer_to_its_hello():
 
 @pytest.mark.parametrize("text", ["", "listener: {port: }\n"])
 def test_no_port_no_listener(tmp_path, text):
-    async def fly():
-        async with Aircraft(tmp_path, None, text) as a:
-            assert "ground" not in a.up.ports
-
-    run_in_reactor(fly)
+    @listening(tmp_path, text)
+    async def _(a):
+        assert "ground" not in a.up.ports

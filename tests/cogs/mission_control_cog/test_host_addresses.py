@@ -28,7 +28,7 @@ class Names:
 
 
 @pytest.mark.parametrize("literal", ["127.0.0.1", "::1", "fe80::1%eth0"])
-def test_a_literal_address_asks_nobody(literal):
+def test_a_literal_address_needs_no_resolver(literal):
     async def ask():
         names = Names([])
         assert await HostAddresses(reactor, literal, 1, names).next() == literal

@@ -29,31 +29,25 @@ def arm(tmp_path, text):
     return run_in_reactor(fly)
 
 
-def test_a_pilot_on_a_private_link_arms(tmp_path):
-    answer, armed = arm(tmp_path, "role: pilot\n")
-    assert (answer["name"], armed) == ("up.ack", True)
-
-
-@pytest.mark.parametrize("role", ["observer", "operator"])
-def test_other_roles_do_not_arm_and_the_refusal_names_the_key(tmp_path, role):
-    answer, armed = arm(tmp_path, f"role: {role}\n")
-    assert not armed
-    assert answer["data"]["code"] == "forbidden"
-    assert "(mission_control.yml: role)" in answer["data"]["reason"]
-
-
-def test_a_pilot_on_a_plain_public_link_is_an_operator(tmp_path, monkeypatch):
-    monkeypatch.setattr(PUBLIC, lambda host: False)
-    answer, armed = arm(tmp_path, "role: pilot\n")
-    assert not armed
-    assert answer["data"]["code"] == "forbidden"
-    assert "(mission_control.yml: i_accept_plain)" in answer["data"]["reason"]
-
-
-def test_a_pilot_on_a_plain_public_link_that_was_accepted_arms(tmp_path, monkeypatch):
-    monkeypatch.setattr(PUBLIC, lambda host: False)
-    answer, armed = arm(tmp_path, "role: pilot\ni_accept_plain: true\n")
-    assert (answer["name"], armed) == ("up.ack", True)
+@pytest.mark.parametrize(
+    ("text", "private", "key"),
+    [
+        ("role: pilot\n", True, None),
+        ("role: observer\n", True, "mission_control.yml: role"),
+        ("role: operator\n", True, "mission_control.yml: role"),
+        ("role: pilot\n", False, "mission_control.yml: i_accept_plain"),
+        ("role: pilot\ni_accept_plain: true\n", False, None),
+    ],
+)
+def test_only_a_pilot_arms_and_the_refusal_names_the_key(tmp_path, monkeypatch, text, private, key):
+    monkeypatch.setattr(PUBLIC, lambda host: private)
+    answer, armed = arm(tmp_path, text)
+    assert armed == (key is None)
+    if key is None:
+        assert answer["name"] == "up.ack"
+    else:
+        assert answer["data"]["code"] == "forbidden"
+        assert f"({key})" in answer["data"]["reason"]
 
 
 def test_the_role_is_checked_at_every_connection(tmp_path, monkeypatch):

@@ -4,7 +4,7 @@ import pytest
 from mission_control_cog.uplink import Uplink
 from twisted.logger import globalLogPublisher
 
-from tests.cogs.mission_control_cog.system import Aircraft
+from tests.cogs.mission_control_cog.system import Aircraft, uplinked
 from tests.cogs.peers import Server
 from tests.support.reactor import reactor, run_in_reactor, sleep, until
 from up.commands.altitude_command import AltitudeCommand
@@ -24,53 +24,43 @@ async def accepted(server, index=0):
 
 
 def test_hello_first_then_telemetry_after_the_answer(tmp_path):
-    async def fly():
-        server = Server(reactor)
-        port = await server.open()
-        async with Aircraft(tmp_path, port, "aircraft: glider-1\n") as a:
-            a.listen_to(LinkStateCommand)
-            peer = await server.peer()
-            await until(lambda: peer.received)
-            await sleep(0.3)
-            assert peer.received == b"UP1 aircraft=glider-1\n"
-            assert not a.provider.connected
-            # In two parts, and with a message right behind.
-            peer.say(OK[:9])
-            peer.say(OK[9:], {**PERIOD, "id": "h"})
-            assert (await peer.answer("h"))["name"] == "up.ack"
-            frames = await until(lambda: peer.named("up.telemetry.update"))
-            assert isinstance(frames[0]["beacon"], int)
-            assert a.heard == [LinkStateCommand("mission_control", True)]
-        await server.close()
-
-    run_in_reactor(fly)
+    @uplinked(tmp_path, "aircraft: glider-1\n")
+    async def _(a, server):
+        a.listen_to(LinkStateCommand)
+        peer = await server.peer()
+        await until(lambda: peer.received)
+        await sleep(0.3)
+        assert peer.received == b"UP1 aircraft=glider-1\n"
+        assert not a.provider.connected
+        # In two parts, and with a message right behind.
+        peer.say(OK[:9])
+        peer.say(OK[9:], {**PERIOD, "id": "h"})
+        assert (await peer.answer("h"))["name"] == "up.ack"
+        frames = await until(lambda: peer.named("up.telemetry.update"))
+        assert isinstance(frames[0]["beacon"], int)
+        assert a.heard == [LinkStateCommand("mission_control", True)]
 
 
-def test_the_link_comes_back_with_its_token_and_without_the_half_line(tmp_path):
-    async def fly():
-        server = Server(reactor)
-        port = await server.open()
-        async with Aircraft(tmp_path, port) as a:
-            a.listen_to(TelemetryFrequencyCommand, LinkStateCommand)
-            first = await accepted(server)
-            await until(lambda: a.provider.connected)
-            first.say(b'{"name": "up.telemetry.frequency", "data": {"frequency": 1')
-            await until(lambda: first.named("up.telemetry.update"))
-            first.transport.abortConnection()
-            second = await accepted(server, 1)
-            assert second.received.startswith(b"UP1 aircraft=default token=" + b"ab" * 16 + b"\n")
-            second.say(b"50}}\n", {**PERIOD, "id": "x"})
-            await second.answer("x")
-            assert a.heard.count(TelemetryFrequencyCommand(90)) == 1
-            states = [c.connected for c in a.heard if isinstance(c, LinkStateCommand)]
-            assert states == [True, False, True]
-            assert a.up.command_receiver.counters["malformed"] == 1
-        await server.close()
-
-    run_in_reactor(fly)
+def test_the_link_reconnects_with_its_token_and_without_the_partial_line(tmp_path):
+    @uplinked(tmp_path)
+    async def _(a, server):
+        a.listen_to(TelemetryFrequencyCommand, LinkStateCommand)
+        first = await accepted(server)
+        await until(lambda: a.provider.connected)
+        first.say(b'{"name": "up.telemetry.frequency", "data": {"frequency": 1')
+        await until(lambda: first.named("up.telemetry.update"))
+        first.transport.abortConnection()
+        second = await accepted(server, 1)
+        assert second.received.startswith(b"UP1 aircraft=default token=" + b"ab" * 16 + b"\n")
+        second.say(b"50}}\n", {**PERIOD, "id": "x"})
+        await second.answer("x")
+        assert a.heard.count(TelemetryFrequencyCommand(90)) == 1
+        states = [c.connected for c in a.heard if isinstance(c, LinkStateCommand)]
+        assert states == [True, False, True]
+        assert a.up.command_receiver.counters["malformed"] == 1
 
 
-def test_an_absent_proxy_is_no_failure_and_is_found_when_it_comes(tmp_path):
+def test_an_absent_proxy_does_not_fail_the_start_and_is_found_later(tmp_path):
     async def fly():
         server = Server(reactor)
         port = await server.open()
@@ -91,28 +81,21 @@ def test_an_absent_proxy_is_no_failure_and_is_found_when_it_comes(tmp_path):
 
 
 def test_a_refused_hello_is_tried_again_without_the_token(tmp_path):
-    async def fly():
-        server = Server(reactor)
-        port = await server.open()
-        async with Aircraft(tmp_path, port) as a:
-            peer = await server.peer()
-            await until(lambda: peer.received)
-            peer.say(
-                b'UP1 error code=taken reason="an aircraft of this name is connected"\n', PERIOD
-            )
-            await peer.closed
-            second = await accepted(server, 1)
-            await until(lambda: a.provider.connected)
-            second.transport.abortConnection()
-            third = await server.peer(2)
-            await until(lambda: b"token=" in third.received)
-            third.say(b'UP1 error code=token reason="no"\n')
-            fourth = await server.peer(3)
-            assert await until(lambda: fourth.received) == b"UP1 aircraft=default\n"
-            assert a.up.command_receiver.counters["received"] == 0
-        await server.close()
-
-    run_in_reactor(fly)
+    @uplinked(tmp_path)
+    async def _(a, server):
+        peer = await server.peer()
+        await until(lambda: peer.received)
+        peer.say(b'UP1 error code=taken reason="an aircraft of this name is connected"\n', PERIOD)
+        await peer.closed
+        second = await accepted(server, 1)
+        await until(lambda: a.provider.connected)
+        second.transport.abortConnection()
+        third = await server.peer(2)
+        await until(lambda: b"token=" in third.received)
+        third.say(b'UP1 error code=token reason="no"\n')
+        fourth = await server.peer(3)
+        assert await until(lambda: fourth.received) == b"UP1 aircraft=default\n"
+        assert a.up.command_receiver.counters["received"] == 0
 
 
 @pytest.mark.parametrize(
@@ -146,110 +129,84 @@ def test_anything_but_an_answer_ends_the_connection(tmp_path, answer, code):
 
 
 def test_a_legacy_client_sends_no_hello_and_no_empty_lines(tmp_path):
-    async def fly():
-        server = Server(reactor)
-        port = await server.open()
-        text = "hello: false\n"
-        async with Aircraft(tmp_path, port, text) as a:
-            peer = await server.peer()
-            peer.say({"name": "up.telemetry.frequency", "data": {"frequency": 10000}, "id": "f"})
-            await peer.answer("f")
-            await sleep(1.3)
-            assert all(line.startswith(b"{") for line in peer.received.split(b"\n")[:-1])
-            assert a.provider.connected
-        await server.close()
-
-    run_in_reactor(fly)
+    @uplinked(tmp_path, "hello: false\n")
+    async def _(a, server):
+        peer = await server.peer()
+        peer.say({"name": "up.telemetry.frequency", "data": {"frequency": 10000}, "id": "f"})
+        await peer.answer("f")
+        await sleep(1.3)
+        assert all(line.startswith(b"{") for line in peer.received.split(b"\n")[:-1])
+        assert a.provider.connected
 
 
 def test_a_silent_second_ends_with_an_empty_line(tmp_path):
-    async def fly():
-        server = Server(reactor)
-        port = await server.open()
-        async with Aircraft(tmp_path, port):
-            peer = await accepted(server)
-            peer.say({"name": "up.telemetry.frequency", "data": {"frequency": 10000}, "id": "f"})
-            await peer.answer("f")
-            begin = len(peer.received)
-            await until(lambda: b"\n\n\n" in peer.received[begin - 1 :])
-        await server.close()
-
-    run_in_reactor(fly)
+    @uplinked(tmp_path)
+    async def _(a, server):
+        peer = await accepted(server)
+        peer.say({"name": "up.telemetry.frequency", "data": {"frequency": 10000}, "id": "f"})
+        await peer.answer("f")
+        begin = len(peer.received)
+        await until(lambda: b"\n\n\n" in peer.received[begin - 1 :])
 
 
 def test_a_proxy_that_does_not_read_costs_bounded_memory_and_gets_the_newest_later(tmp_path):
-    async def fly():
-        server = Server(reactor)
-        port = await server.open()
-        async with Aircraft(tmp_path, port) as a:
-            peer = await accepted(server)
-            await until(lambda: a.provider.connected)
-            a.up.command_executor.execute_command(TelemetryFrequencyCommand(10000))
-            peer.transport.pauseProducing()
-            link = a.provider._uplink._link
-            filler = b'{"filler": "%s"}\n' % (b"x" * 8000)
-            while link.output.dropped == 0:
-                a.provider._transmit_data(filler)
-            assert link.output._size <= 65536
-            a.provider._transmit_newest(b'{"n": 1}\n')
-            a.provider._transmit_newest(b'{"n": 2}\n')
-            assert link.output._news[""]() == b'{"n": 2}\n'
-            assert not a.provider._transmit_data(filler)
-            peer.transport.resumeProducing()
-            await until(lambda: b'{"n": 2}' in peer.lines)
-            assert b'{"n": 1}' not in peer.lines
-            assert link.output.replaced == 1
-        await server.close()
-
-    run_in_reactor(fly)
+    @uplinked(tmp_path)
+    async def _(a, server):
+        peer = await accepted(server)
+        await until(lambda: a.provider.connected)
+        a.up.command_executor.execute_command(TelemetryFrequencyCommand(10000))
+        peer.transport.pauseProducing()
+        link = a.provider._uplink._link
+        filler = b'{"filler": "%s"}\n' % (b"x" * 8000)
+        while link.output.dropped == 0:
+            a.provider._transmit_data(filler)
+        assert link.output._size <= 65536
+        a.provider._transmit_newest(b'{"n": 1}\n')
+        a.provider._transmit_newest(b'{"n": 2}\n')
+        assert link.output._news[""]() == b'{"n": 2}\n'
+        assert not a.provider._transmit_data(filler)
+        peer.transport.resumeProducing()
+        await until(lambda: b'{"n": 2}' in peer.lines)
+        assert b'{"n": 1}' not in peer.lines
+        assert link.output.replaced == 1
 
 
 def test_hostile_lines_from_the_ground_harm_nothing(tmp_path):
-    async def fly():
-        server = Server(reactor)
-        port = await server.open()
-        async with Aircraft(tmp_path, port) as a:
-            a.listen_to(SystemStopCommand, TelemetryFrequencyCommand)
-            peer = await accepted(server)
-            await until(lambda: a.provider.connected)
-            peer.say(
-                b"\xff\x00\n",
-                b"[" * 9000 + b"\n",
-                b"z" * 100000 + b"\n",
-                b'{"name": "up.telemetry.frequency", "data": {"frequency": NaN}}\n',
-                {"name": "up.system.stop", "id": "stop"},
-                {"name": "android.battery", "data": {"level": 1}, "id": "unknown"},
-                {**PERIOD, "id": "end"},
-            )
-            await peer.answer("end")
-            assert (await peer.answer("stop"))["data"]["code"] == "forbidden"
-            assert (await peer.answer("unknown"))["data"]["code"] == "unknown"
-            assert a.heard == [TelemetryFrequencyCommand(90)]
-        await server.close()
-
-    run_in_reactor(fly)
+    @uplinked(tmp_path)
+    async def _(a, server):
+        a.listen_to(SystemStopCommand, TelemetryFrequencyCommand)
+        peer = await accepted(server)
+        await until(lambda: a.provider.connected)
+        peer.say(
+            b"\xff\x00\n",
+            b"[" * 9000 + b"\n",
+            b"z" * 100000 + b"\n",
+            b'{"name": "up.telemetry.frequency", "data": {"frequency": NaN}}\n',
+            {"name": "up.system.stop", "id": "stop"},
+            {"name": "android.battery", "data": {"level": 1}, "id": "unknown"},
+            {**PERIOD, "id": "end"},
+        )
+        await peer.answer("end")
+        assert (await peer.answer("stop"))["data"]["code"] == "forbidden"
+        assert (await peer.answer("unknown"))["data"]["code"] == "unknown"
+        assert a.heard == [TelemetryFrequencyCommand(90)]
 
 
 def test_the_result_of_sending_a_command_to_the_ground(tmp_path):
-    async def fly():
-        server = Server(reactor)
-        port = await server.open()
-        async with Aircraft(tmp_path, port) as a:
-            assert not a.provider.send_command(AltitudeCommand(5.5))
-            peer = await accepted(server)
-            await until(lambda: a.provider.connected)
-            assert a.provider.send_command(AltitudeCommand(6.5), "i")
-            (got,) = await until(lambda: peer.named("up.altitude.change"))
-            assert (got["data"]["altitude"], got["id"]) == (6.5, "i")
-            assert a.provider.telemetry_content["counters"]["mission_control"] == {
-                "connects": 1,
-                "unsent": 1,
-                "telemetry_faults": 0,
-                "too_many": 0,
-            }
-        await server.close()
-
-    run_in_reactor(fly)
+    @uplinked(tmp_path)
+    async def _(a, server):
+        assert not a.provider.send_command(AltitudeCommand(5.5))
+        peer = await accepted(server)
+        await until(lambda: a.provider.connected)
+        assert a.provider.send_command(AltitudeCommand(6.5), "i")
+        (got,) = await until(lambda: peer.named("up.altitude.change"))
+        assert (got["data"]["altitude"], got["id"]) == (6.5, "i")
+        assert a.provider.telemetry_content["counters"]["mission_control"] == {
+            "connects": 1,
+            "unsent": 1,
+            "telemetry_faults": 0,
+            "too_many": 0,
+        }
 
 
 def test_without_a_proxy_the_module_runs(tmp_path):

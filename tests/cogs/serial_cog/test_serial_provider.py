@@ -125,15 +125,6 @@ def test_connected_means_frames_within_a_second(rig):
     assert listener.events == ["opened", "heard", "silent"]
 
 
-def test_text_and_noise_before_a_frame_cost_nothing_but_themselves(checked):
-    taken = take(checked)
-    checked.start()
-    checked.port.write(b"MPU6050 connection failed\r\n\x00\x07o\x00" + bytes(range(255)) + b"\0")
-    checked.say("o", b"ab")
-    assert taken == [b"ab"]
-    assert counts(checked)["format_errors"] > 0
-
-
 @settings(
     max_examples=150,
     deadline=None,
@@ -165,16 +156,6 @@ def test_an_unfinished_frame_is_dropped_after_100_ms_of_silence(rig):
     assert taken == [b"cd"]
 
 
-def test_a_slow_frame_whose_bytes_keep_coming_is_taken(rig):
-    taken = take(rig)
-    rig.start()
-    for byte in rig.port.frame("o", b"ab"):
-        rig.port.write(bytes((byte,)))
-        rig.turn()
-        rig.advance(0.08)
-    assert taken == [b"ab"]
-
-
 def test_a_repeated_frame_is_handled_once_and_a_gap_is_counted(checked):
     taken = take(checked)
     checked.start()
@@ -184,14 +165,6 @@ def test_a_repeated_frame_is_handled_once_and_a_gap_is_counted(checked):
     checked.turn()
     assert taken == [b"ab", b"ab"]
     assert counts(checked)["duplicates"] == 1
-
-
-def test_a_missing_frame_is_counted(checked):
-    take(checked)
-    checked.start()
-    checked.port.write(checked_frame(7, "o", b"ab") + checked_frame(10, "o", b"ab"))
-    checked.turn()
-    assert counts(checked)["lost_by_sequence"] == 2
 
 
 @pytest.mark.filterwarnings("ignore")
@@ -243,8 +216,9 @@ def test_without_a_configured_port_the_arduino_is_found_when_it_comes(tmp_path):
     serial = rig.module(SerialProvider)
     ports = []
     serial.lister = lambda: ports
-    with pytest.raises(BootStoppedError, match="SerialProvider has its port open"):
+    with pytest.raises(BootStoppedError) as error:
         rig.start()
+    assert error.value.code == "no_source"
     taken = take(rig)
     rig.advance(60)
     assert not serial.is_source_open
@@ -293,16 +267,3 @@ def test_stopping_leaves_no_timer_and_no_reader(rig):
     rig.stop()
     assert not rig.reactor.readers
     assert not rig.reactor.getDelayedCalls()
-
-
-def test_a_board_that_counts_anew_after_reopening_has_lost_no_frame(checked):
-    take(checked)
-    checked.start()
-    checked.say("o", b"ab", sequence=100)
-    checked.port.unplug()
-    checked.turn()
-    checked.port.plug_in()
-    checked.advance(2)
-    checked.say("o", b"ab", sequence=0)
-    assert counts(checked)["lost_by_sequence"] == 0
-    assert counts(checked)["frames"] == 2

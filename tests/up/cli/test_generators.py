@@ -152,7 +152,7 @@ def test_nothing_is_overwritten_where_nobody_can_be_asked(up, own_process, tmp_p
     main.write_text("mine\n")
     done = own_process("up.cli", "create", "new", "-n", "plane", cwd=tmp_path)
     assert done.returncode == 1
-    assert done.stderr == f"{tmp_path}/plane is there already: say --yes to overwrite it\n"
+    assert done.stderr == f"{tmp_path}/plane exists already: use --yes to overwrite it\n"
     assert main.read_text() == "mine\n"
     config = tmp_path / "plane/config/config.yml"
     config.write_text("log level: debug\n")

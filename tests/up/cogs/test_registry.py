@@ -99,8 +99,9 @@ def test_a_writer_that_does_not_end_is_told_of(tmp_path, monkeypatch):
     descriptor = os.open(tmp_path, os.O_RDONLY)
     try:
         fcntl.flock(descriptor, fcntl.LOCK_EX)
-        with pytest.raises(CogError, match="another program"):
+        with pytest.raises(CogError) as error:
             Registry(tmp_path).add("a_cog", [A], "manual")
+        assert error.value.code == "locked"
     finally:
         os.close(descriptor)
     assert Registry(tmp_path).add("a_cog", [A], "manual")

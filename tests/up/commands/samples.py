@@ -92,5 +92,9 @@ class Log:
     def failures(self):
         return [event for event in self.events if "log_failure" in event]
 
+    def of(self, code):
+        """Return the events with a code."""
+        return [event for event in self.events if event.get("code") == code]
+
     def text(self):
         return "\n".join(formatEvent(event) for event in self.events)

@@ -61,7 +61,7 @@ def test_by_class_by_name_by_alias_and_by_object(bus):
 
 
 def test_what_is_no_handler_is_refused(bus):
-    with pytest.raises(TypeError, match="not callable"):
+    with pytest.raises(TypeError):
         bus.register_command(NumberCommand, "text")
 
 
@@ -75,7 +75,8 @@ def test_a_failing_handler_is_named_and_counted_and_the_others_run(bus):
     assert heard == [NumberCommand(1)]
     assert owners == ["Grumpy"]
     assert bus.counters["failed_handlers"] == 1
-    assert "Grumpy failed while handling test.number" in log.text()
+    (event,) = log.of("handler_failed")
+    assert (event["owner"], event["name"]) == ("Grumpy", "test.number")
 
 
 def test_a_handler_that_fails_always_does_not_fill_the_log(bus):
@@ -85,7 +86,7 @@ def test_a_handler_that_fails_always_does_not_fill_the_log(bus):
             bus.execute_command(NumberCommand(1))
     assert bus.counters["failed_handlers"] == 1000
     assert len(log.failures) == 4
-    assert "(1000 times now)" in log.text()
+    assert log.of("handler_failed")[-1]["count"] == 1000
 
 
 def test_a_command_that_is_refused_always_does_not_fill_the_log():
@@ -223,8 +224,8 @@ def test_what_nobody_handles_is_counted_and_logged_once(bus):
             bus.execute_command(OtherCommand(), GROUND)
             bus.execute_command(NumberCommand(1), GROUND)
     assert bus.counters["unhandled"] == 100
-    assert log.text().count("nobody handles test.other") == 1
-    assert log.text().count("nobody handles test.number") == 1
+    assert {event["name"] for event in log.of("command_unhandled")} == {"test.other", "test.number"}
+    assert len(log.of("command_unhandled")) == 2
 
 
 def test_a_known_command_of_the_inside_needs_nobody(bus):
@@ -252,11 +253,6 @@ def outcome_of(bus, command=None):
     got = []
     bus.execute_and_wait(command or NumberCommand(1), GROUND).addBoth(got.append)
     return got
-
-
-def test_the_outcome_of_plain_handlers(bus):
-    bus.register_command(NumberCommand, lambda _: "result")
-    assert outcome_of(bus) == [None]
 
 
 def test_the_outcome_without_handlers(bus):
@@ -304,7 +300,7 @@ def test_a_refusal_is_the_outcome_and_no_failure(bus):
     bus.register_command(NumberCommand, refuse)
     bus.register_command(NumberCommand, heard.append)
     with Log() as log:
-        assert outcome_of(bus)[0].getErrorMessage() == "not now"
+        assert outcome_of(bus)[0].check(CommandRefusedError)
     assert bus.counters["refused"] == 1
     assert bus.counters["failed_handlers"] == 0
     assert heard and not log.failures
@@ -323,17 +319,6 @@ def test_async_handlers_run_and_their_outcome_counts(bus):
     later.callback("came")
     assert heard == ["came"]
     assert got[0].check(CommandRefusedError)
-
-
-def test_an_async_handler_without_anybody_waiting(bus):
-    heard = []
-
-    async def handler(command):
-        heard.append(command)
-
-    bus.register_command(NumberCommand, handler)
-    bus.execute_command(NumberCommand(3))
-    assert heard == [NumberCommand(3)]
 
 
 def test_what_was_registered_is_taken_back_as_a_whole(bus):

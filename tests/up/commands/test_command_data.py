@@ -100,12 +100,12 @@ def test_a_check_of_the_whole_command_is_invalid_too():
             if self.low > self.high:
                 raise ValueError("low is above high")
 
-    with pytest.raises(InvalidCommandError, match="low is above high"):
+    with pytest.raises(InvalidCommandError):
         Pair.from_data({"low": 2, "high": 1})
 
 
 @pytest.mark.parametrize("mode", ["ACRO", "acro", "OUTPUT", "SETPOINT", "RTH", "", None, 1])
 def test_the_ground_selects_no_mode_that_is_the_pilots(mode):
     cls = next(each for each in ALL if each.NAME == "up.flight_mode.set")
-    with pytest.raises(InvalidCommandError, match="mode"):
+    with pytest.raises(InvalidCommandError):
         cls.from_data({"mode": mode})

@@ -152,14 +152,3 @@ def test_who_may_send_what(name, data, roles, role):
     assert bool(heard) == (role in roles), border.answers
     if not heard:
         assert border.codes == ["forbidden"]
-
-
-@pytest.mark.parametrize("role", Role)
-def test_nobody_outside_stops_the_program(role):
-    border = Border(role)
-    stopped = []
-    border.bus.register_command("up.system.stop", stopped.append)
-    border.say("up.system.stop", {}, "a", border.beacons.draw())
-    border.say("up.system.stop")
-    assert border.codes == ["forbidden"]
-    assert not stopped

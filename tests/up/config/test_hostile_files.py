@@ -1,5 +1,6 @@
 import os
 import sys
+from pathlib import Path
 
 import pytest
 from hypothesis import given, settings
@@ -116,11 +117,6 @@ def test_deep_nesting_is_refused(opening):
         assert len(problems) == 1
 
 
-def test_deep_block_nesting_is_refused():
-    text = "".join(" " * depth + "a:\n" for depth in range(500))
-    assert problems_of(text) == ["21:21: is nested more than 20 deep"]
-
-
 def test_a_very_large_number_is_refused():
     start = "1:17: stop delay (s): must be a number between 0 and 3600 s, not"
     assert problems_of(f"stop delay (s): {'9' * 100_000}\n") == [f'{start} "{"9" * 40}..."']
@@ -143,6 +139,10 @@ def test_bytes_that_are_no_text_are_refused(data, place):
     assert problems_of(data) == [place]
 
 
+def link_to(target):
+    return lambda path: path.symlink_to(target)
+
+
 def load_problem(tmp_path):
     with pytest.raises(ConfigErrors) as caught:
         LINK.load(tmp_path)
@@ -156,35 +156,18 @@ def test_a_missing_file_is_its_defaults(tmp_path):
     assert LINK.load(tmp_path / "no folder") == Link()
 
 
-def test_a_folder_in_the_place_of_a_file_is_refused(tmp_path):
-    (tmp_path / "link.yml").mkdir()
-    assert load_problem(tmp_path) == "is a folder, not a file"
-
-
-def test_a_dangling_link_is_refused(tmp_path):
-    (tmp_path / "link.yml").symlink_to(tmp_path / "nowhere")
-    assert load_problem(tmp_path) == "is a link to a file that is not there"
-
-
-def test_a_link_to_itself_is_refused(tmp_path):
-    (tmp_path / "link.yml").symlink_to(tmp_path / "link.yml")
-    assert load_problem(tmp_path).startswith("cannot be read: ")
+@pytest.mark.parametrize(
+    "make", [Path.mkdir, os.mkfifo, *map(link_to, ("gone", "link.yml", "/dev/zero"))]
+)
+def test_what_is_not_a_regular_file_is_refused_without_waiting(tmp_path, make):
+    make(tmp_path / "link.yml")
+    assert load_problem(tmp_path)
 
 
 def test_a_link_to_a_file_is_followed(tmp_path):
     (tmp_path / "real").write_text("role: pilot\n")
     (tmp_path / "link.yml").symlink_to(tmp_path / "real")
     assert LINK.load(tmp_path).role == "pilot"
-
-
-def test_a_pipe_does_not_make_it_wait(tmp_path):
-    os.mkfifo(tmp_path / "link.yml")
-    assert load_problem(tmp_path) == "is not a regular file"
-
-
-def test_a_device_is_refused(tmp_path):
-    (tmp_path / "link.yml").symlink_to("/dev/zero")
-    assert load_problem(tmp_path) == "is not a regular file"
 
 
 def test_a_file_in_the_place_of_the_folder_is_refused(tmp_path):
@@ -200,7 +183,7 @@ def test_an_unreadable_file_is_refused(tmp_path):
     if user == 0:
         os.seteuid(65534)  # root reads everything
     try:
-        assert load_problem(tmp_path) == "cannot be read: Permission denied"
+        assert load_problem(tmp_path).startswith("cannot be read: ")
     finally:
         os.seteuid(user)
 
@@ -208,7 +191,7 @@ def test_an_unreadable_file_is_refused(tmp_path):
 def test_every_byte_of_a_small_file_changed_to_every_other_gives_a_value_or_problems():
     is_value_or_config_errors(LINK, SMALL)
     for position in range(len(SMALL)):
-        for byte in range(256):
+        for byte in {*range(0, 256, 5), *b"\t\n !\"#%&'*,-:>?@[]`{|}~"}:
             data = SMALL[:position] + bytes([byte]) + SMALL[position + 1 :]
             is_value_or_config_errors(LINK, data)
 
@@ -236,12 +219,6 @@ YAML_BITS = st.sampled_from(
 @given(st.lists(YAML_BITS, max_size=40).map("".join))
 def test_any_heap_of_yaml_gives_a_value_or_problems(text):
     is_value_or_config_errors(LINK, text.encode())
-
-
-@settings(deadline=None)
-@given(st.binary(max_size=200))
-def test_any_bytes_give_a_value_or_problems(data):
-    is_value_or_config_errors(LINK, data)
 
 
 @settings(deadline=None)

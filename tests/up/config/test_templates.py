@@ -60,15 +60,6 @@ def test_an_absent_section_stands_there_to_be_uncommented():
     assert LINK.parse(shown, PATH) == replace(Link(), spare=Remote())
 
 
-def test_yaml_readers_in_general_read_a_template_alike():
-    values = yaml.safe_load(LINK.template())
-    assert values["stop delay (s)"] == 10.0
-    assert values["remote_server"] == {"url": "", "port": 3003}
-    assert values["gains"] == {"roll": {"p": 0.7, "i": 0.0}}
-    assert values["hosts"] == ["127.0.0.1", "::1"]
-    assert values["limit"] is None
-
-
 @settings(deadline=None)
 @given(
     url=ANY_TEXT,

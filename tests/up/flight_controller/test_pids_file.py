@@ -74,44 +74,6 @@ def test_the_prototypes_swapped_gains_never_fly(pids, tmp_path):
     assert problem and "defaults are used" in problem
 
 
-def test_cut_at_every_byte_it_is_never_half_a_set(pids, tmp_path):
-    pids.save(OURS)
-    whole = (tmp_path / "pids.yml").read_bytes()
-    for length in range(0, len(whole) - 1, 7):
-        (tmp_path / "pids.yml").write_bytes(whole[:length])
-        gains, problem = PidsFile(tmp_path).load()
-        assert gains == OURS
-        assert problem or length == len(whole)
-
-
-def test_every_byte_flipped_the_gains_are_valid(pids, tmp_path):
-    pids.save(OURS)
-    whole = (tmp_path / "pids.yml").read_bytes()
-    for place in range(0, len(whole), 11):
-        broken = bytearray(whole)
-        broken[place] ^= 0x11
-        (tmp_path / "pids.yml").write_bytes(broken)
-        gains, _ = PidsFile(tmp_path).load()
-        for loop in (gains.rate, gains.stabilize):
-            assert all(0 <= gain <= 50 for axis in loop.axes for gain in axis)
-        pids.save(OURS)
-
-
-def test_a_disk_that_refuses_loses_nothing(pids, tmp_path, monkeypatch):
-    from up.config import atomic_writer
-
-    pids.save(OURS)
-
-    def full(*_):
-        raise OSError(28, "No space left on device")
-
-    monkeypatch.setattr(atomic_writer.os, "write", full)
-    with pytest.raises(OSError, match="No space"):
-        pids.save(GainSet(LOOP, LOOP))
-    monkeypatch.undo()
-    assert pids.load() == (OURS, None)
-
-
 @pytest.mark.parametrize("left_out", ["rate", "stabilize"])
 def test_a_file_without_a_whole_loop_is_not_flown(tmp_path, left_out):
     file = PidsFile(tmp_path)

@@ -14,8 +14,9 @@ def test_it_is_found_from_every_place_that_belongs_to_it(tmp_path):
     for start in (root, root / "modules", root / "modules/deep/er", tmp_path):
         assert Application.find(start).root == root
     (tmp_path / "empty").mkdir()
-    with pytest.raises(NoApplicationError, match="no UpFile in"):
+    with pytest.raises(NoApplicationError) as error:
         Application.find(tmp_path / "empty")
+    assert error.value.code == "no_application"
 
 
 def test_the_nearest_one_wins(tmp_path):
@@ -28,8 +29,9 @@ def test_the_nearest_one_wins(tmp_path):
 def test_several_below_are_named(tmp_path):
     for name in ("a", "b"):
         write_application(tmp_path / name, {}, name)
-    with pytest.raises(NoApplicationError, match=r"several applications \(a, b\)"):
+    with pytest.raises(NoApplicationError) as error:
         Application.find(tmp_path)
+    assert error.value.code == "several_applications"
 
 
 def test_an_empty_upfile_means_the_folders_name(tmp_path):

@@ -131,11 +131,6 @@ def test_a_syntax_error_is_named_with_its_line(load, tmp_path):
     assert plan.problems[0].name.endswith(".modules.broken")
 
 
-def test_a_syntax_error_in_a_helper_is_named_there(load, tmp_path):
-    plan = load({"modules/_helper.py": "x = = 1\n", "modules/user.py": "from . import _helper\n"})
-    assert only_problem(plan).startswith(f"{tmp_path}/modules/_helper.py:1: syntax: ")
-
-
 @pytest.mark.parametrize(
     ("text", "what"),
     [
@@ -221,19 +216,3 @@ def test_a_command_that_cannot_be_registered_is_named(load, text, what):
     plan = load({"commands/bad.py": head + text})
     assert what in only_problem(plan)
     assert plan.commands == []
-
-
-def test_a_handler_that_cannot_be_built_is_named(load):
-    plan = load(
-        {
-            "commands/bad.py": (
-                "from up.commands.base_command_handler import BaseCommandHandler\n"
-                "class BadHandler(BaseCommandHandler):\n"
-                "    COMMAND = 'up.altitude.change'\n"
-                "    def __init__(self): raise RuntimeError('built')\n"
-                "    def run_action(self, command): pass\n"
-            )
-        }
-    )
-    assert "RuntimeError: built" in only_problem(plan)
-    assert plan.handlers == []

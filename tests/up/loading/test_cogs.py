@@ -65,14 +65,17 @@ def test_an_old_cog_may_list_recorders(load):
         ({"modules/a.py": "raise SystemExit('out')\n"}, "SystemExit: out"),
         ({"modules/a.py": "import nowhere_at_all\n"}, "nowhere_at_all"),
         ({"modules/a.py": "pass\n"}, "AttributeError"),
-        ({"modules/a.py": "class AModule: pass\n"}, "is no module: it does not extend BaseModule"),
+        (
+            {"modules/a.py": "class AModule: pass\n"},
+            "BaseModule",
+        ),
         (
             {"modules/a.py": MODULE, "commands/__init__.py": "x = = 1\n"},
-            r"Commands of the cog tested_cog cannot be imported \(tested_cog.commands: Syntax",
+            "tested_cog.commands: SyntaxError",
         ),
         (
             {"modules/a.py": MODULE, "commands/__init__.py": "", "commands/b.py": "1 / 0\n"},
-            r"\(tested_cog.commands.b: ZeroDivisionError",
+            "tested_cog.commands.b: ZeroDivisionError",
         ),
         (
             {"modules/a.py": MODULE, "commands/__init__.py": "import nowhere_at_all\n"},

@@ -9,7 +9,6 @@ import pytest
 from twisted.logger import LogBeginner, Logger, LogPublisher
 
 from up.log import start_logging
-from up.log.setup import UpLogger
 
 PROGRAM = """
 import sys
@@ -129,11 +128,6 @@ def test_after_stop_nothing_is_logged(begin):
     logging.stop()
     log.info("late")
     assert stream.getvalue() == ""
-
-
-def test_a_logger_has_the_name_it_was_asked_for():
-    assert UpLogger.get_logger("gps").namespace == "gps"
-    assert UpLogger.get_logger().namespace == "up"
 
 
 def test_a_program_that_reads_the_log_gets_json_with_codes(begin):

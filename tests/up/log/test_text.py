@@ -168,17 +168,6 @@ def test_levels_have_the_names_of_the_configuration(name, level):
     assert level_named(name) is level
 
 
-def test_an_unknown_level_is_refused_in_one_sentence():
-    with pytest.raises(ValueError, match=r'must be one of debug, .*, not "loud"'):
-        level_named("loud")
-
-
 def test_a_class_is_called_by_its_bare_name():
     line = logged(lambda log: log.warn("x"), namespace="some_cog.modules.serial.SerialProvider")
     assert line.endswith("WARNING  SerialProvider: x\n")
-
-
-def test_what_twisted_says_of_itself_is_for_debugging():
-    for namespace in ("twisted.internet.tcp.Port", "log_legacy"):
-        assert logged(lambda log: log.info("starting"), namespace=namespace) == ""
-        assert logged(lambda log: log.warn("trouble"), namespace=namespace) != ""

@@ -139,13 +139,6 @@ def test_a_timer_for_the_end_of_the_100_ms_finds_it_reached(heard):
     assert line.counters.timeouts == 1
 
 
-def test_an_unfinished_frame_is_dropped_when_the_next_byte_comes_late():
-    line = decoder()
-    line.feed(GOOD[:4], 1.0)
-    assert line.feed(GOOD[4:], 1.101) == []
-    assert line.counters.timeouts == 1
-
-
 def test_without_a_time_of_arrival_the_age_runs_from_the_next_look():
     line = decoder()
     line.feed(GOOD[:4])

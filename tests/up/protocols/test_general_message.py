@@ -236,13 +236,3 @@ def test_any_bytes_are_read_or_refused_by_name(line):
         assert fault.reason
     else:
         assert json.loads(line)["name"] == message.name
-
-
-@given(st.dictionaries(st.sampled_from(["name", "data", "id", "beacon", "x"]), json_values))
-def test_any_object_is_read_or_refused_by_name(fields):
-    try:
-        message = decode(json.dumps(fields).encode())
-    except MalformedMessage:
-        return
-    assert message.name == fields["name"]
-    assert message.data == (fields.get("data") or {})

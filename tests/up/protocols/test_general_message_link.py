@@ -205,21 +205,6 @@ def test_the_socket_notices_a_dead_peer():
     with_listener(scenario)
 
 
-def test_closing_sends_what_waits():
-    async def scenario(listener):
-        with await listener.client() as client:
-            link = listener.links[0]
-            for number in range(10):
-                assert link.send(encode("c", {}, beacon=number))
-            link.close()
-            assert not link.send(b"late\n")
-            received = await receive_all(client, lambda data: False)
-            assert received.count(b"\n") == 10
-            await until(lambda: listener.lost)
-
-    with_listener(scenario)
-
-
 def test_closing_towards_a_stalled_reader_does_not_wait_for_it():
     async def scenario(listener):
         with await listener.client(receive_buffer=4096):

@@ -96,7 +96,7 @@ def test_a_frame_leaves_in_one_write_at_once(tmp_path):
         cable.plug()
         notes.line.start()
         assert notes.line.write(b"frame")
-        # No turn of the reactor was between: the bytes are there already.
+        # No turn of the reactor was between: the bytes exist already.
         assert cable.read() == b"frame"
 
     with_line(tmp_path, scenario)

@@ -20,6 +20,12 @@ def port():
     os.close(master)
 
 
+def refused(code, path, baud=9600):
+    with pytest.raises(SerialPortError) as error:
+        open_serial(str(path), baud)
+    assert error.value.code == code
+
+
 @pytest.mark.parametrize(("baud", "speed"), [(9600, termios.B9600), (115200, termios.B115200)])
 def test_the_port_is_raw_8n1_without_flow_control_and_hupcl(port, baud, speed):
     descriptor = open_serial(port[1], baud)
@@ -84,33 +90,27 @@ def read(descriptor, size):
 
 def test_a_port_in_use_is_refused_and_free_again_after_closing(port):
     descriptor = open_serial(port[1], 9600)
-    with pytest.raises(SerialPortError, match="is in use by another program"):
-        open_serial(port[1], 9600)
+    refused("port_in_use", port[1])
     close_serial(descriptor)
     close_serial(open_serial(port[1], 9600))
 
 
 def test_a_missing_port_is_refused(tmp_path):
-    with pytest.raises(SerialPortError, match="ttyUSB9 is missing: is the Arduino plugged in"):
-        open_serial(str(tmp_path / "ttyUSB9"), 9600)
+    refused("port_missing", tmp_path / "ttyUSB9")
 
 
 def test_what_is_no_port_is_refused(tmp_path):
     path = tmp_path / "file"
     path.write_bytes(b"")
     before = len(os.listdir("/proc/self/fd"))  # noqa: PTH208
-    with pytest.raises(SerialPortError, match="is no serial port"):
-        open_serial(str(path), 9600)
-    with pytest.raises(SerialPortError, match="cannot be opened"):
-        open_serial(str(tmp_path), 9600)
-    with pytest.raises(SerialPortError, match="cannot be opened"):
-        open_serial("with\0zero", 9600)
+    refused("not_a_port", path)
+    refused("port_unusable", tmp_path)
+    refused("port_unusable", "with\0zero")
     assert len(os.listdir("/proc/self/fd")) == before  # noqa: PTH208
 
 
 def test_a_speed_that_is_none_is_refused(port):
-    with pytest.raises(SerialPortError, match="cannot run at 12345 baud"):
-        open_serial(port[1], 12345)
+    refused("speed_unsupported", port[1], 12345)
 
 
 def test_a_port_without_permission_names_the_group(tmp_path):
@@ -120,8 +120,7 @@ def test_a_port_without_permission_names_the_group(tmp_path):
     if is_root:
         os.seteuid(65534)
     try:
-        with pytest.raises(SerialPortError, match="group dialout"):
-            open_serial(str(path), 9600)
+        refused("permission_denied", path)
     finally:
         if is_root:
             os.seteuid(0)

@@ -114,7 +114,7 @@ def test_the_phone_takes_over_from_a_silent_board_and_it_is_logged(rig):
             rig.publish(OrientationCommand(9, 0, 0), PHONE)
             rig.clock.advance(0.1)
     assert rig[UpOrientationProvider].reading.source == "android"
-    assert "orientation now comes from android, no longer from arduino" in log.text()
+    assert [each["source"] for each in log.of("source_switched")] == ["android"]
     with Log() as log:
         for tenth in range(11):
             assert rig[UpOrientationProvider].reading.source == "android", tenth
@@ -122,7 +122,7 @@ def test_the_phone_takes_over_from_a_silent_board_and_it_is_logged(rig):
             rig.publish(OrientationCommand(1, 0, 0))
             rig.clock.advance(0.1001)
     assert rig[UpOrientationProvider].reading.source == "arduino"
-    assert "no longer from android" in log.text()
+    assert [each["previous"] for each in log.of("source_switched")] == ["android"]
 
 
 def test_providers_yml_turns_the_order_round(tmp_path):

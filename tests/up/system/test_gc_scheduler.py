@@ -6,7 +6,7 @@ import pytest
 from twisted.internet.task import Clock
 
 from up.system import gc_scheduler
-from up.system.gc_scheduler import OLDEST_EVERY, GcScheduler
+from up.system.gc_scheduler import FULL_COLLECTION_EVERY, GcScheduler
 
 
 @pytest.fixture
@@ -38,9 +38,9 @@ def test_it_takes_over_and_gives_back(clock):
 def test_young_garbage_every_second_and_old_now_and_then(clock, rounds):
     collector = GcScheduler(clock)
     collector.start()
-    clock.pump([1.0] * OLDEST_EVERY)
+    clock.pump([1.0] * FULL_COLLECTION_EVERY)
     collector.stop()
-    assert rounds == [2, *[1] * (OLDEST_EVERY - 1), 2]
+    assert rounds == [2, *[1] * (FULL_COLLECTION_EVERY - 1), 2]
 
 
 def test_cycles_that_modules_make_are_really_freed(clock):

@@ -49,12 +49,12 @@ class AndroidBatteryProvider(BaseProvider[float]):
         level = reading.value
         if not self.is_low and self._low_percent > 0 and level <= self._low_percent:
             self.is_low = True
-            text = "the phone's battery is low: {level:g} percent"
-            self.log.error(text, level=level, code="battery_low")
+            text = "the phone's battery is low: {percent:g} percent"
+            self.log.error(text, percent=level, code="battery_low")
             self._tell(level)
         elif self.is_low and level >= self._low_percent + HYSTERESIS_PERCENT:
             self.is_low = False
-            self.log.info("the phone's battery is at {level:g} percent again", level=level)
+            self.log.info("the phone's battery is at {percent:g} percent again", percent=level)
             self._tell(level)
 
     def _tell(self, level: float) -> None:

@@ -75,9 +75,9 @@ class LoadGuard(BaseStartedModule):
             self._timer.cancel()
 
     def _schedule(self) -> None:
-        self._timer = self.context.reactor.callLater(self.config.interval, self._look)
+        self._timer = self.context.reactor.callLater(self.config.interval, self._poll)
 
-    def _look(self) -> None:
+    def _poll(self) -> None:
         self._schedule()
         assert self.meter is not None
         now_s = self.context.reactor.seconds()
@@ -85,13 +85,14 @@ class LoadGuard(BaseStartedModule):
             self._memory_due_s = now_s + MEMORY_EVERY_S
             self.ram = self.meter.memory_percent()
         if self._switch.update(self.meter.load_percent(), now_s):
-            word = "busy" if self.in_panic else "not busy any more"
+            word = "busy" if self.in_panic else "no longer busy"
             self.log.info(
                 "Raspberry Pi {word} ({cpu_utilization:.0f} %):"
                 " every sender may send every {delay_ms} ms (Panic Mode)",
                 word=word,
                 cpu_utilization=self.cpu_utilization,
                 delay_ms=self.delay_ms,
+                code="panic_changed",
             )
             self._publish()
 
@@ -105,7 +106,7 @@ class LoadGuard(BaseStartedModule):
         )
 
 
-_LEAST_S = 1e-3
+_MIN_INTERVAL_S = 1e-3
 
 
 class Meter(Protocol):
@@ -122,16 +123,16 @@ class PsutilMeter:
     """Measures with psutil; the first load after construction covers the time since then."""
 
     def __init__(self) -> None:
-        self._looked_s = self._used_s = 0.0
+        self._polled_s = self._used_s = 0.0
         self.load_percent()
 
     def load_percent(self) -> float:
         """Return the greater of the machine's load and this process's share of one core."""
         machine: float = psutil.cpu_percent(interval=None)
         now_s, used_s = time.monotonic(), time.process_time()
-        passed_s = max(now_s - self._looked_s, _LEAST_S)
+        passed_s = max(now_s - self._polled_s, _MIN_INTERVAL_S)
         own = 100.0 * (used_s - self._used_s) / passed_s
-        self._looked_s, self._used_s = now_s, used_s
+        self._polled_s, self._used_s = now_s, used_s
         return min(100.0, max(machine, own))
 
     def memory_percent(self) -> float:

@@ -32,7 +32,7 @@ class SystemStateProvider(BaseStartedModule):
         super().__init__(config, silent)
         self.state: SystemStateCommand | None = None
         self._is_arduino_connected = False
-        self._told: tuple[Any, ...] = ()
+        self._reported: tuple[Any, ...] = ()
         self._timer: Timer | None = None
 
     @property
@@ -59,8 +59,8 @@ class SystemStateProvider(BaseStartedModule):
     def _on_state(self, command: SystemStateCommand) -> None:
         self.state = command
         kind = (command.providers, command.arduino_connected, command.mode)
-        if kind != self._told and self.mission_control is not None:
-            self._told = kind
+        if kind != self._reported and self.mission_control is not None:
+            self._reported = kind
             self.mission_control.send_command(command)
 
     def _publish(self) -> None:

@@ -60,8 +60,8 @@ class SerialProvider(BaseStartedModule):
         self._line: SerialLine | None = None
         self._retired: Counter[str] = Counter()
         self._named: set[tuple[str, int]] = set()
-        self._is_heard = False
-        self._heard_s = 0.0
+        self._is_receiving = False
+        self._last_rx_s = 0.0
         self._bytes_s = 0.0
         self._newest_frame: Frame | None = None
         self._expiry: Timer | None = None
@@ -87,7 +87,7 @@ class SerialProvider(BaseStartedModule):
     @property
     def connected(self) -> bool:
         """Return whether frames arrived within the last ``silence_s`` seconds."""
-        return self._is_heard
+        return self._is_receiving
 
     @property
     def is_source_open(self) -> bool:
@@ -150,7 +150,7 @@ class SerialProvider(BaseStartedModule):
         self._opener = PortOpener(config.port, config.baud_rate, self.lister, self.open_port)
         warning = odd_speed(config)
         if warning:
-            self.log.warn("{reason}", reason=warning)
+            self.log.warn("{reason}", reason=warning, code="speed_unusual")
         self._line = SerialLine(
             self.context.reactor,
             self._opener,
@@ -169,7 +169,7 @@ class SerialProvider(BaseStartedModule):
         self._expiry = self._silence = None
         if self._line is not None:
             self._line.stop()
-        self._is_heard = False
+        self._is_receiving = False
 
     def _renew_decoder(self) -> None:
         """Set the decoder's known types; its counters are kept."""
@@ -183,12 +183,13 @@ class SerialProvider(BaseStartedModule):
             path=self._opener.path,
             baud_rate=self.baud_rate,
             framing=self.framing,
+            code="port_opened",
         )
         self._decoder.reset()
         self._newest_frame = None
         if self._encoder.opening:
             self._line.write(self._encoder.opening)
-        self._heard_s = self._seconds()
+        self._last_rx_s = self._seconds()
         self._watch_silence()
         for listener in self._listeners:
             listener.on_line_opened()
@@ -199,13 +200,14 @@ class SerialProvider(BaseStartedModule):
             path=self._opener.path,
             reason=why,
             wanted=self._opener.wanted,
+            code="port_lost",
         )
-        self._fall_silent()
+        self._on_silence()
         for listener in self._listeners:
             listener.on_line_lost()
 
     def _on_open_failed(self, why: str) -> None:
-        self.log.warn("{reason}; trying again", reason=why)
+        self.log.warn("{reason}; trying again", reason=why, code="port_unavailable")
 
     def _on_bytes(self, data: bytes) -> None:
         """Hand the frames in ``data`` to their handlers; all input goes through here."""
@@ -217,9 +219,9 @@ class SerialProvider(BaseStartedModule):
             self._handle(frames, now_s)
 
     def _handle(self, frames: list[Frame], now_s: float) -> None:
-        self._heard_s = now_s
-        if not self._is_heard:
-            self._is_heard = True
+        self._last_rx_s = now_s
+        if not self._is_receiving:
+            self._is_receiving = True
             for listener in self._listeners:
                 listener.on_line_heard()
         handlers = self._handlers
@@ -244,9 +246,10 @@ class SerialProvider(BaseStartedModule):
             return
         self._named.add((name, type_))
         self.log.failure(
-            "{name} failed while handling {type!r} (said once, then counted)",
+            "{name} failed while handling {type!r} (logged once, then counted)",
             name=name,
             type=chr(type_),
+            code="handler_failed",
         )
 
     def _expire(self) -> None:
@@ -271,25 +274,30 @@ class SerialProvider(BaseStartedModule):
         if not self.is_source_open:
             return
         limit_s: float = self.config.silence_s
-        silent_s = self._seconds() - self._heard_s
-        if self._is_heard and silent_s >= limit_s:
+        silent_s = self._seconds() - self._last_rx_s
+        if self._is_receiving and silent_s >= limit_s:
             self.log.warn(
-                "no frame for {limit_s:g} s on {path}", limit_s=limit_s, path=self._opener.path
+                "no frame for {limit_s:g} s on {path}",
+                limit_s=limit_s,
+                path=self._opener.path,
+                code="line_silent",
             )
-            self._fall_silent()
+            self._on_silence()
         if silent_s >= TRY_ANOTHER_AFTER_S and self._opener.has_another():
             self.log.warn(
-                "nothing is understood on {path}: trying another port", path=self._opener.path
+                "nothing is understood on {path}: trying another port",
+                path=self._opener.path,
+                code="port_skipped",
             )
             self._opener.pass_over()
             assert self._line is not None
             self._line.reopen()
             return
-        wait_s = limit_s - silent_s if self._is_heard else limit_s
+        wait_s = limit_s - silent_s if self._is_receiving else limit_s
         self._silence = self.context.reactor.callLater(wait_s, self._check_silence)
 
-    def _fall_silent(self) -> None:
-        if self._is_heard:
-            self._is_heard = False
+    def _on_silence(self) -> None:
+        if self._is_receiving:
+            self._is_receiving = False
             for listener in self._listeners:
                 listener.on_line_silent()

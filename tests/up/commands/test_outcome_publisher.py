@@ -4,19 +4,18 @@ import pytest
 
 from tests.up.commands.samples import Border, NumberCommand
 from up.commands.answer_commands import CommandAnsweredCommand
-from up.commands.answer_reports import ANSWERS_HZ
+from up.commands.outcome_publisher import ANSWERS_HZ
 from up.commands.refusal import CommandRefusedError
-from up.commands.roles import Role
 from up.protocols.general_message import MalformedMessage
 
 
 @pytest.fixture
 def border():
     border = Border()
-    border.told = []
+    border.outcomes = []
     border.bus.add_observer(
         lambda command, origin: (
-            border.told.append((command, origin.link))
+            border.outcomes.append((command, origin.link))
             if isinstance(command, CommandAnsweredCommand)
             else None
         )
@@ -24,8 +23,8 @@ def border():
     return border
 
 
-def fates(border):
-    return [(each.name, each.command_id, each.outcome, each.code) for each, _ in border.told]
+def outcomes(border):
+    return [(each.name, each.command_id, each.outcome, each.code) for each, _ in border.outcomes]
 
 
 def test_every_fate_is_told_once_also_the_tenth_of_its_kind(border):
@@ -40,16 +39,16 @@ def test_every_fate_is_told_once_also_the_tenth_of_its_kind(border):
     border.say("no.such", {})
     border.say("test.number", {"number": "x"}, "c")
     border.say("test.number", {"number": 0}, "d", beacon=-7)
-    assert fates(border) == [
+    assert outcomes(border) == [
         ("test.number", "a", "ack", ""),
         *(("test.number", f"b{number}", "nack", "refused") for number in range(10)),
         ("no.such", None, "nack", "unknown"),
         ("test.number", "c", "nack", "invalid"),
         ("test.number", "d", "nack", "unknown_beacon"),
     ]
-    assert {link for _, link in border.told} == {"internal"}
-    assert {each.link for each, _ in border.told} == {"ground"}
-    assert border.told[1][0].reason == "not now"
+    assert {link for _, link in border.outcomes} == {"internal"}
+    assert {each.link for each, _ in border.outcomes} == {"ground"}
+    assert border.outcomes[1][0].reason == "not now"
 
 
 def test_what_nobody_asked_about_is_not_told(border):
@@ -57,27 +56,20 @@ def test_what_nobody_asked_about_is_not_told(border):
     for _ in range(100):
         border.say("test.number", {"number": 1})
     border.receiver.receive_malformed(MalformedMessage("nonsense", None), border.link)
-    assert border.told == []
+    assert border.outcomes == []
     border.receiver.receive_malformed(MalformedMessage("nonsense", "a"), border.link)
-    assert fates(border) == [("", "a", "nack", "malformed")]
+    assert outcomes(border) == [("", "a", "nack", "malformed")]
 
 
 def test_a_flood_of_refusals_is_told_in_part_and_counted(border):
     for number in range(500):
         border.say("no.such", {}, f"{number}")
-    assert len(border.told) == ANSWERS_HZ
+    assert len(border.outcomes) == ANSWERS_HZ
     assert len(border.answers) == 500
     border.clock.advance(1)
     border.say("no.such" + "x" * 500, {}, "later")
-    newest = border.told[-1][0]
+    newest = border.outcomes[-1][0]
     assert (newest.command_id, newest.untold, len(newest.name)) == ("later", 480, 64)
-
-
-def test_nobody_outside_may_tell_it():
-    for role in (Role.ADMIN, Role.BOARD, Role.SENSOR):
-        border = Border(role)
-        border.say("up.command.answered", {"link": "ground", "name": "up.arm"}, "a")
-        assert border.codes == ["forbidden"]
 
 
 def test_a_bus_without_a_recorder_counts_nothing_as_unhandled():

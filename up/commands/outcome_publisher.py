@@ -15,30 +15,30 @@ _NAME_LIMIT = 64
 _REASON_LIMIT = 500
 
 
-class AnswerReports:
+class OutcomePublisher:
     """Publishes answers at a bounded rate: constant refusals on a link cost almost nothing."""
 
     def __init__(self, executor: CommandExecutor, clock: Clock) -> None:
         self._executor = executor
         self._clock = clock
-        self._told: Counter[str] = Counter()
-        self._untold: Counter[str] = Counter()
+        self._published: Counter[str] = Counter()
+        self._unreported: Counter[str] = Counter()
         self._second = 0
 
-    def tell(
+    def report(
         self, link: str, name: str, command_id: str | None, code: str = "", reason: str = ""
     ) -> None:
         """Report the outcome of a Command; an empty ``code`` means that it was carried out."""
         second = int(self._clock.seconds())
         if second != self._second:
             self._second = second
-            self._told.clear()
-        if link not in self._told and len(self._told) >= _LINKS_LIMIT:
+            self._published.clear()
+        if link not in self._published and len(self._published) >= _LINKS_LIMIT:
             return
-        if self._told[link] >= ANSWERS_HZ:
-            self._untold[link] += 1
+        if self._published[link] >= ANSWERS_HZ:
+            self._unreported[link] += 1
             return
-        self._told[link] += 1
+        self._published[link] += 1
         self._executor.execute_command(
             CommandAnsweredCommand(
                 link=link,
@@ -47,6 +47,6 @@ class AnswerReports:
                 outcome="nack" if code else "ack",
                 code=code,
                 reason=reason[:_REASON_LIMIT],
-                untold=self._untold.pop(link, 0),
+                untold=self._unreported.pop(link, 0),
             )
         )

@@ -1,0 +1,53 @@
+"""The command line of a server program: up-proxy, up-runner."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Sequence
+from dataclasses import fields, replace
+from pathlib import Path
+from typing import Any
+
+from up.cli.option_parser import EXIT_USAGE, OptionParser
+from up.config import ConfigErrors, ConfigFile
+from up.version import VERSION
+
+
+class ServerParser(OptionParser):
+    """Options for the folder of the configuration, the ports, and the log level."""
+
+    def __init__(self, file: ConfigFile[Any], ports: Sequence[str], **texts: Any) -> None:
+        super().__init__(**texts)
+        self._file = file
+        text = f"folder of {file.filename} (default: config)"
+        self.add_argument("--config", type=Path, metavar="DIR", help=text)
+        for option in ports:
+            self.add_argument(option, type=_port, metavar="N", help="TCP port; 0: any free port")
+        self.add_argument("--log-level", choices=("debug", "info", "warning", "error"))
+        self.add_argument("--version", action="version", version=f"{self.prog} {VERSION}")
+
+    def load(
+        self, arguments: Sequence[str] | None, default: Path
+    ) -> tuple[argparse.Namespace, Path, Any]:
+        """Return options, folder and configuration, with the keys that the options override.
+
+        Ends the program with EXIT_USAGE after printing every mistake.
+        """
+        options = self.parse_args(arguments)
+        folder = options.config or default
+        if options.config is not None and not folder.is_dir():
+            self.exit(EXIT_USAGE, f"--config {folder}: no such folder\n")
+        try:
+            config = self._file.load(folder)
+        except ConfigErrors as errors:
+            self.exit(EXIT_USAGE, f"{errors}\n")
+        given = {name: value for name, value in vars(options).items() if value is not None}
+        keys = {each.name for each in fields(config)} & set(given)
+        return options, folder, replace(config, **{name: given[name] for name in keys})
+
+
+def _port(text: str) -> int:
+    port = int(text) if text.isascii() and text.isdigit() and len(text) < 6 else -1
+    if not 0 <= port <= 65535:
+        raise argparse.ArgumentTypeError(f"a port is a number from 0 to 65535, not {text[:60]!r}")
+    return port
