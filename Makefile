@@ -59,7 +59,7 @@ $(WEB): ground/package-lock.json tools/web_assets
 
 run: $(VENV)/.run-ready $(WEB)
 	@tools/toolchain
-	@$(PY) -m up_simulator.showcase $(if $(CONTROLLER),--controller $(CONTROLLER)) \
+	@$(PY) -m up_simulator.demo $(if $(CONTROLLER),--controller $(CONTROLLER)) \
 		$(if $(RADIO),--radio $(RADIO)) $(ARGS)
 
 scenarios: $(VENV)/.run-ready
@@ -78,7 +78,7 @@ check: $(VENV)/.dev-ready
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
 	$(BIN)/mypy main.py tools/import_contracts.py tools/phone_commands.py \
-		tools/plain_english.py tools/schema.py $(PACKAGES)
+		tools/plain_english.py tools/schema.py tools/tuning $(PACKAGES)
 	@for cog in $(COGS); do echo "mypy $$cog"; \
 		MYPYPATH=$(MYPY_ROOTS) $(BIN)/mypy $$cog/$$(basename $$cog) || exit 1; done
 	MYPYPATH=android/tools $(BIN)/mypy android/tools/*.py

@@ -21,27 +21,27 @@ SUBJECTS = {
     "firmware": "the compiled firmware in the AVR simulator",
     "attitude": "the firmware's attitude beside the truth, with the gyro errors of each seed",
     "simulator": "the virtual aircraft against the clock",
-    "showcase": "CPU of every process of make run",
+    "demo": "CPU of every process of make run",
     "page": "from telemetry to the pixel of the ground station's page",
 }
 FAILED = "failed"
 
 
-def measure(names: Iterable[str], quick: bool, say: Callable[[str], object]) -> list[Row]:
+def measure(names: Iterable[str], quick: bool, notify: Callable[[str], object]) -> list[Row]:
     """Return the rows of the subjects with these names; a failed one is a row, too."""
     rows: list[Row] = []
     for name in names:
-        say(f"{name}: {SUBJECTS[name]} ...")
+        notify(f"{name}: {SUBJECTS[name]} ...")
         subject = import_module(f"bench.{name}")
         try:
             for row in subject.rows(quick):
-                say(f"    {row.what}: {row.ours} {row.ratio}".rstrip())
+                notify(f"    {row.what}: {row.ours} {row.ratio}".rstrip())
                 rows.append(row)
         except LeftOutError as error:
-            say(f"    left out: {error}")
+            notify(f"    left out: {error}")
             rows.append(Row(name, left_out=str(error)))
         except (RuntimeError, OSError, SubprocessError) as error:
-            say(f"    {error}")
+            notify(f"    {error}")
             rows.append(Row(name, FAILED, peer=str(error).splitlines()[0][:80], met=False))
     return rows
 
@@ -61,7 +61,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     values = parser.parse_args(arguments)
     unknown = [name for name in values.names if name not in SUBJECTS]
     if unknown:
-        parser.error(f"there is no {unknown[0]}; there are {', '.join(SUBJECTS)}")
+        parser.error(f"unknown subject {unknown[0]!r}; subjects: {', '.join(SUBJECTS)}")
     names = values.names or list(SUBJECTS)
     rows = measure(names, values.quick, lambda text: print(text, file=sys.stderr, flush=True))
     print(format_table(rows, values.markdown))

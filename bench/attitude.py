@@ -11,15 +11,16 @@ import random
 from collections.abc import Iterable
 
 from bench.table import LeftOutError, Row
+from tools.tuning.workers import MAX_PROCESSES, Workers
 from up_simulator.aircraft import FlightDynamics, Start, Weather, load_airframe
-from up_simulator.crew.firmware_aircraft import FirmwareAircraft
+from up_simulator.aircraft.flight import FlightUnavailableError
 from up_simulator.firmware.build import BoardUnavailableError, choose_board
 from up_simulator.firmware.imu_errors import ImuErrors, drawn_errors
-from up_simulator.firmware.preparation import PreparationError, prepared_eeprom
-from up_simulator.firmware.tap import BoardTap
-from up_simulator.flight import FlightUnavailableError
+from up_simulator.firmware.line_monitor import LineMonitor
+from up_simulator.firmware.preparation import PreparationError, cached_eeprom
+from up_simulator.harness.firmware_aircraft import FirmwareAircraft
+from up_simulator.harness.user_log import no_log
 from up_simulator.radio.circling_pilot import CirclingPilot
-from up_simulator.tuning.workers import MOST_PROCESSES, Workers
 
 FLIGHTS, MINUTES = 20, 10
 TARGET_DEG = 2.0
@@ -32,7 +33,7 @@ def rows(quick: bool = False) -> Iterable[Row]:
     """Yield the worst of all flights; raises LeftOutError without the simulator."""
     flights, minutes = (2, 1) if quick else (FLIGHTS, MINUTES)
     try:
-        with Workers(MOST_PROCESSES) as workers:
+        with Workers(MAX_PROCESSES) as workers:
             found = workers.fly(fly, [(seed, minutes) for seed in range(1, flights + 1)])
     except (BoardUnavailableError, FlightUnavailableError, PreparationError) as error:
         raise LeftOutError(str(error)) from error
@@ -60,7 +61,6 @@ class StarvedClock:
         self._next_s = STARVED_EVERY_S if is_starved else math.inf
 
     def seconds(self) -> float:
-        """Return the time."""
         return self._now_s
 
     def tick(self) -> None:
@@ -76,8 +76,8 @@ class ComparingLine:
 
     def __init__(self, flight: FlightDynamics) -> None:
         self._flight = flight
-        self._waiting = BoardTap().start_bytes()
-        self._tap = BoardTap()
+        self._waiting = LineMonitor().start_bytes()
+        self._tap = LineMonitor()
         self.worst_deg: Errors = (0.0, 0.0)
 
     def read(self, timeout_s: float, most: int) -> bytes:
@@ -86,7 +86,6 @@ class ComparingLine:
         return waiting
 
     def write(self, data: bytes) -> None:
-        """Receive the board's data."""
         if any(each.type == "O" for each in self._tap.feed(data, 0.0)):
             told, true = self._tap.orientation, self._flight.state
             assert told is not None
@@ -114,16 +113,16 @@ def fly(
         vibration_m_s2=chance.uniform(1, 6),
         vibration_hz=chance.uniform(100, 300),
     )
-    eeprom = prepared_eeprom("host", airframe.profile, airframe.gains)
+    eeprom = cached_eeprom("host", airframe.profile, airframe.gains)
     board = choose_board("host", seed=seed, eeprom=eeprom, imu_errors=errors or drawn)
     clock, line = StarvedClock(seed, is_starved), ComparingLine(flight)
     pilot = CirclingPilot()
-    aircraft = FirmwareAircraft(flight, board, line, pilot, clock, "circle", lambda _text: None)
+    aircraft = FirmwareAircraft(flight, board, line, pilot, clock, "circle", no_log)
     found: list[Errors] = []
     for minute in range(1, minutes + 1):
         while aircraft.real_time.world.time_s < 60.0 * minute:
             clock.tick()
-            aircraft.keep()
+            aircraft.advance()
             if flight.crash is not None:
                 return [*found, (math.inf, math.inf)]
         found.append(line.worst_deg)
@@ -143,7 +142,7 @@ def main() -> None:
     errors = ImuErrors() if options.no_errors else None
     seeds = range(options.first, options.first + options.flights)
     flights = [(seed, options.minutes, options.starved, errors) for seed in seeds]
-    with Workers(MOST_PROCESSES) as workers:
+    with Workers(MAX_PROCESSES) as workers:
         found = workers.fly(fly, flights)
     for seed, flight in zip(seeds, found, strict=True):
         minutes = " ".join(f"{roll_deg:.1f}/{pitch_deg:.1f}" for roll_deg, pitch_deg in flight)

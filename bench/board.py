@@ -10,7 +10,7 @@ from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 
 from bench.timing import percentile
-from up_simulator.wire import checked_frame, cobs_decode
+from up_simulator.firmware.wire import checked_frame, cobs_decode
 
 ANSWER_S = 1.0
 GENERATOR_PRIORITY = 40
@@ -62,13 +62,13 @@ class Board:
         with _first_in_line():
             return self._measure(rate_hz, seconds)
 
-    def greet(self, deadline_s: float) -> None:
+    def wait_for_answer(self, deadline_s: float) -> None:
         """Play the board, slowly, until a program answers orientation; raises RuntimeError."""
         end_s = time.monotonic() + deadline_s
         while time.monotonic() < end_s:
             if self._measure(50, 0.2, wait_s=0.1).lost == 0:
                 return
-        raise RuntimeError("nobody answers on the serial line")
+        raise RuntimeError("no answer on the serial line")
 
     def _measure(self, rate_hz: float, seconds: float, wait_s: float = ANSWER_S) -> Latency:
         # Frames are built before and parsed after: in between are only clock, read and write.

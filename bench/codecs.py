@@ -177,7 +177,7 @@ def serial_rows(rounds: int) -> Iterable[Row]:
     what = "checked serial frame, parse"
     yield compared(what, "us", ours, "table parser, unchecked", table, Limit(TABLE_TARGET))
     theirs = others[0] if others else ()
-    yield compared(what, "us", ours, "pymavlink", theirs, Limit(PYMAVLINK_TARGET, is_least=True))
+    yield compared(what, "us", ours, "pymavlink", theirs, Limit(PYMAVLINK_TARGET, is_minimum=True))
 
 
 def orientation_rows(rounds: int) -> Iterable[Row]:
@@ -186,7 +186,7 @@ def orientation_rows(rounds: int) -> Iterable[Row]:
         (
             f"orientation over TCP, reads of {TCP_READ_SIZE // 1024} KiB",
             TCP_READ_SIZE,
-            Limit(ORIENTATION_TARGET, is_least=True),
+            Limit(ORIENTATION_TARGET, is_minimum=True),
         ),
         ("orientation over TCP, a frame a read", 24, Limit(SINGLE_TARGET)),
     ):

@@ -14,8 +14,8 @@ from bench.table import LeftOutError, Row
 from up_rig import CYCLES_PER_US, FirmwareError, Rig, RigUnavailableError
 from up_rig.build import BuildError, build_firmware
 from up_rig.imu import motion_at
-from up_simulator.firmware.tap import BoardTap
-from up_simulator.wire import COMMAND_SIZES, checked_frame
+from up_simulator.firmware.line_monitor import LineMonitor
+from up_simulator.firmware.wire import COMMAND_SIZES, checked_frame
 
 SERVOS = ("ailerons", "elevator", "throttle", "rudder")
 FRAME_US = 20_000.0
@@ -63,7 +63,7 @@ class Flight:
         self.rig.mark_stack()
         self._random = random.Random(seed)
         self._sequence = 0
-        self.tap = BoardTap()
+        self.tap = LineMonitor()
         self.mix = ""
         self.late_us = self.period_us = 0
         self.bytes_to_board = self.bytes_from_board = 0

@@ -23,7 +23,7 @@ from up_flightlog.read.flight_log import FlightLog
 PEER = "mcap (official)"
 MINUTES, QUICK_MINUTES = 30, 1
 ROUNDS = 3
-BETTER = Limit(2.0, is_least=True)
+BETTER = Limit(2.0, is_minimum=True)
 START_NS = 1_700_000_000_000_000_000
 TICK_NS = 10_000_000
 ROLL = "up.orientation.update"

@@ -20,7 +20,6 @@ class Ground:
         self._thread = threading.Thread(target=self._serve, daemon=True)
 
     def __enter__(self) -> "Ground":
-        """Start listening."""
         self._thread.start()
         return self
 
@@ -30,7 +29,6 @@ class Ground:
         error: BaseException | None,
         trace: TracebackType | None,
     ) -> None:
-        """Close everything."""
         for each in (self._listener, self._peer):
             if each is not None:
                 with suppress(OSError):  # the other side may have closed first

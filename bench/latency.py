@@ -17,16 +17,16 @@ from pathlib import Path
 
 from bench.board import Board, Latency, terminal
 from bench.daemon import CONTROL, MAIN, daemon
-from bench.processes import hogs, running
+from bench.processes import busy_loops, running
 from bench.table import Row, compared
 from bench.timing import Limit
 
 RATE_HZ = 1000
 SECONDS, QUICK_SECONDS = 4.0, 0.5
 ROUNDS, QUICK_ROUNDS = 7, 3
-HOGS = 2
+BUSY_LOOPS = 2
 PRIORITY = 20
-GREET_S = 30.0
+ANSWER_LIMIT_S = 30.0
 P50_TARGET, P99_TARGET = 2.3, 2.5
 CONTROL_TARGET, HOGS_TARGET = 10.0, 15.0
 FLOOR_SOURCE = Path(__file__).with_name("floor.c")
@@ -65,7 +65,7 @@ def in_turns(boards: list[Board], seconds: float, rounds: int) -> list[list[Late
     for _ in range(rounds):
         for figures, board in zip(found, boards, strict=True):
             # A board that was silent during the others' turns counts as lost.
-            board.greet(GREET_S)
+            board.wait_for_answer(ANSWER_LIMIT_S)
             figures.append(board.measure(RATE_HZ, seconds))
     return found
 
@@ -82,7 +82,7 @@ def tail_rows(seconds: float, rounds: int) -> Iterable[Row]:
         [each.p999_us for each in ours],
         "control run, Python's collector",
         [each.p999_us for each in control],
-        Limit(CONTROL_TARGET, is_least=True),
+        Limit(CONTROL_TARGET, is_minimum=True),
     )
     lost, sent = sum(each.lost for each in ours), sum(each.sent for each in ours)
     yield Row(f"{WHAT}, Outputs lost", f"{lost} of {sent}", target="0", met=lost == 0)
@@ -98,17 +98,17 @@ def floor_rows(ours: list[Latency], floors: list[Latency]) -> Iterable[Row]:
         )
 
 
-def hogs_row(seconds: float, rounds: int) -> Row:
+def busy_row(seconds: float, rounds: int) -> Row:
     """Return the tail under real-time priority beside that at nice 0, with every core occupied."""
-    what = f"{WHAT}, {HOGS} CPU hogs, SCHED_FIFO {PRIORITY}, p99"
+    what = f"{WHAT}, {BUSY_LOOPS} CPU busy_loops, SCHED_FIFO {PRIORITY}, p99"
     if not may_be_realtime():
         return Row(what, left_out="real-time priority is not permitted here")
     with ExitStack() as stack:
         boards = [stack.enter_context(daemon_board(priority=each)) for each in (PRIORITY, 0)]
-        stack.enter_context(hogs(HOGS))
+        stack.enter_context(busy_loops(BUSY_LOOPS))
         runs = in_turns(boards, seconds, rounds)
     realtime, nice = ([each.p99_us for each in run] for run in runs)
-    limit = Limit(HOGS_TARGET, is_least=True)
+    limit = Limit(HOGS_TARGET, is_minimum=True)
     return compared(what, "us", realtime, "the same at nice 0", nice, limit)
 
 
@@ -127,4 +127,4 @@ def rows(quick: bool = False) -> Iterable[Row]:
     """Yield the latency rows."""
     seconds, rounds = (QUICK_SECONDS, QUICK_ROUNDS) if quick else (SECONDS, ROUNDS)
     yield from tail_rows(seconds, rounds)
-    yield hogs_row(seconds, rounds)
+    yield busy_row(seconds, rounds)

@@ -20,7 +20,7 @@ RATE_HZ = 50
 SECONDS, QUICK_SECONDS = 5.0, 1.0
 ROUNDS, QUICK_ROUNDS = 5, 3
 SETTLE_S = 2.0
-GREET_S = 30.0
+ANSWER_LIMIT_S = 30.0
 FLIGHT_TARGET, IDLE_TARGET = Limit(2.5), Limit(0.1)
 UNIT = "% of a core"
 
@@ -57,7 +57,7 @@ def flight(is_recorded: bool = True) -> Iterator[Flown]:
         daemon(port, proxy_port=ground.port, is_recorded=is_recorded) as running,
     ):
         board = Board(board_end)
-        board.greet(GREET_S)
+        board.wait_for_answer(ANSWER_LIMIT_S)
         wait_until(lambda: ground.frames, "telemetry on the ground")
         yield Flown(running, board, ground)
 

@@ -95,21 +95,21 @@ def sent_frames(flights: Path) -> dict[int, tuple[float, float]]:
     return found
 
 
-def _paints(said: dict[str, Any], sent: dict[int, tuple[float, float]]) -> Paints:
-    painted = [each for each in said["painted"] if each["beacon"] in sent]
+def _paints(measured: dict[str, Any], sent: dict[int, tuple[float, float]]) -> Paints:
+    painted = [each for each in measured["painted"] if each["beacon"] in sent]
     if not painted:
         raise RuntimeError("the page painted no frame that is in the log")
-    ways = []
+    delays = []
     for each in painted:
         sent_ms, age_ms = sent[each["beacon"]]
-        ways.append((each["unix_ms"] - sent_ms, age_ms))
+        delays.append((each["unix_ms"] - sent_ms, age_ms))
     return Paints(
-        sorted(way_ms for way_ms, _ in ways),
-        sorted(way_ms + age_ms for way_ms, age_ms in ways),
+        sorted(delay_ms for delay_ms, _ in delays),
+        sorted(delay_ms + age_ms for delay_ms, age_ms in delays),
         sorted(each["inPage_ms"] for each in painted),
-        len(painted) / said["seconds"],
-        said["animationFrames"] / said["seconds"],
-        said["longTasks_ms"],
+        len(painted) / measured["seconds"],
+        measured["animationFrames"] / measured["seconds"],
+        measured["longTasks_ms"],
     )
 
 

@@ -46,7 +46,7 @@ def running(
 
 
 @contextmanager
-def hogs(count: int) -> Iterator[None]:
+def busy_loops(count: int) -> Iterator[None]:
     """Run this many busy loops at nice 0."""
     spinning = [subprocess.Popen(["sh", "-c", "while :; do :; done"]) for _ in range(count)]
     try:

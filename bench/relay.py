@@ -6,7 +6,6 @@ from one run on one machine.
 
 import json
 import os
-import re
 import resource
 import shutil
 import socket
@@ -23,6 +22,7 @@ from typing import IO
 from bench.processes import cpu_s, resident_mib, tree
 from bench.table import LeftOutError, Row, compared
 from bench.timing import Limit
+from up_simulator.harness.user_log import JSON_ENVIRONMENT, read_line
 
 PAIRS = 100
 RATE_HZ = 50
@@ -36,7 +36,6 @@ MANY_PAIRS_TARGET = Limit(15.0)
 STALL_MB_TARGET = 5.0
 LOAD = Path(__file__).with_name("relay_load.py")
 DEADLINE_S = 60.0
-LISTENS = r"(airborne|ground) side listens on port (\d+)\n"
 
 
 @dataclass(frozen=True, slots=True)
@@ -64,7 +63,10 @@ def process(*command: str, stderr: IO[str] | None = None) -> Iterator[subprocess
     """Run a program on the relay's core, and end it."""
     relay_core, _ = cores()
     running = subprocess.Popen(
-        ["taskset", "-c", str(relay_core), *command], text=True, stderr=stderr
+        ["taskset", "-c", str(relay_core), *command],
+        text=True,
+        stderr=stderr,
+        env=os.environ | JSON_ENVIRONMENT,
     )
     try:
         yield running
@@ -90,7 +92,8 @@ def our_proxy(folder: Path) -> Iterator[tuple[subprocess.Popen[str], int, int]]:
     with log.open("w") as stream, process(*command, stderr=stream) as running:
         deadline_s = time.monotonic() + DEADLINE_S
         while True:
-            ports = dict(re.findall(LISTENS, log.read_text()))
+            lines = (read_line(line).fields for line in log.read_text().splitlines())
+            ports = {each["side"]: each["port"] for each in lines if {"side", "port"} <= set(each)}
             if len(ports) == 2:
                 break
             if time.monotonic() > deadline_s or running.poll() is not None:
@@ -114,7 +117,7 @@ def wait_for_port(port: int) -> None:
         ):
             return
         time.sleep(0.02)
-    raise RuntimeError(f"nobody listens on port {port}")
+    raise RuntimeError(f"no program listens on port {port}")
 
 
 class Load:
@@ -129,7 +132,6 @@ class Load:
         self.tell(job)
 
     def tell(self, what: object) -> None:
-        """Write one JSON line to it."""
         assert self._process.stdin is not None
         self._process.stdin.write(json.dumps(what) + "\n")
         self._process.stdin.flush()
@@ -139,7 +141,7 @@ class Load:
         assert self._process.stdout is not None
         answer: dict[str, float] = json.loads(self._process.stdout.readline() or "{}")
         if key not in answer:
-            raise RuntimeError(f"the load generator said {answer} in place of {key}")
+            raise RuntimeError(f"the load generator answered {answer} instead of {key}")
         return answer
 
     def figures(self, relay_pid: int | None) -> Figures:

@@ -8,14 +8,14 @@ from collections.abc import Callable, Iterable
 from bench.table import LeftOutError, Row, compared
 from bench.timing import Limit
 from up_simulator.aircraft import FlightDynamics, Weather, load_airframe
+from up_simulator.aircraft.flight import FlightUnavailableError
 from up_simulator.firmware.board import BoardKind
 from up_simulator.firmware.build import BoardUnavailableError, choose_board
-from up_simulator.firmware.preparation import PreparationError, prepared_eeprom
-from up_simulator.firmware.tap import BoardTap
-from up_simulator.flight import FlightUnavailableError
-from up_simulator.world import World
+from up_simulator.firmware.line_monitor import LineMonitor
+from up_simulator.firmware.preparation import PreparationError, cached_eeprom
+from up_simulator.harness.world import World
 
-CHIP_TARGET, HOST_TARGET = (Limit(value, is_least=True) for value in (8.0, 30.0))
+CHIP_TARGET, HOST_TARGET = (Limit(value, is_minimum=True) for value in (8.0, 30.0))
 ROUNDS = 3
 MIDDLE_US = 1500.0
 BEAT_S = 0.02
@@ -46,18 +46,18 @@ def rows(quick: bool = False) -> Iterable[Row]:
 def _world(kind: BoardKind) -> World:
     """Return the glider in moderate turbulence, armed and in FBW, its board sending all it has."""
     airframe = load_airframe("glider")
-    eeprom = prepared_eeprom(kind, airframe.profile, airframe.gains)
+    eeprom = cached_eeprom(kind, airframe.profile, airframe.gains)
     weather = Weather(wind_m_s=4, turbulence="moderate")
     world = World(FlightDynamics(airframe, weather=weather), choose_board(kind, eeprom=eeprom))
     world.board.set_stick("aux1", MIDDLE_US)
     world.boot(arms=True)
-    world.board.write(BoardTap().start_bytes())
+    world.board.write(LineMonitor().start_bytes())
     world.board.set_stick("throttle", MIDDLE_US)
     return world
 
 
 def _fly(world: World, duration_s: float) -> None:
-    tap = BoardTap()
+    tap = LineMonitor()
     for _ in range(round(duration_s / BEAT_S)):
         world.advance(BEAT_S)
         tap.feed(world.board.read(), world.time_s)

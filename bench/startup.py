@@ -22,7 +22,7 @@ IMPORT = "import twisted.internet.reactor"
 RATIO_TARGET = 1.6
 MEMORY_TARGET_MIB = 38.0
 ROUNDS, QUICK_ROUNDS = 12, 3
-LOOK_EVERY_S = 0.0005
+POLL_S = 0.0005
 LIMIT_S = 60.0
 SETTLE_S = 5.0
 # The memory of a program that only imports the reactor.
@@ -36,7 +36,7 @@ def wait_for_ports(ports: Ports, limit_s: float = LIMIT_S) -> None:
         while not _is_open(port):
             if time.monotonic() > end_s:
                 raise RuntimeError(f"the daemon did not bind port {port}")
-            time.sleep(LOOK_EVERY_S)
+            time.sleep(POLL_S)
 
 
 def _is_open(port: int) -> bool:

@@ -57,7 +57,7 @@ def compared(
     that many times better; without a peer it limits the figure. Without figures of the peer,
     ``missing`` gives the reason.
     """
-    is_gain = limit is not None and limit.is_least
+    is_gain = limit is not None and limit.is_minimum
     suffix = f" {unit}".rstrip() if not peer else "x better" if is_gain else "x"
     target = f"{'>=' if is_gain else '<='} {limit.value:g}{suffix}" if limit else ""
     mine = figure(Spread.of(ours).median, unit)

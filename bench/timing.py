@@ -18,7 +18,7 @@ class Limit:
     """A target: at most ``value``, or at least."""
 
     value: float
-    is_least: bool = False
+    is_minimum: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,7 +43,7 @@ class Spread:
         is_clear = self.low > limit.value or self.high < limit.value
         if not (is_narrow or is_clear):
             return None
-        return self.median >= limit.value if limit.is_least else self.median <= limit.value
+        return self.median >= limit.value if limit.is_minimum else self.median <= limit.value
 
 
 def rounds_ns(works: Sequence[Work], rounds: int, calls: int) -> list[list[float]]:

@@ -25,7 +25,7 @@ def flight(tmp_path_factory):
         showcase.stop(signal.SIGTERM)
 
 
-def test_it_says_what_flies_what(flight):
+def test_it_prints_the_controller(flight):
     said = flight.said()
     assert "aboard: the firmware on a simulated ATmega328P" in said
     assert "flying motor glider, 1.8 m by JSBSim: wind 4 m/s, turbulence moderate" in said
@@ -53,7 +53,7 @@ def test_the_firmware_holds_the_attitude(flight):
     assert all(float(row["height_m"]) > 80 for row in flight.truth())
 
 
-def test_the_page_answers_a_browser_and_forbids_what_is_not_its_own(flight):
+def test_the_page_serves_a_browser_and_forbids_other_content(flight):
     with urllib.request.urlopen(flight.page, timeout=LIMIT_S) as answer:
         assert answer.status == 200
         policy = answer.headers["content-security-policy"]
@@ -99,7 +99,7 @@ def test_a_ground_command_is_carried_out_and_acked(flight, command):
 
 
 @pytest.mark.parametrize("quantity", ["heading", "altitude"])
-def test_nobody_is_told_that_the_aircraft_navigates(flight, quantity):
+def test_the_aircraft_does_not_claim_to_navigate(flight, quantity):
     name, *fields = f"up.{quantity}.change", f"{quantity}=90", "mode=required"
     assert flight.ground("send", name, *fields).returncode != 0
     forced = flight.ground("send", "--force", name, *fields)
@@ -107,7 +107,7 @@ def test_nobody_is_told_that_the_aircraft_navigates(flight, quantity):
     assert "(not_supported)" in forced.stderr
 
 
-def test_the_phone_got_what_was_said_to_it(flight):
+def test_the_phone_received_its_commands(flight):
     assert flight.ground("send", "android.speak", "text=mind the trees").returncode == 0
     log = flight.folder / "aircraft.log"
     wait(lambda: "mind the trees" in log.read_text(encoding="utf-8"), "the phone speaks")
@@ -138,7 +138,7 @@ def test_half_a_set_of_gains_is_refused_whole(flight):
     assert flight.gains() == before
 
 
-def test_nobody_on_the_ground_stops_the_program(flight):
+def test_the_ground_cannot_stop_the_program(flight):
     result = flight.ground("send", "--force", "up.system.stop")
     assert result.returncode == 1
     assert "forbidden" in result.stdout + result.stderr

@@ -149,7 +149,7 @@ def test_without_any_port_there_is_nothing_to_run_for(tmp_path):
         ("\x00", "config.yml:1:1"),
     ],
 )
-def test_a_wrong_configuration_is_one_sentence_and_status_2(tmp_path, text, says):
+def test_a_wrong_configuration_ends_with_status_2(tmp_path, text, says):
     (tmp_path / "config.yml").write_text(text)
     result = subprocess.run(
         [sys.executable, str(ROOT / "main.py"), "--config", str(tmp_path)],

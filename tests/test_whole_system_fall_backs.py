@@ -40,7 +40,7 @@ def test_moving_the_controller_to_the_pi_is_configuration_only(tmp_path):
 
 
 def test_without_flight_model_and_autobahn_a_recorded_flight_flies_and_no_page(tmp_path):
-    recorded = ROOT / "simulator" / "up_simulator" / "recorded_flight.csv.gz"
+    recorded = ROOT / "simulator" / "up_simulator" / "aircraft" / "recorded_flight.csv.gz"
     (tmp_path / "sitecustomize.py").write_text(WITHOUT_AUTOBAHN)
     showcase = Showcase(tmp_path, "--replay", str(recorded), PYTHONPATH=str(tmp_path)).ready()
     try:
@@ -63,7 +63,7 @@ def clone_with_nothing_built(folder):
     return [folder, folder / "simulator", folder / "arduino" / "bench"]
 
 
-def test_without_any_compiler_one_sentence_names_what_to_install(tmp_path):
+def test_without_any_compiler_the_error_names_the_packages(tmp_path):
     """Where neither avr-gcc nor g++ is found; the search path leads to make alone."""
     tools = tmp_path / "bin"
     tools.mkdir()

@@ -90,7 +90,7 @@ def test_a_daemon_that_is_killed_leaves_a_log_to_its_last_second(flight):
     The truth has that time; what it is now and then told by is slowed in Panic Mode, and what the
     board says never.
     """
-    assert "raspilot ended by itself with signal 9" in flight.showcase.said()
+    assert "raspilot ended unexpectedly with signal 9" in flight.showcase.said()
     assert flight.log.is_cut, "nobody has finished it"
     for topic in ("simulator.truth", "up.orientation.update", "up.servo.update"):
         times_s = [time_s for time_s, _ in flight.log.messages[topic]]
@@ -143,7 +143,7 @@ def test_the_configuration_that_flew_is_attached(flight):
     assert flight.log.metadata["versions"]["arduino_cog"]
 
 
-def test_the_command_that_is_said_at_the_end_reads_it(flight):
+def test_the_suggested_command_reads_the_log(flight):
     said = flight.showcase.said()
     assert said.index("Everything is stopped.") < said.index("The flight's log: ")
     line = re.search(r"The flight's log: (.*)", said)[1]
@@ -155,7 +155,7 @@ def test_the_command_that_is_said_at_the_end_reads_it(flight):
     assert "Traceback" not in done.stderr
 
 
-def test_the_other_command_that_is_said_flies_it_again_in_the_page(flight):
+def test_the_suggested_command_replays_it_in_the_page(flight):
     line = re.search(r"The same again in a browser: (.*)", flight.showcase.said())[1]
     replay = subprocess.Popen(
         [*shlex.split(line), "--listen", "127.0.0.1:0"], cwd=flight.showcase.folder,

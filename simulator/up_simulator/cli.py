@@ -9,13 +9,14 @@ import os
 import sys
 from collections.abc import Callable, Sequence
 from contextlib import suppress
+from pathlib import Path
 from typing import Any
 
+from up.cli.option_parser import OptionParser
 from up.config import ConfigErrors
 from up.version import VERSION
-from up_simulator.crew.option_parser import OptionParser
-from up_simulator.ending import ending_in_order
-from up_simulator.verbs.outcome import (
+from up_simulator.harness.signal_handling import orderly_exit
+from up_simulator.verbs.catalogue import (
     INTERRUPTED,
     NOT_HELD,
     WRONG_INPUT,
@@ -25,16 +26,17 @@ from up_simulator.verbs.outcome import (
 
 DESCRIPTION = """\
 The virtual aircraft: the firmware that goes on the Arduino and the daemon that goes on the
-Raspberry Pi, flown by a flight dynamics model, in flights that are written down and judged."""
+Raspberry Pi, flown by a flight dynamics model, in flights that are logged and evaluated."""
 EPILOG = """\
 A first flight in three commands:
-  up-sim list                        what is there to fly
+  up-sim list                        the scenarios
   up-sim fly level-flight-in-gusts   flies it; the picture is in run/flights/
   up-sim new first-flight            a scenario of your own, with a comment at every key
 
   up-sim start                       the aircraft in real time, for Raspilot and a ground station
 'up-sim VERB --help' explains a verb; docs/simulator.md explains the virtual aircraft and
 docs/scenarios.md scenarios."""
+ROOT = Path(__file__).resolve().parents[2]
 VERBS = {
     "fly": ("fly scenarios and report what held", "up_simulator.verbs.fly"),
     "list": ("list the scenarios", "up_simulator.verbs.listing"),
@@ -42,9 +44,9 @@ VERBS = {
     "check": ("look for mistakes in scenario files without flying", "up_simulator.verbs.check"),
     "signals": ("list what can be expected and logged", "up_simulator.verbs.signals"),
     "all": ("fly every scenario that is shipped, and count", "up_simulator.verbs.all"),
-    "tune": ("step tests over gains; proposes a set", "up_simulator.tuning.cli"),
-    "start": ("the virtual aircraft in real time", "up_simulator.crew.start"),
-    "radio": ("take the sticks of an aircraft that flies", "up_simulator.radio.take_over"),
+    "tune": ("step tests over gains; proposes a set", "tools.tuning.cli"),
+    "start": ("the virtual aircraft in real time", "up_simulator.harness.start"),
+    "radio": ("take the sticks of an aircraft that flies", "up_simulator.radio.rc_override"),
 }
 """A verb's module has ``main(arguments) -> exit status``."""
 
@@ -56,7 +58,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     SIGTERM, SIGHUP (a closed terminal), each in the same order.
     """
     _open_closed_streams()
-    with ending_in_order() as ending:
+    with orderly_exit() as ending:
         try:
             return ending.status(_main(list(sys.argv[1:] if arguments is None else arguments)))
         finally:
@@ -71,11 +73,11 @@ def _main(words: list[str]) -> int:
     verb = words[0]
     if verb.startswith("-"):
         parser.parse_args(words)
-        return _fail("which verb? 'up-sim --help' lists them", WRONG_INPUT)
+        return _fail("a verb is missing; 'up-sim --help' lists them", WRONG_INPUT)
     if verb not in VERBS:
         near = difflib.get_close_matches(verb[:60], VERBS, n=1)
         hint = f", did you mean '{near[0]}'?" if near else " ('up-sim --help' lists them)"
-        return _fail(f"there is no verb {verb[:60]!r}{hint}", WRONG_INPUT)
+        return _fail(f"unknown verb {verb[:60]!r}{hint}", WRONG_INPUT)
     try:
         carry_out: Callable[[list[str]], int] = _module(verb).main
         return carry_out(words[1:])
@@ -98,10 +100,12 @@ def _main(words: list[str]) -> int:
 
 
 def _module(verb: str) -> Any:
+    if VERBS[verb][1].startswith("tools."):
+        sys.path.append(str(ROOT))
     try:
         return importlib.import_module(VERBS[verb][1])
     except ModuleNotFoundError as error:
-        if error.name is not None and error.name.startswith("up_simulator"):
+        if error.name is not None and error.name.split(".")[0] in ("up_simulator", "tools"):
             raise UsageError(f"'{verb}' is not built in here ({error.name})") from error
         raise UsageError(
             f"'{verb}' needs {error.name}, which is not installed: pip install -e '.[sim]'"
@@ -112,11 +116,10 @@ def _parser() -> argparse.ArgumentParser:
     verbs = "\n".join(f"  {name:<9}{about}" for name, (about, _) in VERBS.items())
     parser = OptionParser(
         prog="up-sim",
+        allow_abbrev=False,
         usage="up-sim VERB ...",
         description=f"{DESCRIPTION}\n\nverbs:\n{verbs}",
         epilog=EPILOG,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-        allow_abbrev=False,
     )
     parser.add_argument("--version", action="version", version=f"up-sim {VERSION}")
     return parser

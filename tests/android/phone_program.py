@@ -5,7 +5,7 @@ import time
 
 from tests.android.java_process import JavaProcess
 from tests.android.numbered_motion import MOST, sensors
-from up_simulator.java_phone_program import MAIN
+from up_simulator.phone.java_program import MAIN
 
 TICK_S = 0.002
 FIX = {

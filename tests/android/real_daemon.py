@@ -5,7 +5,7 @@ from pathlib import Path
 
 from tests.cogs.arduino_cog.daemon import Daemon
 from tests.test_whole_system_log import Log
-from up_simulator.crew.ports import choose_port_sets
+from up_simulator.harness.ports import choose_port_sets
 
 AIRCRAFT = "glider-5"
 GUARDS = (

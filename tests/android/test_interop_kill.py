@@ -14,7 +14,7 @@ from tests.android.real_daemon import AIRCRAFT, RealDaemon
 from tests.android.slow_relay import SlowRelay
 from tests.cogs.arduino_cog.daemon import wait
 from tests.proxy.program import Client, Program
-from up_simulator.crew.ports import choose_port_sets
+from up_simulator.harness.ports import choose_port_sets
 
 OTHER = b'{"name": "up.telemetry.update", "data": {"orientation": {"roll": 1.25}}, "beacon": 1}\n'
 MOVING = 20

@@ -10,7 +10,7 @@ from up.protocols.general_message import encode
 from up_ground.ground_link import GroundLink
 from up_ground.settings import Seat, Settings
 from up_ground.token_store import TokenStore
-from up_simulator.in_process.machine import LiteralResolver
+from up_simulator.in_process.host import LiteralResolver
 
 
 @pytest.fixture

@@ -10,7 +10,7 @@ from tests.support.firmware import build_firmware
 from up.commands.board_schema import STATUS, BoardStatus
 from up.protocols.crc16 import crc16
 from up_rig.imu import motion_at
-from up_simulator.wire import checked_frame, cobs_decode
+from up_simulator.firmware.wire import checked_frame, cobs_decode
 
 LOW, MIDDLE, HIGH = 1000, 1500, 2000
 BOOT_US = 1_400_000

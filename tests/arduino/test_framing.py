@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from tests.arduino.flight import LOW, Flight
-from up_simulator.wire import checked_frame
+from up_simulator.firmware.wire import checked_frame
 
 VECTORS = Path(__file__).parents[1] / "vectors"
 PANIC = struct.pack(">cBh", b"p", 0, 50)

@@ -6,7 +6,7 @@ from bench.attitude import fly, worst
 from tests.support.firmware import build_firmware
 from up_simulator.firmware.imu_errors import ImuErrors
 
-MOST_DEG = 5.0
+MAX_DEG = 5.0
 """The benchmark's target is 2 deg; a filter that learns no bias reaches 11 in this flight."""
 
 
@@ -22,4 +22,4 @@ def test_skipped_time_changes_nothing_of_the_flight():
 
 
 def test_the_attitude_stays_true_with_a_drifting_gyro_and_skipped_time():
-    assert max(worst(fly(2, 3, is_starved=True))) <= MOST_DEG
+    assert max(worst(fly(2, 3, is_starved=True))) <= MAX_DEG

@@ -16,7 +16,7 @@ from tests.docs.configuration_page import BEGIN, END
 from up_simulator.scenario.file import read_scenario
 from up_simulator.scenario.run import SUMMARY
 from up_simulator.scenario.scenario import Scenario
-from up_simulator.verbs.shelf import shipped_paths
+from up_simulator.verbs.catalogue import shipped_paths
 
 PAGE = Path(__file__).parents[2] / "docs" / "flights.md"
 GROUPS = ("The Arduino flies alone", "With the daemon", "With real programs")

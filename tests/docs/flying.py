@@ -18,7 +18,7 @@ from pathlib import Path
 from tests.support.virtual_environment import REPOSITORY
 
 LIMIT_S = 120.0
-SHOWCASE = [sys.executable, "-m", "up_simulator.showcase", "--any-ports", "--no-watch"]
+SHOWCASE = [sys.executable, "-m", "up_simulator.demo", "--any-ports", "--no-watch"]
 
 
 @dataclass

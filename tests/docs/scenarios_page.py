@@ -13,16 +13,16 @@ from up_simulator.scenario.signals import SIGNALS, Kind
 PAGE = Path(__file__).parents[2] / "docs" / "scenarios.md"
 GROUPS = {
     "time_s": "time",
-    "truth": "truth: the aircraft itself, which nobody aboard knows",
-    "stick": "stick: what the pilot gives",
-    "servo": "servo: what is measured at the outputs",
-    "board": "board: what the Arduino says (its status every 200 ms, its attitude every 20 ms)",
-    "demand": "demand: what is asked in the mode that flies",
-    "error": "error: the truth less what is asked",
-    "estimate_error": "estimate_error: what the Arduino says less the truth",
+    "truth": "truth: the exact state of the aircraft, unknown aboard",
+    "stick": "stick: pulses of the pilot's sticks",
+    "servo": "servo: pulses measured at the outputs",
+    "board": "board: reports of the Arduino (its status every 200 ms, its attitude every 20 ms)",
+    "demand": "demand: demands in the active mode",
+    "error": "error: truth minus demand",
+    "estimate_error": "estimate_error: estimate of the Arduino minus truth",
     "raspilot": "raspilot: the daemon",
     "phone": "phone: the phone aboard",
-    "ground": "ground: what the ground station sees, by the telemetry's own names",
+    "ground": "ground: telemetry at the ground station, by its names",
 }
 
 
@@ -65,7 +65,7 @@ def _rows(entries: Iterable[Entry], above: str, lists: list[tuple[str, Schema]])
 
 def _signal_tables() -> Iterator[str]:
     yield "## Signals\n"
-    yield "`ground.counters.<part>.<name>` is besides whatever the modules count.\n"
+    yield "`ground.counters.<part>.<name>` are the counters of the modules.\n"
     for source, title in GROUPS.items():
         yield f"### {title}\n"
         yield "| signal | unit | |"

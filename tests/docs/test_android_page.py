@@ -19,7 +19,7 @@ from tests.ground.aircraft import UP_GROUND
 from tests.support.android import ANDROID, make
 from tests.support.tools import need_tool
 from tests.support.virtual_environment import REPOSITORY
-from up_simulator.crew.ports import choose_port_sets
+from up_simulator.harness.ports import choose_port_sets
 
 TEXT = (REPOSITORY / "docs" / "android.md").read_text(encoding="utf-8")
 RES = ANDROID / "raspilot" / "res"

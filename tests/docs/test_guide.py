@@ -24,7 +24,7 @@ from up_flightlog.read.flight_log import FlightLog
 PAGE = "guide.md"
 FILES = files_of(PAGE)
 TEXT = (REPOSITORY / "docs" / PAGE).read_text(encoding="utf-8")
-PROXY = "run/showcase/proxy.pid"
+PROXY = "run/demo/proxy.pid"
 ADDRESS = r"http://127\.0\.0\.1:\d+/"
 FBW, OUTPUT = (
     "board: FBW, the Arduino holds the attitude",
@@ -65,7 +65,7 @@ def test_the_steps_in_the_page(flight):
 
 def _marks(flight):
     """Return the marks of the newest flight, that one that is still recorded."""
-    parts = sorted((flight.tree / "run" / "showcase" / "flights").glob("*.mcap"))
+    parts = sorted((flight.tree / "run" / "demo" / "flights").glob("*.mcap"))
     return [each.data["text"] for each in FlightLog.read(parts).messages("black_box.mark")]
 
 
@@ -87,7 +87,7 @@ def test_the_remark_is_in_the_log(flight):
     (line,) = lines_of(PAGE, "remark")
     done = flight.run(line)
     assert (done.returncode, "ack after" in done.stdout) == (0, True), done.stdout + done.stderr
-    log = flight.tree / "run" / "showcase" / "raspilot.log"
+    log = flight.tree / "run" / "demo" / "raspilot.log"
     flight.wait_for(lambda: "remark: lovely" in log.read_text())
 
 
@@ -110,7 +110,7 @@ def test_what_breaks_ends_the_run_and_by_hand_the_others_bear_it(tmp_path):
         _look_at_the_flight(flight, said)
         proxy, simulator, daemon, _watch = lines_of(PAGE, "by hand")
         general, orientation = re.findall(
-            r"port: (\d+)", (flight.tree / "run/showcase/config/android.yml").read_text()
+            r"port: (\d+)", (flight.tree / "run/demo/config/android.yml").read_text()
         )
         simulator += f" --general-port {general} --orientation-port {orientation}"
         with ExitStack() as stack:
@@ -125,7 +125,7 @@ def test_what_breaks_ends_the_run_and_by_hand_the_others_bear_it(tmp_path):
             board.send_signal(signal.SIGINT)
             _wait_for("does not fly", log)
             _wait_for("provisionally in Black Box Mode", log)
-            assert not (flight.tree / "run/showcase/board").is_symlink()
+            assert not (flight.tree / "run/demo/board").is_symlink()
             log.write_text("")
             board, board_said = start(simulator, "board 2")
             _wait_for("Controller: flies", log)

@@ -11,14 +11,14 @@ from tests.simulator.scenarios.shipped import ALONE
 from tests.support.firmware import build_firmware
 from tests.support.virtual_environment import REPOSITORY
 from up_simulator.cli import VERBS, main
-from up_simulator.crew.start_options import read_options
+from up_simulator.demo.__main__ import _options as read_demo_options
+from up_simulator.harness.start_options import read_options
 from up_simulator.scenario.event import EVENT_KINDS
-from up_simulator.showcase import _options as read_showcase_options
 
 PAGE = "simulator.md"
 SHIPPED_FLIGHT = "level-flight-in-gusts"
 TEXT = (REPOSITORY / "docs" / PAGE).read_text(encoding="utf-8")
-SAID = {
+WORDS = {
     "imu": "frozen, unplugged, holding its bus, garbage",
     "imu_errors": "noise, bias, drift while it warms up, vibration",
     "receiver": "lost and back",
@@ -30,7 +30,7 @@ SAID = {
     "serial_noise": "bits flipped, bytes lost or inserted",
     "phone": "unplugged; battery low",
     "phone_battery": "battery low",
-    "link": "stall, then all at once; blackout",
+    "link": "stall, then a burst; blackout",
     "link_settings": "delay, jitter, loss, rate",
     "raspilot": "daemon killed, stopped, hung",
     "proxy": "the proxy killed",
@@ -38,7 +38,7 @@ SAID = {
     "command": "",
     "mark": "",
 }
-"""What the page says of each kind of event; a Command and a mark are no fault."""
+"""The page's words for each kind of event; a Command and a mark are no fault."""
 
 
 def test_its_commands_work(tmp_path, monkeypatch, capsys):
@@ -67,13 +67,13 @@ def test_the_aircraft_starts_for_a_raspilot(tmp_path):
     link = str(tmp_path / "board")
     arguments = [link if word == "/tmp/board" else word for word in shlex.split(line)[2:]]
     with Program(*arguments, "--no-phone") as program:
-        program.wait_for(f"board on {link}\n")
+        program.wait_for("board_ready", path=link)
         assert program.end()[0] == 0
 
 
 @pytest.mark.parametrize("line", re.findall(r"^    (make run.*?)(?:   |$)", TEXT, re.MULTILINE))
 def test_make_run_understands_what_the_page_says(line):
-    read_showcase_options(options_of(line))
+    read_demo_options(options_of(line))
 
 
 def test_every_verb_is_on_the_page():
@@ -81,6 +81,6 @@ def test_every_verb_is_on_the_page():
 
 
 def test_every_kind_of_event_is_on_the_page():
-    assert set(SAID) == set(EVENT_KINDS)
+    assert set(WORDS) == set(EVENT_KINDS)
     table = TEXT.partition("## What can go wrong")[2].partition("\n## ")[0]
-    assert all(words in table for words in SAID.values())
+    assert all(words in table for words in WORDS.values())

@@ -1,6 +1,6 @@
 """A flight that lies still and records its servos."""
 
-from up_simulator.flight import NEUTRAL, FlightState
+from up_simulator.aircraft.flight import NEUTRAL, FlightState
 
 
 class StillFlight:

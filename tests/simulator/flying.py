@@ -5,9 +5,9 @@ from tests.support.tools import unavailable
 from up_simulator.aircraft import FlightDynamics, Start, Weather, load_airframe
 from up_simulator.firmware.build import BoardUnavailableError, choose_board
 from up_simulator.firmware.imu_errors import ImuErrors
-from up_simulator.firmware.preparation import prepared_eeprom
-from up_simulator.firmware.tap import BoardTap
-from up_simulator.world import World
+from up_simulator.firmware.line_monitor import LineMonitor
+from up_simulator.firmware.preparation import cached_eeprom
+from up_simulator.harness.world import World
 
 ACRO, FBW, AUTO = 1000, 1500, 2000
 BEAT_S = 0.02
@@ -31,7 +31,7 @@ class Flown:
         build_firmware()
         self.airframe = load_airframe("glider")
         try:
-            eeprom = prepared_eeprom(kind, self.airframe.profile, self.airframe.gains)
+            eeprom = cached_eeprom(kind, self.airframe.profile, self.airframe.gains)
             board = choose_board(kind, seed=seed, imu_errors=errors or ImuErrors(), eeprom=eeprom)
         except BoardUnavailableError as error:
             unavailable(str(error))
@@ -39,7 +39,7 @@ class Flown:
         self.dynamics = FlightDynamics(self.airframe, start or Start(), weather, seed=seed)
         self.world = World(self.dynamics, board)
         self.board = board
-        self.tap = BoardTap()
+        self.tap = LineMonitor()
         self.said = b""
         self.states = []
         board.set_stick("aux1", aux1)

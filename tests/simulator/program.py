@@ -9,6 +9,7 @@ import time
 from pathlib import Path
 
 from tests.simulator.pi import Listener, frame
+from up_simulator.harness.user_log import JSON_ENVIRONMENT, read_line
 
 DEADLINE_S = 30.0
 
@@ -21,10 +22,11 @@ class Program:
             [sys.executable, "-W", "error", "-m", "up_simulator", "start", *map(str, arguments)],
             stdout=subprocess.PIPE,
             stderr=subprocess.PIPE,
-            env=os.environ | (environment or {}),
+            env=os.environ | JSON_ENVIRONMENT | (environment or {}),
         )
         os.set_blocking(self.process.stdout.fileno(), False)
-        self.output = ""
+        self.unread = b""
+        self.lines = []
 
     def __enter__(self):
         return self
@@ -36,16 +38,18 @@ class Program:
         self.process.stdout.close()
         self.process.stderr.close()
 
-    def wait_for(self, text):
-        """Wait until the program has printed this."""
+    def wait_for(self, code, **fields):
+        """Wait until the program has logged a line with this code and fields; return it."""
         deadline = time.monotonic() + DEADLINE_S
-        while text not in self.output:
+        while not (found := [line for line in self.lines if line.has(code, **fields)]):
             select.select([self.process.stdout], [], [], 0.1)
             chunk = self.process.stdout.read()
-            self.output += (chunk or b"").decode()
-            ended = chunk == b"" and self.process.poll() is not None
-            assert not ended, f"ended without {text!r}: {self.output} {self.error()}"
-            assert time.monotonic() < deadline, f"never said {text!r}: {self.output}"
+            *lines, self.unread = (self.unread + (chunk or b"")).split(b"\n")
+            self.lines += [read_line(line.decode()) for line in lines]
+            is_over = chunk == b"" and self.process.poll() is not None and not lines
+            assert not is_over, f"ended without {code}: {self.lines} {self.error()}"
+            assert time.monotonic() < deadline, f"never {code} {fields}: {self.lines}"
+        return found[0]
 
     def end(self, number=signal.SIGTERM):
         """Send a signal and return status, seconds taken and the error output."""

@@ -11,8 +11,8 @@ from pathlib import Path
 import pytest
 
 from tests.support.tools import need_tool
-from up_simulator import java_phone_program
-from up_simulator.java_phone_program import ANDROID, JavaUnavailableError, find_java_program
+from up_simulator.phone import java_program as build_of_phone
+from up_simulator.phone.java_program import ANDROID, JavaUnavailableError, find_java_program
 
 CONSOLE = "org.raspilot.up.virtual_phone.GroundConsole"
 
@@ -33,7 +33,7 @@ def java_program():
     except JavaUnavailableError as error:
         pytest.fail(str(error))
     console = Path("build", "ground-console.jar")
-    with java_phone_program._lock(ANDROID / "build"):
+    with build_of_phone._lock(ANDROID / "build"):
         subprocess.run(["make", "-C", ANDROID, console], check=True, stdout=subprocess.DEVNULL)
     return dataclasses.replace(program, jars=(*program.jars, ANDROID / console))
 

@@ -6,7 +6,7 @@ import time
 from pathlib import Path
 
 from up_rig.pty_line import PtyLine
-from up_simulator.wire import COMMAND_SIZES, UNFINISHED_S, Command
+from up_simulator.firmware.wire import COMMAND_SIZES, FRAME_TIMEOUT_S, Command
 
 THESIS_TYPES = "ptThbBl"
 STREAM_S = 0.05
@@ -20,7 +20,7 @@ class ThesisReader:
         self._first_s = 0.0
 
     def feed(self, data, now_s):
-        if now_s - self._first_s >= UNFINISHED_S:
+        if now_s - self._first_s >= FRAME_TIMEOUT_S:
             self._buffer = b""
         for byte in data:
             if not self._buffer and chr(byte) not in THESIS_TYPES:

@@ -37,7 +37,7 @@ class Showcase:
         self.state = {"XDG_STATE_HOME": str(folder / "state")}
         with self.log.open("wb") as output:
             self.process = subprocess.Popen(
-                [sys.executable, "-m", "up_simulator.showcase", "--folder", str(folder),
+                [sys.executable, "-m", "up_simulator.demo", "--folder", str(folder),
                  "--any-ports", "--no-watch", "--state-log", str(folder / "truth.csv"), *options],
                 stdout=output, stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL, cwd=folder,
                 env={**os.environ, **self.state, "PATH": path or os.environ["PATH"],

@@ -29,9 +29,9 @@ from up.protocols.general_message import GeneralMessage
 from up_ground.telemetry import NAME, Telemetry
 from up_ground.web.event_monitor import EventMonitor
 from up_ground.web.event_rules import LinkSnapshot
-from up_simulator.firmware.tap import BoardTap
+from up_simulator.firmware.line_monitor import LineMonitor
 from up_simulator.scenario.signals import SIGNALS
-from up_simulator.wire import checked_frame
+from up_simulator.firmware.wire import checked_frame
 
 told = []
 monitor = EventMonitor("kite", told.append)
@@ -45,7 +45,7 @@ def see(count, now_s):
     return status
 for now_s, count in ((1, 0), (2, 3), (20, 0), (24, 0), (26, 0)):
     status = see(count, now_s)
-tap = BoardTap()
+tap = LineMonitor()
 tap.feed(checked_frame(0, "x", bytes(STATUS.size - 1) + b"\\7"), 0.0)
 json.dump({
     "telemetry": telemetry_of(status.data)["brown_outs"],

@@ -23,9 +23,9 @@ from up_simulator.aircraft.airframe_file import (
     ServosConfig,
     file_named,
 )
+from up_simulator.aircraft.flight import FlightUnavailableError
 from up_simulator.aircraft.geometry import GEOMETRY, Geometry, ModelError
 from up_simulator.aircraft.model_check import MOTOR, ModelRefusedError, check_model
-from up_simulator.flight import FlightUnavailableError
 
 _OUTPUTS = ("ailerons", "elevator", "rudder")
 SHIPPED = Path(__file__).parent / "airframes"
@@ -34,7 +34,16 @@ _LB_KG, _SLUG_KG = 0.45359237, 14.593903
 
 
 class AirframeError(Exception):
-    """An airframe cannot be flown: one sentence a mistake, each with its place."""
+    """An airframe cannot be flown: one line a problem, each with file, line and key.
+
+    ``code`` is ``unknown_airframe``, ``invalid_file``, ``missing_key``, ``not_readable``,
+    ``not_a_model``, ``invalid_mass``, ``invalid_geometry``, ``model_refused`` or
+    ``unknown_property``.
+    """
+
+    def __init__(self, code: str, text: str) -> None:
+        super().__init__(text)
+        self.code = code
 
 
 @dataclass(frozen=True, slots=True)
@@ -77,7 +86,6 @@ class Airframe:
 
     @property
     def has_motor(self) -> bool:
-        """Return whether it has a motor."""
         return self.motor.diameter_m > 0
 
 
@@ -96,9 +104,9 @@ def load_airframe(name_or_path: str | Path) -> Airframe:
     try:
         file: AirframeFile = file_named(path.name).load(path.parent)
     except ConfigErrors as errors:
-        raise AirframeError(str(errors)) from None
+        raise AirframeError("invalid_file", str(errors)) from None
     if not file.title:
-        raise AirframeError(f'{path}:1:1: the key "title" is missing')
+        raise AirframeError("missing_key", f"{path}:1:1: title: the key is missing")
     mass_kg = _mass_of(path.parent / file.model) if file.model else _built_mass_of(path.parent)
     airframe = Airframe(
         name=path.parent.resolve().name,
@@ -113,7 +121,7 @@ def load_airframe(name_or_path: str | Path) -> Airframe:
         battery=file.battery,
         imu=file.imu,
         limits=file.limits,
-        profile=_said(dataclasses.asdict(file.profile)),
+        profile=_without_nulls(dataclasses.asdict(file.profile)),
         gains={"units": "degrees per second", **dataclasses.asdict(file.gains)},
     )
     if SHIPPED not in path.resolve().parents:
@@ -130,18 +138,18 @@ def _path_of(name_or_path: str | Path) -> Path:
         path = path / FILENAME
     if not path.is_file():
         names = ", ".join(airframe_names())
-        near = difflib.get_close_matches(text, airframe_names(), n=1)
-        guess = f", did you mean '{near[0]}'?" if near else ""
-        raise AirframeError(
-            f"{text}: is no airframe ({names}) and no folder with an {FILENAME}{guess}"
-        )
+        matches = difflib.get_close_matches(text, airframe_names(), n=1)
+        hint = f", did you mean '{matches[0]}'?" if matches else ""
+        what = f"{text}: is neither an airframe ({names}) nor a folder with an {FILENAME}{hint}"
+        raise AirframeError("unknown_airframe", what)
     return path
 
 
-def _said(values: dict[str, Any]) -> dict[str, Any]:
+def _without_nulls(values: dict[str, Any]) -> dict[str, Any]:
     """Return a nested map without its null values."""
     kept = {
-        name: _said(value) if isinstance(value, dict) else value for name, value in values.items()
+        name: _without_nulls(value) if isinstance(value, dict) else value
+        for name, value in values.items()
     }
     return {name: value for name, value in kept.items() if value is not None and value != {}}
 
@@ -149,14 +157,13 @@ def _said(values: dict[str, Any]) -> dict[str, Any]:
 def _built_mass_of(folder: Path) -> float:
     """Return the mass that geometry.yml has, kg. Raises ``AirframeError``."""
     if not (folder / GEOMETRY.filename).is_file():
-        raise AirframeError(
-            f'{folder / FILENAME}:1:1: the key "model" is missing, and no {GEOMETRY.filename} is'
-            " beside it"
-        )
+        place = f"{folder / FILENAME}:1:1"
+        what = f"model: the key is missing, and no {GEOMETRY.filename} is beside the file"
+        raise AirframeError("missing_key", f"{place}: {what}")
     try:
         geometry: Geometry = GEOMETRY.load(folder)
     except ConfigErrors as errors:
-        raise AirframeError(str(errors)) from None
+        raise AirframeError("invalid_geometry", str(errors)) from None
     return geometry.masses.mass_kg
 
 
@@ -165,54 +172,58 @@ def _mass_of(model_path: Path) -> float:
     try:
         root = ElementTree.parse(model_path).getroot()
     except OSError as error:
-        raise AirframeError(f"{model_path}: cannot be read: {error.strerror or error}") from None
+        what = f"{model_path}: cannot be read: {error.strerror or error}"
+        raise AirframeError("not_readable", what) from None
     except ElementTree.ParseError as error:
         line, column = error.position
-        what = str(error).split(":")[0]
-        raise AirframeError(f"{model_path}:{line}:{column + 1}: is no XML: {what}") from None
+        what = f"{model_path}:{line}:{column + 1}: is not XML: {str(error).split(':')[0]}"
+        raise AirframeError("not_a_model", what) from None
     weight = root.find("mass_balance/emptywt")
     if root.tag != "fdm_config" or weight is None:
-        raise AirframeError(f"{model_path}:1:1: is no JSBSim model with a mass_balance/emptywt")
+        what = f"{model_path}:1:1: is not a JSBSim model with a mass_balance/emptywt"
+        raise AirframeError("not_a_model", what)
     unit = {"KG": 1.0, "SLUG": _SLUG_KG}.get(weight.get("unit", "LBS").upper(), _LB_KG)
     try:
         mass_kg = float(weight.text or "") * unit
     except ValueError:
         mass_kg = 0.0
     if not 0.0 < mass_kg < math.inf:
-        raise AirframeError(f"{model_path}: emptywt is no mass: {weight.text}")
+        what = f"{model_path}: emptywt: is not a mass: {weight.text}"
+        raise AirframeError("invalid_mass", what)
     return mass_kg
 
 
 def _check(path: Path, airframe: Airframe) -> None:
-    """Let JSBSim fly a foreign model. Raises ``AirframeError`` with JSBSim's message."""
+    """Fly a foreign model with JSBSim. Raises ``AirframeError`` with the message of JSBSim."""
     servos = airframe.servos
     moved = {node: output for output in _OUTPUTS for node in getattr(servos, output).moves}
-    wanted = [*moved, *([MOTOR] if airframe.has_motor else [])]
+    required = [*moved, *([MOTOR] if airframe.has_motor else [])]
     try:
         model_path = airframe.model_path
-        unknown = check_model(model_path, wanted, airframe.launch.airspeed_m_s)
+        unknown = check_model(model_path, required, airframe.launch.airspeed_m_s)
     except FlightUnavailableError:
         return
     except ModelError as error:
-        raise AirframeError(str(error)) from None
+        raise AirframeError("invalid_geometry", str(error)) from None
     except ModelRefusedError as error:
-        raise AirframeError(f"{model_path}: JSBSim does not fly it: {error}") from None
+        what = f"{model_path}: JSBSim rejects it: {error}"
+        raise AirframeError("model_refused", what) from None
     problems = []
-    for node, near in unknown.items():
+    for node, match in unknown.items():
         if node == MOTOR:
-            place = _place_of(path, "motor")
+            place = _position_of(path, "motor")
             what = "motor: the model has no force 'motor' in its external_reactions"
         else:
-            place = _place_of(path, "servos", moved[node], "moves", node)
+            place = _position_of(path, "servos", moved[node], "moves", node)
             what = f'servos.{moved[node]}.moves: the model has no property "{node}"'
-            what += f", did you mean '{near}'?" if near else ""
+            what += f", did you mean '{match}'?" if match else ""
         problems.append(f"{path}:{place[0]}:{place[1]}: {what}")
     if problems:
-        raise AirframeError("\n".join(problems))
+        raise AirframeError("unknown_property", "\n".join(problems))
 
 
-def _place_of(path: Path, *keys: str) -> tuple[int, int]:
-    """Return line and column of a key in a file that is known to be well."""
+def _position_of(path: Path, *keys: str) -> tuple[int, int]:
+    """Return line and column of a key in a valid file."""
     node = compose(path.read_text(encoding="utf-8-sig"), lambda *_problem: None)
     place = (1, 1)
     for name in keys:

@@ -103,7 +103,6 @@ class LimitsConfig:
     break_g: float = _number(10.0, "Load factor at which it breaks.", "g", 1, 100)
 
     def problems(self) -> Iterator[tuple[str, str]]:
-        """Yield inconsistent values."""
         if self.break_g < self.load_g:
             yield "break_g", f"must not be below load_g, which is {self.load_g:g}"
 
@@ -134,12 +133,11 @@ class AirframeFile:
     imu: ImuConfig = section(ImuConfig)
     limits: LimitsConfig = section(LimitsConfig)
     profile: AirframeProfile = section(
-        AirframeProfile, "What the Arduino is told, as in config/airframe.yml."
+        AirframeProfile, "Profile of the Arduino, as in config/airframe.yml."
     )
     gains: GainsConfig = section(GainsConfig)
 
     def problems(self) -> Iterator[tuple[str, str]]:
-        """Yield the missing keys."""
         if not self.title:
             yield "title", "must be given"
         if self.model and ("/" in self.model or not self.model.endswith(".xml")):

@@ -8,6 +8,7 @@ from typing import Any
 
 from up_rig.imu import Motion
 from up_simulator.aircraft.airframe import Airframe
+from up_simulator.aircraft.flight import FlightState, Servos
 from up_simulator.aircraft.model import FOOT_M, load_model, reader, writer
 from up_simulator.aircraft.model_check import MOTOR
 from up_simulator.aircraft.motor import Battery, Motor
@@ -19,7 +20,6 @@ from up_simulator.aircraft.start import (
     set_initial,
 )
 from up_simulator.aircraft.weather import Air, Weather
-from up_simulator.flight import FlightState, Servos
 
 _Move = tuple[Callable[[float], None], int, float, float]
 _NEWTON_LBS = 1 / 4.4482216
@@ -58,7 +58,7 @@ _READ = {
 
 
 class FlightDynamics:
-    """A flight in steps of 2 ms, launched in the air; satisfies ``Flight``.
+    """A flight in steps of 2 ms, launched in the air; satisfies ``FlightSource``.
 
     The same arguments and the same pulses at the same steps fly the same flight to the last
     digit. ``crash`` is one sentence about the end of the flight; after it only the time advances.
@@ -150,7 +150,7 @@ class FlightDynamics:
             self._set_thrust(thrust_n * _NEWTON_LBS)
         else:
             self._battery.draw(0.0, self.STEP_S)
-        self._air.blow(self._steps * self.STEP_S - self._launched_s)
+        self._air.apply(self._steps * self.STEP_S - self._launched_s)
         self._motion = None
         try:
             is_flying = self._fdm.run()

@@ -33,7 +33,6 @@ class Flap:
     effectiveness: float = _share("Against thin-aerofoil theory: gaps, thick hinges, foam.", 0.75)
 
     def problems(self) -> Iterator[tuple[str, str]]:
-        """Yield inconsistent values."""
         if self.from_share >= self.to_share:
             yield "to_share", f"must be above from_share, which is {self.from_share:g}"
 
@@ -45,7 +44,7 @@ class Surface:
     root_x_m: float = _metres("Leading edge at the root, aft positive.")
     root_y_m: float = _metres("The root, right positive; for fins at the tips.")
     root_z_m: float = _metres("The root, up positive.")
-    half_span_m: float = _metres("From root to tip along y; 0 is no such surface.", 0.0, 0.0)
+    half_span_m: float = _metres("From root to tip along y; 0: there is no such surface.", 0.0, 0.0)
     height_m: float = _metres("For fins: from root to tip along z.", 0.0, 0.0)
     root_chord_m: float = _metres("Chord at the root.", 0.2, 0.01)
     tip_chord_m: float = _metres("Chord at the tip.", 0.2, 0.01)
@@ -127,7 +126,6 @@ class Geometry:
     span_efficiency: float = _share("Oswald's factor of the wing alone.", 0.9, 1.2)
 
     def problems(self) -> Iterator[tuple[str, str]]:
-        """Yield inconsistent values."""
         if self.wing.half_span_m < 0.05:
             yield "wing", "must have a half_span_m of at least 0.05 m"
         if self.span_efficiency < 0.3:

@@ -10,7 +10,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-from up_simulator.flight import FlightUnavailableError
+from up_simulator.aircraft.flight import FlightUnavailableError
 
 FOOT_M = 0.3048
 

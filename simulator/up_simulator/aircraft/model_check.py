@@ -10,8 +10,8 @@ from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import Any
 
+from up_simulator.aircraft.flight import FlightUnavailableError
 from up_simulator.aircraft.model import FOOT_M, has_property, load_model
-from up_simulator.flight import FlightUnavailableError
 
 MOTOR = "external_reactions/motor/magnitude"
 _LIMIT_S = 60.0
@@ -36,16 +36,16 @@ def check_model(path: Path, properties: Sequence[str], airspeed_m_s: float) -> d
             command, capture_output=True, text=True, errors="replace", timeout=_LIMIT_S, check=False
         )
     except subprocess.TimeoutExpired:
-        raise ModelRefusedError(f"it has not answered within {_LIMIT_S:.0f} s") from None
+        raise ModelRefusedError(f"no answer within {_LIMIT_S:.0f} s") from None
     if done.returncode == _UNKNOWN:
         marked = (line for line in done.stdout.splitlines() if line.startswith(_MARK))
         pairs = (line.removeprefix(_MARK).partition(" ") for line in marked)
-        return {name: near for name, _, near in pairs}
+        return {name: match for name, _, match in pairs}
     if done.returncode == _UNAVAILABLE or (not done.returncode and not done.stderr + done.stdout):
         return {}
     # JSBSim only prints a message about a function that it does not understand, and continues.
-    said = " ".join((done.stderr + "\n" + done.stdout).split())
-    raise ModelRefusedError(said[:500] or f"it ended with status {done.returncode}")
+    output = " ".join((done.stderr + "\n" + done.stdout).split())
+    raise ModelRefusedError(output[:500] or f"it ended with status {done.returncode}")
 
 
 def _fly(path: Path, airspeed_m_s: float, properties: Sequence[str]) -> int:
@@ -60,7 +60,7 @@ def _fly(path: Path, airspeed_m_s: float, properties: Sequence[str]) -> int:
         fdm.run_ic()
         for _ in range(_STEPS):
             if not fdm.run():
-                raise FlightUnavailableError("it gives up within the first steps")
+                raise FlightUnavailableError("it stops within the first steps")
     except FlightUnavailableError as error:
         # JSBSim's own output has more details.
         sys.stderr.write(f"{error}\n".removeprefix(f"{path}: JSBSim refuses it"))
@@ -70,8 +70,8 @@ def _fly(path: Path, airspeed_m_s: float, properties: Sequence[str]) -> int:
         return _REFUSED
     unknown = [name for name in properties if not has_property(fdm, name)]
     for name in unknown:
-        near = difflib.get_close_matches(name, _catalog(fdm), n=1)
-        sys.stdout.write(f"{_MARK}{name} {''.join(near)}\n")
+        matches = difflib.get_close_matches(name, _catalog(fdm), n=1)
+        sys.stdout.write(f"{_MARK}{name} {''.join(matches)}\n")
     return _UNKNOWN if unknown else 0
 
 
@@ -80,7 +80,7 @@ def _catalog(fdm: Any) -> Iterable[str]:
 
 
 def main() -> None:
-    """Be the process of ``check_model``."""
+    """Run as the process of ``check_model``."""
     code = _fly(Path(sys.argv[1]), float(sys.argv[2]), sys.argv[3:])
     sys.stdout.flush()
     sys.stderr.flush()

@@ -13,10 +13,10 @@ import numpy as np
 
 from up.config import ConfigErrors
 from up_simulator.aircraft.derivation import ALPHAS_DEG, BETAS_DEG, Derivation
+from up_simulator.aircraft.flight import FlightUnavailableError
 from up_simulator.aircraft.geometry import GEOMETRY, ModelError
 from up_simulator.aircraft.glide import describe
-from up_simulator.flight import FlightUnavailableError
-from up_simulator.kept import keep, kept_path
+from up_simulator.firmware.kept import cache_path, keep
 
 # What a wing that is one has by the radian.
 _LEAST_SLOPE, _GREATEST_SLOPE = 0.3, 9.0
@@ -262,7 +262,7 @@ def derived_model(folder: Path) -> Path:
     """
     sources = [folder / GEOMETRY.filename, *sorted(Path(__file__).parent.glob("*.py"))]
     digest = hashlib.sha256(b"".join(each.read_bytes() for each in sources)).hexdigest()[:32]
-    kept = kept_path("models", f"{digest}.xml")
+    kept = cache_path("models", f"{digest}.xml")
     if not kept.is_file():
         text = model_text(folder.resolve().name, derive(folder))
         try:

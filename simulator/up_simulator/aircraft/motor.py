@@ -55,7 +55,6 @@ class Battery:
         self._left_c = self._capacity_c * self._config.charge_percent / 100
 
     def draw(self, current_a: float, duration_s: float) -> None:
-        """Give a current for a while."""
         self.current_a = current_a + self._config.idle_a
         self._left_c = max(0.0, self._left_c - self.current_a * duration_s)
         self.voltage_v = max(0.0, self.open_v - self.current_a * self._config.resistance_ohm)
@@ -88,7 +87,6 @@ class Motor:
 
     @property
     def rpm(self) -> float:
-        """Return the turns in a minute."""
         return self._turns * 60
 
     def spin_up(self, throttle: float, airspeed_m_s: float) -> None:

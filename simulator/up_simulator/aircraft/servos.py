@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from up_simulator.flight import NEUTRAL, Servos
+from up_simulator.aircraft.flight import NEUTRAL, Servos
 
 _THROTTLE = 2
 
@@ -29,37 +29,36 @@ class ServoRack:
         self._reach_us = slew_us_s * step_s
         self._share = 1.0 - math.exp(-step_s / lag_s) if lag_s > 0 else 1.0
         self._dead_band_us, self._half_play_us = dead_band_us, play_us / 2
-        self._wanted_us: tuple[float, ...] = NEUTRAL
+        self._target_us: tuple[float, ...] = NEUTRAL
         self._arms_us: list[float] = [float(each) for each in NEUTRAL]
         self.positions_us: list[float] = [float(each) for each in NEUTRAL]
 
     def set(self, pulses_us: tuple[float, float, float, float]) -> None:
-        """Take new pulses; the servos begin to move with the next step."""
-        self._wanted_us = pulses_us
+        """Set new pulses; the servos begin to move in the next step."""
+        self._target_us = pulses_us
 
     def jump(self, pulses_us: tuple[float, float, float, float]) -> None:
         """Put the servos at these pulses immediately."""
-        self._wanted_us = pulses_us
+        self._target_us = pulses_us
         self._arms_us[:] = pulses_us
         self.positions_us[:] = pulses_us
 
     def step(self) -> None:
-        """Move for one step."""
         arms_us, positions_us, reach_us = self._arms_us, self.positions_us, self._reach_us
         half_us = self._half_play_us
-        for index, wanted_us in enumerate(self._wanted_us):
-            way_us = wanted_us - arms_us[index]
-            if not way_us:
+        for index, target_us in enumerate(self._target_us):
+            travel_us = target_us - arms_us[index]
+            if not travel_us:
                 continue
             if index != _THROTTLE:
-                if -self._dead_band_us < way_us < self._dead_band_us:
+                if -self._dead_band_us < travel_us < self._dead_band_us:
                     continue
-                way_us *= self._share
-                if way_us > reach_us:
-                    way_us = reach_us
-                elif way_us < -reach_us:
-                    way_us = -reach_us
-            arms_us[index] += way_us
+                travel_us *= self._share
+                if travel_us > reach_us:
+                    travel_us = reach_us
+                elif travel_us < -reach_us:
+                    travel_us = -reach_us
+            arms_us[index] += travel_us
             if index == _THROTTLE:
                 positions_us[index] = arms_us[index]
             elif positions_us[index] < arms_us[index] - half_us:

@@ -51,13 +51,15 @@ class Weather:
 
 
 class Air:
-    """The weather, blown into JSBSim."""
+    """Applies the weather to JSBSim."""
 
     def __init__(self, fdm: Any, weather: Weather) -> None:
         self._gusts = weather.gusts
         self._end_s = max((gust.at_s + gust.duration_s for gust in weather.gusts), default=-1.0)
         self._is_blowing = False
-        self._set = [writer(fdm, f"atmosphere/gust-{way}-fps") for way in ("north", "east", "down")]
+        self._set = [
+            writer(fdm, f"atmosphere/gust-{axis}-fps") for axis in ("north", "east", "down")
+        ]
         if weather.turbulence != "none":
             fdm["atmosphere/turb-type"] = _TUSTIN
             near_ground_m_s, severity = _LEVELS[weather.turbulence]
@@ -66,8 +68,8 @@ class Air:
             )
             fdm["atmosphere/turbulence/milspec/severity"] = severity
 
-    def blow(self, time_s: float) -> None:
-        """Set the gusts of this moment."""
+    def apply(self, time_s: float) -> None:
+        """Set the gusts at this time."""
         if time_s > self._end_s and not self._is_blowing:
             return
         totals = [0.0, 0.0, 0.0]
@@ -77,7 +79,7 @@ class Air:
             if 0.0 <= into_s < gust.duration_s:
                 self._is_blowing = True
                 share = 0.5 * (1 - math.cos(2 * math.pi * into_s / gust.duration_s))
-                for index, most in enumerate((gust.north_m_s, gust.east_m_s, gust.down_m_s)):
-                    totals[index] += share * most
+                for index, peak in enumerate((gust.north_m_s, gust.east_m_s, gust.down_m_s)):
+                    totals[index] += share * peak
         for set_gust, total in zip(self._set, totals, strict=True):
             set_gust(total / FOOT_M)

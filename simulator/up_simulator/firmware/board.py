@@ -5,10 +5,9 @@ from __future__ import annotations
 from typing import Literal, Protocol
 
 from up_rig.imu import Motion
-from up_simulator.firmware.imu_errors import ImuErrors
+from up_simulator.firmware.imu_errors import BoardImu
 
 Channel = Literal["ailerons", "elevator", "throttle", "rudder", "aux1", "aux2"]
-ImuFault = Literal["well", "frozen", "unplugged", "stuck", "garbage"]
 ResetCause = Literal["watchdog", "power", "button", "brown-out"]
 BoardKind = Literal["auto", "firmware", "host", "direct"]
 Pulses = tuple[float, float, float, float]
@@ -19,27 +18,6 @@ NEUTRAL_US: Pulses = (1500.0, 1500.0, 1000.0, 1500.0)
 
 class BoardCrashedError(Exception):
     """The board's program used a feature that its chip lacks: the message is one sentence."""
-
-
-class BoardImu(Protocol):
-    """The sensor aboard: its errors and its fault; both may change in flight.
-
-    ``throttle`` (0 to 1) is the speed of the motor that causes its vibration.
-    """
-
-    errors: ImuErrors
-    throttle: float
-
-    @property
-    def fault(self) -> ImuFault:
-        """Return the last fault set."""
-
-    def set_fault(self, fault: ImuFault) -> None:
-        """Set a fault, or clear it.
-
-        frozen: it repeats the same sample. unplugged: no answer. stuck: it holds the bus.
-        garbage: it answers with random numbers.
-        """
 
 
 class FirmwareBoard(Protocol):

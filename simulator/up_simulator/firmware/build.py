@@ -14,14 +14,15 @@ from up_simulator.firmware.board import BoardKind, FirmwareBoard
 from up_simulator.firmware.direct_board import DirectBoard
 from up_simulator.firmware.imu_errors import ImuErrors
 from up_simulator.firmware.rig_board import RigBoard
+from up_simulator.harness.user_log import Log, no_log
 
 HOST_LIBRARY = ARDUINO / "build" / "libraspilot.so"
 FIRMWARE = ARDUINO / "build" / "raspilot.elf"
-_NOT_REBUILT = "was built before and is not built anew"
+_NOT_REBUILT = "is an earlier build, not rebuilt"
 
 
 class BoardUnavailableError(Exception):
-    """No such board can be had here: the message is one sentence for the user."""
+    """The board is unavailable here: the message is one sentence for the user."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,55 +50,56 @@ def choose_board(
     imu_errors: ImuErrors | None = None,
     eeprom: bytes = b"",
     elf: Path | None = None,
-    say: Callable[[str], None] = lambda _text: None,
+    log: Log = no_log,
 ) -> FirmwareBoard:
     """Return a freshly powered board.
 
     ``auto`` is the firmware on the simulated chip if the AVR tools and simavr are installed,
-    otherwise the same sources built for this computer, which ``say`` reports in one sentence.
+    otherwise the same sources built for this computer, which ``log`` reports in one sentence.
     ``elf`` is a built firmware that replaces the project's own. Raises ``BoardUnavailableError``.
     """
     if kind == "direct":
         return DirectBoard(seed=seed, imu_errors=imu_errors)
-    program = aboard("firmware" if elf else kind, say, elf)
+    program = aboard("firmware" if elf else kind, log, elf)
     return program.board(seed=seed, imu_errors=imu_errors, eeprom=eeprom)
 
 
 def aboard(
     kind: BoardKind,
-    say: Callable[[str], None] = lambda _text: None,
+    log: Log = no_log,
     elf: Path | None = None,
 ) -> Program:
     """Return the program for a kind of board, built if need be; raises as ``choose_board``.
 
-    If the build is impossible, an earlier build is used, which ``say`` reports.
+    If the build is impossible, an earlier build is used, which ``log`` reports.
     """
     if kind == "host":
-        return _host_program(say)
+        return _host_program(log)
     try:
         load_library()
-        return Program(elf or _firmware(say), RigBoard)
+        return Program(elf or _firmware(log), RigBoard)
     except BuildError as error:
         raise BoardUnavailableError(f"the firmware does not compile: {_reason(error)}") from error
     except RigUnavailableError as error:
         if kind == "firmware":
             raise BoardUnavailableError(str(error)) from error
-        program = _host_program(say)
-        say(f"the firmware's sources, built for this computer, fly instead: {error}")
+        program = _host_program(log)
+        text = f"the firmware's sources, built for this computer, fly instead: {error}"
+        log(text, code="board_substituted", reason=str(error))
         return program
 
 
-def _firmware(say: Callable[[str], None]) -> Path:
+def _firmware(log: Log) -> Path:
     try:
         return build_firmware()
     except RigUnavailableError as error:
         if not _is_ready(FIRMWARE):
             raise
-        say(f"the firmware {_NOT_REBUILT}: {error}")
+        log(f"the firmware {_NOT_REBUILT}: {error}", code="board_outdated", reason=str(error))
         return FIRMWARE
 
 
-def _host_program(say: Callable[[str], None]) -> Program:
+def _host_program(log: Log) -> Program:
     try:
         make("host-library")
     except (RigUnavailableError, BuildError) as error:
@@ -109,7 +111,8 @@ def _host_program(say: Callable[[str], None]) -> Program:
         reason = reason[0].lower() + reason[1:]
         if not _is_ready(HOST_LIBRARY):
             raise BoardUnavailableError(reason) from error
-        say(f"the firmware for this computer {_NOT_REBUILT}: {reason}")
+        text = f"the firmware for this computer {_NOT_REBUILT}: {reason}"
+        log(text, code="board_outdated", reason=reason)
     module = importlib.import_module("up_simulator.firmware.host_board")
     return Program(HOST_LIBRARY, module.HostBoard)
 
@@ -128,4 +131,4 @@ def _reason(error: Exception) -> str:
     """Return the most informative line of make's output: the first error, or the last line."""
     lines = [line.strip() for line in str(error).splitlines() if line.strip()]
     errors = [line for line in lines if "error:" in line or "needs" in line]
-    return (errors or lines[-1:] or ["make said nothing"])[0]
+    return (errors or lines[-1:] or ["make printed nothing"])[0]

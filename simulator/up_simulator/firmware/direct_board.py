@@ -9,8 +9,7 @@ from up_rig.imu import Motion
 from up_rig.pins import CHANNELS, SERVOS
 from up_rig.receiver import NEUTRAL_US as RECEIVER_NEUTRAL_US
 from up_simulator.firmware.board import NEUTRAL_US, Channel, Pulses, ResetCause
-from up_simulator.firmware.board_imu import BoardImu
-from up_simulator.firmware.imu_errors import ImuErrors
+from up_simulator.firmware.imu_errors import BoardImu, ImuErrors
 
 FRAME_US = 20_000.0
 GAP_US = 10.0
@@ -67,7 +66,7 @@ class DirectBoard:
             self._silent.add(channel)
 
     def set_motion(self, motion: Motion) -> None:
-        """Ignore the motion: there is no IMU aboard."""
+        """Ignore the motion: this board has no IMU."""
 
     def pulses_us(self) -> Pulses:
         """Return the newest whole servo pulses; ``NEUTRAL_US`` before the first."""

@@ -11,11 +11,9 @@ from up_rig.pins import CHANNELS
 from up_simulator.firmware.board import (
     NEUTRAL_US,
     Channel,
-    ImuFault,
     Pulses,
     ResetCause,
 )
-from up_simulator.firmware.board_imu import BoardImu
 from up_simulator.firmware.host_library import (
     EEPROM_SIZE,
     SAMPLE_NUMBERS,
@@ -23,7 +21,7 @@ from up_simulator.firmware.host_library import (
     HostUnavailableError,
     View,
 )
-from up_simulator.firmware.imu_errors import ImuErrors
+from up_simulator.firmware.imu_errors import BoardImu, ImuErrors, ImuFault
 
 __all__ = ["HostBoard", "HostImu", "HostUnavailableError"]
 

@@ -90,4 +90,4 @@ def _check(library: ctypes.CDLL, path: Path) -> None:
     except AttributeError:
         version = None
     if version != VERSION:
-        raise HostUnavailableError(f"{path} is no host build of this firmware: {_BUILD} anew")
+        raise HostUnavailableError(f"{path} is not a host build of this firmware: {_BUILD} again")

@@ -5,10 +5,11 @@ from __future__ import annotations
 import math
 import random
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Literal
 
 from up_rig.imu import NOISE_DEG_S, NOISE_M_S2, Motion
 
+ImuFault = Literal["well", "frozen", "unplugged", "stuck", "garbage"]
 Vector = tuple[float, float, float]
 ZERO: Vector = (0.0, 0.0, 0.0)
 DRAWN_BIAS_DEG_S = (2.0, 4.0)
@@ -98,3 +99,46 @@ class ImuModel:
             strength * math.cos(angle),
             strength * math.sin(angle + math.pi / 4),
         )
+
+
+class BoardImu:
+    """The sensor of a board: its errors and its fault, both may change in flight.
+
+    ``motion`` holds until it is set again.
+    """
+
+    def __init__(self, errors: ImuErrors, seed: int) -> None:
+        self._model = ImuModel(errors, seed)
+        self._fault: ImuFault = "well"
+        self.motion = Motion()
+
+    @property
+    def errors(self) -> ImuErrors:
+        """Return its errors."""
+        return self._model.errors
+
+    @errors.setter
+    def errors(self, errors: ImuErrors) -> None:
+        self._model.errors = errors
+
+    @property
+    def throttle(self) -> float:
+        """Return the speed of the motor, 0 to 1, which causes its vibration."""
+        return self._model.throttle
+
+    @throttle.setter
+    def throttle(self, throttle: float) -> None:
+        self._model.throttle = throttle
+
+    @property
+    def fault(self) -> ImuFault:
+        """Return the last fault set."""
+        return self._fault
+
+    def set_fault(self, fault: ImuFault) -> None:
+        """Set a fault, or clear it.
+
+        frozen: it repeats the same sample. unplugged: no answer. stuck: it holds the bus.
+        garbage: it answers with random numbers.
+        """
+        self._fault = fault

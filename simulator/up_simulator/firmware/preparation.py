@@ -5,16 +5,17 @@ from __future__ import annotations
 import contextlib
 import hashlib
 import json
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from typing import Any
 
 from up.commands.board_status import refusal_text
 from up_rig.imu import motion_at
 from up_simulator.firmware.board import BoardKind, FirmwareBoard
 from up_simulator.firmware.build import aboard
+from up_simulator.firmware.kept import cache_path, keep
+from up_simulator.firmware.line_monitor import LineMonitor
 from up_simulator.firmware.settings_wire import gains_bytes, profile_bytes
-from up_simulator.firmware.tap import BoardTap
-from up_simulator.kept import keep, kept_path
+from up_simulator.harness.user_log import Log, no_log
 
 STEP_US = 10_000.0
 BOOT_US = 1_500_000.0
@@ -29,11 +30,11 @@ class PreparationError(Exception):
     """The board does not take its settings: the message is one sentence."""
 
 
-def prepared_eeprom(
+def cached_eeprom(
     kind: BoardKind,
     profile: Mapping[str, Any],
     gains: Mapping[str, Any],
-    say: Callable[[str], None] = lambda _text: None,
+    log: Log = no_log,
 ) -> bytes:
     """Return the EEPROM of a board of this kind that holds an airframe's profile and gains.
 
@@ -43,10 +44,10 @@ def prepared_eeprom(
     """
     if kind == "direct":
         return b""
-    program = aboard(kind, say)
+    program = aboard(kind, log)
     values = json.dumps([profile, gains], sort_keys=True, default=str).encode()
     name = hashlib.sha256(program.path.read_bytes() + values).hexdigest()[:32]
-    kept = kept_path("eeprom", f"{name}.bin")
+    kept = cache_path("eeprom", f"{name}.bin")
     if kept.is_file():
         return kept.read_bytes()
     eeprom = prepare_eeprom(program.board(), profile, gains)
@@ -88,7 +89,7 @@ class _Talk:
 
     def __init__(self, board: FirmwareBoard) -> None:
         self._board = board
-        self._tap = BoardTap()
+        self._tap = LineMonitor()
 
     def command(self, letter: str, payload: bytes, what: str) -> None:
         answer = self._exchange(letter, payload, "K")

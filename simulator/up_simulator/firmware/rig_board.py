@@ -12,12 +12,10 @@ from up_simulator.firmware.board import (
     NEUTRAL_US,
     BoardCrashedError,
     Channel,
-    ImuFault,
     Pulses,
     ResetCause,
 )
-from up_simulator.firmware.board_imu import BoardImu
-from up_simulator.firmware.imu_errors import ImuErrors
+from up_simulator.firmware.imu_errors import BoardImu, ImuErrors, ImuFault
 
 CYCLES_PER_US = 16
 

@@ -9,7 +9,7 @@ from typing import Any
 
 from up.commands.board_schema import SWITCH_MODES
 
-GREATEST_GAIN = 50.0
+MAX_GAIN = 50.0
 PROFILE = struct.Struct(">" + "BhHH" * 4 + "BB" + "3s" + "hhh" + "hh" + "HH" + "HHH" + "B")
 """The fields of a profile (protocols 2.6)."""
 MODES = {name: letter for letter, name in SWITCH_MODES.items()}
@@ -61,7 +61,7 @@ def profile_bytes(settings: Mapping[str, Any], held: bytes) -> bytes:
         elif key == "mix":
             fields[_PLACES[key]] = _choice(key, value, {name: at for at, name in enumerate(MIXES)})
         elif key not in _PLACES:
-            raise SettingsError(f"a profile has no {key}")
+            raise SettingsError(f"unknown key of a profile: {key}")
         elif _PLACES[key] in _ANGLES:
             fields[_PLACES[key]] = round(_number(key, value) * _CENTI)
         else:
@@ -88,11 +88,11 @@ def gains_bytes(settings: Mapping[str, Any], held: bytes) -> bytes:
         if key == "units" or loop == "navigation":
             continue
         if loop not in _LOOPS or axis not in _AXES or term not in tuple(_TERMS):
-            raise SettingsError(f"there is no gain {key}")
+            raise SettingsError(f"unknown gain {key}")
         at = 9 * _LOOPS.index(loop) + 3 * _AXES.index(axis) + _TERMS.index(term)
         values[at] = _number(key, value)
-    if not all(math.isfinite(each) and 0.0 <= each <= GREATEST_GAIN for each in values):
-        raise SettingsError(f"a gain is not within 0 to {GREATEST_GAIN:g}")
+    if not all(math.isfinite(each) and 0.0 <= each <= MAX_GAIN for each in values):
+        raise SettingsError(f"a gain is not within 0 to {MAX_GAIN:g}")
     return _GAINS.pack(*values)
 
 

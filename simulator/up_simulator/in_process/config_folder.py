@@ -32,21 +32,25 @@ def write_config(folder: Path, files: Mapping[str, Mapping[str, Any]] | None = N
     the daemon does that when it starts. Raises OSError.
     """
     folder.mkdir(parents=True, exist_ok=True)
-    for name, changes in _merged(BASE, files or {}).items():
-        text = yaml.safe_dump(dict(changes), sort_keys=False, allow_unicode=True)
+    for name, values in _plain(merge(BASE, files or {})).items():
+        text = yaml.safe_dump(values, sort_keys=False, allow_unicode=True)
         (folder / name).write_text(text, encoding="utf-8")
     return folder
 
 
-def _merged(base: Mapping[str, Any], changes: Mapping[str, Any]) -> dict[str, Any]:
-    merged = dict(base)
-    for name, value in changes.items():
-        before = merged.get(name)
-        if isinstance(before, Mapping) and isinstance(value, Mapping):
-            merged[name] = _merged(before, value)
+def merge(base: Mapping[str, Any], changes: Mapping[str, Any]) -> dict[str, Any]:
+    """Return a copy of nested maps with others laid over it."""
+    merged: dict[str, Any] = {
+        key: merge(value, {}) if isinstance(value, Mapping) else value
+        for key, value in base.items()
+    }
+    for key, value in changes.items():
+        below = merged.get(key)
+        if isinstance(value, Mapping):
+            merged[key] = merge(below if isinstance(below, Mapping) else {}, value)
         else:
-            merged[name] = value
-    return {name: _plain(value) for name, value in merged.items()}
+            merged[key] = value
+    return merged
 
 
 def _plain(value: Any) -> Any:

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import math
 from collections import OrderedDict
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
 from pathlib import Path
 from random import Random
 from typing import Any
@@ -18,17 +19,60 @@ from up_ground.settings import Seat, Settings
 from up_ground.telemetry import Telemetry
 from up_ground.token_store import TokenStore
 from up_simulator.in_process.config_folder import GROUND_PORT
-from up_simulator.in_process.frame_age import FrameAge, UptimeAges
-from up_simulator.in_process.machine import Machine
+from up_simulator.in_process.host import SimulatedHost
 from up_simulator.in_process.network import ADDRESS
 from up_simulator.in_process.reactor import SimulatedReactor
 
-ANSWERS_KEPT = 256
-OTHERS_KEPT = 64
+FrameAge = Callable[[GeneralMessage, float], float | None]
+"""Takes a frame and its arrival time (s); returns its age (s), None: not known."""
+MAX_BEACON_GAP = 1_000_000
+"""Beacons of one run of the daemon are nearer: each run draws its first at random below 2**31."""
+
+
+@dataclass(slots=True)
+class _DaemonRun:
+    beacon: int
+    origin_s: float
+
+
+class UptimeAges:
+    """Measures ages by ``system.uptime_s``, for a daemon with an unreadable clock.
+
+    In each run of the daemon the quickest frame counts as 0 s old. The uptime has whole seconds:
+    an age is up to 1 s too great, and too small by at most that frame's own age and a telemetry
+    period. A run is identified by its beacons, so that an old frame stays one.
+    """
+
+    def __init__(self) -> None:
+        self._runs: list[_DaemonRun] = []
+
+    def age_s(self, message: GeneralMessage, now_s: float) -> float | None:
+        """Return the age of a frame that arrives now; None without a beacon or uptime."""
+        system = message.data.get("system")
+        uptime_s = system.get("uptime_s") if isinstance(system, dict) else None
+        if message.beacon is None or isinstance(uptime_s, bool):
+            return None
+        if not isinstance(uptime_s, int | float):
+            return None
+        run = self._run_of(message.beacon, now_s - uptime_s)
+        run.origin_s = min(run.origin_s, now_s - uptime_s)
+        return now_s - uptime_s - run.origin_s
+
+    def _run_of(self, beacon: int, origin_s: float) -> _DaemonRun:
+        for run in self._runs:
+            if abs(beacon - run.beacon) < MAX_BEACON_GAP:
+                return run
+        run = _DaemonRun(beacon, origin_s)
+        self._runs.append(run)
+        return run
+
+
+MAX_ANSWERS = 256
+MAX_OTHER_MESSAGES = 64
 
 
 class InProcessGround:
-    """Connects to the daemon's listener, takes the seat, keeps the newest telemetry, commands.
+    """Connects to the daemon's listener, takes control, keeps the newest telemetry, commands.
 
     Each Command echoes the newest beacon. A Command without a link is lost and never answered.
     ``others`` keeps the newest other message of each name, such as the aircraft's gains.
@@ -53,9 +97,9 @@ class InProcessGround:
         self._newest_s: float | None = None
         self._frame_age = frame_age or UptimeAges().age_s
         self._newest_age_s: float | None = None
-        self._worst_age_s: float | None = None
+        self._max_age_s: float | None = None
         self._sent = 0
-        self._machine: Machine | None = None
+        self._host: SimulatedHost | None = None
         self._link: GroundLink | None = None
 
     @property
@@ -65,7 +109,6 @@ class InProcessGround:
 
     @property
     def frames(self) -> int:
-        """Return the number of frames received."""
         return self._received.frames
 
     @property
@@ -80,8 +123,8 @@ class InProcessGround:
 
     def take_latency_s(self) -> float | None:
         """Return the maximum age of the data since the last call, otherwise the newest frame's."""
-        worst_s, self._worst_age_s = self._worst_age_s, None
-        found_s = self._newest_age_s if worst_s is None else worst_s
+        max_s, self._max_age_s = self._max_age_s, None
+        found_s = self._newest_age_s if max_s is None else max_s
         return None if found_s == math.inf else found_s
 
     @property
@@ -97,14 +140,13 @@ class InProcessGround:
     def start(self) -> None:
         """Connect, and connect again after every loss."""
         if self._link is None:
-            self._machine = self._reactor.machine("ground")
+            self._host = self._reactor.host("ground")
             backoff = Backoff(Random(self._seed).random)
-            link = GroundLink(self._machine, self._settings, self, self._tokens, backoff)
+            link = GroundLink(self._host, self._settings, self, self._tokens, backoff)
             self._link = link
             link.start()
 
     def stop(self) -> None:
-        """Disconnect permanently."""
         link, self._link = self._link, None
         if link is not None:
             Deferred.fromCoroutine(link.stop()).addErrback(lambda _: None)
@@ -122,24 +164,23 @@ class InProcessGround:
         return self._answers.get(command_id)
 
     def on_message(self, message: GeneralMessage) -> None:
-        """Take a message from the aircraft."""
         now_s = self._reactor.seconds()
         if self._received.update(message, now_s):
             self._newest_s = now_s
             age_s = self._frame_age(message, now_s)
             # The age is unknown: it may have any value.
             self._newest_age_s = math.inf if age_s is None else age_s
-            self._worst_age_s = max(self._newest_age_s, self._worst_age_s or 0.0)
+            self._max_age_s = max(self._newest_age_s, self._max_age_s or 0.0)
         elif message.name in ("up.ack", "up.nack"):
             refused = message.name == "up.nack"
             reason = str(message.data.get("reason") or "refused") if refused else ""
             self._answers[str(message.data.get("id"))] = reason
-            if len(self._answers) > ANSWERS_KEPT:
+            if len(self._answers) > MAX_ANSWERS:
                 self._answers.popitem(last=False)
         else:
             self.others[message.name] = message.data
             self.others.move_to_end(message.name)
-            if len(self.others) > OTHERS_KEPT:
+            if len(self.others) > MAX_OTHER_MESSAGES:
                 self.others.popitem(last=False)
 
     def on_link(self) -> None:
@@ -158,15 +199,12 @@ class _TokenInMemory(TokenStore):
         return True
 
     def load(self) -> str | None:
-        """Return the token."""
         return self._token
 
     def save(self, token: str) -> None:
-        """Keep a token."""
         self._token = token
 
     def forget(self) -> None:
-        """Drop it."""
         self._token = None
 
     def close(self) -> None:

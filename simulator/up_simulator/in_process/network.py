@@ -14,8 +14,8 @@ from up_simulator.link.model import LinkModel
 from up_simulator.link.pipe import LinkPipe
 
 ADDRESS = "127.0.0.1"
-FIRST_FREE_PORT = 49152
-LAST_PORT = 65535
+MIN_FREE_PORT = 49152
+MAX_PORT = 65535
 
 Delivery = tuple[Callable[..., object], tuple[Any, ...]]
 Pipe = LinkPipe[Delivery]
@@ -54,8 +54,7 @@ class Network:
         self._pipes: list[Pipe] = []
         self._models: list[tuple[LinkModel, Pipe, Pipe]] = []
         self._links: dict[int, tuple[LinkModel, LinkModel]] = {}
-        self._connections: dict[int, list[tuple[Any, Any]]] = {}
-        self._next_port = FIRST_FREE_PORT
+        self._next_port = MIN_FREE_PORT
 
     def link(self, port: int, up: LinkModel, down: LinkModel) -> None:
         """Route data to a port through ``up``, data from it through ``down``."""
@@ -88,20 +87,9 @@ class Network:
         """Return a port that neither TCP nor UDP uses; they are given out in order."""
         while True:
             port = self._next_port
-            self._next_port = FIRST_FREE_PORT if port == LAST_PORT else port + 1
+            self._next_port = MIN_FREE_PORT if port == MAX_PORT else port + 1
             if port not in self.tcp and port not in self.udp:
                 return port
-
-    def note_connection(self, port: int, ends: tuple[Any, Any]) -> None:
-        """Remember both ends of a connection to a port."""
-        living = [each for each in self._connections.get(port, []) if not each[0].is_closed]
-        self._connections[port] = [*living, ends]
-
-    def reset_connections(self, port: int) -> None:
-        """Reset every connection to a port at both ends, whatever lies in between."""
-        for ends in self._connections.pop(port, []):
-            for end in ends:
-                end.on_reset()
 
     def move(self, now_s: float) -> None:
         """Deliver the data that has arrived, then send the written data."""

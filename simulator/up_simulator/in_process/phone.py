@@ -2,51 +2,42 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import Any
-
 from twisted.internet.defer import Deferred
 
-from up_simulator.flight import Flight
-from up_simulator.in_process.java_phone import SteppedJavaHandset
-from up_simulator.in_process.machine import Machine
+from up_simulator.aircraft.flight import FlightSource
+from up_simulator.harness.user_log import text_log
 from up_simulator.in_process.network import ADDRESS
 from up_simulator.in_process.reactor import SimulatedReactor
-from up_simulator.java_phone import JavaHandset
-from up_simulator.java_phone_program import JavaProgram
 from up_simulator.link.model import LinkModel, LinkSettings
-from up_simulator.phone_address import RaspberryPi
-from up_simulator.phone_handset import Handset, PythonHandset
-from up_simulator.phone_link import OrientationBy
+from up_simulator.phone.address import RaspberryPi
+from up_simulator.phone.handset import PythonHandset
+from up_simulator.phone.link import OrientationBy
 
 GENERAL_PORT, ORIENTATION_PORT = 50001, 50000
 TICK_S = 0.01
 CABLE = LinkSettings(delay_ms=1.0)
-SAID_KEPT = 200
+MAX_MESSAGES = 200
 
 
 class InProcessPhone:
     """A phone at the daemon's ports by a cable, which both links share.
 
     ``plug`` and ``unplug`` move the cable: a connection without it hangs, as with USB tethering,
-    until its own timeouts end it. With ``is_told`` both ends are reset immediately, as with
-    ``adb``. ``said`` has the phone's messages and notes. With ``java`` it is the Java phone: in
-    steps on a simulated reactor, otherwise in real time with its own sockets.
+    until its own timeouts end it. ``messages`` has what the phone reports.
     """
 
     def __init__(
         self,
         reactor: SimulatedReactor,
-        flight: Flight,
+        flight: FlightSource,
         *,
         orientation: OrientationBy = "tcp",
         seed: int = 1,
         general_port: int = GENERAL_PORT,
         orientation_port: int = ORIENTATION_PORT,
         cable: LinkSettings = CABLE,
-        java: JavaProgram | None = None,
     ) -> None:
-        self.said: list[str] = []
+        self.messages: list[str] = []
         self.up = LinkModel(cable, seed)
         self.down = LinkModel(cable, seed + 1)
         self._reactor = reactor
@@ -54,9 +45,10 @@ class InProcessPhone:
         self._place = RaspberryPi(ADDRESS, general_port, orientation_port)
         for port in self._ports:
             reactor.link(port, self.up, self.down)
-        self._machine = reactor.machine("phone")
-        make = self._in_python if java is None else self._in_java(java)
-        self.handset: Handset = make(flight, orientation, seed)
+        self._host = reactor.host("phone")
+        self.handset = PythonHandset(
+            self._host, flight, self.find, orientation, text_log(self._note), seed=seed
+        )
         self.sensors = self.handset.sensors
         self._is_started = False
 
@@ -64,17 +56,6 @@ class InProcessPhone:
     def is_plugged(self) -> bool:
         """Return whether the cable is plugged in."""
         return self._is_started and not self.up.is_black
-
-    @property
-    def loss(self) -> str | None:
-        """Return in a sentence how it ended unexpectedly; None if it has not."""
-        return self.handset.loss
-
-    @property
-    def is_awaited(self) -> bool:
-        """Return whether a separate program has started and has not connected yet."""
-        handset = self.handset
-        return self._is_started and isinstance(handset, JavaHandset) and not handset.has_connected
 
     def plug(self) -> None:
         """Plug it in; the first time it also begins to connect."""
@@ -85,54 +66,25 @@ class InProcessPhone:
             self.handset.start()
             self._tick()
 
-    def unplug(self, is_told: bool = False) -> None:
-        """Pull the cable."""
+    def unplug(self) -> None:
         self.up.black_out()
         self.down.black_out()
-        if is_told:
-            for port in self._ports:
-                self._reactor.network.reset_connections(port)
 
     def set_battery(self, percent: float) -> None:
-        """Set the level of its battery."""
         self.handset.set_battery(percent)
 
     def stop(self) -> None:
-        """Switch it off."""
         self._is_started = False
         Deferred.fromCoroutine(self.handset.stop()).addErrback(lambda _: None)
 
     async def find(self) -> RaspberryPi:
-        """Return where the phone in Python connects to."""
         return self._place
-
-    def place_options(self) -> list[str]:
-        """Return the same for the phone in Java, as its options."""
-        ports = ":".join(map(str, self._ports))
-        return ["--raspberry", f"{ADDRESS}:{ports}"]
-
-    def _in_python(self, flight: Flight, orientation: OrientationBy, seed: int) -> Handset:
-        return PythonHandset(self._machine, flight, self.find, orientation, self._say, seed=seed)
-
-    def _in_java(self, java: JavaProgram) -> Callable[[Flight, OrientationBy, int], Handset]:
-        def make(flight: Flight, orientation: OrientationBy, seed: int) -> Handset:
-            machine: Any = self._machine
-            if isinstance(machine, Machine):
-                place = self.place_options()
-                return SteppedJavaHandset(
-                    java, machine, flight, place, orientation, self._say, seed=seed
-                )
-            return JavaHandset(
-                java, machine, flight, self.place_options, orientation, self._say, seed=seed
-            )
-
-        return make
 
     def _tick(self) -> None:
         if self._is_started:
-            self._machine.callLater(TICK_S, self._tick)
+            self._host.callLater(TICK_S, self._tick)
             self.handset.tick()
 
-    def _say(self, text: str) -> None:
-        if len(self.said) < SAID_KEPT:
-            self.said.append(f"{self._reactor.seconds():9.3f} {text}")
+    def _note(self, text: str) -> None:
+        if len(self.messages) < MAX_MESSAGES:
+            self.messages.append(f"{self._reactor.seconds():9.3f} {text}")

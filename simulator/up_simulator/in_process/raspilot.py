@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections import deque
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from random import Random
-from typing import Any
+from typing import Any, cast
 
+from constantly import NamedConstant
 from twisted.internet.defer import Deferred
-from twisted.logger import Logger
+from twisted.logger import ILogObserver, LogEvent, Logger, globalLogPublisher
 from twisted.python.failure import Failure
+from zope.interface import implementer
 
 from up.base_module import BaseModule
 from up.commands.beacon import Beacons
@@ -18,7 +21,8 @@ from up.config import load_all
 from up.life_cycle import BootStoppedError, LifeCycle
 from up.loading.application import Application
 from up.loading.checking import check_application, config_files
-from up.log.levels import level_named
+from up.log.levels import level_named, level_of, word_of
+from up.log.text import source_of, text_of, traceback_of
 from up.mode import Mode
 from up.program import USER_ERRORS, make_context
 from up.protocols.general_message import GeneralMessage
@@ -26,13 +30,47 @@ from up.protocols.serial_line import SerialLike
 from up.protocols.serial_port import SerialPortError
 from up.up import Up
 from up.up_loader import UpLoader
-from up_simulator.crew.protocols import CrewError
 from up_simulator.firmware.board import FirmwareBoard
-from up_simulator.in_process.daemon_log import DaemonLog
-from up_simulator.in_process.machine import Machine
+from up_simulator.harness.participants import ParticipantError
+from up_simulator.harness.world import BYTES_A_STEP
+from up_simulator.in_process.host import SimulatedHost
 from up_simulator.in_process.reactor import SimulatedReactor
 from up_simulator.in_process.socket_line import SocketLine
-from up_simulator.world import BYTES_A_STEP
+
+MAX_LOG_LINES = 2000
+
+
+@implementer(ILogObserver)
+class DaemonLog:
+    """Keeps the newest lines, between ``open`` and ``close``; no other observer is touched."""
+
+    def __init__(self, seconds: Callable[[], float]) -> None:
+        self.lines: deque[str] = deque(maxlen=MAX_LOG_LINES)
+        self._seconds = seconds
+        self._level: NamedConstant | None = None
+
+    def open(self, level: NamedConstant) -> None:
+        """Take every event of that level and above from now on."""
+        if self._level is None:
+            globalLogPublisher.addObserver(cast(ILogObserver, self))
+        self._level = level
+
+    def close(self) -> None:
+        if self._level is not None:
+            self._level = None
+            globalLogPublisher.removeObserver(cast(ILogObserver, self))
+
+    def add(self, text: str) -> None:
+        """Add a line that is not an event."""
+        self.lines.append(f"{self._seconds():9.3f} {text}")
+
+    def __call__(self, event: LogEvent) -> None:
+        """Keep an event that is severe enough."""
+        level = self._level
+        if level is not None and level_of(event) >= level:
+            self.add(f"{word_of(level_of(event)):<8} {source_of(event)}: {text_of(event)}")
+            self.lines.extend(f"    {line}" for line in traceback_of(event, level).splitlines())
+
 
 ROOT = Path(__file__).resolve().parents[3]
 
@@ -45,7 +83,6 @@ class SettableMeter:
         self.memory = 20.0
 
     def load_percent(self) -> float:
-        """Return the load."""
         return self.load
 
     def memory_percent(self) -> float:
@@ -58,10 +95,10 @@ class InProcessRaspilot:
 
     The application is found from ``root`` and configured by a folder (``write_config``). Its
     serial port is a socket in this process, whatever port its configuration names, which ``pump``
-    connects with a board; ``line`` can be unplugged. ``boot_s`` passes between the start and the
-    first module's. Its random numbers follow ``seed``. Signals, the process's priority, its
-    watchdogs and its garbage collector belong to the program, and are not part of this. A proxy
-    must be configured by its address: a name would be resolved by a thread.
+    connects with a board; ``line`` can be unplugged. Its random numbers follow ``seed``. Signals,
+    the process's priority, its watchdogs and its garbage collector belong to the program, and are
+    not part of this. A proxy must be configured by its address: a name would be resolved by a
+    thread.
     """
 
     log_source = Logger()
@@ -72,7 +109,6 @@ class InProcessRaspilot:
         config_folder: Path,
         *,
         seed: int = 1,
-        boot_s: float = 0.0,
         root: Path = ROOT,
     ) -> None:
         self.meter = SettableMeter()
@@ -82,10 +118,9 @@ class InProcessRaspilot:
         self._reactor = reactor
         self._config_folder = config_folder
         self._seed = seed
-        self._boot_s = boot_s
         self._root = root
         self._log = DaemonLog(reactor.seconds)
-        self._machine: Machine | None = None
+        self._host: SimulatedHost | None = None
         self._life: LifeCycle | None = None
         self._is_stopping = False
         self._beacons: list[Beacons] = []
@@ -93,7 +128,7 @@ class InProcessRaspilot:
     @property
     def is_running(self) -> bool:
         """Return whether the process would be there: booting, running or stopping."""
-        return self._machine is not None
+        return self._host is not None
 
     @property
     def log(self) -> Sequence[str]:
@@ -106,68 +141,67 @@ class InProcessRaspilot:
         return {} if self.up is None else dict(self.up.ports)
 
     def start(self) -> None:
-        """Begin to boot; raises CrewError with every sentence that the program would print."""
+        """Begin to boot; raises ParticipantError with every error that the program would print."""
         if self.is_running:
-            raise CrewError("Raspilot runs already")
-        machine = self._reactor.machine("raspilot")
+            raise ParticipantError("Raspilot is already running")
+        host = self._reactor.host("raspilot")
         application = None
         try:
             application = Application.find(self._root)
-            context = make_context(application, machine, self._config_folder, {})
+            context = make_context(application, host, self._config_folder, {})
             # A later start draws other numbers, as a later process would.
             context.random = Random(self._seed + 1_000_003 * self.boots)
             self._log.open(level_named(context.application.log_level))
             plan = UpLoader(application, context).plan()
             load_all(context.config_folder, config_files(plan.modules))
             up = Up(plan, context)
-            self._hand_in(up)
+            self._substitute_modules(up)
             up.initialize()
         except USER_ERRORS as error:
             self._log.close()
             problems = str(error).splitlines()
             if application is not None:
                 words = {"UP_MODE": Mode.AUTO.value}
-                context = make_context(application, machine, self._config_folder, words)
+                context = make_context(application, host, self._config_folder, words)
                 problems += check_application(application, context).problems
-            machine.cut_off()
-            raise CrewError("\n".join(dict.fromkeys(problems))) from error
+            host.cut_off()
+            raise ParticipantError("\n".join(dict.fromkeys(problems))) from error
         self.boots += 1
-        self._machine, self.up, self._is_stopping = machine, up, False
+        self._host, self.up, self._is_stopping = host, up, False
         self._beacons.append(up.beacons)
         self._life = LifeCycle(up)
         up.command_executor.adopt_thread()
         up.command_executor.register_command(SystemStopCommand, lambda _: self.stop())
-        machine.callLater(self._boot_s, self._begin)
+        host.callLater(0.0, self._begin)
 
     def stop(self) -> None:
         """Stop every module, as at a SIGTERM: it has ended after 2 s at the latest."""
         if self._life is None or self._is_stopping:
             return
         self._is_stopping = True
-        life, machine = self._life, self._machine
+        life, host = self._life, self._host
         done = Deferred.fromCoroutine(life.stop())
         done.addErrback(self._failed, "stopping failed")
-        done.addBoth(lambda _: self.kill() if self._machine is machine else None)
+        done.addBoth(lambda _: self.kill() if self._host is host else None)
 
     def kill(self) -> None:
         """Cut off timers, ports, connections, and the serial line in mid-frame."""
-        machine, self._machine = self._machine, None
-        if machine is None:
+        host, self._host = self._host, None
+        if host is None:
             return
         self._log.close()
-        machine.cut_off()
+        host.cut_off()
         self.line.cut()
         self.up = self._life = None
 
     def freeze(self) -> None:
         """Suspend it: it holds its ports and does nothing, as a hung one."""
-        if self._machine is not None:
-            self._machine.freeze()
+        if self._host is not None:
+            self._host.freeze()
 
     def thaw(self) -> None:
-        """Resume a frozen one."""
-        if self._machine is not None:
-            self._machine.thaw()
+        if self._host is not None:
+            self._host.thaw()
 
     def pump(self, board: FirmwareBoard) -> None:
         """Move the bytes of 2 ms between the board and the daemon; call it at every step."""
@@ -193,8 +227,8 @@ class InProcessRaspilot:
                 return module
         raise LookupError(f"no module {class_name} is loaded")
 
-    def _hand_in(self, up: Up) -> None:
-        """Give the modules that would look outside what they find here instead."""
+    def _substitute_modules(self, up: Up) -> None:
+        """Replace the parts of modules that would access the real machine."""
         for module in up.modules:
             each: Any = module
             if module.class_name == "SerialProvider":
@@ -213,7 +247,7 @@ class InProcessRaspilot:
 
     def _boot_failed(self, failure: Failure) -> None:
         if failure.check(BootStoppedError):
-            self._log.say(failure.getErrorMessage())
+            self._log.add(failure.getErrorMessage())
         else:
             self._failed(failure, "the boot failed")
         self.stop()

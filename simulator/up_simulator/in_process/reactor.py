@@ -1,4 +1,4 @@
-"""A reactor whose time only its owner moves, and the parts that all machines on it share."""
+"""A reactor whose time only its owner moves, and the parts that all hosts on it share."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from twisted.internet.task import Clock
 from twisted.logger import Logger
 from twisted.python.failure import Failure
 
-from up_simulator.in_process.machine import Machine, TimedCall
+from up_simulator.in_process.host import SimulatedHost, TimedCall
 from up_simulator.in_process.network import Network
 from up_simulator.link.model import LinkModel
 
@@ -28,7 +28,7 @@ _READABLE = select.POLLIN | select.POLLHUP | select.POLLERR | select.POLLNVAL
 class SimulatedReactor(Clock):
     """The time, the network and the descriptors of all programs that fly in this process.
 
-    Each program gets a ``machine`` as its reactor. ``advance`` moves the time in steps of 2 ms:
+    Each program gets a ``host`` as its reactor. ``advance`` moves the time in steps of 2 ms:
     timers first, then descriptors, then arriving data, then departing data. Nothing happens
     between two calls, and the same calls give the same bytes everywhere, as long as no program
     uses threads. A call that raises is logged, as by any reactor.
@@ -46,9 +46,9 @@ class SimulatedReactor(Clock):
         self._readers: dict[Any, int] = {}
         self._writers: dict[Any, int] = {}
 
-    def machine(self, name: str = "") -> Machine:
-        """Return a reactor for one program; ``name`` is what people call it."""
-        return Machine(self, name)
+    def host(self, name: str = "") -> SimulatedHost:
+        """Return a reactor for one program; ``name`` is for messages."""
+        return SimulatedHost(self, name)
 
     def link(self, port: int, up: LinkModel, down: LinkModel) -> None:
         """Route connections and datagrams to a port over a link from now on.
@@ -61,12 +61,11 @@ class SimulatedReactor(Clock):
         self, when: float, what: Callable[..., object], *a: object, **kw: object
     ) -> TimedCall:
         """Call ``what`` at its time; of equal times the earlier call is first."""
-        call = TimedCall(self.rightNow + when, what, a, kw, self._forget, self._moved, self.seconds)
+        call = TimedCall(self.rightNow + when, what, a, kw, self._discard, self._sort, self.seconds)
         self.put_back(call)
         return call
 
     def put_back(self, call: TimedCall) -> None:
-        """Reschedule a call."""
         insort(self.calls, call, key=DelayedCall.getTime)
 
     def call_from_thread(self, call: Callable[[], Any]) -> None:
@@ -87,7 +86,7 @@ class SimulatedReactor(Clock):
         self._watch(self._readers[reader])
 
     def remove_reader(self, reader: Any) -> None:
-        """Forget a reader; an unknown one is ignored."""
+        """Stop watching a reader; an unknown one is ignored."""
         number = self._readers.pop(reader, None)
         if number is not None:
             self._watch(number)
@@ -98,22 +97,22 @@ class SimulatedReactor(Clock):
         self._watch(self._writers[writer])
 
     def remove_writer(self, writer: Any) -> None:
-        """Forget a writer; an unknown one is ignored."""
+        """Stop watching a writer; an unknown one is ignored."""
         number = self._writers.pop(writer, None)
         if number is not None:
             self._watch(number)
 
-    def take_descriptors(self, of: Iterable[Any]) -> list[Callable[[], None]]:
+    def suspend_descriptors(self, descriptors: Iterable[Any]) -> list[Callable[[], None]]:
         """Stop watching descriptors; return the calls that watch them again."""
-        give_back: list[Callable[[], None]] = []
-        for each in of:
+        resume: list[Callable[[], None]] = []
+        for each in descriptors:
             if each in self._readers:
-                give_back.append(partial(self.add_reader, each))
+                resume.append(partial(self.add_reader, each))
             if each in self._writers:
-                give_back.append(partial(self.add_writer, each))
+                resume.append(partial(self.add_writer, each))
             self.remove_reader(each)
             self.remove_writer(each)
-        return give_back
+        return resume
 
     def guarded(self, call: Callable[..., Any], *arguments: Any, **more: Any) -> Any:
         """Call foreign code; an exception is logged and ends nothing."""
@@ -128,7 +127,7 @@ class SimulatedReactor(Clock):
         self._now_ns += step_ns
         self.rightNow = now_s = self._now_ns / 1e9
         if not self._handed_over.empty():
-            self._take_calls()
+            self._run_handed_over()
         if self.calls and self.calls[0].getTime() <= now_s + _TINY_S:
             self._make_calls(now_s + _TINY_S)
         if self._readers or self._writers:
@@ -142,8 +141,8 @@ class SimulatedReactor(Clock):
         for call in due:
             if not call.active():
                 continue
-            if call.machine is not None and call.machine.is_frozen:
-                call.machine.keep_call(call)
+            if call.host is not None and call.host.is_frozen:
+                call.host.keep_call(call)
                 continue
             if call.getTime() > due_s:
                 self.put_back(call)
@@ -151,14 +150,14 @@ class SimulatedReactor(Clock):
             call.called = 1
             self.guarded(call.func, *call.args, **call.kw)
 
-    def _forget(self, call: DelayedCall) -> None:
+    def _discard(self, call: DelayedCall) -> None:
         if call in self.calls:
             self.calls.remove(call)
 
-    def _moved(self, call: DelayedCall) -> None:
+    def _sort(self, call: DelayedCall) -> None:
         self.calls.sort(key=DelayedCall.getTime)
 
-    def _take_calls(self) -> None:
+    def _run_handed_over(self) -> None:
         for _ in range(self._handed_over.qsize()):
             try:
                 call = self._handed_over.get_nowait()

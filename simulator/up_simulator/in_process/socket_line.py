@@ -15,22 +15,22 @@ class SocketLine:
 
     def __init__(self) -> None:
         self.is_plugged = True
-        self._own: socket.socket | None = None
-        self._other: socket.socket | None = None
+        self._end: socket.socket | None = None
+        self._peer: socket.socket | None = None
 
     def open(self) -> socket.socket:
         """Return the other end, which the caller has to close."""
         self.hang_up()
-        self._own, self._other = socket.socketpair()
-        self._own.setblocking(False)
-        return self._other
+        self._end, self._peer = socket.socketpair()
+        self._end.setblocking(False)
+        return self._peer
 
-    def read(self, timeout_s: float, most: int) -> bytes:
+    def read(self, timeout_s: float, max_bytes: int) -> bytes:
         """Return the received bytes without waiting."""
-        if self._own is None:
+        if self._end is None:
             return b""
         try:
-            return self._own.recv(most)
+            return self._end.recv(max_bytes)
         except BlockingIOError:
             return b""
         except OSError:
@@ -39,12 +39,11 @@ class SocketLine:
 
     def write(self, data: bytes) -> None:
         """Send bytes; without a reader they are dropped."""
-        if self._own is not None:
+        if self._end is not None:
             with suppress(OSError):
-                self._own.send(data)
+                self._end.send(data)
 
     def plug(self) -> None:
-        """Restore the port."""
         self.is_plugged = True
 
     def unplug(self) -> None:
@@ -55,12 +54,12 @@ class SocketLine:
     def cut(self) -> None:
         """Close both ends, as when the program with the other one is killed."""
         self.hang_up()
-        if self._other is not None:
-            self._other.close()
-            self._other = None
+        if self._peer is not None:
+            self._peer.close()
+            self._peer = None
 
     def hang_up(self) -> None:
         """Close this end; bytes that have not passed are lost."""
-        if self._own is not None:
-            self._own.close()
-            self._own = None
+        if self._end is not None:
+            self._end.close()
+            self._end = None

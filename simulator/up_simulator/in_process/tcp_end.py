@@ -1,7 +1,9 @@
-"""A system's TCP for one end of a connection: order, acknowledgement, timeouts."""
+"""The operating system's TCP for one end of a connection: order, acknowledgement, timeouts."""
 
 from __future__ import annotations
 
+import socket
+import struct
 from collections import deque
 from typing import Any, Protocol
 
@@ -9,38 +11,78 @@ from twisted.internet.base import DelayedCall
 from twisted.internet.error import ConnectionLost
 
 from up_simulator.in_process.network import Route
-from up_simulator.in_process.socket_options import SocketOptions
 
 HEADER = 40
 """Bytes of an IPv4 and a TCP header, which a link carries too."""
 SEGMENT = 1448
 WINDOW = 10 * SEGMENT
 """Bytes on their way at most (RFC 6928); the rest waits where its program can replace it."""
-READ_LIMIT = 65536
-FIRST_RETRY_S, LEAST_RETRY_S, LONGEST_RETRY_S = 1.0, 0.2, 120.0
+INITIAL_RETRY_S, MIN_RETRY_S, MAX_RETRY_S = 1.0, 0.2, 120.0
 GIVE_UP_S = 924.0
 """Without a user timeout (Linux: 15 retries)."""
 
 _Item = tuple[int, bytes, bool, float]
+_RTT_OFFSET = 68
+_TCP = socket.IPPROTO_TCP
+
+
+class SocketOptions:
+    """Takes socket options from programs; unknown options have no effect."""
+
+    def __init__(self) -> None:
+        self.keeps_alive = False
+        self.round_trip_s = 0.0
+        self._values: dict[tuple[int, int], int] = {}
+
+    @property
+    def user_timeout_s(self) -> float:
+        """Return how long bytes may stay unacknowledged; 0: as long as TCP tries."""
+        return self._values.get((_TCP, socket.TCP_USER_TIMEOUT), 0) / 1000
+
+    @property
+    def keepalive(self) -> tuple[float, float, int]:
+        """Return the idle time before a probe, the probe interval, and the number of probes."""
+        values = self._values
+        return (
+            float(values.get((_TCP, socket.TCP_KEEPIDLE), 7200)),
+            float(values.get((_TCP, socket.TCP_KEEPINTVL), 75)),
+            values.get((_TCP, socket.TCP_KEEPCNT), 9),
+        )
+
+    def setsockopt(self, level: int, option: int, value: int | bytes) -> None:
+        """Set an option, as of a socket."""
+        number = value if isinstance(value, int) else int.from_bytes(value[:4], "little")
+        self._values[level, option] = number
+        if (level, option) == (socket.SOL_SOCKET, socket.SO_KEEPALIVE):
+            self.keeps_alive = bool(number)
+
+    def getsockopt(self, level: int, option: int, size: int = 0) -> int | bytes:
+        """Return an option, as of a socket: of TCP_INFO the round trip is known."""
+        if (level, option) == (_TCP, socket.TCP_INFO):
+            info = bytearray(max(size, _RTT_OFFSET + 4))
+            struct.pack_into("=I", info, _RTT_OFFSET, round(self.round_trip_s * 1e6))
+            return bytes(info[:size])
+        value = self._values.get((level, option), 0)
+        return value.to_bytes(size, "little") if size else value
 
 
 class Owner(Protocol):
-    """Who uses the connection: a transport."""
+    """The user of a connection: a transport."""
 
     def on_established(self) -> None:
-        """The connection is there."""
+        """Handle the completed handshake."""
 
     def on_bytes(self, data: bytes) -> None:
-        """Handle bytes, in order."""
+        """Handle received bytes, which are in order."""
 
     def on_eof(self) -> None:
-        """The other side sends no more."""
+        """Handle the FIN of the other side."""
 
     def on_lost(self, error: Exception) -> None:
-        """The connection broke."""
+        """Handle a broken connection."""
 
     def on_room(self) -> None:
-        """More can be written."""
+        """Handle that more can be written."""
 
 
 class TcpEnd:
@@ -63,12 +105,8 @@ class TcpEnd:
         self._in_flight = 0
         self._is_finished = False
         self._expected = 0
-        self._is_reading = True
-        self._unread: list[bytes] = []
-        self._unread_size = 0
-        self._is_eof = False
-        self._heard_s = self._progress_s = clock.seconds()
-        self._retry_s = FIRST_RETRY_S
+        self._last_rx_s = self._progress_s = clock.seconds()
+        self._retry_s = INITIAL_RETRY_S
         self._retry: DelayedCall | None = None
         self._probe: DelayedCall | None = None
         self._probes = 0
@@ -92,11 +130,8 @@ class TcpEnd:
     def close(self) -> None:
         """Leave the connection to the system: sent data still arrives, then the FIN."""
         self.owner = None
-        if self._unread:
-            self.reset()
-        else:
-            self.finish()
-            self._stop_probing()
+        self.finish()
+        self._stop_probing()
 
     def reset(self) -> None:
         """Abort it and notify the other side."""
@@ -108,57 +143,48 @@ class TcpEnd:
         """Establish the connection: by the handshake, or by bytes that imply it."""
         if not self._is_established and not self.is_closed:
             self._is_established = True
-            self._heard_s = self._progress_s = self._clock.seconds()
+            self._last_rx_s = self._progress_s = self._clock.seconds()
             if self.owner is not None:
                 self.owner.on_established()
-
-    def set_reading(self, is_reading: bool) -> None:
-        """Hold bytes in the system, or hand them over again."""
-        self._is_reading = is_reading
-        if is_reading:
-            self._clock.callLater(0, self._hand_over)
 
     def watch(self) -> None:
         """Apply changed options: keepalive starts when it has been enabled."""
         if self.options.keeps_alive and self._probe is None and not self._route.is_perfect:
             self._schedule_probe(self.options.keepalive[0])
 
-    # What arrives from the other end.
+    # Packets from the other end.
 
     def on_segment(self, offset: int, data: bytes, is_last: bool, sent_s: float) -> None:
         """Take a segment; a duplicate is only acknowledged again."""
         if self.is_closed or (self.owner is None and data):
             self._refuse()
             return
-        self._hear()
+        self._note_packet()
         if offset > self._expected:
             return
-        if offset == self._expected:
-            if self._unread_size + len(data) > READ_LIMIT:
-                return
+        is_new = offset == self._expected
+        if is_new:
             self._expected += len(data) + is_last
-            self._is_eof = self._is_eof or is_last
-            if data:
-                self._unread.append(data)
-                self._unread_size += len(data)
         if self._route.is_perfect:
             self.peer.on_acknowledged(self._expected, sent_s)
         else:
             self._route.carry(HEADER, self.peer.on_acknowledged, self._expected, sent_s)
-        self._hand_over()
+        if is_new and data and self.owner is not None:
+            self.owner.on_bytes(data)
+        if is_new and is_last and self.owner is not None:
+            self.owner.on_eof()
 
     def on_acknowledged(self, offset: int, sent_s: float) -> None:
-        """Forget the arrived data."""
         if self.is_closed:
             return
-        self._hear()
+        self._note_packet()
         waiting = self._unacknowledged
         before = self._in_flight
         while waiting and waiting[0][0] + len(waiting[0][1]) + waiting[0][2] <= offset:
             self._in_flight -= len(waiting.popleft()[1])
         now_s = self._clock.seconds()
         self.options.round_trip_s = now_s - sent_s
-        self._retry_s = max(LEAST_RETRY_S, 2 * (now_s - sent_s))
+        self._retry_s = max(MIN_RETRY_S, 2 * (now_s - sent_s))
         self._progress_s = now_s
         if not waiting:
             self._cancel_retry()
@@ -169,21 +195,19 @@ class TcpEnd:
             self.owner.on_room()
 
     def on_reset(self) -> None:
-        """The other side knows nothing of this connection."""
+        """Lose the connection: the other side does not know it."""
         self._lose(ConnectionLost("the connection was reset"))
 
     def on_probe(self) -> None:
-        """Answer a probe."""
         if self.is_closed:
             self._refuse()
         else:
-            self._hear()
+            self._note_packet()
             self._route.carry(HEADER, self.peer.on_alive)
 
     def on_alive(self) -> None:
-        """Handle the answer to a probe."""
         if not self.is_closed:
-            self._hear()
+            self._note_packet()
 
     def _send(self, data: bytes, *, is_last: bool) -> None:
         now_s = self._clock.seconds()
@@ -197,16 +221,8 @@ class TcpEnd:
         if self._retry is None and not self._route.is_perfect:
             self._schedule_retry()
 
-    def _hand_over(self) -> None:
-        while self._unread and self._is_reading and self.owner is not None:
-            data, self._unread, self._unread_size = b"".join(self._unread), [], 0
-            self.owner.on_bytes(data)
-        if self._is_eof and not self._unread and self._is_reading and self.owner is not None:
-            self._is_eof = False
-            self.owner.on_eof()
-
-    def _hear(self) -> None:
-        self._heard_s = self._clock.seconds()
+    def _note_packet(self) -> None:
+        self._last_rx_s = self._clock.seconds()
         self._probes = 0
         self.establish()
 
@@ -236,23 +252,23 @@ class TcpEnd:
             for offset, data, is_last, _ in self._unacknowledged:
                 again = (offset, data, is_last, now_s)
                 self._route.carry(HEADER + len(data), self.peer.on_segment, *again)
-            self._retry_s = min(2 * self._retry_s, LONGEST_RETRY_S)
+            self._retry_s = min(2 * self._retry_s, MAX_RETRY_S)
         self._schedule_retry()
 
     def _schedule_probe(self, delay_s: float) -> None:
-        self._probe = self._clock.callLater(delay_s, self._look_for_peer)
+        self._probe = self._clock.callLater(delay_s, self._probe_peer)
 
-    def _look_for_peer(self) -> None:
+    def _probe_peer(self) -> None:
         self._probe = None
         if self.is_closed or self.owner is None:
             return
-        idle_s, interval_s, most = self.options.keepalive
-        silent_s = self._clock.seconds() - self._heard_s
+        idle_s, interval_s, max_probes = self.options.keepalive
+        silent_s = self._clock.seconds() - self._last_rx_s
         if silent_s < idle_s - 1e-6:
             self._schedule_probe(idle_s - silent_s)
             return
         limit_s = self.options.user_timeout_s
-        is_over = self._probes >= most
+        is_over = self._probes >= max_probes
         if limit_s:
             is_over = self._probes > 0 and silent_s >= limit_s
         if is_over:
@@ -274,7 +290,6 @@ class TcpEnd:
         self.is_closed = True
         self.owner = None
         self._unacknowledged.clear()
-        self._unread.clear()
         self._in_flight = 0
         self._cancel_retry()
         self._stop_probing()

@@ -17,26 +17,26 @@ from up_simulator.in_process.network import ADDRESS
 from up_simulator.in_process.tcp_end import HEADER, TcpEnd
 from up_simulator.in_process.tcp_transport import TcpTransport
 
-FIRST_SYN_S = 1.0
+INITIAL_SYN_RETRY_S = 1.0
 
 
 @implementer(IListeningPort)
 class TcpPort:
     """A port that accepts connections until it is stopped."""
 
-    def __init__(self, machine: Any, port: int, factory: Any, interface: str) -> None:
+    def __init__(self, host: Any, port: int, factory: Any, interface: str) -> None:
         self.factory = factory
         self.interface = interface
-        self.machine = machine
+        self.host = host
         self._number = port
         self._is_open = False
 
     def startListening(self) -> None:  # noqa: N802 - Twisted's name
         """Open it; raises CannotListenError."""
-        network = self.machine.network
+        network = self.host.network
         self._number = network.bind(network.tcp, self._number, self, self.interface)
         self._is_open = True
-        self.machine.opened[self] = None
+        self.host.opened[self] = None
         self.factory.doStart()
 
     def stopListening(self) -> Deferred[None]:  # noqa: N802 - Twisted's name
@@ -49,22 +49,21 @@ class TcpPort:
     loseConnection = stopListening  # noqa: N815 - Twisted's name
 
     def getHost(self) -> IPv4Address:  # noqa: N802 - Twisted's name
-        """Return where it listens."""
         return IPv4Address("TCP", self.interface or "0.0.0.0", self._number)
 
     def cut_off(self) -> None:
         """Close it without a notification."""
         self._is_open = False
-        self.machine.opened.pop(self, None)
-        self.machine.network.tcp.pop(self._number, None)
+        self.host.opened.pop(self, None)
+        self.host.network.tcp.pop(self._number, None)
 
     def accept(self, end: TcpEnd, from_port: int) -> None:
         """Take a new connection; it is refused if the factory builds no protocol."""
-        transport = TcpTransport(self.machine, end, self._number, from_port)
-        self.machine.do(self._build, transport, IPv4Address("TCP", ADDRESS, from_port))
+        transport = TcpTransport(self.host, end, self._number, from_port)
+        self.host.do(self._build, transport, IPv4Address("TCP", ADDRESS, from_port))
 
     def _build(self, transport: TcpTransport, address: IPv4Address) -> None:
-        protocol = self.machine.reactor.guarded(self.factory.buildProtocol, address)
+        protocol = self.host.reactor.guarded(self.factory.buildProtocol, address)
         if protocol is None:
             transport.refuse()
         else:
@@ -72,73 +71,71 @@ class TcpPort:
 
 
 class _Attempt:
-    """The handshake: a lost one is begun again, a closed port refuses it."""
+    """The handshake: lost packets are sent again, a closed port refuses it."""
 
-    def __init__(self, machine: Any, connector: Connector, port: int, own_port: int) -> None:
-        self._network = machine.network
-        self._clock = machine
+    def __init__(self, host: Any, connector: Connector, port: int, own_port: int) -> None:
+        self._network = host.network
+        self._host = host
         self._connector = connector
         self._port = port
         self._own_port = own_port
         self._up, self._down = self._network.routes(port)
-        self._wait_s = FIRST_SYN_S
-        self._here: TcpEnd | None = None
-        self._again: DelayedCall | None = None
+        self._wait_s = INITIAL_SYN_RETRY_S
+        self._end: TcpEnd | None = None
+        self._retry: DelayedCall | None = None
         self.is_over = False
 
-    def knock(self) -> None:
-        """Send a SYN, and again without an answer."""
+    def send_syn(self) -> None:
+        """Send a SYN, again and again until it is answered."""
         if not self.is_over:
-            self._up.carry(HEADER, self._asked)
-            self._again = self._clock.callLater(self._wait_s, self.knock)
+            self._up.carry(HEADER, self._on_syn)
+            self._retry = self._host.callLater(self._wait_s, self.send_syn)
             self._wait_s *= 2
 
     def end(self) -> None:
-        """Cancel the attempt."""
         self.is_over = True
-        if self._again is not None and self._again.active():
-            self._again.cancel()
+        if self._retry is not None and self._retry.active():
+            self._retry.cancel()
 
-    def _asked(self) -> None:
+    def _on_syn(self) -> None:
         port = self._network.tcp.get(self._port)
-        if self._here is None and port is None:
-            self._down.carry(HEADER, self._refused)
+        if self._end is None and port is None:
+            self._down.carry(HEADER, self._on_refused)
             return
-        if self._here is None:
-            self._here = TcpEnd(self._network.clock, self._up)
-            there = TcpEnd(self._network.clock, self._down)
-            self._here.peer, there.peer = there, self._here
-            self._network.note_connection(self._port, (self._here, there))
+        if self._end is None:
+            self._end = TcpEnd(self._network.clock, self._up)
+            peer = TcpEnd(self._network.clock, self._down)
+            self._end.peer, peer.peer = peer, self._end
             # Before any data of the other side, which may cut the connection off immediately.
-            self._down.carry(HEADER, self._answered)
-            port.accept(there, self._own_port)
+            self._down.carry(HEADER, self._on_syn_ack)
+            port.accept(peer, self._own_port)
         else:
-            self._down.carry(HEADER, self._answered)
+            self._down.carry(HEADER, self._on_syn_ack)
 
-    def _refused(self) -> None:
+    def _on_refused(self) -> None:
         if not self.is_over:
-            self._clock.do(self._connector.fail, Refused())
+            self._host.do(self._connector.fail, Refused())
 
-    def _answered(self) -> None:
-        here = self._here
-        if here is None or self.is_over:
+    def _on_syn_ack(self) -> None:
+        end = self._end
+        if end is None or self.is_over:
             return
         self.end()
-        self._clock.do(self._connector.succeed, here)
-        self._up.carry(HEADER, here.peer.establish)
+        self._host.do(self._connector.succeed, end)
+        self._up.carry(HEADER, end.peer.establish)
 
 
 @implementer(IConnector)
 class Connector:
     """One attempt to connect, and the resulting connection."""
 
-    def __init__(self, machine: Any, host: str, port: int, factory: Any, timeout_s: float) -> None:
+    def __init__(self, host: Any, address: str, port: int, factory: Any, timeout_s: float) -> None:
         self.factory = factory
         self.timeout = timeout_s
         self.transport: TcpTransport | None = None
         self.state = "disconnected"
-        self._machine = machine
         self._host = host
+        self._address = address
         self._port = port
         self._own_port = 0
         self._timers: list[DelayedCall] = []
@@ -151,17 +148,16 @@ class Connector:
         self.state = "connecting"
         self.factory.doStart()
         self.factory.startedConnecting(self)
-        self._machine.opened[self] = None
-        self._own_port = self._machine.network.free_port()
-        self._attempt = _Attempt(self._machine, self, self._port, self._own_port)
-        self._attempt.knock()
+        self._host.opened[self] = None
+        self._own_port = self._host.network.free_port()
+        self._attempt = _Attempt(self._host, self, self._port, self._own_port)
+        self._attempt.send_syn()
         if self.timeout:
-            self._timers.append(self._machine.callLater(self.timeout, self._too_late))
+            self._timers.append(self._host.callLater(self.timeout, self._on_timeout))
 
     def stopConnecting(self) -> None:  # noqa: N802 - Twisted's name
-        """Give an attempt up."""
         if self.state != "connecting":
-            raise RuntimeError("there is no attempt to stop")
+            raise RuntimeError("no attempt is under way")
         self.fail(UserError())
 
     def disconnect(self) -> None:
@@ -172,20 +168,18 @@ class Connector:
             self.transport.loseConnection()
 
     def getDestination(self) -> IPv4Address:  # noqa: N802 - Twisted's name
-        """Return where to."""
-        return IPv4Address("TCP", self._host, self._port)
+        return IPv4Address("TCP", self._address, self._port)
 
     def cut_off(self) -> None:
         """End without a notification."""
         self._stop()
 
     def succeed(self, end: TcpEnd) -> None:
-        """Become connected."""
         self._stop()
         self.state = "connected"
-        self.transport = TcpTransport(self._machine, end, self._own_port, self._port)
+        self.transport = TcpTransport(self._host, end, self._own_port, self._port)
         address = self.getDestination()
-        protocol = self._machine.reactor.guarded(self.factory.buildProtocol, address)
+        protocol = self._host.reactor.guarded(self.factory.buildProtocol, address)
         if protocol is None:
             self.transport.refuse()
             self.state = "disconnected"
@@ -195,7 +189,6 @@ class Connector:
         end.establish()
 
     def fail(self, error: Exception) -> None:
-        """Report that the connection failed."""
         if self.state == "connecting":
             self._stop()
             self.state = "disconnected"
@@ -204,17 +197,16 @@ class Connector:
                 self.factory.doStop()
 
     def lost(self, reason: Failure) -> None:
-        """Handle the loss of the connection."""
         self.state = "disconnected"
         self.factory.clientConnectionLost(self, reason)
         if self.state == "disconnected":
             self.factory.doStop()
 
-    def _too_late(self) -> None:
+    def _on_timeout(self) -> None:
         self.fail(TimeoutError())
 
     def _stop(self) -> None:
-        self._machine.opened.pop(self, None)
+        self._host.opened.pop(self, None)
         if self._attempt is not None:
             self._attempt.end()
         for timer in self._timers:

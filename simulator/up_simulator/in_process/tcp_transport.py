@@ -7,20 +7,19 @@ from typing import Any
 
 from twisted.internet.address import IPv4Address
 from twisted.internet.error import ConnectionAborted, ConnectionDone
-from twisted.internet.interfaces import IHalfCloseableProtocol, ITCPTransport
+from twisted.internet.interfaces import ITransport
 from twisted.logger import Logger
 from twisted.python.failure import Failure
 from zope.interface import implementer
 
 from up_simulator.in_process.network import ADDRESS
-from up_simulator.in_process.socket_options import SocketOptions
-from up_simulator.in_process.tcp_end import TcpEnd
+from up_simulator.in_process.tcp_end import SocketOptions, TcpEnd
 
 BUFFER_LIMIT = 65536
 """Above this a streaming producer is paused, as in Twisted's own transports."""
 
 
-@implementer(ITCPTransport)
+@implementer(ITransport)
 class TcpTransport:
     """Writes as a reactor does: queued data leaves at the end of the step, then more is requested.
 
@@ -29,33 +28,29 @@ class TcpTransport:
 
     log = Logger()
 
-    def __init__(self, machine: Any, end: TcpEnd, own_port: int, peer_port: int) -> None:
+    def __init__(self, host: Any, end: TcpEnd, own_port: int, peer_port: int) -> None:
         self.protocol: Any = None
         self.on_closed: Callable[[Failure], object] | None = None
         self.connected = False
         self.disconnected = False
         self.disconnecting = False
-        self._machine = machine
+        self._host = host
         self._end = end
-        self._host = IPv4Address("TCP", ADDRESS, own_port)
+        self._address = IPv4Address("TCP", ADDRESS, own_port)
         self._peer = IPv4Address("TCP", ADDRESS, peer_port)
         self._waiting = bytearray()
         self._producer: Any = None
         self._is_streaming = False
         self._is_paused = False
-        self._write_is_closing = False
-        self._write_is_closed = False
-        self._read_is_closed = False
         end.owner = self
-        machine.opened[self] = None
+        host.opened[self] = None
 
-    # What programs call.
+    # Called by programs.
 
     def write(self, data: bytes) -> None:
-        """Send bytes in order."""
         if not isinstance(data, bytes | bytearray | memoryview):
             raise TypeError(f"bytes can be written, not {type(data).__name__}")
-        if self.disconnected or self._write_is_closed or not data:
+        if self.disconnected or not data:
             return
         self._waiting += data
         if self._is_streaming and not self._is_paused and len(self._waiting) > BUFFER_LIMIT:
@@ -64,7 +59,6 @@ class TcpTransport:
         self._want_to_write()
 
     def writeSequence(self, iovec: Iterable[bytes]) -> None:  # noqa: N802 - Twisted's name
-        """Send several pieces."""
         self.write(b"".join(iovec))
 
     def loseConnection(self) -> None:  # noqa: N802 - Twisted's name
@@ -73,51 +67,34 @@ class TcpTransport:
             self.disconnecting = True
             self._want_to_write()
 
-    def loseWriteConnection(self) -> None:  # noqa: N802 - Twisted's name
-        """Send the queued data, then a FIN; continue to read."""
-        self._write_is_closing = True
-        self._want_to_write()
-
     def abortConnection(self) -> None:  # noqa: N802 - Twisted's name
         """Abort the connection; the other side gets a reset."""
         if not self.disconnected and self._end.owner is self:
             self._end.reset()
-            self._machine.callLater(0, self._lost, ConnectionAborted())
+            self._host.callLater(0, self._lost, ConnectionAborted())
 
     def getPeer(self) -> IPv4Address:  # noqa: N802 - Twisted's name
-        """Return the other side."""
         return self._peer
 
     def getHost(self) -> IPv4Address:  # noqa: N802 - Twisted's name
-        """Return this side."""
-        return self._host
+        return self._address
 
     def getHandle(self) -> SocketOptions:  # noqa: N802 - Twisted's name
-        """Return the handle for socket options."""
         return self._end.options
 
     def setTcpNoDelay(self, enabled: bool) -> None:  # noqa: N802 - Twisted's name
-        """Store the option, which has no effect here."""
-        self._end.options.has_no_delay = bool(enabled)
-
-    def getTcpNoDelay(self) -> bool:  # noqa: N802 - Twisted's name
-        """Return the option's value."""
-        return self._end.options.has_no_delay
+        """Do nothing: no data is delayed here."""
 
     def setTcpKeepAlive(self, enabled: bool) -> None:  # noqa: N802 - Twisted's name
         """Probe a silent peer."""
         self._end.options.keeps_alive = bool(enabled)
         # Its intervals are set in the calls that follow this one.
-        self._machine.callLater(0, self._end.watch)
-
-    def getTcpKeepAlive(self) -> bool:  # noqa: N802 - Twisted's name
-        """Return the option's value."""
-        return self._end.options.keeps_alive
+        self._host.callLater(0, self._end.watch)
 
     def registerProducer(self, producer: Any, streaming: bool) -> None:  # noqa: N802
         """Resume a producer when the queue is empty, or pause it when the queue is long."""
         if self._producer is not None:
-            raise RuntimeError(f"there is a producer already: {self._producer!r}")
+            raise RuntimeError(f"a producer is already registered: {self._producer!r}")
         if self.disconnected:
             producer.stopProducing()
             return
@@ -126,31 +103,17 @@ class TcpTransport:
             producer.resumeProducing()
 
     def unregisterProducer(self) -> None:  # noqa: N802 - Twisted's name
-        """Forget the producer."""
         self._producer = None
         self._is_streaming = self._is_paused = False
         if self.connected and self.disconnecting:
             self._want_to_write()
 
-    def pauseProducing(self) -> None:  # noqa: N802 - Twisted's name
-        """Read no more for now."""
-        self._end.set_reading(False)
-
-    def resumeProducing(self) -> None:  # noqa: N802 - Twisted's name
-        """Read on."""
-        if self.connected and not self.disconnecting:
-            self._end.set_reading(True)
-
-    def stopProducing(self) -> None:  # noqa: N802 - Twisted's name
-        """Close, as the consumer requests."""
-        self.loseConnection()
-
-    # What the network and the machine call.
+    # Called by the network and the host.
 
     def flush(self) -> None:
         """Send as much as the connection takes, and resume the producer."""
-        if self._machine.is_frozen:
-            self._machine.do(self._want_to_write)
+        if self._host.is_frozen:
+            self._host.do(self._want_to_write)
             return
         if self.disconnected or not self.connected:
             return
@@ -167,11 +130,6 @@ class TcpTransport:
         elif self.disconnecting and self._producer is None:
             self._end.close()
             self._lost(ConnectionDone())
-        elif self._write_is_closing and not self._write_is_closed:
-            self._write_is_closed = True
-            self._end.finish()
-            if IHalfCloseableProtocol.providedBy(self.protocol):
-                self._guarded(self.protocol.writeConnectionLost)
 
     def cut_off(self) -> None:
         """End as the connection of a killed process: its system closes it."""
@@ -181,29 +139,25 @@ class TcpTransport:
             self._end.close()
 
     def refuse(self) -> None:
-        """Reset a refused connection."""
         self.disconnected = True
-        self._machine.opened.pop(self, None)
+        self._host.opened.pop(self, None)
         self._end.reset()
 
     def on_established(self) -> None:
-        """Notify the protocol of the connection."""
-        self._machine.do(self._made)
+        self._host.do(self._made)
 
     def on_bytes(self, data: bytes) -> None:
-        """Hand bytes to the protocol."""
-        self._machine.do(self._received, data)
+        self._host.do(self._received, data)
 
     def on_eof(self) -> None:
         """Notify the protocol of the other side's half-close."""
-        self._machine.do(self._ended)
+        self._host.do(self._ended)
 
     def on_lost(self, error: Exception) -> None:
         """Notify the protocol of the lost connection."""
-        self._machine.do(self._lost, error)
+        self._host.do(self._lost, error)
 
     def on_room(self) -> None:
-        """Continue to write."""
         if self._waiting or self.disconnecting or self._producer is not None:
             self._want_to_write()
 
@@ -213,27 +167,16 @@ class TcpTransport:
             self._guarded(self.protocol.makeConnection, self)
 
     def _received(self, data: bytes) -> None:
-        if self.connected and not self.disconnecting and not self._read_is_closed:
+        if self.connected and not self.disconnecting:
             self._guarded(self.protocol.dataReceived, data)
 
     def _ended(self) -> None:
-        """Close, unless the protocol can do without the reading half."""
-        if self.disconnected:
-            return
-        if IHalfCloseableProtocol.providedBy(self.protocol):
-            self._read_is_closed = True
-            self._guarded(self.protocol.readConnectionLost)
-            if self._write_is_closed:
-                self._close()
-        else:
-            self._close()
-
-    def _close(self) -> None:
-        self._end.close()
-        self._lost(ConnectionDone())
+        if not self.disconnected:
+            self._end.close()
+            self._lost(ConnectionDone())
 
     def _want_to_write(self) -> None:
-        self._machine.network.to_write[self] = None
+        self._host.network.to_write[self] = None
 
     def _lost(self, error: Exception) -> None:
         if self.disconnected:
@@ -241,7 +184,7 @@ class TcpTransport:
         was_connected = self.connected
         self.connected, self.disconnected = False, True
         self._waiting.clear()
-        self._machine.opened.pop(self, None)
+        self._host.opened.pop(self, None)
         producer, self._producer = self._producer, None
         if producer is not None:
             self._guarded(producer.stopProducing)

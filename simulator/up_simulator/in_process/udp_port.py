@@ -12,31 +12,30 @@ from zope.interface import implementer
 from up_simulator.in_process.network import ADDRESS
 
 HEADER = 28
-LARGEST = 65507
+MAX_DATAGRAM_BYTES = 65507
 
 
 @implementer(IListeningPort, IUDPTransport)
 class UdpPort:
     """A port for datagrams; those without a receiver vanish."""
 
-    def __init__(self, machine: Any, port: int, protocol: Any, interface: str) -> None:
+    def __init__(self, host: Any, port: int, protocol: Any, interface: str) -> None:
         self.protocol = protocol
         self.interface = interface
-        self._machine = machine
+        self._host = host
         self._number = port
         self._peer: tuple[str, int] | None = None
         self._is_open = False
 
     def startListening(self) -> None:  # noqa: N802 - Twisted's name
         """Open it; raises CannotListenError."""
-        network = self._machine.network
+        network = self._host.network
         self._number = network.bind(network.udp, self._number, self, self.interface)
         self._is_open = True
-        self._machine.opened[self] = None
+        self._host.opened[self] = None
         self.protocol.makeConnection(self)
 
     def stopListening(self) -> Deferred[None]:  # noqa: N802 - Twisted's name
-        """Close it."""
         if self._is_open:
             self.cut_off()
             self.protocol.doStop()
@@ -45,17 +44,15 @@ class UdpPort:
     loseConnection = stopListening  # noqa: N815 - Twisted's name
 
     def write(self, packet: bytes, addr: tuple[str, int] | None = None) -> None:
-        """Send a datagram."""
         target = addr or self._peer
-        if not self._is_open or target is None or len(packet) > LARGEST:
+        if not self._is_open or target is None or len(packet) > MAX_DATAGRAM_BYTES:
             return
-        network = self._machine.network
+        network = self._host.network
         route = network.datagram_route(self._number, target[1])
         source = (ADDRESS, self._number)
         route.carry(HEADER + len(packet), _arrive, network, target[1], bytes(packet), source)
 
     def writeSequence(self, seq: Any, addr: tuple[str, int] | None = None) -> None:  # noqa: N802
-        """Send pieces as one datagram."""
         self.write(b"".join(seq), addr)
 
     def connect(self, host: str, port: int) -> None:
@@ -63,27 +60,24 @@ class UdpPort:
         self._peer = (host, port)
 
     def getHost(self) -> IPv4Address:  # noqa: N802 - Twisted's name
-        """Return where it listens."""
         return IPv4Address("UDP", self.interface or "0.0.0.0", self._number)
 
     def setBroadcastAllowed(self, enabled: bool) -> None:  # noqa: N802 - Twisted's name
-        """Do nothing: there is one machine to reach."""
+        """Do nothing: there is one host to reach."""
 
     def getBroadcastAllowed(self) -> bool:  # noqa: N802 - Twisted's name
-        """Return whether broadcasts can be sent."""
         return True
 
     def cut_off(self) -> None:
         """Close it without a notification."""
         self._is_open = False
-        self._machine.opened.pop(self, None)
-        self._machine.network.udp.pop(self._number, None)
+        self._host.opened.pop(self, None)
+        self._host.network.udp.pop(self._number, None)
 
-    def take(self, packet: bytes, source: tuple[str, int]) -> None:
-        """Hand a datagram to the protocol."""
-        self._machine.do(self._machine.reactor.guarded, self._hear, packet, source)
+    def receive(self, packet: bytes, source: tuple[str, int]) -> None:
+        self._host.do(self._host.reactor.guarded, self._on_datagram, packet, source)
 
-    def _hear(self, packet: bytes, source: tuple[str, int]) -> None:
+    def _on_datagram(self, packet: bytes, source: tuple[str, int]) -> None:
         if self._is_open:
             self.protocol.datagramReceived(packet, source)
 
@@ -91,4 +85,4 @@ class UdpPort:
 def _arrive(network: Any, port: int, packet: bytes, source: tuple[str, int]) -> None:
     listening = network.udp.get(port)
     if listening is not None:
-        listening.take(packet, source)
+        listening.receive(packet, source)

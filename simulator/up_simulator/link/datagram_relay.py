@@ -9,23 +9,23 @@ from typing import Any
 from twisted.internet.protocol import DatagramProtocol
 
 from up.system.udp import listen_udp
-from up_simulator.link.listening_relay import ListeningRelay
 from up_simulator.link.model import LinkModel
 from up_simulator.link.pipe import LinkPipe
-from up_simulator.link.stream import LOOK_S, Clock
+from up_simulator.link.relay import ListeningRelay
+from up_simulator.link.stream import POLL_S, Clock
 
 HEADER = 28
 """Bytes of an IPv4 and a UDP header, which a link carries too."""
-MOST_WAITING = 256
+MAX_QUEUED = 256
 """Datagrams on their way at most, as a queue in the network has an end."""
-MOST_CLIENTS = 64
-LARGEST = 65536
+MAX_CLIENTS = 64
+MAX_DATAGRAM_BYTES = 65536
 _TINY_S = 1e-9
 
 Address = tuple[str, int]
 
 
-class _Way:
+class _Direction:
     """One direction: datagrams by the model, each handed over when it arrives."""
 
     def __init__(self, clock: Clock, model: LinkModel) -> None:
@@ -37,21 +37,18 @@ class _Way:
         self.lost = 0
 
     def send(self, data: bytes, deliver: Callable[[bytes], object]) -> None:
-        """Put a datagram on the way."""
-        if len(self._pipe) >= MOST_WAITING:
+        if len(self._pipe) >= MAX_QUEUED:
             self.lost += 1
             return
         self._pipe.send((deliver, data), len(data) + HEADER, self._clock.seconds())
         self._run()
 
     def stop(self) -> None:
-        """Drop all datagrams in flight."""
         self._pipe.clear()
         self._cancel()
 
     @property
-    def all_lost(self) -> int:
-        """Return how many datagrams vanished."""
+    def total_lost(self) -> int:
         return self.lost + self._pipe.lost
 
     def _run(self) -> None:
@@ -60,7 +57,7 @@ class _Way:
             deliver(data)
         if len(self._pipe):
             next_s = self._pipe.next_s()
-            wait_s = LOOK_S if next_s == math.inf else next_s - self._clock.seconds()
+            wait_s = POLL_S if next_s == math.inf else next_s - self._clock.seconds()
             self._timer = self._clock.callLater(max(0.0, wait_s), self._on_timer)
 
     def _on_timer(self) -> None:
@@ -94,7 +91,7 @@ class _Socket(DatagramProtocol):
 
 
 class DatagramRelay(ListeningRelay):
-    """Takes datagrams and carries them to the target, and its answers back to their senders.
+    """Takes datagrams and carries them to the target, and its answers to_client to their senders.
 
     Each client has its own socket towards the target; beyond 64 the oldest client loses its.
     ``target_host`` is an address, not a name. Otherwise as ``LinkRelay``.
@@ -113,15 +110,15 @@ class DatagramRelay(ListeningRelay):
         clock: Clock | None = None,
     ) -> None:
         super().__init__(reactor, listen_port, (target_host, target_port), interface)
-        self._up = _Way(clock if clock is not None else reactor, up)
-        self._down = _Way(clock if clock is not None else reactor, down)
-        self._near = _Socket(self._on_client)
+        self._up = _Direction(clock if clock is not None else reactor, up)
+        self._down = _Direction(clock if clock is not None else reactor, down)
+        self._listening_socket = _Socket(self._on_client)
         self._clients: dict[Address, tuple[_Socket, Any]] = {}
 
     @property
     def lost(self) -> int:
         """Return how many datagrams vanished, both ways."""
-        return self._up.all_lost + self._down.all_lost
+        return self._up.total_lost + self._down.total_lost
 
     async def stop(self) -> None:
         """Take no more and drop all datagrams in flight."""
@@ -135,12 +132,12 @@ class DatagramRelay(ListeningRelay):
             await closed
 
     def _listen(self) -> Any:
-        return self._open(self._listen_port, self._near)
+        return self._open(self._listen_port, self._listening_socket)
 
     def _open(self, number: int, protocol: DatagramProtocol) -> Any:
         port = listen_udp(self._reactor, number, protocol, self._interface)
         # Twisted would cut datagrams longer than 8 KiB.
-        port.maxPacketSize = LARGEST
+        port.maxPacketSize = MAX_DATAGRAM_BYTES
         return port
 
     def _on_client(self, data: bytes, address: Address) -> None:
@@ -156,14 +153,16 @@ class DatagramRelay(ListeningRelay):
     def _socket_of(self, address: Address) -> None:
         if address in self._clients:
             return
-        while len(self._clients) >= MOST_CLIENTS:
+        while len(self._clients) >= MAX_CLIENTS:
             _socket, port = self._clients.pop(next(iter(self._clients)))
             port.stopListening()
 
-        def back(data: bytes, sender: Address) -> None:
+        def to_client(data: bytes, sender: Address) -> None:
             if sender == self._target:
-                self._down.send(data, lambda arrived: self._near.write(arrived, address))
+                self._down.send(
+                    data, lambda arrived: self._listening_socket.write(arrived, address)
+                )
 
-        fresh = _Socket(back)
+        fresh = _Socket(to_client)
         port = self._open(0, fresh)
         self._clients[address] = (fresh, port)

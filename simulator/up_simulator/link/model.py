@@ -4,15 +4,38 @@ from __future__ import annotations
 
 import math
 import random
+from dataclasses import dataclass
 
-from up_simulator.link.settings import LinkSettings
+
+@dataclass(frozen=True, slots=True)
+class LinkSettings:
+    """One direction of a link; raises ValueError for impossible values.
+
+    Every packet takes ``delay_ms`` and up to ``jitter_ms`` more. ``loss_percent`` of the packets
+    are lost, independently. ``rate_bytes_s`` is the rate of the bottleneck, before which packets
+    queue; 0 means no bottleneck.
+    """
+
+    delay_ms: float = 0.0
+    jitter_ms: float = 0.0
+    loss_percent: float = 0.0
+    rate_bytes_s: float = 0.0
+
+    def __post_init__(self) -> None:
+        for name in ("delay_ms", "jitter_ms", "loss_percent", "rate_bytes_s"):
+            value = getattr(self, name)
+            if not (math.isfinite(value) and value >= 0):
+                raise ValueError(f"{name} is a finite number from 0, not {value!r}")
+        if self.loss_percent > 100:
+            raise ValueError(f"loss_percent is at most 100, not {self.loss_percent!r}")
+
 
 __all__ = ["LinkModel", "LinkSettings"]
 
-FIRST_RETRY_S = 0.2
+INITIAL_RETRY_S = 0.2
 """The least time after which TCP sends a lost packet again (Linux; RFC 6298 requires 1 s)."""
-LONGEST_RETRY_S = 3.0
-MOST_RETRIES = 12
+MAX_RETRY_S = 3.0
+MAX_RETRIES = 12
 """A packet lost more often than this counts as arrived, so that time advances."""
 
 
@@ -107,12 +130,12 @@ class LinkModel:
         if loss >= 1:
             return None
         # One draw yields the number of losses: that of a geometric distribution.
-        return min(MOST_RETRIES, int(math.log(max(draw, 1e-300)) / math.log(loss)))
+        return min(MAX_RETRIES, int(math.log(max(draw, 1e-300)) / math.log(loss)))
 
     def _retry_s(self, retries: int) -> float:
-        wait_s = FIRST_RETRY_S + 2 * self.settings.delay_ms / 1000
+        wait_s = INITIAL_RETRY_S + 2 * self.settings.delay_ms / 1000
         total_s = 0.0
         for _ in range(retries):
-            total_s += min(wait_s, LONGEST_RETRY_S)
+            total_s += min(wait_s, MAX_RETRY_S)
             wait_s *= 2
         return total_s

@@ -53,5 +53,4 @@ class LinkPipe(Generic[_T]):
         return arrived
 
     def clear(self) -> None:
-        """Drop all packets in flight."""
         self._waiting.clear()

@@ -2,16 +2,59 @@
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from collections.abc import Callable
 from typing import Any
 
 from twisted.internet.defer import Deferred
+from twisted.internet.error import CannotListenError
 from twisted.internet.protocol import ClientFactory, Factory, Protocol
 
-from up_simulator.link.listening_relay import ListeningRelay
 from up_simulator.link.model import LinkModel
 from up_simulator.link.relay_connection import RelayedConnection
 from up_simulator.link.stream import Clock
+
+
+class LinkRelayError(Exception):
+    """The relay cannot listen: the message is one sentence for the user."""
+
+    code = "port_in_use"
+
+
+class ListeningRelay(ABC):
+    """Listens on a local port for traffic to a target.
+
+    Port 0 is any free port; ``port`` has it after ``start``.
+    """
+
+    def __init__(
+        self, reactor: Any, listen_port: int, target: tuple[str, int], interface: str
+    ) -> None:
+        self._reactor = reactor
+        self._interface = interface
+        self._target = target
+        self._listen_port = listen_port
+        self._listener: Any = None
+
+    @property
+    def port(self) -> int:
+        return self._listen_port if self._listener is None else self._listener.getHost().port
+
+    def start(self) -> int:
+        """Listen and return the port; raises ``LinkRelayError``."""
+        try:
+            self._listener = self._listen()
+        except CannotListenError as error:
+            raise LinkRelayError(
+                f"the link cannot listen on {self._interface}:{self._listen_port}: "
+                f"{error.socketError}"
+            ) from error
+        return self.port
+
+    @abstractmethod
+    def _listen(self) -> Any:
+        """Return the listening port; raises ``CannotListenError``."""
+
 
 WINDOW = 16 * 1024
 """Bytes on their way at most, each way of each connection; more is not read from its sender."""
@@ -86,11 +129,9 @@ class LinkRelay(ListeningRelay):
             await self._idle
 
     def connect(self, factory: ClientFactory) -> Any:
-        """Connect to the target."""
         return self._reactor.connectTCP(*self._target, factory, timeout=CONNECT_S)
 
-    def forget(self, connection: RelayedConnection) -> None:
-        """Forget a connection that is over."""
+    def discard(self, connection: RelayedConnection) -> None:
         self._connections.discard(connection)
         if self._idle is not None and not self._connections:
             idle, self._idle = self._idle, None

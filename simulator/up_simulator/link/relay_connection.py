@@ -20,7 +20,7 @@ SYSTEM_BUFFER = 32 * 1024
 """The system's buffer for a socket of the relay, small enough not to act as part of the link."""
 
 
-class Road(Interface):
+class RelayContext(Interface):
     """The interface of a relay to its connections."""
 
     up: LinkModel
@@ -32,7 +32,7 @@ class Road(Interface):
     def connect(self, factory: ClientFactory) -> Any:
         """Connect to the target."""
 
-    def forget(self, connection: RelayedConnection) -> None:
+    def discard(self, connection: RelayedConnection) -> None:
         """Forget a connection that is over."""
 
 
@@ -46,13 +46,12 @@ class _End(Protocol):
     def __init__(self, connection: RelayedConnection) -> None:
         self._connection = connection
         self._has_finished = False
-        self._is_held = False
+        self._is_paused = False
         self.is_open = False
         self.is_gone = False
 
     @property
     def is_connected(self) -> bool:
-        """Return whether it has a socket."""
         return self.transport is not None and not self.is_gone
 
     def connectionMade(self) -> None:  # noqa: N802
@@ -65,22 +64,22 @@ class _End(Protocol):
 
     def dataReceived(self, data: bytes) -> None:  # noqa: N802
         self.outgoing.send(data)
-        self.look_at_window()
+        self.update_window()
 
-    def look_at_window(self) -> None:
+    def update_window(self) -> None:
         """Resume or pause reading by the bytes in flight; no reading before it is open."""
         if not self.is_connected or self._has_finished:
             return
         transport: Any = self.transport
         waiting, window = self.outgoing.waiting, self._connection.window
-        if self._is_held and self.is_open and waiting <= window // 2:
-            self._is_held = False
+        if self._is_paused and self.is_open and waiting <= window // 2:
+            self._is_paused = False
             transport.resumeProducing()
-        elif not self._is_held and (waiting >= window or not self.is_open):
-            self._is_held = True
+        elif not self._is_paused and (waiting >= window or not self.is_open):
+            self._is_paused = True
             transport.pauseProducing()
 
-    def take(self, content: bytes | Signal) -> None:
+    def receive(self, content: bytes | Signal) -> None:
         """Carry out a signal from the other end."""
         transport: Any = self.transport
         if not self.is_connected:
@@ -101,7 +100,6 @@ class _End(Protocol):
             transport.loseConnection()
 
     def abort(self) -> None:
-        """Abort the connection."""
         if self.is_connected:
             transport: Any = self.transport
             transport.abortConnection()
@@ -150,14 +148,14 @@ class RelayedConnection:
     The target is called when the opening has arrived, the client is read when the answer has.
     """
 
-    def __init__(self, road: Road) -> None:
-        self._road = road
+    def __init__(self, relay: RelayContext) -> None:
+        self._relay = relay
         self._finished = 0
         self._connector: Any = None
-        self.window = road.window
+        self.window = relay.window
         self.near, self.far = _End(self), _End(self)
-        self.near.outgoing = self.far.incoming = self._stream(road.up, self._on_up, self.near)
-        self.far.outgoing = self.near.incoming = self._stream(road.down, self._on_down, self.far)
+        self.near.outgoing = self.far.incoming = self._stream(relay.up, self._on_up, self.near)
+        self.far.outgoing = self.near.incoming = self._stream(relay.down, self._on_down, self.far)
 
     @property
     def waiting(self) -> int:
@@ -167,7 +165,7 @@ class RelayedConnection:
     def on_made(self, end: _End) -> None:
         """One of the two has its socket."""
         if end is self.near:
-            end.look_at_window()
+            end.update_window()
             end.outgoing.send(Signal.OPEN)
         else:
             end.is_open = True
@@ -186,13 +184,12 @@ class RelayedConnection:
         if self.near.is_gone and self.far.is_gone:
             self.near.outgoing.stop()
             self.far.outgoing.stop()
-            self._road.forget(self)
+            self._relay.discard(self)
 
     def abort(self) -> None:
-        """End it here and now."""
         self.near.outgoing.stop()
         self.far.outgoing.stop()
-        self._give_up_far()
+        self._cancel_far()
         self.near.abort()
         self.far.abort()
 
@@ -200,10 +197,10 @@ class RelayedConnection:
         self, model: LinkModel, deliver: Callable[[bytes | Signal], object], sender: _End
     ) -> LinkStream:
         return LinkStream(
-            self._road.clock,
+            self._relay.clock,
             model,
             deliver,
-            user_timeout_s=self._road.user_timeout_s,
+            user_timeout_s=self._relay.user_timeout_s,
             on_silence=sender.abort,
         )
 
@@ -211,22 +208,22 @@ class RelayedConnection:
         if content is Signal.OPEN:
             # No data arrives at a target that is not connected yet.
             self.near.outgoing.is_blocked = True
-            self._connector = self._road.connect(_TargetFactory(self.far, self._on_refused))
+            self._connector = self._relay.connect(_TargetFactory(self.far, self._on_refused))
         elif content is Signal.RESET and self.far.transport is None:
-            self._give_up_far()
+            self._cancel_far()
         else:
-            self.far.take(content)
-        self.near.look_at_window()
+            self.far.receive(content)
+        self.near.update_window()
 
     def _on_down(self, content: bytes | Signal) -> None:
         if content is Signal.OPENED:
             self.near.is_open = True
-            self.near.look_at_window()
+            self.near.update_window()
         else:
-            self.near.take(content)
-        self.far.look_at_window()
+            self.near.receive(content)
+        self.far.update_window()
 
-    def _give_up_far(self) -> None:
+    def _cancel_far(self) -> None:
         if self.far.transport is not None or self.far.is_gone:
             return
         if self._connector is not None:

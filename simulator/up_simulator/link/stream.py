@@ -14,10 +14,10 @@ from up_simulator.link.model import LinkModel
 SEGMENT = 1448
 HEADER = 40
 """Bytes of an IPv4 and a TCP header, which a link carries too."""
-LEAST_RETRY_S, FIRST_RETRY_S, LONGEST_RETRY_S = 0.2, 1.0, 120.0
-LONGEST_RESET_RETRY_S = 1.0
+MIN_RETRY_S, INITIAL_RETRY_S, MAX_RETRY_S = 0.2, 1.0, 120.0
+MAX_RESET_RETRY_S = 1.0
 """A closed peer answers the next packet of the other side with a reset."""
-LOOK_S = 0.01
+POLL_S = 0.01
 """Period of the checks whether a stalled link has resumed."""
 _TINY_S = 1e-9
 
@@ -80,7 +80,7 @@ class LinkStream:
         self._is_blocked = False
         self._is_stopped = False
         self._is_busy = False
-        self._retry_s = FIRST_RETRY_S
+        self._retry_s = INITIAL_RETRY_S
         self._retry_at_s = math.inf
         self._progress_s = clock.seconds()
         self.waiting = 0
@@ -105,7 +105,7 @@ class LinkStream:
             self._progress_s = self._clock.seconds()
         if isinstance(content, Signal):
             if content is Signal.RESET:
-                self._forget()
+                self._clear()
             self._append(content, 0)
         else:
             for at in range(0, len(content), SEGMENT):
@@ -114,9 +114,9 @@ class LinkStream:
         self._run()
 
     def stop(self) -> None:
-        """Forget everything and carry no more."""
+        """Drop all packets and carry no more."""
         self._is_stopped = True
-        self._forget()
+        self._clear()
         self._cancel()
 
     def _append(self, content: bytes | Signal, size: int) -> None:
@@ -130,7 +130,7 @@ class LinkStream:
         packet.due_s = self._model.send(packet.size + HEADER, now_s)
         packet.blackouts = self._model.blackouts
 
-    def _forget(self) -> None:
+    def _clear(self) -> None:
         self._packets.clear()
         self.waiting = 0
         self._retry_at_s = math.inf
@@ -145,13 +145,13 @@ class LinkStream:
             return
         self._is_busy = True
         try:
-            while self._packets and not self._is_blocked and self._take_first():
+            while self._packets and not self._is_blocked and self._deliver_first():
                 pass
         finally:
             self._is_busy = False
         self._schedule()
 
-    def _take_first(self) -> bool:
+    def _deliver_first(self) -> bool:
         """Deliver the first packet; False: it has not arrived."""
         now_s = self._clock.seconds()
         first = self._packets[0]
@@ -162,7 +162,7 @@ class LinkStream:
         self._packets.popleft()
         self.waiting -= first.size
         self._progress_s = now_s
-        self._retry_s = self._least_retry_s()
+        self._retry_s = self._min_retry_s()
         self._retry_at_s = math.inf
         self._deliver(first.content)
         return True
@@ -179,14 +179,12 @@ class LinkStream:
             self._retry_at_s = math.inf
             return True
         is_reset = first.content is Signal.RESET
-        self._retry_s = min(
-            2 * self._retry_s, LONGEST_RESET_RETRY_S if is_reset else LONGEST_RETRY_S
-        )
+        self._retry_s = min(2 * self._retry_s, MAX_RESET_RETRY_S if is_reset else MAX_RETRY_S)
         self._retry_at_s = now_s + self._retry_s
         return False
 
-    def _least_retry_s(self) -> float:
-        return max(LEAST_RETRY_S, 4 * self._model.settings.delay_ms / 1000)
+    def _min_retry_s(self) -> float:
+        return max(MIN_RETRY_S, 4 * self._model.settings.delay_ms / 1000)
 
     def _schedule(self) -> None:
         self._cancel()
@@ -199,7 +197,7 @@ class LinkStream:
         else:
             next_s = self._model.arrival_s(first.due_s)
             if next_s == math.inf:
-                next_s = now_s + LOOK_S
+                next_s = now_s + POLL_S
         next_s = min(next_s, self._progress_s + self._user_timeout_s)
         self._timer = self._clock.callLater(max(0.0, next_s - now_s), self._on_timer)
 

@@ -13,7 +13,7 @@ from up_simulator.picture.canvas import PictureError, Sheet, sheet_for
 from up_simulator.picture.palette import FAULT, MUTED
 from up_simulator.picture.panels import PANELS, Line, Panel, draw_panel, shade_failure
 from up_simulator.picture.series import Log, Span, crash_index, mode_spans, numbers
-from up_simulator.picture.strip import (
+from up_simulator.picture.timeline_strip import (
     SIZE_PT,
     Mark,
     PlacedMark,
@@ -69,7 +69,7 @@ def draw_flight(
         raise PictureError(f"{path}: no picture of a log with {len(times_s)} rows")
     chosen = [(panel, known) for panel in PANELS if (known := panel.known(log))]
     if not chosen:
-        raise PictureError(f"{path}: no picture: the log has none of the signals that are drawn")
+        raise PictureError(f"{path}: no picture: the log has no signal to draw")
     if marks is None:
         marks = [Mark(at_s, name) for at_s, name in log.events]
     with sheet_for(path) as sheet:

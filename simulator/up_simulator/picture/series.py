@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Protocol
 
-MOST_POINTS = 6000
+MAX_POINTS = 6000
 DEGREE_M = 111_194.9
 """A degree of latitude on a sphere of 6371 km."""
 
@@ -47,7 +47,7 @@ def numbers(log: Log, name: str) -> list[float] | None:
 
 
 def thinned(
-    times_s: Sequence[float], values: Sequence[float], most: int = MOST_POINTS
+    times_s: Sequence[float], values: Sequence[float], most: int = MAX_POINTS
 ) -> tuple[list[float], list[float]]:
     """Return at most about ``most`` points that keep every peak and every gap."""
     if len(values) <= most:

@@ -13,8 +13,8 @@ from up_simulator.picture.series import Log, crash_index, track
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-MOST_DOTS = 12
-LEAST_M = 40.0
+MAX_DOTS = 12
+MIN_RANGE_M = 40.0
 _STEPS_S = (1, 2, 5, 10, 20, 30, 60, 120, 300, 600)
 
 
@@ -74,7 +74,7 @@ def _dots(
 ) -> None:
     """Mark round times along the track."""
     seconds = times_s[known[-1]] - times_s[known[0]]
-    step_s = next((step for step in _STEPS_S if seconds / step <= MOST_DOTS), _STEPS_S[-1])
+    step_s = next((step for step in _STEPS_S if seconds / step <= MAX_DOTS), _STEPS_S[-1])
     due_s = step_s * math.ceil((times_s[known[0]] + 0.5 * step_s) / step_s)
     for at in known:
         if times_s[at] < due_s - 1e-6:
@@ -96,7 +96,7 @@ def _dots(
 
 def _frame(axes: Axes, east: Sequence[float], north: Sequence[float]) -> None:
     """Leave air around it, and a free corner at the top for the wind."""
-    half = max(max(east) - min(east), max(north) - min(north), LEAST_M) * 0.62
+    half = max(max(east) - min(east), max(north) - min(north), MIN_RANGE_M) * 0.62
     middle_east = (max(east) + min(east)) / 2
     middle_north = (max(north) + min(north)) / 2
     axes.set_xlim(middle_east - half, middle_east + half)

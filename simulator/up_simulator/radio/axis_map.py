@@ -1,11 +1,11 @@
-"""Which axis or button of a game controller moves which channel, and how."""
+"""Events of a game controller (linux/joystick.h), and which axis or button moves which channel."""
 
 from __future__ import annotations
 
 import re
+import struct
 from dataclasses import dataclass, field
 
-from up_simulator.radio.js_event import FULL, JsEvent
 from up_simulator.radio.sticks import (
     CENTRE_US,
     CHANNELS,
@@ -16,17 +16,51 @@ from up_simulator.radio.sticks import (
     Sticks,
 )
 
+EVENT_SIZE = 8
+FULL = 32767
+_BUTTON, _AXIS, _INIT = 0x01, 0x02, 0x80
 PRESETS = {
     "transmitter": "ailerons=0 elevator=1 throttle=2 rudder=3 aux1=4 aux2=5 dead=0.01",
     "gamepad": "rudder=0 throttle=1- ailerons=3 elevator=4 aux1=b5 aux2=b4 dead=0.08",
 }
 """A radio on a USB cable (channels in the order AETR), and a game pad as Linux numbers it."""
-DEAD_MOST = 0.5
+MAX_DEAD = 0.5
 MODES = tuple(SWITCH_US.values())
 _SOURCE = re.compile(
     r"(?P<button>b?)(?P<number>\d{1,3})(?P<reversed>-?)"
     r"(?::(?P<low>-?\d{1,5})\.\.(?P<centre>-?\d{1,5})\.\.(?P<high>-?\d{1,5}))?"
 )
+
+
+@dataclass(frozen=True, slots=True)
+class JsEvent:
+    """A button (value 0 or 1) or an axis (value -32767 to 32767) at its number."""
+
+    number: int
+    value: int
+    is_axis: bool
+
+
+class JsEventReader:
+    """Splits a stream of bytes into events; unknown kinds are dropped.
+
+    An event is u32 time, i16 value, u8 kind, u8 number, in the machine's byte order. The state at
+    the opening of a device arrives as events, too, and is treated the same way.
+    """
+
+    def __init__(self) -> None:
+        self._rest = b""
+
+    def feed(self, data: bytes) -> list[JsEvent]:
+        """Return the events that these bytes complete."""
+        data = self._rest + data
+        whole = len(data) - len(data) % EVENT_SIZE
+        self._rest = data[whole:]
+        events: list[JsEvent] = []
+        for _time, value, kind, number in struct.iter_unpack("=IhBB", data[:whole]):
+            if kind & ~_INIT in (_BUTTON, _AXIS):
+                events.append(JsEvent(number, value, kind & ~_INIT == _AXIS))
+        return events
 
 
 @dataclass(frozen=True, slots=True)
@@ -81,9 +115,9 @@ def read_axis_map(text: str) -> AxisMap:
             sources[name] = _source(word, value)
         else:
             known = ", ".join((*PRESETS, *CHANNELS, "dead"))
-            raise RadioError(f"controller map: {word!r} is not understood (known: {known})")
+            raise RadioError(f"controller map: {word!r} is not understood; known: {known}")
     if not sources:
-        raise RadioError(f"controller map: no channel is named (or say {' or '.join(PRESETS)})")
+        raise RadioError(f"controller map: no channel named (presets: {', '.join(PRESETS)})")
     return AxisMap(sources, dead)
 
 
@@ -119,8 +153,8 @@ def _dead(text: str) -> float:
         dead = float(text)
     except ValueError:
         dead = -1.0
-    if not 0.0 <= dead <= DEAD_MOST:
-        raise RadioError(f"controller map: dead={text} is not a part from 0 to {DEAD_MOST}")
+    if not 0.0 <= dead <= MAX_DEAD:
+        raise RadioError(f"controller map: dead={text} is not a part from 0 to {MAX_DEAD}")
     return dead
 
 

@@ -7,23 +7,23 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from up.earth import bearing_deg, distance_m
-from up_simulator.flight import FlightState
+from up_simulator.aircraft.flight import FlightState
 from up_simulator.radio.sticks import CENTRE_US, HIGHEST_US, LOWEST_US, SWITCH_US, Sticks
 
 GRAVITY_M_S2 = 9.80665
 HALF_TRAVEL_US = 500
 ARMS_S, CLIMBS_S = 1.0, 2.0
 """AUX2 rises, unless the board was armed on the ground, and counts after 300 ms; then the motor."""
-BANK_MOST_DEG = 28.0
+MAX_BANK_DEG = 28.0
 BANK_PER_COURSE = 0.7
 FULL_BANK_DEG, FULL_UP_DEG, FULL_DOWN_DEG = 50.0, 20.0, 25.0
 """Angle at full stick in FBW (the default profile of an Arduino)."""
 THROTTLE_US_PER_M, THROTTLE_US_PER_M_S = 25.0, 60.0
-THROTTLE_MOST_US = 1900
-PITCH_DEG_PER_M, PITCH_MOST_DEG = 0.3, 4.0
+MAX_THROTTLE_US = 1900
+PITCH_DEG_PER_M, MAX_PITCH_DEG = 0.3, 4.0
 RATE_PER_ANGLE = 4.0
 """Rate at which the pilot returns to the attitude where the mode does not, deg/s per deg."""
-ROLL_MOST_DEG_S, PITCH_MOST_DEG_S = 60.0, 30.0
+MAX_ROLL_DEG_S, MAX_PITCH_DEG_S = 60.0, 30.0
 FULL_ROLL_DEG_S, FULL_PITCH_DEG_S = 180.0, 90.0
 """Rate at full stick in RATE (firmware, flight_controller.h)."""
 SURFACE_US_PER_DEG_S = 3.0
@@ -99,19 +99,19 @@ class CirclingPilot:
         # Far away the way home is straight.
         share = max(0.0, 1.0 - abs(inward_deg) / 80.0)
         bank_deg = turn_deg * share + BANK_PER_COURSE * off_deg
-        return max(-BANK_MOST_DEG, min(BANK_MOST_DEG, bank_deg))
+        return max(-MAX_BANK_DEG, min(MAX_BANK_DEG, bank_deg))
 
     def _pitch_deg(self, low_m: float) -> float:
         if not self._has_motor:
             return 0.0
-        return max(-PITCH_MOST_DEG, min(PITCH_MOST_DEG, PITCH_DEG_PER_M * low_m))
+        return max(-MAX_PITCH_DEG, min(MAX_PITCH_DEG, PITCH_DEG_PER_M * low_m))
 
     def _throttle_us(self, low_m: float) -> int:
         if not self._has_motor:
             return LOWEST_US
         asked_us = self._circuit.cruise_us + THROTTLE_US_PER_M * low_m
         asked_us -= THROTTLE_US_PER_M_S * self._climb_m_s
-        return round(max(LOWEST_US, min(THROTTLE_MOST_US, asked_us)))
+        return round(max(LOWEST_US, min(MAX_THROTTLE_US, asked_us)))
 
     def _watch_climb(self, state: FlightState) -> None:
         before, self._newest = self._newest, state
@@ -129,8 +129,8 @@ def _right_stick(
     if mode not in ("RATE", "ACRO"):
         full_deg = FULL_UP_DEG if pitch_deg > 0 else FULL_DOWN_DEG
         return _stick(bank_deg / FULL_BANK_DEG), _stick(pitch_deg / full_deg)
-    roll_deg_s = _within(RATE_PER_ANGLE * (bank_deg - state.roll_deg), ROLL_MOST_DEG_S)
-    pitch_deg_s = _within(RATE_PER_ANGLE * (pitch_deg - state.pitch_deg), PITCH_MOST_DEG_S)
+    roll_deg_s = _within(RATE_PER_ANGLE * (bank_deg - state.roll_deg), MAX_ROLL_DEG_S)
+    pitch_deg_s = _within(RATE_PER_ANGLE * (pitch_deg - state.pitch_deg), MAX_PITCH_DEG_S)
     if mode == "RATE":
         return _stick(roll_deg_s / FULL_ROLL_DEG_S), _stick(pitch_deg_s / FULL_PITCH_DEG_S)
     roll_us = SURFACE_US_PER_DEG_S * (roll_deg_s - state.roll_rate_deg_s)

@@ -4,43 +4,40 @@ from __future__ import annotations
 
 import errno
 import os
-from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 
-from up_simulator.flight import FlightState
-from up_simulator.radio.axis_map import AxisMap, MappedSticks
-from up_simulator.radio.js_event import JsEventReader
+from up_simulator.aircraft.flight import FlightState
+from up_simulator.harness.user_log import Log, no_log
+from up_simulator.radio.axis_map import AxisMap, JsEventReader, MappedSticks
 from up_simulator.radio.sticks import RadioError, Sticks
 
 DEVICES = Path("/dev/input")
-LOOK_AGAIN_S = 1.0
+RETRY_S = 1.0
 _READ_SIZE = 4096
-_HEAPS_MOST = 64
+_MAX_READS = 64
 
 
 class GameController:
     """Reads Linux's joystick device; while it is unplugged, the receiver gets no pulses.
 
-    A device that is plugged in again is used again. ``say`` takes one line for the user. Raises
+    A device that is plugged in again is used again. Raises
     ``RadioError`` if the device is missing or unreadable at the start.
     """
 
-    def __init__(
-        self, device: Path, axis_map: AxisMap, say: Callable[[str], None] = lambda _text: None
-    ) -> None:
+    def __init__(self, device: Path, axis_map: AxisMap, log: Log = no_log) -> None:
         self._device = device
         self._sticks = MappedSticks(axis_map)
-        self._say = say
+        self._log = log
         self._reader = JsEventReader()
-        self._looked_s = float("-inf")
+        self._tried_s = float("-inf")
         self._file: int | None = _open(device)
 
     def sticks(self, time_s: float, state: FlightState) -> Sticks:
         """Return the present stick positions."""
-        if self._file is None and time_s - self._looked_s >= LOOK_AGAIN_S:
-            self._looked_s = time_s
-            self._look_again()
+        if self._file is None and time_s - self._tried_s >= RETRY_S:
+            self._tried_s = time_s
+            self._reopen()
         self._read(time_s)
         return self._sticks.now
 
@@ -51,8 +48,8 @@ class GameController:
             self._file = None
 
     def _read(self, time_s: float) -> None:
-        # A device that never ends its heap must not hold up the flight.
-        for _ in range(_HEAPS_MOST):
+        # A device with endless data must not block the flight.
+        for _ in range(_MAX_READS):
             if self._file is None:
                 return
             try:
@@ -64,25 +61,26 @@ class GameController:
                     raise
                 data = b""
             if not data:
-                self._lose(time_s)
+                self._on_unplugged(time_s)
                 return
             for event in self._reader.feed(data):
                 self._sticks.take(event)
 
-    def _lose(self, time_s: float) -> None:
+    def _on_unplugged(self, time_s: float) -> None:
         self.close()
-        self._looked_s = time_s
+        self._tried_s = time_s
         self._sticks.now = replace(self._sticks.now, is_on=False)
-        self._say(f"{self._device} was unplugged: the receiver gets no pulses until it is back")
+        text = f"{self._device} was unplugged: no pulses for the receiver until it is back"
+        self._log(text, code="controller_lost")
 
-    def _look_again(self) -> None:
+    def _reopen(self) -> None:
         try:
             self._file = _open(self._device)
         except RadioError:
             return
         self._reader = JsEventReader()
         self._sticks.now = replace(self._sticks.now, is_on=True)
-        self._say(f"{self._device} is back")
+        self._log(f"{self._device} is back", code="controller_back")
 
 
 def controller_device(name: str) -> Path:
@@ -96,10 +94,9 @@ def _open(device: Path) -> int:
     except FileNotFoundError:
         found = ", ".join(sorted(each.name for each in DEVICES.glob("js*")))
         there = f"there is {found}" if found else "no game controller is plugged in"
-        raise RadioError(f"{device} is missing: {there}") from None
+        raise RadioError(f"{device} is missing: {there}", "controller_missing") from None
     except PermissionError:
-        raise RadioError(
-            f"{device} may not be read: add yourself to the group 'input' and log in again"
-        ) from None
+        text = f"cannot read {device}: add yourself to the group 'input' and log in again"
+        raise RadioError(text, "controller_forbidden") from None
     except OSError as error:
         raise RadioError(f"{device} cannot be opened: {error.strerror}") from None

@@ -8,8 +8,8 @@ from up_simulator.radio.sticks import CENTRE_US, HIGHEST_US, LOWEST_US, SWITCH_U
 
 STEP_US = 60
 THROTTLE_STEP_US = 50
-HELD_S = 0.6
-"""A held key repeats after up to half a second: its stick is kept for that time."""
+HOLD_S = 0.6
+"""A held key repeats after up to half a second; its stick stays for that time."""
 RETURN_US_S = 1500
 _STICK_KEYS = {
     "left": ("ailerons", -1),
@@ -28,6 +28,49 @@ w s      throttle up, down                 a d  rudder left, right
 1 2 3    mode switch: ACRO, FBW, AUTO      x    sticks to the middle
 space    arming switch (the motor arms with the throttle low)
 ?        this help                         q    leave"""
+
+
+_ARROWS = {ord("A"): "up", ord("B"): "down", ord("C"): "right", ord("D"): "left"}
+_ESCAPE = 0x1B
+_MAX_SEQUENCE = 16
+
+
+class KeyReader:
+    """Names arrows ``up``, ``down``, ``left``, ``right``; other keys are their letter.
+
+    Other escape sequences, control characters and letters beyond ASCII are dropped. A sequence
+    may arrive in pieces; at most 16 bytes of one are kept.
+    """
+
+    def __init__(self) -> None:
+        self._sequence = bytearray()
+
+    def feed(self, data: bytes) -> list[str]:
+        """Return the keys that these bytes complete."""
+        keys: list[str] = []
+        for byte in data:
+            key = self._take(byte)
+            if key:
+                keys.append(key)
+        return keys
+
+    def _take(self, byte: int) -> str:
+        if byte == _ESCAPE:
+            self._sequence = bytearray([byte])
+            return ""
+        if not self._sequence:
+            return chr(byte) if 0x20 <= byte < 0x7F else ""
+        if len(self._sequence) == 1 and byte not in b"[O":
+            # The escape key itself, and then another key.
+            self._sequence.clear()
+            return self._take(byte)
+        self._sequence.append(byte)
+        is_final = len(self._sequence) > 2 and 0x40 <= byte <= 0x7E
+        if not is_final and len(self._sequence) < _MAX_SEQUENCE:
+            return ""
+        # With a modifier it is ESC [ 1 ; 2 A: the arrow nevertheless.
+        self._sequence.clear()
+        return _ARROWS.get(byte, "") if is_final else ""
 
 
 class KeyboardSticks:
@@ -69,7 +112,7 @@ class KeyboardSticks:
     def _centre(self, time_s: float) -> None:
         """Recentre the sticks whose keys have been released for a while."""
         for channel, pressed_s in self._pressed_s.items():
-            released_s = max(pressed_s + HELD_S, self._now_s)
+            released_s = max(pressed_s + HOLD_S, self._now_s)
             if time_s <= released_s:
                 continue
             away_us = getattr(self._sticks, channel) - CENTRE_US

@@ -6,13 +6,12 @@ import select
 from collections.abc import Callable
 from contextlib import suppress
 
-from up_simulator.flight import FlightState
-from up_simulator.radio.keyboard import HELP, KeyboardSticks
-from up_simulator.radio.keys import KeyReader
+from up_simulator.aircraft.flight import FlightState
+from up_simulator.radio.keyboard import HELP, KeyboardSticks, KeyReader
 from up_simulator.radio.sticks import Sticks
 from up_simulator.radio.terminal import KeyTerminal
 
-SHOWN_S = 0.1
+SHOW_PERIOD_S = 0.1
 
 
 class KeyboardRadio:
@@ -36,29 +35,29 @@ class KeyboardRadio:
         self._mode = mode
         self._is_left = False
         self._shown_s = float("-inf")
-        self.say(HELP)
+        self.echo(HELP)
 
     def sticks(self, time_s: float, state: FlightState) -> Sticks:
-        """Take the keys that wait, and show the line."""
+        """Handle the typed keys, and show the line."""
         for key in self._waiting():
             if key == "q":
                 self._leave()
             elif key == "?":
-                self.say(HELP)
+                self.echo(HELP)
             else:
                 self._keyboard.press(key, time_s)
         sticks = self._keyboard.sticks(time_s)
-        if time_s - self._shown_s >= SHOWN_S:
+        if time_s - self._shown_s >= SHOW_PERIOD_S:
             self._shown_s = time_s
             self._terminal.show(status_line(sticks, state, self._mode()))
         return sticks
 
-    def say(self, text: str) -> None:
+    def echo(self, text: str) -> None:
         """Write lines above the one that changes."""
-        self._terminal.say(text)
+        self._terminal.echo(text)
 
     def close(self) -> None:
-        """Give the terminal back."""
+        """Restore the terminal."""
         self._terminal.leave()
 
     def _waiting(self) -> list[str]:

@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from typing import Any, Protocol
 
+from up_simulator.aircraft.flight import FlightState
 from up_simulator.firmware.board import Channel
-from up_simulator.flight import FlightState
 
 LOWEST_US, CENTRE_US, HIGHEST_US = 1000, 1500, 2000
 SWITCH_US = {"ACRO": 1000, "FBW": 1500, "AUTO": 2000}
@@ -18,6 +18,10 @@ CHANNELS: tuple[Channel, ...] = ("ailerons", "elevator", "throttle", "rudder", "
 
 class RadioError(Exception):
     """A radio cannot be used: the message is one sentence for the user."""
+
+    def __init__(self, text: str, code: str = "") -> None:
+        super().__init__(text)
+        self.code = code
 
 
 @dataclass(frozen=True, slots=True)

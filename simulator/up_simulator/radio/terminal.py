@@ -31,7 +31,7 @@ class KeyTerminal:
         try:
             self._saved: Any = termios.tcgetattr(keys)
         except termios.error:
-            raise RadioError("the keyboard needs a terminal; here is none") from None
+            raise RadioError("the keyboard needs a terminal", "no_terminal") from None
         atexit.register(self.leave)
         tty.setcbreak(keys, termios.TCSANOW)
         settings = termios.tcgetattr(keys)
@@ -55,7 +55,7 @@ class KeyTerminal:
         self._write(f"\r{line[: self._columns() - 1]}\x1b[K")
         self._is_shown = True
 
-    def say(self, text: str) -> None:
+    def echo(self, text: str) -> None:
         """Write lines that stay, wrapped by words, above the line that does not."""
         lines = "\n".join(wrapped(line, self._columns()) for line in text.splitlines())
         self._write(f"\r\x1b[K{lines}\n")

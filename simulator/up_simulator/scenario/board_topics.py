@@ -1,9 +1,10 @@
-"""The board's messages, row by row, as the Commands that they are aboard."""
+"""The board's messages, row by row, as Commands."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
+from typing import Any
 
 from up.commands.board_schema import DATA, FLIGHT_MODES, RESET_CAUSES, SWITCH_POSITIONS, Flag
 from up.commands.board_status import TOPIC as STATUS_TOPIC
@@ -12,8 +13,44 @@ from up.commands.orientation_command import OrientationCommand
 from up.commands.rx_command import ALL_VALID, RXCommand
 from up.commands.servo_command import ServoCommand
 from up.flight_log.origin_text import KEY as ORIGIN
-from up_simulator.scenario.log_row import Data, LogRow, Message
+from up_simulator.scenario.log import Value
 from up_simulator.scenario.sticks import CHANNELS
+
+Data = dict[str, Any]
+Message = tuple[str, Data]
+"""A topic, and the data of one message."""
+
+
+class LogRow:
+    """The value of every signal at one time; None if unknown."""
+
+    def __init__(self, values: Mapping[str, Value]) -> None:
+        self._values = values
+        self.time_s = self.number("time_s") or 0.0
+
+    def number(self, name: str) -> float | None:
+        value = self._values.get(name)
+        return value if isinstance(value, float) and math.isfinite(value) else None
+
+    def whole(self, name: str) -> int | None:
+        """Return a number, rounded."""
+        value = self.number(name)
+        return None if value is None else round(value)
+
+    def flag(self, name: str) -> bool | None:
+        value = self.number(name)
+        return None if value is None else bool(value)
+
+    def text(self, name: str) -> str | None:
+        """Return a text that is not empty."""
+        value = self._values.get(name)
+        return value if isinstance(value, str) and value else None
+
+    def known(self) -> Iterator[tuple[str, float | str]]:
+        for name, value in self._values.items():
+            if math.isfinite(value) if isinstance(value, float) else value:
+                yield name, value
+
 
 BOARD = "arduino (board)"
 STATE_S = 1.0
@@ -23,7 +60,7 @@ _POSITIONS = {word: number for number, word in SWITCH_POSITIONS.items()}
 _SIGNALS = [each for each in DATA if each.signal]
 
 
-class News:
+class FreshnessDetector:
     """Detects a new datum by its age: that of an old one grows with the time.
 
     An age that grows by less than this ``share`` of the time is new: transit times vary.
@@ -49,8 +86,8 @@ class BoardTopics:
 
     def __init__(self, has_raspilot: bool) -> None:
         self._has_raspilot = has_raspilot
-        self._orientation = News()
-        self._status = News()
+        self._orientation = FreshnessDetector()
+        self._status = FreshnessDetector()
         self._state: Data = {}
         self._state_due_s = -math.inf
 
@@ -67,10 +104,10 @@ class BoardTopics:
             yield ServoCommand.NAME, {**outputs, ORIGIN: BOARD}
         yield from self._flight_state(row)
         if self._status.is_new(row.number("board.status_age_s"), row.time_s):
-            yield STATUS_TOPIC, {**self._told(row), ORIGIN: BOARD}
+            yield STATUS_TOPIC, {**self._status_data(row), ORIGIN: BOARD}
 
     def _flight_state(self, row: LogRow) -> Iterator[Message]:
-        mode = row.word("board.mode")
+        mode = row.text("board.mode")
         if mode is None:
             return
         state: Data = {"flight_mode": mode}
@@ -79,9 +116,9 @@ class BoardTopics:
             self._state, self._state_due_s = state, row.time_s + STATE_S
             yield FlightStateCommand.NAME, {**state, ORIGIN: BOARD}
 
-    def _told(self, row: LogRow) -> Data:
+    def _status_data(self, row: LogRow) -> Data:
         """Return its status, without the vetoes, which the log has no signal for."""
-        causes = (row.word("board.reset_cause") or "").split()
+        causes = (row.text("board.reset_cause") or "").split()
         bits = {
             "flags": 0,
             "reset_cause": sum(1 << bit for bit, word in RESET_CAUSES.items() if word in causes),
@@ -92,8 +129,8 @@ class BoardTopics:
         if not self._has_raspilot:
             bits["flags"] &= ~Flag.PI_RECEIVED
         data: Data = {
-            "mode": ord(_LETTERS.get(row.word("board.mode") or "", "\0")),
-            "switch": _POSITIONS.get(row.word("board.switch") or ""),
+            "mode": ord(_LETTERS.get(row.text("board.mode") or "", "\0")),
+            "switch": _POSITIONS.get(row.text("board.switch") or ""),
             **bits,
         }
         numbers = (each for each in _SIGNALS if each.bit is None)

@@ -1,42 +1,43 @@
-"""Builds the participants of a scenario: aircraft, board, crew."""
+"""Builds the participants of a scenario: aircraft, board, participants."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import random
+from collections.abc import Callable, Mapping
 from typing import Any
 
 from up_simulator.aircraft import Airframe, FlightDynamics, Start, Weather, load_airframe
 from up_simulator.aircraft import Gust as AirGust
 from up_simulator.firmware.build import choose_board
-from up_simulator.firmware.preparation import prepared_eeprom
-from up_simulator.scenario.companions import Companions, Nobody
+from up_simulator.firmware.preparation import cached_eeprom
+from up_simulator.harness.user_log import text_log
+from up_simulator.harness.world import World
+from up_simulator.in_process.config_folder import merge
 from up_simulator.scenario.demand import DemandModel
 from up_simulator.scenario.flight import ScenarioFlight
-from up_simulator.scenario.line_board import LineBoard
+from up_simulator.scenario.line_board import LineBoard, SerialWires
+from up_simulator.scenario.participants import Participants
 from up_simulator.scenario.scenario import Scenario
-from up_simulator.scenario.serial_line import SerialWires
-from up_simulator.scenario.settings import gains_of, profile_of, spoilt
 from up_simulator.scenario.sticks import SWITCH_US, StickTimeline
-from up_simulator.world import World
 
-Say = Callable[[str], None]
+Notify = Callable[[str], None]
 
 
-def build_flight(scenario: Scenario, say: Say = lambda _text: None) -> ScenarioFlight:
+def build_flight(scenario: Scenario, notify: Notify = lambda _text: None) -> ScenarioFlight:
     """Return a flight that is ready to boot.
 
     Raises AirframeError, FlightUnavailableError, BoardUnavailableError, SettingsError,
-    PreparationError, BoardCrashedError and CrewError, each with one sentence for the user.
+    PreparationError, BoardCrashedError and ParticipantError, each with one sentence for the user.
     """
     airframe = load_airframe(scenario.airframe)
     dynamics = FlightDynamics(
         airframe, start=_start(scenario), weather=_weather(scenario), seed=scenario.seed
     )
-    board = _board(scenario, airframe, say)
+    board = _board(scenario, airframe, notify)
     world = World(dynamics, board)
-    companions = _companions(scenario, airframe, dynamics, board, say)
+    participants = _participants(scenario, airframe, dynamics, board)
     demand = DemandModel(profile_of(scenario, airframe.profile))
-    flight = ScenarioFlight(scenario, world, board, companions, demand, airframe.imu)
+    flight = ScenarioFlight(scenario, world, board, participants, demand, airframe.imu)
     flight.record.settings = _settings(scenario, airframe)
     return flight
 
@@ -48,40 +49,40 @@ def _settings(scenario: Scenario, airframe: Airframe) -> dict[str, dict[str, Any
     }
 
 
-def _board(scenario: Scenario, airframe: Airframe, say: Say) -> LineBoard:
+def _board(scenario: Scenario, airframe: Airframe, notify: Notify) -> LineBoard:
     eeprom = b""
     if scenario.eeprom != "blank":
         profile, gains = profile_of(scenario, airframe.profile), gains_of(scenario, airframe.gains)
-        eeprom = prepared_eeprom(scenario.board, profile, gains, say)
+        eeprom = cached_eeprom(scenario.board, profile, gains, text_log(notify))
     if scenario.eeprom == "spoiled":
-        eeprom = spoilt(eeprom, scenario.seed)
+        eeprom = corrupted(eeprom, scenario.seed)
     board = choose_board(
         scenario.board,
         seed=scenario.seed,
         imu_errors=scenario.imu.errors(airframe.imu, scenario.seed),
         eeprom=eeprom,
-        say=say,
+        log=text_log(notify),
     )
     delay_us = scenario.receiver.delay_ms * 1000
     return LineBoard(board, SerialWires(scenario.seed), delay_us)
 
 
-def _companions(
-    scenario: Scenario, airframe: Airframe, dynamics: FlightDynamics, board: LineBoard, say: Say
-) -> Companions:
+def _participants(
+    scenario: Scenario, airframe: Airframe, dynamics: FlightDynamics, board: LineBoard
+) -> Participants:
     if not scenario.has_raspilot:
-        return Nobody(board)
+        return Participants(board)
     settings = _settings(scenario, airframe)
     if scenario.ground is not None:
         settings["mission_control.yml"] = {"role": scenario.ground.role}
-    # Twisted and the whole daemon: only for those who fly with it.
+    # Imported here: only flights with the daemon need Twisted and the daemon.
     if scenario.is_real:
-        from up_simulator.scenario.real_companions import RealCompanions
+        from up_simulator.scenario.real_participants import RealParticipants
 
-        return RealCompanions(scenario, dynamics, board, settings, say)
-    from up_simulator.scenario.in_process_companions import InProcessCompanions
+        return RealParticipants(scenario, dynamics, board, settings)
+    from up_simulator.scenario.in_process_participants import InProcessParticipants
 
-    return InProcessCompanions(scenario, dynamics, board, settings, say)
+    return InProcessParticipants(scenario, dynamics, board, settings)
 
 
 def _start(scenario: Scenario) -> Start:
@@ -105,4 +106,27 @@ def _weather(scenario: Scenario) -> Weather:
         wind_from_deg=weather.wind_from_deg,
         turbulence=weather.turbulence,
         gusts=gusts,
+    )
+
+
+CORRUPTION_INTERVAL = 7
+
+
+def profile_of(scenario: Scenario, profile: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the profile (as airframe.yml) that the board flies by."""
+    merged = merge(profile, scenario.profile)
+    return merge(merged, {"switch": scenario.switch.positions()})
+
+
+def gains_of(scenario: Scenario, gains: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the gains (as pids.yml) that the board flies by."""
+    return merge(gains, scenario.gains)
+
+
+def corrupted(eeprom: bytes, seed: int) -> bytes:
+    """Return an EEPROM's contents with a wrong bit in every seventh byte."""
+    noise = random.Random(f"eeprom {seed}")
+    return bytes(
+        byte ^ (1 << noise.randrange(8)) if at % CORRUPTION_INTERVAL == 0 else byte
+        for at, byte in enumerate(eeprom)
     )

@@ -1,17 +1,17 @@
-"""Contradictions between the parts of a scenario, each of which is valid alone."""
+"""Contradictions between parts of a scenario that are valid on their own."""
 
 from __future__ import annotations
 
-import difflib
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from pathlib import Path
 
 from up.config.nodes import MapNode, Node
+from up.fields import suggestion
 from up_simulator.aircraft import airframe_names
+from up_simulator.scenario.locator import locate
 from up_simulator.scenario.sampler import sources_of
 from up_simulator.scenario.scenario import Scenario
 from up_simulator.scenario.signals import signal_of
-from up_simulator.scenario.tree import place
 
 Problem = tuple[Node, str]
 _PATH_LIKE = ("/", ".")
@@ -35,7 +35,7 @@ def cross_problems(scenario: Scenario, root: MapNode) -> Iterator[Problem]:
     """Yield each mistake with its node."""
     yield from _airframe(scenario, root)
     yield from _sticks(scenario, root)
-    yield from _crew(scenario, root)
+    yield from _participants(scenario, root)
     yield from _events(scenario, root)
     yield from _expectations(scenario, root)
     yield from _control(scenario, root)
@@ -44,64 +44,64 @@ def cross_problems(scenario: Scenario, root: MapNode) -> Iterator[Problem]:
 def _airframe(scenario: Scenario, root: MapNode) -> Iterator[Problem]:
     name = scenario.airframe
     names = airframe_names()
-    is_path = any(each in name for each in _PATH_LIKE) or is_there(Path(name))
+    is_path = any(each in name for each in _PATH_LIKE) or exists(Path(name))
     if name not in names and not is_path:
         known = ", ".join(names)
         yield (
-            place(root, "airframe"),
-            f"there is no airframe {name!r}{guess(name, names)} ({known})",
+            locate(root, "airframe"),
+            f"unknown airframe {name!r}{suggestion(name, names)} ({known})",
         )
 
 
 def _sticks(scenario: Scenario, root: MapNode) -> Iterator[Problem]:
     for at, point in enumerate(scenario.sticks):
         if point.at_s > scenario.duration_s:
-            yield place(root, "sticks", at, "at_s"), _too_late(scenario)
+            yield locate(root, "sticks", at, "at_s"), _after_end(scenario)
     for at, gust in enumerate(scenario.weather.gusts):
         if gust.at_s > scenario.duration_s:
-            yield place(root, "weather", "gusts", at, "at_s"), _too_late(scenario)
+            yield locate(root, "weather", "gusts", at, "at_s"), _after_end(scenario)
     modes = set(scenario.switch.positions().values())
     for at, point in enumerate(scenario.sticks):
         if point.mode is not None and point.mode not in modes:
-            yield place(root, "sticks", at, "mode"), _no_position(point.mode, scenario)
+            yield locate(root, "sticks", at, "mode"), _no_position(point.mode, scenario)
     if scenario.control is not None and scenario.control.mode not in {None, *modes}:
         what = _no_position(str(scenario.control.mode), scenario)
-        yield place(root, "control", "mode"), what
+        yield locate(root, "control", "mode"), what
 
 
 def _no_position(mode: str, scenario: Scenario) -> str:
     used = {point.mode for point in scenario.sticks}
     positions = scenario.switch.positions()
     free = [position for position, selected in positions.items() if selected not in used]
-    what = f"no position of the switch selects {mode}"
+    what = f"no switch position selects {mode}"
     if not free:
         return f"{what}: the flight uses all three for other modes"
     return f"{what}: add 'switch: {{{free[0]}: {mode}}}'"
 
 
-def _crew(scenario: Scenario, root: MapNode) -> Iterator[Problem]:
+def _participants(scenario: Scenario, root: MapNode) -> Iterator[Problem]:
     if not scenario.has_raspilot:
         for name in ("phone", "ground"):
             if getattr(scenario, name) is not None:
-                what = "needs 'raspilot: {runs: in process}', or real: nobody else speaks with it"
-                yield place(root, name), what
+                what = "needs a Raspberry Pi: add 'raspilot: {runs: in process}'"
+                yield locate(root, name), what
     ground = scenario.ground
     if ground is not None and ground.through != "listener" and not scenario.is_real:
         what = f"{ground.through} is a real program: it needs 'raspilot: {{runs: real}}'"
-        yield place(root, "ground", "through"), what
+        yield locate(root, "ground", "through"), what
     phone = scenario.phone
     by_runner = ground is not None and ground.through == "runner"
     if by_runner and phone is not None and phone.orientation == "udp":
-        what = "a Black Box on a server takes no datagrams: with 'through: runner' it is tcp"
-        yield place(root, "phone", "orientation"), what
+        what = "a Black Box on a server receives no datagrams: use tcp with 'through: runner'"
+        yield locate(root, "phone", "orientation"), what
 
 
 def _events(scenario: Scenario, root: MapNode) -> Iterator[Problem]:
     for at, event in enumerate(scenario.events):
         kind = event.kinds[0]
-        node = place(root, "events", at, kind)
+        node = locate(root, "events", at, kind)
         if kind in _NEEDS_BOARD and scenario.board == "direct":
-            yield node, "there is no flight computer: 'board: direct'"
+            yield node, "needs a flight computer, and 'board: direct' has none"
         if kind in _NEEDS_RASPILOT and not scenario.has_raspilot:
             yield node, "needs a Raspberry Pi: add 'raspilot: {runs: in process}'"
         if kind in _NEEDS_PHONE and scenario.phone is None:
@@ -111,11 +111,11 @@ def _events(scenario: Scenario, root: MapNode) -> Iterator[Problem]:
         if kind in _NEEDS_REAL and not scenario.is_real:
             yield node, "needs real programs: 'raspilot: {runs: real}'"
         if event.at_s > scenario.duration_s:
-            yield place(root, "events", at, "at_s"), _too_late(scenario)
+            yield locate(root, "events", at, "at_s"), _after_end(scenario)
 
 
-def _too_late(scenario: Scenario) -> str:
-    return f"is after the flight's end at {scenario.duration_s:g} s"
+def _after_end(scenario: Scenario) -> str:
+    return f"is after the end of the flight at {scenario.duration_s:g} s"
 
 
 def _expectations(scenario: Scenario, root: MapNode) -> Iterator[Problem]:
@@ -124,21 +124,21 @@ def _expectations(scenario: Scenario, root: MapNode) -> Iterator[Problem]:
     seen: set[str] = set()
     for at, expectation in enumerate(scenario.expect):
         if expectation.after and expectation.after not in titles:
-            what = f"no event is called {expectation.after!r}{guess(expectation.after, titles)}"
-            yield place(root, "expect", at, "after"), what
+            what = f"unknown event {expectation.after!r}{suggestion(expectation.after, titles)}"
+            yield locate(root, "expect", at, "after"), what
         if expectation.name in seen:
-            yield place(root, "expect", at, "name"), "two expectations have this name"
+            yield locate(root, "expect", at, "name"), "duplicate name of an expectation"
         seen.add(expectation.name)
         source = signal_of(expectation.signal).source
         if source not in sources:
-            yield place(root, "expect", at, "signal"), f"needs {_PARTS[source]}"
+            yield locate(root, "expect", at, "signal"), f"needs {_PARTS[source]}"
         begins_s = expectation.from_s + max(
             (event.at_s for event in scenario.events if event.title == expectation.after),
             default=0.0,
         )
         if begins_s >= scenario.duration_s:
             what = f"the flight ends at {scenario.duration_s:g} s, before this window begins"
-            yield place(root, "expect", at, "from_s"), what
+            yield locate(root, "expect", at, "from_s"), what
 
 
 def _control(scenario: Scenario, root: MapNode) -> Iterator[Problem]:
@@ -147,18 +147,12 @@ def _control(scenario: Scenario, root: MapNode) -> Iterator[Problem]:
     names = [expectation.name for expectation in scenario.expect]
     for at, name in enumerate(scenario.control.fails):
         if name not in names:
-            what = f"no expectation is called {name!r}{guess(name, names)}"
-            yield place(root, "control", "fails", at), what
+            what = f"unknown expectation {name!r}{suggestion(name, names)}"
+            yield locate(root, "control", "fails", at), what
 
 
-def guess(name: str, known: Iterable[str]) -> str:
-    """Return ', did you mean ...?' where something known is near."""
-    near = difflib.get_close_matches(name[:100], sorted(set(known)), n=1, cutoff=0.5)
-    return f", did you mean {near[0]!r}?" if near else ""
-
-
-def is_there(path: Path) -> bool:
-    """Return whether a path leads to something, which one that is too long does not."""
+def exists(path: Path) -> bool:
+    """Return whether a path exists; False for one that is too long."""
     try:
         return path.exists()
     except OSError:

@@ -41,7 +41,7 @@ class DemandModel:
         )
         self.setpoint: Demand | None = None
 
-    def hear_setpoint(self, payload: bytes) -> None:
+    def receive_setpoint(self, payload: bytes) -> None:
         """Take the Setpoint that the Raspberry Pi sent (``S`` of protocols 2.3)."""
         if len(payload) == _SETPOINT.size:
             roll_cdeg, pitch_cdeg, *_ = _SETPOINT.unpack(payload)

@@ -8,7 +8,7 @@ from typing import Any, Literal
 
 from up.config import key, mapping, section
 from up.fields import Constraint
-from up_simulator.scenario.circumstances import ImuPart, LinkPart
+from up_simulator.scenario.initial_conditions import ImuPart, LinkPart
 
 _NAME = Constraint(str, max_length=128)
 _TEXT = Constraint(str, max_length=4096)
@@ -18,18 +18,18 @@ _WHEN = ("at_s", "name")
 
 @dataclass(frozen=True, slots=True)
 class SerialNoise:
-    """Noise on the serial line for a while: how many bytes of a hundred it spoils."""
+    """Noise on the serial line for a time."""
 
-    for_s: float = key(1.0, "How long.", unit="s", minimum=0.02, maximum=3600)
+    for_s: float = key(1.0, "Duration.", unit="s", minimum=0.02, maximum=3600)
     flipped_percent: float = key(
-        0.0, "Bytes of which one bit is flipped.", unit="%", minimum=0, maximum=100
+        0.0, "Share of bytes with one bit flipped.", unit="%", minimum=0, maximum=100
     )
     inserted_percent: float = key(
-        0.0, "Bytes that are followed by one that nobody sent.", unit="%", minimum=0, maximum=100
+        0.0, "Share of bytes followed by an inserted byte.", unit="%", minimum=0, maximum=100
     )
-    lost_percent: float = key(0.0, "Bytes that are lost.", unit="%", minimum=0, maximum=100)
+    lost_percent: float = key(0.0, "Share of lost bytes.", unit="%", minimum=0, maximum=100)
     direction: Literal["both", "to the board", "from the board"] = key(
-        "both", "Which of the two wires picks it up."
+        "both", "The wire that picks up the noise."
     )
 
 
@@ -37,51 +37,50 @@ class SerialNoise:
 class CommandPart:
     """A Command that the ground station sends."""
 
-    name: str = key("", "Its name, as up.flight_mode.set.", max_length=128)
-    data: dict[str, Any] = mapping(_NAME, _TEXT, "Its fields (docs/protocols.md 5).")
+    name: str = key("", "Name of the Command, such as up.flight_mode.set.", max_length=128)
+    data: dict[str, Any] = mapping(_NAME, _TEXT, "Fields of the Command (docs/protocols.md 5).")
     answer: Literal["ack", "nack", "none", "any"] = key(
-        "any", "Which answer is expected; any: it does not matter."
+        "any", "Expected answer; any: the answer is not checked."
     )
     within_s: float = key(
-        2.0, "How soon the answer must come.", unit="s", minimum=0.02, maximum=600
+        2.0, "Maximum time until the answer.", unit="s", minimum=0.02, maximum=600
     )
 
     def problems(self) -> Iterator[tuple[str, str]]:
-        """Yield the missing keys."""
         if not self.name:
-            yield "name", "must be a Command's name, as up.flight_mode.set"
+            yield "name", "must be the name of a Command, such as up.flight_mode.set"
 
 
 @dataclass(frozen=True, slots=True)
 class Event:
-    """Something that happens at a time: exactly one thing, so that its time tells what it did."""
+    """A timed event: exactly one change, to which its effects can be attributed."""
 
-    at_s: float = key(0.0, "When; 0 is when the flight begins.", unit="s", minimum=0, maximum=3600)
+    at_s: float = key(0.0, "Time; 0 is the start of the flight.", unit="s", minimum=0, maximum=3600)
     name: str = key(
-        "", "What reports and pictures call it, and 'after' of an expectation.", max_length=80
+        "", "Name in reports and pictures, and in 'after' of an expectation.", max_length=80
     )
     mark: str | None = key(
         None,
-        "Nothing happens: only a name for this moment, as of a move of the sticks.",
+        "No change: only a name for this time, for example for a move of the sticks.",
         max_length=80,
     )
     imu: Literal["well", "frozen", "unplugged", "stuck", "garbage"] | None = key(
         None,
-        "frozen repeats its last sample, stuck holds the bus, garbage sends noise, unplugged does"
+        "frozen repeats the last sample, stuck holds the bus, garbage sends noise, unplugged does"
         " not answer; well: it works again.",
     )
     imu_errors: ImuPart | None = section(
-        ImuPart, "The IMU's noise, bias and vibration from now on.", optional=True
+        ImuPart, "Noise, bias and vibration of the IMU from this time.", optional=True
     )
     receiver: Literal["lost", "failsafe", "back"] | None = key(
         None,
-        "lost: no pulses on any channel. failsafe: it hears no radio, holds its pulses and sends"
-        " its own failsafe on the throttle.",
+        "lost: no pulses on any channel. failsafe: without radio it holds its pulses and sends its"
+        " own failsafe on the throttle. back: it works again.",
     )
-    channel_lost: _CHANNEL | None = key(None, "One wire of the receiver breaks.")
-    channel_back: _CHANNEL | None = key(None, "That wire is mended.")
+    channel_lost: _CHANNEL | None = key(None, "The wire of this receiver channel breaks.")
+    channel_back: _CHANNEL | None = key(None, "The wire of this receiver channel is repaired.")
     reset: Literal["watchdog", "power", "button", "brown-out"] | None = key(
-        None, "The Arduino resets."
+        None, "The Arduino resets, with this cause."
     )
     serial: Literal["unplugged", "back"] | None = key(
         None, "The serial line between Arduino and Raspberry Pi."
@@ -90,26 +89,25 @@ class Event:
         SerialNoise, "Noise on the serial line.", optional=True
     )
     phone: Literal["unplugged", "back"] | None = key(None, "The cable of the phone aboard.")
-    gps: Literal["lost", "back"] | None = key(None, "The fixes of the phone's GPS.")
+    gps: Literal["lost", "back"] | None = key(None, "The GPS reception of the phone.")
     phone_battery: float | None = key(
-        None, "The phone's battery from now on.", unit="%", minimum=0, maximum=100
+        None, "Battery level of the phone from this time.", unit="%", minimum=0, maximum=100
     )
     link: Literal["blackout", "stall", "restore"] | None = key(
         None,
-        "The link to the ground: in a blackout all vanishes and nobody is told, in a stall all"
-        " waits, to come in a burst.",
+        "The link to the ground. blackout: all data is lost without notification. stall: all data"
+        " is held and arrives later in a burst.",
     )
     link_settings: LinkPart | None = section(
-        LinkPart, "The link to the ground from now on.", optional=True
+        LinkPart, "Settings of the link to the ground from this time.", optional=True
     )
     raspilot: Literal["killed", "stopped", "started", "hung", "awake"] | None = key(
         None,
-        "The daemon: killed as kill -9 does, stopped as systemd does; hung: it stands still until"
-        " it is awake.",
+        "The daemon. killed: as by kill -9. stopped: as by systemd. hung: suspended until awake.",
     )
     proxy: Literal["killed", "started"] | None = key(None, "The proxy; real programs only.")
     cpu_load_percent: float | None = key(
-        None, "How busy the Raspberry Pi is from now on.", unit="%", minimum=0, maximum=100
+        None, "Load of the Raspberry Pi from this time.", unit="%", minimum=0, maximum=100
     )
     command: CommandPart | None = section(
         CommandPart, "The ground station sends a Command.", optional=True
@@ -119,13 +117,13 @@ class Event:
         """Yield the missing and the surplus keys."""
         kinds = self.kinds
         if not kinds:
-            yield "at_s", "nothing happens: name one of " + ", ".join(EVENT_KINDS)
+            yield "at_s", "contains no event: set one of " + ", ".join(EVENT_KINDS)
         if self.mark == "":
             yield "mark", "must be a name"
         if self.mark and self.name:
-            yield "name", f"the mark {self.mark!r} is its name already"
+            yield "name", f"the mark {self.mark!r} is already its name"
         for kind in kinds[1:]:
-            yield kind, f"'{kinds[0]}' happens already: give '{kind}' an event of its own"
+            yield kind, f"a second event beside '{kinds[0]}': move '{kind}' to a separate event"
 
     @property
     def kinds(self) -> list[str]:
@@ -134,15 +132,14 @@ class Event:
 
     @property
     def title(self) -> str:
-        """Return its name, or a description."""
         if self.name or self.mark:
             return self.name or str(self.mark)
         kind = self.kinds[0]
         value = getattr(self, kind)
-        words = kind.replace("_", " ")
+        label = kind.replace("_", " ")
         if kind == "command":
             return f"command {value.name}"
-        return words if not isinstance(value, str | float) else f"{words} {value}"
+        return label if not isinstance(value, str | float) else f"{label} {value}"
 
 
 EVENT_KINDS = tuple(name for name in Event.__slots__ if name not in _WHEN)

@@ -7,42 +7,39 @@ from dataclasses import dataclass
 
 from up.config import items, key, section
 from up.fields import Constraint
-from up_simulator.scenario.signals import Kind, signal_of
-from up_simulator.scenario.words import word_problem
+from up_simulator.scenario.signals import Kind, signal_of, value_problem
 
 _NUMBER = Constraint(float)
 
 
 @dataclass(frozen=True, slots=True)
 class StepLimits:
-    """How a step of the signal may look; the figures are those of control engineering."""
+    """Limits of a step response, in the terms of control engineering."""
 
-    start: float | None = key(
-        None, "The value before; null: what the demand asked for just before the step."
-    )
-    end: float | None = key(
-        None, "The value wanted; null: what the demand asks for just after the step."
-    )
+    start: float | None = key(None, "Value before the step; null: the demand just before it.")
+    end: float | None = key(None, "Demanded value; null: the demand just after the step.")
     demand: str = key(
-        "", "The signal that steps; empty: the signal's own demand.*.", max_length=100
+        "", "Signal of the demand; empty: the demand.* of the signal.", max_length=100
     )
     rise_time_s: float | None = key(
-        None, "From 10 to 90 % of the step, at most.", unit="s", minimum=0
+        None, "Maximum time from 10 to 90 % of the step.", unit="s", minimum=0
     )
     overshoot_percent: float | None = key(
-        None, "Beyond the wanted value, of the step's height, at most.", unit="%", minimum=0
+        None, "Maximum overshoot, of the height of the step.", unit="%", minimum=0
     )
     settling_time_s: float | None = key(
-        None, "Until it stays within 5 % of the step's height, at most.", unit="s", minimum=0
+        None,
+        "Maximum time until it stays within 5 % of the height of the step.",
+        unit="s",
+        minimum=0,
     )
     steady_error: float | None = key(
-        None, "What is left at the end of the window, at most; the signal's unit.", minimum=0
+        None, "Maximum error at the end of the window, in the unit of the signal.", minimum=0
     )
 
     def problems(self) -> Iterator[tuple[str, str]]:
-        """Yield the missing keys."""
         if not self.limits:
-            yield "rise_time_s", "sets no limit: name one of " + ", ".join(STEP_FIGURES)
+            yield "rise_time_s", "sets no limit: set one of " + ", ".join(STEP_FIGURES)
         if self.demand:
             yield from _signal_problems("demand", self.demand)
 
@@ -58,69 +55,70 @@ STEP_FIGURES = ("rise_time_s", "overshoot_percent", "settling_time_s", "steady_e
 
 @dataclass(frozen=True, slots=True)
 class Expectation:
-    """One sentence about the flight that holds or does not, with a figure either way.
+    """One condition of the flight, with its figure.
 
     The window is from ``from_s`` to ``to_s``; with ``after`` both count from that event.
     """
 
-    name: str = key("", "The sentence: 'The bank stays within 5 degrees'.", max_length=120)
-    signal: str = key("", "What is looked at (docs/scenarios.md lists them).", max_length=100)
-    after: str = key("", "An event's name: the window counts from it.", max_length=80)
-    from_s: float = key(0.0, "Where the window begins.", unit="s", minimum=0, maximum=3600)
+    name: str = key("", "A sentence: 'The bank stays within 5 degrees'.", max_length=120)
+    signal: str = key("", "The signal (docs/scenarios.md lists them).", max_length=100)
+    after: str = key("", "Name of an event: the window counts from it.", max_length=80)
+    from_s: float = key(0.0, "Start of the window.", unit="s", minimum=0, maximum=3600)
     to_s: float | None = key(
-        None, "Where it ends; null: with the flight.", unit="s", minimum=0, maximum=3600
+        None, "End of the window; null: the end of the flight.", unit="s", minimum=0, maximum=3600
     )
     between: tuple[float, ...] = items(
-        _NUMBER, "[lowest, highest]: it never leaves them.", max_length=2
+        _NUMBER, "[lowest, highest]: it stays between them.", max_length=2
     )
-    below: float | None = key(None, "It is never above this. The figure is its greatest value.")
-    above: float | None = key(None, "It is never below this. The figure is its least value.")
+    below: float | None = key(None, "Maximum. The figure is the greatest value.")
+    above: float | None = key(None, "Minimum. The figure is the least value.")
     is_: str | None = key(
-        None, "It is this all the time: a word, a number, true or false.", name="is", max_length=100
-    )
-    is_not: str | None = key(None, "It is never this.", max_length=100)
-    becomes: str | None = key(
         None,
-        "It gets to be this within 'within_s'. The figure is the time that it took.",
+        "It always has this value: a text, a number, true or false.",
+        name="is",
         max_length=100,
     )
-    becomes_below: float | None = key(None, "It comes down to this within 'within_s'.")
-    becomes_above: float | None = key(None, "It comes up to this within 'within_s'.")
+    is_not: str | None = key(None, "It never has this value.", max_length=100)
+    becomes: str | None = key(
+        None,
+        "It reaches this value within 'within_s'. The figure is the time that it took.",
+        max_length=100,
+    )
+    becomes_below: float | None = key(None, "It falls to this value within 'within_s'.")
+    becomes_above: float | None = key(None, "It rises to this value within 'within_s'.")
     settles_between: tuple[float, ...] = items(
         _NUMBER,
-        "[lowest, highest]: within 'within_s' it is between them, and stays there to the window's"
-        " end. The figure is the time that it took.",
+        "[lowest, highest]: within 'within_s' it is between them and stays there until the end of"
+        " the window. The figure is the time that it took.",
         max_length=2,
     )
     within_s: float | None = key(
-        None, "How long 'becomes...' and 'settles...' may take.", unit="s", minimum=0, maximum=3600
+        None, "Maximum time of 'becomes...' and 'settles...'.", unit="s", minimum=0, maximum=3600
     )
-    rms_below: float | None = key(None, "The root of its mean square is at most this.", minimum=0)
+    rms_below: float | None = key(None, "Maximum root mean square.", minimum=0)
     mean_between: tuple[float, ...] = items(
-        _NUMBER, "[lowest, highest]: its mean lies between them.", max_length=2
+        _NUMBER, "[lowest, highest]: the mean is between them.", max_length=2
     )
     max_step: float | None = key(
-        None, "It never changes more than this from one row (20 ms) to the next.", minimum=0
+        None, "Maximum change from one row (20 ms) to the next.", minimum=0
     )
     stays: float | None = key(
-        None, "It never gets further than this from its value when the window begins.", minimum=0
+        None, "Maximum deviation from the value at the start of the window.", minimum=0
     )
     grows_below: float | None = key(
-        None, "What it grows by over the window (a counter, a height) is at most this."
+        None, "Maximum growth over the window (of a counter, a height)."
     )
-    grows_above: float | None = key(None, "What it grows by over the window is at least this.")
-    changes_below: int | None = key(None, "How often its value changes is at most this.", minimum=0)
-    changes_above: int | None = key(
-        None, "How often its value changes is at least this.", minimum=0
-    )
+    grows_above: float | None = key(None, "Minimum growth over the window.")
+    changes_below: int | None = key(None, "Maximum number of changes.", minimum=0)
+    changes_above: int | None = key(None, "Minimum number of changes.", minimum=0)
     step: StepLimits | None = section(
-        StepLimits, "It follows a step at the window's begin.", optional=True
+        StepLimits, "Limits of the response to a step at the start of the window.", optional=True
     )
 
     def problems(self) -> Iterator[tuple[str, str]]:
         """Yield keys that are missing, surplus or of the wrong kind."""
         if not self.name:
-            yield "name", "must be a sentence that says what is expected"
+            yield "name", "must be a sentence that states the expectation"
         if self.signal:
             yield from _signal_problems("signal", self.signal)
         else:
@@ -129,10 +127,10 @@ class Expectation:
             yield "to_s", f"must be after from_s, which is {self.from_s:g}"
         kinds = self.kinds
         if not kinds:
-            yield "name", "expects nothing: name one of " + ", ".join(_FILE_KINDS)
+            yield "name", "expects nothing: set one of " + ", ".join(_FILE_KINDS)
         for kind in kinds[1:]:
             other, this = _FILE_NAMES.get(kinds[0], kinds[0]), _FILE_NAMES.get(kind, kind)
-            yield kind, f"'{other}' is expected already: give '{this}' an expectation of its own"
+            yield kind, f"'{other}' is already expected: move '{this}' to a separate expectation"
         if len(kinds) == 1:
             yield from self._kind_problems(kinds[0])
 
@@ -155,7 +153,7 @@ class Expectation:
             except ValueError as error:
                 yield kind, str(error)
                 return
-            if isinstance(value, str) and value and (what := word_problem(signal.name, value)):
+            if isinstance(value, str) and value and (what := value_problem(signal.name, value)):
                 yield kind, what
         elif kind not in COUNTED and signal.kind is not Kind.NUMBER:
             yield kind, f"needs a number, and {signal.name} is a {signal.kind.value}: use 'is' ..."
@@ -167,7 +165,6 @@ class Expectation:
 
     @property
     def kind(self) -> str:
-        """Return the key of the expectation."""
         return self.kinds[0]
 
 
@@ -188,7 +185,7 @@ def value_of(text: str, kind: Kind) -> float | str:
 
     Raises ValueError with a sentence.
     """
-    if kind is Kind.WORD:
+    if kind is Kind.TEXT:
         return "" if text in NULLS else text
     if kind is Kind.FLAG:
         if text.lower() in _TRUE + _FALSE:
@@ -205,3 +202,28 @@ def _signal_problems(attribute: str, name: str) -> Iterator[tuple[str, str]]:
         signal_of(name)
     except KeyError as error:
         yield attribute, f'"{name[:60]}": {error.args[0]}'
+
+
+@dataclass(frozen=True, slots=True)
+class Verdict:
+    """Whether an expectation held, with its figure beside the limit.
+
+    ``code`` is the reason why it did not hold, empty if it did; ``why`` is the sentence with place
+    and time. ``has_figure`` is False without a measurement, which does not count as a visible
+    failure.
+    """
+
+    name: str
+    is_held: bool
+    figure: str
+    limit: str
+    why: str = ""
+    has_figure: bool = True
+    code: str = ""
+
+
+def number_text(number: float) -> str:
+    """Return a figure with its significant digits."""
+    if abs(number) >= 1000 or number == int(number):
+        return f"{number:.0f}"
+    return f"{number:.3g}" if abs(number) < 10 else f"{number:.1f}"

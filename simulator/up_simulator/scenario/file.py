@@ -1,7 +1,8 @@
-"""A scenario's file: YAML to a Scenario, with every mistake at its place."""
+"""Reads a scenario file: YAML to a Scenario; problems name file, line and key."""
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from dataclasses import replace
 from functools import cache
@@ -12,23 +13,22 @@ from up.builtin_modules import BUILTIN_MODULES
 from up.cli.verbs import cog_files, program_files
 from up.config import ConfigErrors, ConfigFile
 from up.config.loader import decode, read_text
-from up.config.nodes import MapNode, Node, Report, ScalarNode, compose
+from up.config.nodes import ListNode, MapNode, Node, Report, ScalarNode, compose
 from up.config.problems import Problems
-from up.config.scalars import is_null
+from up.config.scalars import is_null, needs_quotes
 from up.config.schema import schema_of
 from up.config.validator import Validator
-from up.fields import printable
+from up.fields import printable, show, suggestion
 from up.loading.application import Application, NoApplicationError
 from up.loading.checking import config_files
 from up.loading.discovery import survey
 from up.loading.plan import BootError
 from up_simulator.aircraft import airframe_names
-from up_simulator.scenario.crosscheck import cross_problems, guess, is_there
+from up_simulator.scenario.crosscheck import cross_problems, exists
 from up_simulator.scenario.event import Event
+from up_simulator.scenario.locator import child, items_of, path_of
 from up_simulator.scenario.override import OverriddenProblems, Override, apply
-from up_simulator.scenario.plain import plain_of
 from up_simulator.scenario.scenario import Scenario
-from up_simulator.scenario.tree import child, items_of, path_of
 
 SCHEMA = schema_of(Scenario)
 _HERE = Path()
@@ -60,14 +60,14 @@ def read_scenario(path: Path | str, overrides: Sequence[Override] = ()) -> Scena
     problems = OverriddenProblems(path, overrides)
     text = read_text(path, problems.report)
     if text is None and not problems.found:
-        problems.report(1, 1, "there is no such file")
+        problems.report(1, 1, "file not found")
     return _parse(text or "", problems, overrides, path.parent)
 
 
 def parse_scenario(
     text: str | bytes, path: Path | str = "scenario", overrides: Sequence[Override] = ()
 ) -> Scenario:
-    """Return the scenario in a text; ``path`` is only named. Raises ConfigErrors."""
+    """Return the scenario in a text; ``path`` is for messages. Raises ConfigErrors."""
     problems = OverriddenProblems(Path(path), overrides)
     if isinstance(text, bytes):
         text = decode(text, problems.report) or ""
@@ -86,7 +86,7 @@ def _parse(
     # Invalid YAML cannot be checked as a scenario: report only the YAML problems.
     problems.raise_if_any()
     apply(overrides, root, problems.report)
-    free = _Free(root, problems.report)
+    free = _FreeContent(root, problems.report)
     _check_times(root, problems.report)
     scenario: Scenario = Validator(problems.report, {}, valued=True).read(SCHEMA, root)
     problems.raise_if_any()
@@ -99,23 +99,23 @@ def _parse(
 
 
 def _check_times(root: MapNode, report: Report) -> None:
-    """Refuse an event without a time: the default 0 s is hardly ever intended."""
+    """Reject an event without a time: the default 0 s is hardly ever intended."""
     for parent, name in ((root, "sticks"), (child(root, "weather"), "gusts"), (root, "events")):
         for at, item in enumerate(items_of(parent, name)):
             if isinstance(item, MapNode) and child(item, "at_s") is None:
                 path = f"weather.{name}" if name == "gusts" else name
-                report(item.line, item.column, f"{path}[{at}]: needs 'at_s': when")
+                report(item.line, item.column, f"{path}[{at}]: needs 'at_s', the time")
 
 
 def _with_airframe_beside(scenario: Scenario, folder: Path) -> Scenario:
     """Look for an airframe beside the file too, if its path does not exist from here."""
     beside = folder / scenario.airframe
-    if scenario.airframe in airframe_names() or is_there(Path(scenario.airframe)):
+    if scenario.airframe in airframe_names() or exists(Path(scenario.airframe)):
         return scenario
-    return replace(scenario, airframe=str(beside)) if is_there(beside) else scenario
+    return replace(scenario, airframe=str(beside)) if exists(beside) else scenario
 
 
-class _Free:
+class _FreeContent:
     """The parts with free content: taken out before the rest is checked, put back after.
 
     Values of expectations are read as text here: their meaning depends on the signal.
@@ -130,11 +130,12 @@ class _Free:
             if isinstance(name, ScalarNode):
                 self._check_file_name(name)
                 self._check_config(node, name.text, f"raspilot.config.{printable(name.text[:60])}")
-        self.profile = self._take(root, "profile")
-        self.gains = self._take(root, "gains")
-        self.config = self._take(child(root, "raspilot"), "config")
+        self.profile = self._cut(root, "profile")
+        self.gains = self._cut(root, "gains")
+        self.config = self._cut(child(root, "raspilot"), "config", "raspilot.")
         self.commands = [
-            self._take(child(event, "command"), "data") for event in items_of(root, "events")
+            self._cut(child(event, "command"), "data", f"events[{at}].command.")
+            for at, event in enumerate(items_of(root, "events"))
         ]
         for expectation in items_of(root, "expect"):
             for key in _FREE_TEXT:
@@ -153,22 +154,22 @@ class _Free:
     def _check_file_name(self, name: ScalarNode) -> None:
         known = daemon_files()
         if known and name.text not in known:
-            what = f"the daemon reads no file {name.text[:60]!r}{guess(name.text, known)}"
-            self._report(name.line, name.column, what)
+            what = f"unknown file {name.text[:60]!r}{suggestion(name.text, known)}"
+            self._report(name.line, name.column, f"raspilot.config: {what}")
 
     def _check_config(self, node: Node | None, filename: str, head: str) -> None:
-        """Judge part of a configuration file as the daemon would."""
+        """Validate part of a configuration file as the daemon would."""
         file = daemon_files().get(filename) if node is not None else None
         if file is not None and node is not None and not is_null(node):
             Validator(self._report, dict(file.removed)).read(file.schema, node, head)
 
-    def _take(self, parent: Node | None, name: str) -> dict[str, Any]:
+    def _cut(self, parent: Node | None, name: str, above: str = "") -> dict[str, Any]:
         node = child(parent, name)
         if node is None:
             return {}
-        value = plain_of(node, self._report)
+        value = plain_of(node, f"{above}{name}", self._report)
         if value is not None and not isinstance(value, dict):
-            self._report(node.line, node.column, f"{name}: must be a map of keys")
+            self._report(node.line, node.column, f"{above}{name}: must be a map of keys")
         assert isinstance(parent, MapNode)
         parent.pairs = [pair for pair in parent.pairs if pair[1] is not node]
         return value if isinstance(value, dict) else {}
@@ -180,3 +181,49 @@ def _with_data(event: Event, data: dict[str, Any]) -> Event:
         if event.command is None
         else replace(event, command=replace(event.command, data=data))
     )
+
+
+_INT = re.compile(r"[-+]?(0|[1-9][0-9]{0,17})", re.ASCII)
+_FLOAT = re.compile(r"[-+]?((0|[1-9][0-9]*)(\.[0-9]*)?|\.[0-9]+)([eE][-+]?[0-9]{1,3})?", re.ASCII)
+_BOOLS = {"true": True, "false": False}
+
+
+def plain_of(node: Node, path: str, report: Report) -> Any:
+    """Return maps, lists, numbers, true, false, None and texts; ambiguous scalars are reported.
+
+    Readers of YAML disagree on some scalars (``no``, ``12:30``, ``010``): these must be in quotes.
+    ``path`` is the key of the node, for problems.
+    """
+    if isinstance(node, ListNode):
+        return [plain_of(item, f"{path}[{at}]", report) for at, item in enumerate(node.items)]
+    if isinstance(node, ScalarNode):
+        return _scalar(node, path, report)
+    values: dict[str, Any] = {}
+    for key, value in node.pairs:
+        if not isinstance(key, ScalarNode):
+            report(key.line, key.column, f"{path}: a key must be one word or text")
+        elif key.text in values:
+            report(key.line, key.column, f"{path}: duplicate key {show(key.text)}")
+        else:
+            values[key.text] = plain_of(value, f"{path}.{printable(key.text[:60])}", report)
+    return values
+
+
+def _scalar(node: ScalarNode, path: str, report: Report) -> Any:
+    text = node.text
+    if not node.plain:
+        return text
+    if is_null(node):
+        return None
+    if text in _BOOLS:
+        return _BOOLS[text]
+    if _INT.fullmatch(text):
+        return int(text)
+    if len(text) < 400 and _FLOAT.fullmatch(text):
+        number = float(text)
+        if abs(number) < float("inf"):
+            return number
+    if needs_quotes(text):
+        what = f"{path}: {show(text)} is ambiguous: write true or false, a plain number, or quotes"
+        report(node.line, node.column, what)
+    return text

@@ -3,77 +3,38 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
-from typing import Any
+from collections.abc import Callable
+from typing import cast
 
 from up_rig.imu import motion_at
 from up_simulator.aircraft.airframe_file import ImuConfig
-from up_simulator.crew.protocols import CrewError
-from up_simulator.firmware.board import BoardCrashedError
-from up_simulator.scenario.companions import Companions
+from up_simulator.firmware.board import BoardCrashedError, Channel, ResetCause
+from up_simulator.firmware.imu_errors import ImuFault
+from up_simulator.firmware.wire import Command
+from up_simulator.harness.participants import ParticipantError
+from up_simulator.harness.world import STEP_S, World
 from up_simulator.scenario.demand import DemandModel
 from up_simulator.scenario.event import Event
-from up_simulator.scenario.happening import happen
+from up_simulator.scenario.flight_record import FlightRecord, PendingCommand
 from up_simulator.scenario.line_board import LineBoard
 from up_simulator.scenario.log import EVENT_SEPARATOR, FlightLog
-from up_simulator.scenario.question import Question
+from up_simulator.scenario.participants import Participants
 from up_simulator.scenario.sampler import Sampler, columns_of
 from up_simulator.scenario.scenario import Scenario
 from up_simulator.scenario.signals import EVENT_COLUMN
-from up_simulator.scenario.sticks import AT_FIRST_US, CHANNELS, StickTimeline
-from up_simulator.wire import Command
-from up_simulator.world import STEP_S, World
+from up_simulator.scenario.sticks import CHANNELS, INITIAL_US, StickTimeline
 
-STEPS_A_ROW = 10
+STEPS_PER_ROW = 10
 READY_S = 15.0
 READY_STEP_US = 20_000.0
 LOG_TAIL = 20
 _HALF_STEP_S = STEP_S / 2
 
 
-@dataclass(slots=True)
-class FlightRecord:
-    """Result of a flight: the log, and all results that are not signals.
-
-    ``crash`` is a sentence about its end on the ground, ``failure`` one about an early end, with
-    the lines of the daemon's log behind it. ``settings`` are the board's configuration files,
-    ``black_boxes`` the recordings of a real daemon.
-    """
-
-    scenario: Scenario
-    log: FlightLog
-    event_times: dict[str, float] = field(default_factory=dict)
-    questions: list[Question] = field(default_factory=list)
-    flown_s: float = 0.0
-    took_s: float = 0.0
-    crash: str | None = None
-    crash_s: float | None = None
-    failure: str | None = None
-    failure_log: Sequence[str] = ()
-    is_interrupted: bool = False
-    board_title: str = ""
-    phone_title: str = ""
-    notes: list[str] = field(default_factory=list)
-    settings: Mapping[str, Mapping[str, Any]] = field(default_factory=dict)
-    black_boxes: Mapping[str, bytes] = field(default_factory=dict)
-
-    @property
-    def speed(self) -> float:
-        """Return how many times faster than the real time it was."""
-        return self.flown_s / self.took_s if self.took_s > 0 else 0.0
-
-    @property
-    def is_broken_off(self) -> bool:
-        """Return whether another cause than a crash ended it before its time."""
-        return self.is_interrupted or self.failure is not None
-
-
 class ScenarioFlight:
     """Boots the board, then flies: sticks, events, rows of the log.
 
-    ``switch`` maps each position of the mode switch to its mode; ``held_mode`` overrides the
-    scenario and keeps the switch there.
+    ``imu`` is the mounting of the airframe's IMU.
     """
 
     def __init__(
@@ -81,46 +42,37 @@ class ScenarioFlight:
         scenario: Scenario,
         world: World,
         board: LineBoard,
-        companions: Companions,
+        participants: Participants,
         demand: DemandModel,
         imu: ImuConfig,
     ) -> None:
         self._scenario = scenario
         self._world = world
         self._board = board
-        self.companions = companions
+        self.participants = participants
         self._demand = demand
         self._imu = imu
         self._timeline = StickTimeline(scenario.sticks, scenario.switch.positions())
         self._events = sorted(scenario.events, key=lambda event: event.at_s)
-        self._happened: list[str] = []
-        self._sticks_us = dict(AT_FIRST_US)
+        self._event_titles: list[str] = []
+        self._sticks_us = dict(INITIAL_US)
         self._steps = 0
         self._total_steps = round(scenario.duration_s / STEP_S)
         self.record = FlightRecord(scenario, FlightLog(columns_of(scenario)))
         self.record.board_title = board.title
-        self.record.phone_title = companions.phone_title
+        has_computer = scenario.board != "direct"
         self._sampler = Sampler(
-            world,
-            board,
-            demand,
-            has_flight_computer=scenario.board != "direct",
-            raspilot=companions.raspilot,
-            ground=companions.ground,
-            phone=companions.phone,
-            ground_now_s=companions.seconds,
+            world, board, demand, participants, has_flight_computer=has_computer
         )
         board.after_slice = self._exchange
-        board.on_command = self._hear_command
+        board.on_command = self._on_command
 
     @property
     def time_s(self) -> float:
-        """Return the time in the air."""
         return self._steps * STEP_S
 
     @property
     def is_over(self) -> bool:
-        """Return whether the flight is over."""
         record = self.record
         ended = record.crash is not None or record.failure is not None
         return ended or self._steps >= self._total_steps
@@ -133,64 +85,63 @@ class ScenarioFlight:
             began_s = time.perf_counter()
             while not self.is_over:
                 self.step()
-                if self._steps % STEPS_A_ROW == 0:
+                if self._steps % STEPS_PER_ROW == 0:
                     progress(self.time_s)
         except KeyboardInterrupt:
             self.record.is_interrupted = True
         finally:
             self.record.flown_s = self.time_s
             self.record.took_s = time.perf_counter() - began_s
-            phone = self.companions.phone
-            if phone is not None and phone.loss is not None:
-                self.record.notes.append(f"the {phone.loss}")
-            self.companions.stop()
-            self.record.black_boxes = self.companions.black_boxes
+            self.participants.stop()
+            self.record.black_boxes = self.participants.black_boxes
         return self.record
 
     def boot(self, progress: Callable[[float], None] = lambda _time_s: None) -> None:
         """Switch everything on, on the ground; arm if the sticks do; begin in the air."""
         wanted_us = self._timeline.pulses_us(0.0)
-        is_armed = wanted_us["aux2"] > AT_FIRST_US["ailerons"]
+        is_armed = wanted_us["aux2"] > INITIAL_US["ailerons"]
         for channel in CHANNELS:
             at_rest = channel in ("throttle", "aux2")
-            self._set_stick(channel, AT_FIRST_US[channel] if at_rest else wanted_us[channel])
+            self._set_stick(channel, INITIAL_US[channel] if at_rest else wanted_us[channel])
         try:
-            self.companions.start()
+            self.participants.start()
             self._wait_until_ready(progress)
             self._world.boot(arms=is_armed)
-        except (BoardCrashedError, CrewError) as error:
-            self._fail(str(error))
+        except (BoardCrashedError, ParticipantError) as error:
+            self._fail(error)
             return
         self._sticks_us["aux2"] = wanted_us["aux2"]
         self._note_if_not_armed(is_armed)
         self._move_sticks(0.0)
-        self._board.take_stalest_us()
-        self._happen_until(0.0)
-        self._take_row()
+        self._board.take_max_pulse_age_us()
+        self._dispatch_until(0.0)
+        self._append_row()
 
     def step(self) -> None:
         """Fly for 2 ms; a row is logged every 20 ms."""
         try:
             self._world.step()
-        except (BoardCrashedError, CrewError) as error:
-            self._fail(str(error))
+        except (BoardCrashedError, ParticipantError) as error:
+            self._fail(error)
             return
         self._steps += 1
         time_s = self.time_s
-        self._look_for_crash(time_s)
-        self._look_for_answers(time_s)
+        self._check_crash(time_s)
+        self._poll_answers(time_s)
         self._move_sticks(time_s)
-        self._happen_until(time_s)
-        if self._steps % STEPS_A_ROW == 0 or self.is_over:
-            self._take_row()
+        self._dispatch_until(time_s)
+        if self._steps % STEPS_PER_ROW == 0 or self.is_over:
+            self._append_row()
 
     def _wait_until_ready(self, progress: Callable[[float], None]) -> None:
-        companions, board = self.companions, self._board
+        participants, board = self.participants, self._board
         board.set_motion(motion_at(0.0, 0.0))
         waited_s = 0.0
-        while not companions.is_ready():
+        while not participants.is_ready():
             if waited_s >= READY_S:
-                self.record.notes.append(f"not everybody had connected after {READY_S:g} s")
+                self.record.note(
+                    "not_connected", f"a participant had not connected after {READY_S:g} s"
+                )
                 return
             board.run_us(READY_STEP_US)
             progress(0.0)
@@ -199,16 +150,17 @@ class ScenarioFlight:
     def _note_if_not_armed(self, is_armed: bool) -> None:
         status = self._board.tap.status
         if is_armed and status is not None and not status.is_armed:
-            self.record.notes.append(
-                f"the board was not armed when the flight began (vetoes 0x{status.vetoes:02X})"
+            vetoes = f"0x{status.vetoes:02X}"
+            self.record.note(
+                "not_armed", f"the board was not armed when the flight began (vetoes {vetoes})"
             )
 
     def _exchange(self) -> None:
-        self.companions.exchange(STEP_S)
+        self.participants.exchange(STEP_S)
 
-    def _hear_command(self, command: Command) -> None:
+    def _on_command(self, command: Command) -> None:
         if command.type == "S":
-            self._demand.hear_setpoint(command.payload)
+            self._demand.receive_setpoint(command.payload)
 
     def _move_sticks(self, time_s: float) -> None:
         for channel in CHANNELS:
@@ -220,45 +172,75 @@ class ScenarioFlight:
         self._sticks_us[channel] = pulse_us
         self._board.set_stick(channel, pulse_us)  # type: ignore[arg-type]
 
-    def _happen_until(self, time_s: float) -> None:
+    def _dispatch_until(self, time_s: float) -> None:
         while self._events and self._events[0].at_s <= time_s + _HALF_STEP_S:
             event = self._events.pop(0)
-            self._happened.append(event.title)
+            self._event_titles.append(event.title)
             self.record.event_times.setdefault(event.title, time_s)
             try:
-                if event.command is not None:
-                    self._ask(event, time_s)
-                else:
-                    happen(event, self._board, self.companions, self._imu, self._scenario)
-            except CrewError as error:
-                self._fail(str(error))
+                self._dispatch(event, time_s)
+            except ParticipantError as error:
+                self._fail(error)
 
-    def _ask(self, event: Event, time_s: float) -> None:
-        ground = self.companions.ground
-        assert ground is not None and event.command is not None
-        command = event.command
+    def _dispatch(self, event: Event, time_s: float) -> None:
+        """Carry out one event: at the board and its wires, or at the participants."""
+        board, scenario = self._board, self._scenario
+        match event.kinds[0]:
+            case "mark":
+                return
+            case "command":
+                self._send_command(event, time_s)
+            case "imu":
+                board.imu.set_fault(cast(ImuFault, event.imu))
+            case "imu_errors":
+                assert event.imu_errors is not None
+                board.imu.errors = event.imu_errors.errors(self._imu, scenario.seed)
+            case "receiver" if event.receiver == "failsafe":
+                board.lose_radio(scenario.receiver.failsafe_throttle_us)
+            case "receiver":
+                board.set_receiver(event.receiver == "back")
+                board.restore_radio()
+            case "channel_lost":
+                board.set_channel(cast(Channel, event.channel_lost), False)
+            case "channel_back":
+                board.set_channel(cast(Channel, event.channel_back), True)
+            case "reset":
+                board.reset(cast(ResetCause, event.reset))
+            case "serial_noise":
+                assert event.serial_noise is not None
+                board.wires.set_noise(event.serial_noise, board.now_s)
+            case kind:
+                if kind == "serial":
+                    board.wires.is_plugged = event.serial == "back"
+                self.participants.dispatch(event)
+
+    def _send_command(self, event: Event, time_s: float) -> None:
+        ground, command = self.participants.ground, event.command
+        assert ground is not None and command is not None
         command_id = ground.send(command.name, **command.data)
-        self.record.questions.append(Question(event, command, command_id, time_s))
+        self.record.pending_commands.append(PendingCommand(event, command, command_id, time_s))
 
-    def _look_for_answers(self, time_s: float) -> None:
-        if self.record.questions and self.companions.ground is not None:
-            for question in self.record.questions:
-                question.look(self.companions.ground, time_s)
+    def _poll_answers(self, time_s: float) -> None:
+        if self.record.pending_commands and self.participants.ground is not None:
+            for pending in self.record.pending_commands:
+                pending.poll(self.participants.ground, time_s)
 
-    def _look_for_crash(self, time_s: float) -> None:
+    def _check_crash(self, time_s: float) -> None:
         crash: str | None = getattr(self._world.dynamics, "crash", None)
         if crash is not None and self.record.crash is None:
             self.record.crash = crash
             self.record.crash_s = time_s
-            self._happened.append("crash")
+            self._event_titles.append("crash")
 
-    def _fail(self, sentence: str) -> None:
-        self.record.failure = sentence
-        if self.companions.raspilot is not None:
-            self.record.failure_log = list(self.companions.raspilot.log)[-LOG_TAIL:]
+    def _fail(self, error: BoardCrashedError | ParticipantError) -> None:
+        is_board = isinstance(error, BoardCrashedError)
+        code = "board_crashed" if is_board else getattr(error, "code", "participant_failed")
+        self.record.failure, self.record.failure_code = str(error), code
+        if self.participants.raspilot is not None:
+            self.record.failure_log = list(self.participants.raspilot.log)[-LOG_TAIL:]
 
-    def _take_row(self) -> None:
+    def _append_row(self) -> None:
         row = self._sampler.row(self.time_s, self._sticks_us)
-        row[EVENT_COLUMN] = EVENT_SEPARATOR.join(self._happened)
-        self._happened.clear()
+        row[EVENT_COLUMN] = EVENT_SEPARATOR.join(self._event_titles)
+        self._event_titles.clear()
         self.record.log.append(row)

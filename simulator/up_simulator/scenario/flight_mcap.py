@@ -24,11 +24,11 @@ from up.flight_log.foxglove import LOG, LOG_LEVELS, LOG_SCHEMA, timestamp
 from up.flight_log.mcap_writer import McapWriter
 from up.flight_log.origin_text import KEY as ORIGIN
 from up.version import VERSION
+from up_simulator.aircraft.truth import NAMES, TOPIC
+from up_simulator.scenario.flight_record import PendingCommand
 from up_simulator.scenario.flight_topics import SIGNALS_TOPIC, FlightTopics
-from up_simulator.scenario.question import Question
 from up_simulator.scenario.result import Result
 from up_simulator.scenario.signals import SIGNALS
-from up_simulator.truth import NAMES, TOPIC
 
 BEGIN_NS = 946_684_800_000_000_000
 """2000-01-01: a simulated flight has no date, and the same flight is the same file."""
@@ -64,10 +64,11 @@ class _FlightFile:
         self._writer = McapWriter(write)
         self._channels: dict[str, int] = {}
         self._events = result.record.log.events
-        self._questions = sorted(result.record.questions, key=lambda each: each.sent_s)
+        scenario_events = result.record.scenario.events
+        self._event_codes = {event.title: event.kinds[0] for event in scenario_events}
+        self._commands = sorted(result.record.pending_commands, key=lambda each: each.sent_s)
 
     def write(self) -> None:
-        """Write everything."""
         self._writer.start()
         self._describe()
         topics = FlightTopics(self._record.scenario)
@@ -75,7 +76,7 @@ class _FlightFile:
         for values in self._record.log.rows:
             row = dict(zip(columns, values, strict=True))
             time_s = float(row["time_s"])
-            self._tell_until(time_s)
+            self._write_events_until(time_s)
             for topic, data in topics.messages(row):
                 self._message(topic, time_s, data)
         self._close(time_s)
@@ -103,49 +104,49 @@ class _FlightFile:
                 "about": scenario.about,
                 "seed": str(scenario.seed),
                 "board": record.board_title,
-                "phone": record.phone_title,
             },
         )
         for file, settings in record.settings.items():
             text = yaml.safe_dump(settings, sort_keys=False, allow_unicode=True)
             self._writer.add_attachment(f"config/{file}", "text/yaml", text.encode(), BEGIN_NS)
 
-    def _tell_until(self, time_s: float) -> None:
+    def _write_events_until(self, time_s: float) -> None:
         """Write the events, and the Commands from the ground."""
         while self._events and self._events[0][0] <= time_s:
             at_s, event = self._events.pop(0)
-            self._message(EVENT_TOPIC, at_s, {"event": event})
-            self._say(at_s, "info", f"event: {event}")
-        while self._questions and self._questions[0].sent_s <= time_s:
-            self._ask(self._questions.pop(0))
+            code = self._event_codes.get(event, event)
+            self._message(EVENT_TOPIC, at_s, {"event": event, "code": code})
+            self._log(at_s, "info", f"event: {event}")
+        while self._commands and self._commands[0].sent_s <= time_s:
+            self._write_command(self._commands.pop(0))
 
-    def _ask(self, question: Question) -> None:
-        command, ground = question.command, self._record.scenario.ground
+    def _write_command(self, pending: PendingCommand) -> None:
+        command, ground = pending.command, self._record.scenario.ground
         role = "operator" if ground is None else ground.role
-        if question.answer == "":
+        if pending.answer == "":
             data = {**command.data, ORIGIN: f"ground ({role})"}
-            self._message(command.name, question.sent_s, data)
+            self._message(command.name, pending.sent_s, data)
         else:
-            answer = "no answer" if question.answer is None else f"refused, {question.answer}"
-            self._say(question.sent_s, "warn", f"{command.name} from the ground: {answer}")
+            answer = "no answer" if pending.answer is None else f"refused, {pending.answer}"
+            self._log(pending.sent_s, "warn", f"{command.name} from the ground: {answer}")
 
     def _close(self, time_s: float) -> None:
         """Write the end of the flight and its metadata."""
         record = self._record
         for trouble in (record.failure, record.crash):
             if trouble is not None:
-                self._say(time_s, "error", trouble)
+                self._log(time_s, "error", trouble)
         verdicts: dict[str, str] = {}
         for verdict in self._result.verdicts:
             limit = f" ({verdict.limit})" if verdict.limit else ""
-            word = "held" if verdict.is_held else "NOT held"
-            verdicts[verdict.name] = f"{word}: {verdict.figure}{limit}"
+            state = "held" if verdict.is_held else f"NOT held, {verdict.code}"
+            verdicts[verdict.name] = f"{state}: {verdict.figure}{limit}"
         self._writer.add_metadata("verdicts", verdicts)
 
-    def _say(self, time_s: float, level: str, text: str) -> None:
-        line = {"level": LOG_LEVELS[level], "message": text, "name": "scenario"}
+    def _log(self, time_s: float, level: str, text: str) -> None:
+        entry = {"level": LOG_LEVELS[level], "message": text, "name": "scenario"}
         stamp = timestamp(_log_ns(time_s))
-        self._message(LOG_TOPIC, time_s, {"timestamp": stamp, **line, "file": "", "line": 0})
+        self._message(LOG_TOPIC, time_s, {"timestamp": stamp, **entry, "file": "", "line": 0})
 
     def _message(self, topic: str, time_s: float, data: Mapping[str, Any]) -> None:
         channel = self._channels.get(topic)
@@ -170,7 +171,7 @@ def _schema(topic: str) -> tuple[str, dict[str, Any]]:
         return LOG, LOG_SCHEMA
     schema: dict[str, Any] = {"$schema": _DIALECT, "title": topic, "type": "object"}
     if topic == TOPIC:
-        schema["description"] = "the aircraft itself, which nobody aboard knows"
+        schema["description"] = "the exact state of the aircraft, unknown aboard"
         schema["properties"] = {"crashed": {"type": "boolean"}} | {
             name: _property(f"truth.{field}")
             for name, field in NAMES.items()
@@ -179,8 +180,8 @@ def _schema(topic: str) -> tuple[str, dict[str, Any]]:
     elif topic == SIGNALS_TOPIC:
         schema["description"] = "all other signals, as 'up-sim signals' lists them"
     elif topic == EVENT_TOPIC:
-        schema["description"] = "what the scenario lets happen"
-        schema["properties"] = {"event": {"type": "string"}}
+        schema["description"] = "events of the scenario; code: the kind of event"
+        schema["properties"] = {"event": {"type": "string"}, "code": {"type": "string"}}
     return topic, schema
 
 

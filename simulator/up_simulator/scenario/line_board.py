@@ -2,13 +2,67 @@
 
 from __future__ import annotations
 
+import random
 from collections.abc import Callable
 
 from up_rig.imu import Motion
-from up_simulator.firmware.board import BoardImu, Channel, FirmwareBoard, Pulses, ResetCause
-from up_simulator.firmware.tap import BoardTap
-from up_simulator.scenario.serial_line import FROM_BOARD, TO_BOARD, SerialWires
-from up_simulator.wire import CheckedReader, Command
+from up_simulator.firmware.board import Channel, FirmwareBoard, Pulses, ResetCause
+from up_simulator.firmware.imu_errors import BoardImu
+from up_simulator.firmware.line_monitor import LineMonitor
+from up_simulator.firmware.wire import CheckedReader, Command
+from up_simulator.scenario.event import SerialNoise
+
+TO_BOARD, FROM_BOARD = "to the board", "from the board"
+
+
+class SerialWires:
+    """Passes bytes, corrupts or drops them: the same seed corrupts the same bytes.
+
+    ``corrupted`` counts the bytes that were flipped, inserted or lost.
+    """
+
+    def __init__(self, seed: int) -> None:
+        self._random = random.Random(f"serial line {seed}")
+        self._noise: SerialNoise | None = None
+        self._noise_until_s = 0.0
+        self.is_plugged = True
+        self.corrupted = 0
+
+    def set_noise(self, noise: SerialNoise, now_s: float) -> None:
+        """Begin to corrupt bytes, for the duration of the noise."""
+        self._noise = noise
+        self._noise_until_s = now_s + noise.for_s
+
+    def pass_on(self, data: bytes, direction: str, now_s: float) -> bytes:
+        """Return the bytes that arrive at the other end."""
+        if not self.is_plugged:
+            return b""
+        noise = self._noise
+        if noise is None or not data:
+            return data
+        if now_s >= self._noise_until_s:
+            self._noise = None
+            return data
+        if noise.direction not in ("both", direction):
+            return data
+        return self._corrupt(data, noise)
+
+    def _corrupt(self, data: bytes, noise: SerialNoise) -> bytes:
+        arrived = bytearray()
+        chance = self._random.random
+        for byte in data:
+            if chance() * 100 < noise.lost_percent:
+                self.corrupted += 1
+                continue
+            if chance() * 100 < noise.flipped_percent:
+                byte ^= 1 << self._random.randrange(8)
+                self.corrupted += 1
+            arrived.append(byte)
+            if chance() * 100 < noise.inserted_percent:
+                arrived.append(self._random.randrange(256))
+                self.corrupted += 1
+        return bytes(arrived)
+
 
 SLICE_US = 2000.0
 
@@ -26,11 +80,11 @@ class LineBoard:
     ) -> None:
         self._board = board
         self.wires = wires
-        self.tap = BoardTap()
+        self.tap = LineMonitor()
         self.after_slice: Callable[[], None] = lambda: None
         self.on_command: Callable[[Command], None] = lambda _command: None
-        self.stalest_us = 0.0
-        self._heard = CheckedReader()
+        self.max_pulse_age_us = 0.0
+        self._command_reader = CheckedReader()
         self._receiver_delay_us = receiver_delay_us
         self._sticks_us: dict[Channel, float] = {}
         self._has_radio = True
@@ -38,27 +92,22 @@ class LineBoard:
 
     @property
     def title(self) -> str:
-        """Return its description."""
         return self._board.title
 
     @property
     def imu(self) -> BoardImu:
-        """Return its sensor."""
         return self._board.imu
 
     @property
     def now_us(self) -> float:
-        """Return the board's time."""
         return self._board.now_us
 
     @property
     def now_s(self) -> float:
-        """Return the board's time in seconds."""
         return self._board.now_us / 1e6
 
     @property
     def eeprom(self) -> bytes:
-        """Return the content of the EEPROM."""
         return self._board.eeprom
 
     def run_us(self, duration_us: float) -> None:
@@ -70,13 +119,16 @@ class LineBoard:
             while self._coming and self._coming[0][0] <= self.now_us:
                 self._board.set_stick(*self._coming.pop(0)[1:])
             self._board.run_us(slice_us)
-            self.stalest_us = max(self.stalest_us, *self._board.pulse_ages_us())
+            self.max_pulse_age_us = max(self.max_pulse_age_us, *self._board.pulse_ages_us())
             self.after_slice()
 
-    def take_stalest_us(self) -> float:
+    def take_max_pulse_age_us(self) -> float:
         """Return the greatest age of any output's pulse since the last call."""
-        stalest_us, self.stalest_us = self.stalest_us, max(self._board.pulse_ages_us())
-        return stalest_us
+        max_pulse_age_us, self.max_pulse_age_us = (
+            self.max_pulse_age_us,
+            max(self._board.pulse_ages_us()),
+        )
+        return max_pulse_age_us
 
     def set_stick(self, channel: Channel, width_us: float) -> None:
         """Move a stick: the receiver passes it on after its delay, unless its radio is off."""
@@ -89,7 +141,7 @@ class LineBoard:
         self._has_radio = False
         self._coming = [(self.now_us, "throttle", throttle_us)]
 
-    def find_radio(self) -> None:
+    def restore_radio(self) -> None:
         """Make the receiver pass all sticks on again."""
         self._has_radio = True
         for channel, width_us in self._sticks_us.items():
@@ -108,7 +160,6 @@ class LineBoard:
         self._board.set_motion(motion)
 
     def pulses_us(self) -> Pulses:
-        """Return the newest whole servo pulses."""
         return self._board.pulses_us()
 
     def pulse_ages_us(self) -> tuple[float, float, float, float]:
@@ -122,14 +173,12 @@ class LineBoard:
         return self.wires.pass_on(data, FROM_BOARD, self.now_s)
 
     def write(self, data: bytes) -> None:
-        """Put bytes on the serial line."""
         arrived = self.wires.pass_on(data, TO_BOARD, self.now_s)
         if arrived:
-            for found in self._heard.feed(arrived, self.now_s):
+            for found in self._command_reader.feed(arrived, self.now_s):
                 if isinstance(found, Command):
                     self.on_command(found)
             self._board.write(arrived)
 
     def reset(self, cause: ResetCause) -> None:
-        """Reset it now."""
         self._board.reset(cause)

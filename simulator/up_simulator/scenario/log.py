@@ -16,44 +16,52 @@ from up_simulator.scenario.signals import EVENT_COLUMN, Kind, signal_of
 ROW_S = 0.02
 DIGITS = 6
 Value = float | str
-"""A number (a flag is 1.0 or 0.0, not a number is not known) or a word (empty: not known)."""
+"""A number (a flag is 1.0 or 0.0, NaN is unknown) or a text (empty: unknown)."""
 
 
 class LogError(Exception):
-    """A file is not a flight's log: the message is one sentence with file and line."""
+    """A file is not a flight log: the message is one sentence with file and line.
+
+    ``code`` is ``not_readable``, ``not_a_log``, ``duplicate_column``, ``row_length`` or
+    ``not_a_number``; ``line`` is 0 for the whole file.
+    """
+
+    def __init__(self, path: Path, line: int, code: str, text: str) -> None:
+        super().__init__(f"{path}:{line}: {text}" if line else f"{path}: {text}")
+        self.code = code
+        self.line = line
 
 
 class FlightLog:
     """The value of every signal at every row; ``columns`` begin with time_s and end with event.
 
-    A number is rounded to six decimals when it is taken, so that a log read from the disk equals
+    Numbers are rounded to six decimals on append, so that a log read from the disk equals
     the one that was written.
     """
 
     def __init__(self, columns: Sequence[str]) -> None:
         self.columns = tuple(columns)
         self._numbers: dict[str, array[float]] = {}
-        self._words: dict[str, list[str]] = {}
+        self._texts: dict[str, list[str]] = {}
         self._count = 0
         for name in self.columns:
-            if is_word(name):
-                self._words[name] = []
+            if is_text(name):
+                self._texts[name] = []
             else:
                 self._numbers[name] = array("d")
 
     def __len__(self) -> int:
-        """Return the number of rows."""
         return self._count
 
     def __contains__(self, column: object) -> bool:
         """Return whether there is a column of that name."""
-        return column in self._numbers or column in self._words
+        return column in self._numbers or column in self._texts
 
     def append(self, values: Mapping[str, float | bool | str | None]) -> None:
-        """Take a row; signals missing in it are unknown."""
-        for name, words in self._words.items():
+        """Append a row; signals missing in it are unknown."""
+        for name, texts in self._texts.items():
             value = values.get(name)
-            words.append("" if value is None else sys.intern(str(value)))
+            texts.append("" if value is None else sys.intern(str(value)))
         for name, numbers in self._numbers.items():
             value = values.get(name)
             is_number = isinstance(value, bool | int | float)
@@ -70,22 +78,21 @@ class FlightLog:
         return list(self._values(name))
 
     def _values(self, name: str) -> Sequence[Value]:
-        words = self._words.get(name)
-        return self._numbers[name] if words is None else words
+        texts = self._texts.get(name)
+        return self._numbers[name] if texts is None else texts
 
     def numbers(self, name: str) -> list[float]:
-        """Return a column of numbers; raises KeyError, and TypeError for a column of words."""
-        if name in self._words:
-            raise TypeError(f"{name} holds words")
+        """Return a column of numbers; raises KeyError, and TypeError for a column of texts."""
+        if name in self._texts:
+            raise TypeError(f"{name} holds text")
         return list(self._numbers[name])
 
-    def has_words(self, name: str) -> bool:
-        """Return whether a column holds words."""
-        return name in self._words
+    def has_text(self, name: str) -> bool:
+        return name in self._texts
 
     @property
     def events(self) -> list[tuple[float, str]]:
-        """Return time and name of everything that happened."""
+        """Return time and name of every event."""
         if EVENT_COLUMN not in self:
             return []
         found: list[tuple[float, str]] = []
@@ -94,7 +101,6 @@ class FlightLog:
         return found
 
     def text(self) -> str:
-        """Return the log as CSV."""
         into = io.StringIO()
         self._write(into)
         return into.getvalue()
@@ -113,12 +119,12 @@ class FlightLog:
 EVENT_SEPARATOR = "; "
 
 
-def is_word(name: str) -> bool:
-    """Return whether a column of that name holds words."""
+def is_text(name: str) -> bool:
+    """Return whether a column of that name holds text."""
     if name == EVENT_COLUMN:
         return True
     try:
-        return signal_of(name).kind is Kind.WORD
+        return signal_of(name).kind is Kind.TEXT
     except KeyError:
         return False
 
@@ -129,40 +135,33 @@ def read_log(path: Path) -> FlightLog:
         with path.open(encoding="utf-8", newline="") as file:
             return _read(path, csv.reader(file))
     except OSError as error:
-        raise LogError(f"{path}: cannot be read: {error.strerror or error}") from error
+        text = f"cannot be read: {error.strerror or error}"
+        raise LogError(path, 0, "not_readable", text) from error
     except (UnicodeDecodeError, csv.Error) as error:
-        raise LogError(f"{path}: is no log of a flight: {error}") from error
+        raise LogError(path, 0, "not_a_log", f"is not a flight log: {error}") from error
 
 
 def _read(path: Path, lines: Iterator[list[str]]) -> FlightLog:
     columns = next(lines, [])
     if not columns or columns[0] != "time_s":
-        raise LogError(f"{path}:1: is no log of a flight: its first column is not time_s")
+        text = "is not a flight log: its first column is not time_s"
+        raise LogError(path, 1, "not_a_log", text)
     if len(set(columns)) != len(columns):
-        raise LogError(f"{path}:1: has two columns of one name")
+        raise LogError(path, 1, "duplicate_column", "has two columns of the same name")
     log = FlightLog(columns)
     for line, row in enumerate(lines, 2):
         if len(row) != len(columns):
-            what = f"has {len(row)} values, not {len(columns)}"
-            raise LogError(f"{path}:{line}: {what}")
+            text = f"has {len(row)} values, not {len(columns)}"
+            raise LogError(path, line, "row_length", text)
         values: dict[str, float | str | None] = {}
         for name, cell in zip(columns, row, strict=True):
-            if log.has_words(name):
-                values[name] = cell
-            else:
-                values[name] = _number(path, line, name, cell)
+            try:
+                values[name] = cell if log.has_text(name) else float(cell) if cell else None
+            except ValueError:
+                text = f"{name} is not a number: {cell[:40]!r}"
+                raise LogError(path, line, "not_a_number", text) from None
         log.append(values)
     return log
-
-
-def _number(path: Path, line: int, name: str, cell: str) -> float | None:
-    if not cell:
-        return None
-    try:
-        number = float(cell)
-    except ValueError:
-        raise LogError(f"{path}:{line}: {name} is no number: {cell[:40]!r}") from None
-    return number
 
 
 def _rounded(number: float) -> float:

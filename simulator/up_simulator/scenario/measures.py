@@ -1,4 +1,7 @@
-"""How each kind of expectation measures a window of the log."""
+"""How each kind of expectation measures a window of the log.
+
+Codes of what is not held: ``out_of_limits``, ``too_late``, ``never``, ``not_known``.
+"""
 
 from __future__ import annotations
 
@@ -9,50 +12,91 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 from statistics import fmean
 
-from up_simulator.scenario.expectation import Expectation, value_of
+from up_simulator.scenario.expectation import Expectation, Verdict, number_text, value_of
 from up_simulator.scenario.log import Value
 from up_simulator.scenario.signals import Kind, signal_of
 from up_simulator.scenario.step import step_limit_text
-from up_simulator.scenario.verdict import Verdict, number_text
 from up_simulator.scenario.window import Window
+
+Numbers = Sequence[float]
+Found = tuple[float, int | None]
+"""A figure, and the row in which it was reached, if it is that of a row."""
+
+
+def _maximum(values: Numbers) -> Found:
+    return max(values), values.index(max(values))
+
+
+def _minimum(values: Numbers) -> Found:
+    return min(values), values.index(min(values))
+
+
+def _rms(values: Numbers) -> Found:
+    return math.sqrt(fmean(value * value for value in values)), None
+
+
+def _max_step(values: Numbers) -> Found:
+    steps = [0.0, *(abs(after - before) for before, after in itertools.pairwise(values))]
+    return _maximum(steps)
+
+
+def _max_deviation(values: Numbers) -> Found:
+    return _maximum([abs(value - values[0]) for value in values])
+
+
+def _growth(values: Numbers) -> Found:
+    return values[-1] - values[0], None
+
+
+_AT_MOST: dict[str, Callable[[Numbers], Found]] = {
+    "below": _maximum,
+    "rms_below": _rms,
+    "max_step": _max_step,
+    "stays": _max_deviation,
+    "grows_below": _growth,
+}
+_AT_LEAST: dict[str, Callable[[Numbers], Found]] = {"above": _minimum, "grows_above": _growth}
+
+
+def _limited(expectation: Expectation, window: Window) -> Verdict:
+    kind = expectation.kind
+    limit = float(getattr(expectation, kind))
+    value, row = (_AT_MOST.get(kind) or _AT_LEAST[kind])(window.numbers)
+    is_held = value <= limit if kind in _AT_MOST else value >= limit
+    return _verdict(expectation, is_held, number_text(value), _at(window, row))
 
 
 def _between(expectation: Expectation, window: Window) -> Verdict:
     low, high = expectation.between
     values = window.numbers
-    least, most = min(values), max(values)
-    figure = f"{number_text(least)} to {number_text(most)}"
+    figure = f"{number_text(min(values))} to {number_text(max(values))}"
     worst = max(values, key=lambda value: max(low - value, value - high))
-    return _verdict(expectation, low <= least and most <= high, figure, window, worst)
+    is_held = low <= min(values) and max(values) <= high
+    return _verdict(expectation, is_held, figure, _at(window, values.index(worst)))
 
 
-def _below(expectation: Expectation, window: Window) -> Verdict:
-    most = max(window.numbers)
-    return _verdict(expectation, most <= _float(expectation.below), _n(most), window, most)
+def _mean(expectation: Expectation, window: Window) -> Verdict:
+    low, high = expectation.mean_between
+    mean = fmean(window.numbers)
+    return _verdict(expectation, low <= mean <= high, number_text(mean))
 
 
-def _above(expectation: Expectation, window: Window) -> Verdict:
-    least = min(window.numbers)
-    return _verdict(expectation, least >= _float(expectation.above), _n(least), window, least)
+def _changes(expectation: Expectation, window: Window) -> Verdict:
+    known = [value for value in window.values if value != "" and value == value]
+    count = sum(before != after for before, after in itertools.pairwise(known))
+    limit = _float(getattr(expectation, expectation.kind))
+    is_held = count <= limit if expectation.kind == "changes_below" else count >= limit
+    return _verdict(expectation, is_held, _times(count))
 
 
 def _is(expectation: Expectation, window: Window) -> Verdict:
-    wanted = _wanted(expectation, expectation.is_)
-    return _first_other(expectation, window, lambda value: value == wanted)
-
-
-def _is_not(expectation: Expectation, window: Window) -> Verdict:
-    unwanted = _wanted(expectation, expectation.is_not)
-    return _first_other(expectation, window, lambda value: value != unwanted)
-
-
-def _first_other(
-    expectation: Expectation, window: Window, is_right: Callable[[Value], bool]
-) -> Verdict:
-    wrong = [at for at, value in enumerate(window.values) if not is_right(value)]
+    """Judge ``is`` and ``is_not``; the figure of a failure is the most frequent wrong value."""
+    is_wanted = expectation.kind == "is_"
+    value = _wanted(expectation)
+    wrong = [at for at, each in enumerate(window.values) if (each == value) is not is_wanted]
     if not wrong:
         shown = _shown(expectation, window.values[0])
-        return _verdict(expectation, True, f"{shown} all the time", window)
+        return _verdict(expectation, True, f"{shown} all the time")
     share = 100 / len(window.values)
     # nan is not equal to itself; its text is.
     (shown, count), *others = Counter(
@@ -61,14 +105,15 @@ def _first_other(
     figure = f"{shown} for {share * count:.0f} % of the time"
     if others:
         figure += f", others for {share * (len(wrong) - count):.0f} %"
-    verdict = _verdict(expectation, False, figure, window)
-    at = wrong[0]
-    is_known = window.values[at] != "" and window.values[at] == window.values[at]
-    return replace(verdict, why=f"first at {window.times_s[at]:.2f} s", has_figure=is_known)
+    first = window.values[wrong[0]]
+    is_known = first != "" and first == first
+    why = f"first at {window.times_s[wrong[0]]:.2f} s"
+    verdict = _verdict(expectation, False, figure, why)
+    return verdict if is_known else replace(verdict, has_figure=False, code="not_known")
 
 
 def _becomes(expectation: Expectation, window: Window) -> Verdict:
-    wanted = _wanted(expectation, expectation.becomes)
+    wanted = _wanted(expectation)
     return _first_time(expectation, window, lambda value: value == wanted)
 
 
@@ -87,80 +132,27 @@ def _becomes_above(expectation: Expectation, window: Window) -> Verdict:
 
 
 def _first_time(
-    expectation: Expectation, window: Window, is_there: Callable[[Value], bool]
+    expectation: Expectation, window: Window, is_reached: Callable[[Value], bool]
 ) -> Verdict:
-    for time_s, value in zip(window.times_s, window.values, strict=True):
-        if is_there(value):
-            took_s = max(0.0, time_s - window.begin_s)
-            is_soon = took_s <= _float(expectation.within_s) + 1e-6
-            return _verdict(expectation, is_soon, f"{took_s:.2f} s", window)
-    shown = _shown(expectation, window.values[-1])
-    return _verdict(expectation, False, f"never ({shown} at the end)", window)
+    reached = [at for at, value in enumerate(window.values) if is_reached(value)]
+    return _timed(expectation, window, reached[0] if reached else None)
 
 
 def _settles(expectation: Expectation, window: Window) -> Verdict:
     low, high = expectation.settles_between
     outside = [at for at, value in enumerate(window.numbers) if not low <= value <= high]
-    if outside and outside[-1] == len(window.values) - 1:
-        figure = f"never ({_n(window.numbers[-1])} at the end)"
-        return _verdict(expectation, False, figure, window)
-    took_s = window.times_s[outside[-1] + 1] - window.begin_s if outside else 0.0
+    settled = outside[-1] + 1 if outside else 0
+    return _timed(expectation, window, settled if settled < len(window.values) else None)
+
+
+def _timed(expectation: Expectation, window: Window, row: int | None) -> Verdict:
+    """Return the verdict on the time until a row; None: it was never reached."""
+    if row is None:
+        figure = f"never ({_shown(expectation, window.values[-1])} at the end)"
+        return _verdict(expectation, False, figure, code="never")
+    took_s = max(0.0, window.times_s[row] - window.begin_s)
     is_soon = took_s <= _float(expectation.within_s) + 1e-6
-    return _verdict(expectation, is_soon, f"{took_s:.2f} s", window)
-
-
-def _rms(expectation: Expectation, window: Window) -> Verdict:
-    rms = math.sqrt(fmean(value * value for value in window.numbers))
-    return _verdict(expectation, rms <= _float(expectation.rms_below), _n(rms), window)
-
-
-def _mean(expectation: Expectation, window: Window) -> Verdict:
-    low, high = expectation.mean_between
-    mean = fmean(window.numbers)
-    return _verdict(expectation, low <= mean <= high, _n(mean), window)
-
-
-def _max_step(expectation: Expectation, window: Window) -> Verdict:
-    steps = [abs(b - a) for a, b in itertools.pairwise(window.numbers)]
-    most = max(steps, default=0.0)
-    verdict = _verdict(expectation, most <= _float(expectation.max_step), _n(most), window)
-    if verdict.is_held:
-        return verdict
-    return replace(verdict, why=f"at {window.times_s[steps.index(most) + 1]:.2f} s")
-
-
-def _stays(expectation: Expectation, window: Window) -> Verdict:
-    values = window.numbers
-    away = [abs(value - values[0]) for value in values]
-    most = max(away)
-    verdict = _verdict(expectation, most <= _float(expectation.stays), _n(most), window)
-    if verdict.is_held:
-        return verdict
-    return replace(verdict, why=f"at {window.times_s[away.index(most)]:.2f} s")
-
-
-def _grows_below(expectation: Expectation, window: Window) -> Verdict:
-    grown = window.numbers[-1] - window.numbers[0]
-    return _verdict(expectation, grown <= _float(expectation.grows_below), _n(grown), window)
-
-
-def _grows_above(expectation: Expectation, window: Window) -> Verdict:
-    grown = window.numbers[-1] - window.numbers[0]
-    return _verdict(expectation, grown >= _float(expectation.grows_above), _n(grown), window)
-
-
-def _changes_below(expectation: Expectation, window: Window) -> Verdict:
-    changes = _changes(window.values)
-    return _verdict(
-        expectation, changes <= _float(expectation.changes_below), _times(changes), window
-    )
-
-
-def _changes_above(expectation: Expectation, window: Window) -> Verdict:
-    changes = _changes(window.values)
-    return _verdict(
-        expectation, changes >= _float(expectation.changes_above), _times(changes), window
-    )
+    return _verdict(expectation, is_soon, f"{took_s:.2f} s", code="too_late")
 
 
 _Measure = Callable[[Expectation, Window], Verdict]
@@ -190,60 +182,47 @@ def _known_once(measure: _Measure) -> _Measure:
 
 
 def _no_figure(expectation: Expectation, why: str) -> Verdict:
-    return Verdict(expectation.name, False, "none", limit_text(expectation), why, False)
+    limit = limit_text(expectation)
+    return Verdict(expectation.name, False, "none", limit, why, False, "not_known")
 
 
 MEASURES: dict[str, _Measure] = {
+    **dict.fromkeys((*_AT_MOST, *_AT_LEAST), _known(_limited)),
     "between": _known(_between),
-    "below": _known(_below),
-    "above": _known(_above),
+    "mean_between": _known(_mean),
     "is_": _is,
-    "is_not": _known(_is_not),
+    "is_not": _known(_is),
     "becomes": _becomes,
     "becomes_below": _becomes_below,
     "becomes_above": _becomes_above,
     "settles_between": _settles,
-    "rms_below": _known(_rms),
-    "mean_between": _known(_mean),
-    "max_step": _known(_max_step),
-    "stays": _known(_stays),
-    "grows_below": _known(_grows_below),
-    "grows_above": _known(_grows_above),
-    "changes_below": _known_once(_changes_below),
-    "changes_above": _known_once(_changes_above),
+    "changes_below": _known_once(_changes),
+    "changes_above": _known_once(_changes),
 }
-_AT_MOST = {"below", "rms_below", "max_step", "stays", "grows_below"}
-_AT_LEAST = {"above", "grows_above"}
 
 
 def _verdict(
-    expectation: Expectation,
-    is_held: bool,
-    figure: str,
-    window: Window,
-    worst: float | None = None,
+    expectation: Expectation, is_held: bool, figure: str, why: str = "", code: str = "out_of_limits"
 ) -> Verdict:
-    why = ""
-    if not is_held and worst is not None:
-        why = f"at {window.times_s[window.numbers.index(worst)]:.2f} s"
-    has_unit = figure[-1:].isdigit()
-    unit = signal_of(expectation.signal).unit
-    shown = f"{figure} {unit}".rstrip() if has_unit else figure
-    return Verdict(expectation.name, is_held, shown, limit_text(expectation), why)
+    unit = signal_of(expectation.signal).unit if figure[-1:].isdigit() else ""
+    shown, limit = f"{figure} {unit}".rstrip(), limit_text(expectation)
+    if is_held:
+        return Verdict(expectation.name, True, shown, limit)
+    return Verdict(expectation.name, False, shown, limit, why, code=code)
 
 
 def limit_text(expectation: Expectation) -> str:
-    """Return the limit as it reads behind the figure."""
+    """Return the limit as shown beside the figure."""
     kind = expectation.kind
     unit = signal_of(expectation.signal).unit
     limit = getattr(expectation, kind)
     if kind in ("between", "mean_between"):
-        return f"{_n(limit[0])} to {_n(limit[1])} {unit}".rstrip()
+        return f"{number_text(limit[0])} to {number_text(limit[1])} {unit}".rstrip()
     if kind == "settles_between" or kind.startswith("becomes"):
-        return f"within {_n(_float(expectation.within_s))} s"
+        return f"within {number_text(_float(expectation.within_s))} s"
     if kind in _AT_MOST or kind in _AT_LEAST:
-        word = "at most" if kind in _AT_MOST else "at least"
-        return f"{word} {_n(limit)} {unit}".rstrip()
+        bound = "at most" if kind in _AT_MOST else "at least"
+        return f"{bound} {number_text(limit)} {unit}".rstrip()
     if kind.startswith("changes"):
         return f"at {'most' if kind == 'changes_below' else 'least'} {_times(limit)}"
     if kind == "step":
@@ -251,12 +230,12 @@ def limit_text(expectation: Expectation) -> str:
     return f"{'is not' if kind == 'is_not' else 'is'} {limit}"
 
 
-def _changes(values: Sequence[Value]) -> int:
-    known = [value for value in values if value not in ("",) and value == value]
-    return sum(before != after for before, after in itertools.pairwise(known))
+def _at(window: Window, row: int | None) -> str:
+    return "" if row is None else f"at {window.times_s[row]:.2f} s"
 
 
-def _wanted(expectation: Expectation, text: str | None) -> Value:
+def _wanted(expectation: Expectation) -> Value:
+    text = getattr(expectation, expectation.kind)
     return value_of(text or "", signal_of(expectation.signal).kind)
 
 
@@ -267,7 +246,7 @@ def _shown(expectation: Expectation, value: Value) -> str:
         return "not known"
     if signal_of(expectation.signal).kind is Kind.FLAG:
         return "true" if value else "false"
-    return _n(value)
+    return number_text(value)
 
 
 def _float(value: float | None) -> float:
@@ -277,6 +256,3 @@ def _float(value: float | None) -> float:
 
 def _times(count: float) -> str:
     return "once" if count == 1 else f"{count:g} times"
-
-
-_n = number_text

@@ -1,4 +1,4 @@
-"""Other values for keys of a scenario's file, given where it is flown."""
+"""Values of options that replace keys of a scenario file."""
 
 from __future__ import annotations
 
@@ -24,14 +24,14 @@ class Override:
 
 
 class _OverrideProblem(ConfigProblem):
-    """A mistake in an option: it has no line."""
+    """A problem of an option, which has no line."""
 
     def __str__(self) -> str:
         return f"{printable(str(self.path))}: {self.what}"
 
 
 class OverriddenProblems(Problems):
-    """Problems of a file in which overrides replace some values: those have their own place.
+    """Problems of a file in which overrides replace some values: those name the option.
 
     A node of override N has the line -N - 1, which identifies its problems.
     """
@@ -41,7 +41,7 @@ class OverriddenProblems(Problems):
         self._overrides = overrides
 
     def report(self, line: int, column: int, what: str) -> None:
-        """Take one more problem; `line` and `column` count from 1."""
+        """Add a problem; `line` and `column` count from 1."""
         if line >= 0:
             super().report(line, column, what)
             return
@@ -50,7 +50,7 @@ class OverriddenProblems(Problems):
 
 
 def apply(overrides: Sequence[Override], root: MapNode, report: Report) -> None:
-    """Put the values into the tree of a file; values without a place are reported."""
+    """Put the values into the tree of a file; values with a wrong key are reported."""
     for number, override in enumerate(overrides):
         line = -number - 1
 
@@ -58,7 +58,7 @@ def apply(overrides: Sequence[Override], root: MapNode, report: Report) -> None:
             report(at, 1, what)
 
         value = compose(override.value, refuse) or ScalarNode(line, 1, "", True)
-        _place(value, line)
+        _set_position(value, line)
         _put(root, override.key.split("."), value, line, report)
 
 
@@ -66,14 +66,14 @@ def _put(node: Node, path: list[str], value: Node, line: int, report: Report) ->
     name, rest = path[0], path[1:]
     if isinstance(node, ListNode):
         if not (name.isascii() and name.isdigit()) or int(name[:9]) >= len(node.items):
-            report(line, 1, f"there is no item {name[:40]!r}: the list has {len(node.items)}")
+            report(line, 1, f"unknown item {name[:40]!r}: the list has {len(node.items)}")
         elif rest:
             _put(node.items[int(name)], rest, value, line, report)
         else:
             node.items[int(name)] = value
         return
     if not isinstance(node, MapNode):
-        report(line, 1, f"nothing lies below {name[:40]!r} there")
+        report(line, 1, f"{name[:40]!r} has no keys below it")
         return
     for at, (key, old) in enumerate(node.pairs):
         if isinstance(key, ScalarNode) and key.text == name:
@@ -92,12 +92,12 @@ def _nested(path: list[str], value: Node, line: int) -> Node:
     return value
 
 
-def _place(node: Node, line: int) -> None:
+def _set_position(node: Node, line: int) -> None:
     node.line, node.column = line, 1
     if isinstance(node, ListNode):
         for item in node.items:
-            _place(item, line)
+            _set_position(item, line)
     elif isinstance(node, MapNode):
         for key, value in node.pairs:
-            _place(key, line)
-            _place(value, line)
+            _set_position(key, line)
+            _set_position(value, line)

@@ -7,7 +7,7 @@ from collections.abc import Callable
 from contextlib import suppress
 from typing import TextIO
 
-SHOWN_S = 0.2
+REFRESH_S = 0.2
 
 
 class ProgressLine:
@@ -19,31 +19,30 @@ class ProgressLine:
         self._stream = stream
         self._is_shown = is_shown and stream.isatty()
         self._clock = clock
-        self._what = ""
+        self._title = ""
         self._duration_s = 0.0
         self._began_s = 0.0
-        self._shown_s = -SHOWN_S
+        self._shown_s = -REFRESH_S
         self._width = 0
 
-    def begin(self, what: str, duration_s: float) -> None:
+    def begin(self, title: str, duration_s: float) -> None:
         """Begin with a flight of that name and length."""
-        self._what, self._duration_s = what, duration_s
+        self._title, self._duration_s = title, duration_s
         self._began_s = self._clock()
-        self._shown_s = self._began_s - SHOWN_S
-        self._write(f"{what}: the board boots")
+        self._shown_s = self._began_s - REFRESH_S
+        self._write(f"{title}: booting")
 
     def show(self, time_s: float) -> None:
         """Show the time of the flight, five times a second at most."""
         now_s = self._clock()
-        if not self._is_shown or now_s - self._shown_s < SHOWN_S:
+        if not self._is_shown or now_s - self._shown_s < REFRESH_S:
             return
         self._shown_s = now_s
         speed = time_s / max(1e-3, now_s - self._began_s)
         of = f"{time_s:.1f} of {self._duration_s:g} s"
-        self._write(f"{self._what}: {of}, {speed:.1f} x real time")
+        self._write(f"{self._title}: {of}, {speed:.1f} x real time")
 
     def end(self) -> None:
-        """Take the line away."""
         if self._is_shown and self._width:
             self._put("\r" + " " * self._width + "\r")
             self._width = 0

@@ -1,23 +1,22 @@
-"""Twisted's own reactor, run in small pieces by the loop of a flight that keeps real time."""
+"""The reactor of Twisted, run in small steps by the loop of a flight in real time."""
 
 from __future__ import annotations
 
 import time
 from typing import Any
 
-from up_simulator.crew.protocols import CrewError
-from up_simulator.in_process.machine import LiteralResolver
+from up_simulator.harness.participants import ParticipantError
+from up_simulator.in_process.host import LiteralResolver
 from up_simulator.link.datagram_relay import DatagramRelay
-from up_simulator.link.listening_relay import LinkRelayError
 from up_simulator.link.model import LinkModel
-from up_simulator.link.relay import LinkRelay
+from up_simulator.link.relay import LinkRelay, LinkRelayError
 
 LATEST_S = 0.25
 LOOPBACK = "127.0.0.1"
 
 
 class RealReactor:
-    """Has the interface of the simulated reactor for the stand-ins of phone and ground.
+    """Has the interface of the simulated reactor for the stubs of phone and ground.
 
     ``link`` puts a relay before a port: connections to the port pass the link to its ``targets``
     entry.
@@ -40,15 +39,14 @@ class RealReactor:
         self.skipped_s = 0.0
 
     def seconds(self) -> float:
-        """Return the monotonic time."""
         return time.monotonic()
 
-    def machine(self, _name: str = "") -> Any:
+    def host(self, _name: str = "") -> Any:
         """Return the reactor: every program has the same one."""
         return self._reactor
 
     def link(self, port: int, up: LinkModel, down: LinkModel) -> None:
-        """Put a link before a port that has a target, for TCP and UDP; raises CrewError."""
+        """Put a link before a port that has a target, for TCP and UDP; raises ParticipantError."""
         if port in self.targets:
             self.relay(port, self.targets[port], up, down)
             self.relay(port, self.targets[port], up, down, is_datagram=True)
@@ -58,7 +56,7 @@ class RealReactor:
     ) -> int:
         """Listen on a port (0: any), carry everything to another one; return the port.
 
-        Raises CrewError.
+        Raises ParticipantError.
         """
         kind = DatagramRelay if is_datagram else LinkRelay
         relay = kind(self._reactor, port, LOOPBACK, target, up, down)
@@ -66,7 +64,7 @@ class RealReactor:
         try:
             return relay.start()
         except LinkRelayError as error:
-            raise CrewError(str(error)) from error
+            raise ParticipantError(str(error)) from error
 
     def advance(self, step_s: float) -> None:
         """Serve sockets and timers until this step's real time is over.
@@ -83,7 +81,6 @@ class RealReactor:
             self._due_s -= left_s
 
     def stop(self) -> None:
-        """Take the relays away."""
         relays, self._relays = self._relays, []
         for relay in relays:
             # Each has closed all before it first waits for anything.

@@ -1,4 +1,4 @@
-"""The report of a flight, in plain words."""
+"""The report of a flight."""
 
 from __future__ import annotations
 
@@ -6,9 +6,9 @@ from collections.abc import Iterable, Iterator
 from pathlib import Path
 
 from up.fields import printable
-from up_simulator.scenario.flight import FlightRecord
+from up_simulator.scenario.expectation import Verdict
+from up_simulator.scenario.flight_record import FlightRecord
 from up_simulator.scenario.result import Result
-from up_simulator.scenario.verdict import Verdict
 
 _HELD, _NOT_HELD = "held", "NOT HELD"
 _NAME_WIDTH = 58
@@ -27,15 +27,15 @@ def _lines(name: str, result: Result, files: Iterable[Path]) -> Iterator[str]:
     scenario = record.scenario
     yield f"{scenario.title.strip()} ({name})"
     yield from _interrupted(result)
-    yield from _flown("flight", record)
+    yield from _flight_lines("flight", record)
     if result.control is not None:
-        yield from _flown("control run", result.control)
+        yield from _flight_lines("control run", result.control)
     if scenario.is_real:
         yield "  real programs and sockets: real time, not repeatable to the digit"
     yield ""
     for verdict in result.verdicts:
         yield from _verdict_lines(verdict)
-    yield from _troubles(result)
+    yield from _failures(result)
     shown = [str(path) for path in files]
     if shown:
         yield ""
@@ -43,8 +43,8 @@ def _lines(name: str, result: Result, files: Iterable[Path]) -> Iterator[str]:
     yield ""
     count = len(result.verdicts)
     held = sum(verdict.is_held for verdict in result.verdicts)
-    word = "held" if result.is_held else "NOT held"
-    yield f"{name}: {word} ({held} of {count} expectations)"
+    state = "held" if result.is_held else "NOT held"
+    yield f"{name}: {state} ({held} of {count} expectations)"
 
 
 def _interrupted(result: Result) -> Iterator[str]:
@@ -62,15 +62,13 @@ def speed_text(record: FlightRecord) -> str:
     )
 
 
-def _flown(what: str, record: FlightRecord) -> Iterator[str]:
+def _flight_lines(what: str, record: FlightRecord) -> Iterator[str]:
     scenario = record.scenario
     yield (
         f"  {what}: {speed_text(record)}; {scenario.airframe}, seed {scenario.seed},"
         f" {record.board_title}"
     )
-    if record.phone_title:
-        yield f"  {what}: the phone is {record.phone_title}"
-    for note in record.notes:
+    for note in record.notes.values():
         yield f"  {what}: {note}"
 
 
@@ -82,25 +80,26 @@ def _verdict_lines(verdict: Verdict) -> Iterator[str]:
         yield f"           {verdict.why}"
 
 
-def _troubles(result: Result) -> Iterator[str]:
+def _failures(result: Result) -> Iterator[str]:
     for what, record in (("the flight", result.record), ("the control run", result.control)):
         if record is None:
             continue
         if record.failure is not None:
-            yield f"  {what} could not go on at {record.flown_s:.2f} s: {record.failure}"
+            yield f"  {what} stopped at {record.flown_s:.2f} s: {record.failure}"
             for line in record.failure_log:
                 yield f"    | {line}"
         if record.crash is not None:
-            yield f"  {what} ended at {record.crash_s:.2f} s: {record.crash}{_place(record)}"
+            yield f"  {what} ended at {record.crash_s:.2f} s: {record.crash}{_position(record)}"
 
 
-def _place(record: FlightRecord) -> str:
+def _position(record: FlightRecord) -> str:
     log = record.log
     if not len(log):
         return ""
     north_m, east_m = log.numbers("truth.north_m")[-1], log.numbers("truth.east_m")[-1]
-    return f", {_way(north_m, 'north', 'south')} and {_way(east_m, 'east', 'west')} of the start"
+    north, east = _direction(north_m, "north", "south"), _direction(east_m, "east", "west")
+    return f", {north} and {east} of the start"
 
 
-def _way(metres: float, positive: str, negative: str) -> str:
+def _direction(metres: float, positive: str, negative: str) -> str:
     return f"{abs(metres):.0f} m {positive if metres >= 0 else negative}"

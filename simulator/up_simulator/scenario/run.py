@@ -12,17 +12,17 @@ from functools import partial
 from pathlib import Path
 
 from up_simulator.aircraft import AirframeError
-from up_simulator.crew.protocols import CrewError
-from up_simulator.ending import ending_between_steps
+from up_simulator.aircraft.flight import FlightUnavailableError
 from up_simulator.firmware.board import BoardCrashedError
 from up_simulator.firmware.build import BoardUnavailableError
 from up_simulator.firmware.preparation import PreparationError
 from up_simulator.firmware.settings_wire import SettingsError
-from up_simulator.flight import FlightUnavailableError
+from up_simulator.harness.participants import ParticipantError
+from up_simulator.harness.signal_handling import interrupts_between_steps
 from up_simulator.picture.flight_picture import Failure, PictureError, Wind, draw_flight
 from up_simulator.scenario.build import build_flight
-from up_simulator.scenario.flight import FlightRecord
 from up_simulator.scenario.flight_mcap import write_flight
+from up_simulator.scenario.flight_record import FlightRecord
 from up_simulator.scenario.progress import ProgressLine
 from up_simulator.scenario.report import report_lines
 from up_simulator.scenario.result import (
@@ -45,20 +45,21 @@ LOG, CONTROL_LOG, FLIGHT_LOG, REPORT, PICTURE, SUMMARY = (
 )
 BLACK_BOXES = "black-box"
 _WRONG_INPUT = (AirframeError, SettingsError)
-_CANNOT_FLY = (
-    *_WRONG_INPUT,
-    BoardCrashedError,
-    BoardUnavailableError,
-    CrewError,
-    FlightUnavailableError,
-    PreparationError,
-)
-Say = Callable[[str], None]
+_CODES: dict[type[Exception], str] = {
+    AirframeError: "airframe",
+    SettingsError: "settings",
+    BoardCrashedError: "board_crashed",
+    BoardUnavailableError: "board_unavailable",
+    ParticipantError: "participant_failed",
+    FlightUnavailableError: "flight_model_unavailable",
+    PreparationError: "eeprom_preparation",
+}
+Notify = Callable[[str], None]
 
 
 @dataclass(slots=True)
 class Files:
-    """The files written of a flight; ``trouble`` is a sentence about those that failed."""
+    """The files written of a flight; ``trouble`` is a sentence about the first that failed."""
 
     written: list[Path] = field(default_factory=list)
     trouble: str | None = None
@@ -86,52 +87,55 @@ class Output:
 class CannotFlyError(Exception):
     """A requirement of a scenario is missing here: the message is one sentence for the user.
 
-    ``is_wrong_input``: the user has named it.
+    ``code`` names the requirement; ``is_wrong_input``: the user has named it.
     """
 
-    def __init__(self, text: str, is_wrong_input: bool) -> None:
-        super().__init__(text)
-        self.is_wrong_input = is_wrong_input
+    def __init__(self, error: Exception) -> None:
+        super().__init__(str(error))
+        self.is_wrong_input = isinstance(error, _WRONG_INPUT)
+        self.code = next(code for kind, code in _CODES.items() if isinstance(error, kind))
 
 
 def fly_scenario(
     name: str,
     scenario: Scenario,
     progress: ProgressLine,
-    say: Say = lambda _text: None,
+    notify: Notify = lambda _text: None,
     *,
     is_paced: bool = False,
 ) -> Result:
-    """Fly it, and its control run unless it was interrupted, and judge both.
+    """Fly it, and its control run unless it was interrupted, and evaluate both.
 
     With ``is_paced`` it runs in real time at most. Raises CannotFlyError.
     """
-    record = _fly(name, scenario, progress, say, is_paced)
+    record = _fly(name, scenario, progress, notify, is_paced)
     result = Result(record, verdicts_of(record))
     if scenario.control is not None and not record.is_interrupted and record.failure is None:
-        control = _fly(f"{name}, control run", control_scenario(scenario), progress, say, is_paced)
+        control = _fly(
+            f"{name}, control run", control_scenario(scenario), progress, notify, is_paced
+        )
         result.control = control
         result.verdicts += control_verdicts(scenario, control)
     return result
 
 
 def _fly(
-    name: str, scenario: Scenario, progress: ProgressLine, say: Say, is_paced: bool
+    name: str, scenario: Scenario, progress: ProgressLine, notify: Notify, is_paced: bool
 ) -> FlightRecord:
     progress.begin(name, scenario.duration_s)
     try:
-        flight = build_flight(scenario, say)
-    except _CANNOT_FLY as error:
-        raise CannotFlyError(str(error), isinstance(error, _WRONG_INPUT)) from error
+        flight = build_flight(scenario, notify)
+    except tuple(_CODES) as error:
+        raise CannotFlyError(error) from error
     else:
         show = _Paced(progress.show) if is_paced else progress.show
-        with ending_between_steps() as interrupt:
+        with interrupts_between_steps() as interrupt:
 
-            def go_on(time_s: float) -> None:
-                interrupt.look()
+            def on_progress(time_s: float) -> None:
+                interrupt.check()
                 show(time_s)
 
-            return flight.fly(go_on)
+            return flight.fly(on_progress)
     finally:
         progress.end()
 
@@ -161,7 +165,7 @@ def try_folder(folder: Path) -> None:
         file.write(bytes(4096))
 
 
-def write_files(name: str, result: Result, output: Output, say: Say) -> Files:
+def write_files(name: str, result: Result, output: Output, notify: Notify) -> Files:
     """Write logs, picture, summary and report, each if it can be."""
     files = Files()
     folder = output.folder
@@ -177,12 +181,12 @@ def write_files(name: str, result: Result, output: Output, say: Say) -> Files:
     flight_log = folder / FLIGHT_LOG
     if files.put(flight_log, lambda path: write_flight(name, result, path)):
         files.written.append(flight_log)
-    _put_black_boxes(result.record.black_boxes, folder / BLACK_BOXES, files)
+    _write_black_boxes(result.record.black_boxes, folder / BLACK_BOXES, files)
     if output.has_picture and len(result.record.log):
-        _draw(result, folder / PICTURE, files, say)
+        _draw(result, folder / PICTURE, files, notify)
     for path in (folder / CONTROL_LOG, folder / PICTURE):
         if path not in files.written:
-            # It is of an earlier flight, and would be taken for this one's.
+            # A file of an earlier flight must not be taken for one of this flight.
             with suppress(OSError):
                 path.unlink()
     summary = json.dumps(_summary(name, result), indent=1)
@@ -192,7 +196,7 @@ def write_files(name: str, result: Result, output: Output, say: Say) -> Files:
     return files
 
 
-def _put_black_boxes(found: Mapping[str, bytes], folder: Path, files: Files) -> None:
+def _write_black_boxes(found: Mapping[str, bytes], folder: Path, files: Files) -> None:
     """Keep a real daemon's recordings, and delete those of an earlier flight."""
     with suppress(OSError):
         for old in folder.glob("*.mcap"):
@@ -208,7 +212,7 @@ def _write_below(data: bytes, path: Path) -> None:
     path.write_bytes(data)
 
 
-def _draw(result: Result, path: Path, files: Files, say: Say) -> None:
+def _draw(result: Result, path: Path, files: Files, notify: Notify) -> None:
     record = result.record
     weather = record.scenario.weather
     failures = [
@@ -234,7 +238,7 @@ def _draw(result: Result, path: Path, files: Files, say: Say) -> None:
         if files.put(path, draw):
             files.written.append(path)
     except PictureError as error:
-        say(str(error))
+        notify(str(error))
 
 
 def _subtitle(record: FlightRecord) -> str:
@@ -248,17 +252,19 @@ def _summary(name: str, result: Result) -> dict[str, object]:
     return {
         "name": name,
         "title": record.scenario.title,
-        "phone": record.phone_title,
         "held": result.is_held,
         "flown_s": round(record.flown_s, 3),
         "speed": round(record.speed, 2),
         "crash_s": record.crash_s,
         "failure": record.failure,
+        "failure_code": record.failure_code,
         "interrupted": result.is_interrupted,
+        "notes": record.notes,
         "expectations": [
             {
                 "name": verdict.name,
                 "held": verdict.is_held,
+                "code": verdict.code,
                 "figure": verdict.figure,
                 "limit": verdict.limit,
                 "why": verdict.why,

@@ -3,18 +3,20 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Iterable, Mapping
 from typing import Any
 
 from up.commands.board_schema import DATA, FLIGHT_MODES, RESET_CAUSES, SWITCH_POSITIONS
-from up_simulator.crew.protocols import Ground, Phone, Raspilot
-from up_simulator.firmware.tap import BoardTap
+from up_simulator.aircraft.flight import Dynamics
+from up_simulator.firmware.line_monitor import LineMonitor
+from up_simulator.harness.participants import Ground
+from up_simulator.harness.world import World
 from up_simulator.scenario.demand import DemandModel
 from up_simulator.scenario.line_board import LineBoard
+from up_simulator.scenario.participants import Participants
 from up_simulator.scenario.scenario import Scenario
 from up_simulator.scenario.signals import EVENT_COLUMN, SIGNALS
 from up_simulator.scenario.sticks import CHANNELS
-from up_simulator.world import Dynamics, World
 
 Values = dict[str, float | bool | str | None]
 _SERVOS = CHANNELS[:4]
@@ -24,13 +26,13 @@ def columns_of(scenario: Scenario) -> list[str]:
     """Return the log's columns: those of every part that flies, and of the expectations."""
     sources = sources_of(scenario)
     columns = [name for name, signal in SIGNALS.items() if signal.source in sources]
-    wanted = [expectation.signal for expectation in scenario.expect]
-    more = [name for name in wanted if name not in SIGNALS and name.partition(".")[0] in sources]
+    expected = [expectation.signal for expectation in scenario.expect]
+    more = [name for name in expected if name not in SIGNALS and name.partition(".")[0] in sources]
     return [*columns, *dict.fromkeys(more), EVENT_COLUMN]
 
 
 def sources_of(scenario: Scenario) -> set[str]:
-    """Return the first words of the signals that the parts of this flight have."""
+    """Return the first parts of the names of signals that the parts of this flight have."""
     sources = {"time_s", "truth", "stick", "servo"}
     if scenario.board != "direct":
         sources |= {"board", "demand", "error", "estimate_error"}
@@ -44,31 +46,24 @@ def sources_of(scenario: Scenario) -> set[str]:
 
 
 class Sampler:
-    """Gathers rows; ``is_crashed`` comes from the dynamics, all else from the parts themselves."""
+    """Gathers rows: the values of all signals at one time."""
 
     def __init__(
         self,
         world: World,
         board: LineBoard,
         demand: DemandModel,
+        participants: Participants,
         *,
         has_flight_computer: bool,
-        raspilot: Raspilot | None = None,
-        ground: Ground | None = None,
-        phone: Phone | None = None,
-        ground_now_s: Callable[[], float] = lambda: 0.0,
     ) -> None:
         self._world = world
         self._board = board
         self._demand = demand
+        self._participants = participants
         self._has_computer = has_flight_computer
-        self._raspilot = raspilot
-        self._ground = ground
-        self._phone = phone
-        self._ground_now_s = ground_now_s
 
     def row(self, time_s: float, sticks_us: Mapping[str, float]) -> Values:
-        """Return all values now."""
         values: Values = {"time_s": time_s}
         values.update(_truth(self._world.dynamics))
         values.update((f"stick.{name}_us", sticks_us[name]) for name in CHANNELS)
@@ -76,34 +71,35 @@ class Sampler:
         values.update(
             (f"servo.{name}_us", pulse) for name, pulse in zip(_SERVOS, pulses_us, strict=True)
         )
-        stale_us = self._board.take_stalest_us()
+        stale_us = self._board.take_max_pulse_age_us()
         values["servo.stale_ms"] = stale_us / 1e3 if stale_us < float("inf") else None
         if self._has_computer:
             values.update(_board(self._board.tap, self._board.now_s))
             self._add_demand(values, sticks_us)
-        if self._raspilot is not None:
-            values["raspilot.running"] = self._raspilot.is_running
-        if self._phone is not None:
-            values["phone.plugged"] = self._phone.is_plugged
-        if self._ground is not None:
-            values.update(_ground(self._ground, self._ground_now_s()))
+        participants = self._participants
+        if participants.raspilot is not None:
+            values["raspilot.running"] = participants.raspilot.is_running
+        if participants.phone is not None:
+            values["phone.plugged"] = participants.phone.is_plugged
+        if participants.ground is not None:
+            values.update(_ground(participants.ground, participants.seconds()))
         return values
 
     def _add_demand(self, values: Values, sticks_us: Mapping[str, float]) -> None:
         mode, is_failsafe = values.get("board.mode"), values.get("board.failsafe")
         demand = self._demand.at(str(mode), bool(is_failsafe), sticks_us)
         for name in ("roll_deg", "pitch_deg", "roll_rate_deg_s", "pitch_rate_deg_s"):
-            asked, truth = getattr(demand, name), values[f"truth.{name}"]
-            values[f"demand.{name}"] = asked
-            if asked is not None and isinstance(truth, float):
-                values[f"error.{name}"] = _shorter_way(truth - asked, name)
+            demanded, truth = getattr(demand, name), values[f"truth.{name}"]
+            values[f"demand.{name}"] = demanded
+            if demanded is not None and isinstance(truth, float):
+                values[f"error.{name}"] = _wrapped(truth - demanded, name)
         for name in ("roll_deg", "pitch_deg"):
-            told, truth = values.get(f"board.{name}"), values[f"truth.{name}"]
-            if isinstance(told, float) and isinstance(truth, float):
-                values[f"estimate_error.{name}"] = _shorter_way(told - truth, name)
+            estimate, truth = values.get(f"board.{name}"), values[f"truth.{name}"]
+            if isinstance(estimate, float) and isinstance(truth, float):
+                values[f"estimate_error.{name}"] = _wrapped(estimate - truth, name)
 
 
-def _shorter_way(difference: float, name: str) -> float:
+def _wrapped(difference: float, name: str) -> float:
     return (difference + 180.0) % 360.0 - 180.0 if name == "roll_deg" else difference
 
 
@@ -115,7 +111,7 @@ def _truth(dynamics: Dynamics) -> Iterable[tuple[str, Any]]:
     yield "truth.crashed", getattr(dynamics, "crash", None) is not None
 
 
-def _board(tap: BoardTap, now_s: float) -> Iterable[tuple[str, Any]]:
+def _board(tap: LineMonitor, now_s: float) -> Iterable[tuple[str, Any]]:
     yield "board.bad_frames", tap.bad_frames
     if (orientation := tap.orientation) is not None:
         for angle in ("roll", "pitch", "yaw"):

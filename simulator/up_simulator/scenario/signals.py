@@ -1,4 +1,4 @@
-"""The names of everything that a flight is logged and judged by."""
+"""The signals that a flight logs and evaluates."""
 
 from __future__ import annotations
 
@@ -7,7 +7,50 @@ import enum
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from up.commands.board_schema import DATA
+from up.commands.board_schema import (
+    DATA,
+    FLIGHT_MODES,
+    RESET_CAUSES,
+    SWITCH_MODES,
+    SWITCH_POSITIONS,
+)
+
+_MODES = tuple(FLIGHT_MODES.values())
+_POSITIONS = tuple(SWITCH_POSITIONS.values())
+_SOURCES = ("arduino", "android")
+_CAUSES = tuple(RESET_CAUSES.values())
+_VALUES: dict[str, tuple[str, ...]] = {
+    "board.mode": _MODES,
+    "board.switch": (*_POSITIONS, "not known"),
+    "board.reset_cause": tuple(cause for cause in _CAUSES if " " not in cause),
+    "ground.arduino.framing": ("checked", "thesis"),
+    "ground.arduino.switch": _POSITIONS,
+    "ground.arduino.reset_cause": (*_CAUSES, "unknown"),
+    "ground.mode": ("flight controller", "black box", "black box (provisional)"),
+    "ground.flight_mode": _MODES,
+    "ground.flight_controller": ("arduino", "raspberry"),
+    "ground.flight_control.mode": tuple(SWITCH_MODES.values()),
+}
+_SEPARATORS = {"board.reset_cause": " ", "ground.arduino.reset_cause": ", "}
+"""Separators for signals that may have several values at a time."""
+
+
+def values_of(name: str) -> tuple[str, ...]:
+    """Return the allowed values of a text signal; empty if it may be any text."""
+    return _SOURCES if name.startswith("ground.source.") else _VALUES.get(name, ())
+
+
+def value_problem(name: str, text: str) -> str:
+    """Return a sentence if the signal never has that value, with a suggestion."""
+    values = values_of(name)
+    parts = text.split(_SEPARATORS[name]) if name in _SEPARATORS else [text]
+    wrong = next((part for part in parts if part not in values), None)
+    if not values or wrong is None:
+        return ""
+    by_lower = {value.lower(): value for value in values}
+    matches = difflib.get_close_matches(wrong.lower()[:80], by_lower, n=1)
+    hint = f"did you mean '{by_lower[matches[0]]}'?" if matches else f"it has {', '.join(values)}"
+    return f'{name} is never "{wrong[:60]}": {hint}'
 
 
 class Kind(enum.Enum):
@@ -15,7 +58,7 @@ class Kind(enum.Enum):
 
     NUMBER = "number"
     FLAG = "flag"
-    WORD = "word"
+    TEXT = "text"
 
 
 @dataclass(frozen=True, slots=True)
@@ -33,8 +76,8 @@ class Signal:
         return self.name.partition(".")[0]
 
 
-_FLAG, _WORD = Kind.FLAG, Kind.WORD
-_KINDS = {"flag": Kind.FLAG, "text": Kind.WORD, "number": Kind.NUMBER}
+_FLAG, _TEXT = Kind.FLAG, Kind.TEXT
+_KINDS = {"flag": Kind.FLAG, "text": Kind.TEXT, "number": Kind.NUMBER}
 _STICKS = ("ailerons", "elevator", "throttle", "rudder", "aux1", "aux2")
 _SERVOS = _STICKS[:4]
 
@@ -43,95 +86,95 @@ def _truth() -> Iterator[Signal]:
     for name, unit, about in (
         ("roll_deg", "deg", "bank, right wing down positive"),
         ("pitch_deg", "deg", "pitch, nose up positive"),
-        ("yaw_deg", "deg", "where the nose points, 0 is north"),
+        ("yaw_deg", "deg", "direction of the nose, 0 is north"),
         ("roll_rate_deg_s", "deg/s", "rotation about the long axis"),
         ("pitch_rate_deg_s", "deg/s", "rotation about the wing"),
         ("yaw_rate_deg_s", "deg/s", "rotation about the vertical axis of the body"),
-        ("latitude_deg", "deg", "where it is"),
-        ("longitude_deg", "deg", "where it is"),
-        ("north_m", "m", "how far north of the start"),
-        ("east_m", "m", "how far east of the start"),
+        ("latitude_deg", "deg", "position"),
+        ("longitude_deg", "deg", "position"),
+        ("north_m", "m", "distance north of the start"),
+        ("east_m", "m", "distance east of the start"),
         ("altitude_m", "m", "above the sea"),
         ("height_m", "m", "above the ground"),
         ("climb_m_s", "m/s", "up positive"),
         ("speed_m_s", "m/s", "over the ground"),
-        ("track_deg", "deg", "where it goes over the ground"),
+        ("track_deg", "deg", "course over the ground"),
         ("airspeed_m_s", "m/s", "through the air"),
         ("alpha_deg", "deg", "angle of attack"),
-        ("sideslip_deg", "deg", "angle of the air from the side"),
-        ("load_factor_g", "g", "what the wing carries, 1 in level flight"),
-        ("battery_v", "V", "the flight battery under its load"),
-        ("battery_percent", "%", "what is left in the flight battery"),
-        ("motor_rpm", "1/min", "the propeller"),
-        ("motor_w", "W", "what the motor takes"),
-        ("wind_north_m_s", "m/s", "how fast the air goes north, with gusts and turbulence"),
-        ("wind_east_m_s", "m/s", "how fast the air goes east"),
-        ("wind_down_m_s", "m/s", "how fast the air sinks"),
+        ("sideslip_deg", "deg", "angle of the airflow from the side"),
+        ("load_factor_g", "g", "load on the wing, 1 in level flight"),
+        ("battery_v", "V", "voltage of the flight battery under load"),
+        ("battery_percent", "%", "charge of the flight battery"),
+        ("motor_rpm", "1/min", "speed of the propeller"),
+        ("motor_w", "W", "power of the motor"),
+        ("wind_north_m_s", "m/s", "speed of the air to the north, with gusts and turbulence"),
+        ("wind_east_m_s", "m/s", "speed of the air to the east"),
+        ("wind_down_m_s", "m/s", "speed of the air down"),
     ):
         yield Signal(f"truth.{name}", about, unit)
-    yield Signal("truth.crashed", "it has hit the ground or broken", kind=_FLAG)
+    yield Signal("truth.crashed", "it has hit the ground or broken up", kind=_FLAG)
 
 
 def _pilot() -> Iterator[Signal]:
     for channel in _STICKS:
-        yield Signal(f"stick.{channel}_us", f"the pulse that the pilot gives: {channel}", "us")
+        yield Signal(f"stick.{channel}_us", f"pulse of the stick: {channel}", "us")
     for channel in _SERVOS:
-        yield Signal(f"servo.{channel}_us", f"the pulse measured at the output: {channel}", "us")
+        yield Signal(f"servo.{channel}_us", f"pulse measured at the output: {channel}", "us")
     yield Signal(
         "servo.stale_ms",
-        "the longest that any output had no new pulse since the row before",
+        "longest time that any output had no new pulse, since the previous row",
         "ms",
     )
 
 
 def _board() -> Iterator[Signal]:
-    yield Signal("board.mode", "what the Arduino flies: ACRO, RATE, FBW, SETPOINT...", kind=_WORD)
+    yield Signal("board.mode", "mode of the Arduino: ACRO, RATE, FBW, SETPOINT...", kind=_TEXT)
     for datum in DATA:
         if datum.signal:
             yield Signal(f"board.{datum.signal}", datum.about, datum.unit, _KINDS[datum.kind])
-    yield Signal("board.switch", "where AUX1 stands: low, middle, high", kind=_WORD)
-    yield Signal("board.reset_cause", "of the last reset", kind=_WORD)
+    yield Signal("board.switch", "position of AUX1: low, middle, high", kind=_TEXT)
+    yield Signal("board.reset_cause", "cause of the last reset", kind=_TEXT)
     for name, unit, about in (
-        ("roll_deg", "deg", "bank as the Arduino estimates it"),
-        ("pitch_deg", "deg", "pitch as the Arduino estimates it"),
-        ("yaw_deg", "deg", "yaw as the Arduino estimates it, without a magnetometer"),
-        ("roll_rate_deg_s", "deg/s", "its gyroscope"),
-        ("pitch_rate_deg_s", "deg/s", "its gyroscope"),
-        ("yaw_rate_deg_s", "deg/s", "its gyroscope"),
-        ("status_age_s", "s", "since its newest status was heard"),
-        ("orientation_age_s", "s", "since its newest orientation was heard"),
-        ("bad_frames", "", "frames of the Arduino that a listener on the line had to drop"),
+        ("roll_deg", "deg", "bank estimated by the Arduino"),
+        ("pitch_deg", "deg", "pitch estimated by the Arduino"),
+        ("yaw_deg", "deg", "yaw estimated by the Arduino, without a magnetometer"),
+        ("roll_rate_deg_s", "deg/s", "rate of its gyroscope"),
+        ("pitch_rate_deg_s", "deg/s", "rate of its gyroscope"),
+        ("yaw_rate_deg_s", "deg/s", "rate of its gyroscope"),
+        ("status_age_s", "s", "since its newest status was received"),
+        ("orientation_age_s", "s", "since its newest orientation was received"),
+        ("bad_frames", "", "frames of the Arduino that a listener on the line dropped"),
     ):
         yield Signal(f"board.{name}", about, unit)
 
 
 def _demand() -> Iterator[Signal]:
     for name, unit, about in (
-        ("roll_deg", "deg", "the bank that sticks, failsafe or setpoint ask for"),
-        ("pitch_deg", "deg", "the pitch that sticks, failsafe or setpoint ask for"),
-        ("roll_rate_deg_s", "deg/s", "the roll rate that the stick asks for in RATE"),
-        ("pitch_rate_deg_s", "deg/s", "the pitch rate that the stick asks for in RATE"),
+        ("roll_deg", "deg", "bank demanded by sticks, failsafe or set-point"),
+        ("pitch_deg", "deg", "pitch demanded by sticks, failsafe or set-point"),
+        ("roll_rate_deg_s", "deg/s", "roll rate demanded by the stick in RATE"),
+        ("pitch_rate_deg_s", "deg/s", "pitch rate demanded by the stick in RATE"),
     ):
         yield Signal(f"demand.{name}", about, unit)
-        yield Signal(f"error.{name}", f"truth.{name} less demand.{name}", unit)
+        yield Signal(f"error.{name}", f"truth.{name} minus demand.{name}", unit)
     for name in ("roll_deg", "pitch_deg"):
-        yield Signal(f"estimate_error.{name}", f"board.{name} less truth.{name}", "deg")
+        yield Signal(f"estimate_error.{name}", f"board.{name} minus truth.{name}", "deg")
 
 
 def _daemon() -> Iterator[Signal]:
     yield Signal("raspilot.running", "the daemon's process runs", kind=_FLAG)
-    yield Signal("phone.plugged", "the phone's cable is in", kind=_FLAG)
+    yield Signal("phone.plugged", "the cable of the phone is plugged in", kind=_FLAG)
 
 
 def _ground() -> Iterator[Signal]:
-    yield Signal("ground.age_s", "since the newest telemetry came", "s")
+    yield Signal("ground.age_s", "since the newest telemetry arrived", "s")
     yield Signal(
         "ground.latency_s",
-        "how old telemetry was when it came, the oldest since the row before",
+        "age of telemetry on arrival, the maximum since the previous row",
         "s",
     )
-    yield Signal("ground.frames", "telemetry frames that have come")
-    yield Signal("ground.connected", "it has a connection, as far as it knows", kind=_FLAG)
+    yield Signal("ground.frames", "number of telemetry frames received")
+    yield Signal("ground.connected", "it has a connection, to its knowledge", kind=_FLAG)
     for group, unit in (("orientation", "deg"), ("rates", "deg/s")):
         for axis in ("roll", "pitch", "yaw"):
             yield _telemetry(f"{group}.{axis}", unit)
@@ -170,13 +213,13 @@ def _ground() -> Iterator[Signal]:
         "flight_control.mode",
         "vetoes",
     ):
-        yield _telemetry(name, kind=_WORD)
+        yield _telemetry(name, kind=_TEXT)
     for datum in DATA:
         if datum.in_telemetry:
             yield _telemetry(f"arduino.{datum.name}", datum.unit, _KINDS[datum.kind])
     for reading in _READINGS:
         yield _telemetry(f"age_ms.{reading}", "ms")
-        yield _telemetry(f"source.{reading}", kind=_WORD)
+        yield _telemetry(f"source.{reading}", kind=_TEXT)
 
 
 _READINGS = ("orientation", "rx", "servo", "location", "altitude", "heading", "battery")
@@ -197,10 +240,10 @@ def _all() -> Iterator[Signal]:
 
 
 EVENT_COLUMN = "event"
-"""The log's last column: the events since the row before, empty without one."""
+"""Last column of the log: the events since the previous row, empty if none."""
 SIGNALS = {signal.name: signal for signal in _all()}
 FREE_PREFIX = "ground.counters."
-"""The names behind it are the modules' counters."""
+"""Prefix of the counters of the modules."""
 
 
 def signal_of(name: str) -> Signal:
@@ -209,8 +252,8 @@ def signal_of(name: str) -> Signal:
         return SIGNALS[name]
     if name.startswith(FREE_PREFIX) and name.count(".") >= 3 and not name.endswith("."):
         return Signal(name, f"telemetry {name.partition('.')[2]}")
-    near = difflib.get_close_matches(name.lower()[:80], SIGNALS, n=1)
-    if not near:
-        near = [each for each in SIGNALS if each.rpartition(".")[2] == name.lower()][:1]
-    hint = f", did you mean '{near[0]}'?" if near else " ('up-sim signals' lists them)"
-    raise KeyError(f"there is no signal of that name{hint}")
+    matches = difflib.get_close_matches(name.lower()[:80], SIGNALS, n=1)
+    if not matches:
+        matches = [each for each in SIGNALS if each.rpartition(".")[2] == name.lower()][:1]
+    hint = f", did you mean '{matches[0]}'?" if matches else " ('up-sim signals' lists them)"
+    raise KeyError(f"unknown signal{hint}")

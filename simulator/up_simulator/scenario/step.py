@@ -4,16 +4,15 @@ from __future__ import annotations
 
 import math
 
-from up_simulator.scenario.expectation import Expectation, StepLimits
+from up_simulator.scenario.expectation import Expectation, StepLimits, Verdict, number_text
 from up_simulator.scenario.log import FlightLog
 from up_simulator.scenario.signals import signal_of
-from up_simulator.scenario.verdict import Verdict, number_text
+from up_simulator.scenario.step_response import StepError, StepResponse, analyse_step
 from up_simulator.scenario.window import Window
-from up_simulator.tuning.step_response import StepError, StepResponse, analyse_step
 
-LOOK_S = 0.2
+MARGIN_S = 0.2
 """The demand is read this time before and after the step: the receiver and the mode need it."""
-_WORDS = {
+_LABELS = {
     "rise_time_s": ("rise", "s"),
     "overshoot_percent": ("overshoot", "%"),
     "settling_time_s": ("settled", "s"),
@@ -21,48 +20,49 @@ _WORDS = {
 }
 
 
-def judge_step(
+def evaluate_step(
     expectation: Expectation, limits: StepLimits, window: Window, log: FlightLog
 ) -> Verdict:
     """Return the verdict on a step at the window's begin, measured until the window's end."""
     unit = signal_of(expectation.signal).unit
     limit_text = step_limit_text(limits, unit)
     try:
-        start, end = _asked(expectation, limits, window, log)
+        start, end = _endpoints(expectation, limits, window, log)
         until_s = window.times_s[-1]
         response = analyse_step(
             *_with_lead(expectation.signal, window, log), window.begin_s, start, end, until_s
         )
     except StepError as error:
-        return Verdict(expectation.name, False, "none", limit_text, str(error), False)
+        return Verdict(expectation.name, False, "none", limit_text, str(error), False, "no_step")
     figures = {name: _figure(response, name) for name in limits.limits}
     text = ", ".join(
-        f"{_WORDS[name][0]} never"
+        f"{_LABELS[name][0]} never"
         if value is None
-        else f"{_WORDS[name][0]} {number_text(value)} {_WORDS[name][1] or unit}".rstrip()
+        else f"{_LABELS[name][0]} {number_text(value)} {_LABELS[name][1] or unit}".rstrip()
         for name, value in figures.items()
     )
-    broken = [
+    exceeded = [
         name
-        for name, most in limits.limits.items()
-        if (value := figures[name]) is None or value > most
+        for name, limit in limits.limits.items()
+        if (value := figures[name]) is None or value > limit
     ]
-    why = ", ".join(f"{_WORDS[name][0]} is beyond its limit" for name in broken)
-    return Verdict(expectation.name, not broken, text, limit_text, why)
+    why = ", ".join(f"{_LABELS[name][0]} is beyond its limit" for name in exceeded)
+    code = "out_of_limits" if exceeded else ""
+    return Verdict(expectation.name, not exceeded, text, limit_text, why, code=code)
 
 
 def step_limit_text(limits: StepLimits, unit: str) -> str:
     """Return the limits of a step as they read behind its figures."""
     return ", ".join(
-        f"{_WORDS[name][0]} at most {number_text(most)} {_WORDS[name][1] or unit}".rstrip()
-        for name, most in limits.limits.items()
+        f"{_LABELS[name][0]} at most {number_text(limit)} {_LABELS[name][1] or unit}".rstrip()
+        for name, limit in limits.limits.items()
     )
 
 
 def _with_lead(name: str, window: Window, log: FlightLog) -> tuple[list[float], list[float]]:
-    """Return the window with the moment before it, which has the value before the step."""
+    """Return the window with the time before it, which has the value before the step."""
     pairs = zip(log.numbers("time_s"), log.numbers(name), strict=True)
-    begin_s, end_s = window.begin_s - 2 * LOOK_S, window.times_s[-1]
+    begin_s, end_s = window.begin_s - 2 * MARGIN_S, window.times_s[-1]
     chosen = [(time_s, value) for time_s, value in pairs if begin_s <= time_s <= end_s]
     return [time_s for time_s, _ in chosen], [value for _, value in chosen]
 
@@ -72,7 +72,7 @@ def _figure(response: StepResponse, name: str) -> float | None:
     return abs(value) if name == "steady_error" and value is not None else value
 
 
-def _asked(
+def _endpoints(
     expectation: Expectation, limits: StepLimits, window: Window, log: FlightLog
 ) -> tuple[float, float]:
     start, end = limits.start, limits.end
@@ -80,11 +80,11 @@ def _asked(
         return start, end
     demand = limits.demand or f"demand.{expectation.signal.partition('.')[2]}"
     if demand not in log:
-        raise StepError(f"nothing tells what was asked: no {demand} in the log, name start and end")
+        raise StepError(f"the log has no {demand}: set start and end")
     if start is None:
-        start = _at(log, demand, window.begin_s - LOOK_S)
+        start = _at(log, demand, window.begin_s - MARGIN_S)
     if end is None:
-        end = _at(log, demand, window.begin_s + LOOK_S)
+        end = _at(log, demand, window.begin_s + MARGIN_S)
     return start, end
 
 

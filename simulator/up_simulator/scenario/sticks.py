@@ -1,4 +1,4 @@
-"""The pilot's moves of sticks and switches, over time."""
+"""Positions of the pilot's sticks and switches over time."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from up_rig.sticks import HIGHEST_US, LOWEST_US
 CHANNELS = ("ailerons", "elevator", "throttle", "rudder", "aux1", "aux2")
 ARMED_US, DISARMED_US = 2000.0, 1000.0
 SWITCH_US = {"low": 1000.0, "middle": 1500.0, "high": 2000.0}
-AT_FIRST_US = {
+INITIAL_US = {
     "ailerons": 1500.0,
     "elevator": 1500.0,
     "throttle": 1000.0,
@@ -28,19 +28,27 @@ def _deflection(comment: str) -> float | None:
 
 def _pulse() -> float | None:
     return key(
-        None, "The same as a pulse.", unit="us", minimum=float(LOWEST_US), maximum=float(HIGHEST_US)
+        None,
+        "The same as a pulse width.",
+        unit="us",
+        minimum=float(LOWEST_US),
+        maximum=float(HIGHEST_US),
     )
 
 
 @dataclass(frozen=True, slots=True)
 class StickPoint:
-    """What the pilot moves at a time; what is not named stays where it is."""
+    """A move of sticks or switches; others keep their position."""
 
     at_s: float = key(
-        0.0, "When; 0 is when the flight begins.", unit="s", minimum=-10, maximum=3600
+        0.0, "Time; 0 is the start of the flight.", unit="s", minimum=-10, maximum=3600
     )
     over_s: float = key(
-        0.0, "How long it takes to get there, evenly. 0: at once.", unit="s", minimum=0, maximum=600
+        0.0,
+        "Duration of the move, at constant speed. 0: immediate.",
+        unit="s",
+        minimum=0,
+        maximum=600,
     )
     ailerons: float | None = _deflection("-1 is full left, 1 full right (right wing down).")
     elevator: float | None = _deflection("-1 is full forward, 1 fully pulled (nose up).")
@@ -60,15 +68,14 @@ class StickPoint:
     aux2_us: float | None = _pulse()
 
     def problems(self) -> Iterator[tuple[str, str]]:
-        """Yield contradictory keys."""
         others = {"aux1": "mode", "aux2": "arm"}
         for channel in CHANNELS:
             other = others.get(channel, channel)
             pulse = f"{channel}_us"
             if getattr(self, other) is not None and getattr(self, pulse) is not None:
-                yield pulse, f"says again what '{other}' says: leave one of them out"
+                yield pulse, f"contradicts '{other}': remove one of them"
         if all(getattr(self, name) is None for name in self.__slots__ if name not in _WHEN):
-            yield "at_s", "moves nothing: name a stick, 'mode' or 'arm'"
+            yield "at_s", "contains no move: set a stick, 'mode' or 'arm'"
 
     def pulses_us(self, switch: dict[str, str]) -> Iterator[tuple[str, float]]:
         """Yield channel and pulse of its moves; ``switch`` gives each position its mode.
@@ -133,7 +140,7 @@ class StickTimeline:
         for move in reversed(self._moves[channel]):
             if time_s >= move.begin_s - 1e-9:
                 return move.at_us(time_s)
-        return AT_FIRST_US[channel]
+        return INITIAL_US[channel]
 
     def pulses_us(self, time_s: float) -> dict[str, float]:
         """Return the pulses of all channels at a time."""

@@ -32,7 +32,6 @@ class Workspace:
         fresh.rename(self.path / LOCK)
 
     def close(self) -> None:
-        """Remove the folder."""
         self._temporary.cleanup()
         self._lock.close()
 

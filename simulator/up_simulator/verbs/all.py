@@ -15,24 +15,30 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TextIO
 
+from up.cli.option_parser import OptionParser
 from up.config import ConfigErrors
 from up.fields import printable
-from up_simulator.crew.child import dying_wish
-from up_simulator.crew.option_parser import OptionParser
-from up_simulator.phone_choice import KINDS
+from up_simulator.harness.child import request_death_signal
 from up_simulator.scenario.file import read_scenario
 from up_simulator.scenario.run import FLIGHTS, REPORT, SUMMARY
+from up_simulator.verbs.catalogue import (
+    HELD,
+    INTERRUPTED,
+    NOT_HELD,
+    WRONG_INPUT,
+    name_of,
+    no_such_tag,
+    shipped_paths,
+)
 from up_simulator.verbs.fly import try_output
-from up_simulator.verbs.outcome import HELD, INTERRUPTED, NOT_HELD, WRONG_INPUT
-from up_simulator.verbs.shelf import name_of, no_such_tag, shipped_paths
 
 WAIT_S = 0.05
 END_LIMIT_S = 30.0
 SHOWN_S = 0.5
 _MIB = 1024.0
 EPILOG = """\
-Fast scenarios fly two at a time, each in a process of its own; those with real programs after them
-and one at a time, because they keep real time.
+Fast scenarios fly two at a time, each in its own process; those with real programs follow
+one at a time, because they run in real time.
 
 examples:
   up-sim all
@@ -65,9 +71,10 @@ class Job:
         command = [sys.executable, "-m", "up_simulator.cli", "fly", str(self.path), "--quiet"]
         command += ["--output", str(options.output)]
         command += [] if options.picture else ["--no-picture"]
-        command += ["--phone", options.phone] if options.phone else []
         self.began_s = time.monotonic()
-        self.process = subprocess.Popen(command, stdin=subprocess.DEVNULL, preexec_fn=dying_wish())
+        self.process = subprocess.Popen(
+            command, stdin=subprocess.DEVNULL, preexec_fn=request_death_signal()
+        )
 
     def is_over(self) -> bool:
         """Return whether it has ended, and note how."""
@@ -97,14 +104,14 @@ def main(arguments: Sequence[str]) -> int:
         return WRONG_INPUT
     try_output(options.output, [job.name for job in jobs])
     began_s = time.monotonic()
-    fleet = Fleet(jobs, options, sys.stderr)
+    batch = Batch(jobs, options, sys.stderr)
     is_interrupted = False
     try:
-        fleet.fly()
+        batch.fly()
     except KeyboardInterrupt:
         is_interrupted = True
-        fleet.end()
-    _say_table(fleet.done, time.monotonic() - began_s, len(jobs))
+        batch.end()
+    _print_table(batch.done, time.monotonic() - began_s, len(jobs))
     if is_interrupted:
         return INTERRUPTED
     return HELD if all(job.status == HELD for job in jobs) else NOT_HELD
@@ -133,7 +140,7 @@ def _jobs(options: argparse.Namespace) -> list[Job] | None:
     return None if has_mistakes else [job for _, job in jobs]
 
 
-class Fleet:
+class Batch:
     """Flies jobs, ``options.processes`` at a time; real programs have the machine to themselves."""
 
     def __init__(self, jobs: list[Job], options: argparse.Namespace, stream: TextIO) -> None:
@@ -196,7 +203,7 @@ class Fleet:
             self._stream.flush()
 
 
-def _say_table(jobs: list[Job], took_s: float, count: int) -> None:
+def _print_table(jobs: list[Job], took_s: float, count: int) -> None:
     width = max((len(job.name) for job in jobs), default=4)
     write = sys.stdout.write
     write(
@@ -214,14 +221,14 @@ def _say_table(jobs: list[Job], took_s: float, count: int) -> None:
         )
     for job in jobs:
         if job.status != HELD:
-            _say_failure(job)
+            _print_failure(job)
     held = sum(job.status == HELD for job in jobs)
     most = max((job.memory_mib for job in jobs), default=0.0)
     write(f"{took_s:.0f} s, at most {most:.0f} MiB in one process\n")
     write(f"{held} of {count} scenarios held\n")
 
 
-def _say_failure(job: Job) -> None:
+def _print_failure(job: Job) -> None:
     summary = job.summary()
     expectations = summary.get("expectations", [])
     for verdict in expectations if isinstance(expectations, list) else []:
@@ -240,16 +247,12 @@ def _say_failure(job: Job) -> None:
 def _parser() -> argparse.ArgumentParser:
     parser = OptionParser(
         prog="up-sim all",
+        allow_abbrev=False,
         description="Flies every scenario that is shipped and closes with how many held.",
         epilog=EPILOG,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-        allow_abbrev=False,
     )
     parser.add_argument("--tag", action="append", default=[], help="only those with this tag")
     parser.add_argument("--picture", action="store_true", help="draw pictures, too")
-    parser.add_argument(
-        "--phone", choices=KINDS, help="what the phone is, where there is one (default: auto)"
-    )
     parser.add_argument(
         "--processes", type=int, choices=range(1, 9), default=2, metavar="N", help="default 2"
     )

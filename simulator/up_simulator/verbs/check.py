@@ -2,20 +2,18 @@
 
 from __future__ import annotations
 
-import argparse
 import sys
 from collections.abc import Sequence
 
+from up.cli.option_parser import OptionParser
 from up.config import ConfigErrors
 from up.fields import printable
-from up_simulator.crew.option_parser import OptionParser
 from up_simulator.scenario.file import read_scenario
-from up_simulator.verbs.outcome import HELD, WRONG_INPUT
-from up_simulator.verbs.shelf import find
+from up_simulator.verbs.catalogue import HELD, WRONG_INPUT, find
 
 EPILOG = """\
-Every mistake is told with file, line, column and, where there is one, what was probably meant.
-Exit status: 0 no mistake, 2 mistakes.
+Every error is reported with file, line, column and, if possible, a suggestion.
+Exit status: 0 no error, 2 errors.
 
 examples:
   up-sim check my-flight.yml
@@ -26,10 +24,9 @@ def main(arguments: Sequence[str]) -> int:
     """Check files; return the exit status."""
     parser = OptionParser(
         prog="up-sim check",
-        description="Reads scenario files and tells all their mistakes at once.",
-        epilog=EPILOG,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
         allow_abbrev=False,
+        description="Reads scenario files and reports all their errors.",
+        epilog=EPILOG,
     )
     parser.add_argument("files", nargs="+", metavar="FILE", help="a file, or a shipped one's name")
     options = parser.parse_args(arguments)
@@ -43,6 +40,6 @@ def main(arguments: Sequence[str]) -> int:
             continue
         count = len(scenario.expect)
         title = printable(scenario.title.strip())
-        what = f"{title}: {scenario.duration_s:g} s, {count} expectations, no mistake"
+        what = f"{title}: {scenario.duration_s:g} s, {count} expectations, no error"
         sys.stdout.write(f"{path}: {what}\n")
     return status

@@ -6,12 +6,10 @@ import argparse
 import sys
 from collections.abc import Iterable, Sequence
 from contextlib import suppress
-from dataclasses import replace
 from pathlib import Path
 
+from up.cli.option_parser import OptionParser
 from up.fields import printable
-from up_simulator.crew.option_parser import OptionParser
-from up_simulator.phone_choice import KINDS
 from up_simulator.scenario.file import read_scenario
 from up_simulator.scenario.override import Override
 from up_simulator.scenario.progress import ProgressLine
@@ -26,22 +24,28 @@ from up_simulator.scenario.run import (
     write_files,
 )
 from up_simulator.scenario.scenario import BOARDS, Scenario
-from up_simulator.verbs.outcome import HELD, INTERRUPTED, NOT_HELD, FailedError, UsageError
-from up_simulator.verbs.shelf import find, name_of
+from up_simulator.verbs.catalogue import (
+    HELD,
+    INTERRUPTED,
+    NOT_HELD,
+    FailedError,
+    UsageError,
+    find,
+    name_of,
+)
 
 EPILOG = """\
 examples:
   up-sim fly level-flight-in-gusts
-      a scenario that is shipped; 'up-sim list' names them all
+      a shipped scenario; 'up-sim list' lists them
   up-sim fly my-flight.yml --seed 7 --duration 20
       a file of your own, in other turbulence, for 20 s
   up-sim fly level-flight-in-gusts --set weather.turbulence=severe --set airframe=wing
-      what would happen if: any key of the file, by its dotted name
+      any key of the file, by its dotted name
   up-sim fly receiver-lost fbw-roll-step --no-picture --output /tmp/flights
 
-Log, picture and report of each are written into run/flights/NAME/. Ctrl-C ends a flight; what has
-been flown until then is reported. Exit status: 0 all held, 1 something did not,
-2 wrong input."""
+Log, picture and report of each are written into run/flights/NAME/. Ctrl-C ends a flight, which is
+reported so far. Exit status: 0 all held, 1 something did not, 2 wrong input."""
 
 
 def main(arguments: Sequence[str]) -> int:
@@ -58,7 +62,7 @@ def main(arguments: Sequence[str]) -> int:
         if result.record.is_interrupted or (result.control and result.control.is_interrupted):
             break
     if len(flights) > 1:
-        _say_table(results, len(flights))
+        _print_table(results, len(flights))
     if any(result.record.is_interrupted for _, result in results):
         return INTERRUPTED
     return HELD if is_whole and all(result.is_held for _, result in results) else NOT_HELD
@@ -71,7 +75,7 @@ def try_output(output: Path, names: Iterable[str]) -> None:
             try_folder(output / name)
         except OSError as error:
             why = error.strerror or error
-            raise UsageError(f"--output {output}: nothing can be written there: {why}") from error
+            raise UsageError(f"--output {output}: cannot write there: {why}") from error
 
 
 def _read(path: Path, options: argparse.Namespace) -> Scenario:
@@ -86,8 +90,6 @@ def _read(path: Path, options: argparse.Namespace) -> Scenario:
     ]
     overrides += [_override(text) for text in options.set]
     scenario = read_scenario(path, overrides)
-    if options.phone is not None and scenario.phone is not None:
-        scenario = replace(scenario, phone=replace(scenario.phone, program=options.phone))
     if options.speed == "fast" and scenario.is_real:
         raise UsageError(f"{path}: real programs fly in real time only")
     return scenario
@@ -125,7 +127,7 @@ def _note(text: str) -> None:
         sys.stderr.write(f"up-sim: {text}\n")
 
 
-def _say_table(results: list[tuple[str, Result]], count: int) -> None:
+def _print_table(results: list[tuple[str, Result]], count: int) -> None:
     sys.stdout.write("\n")
     for name, result in results:
         held = sum(verdict.is_held for verdict in result.verdicts)
@@ -139,10 +141,9 @@ def _say_table(results: list[tuple[str, Result]], count: int) -> None:
 def _parser() -> argparse.ArgumentParser:
     parser = OptionParser(
         prog="up-sim fly",
+        allow_abbrev=False,
         description="Flies scenarios and reports whether what they expect is true.",
         epilog=EPILOG,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-        allow_abbrev=False,
     )
     parser.add_argument(
         "scenarios", nargs="+", metavar="SCENARIO", help="a shipped one's name, or a file"
@@ -154,10 +155,7 @@ def _parser() -> argparse.ArgumentParser:
         choices=("fast", "real"),
         help="fast: as fast as it goes (default); real: no faster than real time",
     )
-    parser.add_argument(
-        "--phone", choices=KINDS, help="what the phone is, where there is one (default: auto)"
-    )
-    parser.add_argument("--board", choices=BOARDS, help="what flies (default: the scenario's)")
+    parser.add_argument("--board", choices=BOARDS, help="the board (default: the scenario's)")
     parser.add_argument(
         "--set",
         action="append",

@@ -2,21 +2,19 @@
 
 from __future__ import annotations
 
-import argparse
 import sys
 from collections.abc import Sequence
 from pathlib import Path
 
+from up.cli.option_parser import OptionParser
 from up.config import ConfigErrors
 from up.fields import printable
-from up_simulator.crew.option_parser import OptionParser
 from up_simulator.scenario.file import read_scenario
-from up_simulator.verbs.outcome import HELD, WRONG_INPUT
-from up_simulator.verbs.shelf import name_of, no_such_tag, shipped_paths
+from up_simulator.verbs.catalogue import HELD, WRONG_INPUT, name_of, no_such_tag, shipped_paths
 
 EPILOG = """\
 examples:
-  up-sim list                 every scenario that is shipped
+  up-sim list                 every shipped scenario
   up-sim list --tag faults    those that have this tag
   up-sim list my-flights/     those of a folder of your own"""
 
@@ -25,10 +23,9 @@ def main(arguments: Sequence[str]) -> int:
     """List scenarios; return the exit status."""
     parser = OptionParser(
         prog="up-sim list",
+        allow_abbrev=False,
         description="Lists scenarios: name, how long, title, tags, and the rule that each guards.",
         epilog=EPILOG,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-        allow_abbrev=False,
     )
     parser.add_argument("folder", nargs="?", type=Path, help="another folder than the shipped one")
     parser.add_argument("--tag", action="append", default=[], help="only those with this tag")
@@ -38,7 +35,7 @@ def main(arguments: Sequence[str]) -> int:
     elif options.folder.is_dir():
         paths = sorted(options.folder.glob("*.yml"))
     else:
-        parser.error(f"{options.folder} is no folder")
+        parser.error(f"{options.folder} is not a folder")
     tags: set[str] = set()
     is_empty = True
     width = max((len(name_of(path)) for path in paths), default=0)

@@ -2,32 +2,30 @@
 
 from __future__ import annotations
 
-import argparse
 import importlib.resources
 import sys
 from collections.abc import Sequence
 from pathlib import Path
 
-from up_simulator.crew.option_parser import OptionParser
-from up_simulator.verbs.outcome import HELD, FailedError, UsageError
+from up.cli.option_parser import OptionParser
+from up_simulator.verbs.catalogue import HELD, FailedError, UsageError
 
 TEMPLATE = "template.yml"
 EPILOG = """\
-The file flies and passes as it is: change it from there.
+The file flies and passes without a change.
 
 examples:
   up-sim new first-flight             writes first-flight.yml
-  up-sim new flights/steep-turns.yml  into a folder that is there"""
+  up-sim new flights/steep-turns.yml  into an existing folder"""
 
 
 def main(arguments: Sequence[str]) -> int:
     """Write the file; return the exit status."""
     parser = OptionParser(
         prog="up-sim new",
+        allow_abbrev=False,
         description="Writes a scenario with a comment at every key that it uses.",
         epilog=EPILOG,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-        allow_abbrev=False,
     )
     parser.add_argument("name", metavar="NAME", help="of the scenario, or the path of its file")
     path = _path(parser.parse_args(arguments).name)
@@ -36,14 +34,14 @@ def main(arguments: Sequence[str]) -> int:
     try:
         path.open("x").close()
     except FileExistsError:
-        raise UsageError(f"{path} is there already: choose another name") from None
+        raise UsageError(f"{path} exists: choose another name") from None
     except FileNotFoundError:
-        raise UsageError(f"there is no folder {path.parent}") from None
+        raise UsageError(f"{path.parent} is not a folder") from None
     try:
         path.write_text(text, encoding="utf-8")
     except OSError as error:
         path.unlink()
-        raise FailedError(f"{path} is not written: {error.strerror}") from None
+        raise FailedError(f"cannot write {path}: {error.strerror}") from None
     sys.stdout.write(f"{path} is written. Fly it:\n  up-sim fly {path}\n")
     return HELD
 
@@ -53,7 +51,7 @@ def _path(name: str) -> Path:
     if path.suffix not in (".yml", ".yaml"):
         path = path.with_name(f"{path.name}.yml") if path.name else path
     if not path.stem.replace("-", "").replace("_", "").isalnum():
-        raise UsageError(f"{name[:80]!r} is no name for a file: use letters, digits, - and _")
+        raise UsageError(f"{name[:80]!r} cannot name a file: use letters, digits, - and _")
     return path
 
 

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import argparse
 import sys
 from collections.abc import Sequence
 
-from up_simulator.crew.option_parser import OptionParser
+from up.cli.option_parser import OptionParser
 from up_simulator.scenario.signals import SIGNALS, Kind
-from up_simulator.verbs.outcome import HELD, UsageError
+from up_simulator.verbs.catalogue import HELD, UsageError
 
 EPILOG = """\
 examples:
@@ -20,18 +19,17 @@ def main(arguments: Sequence[str]) -> int:
     """List signals; return the exit status."""
     parser = OptionParser(
         prog="up-sim signals",
-        description="Lists the names of everything that can be expected and logged.",
-        epilog=EPILOG,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
         allow_abbrev=False,
+        description="Lists the signals for expectations and logs.",
+        epilog=EPILOG,
     )
-    parser.add_argument("groups", nargs="*", metavar="GROUP", help="what stands before the dot")
+    parser.add_argument("groups", nargs="*", metavar="GROUP", help="the part before the dot")
     options = parser.parse_args(arguments)
     groups = {signal.source for signal in SIGNALS.values()}
     for group in options.groups:
         if group not in groups:
             raise UsageError(
-                f"there is no group {group[:40]!r}: there are {', '.join(sorted(groups))}"
+                f"unknown group {group[:40]!r}; the groups are {', '.join(sorted(groups))}"
             )
     width = max(map(len, SIGNALS))
     for signal in SIGNALS.values():

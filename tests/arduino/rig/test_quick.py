@@ -8,7 +8,7 @@ from tests.arduino.rig.firmware import make_rig, rig_with
 from tests.support.firmware import build_firmware
 from up_rig import CrashError
 from up_rig.imu import motion_at
-from up_simulator.wire import checked_frame
+from up_simulator.firmware.wire import checked_frame
 
 WORDS, RUN_CYCLES = 2000, 6000
 RAM_END = 0x900

@@ -13,7 +13,7 @@ from tests.support.firmware import build_firmware
 from up.protocols.crc16 import crc16
 from up_rig import CHANNELS, SERVOS
 from up_rig.imu import motion_at
-from up_simulator.wire import checked_frame, cobs_decode
+from up_simulator.firmware.wire import checked_frame, cobs_decode
 
 
 @pytest.fixture(scope="module")

@@ -12,8 +12,8 @@ import time
 from dataclasses import replace
 from pathlib import Path
 
-from up_simulator.radio.remote_words import SEEN, write_sticks
-from up_simulator.radio.take_over import PERIOD_S, RadioLink
+from up_simulator.radio.rc_override import PERIOD_S, RadioLink
+from up_simulator.radio.remote_messages import SEEN, write_sticks
 
 
 def main(path):

@@ -100,7 +100,7 @@ export async function startShowcase(options = [], { place = "", isCalm = false }
     mkdirSync(join(folder.path, "config"));
     writeFileSync(join(folder.path, "config", "load_guard.yml"), CALM);
   }
-  const words = ["-m", "up_simulator.showcase", "--no-watch", "--any-ports"];
+  const words = ["-m", "up_simulator.demo", "--no-watch", "--any-ports"];
   words.push("--folder", folder.path, "--board", "host");
   words.push("--state-log", join(folder.path, "truth.csv"), ...options);
   const program = new Program(PYTHON, words);

@@ -18,7 +18,7 @@ from up.commands.servo_command import ServoCommand
 from up.commands.system_commands import LinkStateCommand
 from up.config import ConfigErrors
 from up.mode import Mode
-from up_simulator.wire import checked_frame
+from up_simulator.firmware.wire import checked_frame
 
 ORIENTATION = (65535, 10.5, -5.5, 3.25, 0.5, -1.5, 20.0)
 

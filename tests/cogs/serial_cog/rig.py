@@ -12,7 +12,7 @@ from twisted.internet.task import Clock
 
 from tests.support.old_firmware import ThesisReader
 from tests.support.system import build_up, started
-from up_simulator.wire import CheckedReader, checked_frame
+from up_simulator.firmware.wire import CheckedReader, checked_frame
 
 STEP_S = 0.02
 

@@ -13,7 +13,7 @@ from tests.cogs.serial_cog.rig import Rig, VirtualReactor, run
 from tests.support.system import build_up, started
 from up.life_cycle import BootStoppedError
 from up.mode import Mode
-from up_simulator.wire import checked_frame
+from up_simulator.firmware.wire import checked_frame
 
 
 class Listener:

@@ -17,9 +17,8 @@ from tests.ground.aircraft import Aircraft, Ground, frame
 from tests.ground.web.page import Page, Serve
 from tests.support.reactor import reactor, run_in_reactor, until
 from tests.support.tools import need_tool
-from up_simulator.link.model import LinkModel
+from up_simulator.link.model import LinkModel, LinkSettings
 from up_simulator.link.relay import LinkRelay
-from up_simulator.link.settings import LinkSettings
 
 AGES_TOLD = Path(__file__).parent / "static/support/ages_told.mjs"
 SILENT_S, ROUNDING_S = 0.9, 0.003

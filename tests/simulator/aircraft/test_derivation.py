@@ -29,7 +29,7 @@ def plain_wing(aspect=8.0, **changes):
     return Geometry(wing=wing, fuselage=Fuselage(length_m=0.0), masses=Masses(centre_x_m=0.05))
 
 
-def test_the_program_writes_it(tmp_path):
+def test_the_program_writes_the_model(tmp_path):
     folder = tmp_path / "mine"
     folder.mkdir()
     (folder / "geometry.yml").write_text((SHIPPED / "glider" / "geometry.yml").read_text())
@@ -37,43 +37,34 @@ def test_the_program_writes_it(tmp_path):
     assert (folder / "mine.xml").read_text() == model_text("mine", derived("glider"))
 
 
-def test_the_program_says_what_the_aircraft_will_do(tmp_path, capsys):
-    (tmp_path / "geometry.yml").write_text((SHIPPED / "glider" / "geometry.yml").read_text())
-    assert main([str(tmp_path)]) == 0
-    said = capsys.readouterr().out
-    assert "stalls at 6.2 m/s" in said
-    assert "airspeed_m_s: 11.1, pitch_deg: -5.2, alpha_deg: 0.4, static margin 14 %" in said
-
-
-def test_the_program_says_when_nothing_holds_the_nose(tmp_path, capsys):
+def test_the_program_prints_the_performance(tmp_path, capsys):
     text = (SHIPPED / "glider" / "geometry.yml").read_text()
+    (tmp_path / "geometry.yml").write_text(text)
+    assert main([str(tmp_path)]) == 0
+    printed = capsys.readouterr().out
+    for figure in ("6.2 m/s", "airspeed_m_s: 11.1", "pitch_deg: -5.2", "static margin 14 %"):
+        assert figure in printed
     (tmp_path / "geometry.yml").write_text(text.replace("centre_x_m: 0.08", "centre_x_m: 0.16"))
     assert main([str(tmp_path)]) == 0
-    assert "does NOT hold itself" in capsys.readouterr().out
-
-
-def test_surfaces_in_one_place_are_no_aircraft(tmp_path, capsys):
-    (tmp_path / "geometry.yml").write_text("wing: {half_span_m: 0.6}\ntail: {half_span_m: 0.6}\n")
-    assert main([str(tmp_path)]) == 2
-    assert "surfaces lie in each other's vortices" in capsys.readouterr().err
+    assert "static margin" not in capsys.readouterr().out
 
 
 @pytest.mark.parametrize(
     "text",
     ["wing: {half_span: 1}", "wing: {half_span_m: 1, flap: {from_share: 1.0}}", "- 1",
-     "fin: {height_m: 0.2}"],
+     "fin: {height_m: 0.2}", "wing: {half_span_m: 0.6}\ntail: {half_span_m: 0.6}\n"],
 )  # fmt: skip
-def test_the_program_tells_mistakes_with_their_place(tmp_path, capsys, text):
+def test_a_wrong_geometry_is_one_line_with_its_place(tmp_path, capsys, text):
     (tmp_path / "geometry.yml").write_text(text)
     assert main([str(tmp_path)]) == 2
-    said = capsys.readouterr().err
-    assert "geometry.yml:1:" in said
-    assert len(said.splitlines()) == 1
+    printed = capsys.readouterr().err
+    assert "geometry.yml:1:" in printed or "vortices" in printed
+    assert len(printed.splitlines()) == 1
 
 
-def test_the_program_wants_a_folder_with_a_geometry(tmp_path, capsys):
+def test_the_program_requires_a_folder_with_a_geometry(tmp_path, capsys):
     assert main([str(tmp_path)]) == 2
-    assert "geometry.yml: no such file" in capsys.readouterr().err
+    assert str(tmp_path / "geometry.yml") in capsys.readouterr().err
     assert main([]) == 2
 
 

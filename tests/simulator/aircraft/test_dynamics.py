@@ -14,8 +14,8 @@ from up_simulator.aircraft import (
     load_airframe,
 )
 from up_simulator.aircraft.airframe import SHIPPED
+from up_simulator.aircraft.flight import NEUTRAL
 from up_simulator.aircraft.servos import ServoRack
-from up_simulator.flight import NEUTRAL
 
 NAMES = airframe_names()
 HANDS_OFF = tuple(float(each) for each in NEUTRAL)
@@ -36,7 +36,7 @@ def pushed(name, channel, pulse_us):
 
 
 @pytest.mark.parametrize("name", NAMES)
-def test_it_starts_gliding_at_its_cruise_where_it_should(name):
+def test_a_flight_starts_at_cruise_and_at_its_position(name):
     flight = flying(name)
     state, launch = flight.state, flight.airframe.launch
     assert state.height_m == pytest.approx(120.0, abs=0.1)
@@ -50,7 +50,7 @@ def test_it_starts_gliding_at_its_cruise_where_it_should(name):
 
 @pytest.mark.parametrize("from_deg", [0.0, 90.0, 200.0, 315.0])
 @pytest.mark.parametrize(("heading_deg", "roll_deg"), [(0.0, 0.0), (130.0, 40.0)])
-def test_wind_carries_it_over_the_ground_and_leaves_the_airspeed(from_deg, heading_deg, roll_deg):
+def test_wind_changes_the_ground_speed_only(from_deg, heading_deg, roll_deg):
     start = Start(heading_deg=heading_deg, roll_deg=roll_deg)
     state = flying(start=start, wind_m_s=6.0, wind_from_deg=from_deg).state
     assert state.airspeed_m_s == pytest.approx(11.0, abs=0.01)
@@ -98,7 +98,7 @@ def test_throttle_makes_thrust_and_empties_the_battery(name):
     assert idle.state.motor_rpm == 0.0
 
 
-def test_the_imu_feels_its_weight_in_a_steady_glide():
+def test_the_imu_measures_1_g_in_a_steady_glide():
     flight = flying()
     flight.advance(20.0)
     motion, state = flight.motion, flight.state
@@ -111,7 +111,7 @@ def test_the_imu_feels_its_weight_in_a_steady_glide():
     assert state.load_factor_g == pytest.approx(-motion.force_z_m_s2 / 9.80665, abs=0.01)
 
 
-def test_the_imu_ahead_of_the_centre_feels_the_turn(tmp_path):
+def test_an_imu_ahead_of_the_centre_measures_the_rotation(tmp_path):
     """On a long nose a pitch rate q pulls with q^2 x, and its beginning lifts."""
     text = (SHIPPED / "glider" / "airframe.yml").read_text()
     folder = tmp_path / "long"
@@ -134,7 +134,7 @@ def test_the_imu_ahead_of_the_centre_feels_the_turn(tmp_path):
 
 
 @pytest.mark.parametrize("heading_deg", [0.0, 90.0, 225.0])
-def test_the_track_is_counted_in_metres(heading_deg):
+def test_the_position_is_in_metres(heading_deg):
     flight = flying(start=Start(heading_deg=heading_deg))
     flight.advance(10.0)
     state = flight.state
@@ -142,17 +142,6 @@ def test_the_track_is_counted_in_metres(heading_deg):
     along = math.radians(heading_deg)
     assert state.north_m == pytest.approx(flown_m * math.cos(along), abs=4.0)
     assert state.east_m == pytest.approx(flown_m * math.sin(along), abs=4.0)
-
-
-def test_rates_are_the_change_of_the_angles():
-    model = flying()
-    model.set_servos((1650, 1500, 1000, 1500))
-    model.advance(0.3)
-    before = model.state
-    model.advance(0.02)
-    after = model.state
-    seen = (after.roll_deg - before.roll_deg) / 0.02
-    assert seen == pytest.approx((before.roll_rate_deg_s + after.roll_rate_deg_s) / 2, rel=0.05)
 
 
 def flown(seed, name="glider"):
@@ -165,26 +154,11 @@ def flown(seed, name="glider"):
 
 
 @pytest.mark.parametrize("name", NAMES)
-def test_the_same_seed_flies_the_same_flight_to_the_last_digit(name):
-    assert flown(7, name) == flown(7, name)
+def test_the_same_seed_gives_the_same_flight(name):
+    assert flown(7, name) == flown(7, name) != flown(8, name)
 
 
-def test_another_seed_flies_another():
-    assert flown(7)[0].roll_deg != flown(8)[0].roll_deg
-
-
-def test_two_flights_at_once_do_not_disturb_each_other():
-    both = [FlightDynamics(load_airframe("glider"), weather=Weather(turbulence="light"), seed=seed)
-            for seed in (3, 4)]  # fmt: skip
-    for _ in range(100):
-        for each in both:
-            each.advance(0.02)
-    alone = FlightDynamics(load_airframe("glider"), weather=Weather(turbulence="light"), seed=3)
-    alone.advance(2.0)
-    assert both[0].state == alone.state
-
-
-def test_how_the_time_is_cut_does_not_matter():
+def test_the_step_size_of_the_caller_does_not_matter():
     whole, cut = flying(), flying()
     whole.advance(1.0)
     for _ in range(1000):
@@ -210,7 +184,7 @@ def test_turbulence_has_the_strength_of_its_level(level, least, most):
     assert least < math.sqrt(sum(squares) / len(squares)) < most
 
 
-def test_a_gust_comes_and_goes_as_one_minus_cosine():
+def test_a_gust_has_the_shape_of_one_minus_cosine():
     flight = flying(gusts=(Gust(0.5, 1.0, north_m_s=2.0, down_m_s=-4.0),))
     seen = {}
     for step in range(1000):
@@ -234,7 +208,7 @@ def test_a_vertical_gust_loads_the_wing():
     assert 0.7 < greatest < 3.5
 
 
-def test_the_ground_ends_the_flight_in_one_sentence_and_it_stands_still():
+def test_the_ground_ends_the_flight():
     flight = flying(start=Start(height_m=20.0, pitch_deg=-70.0))
     flight.advance(5.0)
     assert flight.crash.startswith("hit the ground after ")
@@ -245,14 +219,14 @@ def test_the_ground_ends_the_flight_in_one_sentence_and_it_stands_still():
     assert (after.height_m, after.north_m) == (state.height_m, state.north_m)
 
 
-def test_a_load_beyond_what_it_bears_breaks_it():
+def test_a_load_above_the_limit_breaks_the_aircraft():
     flight = flying(start=Start(height_m=300.0, airspeed_m_s=45.0, pitch_deg=-60.0))
     flight.set_servos((1500, 2000, 1000, 1500))
     flight.advance(3.0)
     assert flight.crash.startswith("broke in the air after ")
 
 
-def test_a_model_that_lost_itself_is_a_crash_too():
+def test_a_diverged_model_is_a_crash():
     flight = flying()
     flight._fdm["fcs/elevator-pos-rad"] = math.nan
     flight._moves.clear()
@@ -260,7 +234,7 @@ def test_a_model_that_lost_itself_is_a_crash_too():
     assert flight.crash is not None
 
 
-def test_what_jsbsim_throws_in_flight_is_a_crash_too(monkeypatch):
+def test_an_exception_of_jsbsim_in_flight_is_a_crash(monkeypatch):
     class Thrower:
         def __getattr__(self, name):
             raise RuntimeError("no answer")
@@ -272,7 +246,7 @@ def test_what_jsbsim_throws_in_flight_is_a_crash_too(monkeypatch):
 
 
 @pytest.mark.parametrize("name", NAMES)
-def test_it_may_be_launched_again(name):
+def test_a_flight_may_be_launched_again(name):
     flight = flying(name, Start(height_m=5.0, pitch_deg=-60.0))
     flight.advance(3.0)
     assert flight.crash
@@ -285,7 +259,7 @@ def test_it_may_be_launched_again(name):
     assert flight.state.roll_deg == pytest.approx(0.0, abs=1.0)
 
 
-def test_a_launch_under_power_has_its_thrust_at_once():
+def test_a_launch_under_power_has_immediate_thrust():
     gliding, driven = flying(), flying(start=Start(throttle=0.8))
     assert driven.state.motor_rpm > 5000
     assert driven.servos[2] == 1800
@@ -298,9 +272,9 @@ def test_a_launch_under_power_has_its_thrust_at_once():
 ATTITUDES = [
     (roll, pitch, alpha, airspeed)
     for roll in (0.0, 90.0, 180.0)
-    for pitch in (-89.0, -30.0, 45.0, 89.0)
+    for pitch in (-89.0, 45.0, 89.0)
     for alpha in (0.0, 30.0)
-    for airspeed in (0.5, 12.0, 30.0)
+    for airspeed in (0.5, 30.0)
 ]
 
 
@@ -322,7 +296,7 @@ def test_from_any_attitude_the_state_stays_finite_and_the_nose_comes_down(name):
 
 
 @pytest.mark.parametrize("pulses_us", [(1500, 1500, 1000, 1500)])
-def test_servos_go_no_faster_than_they_can_and_arrive(pulses_us):
+def test_servos_are_limited_by_their_slew_rate(pulses_us):
     servos = ServoRack(6000.0, 0.015, 0.002)
     servos.set((2000, 1500, 1000, 1490))
     servos.step()
@@ -336,7 +310,7 @@ def test_servos_go_no_faster_than_they_can_and_arrive(pulses_us):
     assert servos.rounded_us == pulses_us
 
 
-def test_a_servo_rests_in_its_dead_band_and_its_surface_follows_with_play():
+def test_a_servo_has_a_dead_band_and_play():
     def settled(pulse_us):
         servos.set((pulse_us, 1500, 1500, 1500))
         for _ in range(250):

@@ -65,15 +65,6 @@ def test_the_battery_sags_under_load_and_recovers():
     assert loaded < battery.voltage_v < rested
 
 
-def test_what_was_drawn_is_counted():
-    motor, battery = drive()
-    battery.draw(10.0, 360.0)
-    assert battery.used_mah == pytest.approx(1000 + 0.2 * 100, rel=1e-6)
-    assert battery.percent == pytest.approx(100 * (1 - 1020 / 2200))
-    run(motor, 0.5, 1.0)
-    assert battery.used_mah > 1020.0
-
-
 def test_full_power_lasts_as_long_as_the_battery_and_then_ends():
     """2.2 Ah at about 15 A: 8 to 10 minutes."""
     motor, battery = drive()

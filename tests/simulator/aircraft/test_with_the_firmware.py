@@ -9,19 +9,19 @@ from tests.support.firmware import build_firmware
 from tests.support.tools import unavailable
 from up_simulator.aircraft import FlightDynamics, Start, airframe_names, load_airframe
 from up_simulator.firmware.build import BoardUnavailableError, choose_board
-from up_simulator.firmware.preparation import prepared_eeprom
-from up_simulator.world import World
+from up_simulator.firmware.preparation import cached_eeprom
+from up_simulator.harness.world import World
 
 NAMES = airframe_names()
 LOW, MIDDLE = 1000.0, 1500.0
 
 
-def aloft(name, aux1, **start):
-    build_firmware()
+def airborne(name, aux1, kind="host", **start):
+    """The host build is the same source as the chip's, and flies four times as fast."""
     airframe = load_airframe(name)
     try:
-        eeprom = prepared_eeprom("firmware", airframe.profile, airframe.gains)
-        board = choose_board("firmware", eeprom=eeprom)
+        eeprom = cached_eeprom(kind, airframe.profile, airframe.gains)
+        board = choose_board(kind, eeprom=eeprom)
     except BoardUnavailableError as error:
         unavailable(str(error))
     board.set_stick("aux1", aux1)
@@ -32,8 +32,8 @@ def aloft(name, aux1, **start):
 
 @pytest.mark.parametrize("name", NAMES)
 @pytest.mark.parametrize(("roll_deg", "pitch_deg"), [(50.0, -20.0), (-50.0, 15.0)])
-def test_fbw_levels_it(name, roll_deg, pitch_deg):
-    world = aloft(name, MIDDLE, roll_deg=roll_deg, pitch_deg=pitch_deg)
+def test_fbw_levels_the_aircraft(name, roll_deg, pitch_deg):
+    world = airborne(name, MIDDLE, roll_deg=roll_deg, pitch_deg=pitch_deg)
     world.advance(2.5)
     assert abs(world.state.roll_deg) < 6.0
     world.advance(2.5)
@@ -45,18 +45,19 @@ def test_fbw_levels_it(name, roll_deg, pitch_deg):
 @pytest.mark.parametrize("name", NAMES)
 @pytest.mark.parametrize("aux1", [LOW, MIDDLE])
 @pytest.mark.parametrize(("channel", "axis"), [("ailerons", "roll"), ("elevator", "pitch")])
-def test_the_stick_banks_and_pitches_it_as_the_pilot_means(name, aux1, channel, axis):
-    world, let_go = aloft(name, aux1), aloft(name, aux1)
+def test_a_stick_banks_or_pitches_in_its_direction(name, aux1, channel, axis):
+    world, hands_off = airborne(name, aux1), airborne(name, aux1)
     world.board.set_stick(channel, 1700.0)
-    for each in (world, let_go):
+    for each in (world, hands_off):
         each.advance(0.6)
-    turned = getattr(world.state, f"{axis}_deg") - getattr(let_go.state, f"{axis}_deg")
+    turned = getattr(world.state, f"{axis}_deg") - getattr(hands_off.state, f"{axis}_deg")
     assert turned > 3.0
 
 
-def test_the_wings_elevons_move_as_the_wiring_page_says():
+def test_the_elevons_move_as_on_the_wiring_page():
     """Right: the left one (D9) down, the right one (D10) up; the nose up: both up."""
-    world = aloft("wing", LOW)
+    build_firmware()
+    world = airborne("wing", LOW, "firmware")
     for sticks, left_sign, right_sign in (((1700.0, 1500.0), -1, 1), ((1500.0, 1700.0), 1, 1)):
         world.board.set_stick("ailerons", sticks[0])
         world.board.set_stick("elevator", sticks[1])

@@ -11,8 +11,8 @@ from tests.support.tools import need_tool
 from up_rig.imu import motion_at
 from up_simulator.firmware.host_board import HostBoard
 from up_simulator.firmware.imu_errors import ImuErrors
+from up_simulator.firmware.line_monitor import LineMonitor
 from up_simulator.firmware.rig_board import RigBoard
-from up_simulator.firmware.tap import BoardTap
 
 BOOT_MS = 1400
 STEP_US = 2000
@@ -30,7 +30,7 @@ class Aboard:
 
     def __init__(self, board):
         self.board = board
-        self.tap = BoardTap()
+        self.tap = LineMonitor()
         self.heard = []
 
     def run_ms(self, duration_ms):

@@ -15,7 +15,7 @@ from up_simulator.firmware.board import NEUTRAL_US
 from up_simulator.firmware.host_board import HostBoard
 from up_simulator.firmware.imu_errors import ImuErrors
 from up_simulator.firmware.rig_board import RigBoard
-from up_simulator.world import World
+from up_simulator.harness.world import World
 
 LOW, MIDDLE, HIGH = 1000, 1500, 2000
 STREAMS = "xOir"

@@ -1,4 +1,4 @@
-"""The host build alone: every flight repeats, boards are independent, and what is missing."""
+"""The host build alone: every flight repeats, boards are independent, missing tools are named."""
 
 import _ctypes
 import random
@@ -88,7 +88,7 @@ def test_boards_of_one_process_share_nothing(library):
     assert boards[1].answers("G") != [("G", GAINS)]
 
 
-def test_what_is_no_library_is_refused_in_one_sentence(tmp_path):
+def test_an_invalid_library_is_refused(tmp_path):
     wrong = tmp_path / "wrong.so"
     wrong.write_bytes(b"no library")
     for path in (tmp_path / "missing.so", wrong, _ctypes.__file__):
@@ -98,7 +98,7 @@ def test_what_is_no_library_is_refused_in_one_sentence(tmp_path):
         assert "\n" not in str(refused.value)
 
 
-def test_without_a_compiler_one_sentence_says_what_to_install(tmp_path, monkeypatch):
+def test_without_a_compiler_the_error_names_the_package(tmp_path, monkeypatch):
     programs = tmp_path / "bin"
     programs.mkdir()
     for name in ("make", "sh", "mkdir", "cmp", "echo"):

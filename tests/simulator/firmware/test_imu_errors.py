@@ -24,7 +24,7 @@ def rolls(measured):
     return [each.roll_rate_deg_s for each in measured]
 
 
-def test_without_errors_it_measures_what_is():
+def test_without_errors_it_measures_the_truth():
     assert set(samples(ImuErrors(**QUIET), seconds=0.01)) == {STILL}
 
 
@@ -91,7 +91,7 @@ def test_each_seed_draws_the_bias_and_the_drift_of_another_sensor():
         assert -4 <= min(drifts) < -3.5 and 3.5 < max(drifts) <= 4
 
 
-def test_what_is_known_of_a_sensor_is_not_drawn():
+def test_given_errors_of_a_sensor_are_not_drawn():
     known = drawn_errors(3, gyro_bias_deg_s=(0.0, 1.0, 0.0), vibration_hz=99.0)
     assert (known.gyro_bias_deg_s, known.vibration_hz) == ((0.0, 1.0, 0.0), 99.0)
     assert known.gyro_drift_deg_s == drawn_errors(3).gyro_drift_deg_s

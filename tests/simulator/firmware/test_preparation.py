@@ -9,7 +9,8 @@ from tests.support.tools import unavailable
 from up_simulator.firmware import preparation
 from up_simulator.firmware.build import BoardUnavailableError, aboard
 from up_simulator.firmware.imu_errors import ImuErrors
-from up_simulator.firmware.preparation import PreparationError, prepare_eeprom, prepared_eeprom
+from up_simulator.firmware.line_monitor import LineMonitor
+from up_simulator.firmware.preparation import PreparationError, cached_eeprom, prepare_eeprom
 from up_simulator.firmware.rig_board import RigBoard
 from up_simulator.firmware.settings_wire import (
     PROFILE as FIELDS,
@@ -19,7 +20,6 @@ from up_simulator.firmware.settings_wire import (
     gains_bytes,
     profile_bytes,
 )
-from up_simulator.firmware.tap import BoardTap
 
 CHANNEL = (0, 0, 1000, 2000)
 GAINS = tuple(float(each) for each in range(18))
@@ -52,7 +52,7 @@ def board(elf, **options):
 
 
 def asked(aboard_now, letter):
-    tap = BoardTap()
+    tap = LineMonitor()
     aboard_now.write(tap.command_bytes(letter))
     aboard_now.run_us(60_000)
     tap.feed(aboard_now.read(), 0.0)
@@ -88,7 +88,7 @@ def test_named_gains_change_their_places_and_no_others():
         ({"fly_by_wire": {"roll_deg": 1e9}}, "a value of the profile is out of range"),
     ],
 )
-def test_a_wrong_profile_is_a_sentence(settings, said):
+def test_an_invalid_profile_is_refused(settings, said):
     with pytest.raises(SettingsError, match=said):
         profile_bytes(settings, HELD)
 
@@ -96,13 +96,13 @@ def test_a_wrong_profile_is_a_sentence(settings, said):
 @pytest.mark.parametrize(
     ("settings", "said"),
     [
-        ({"rate": {"flaps": {"p": 1}}}, "there is no gain rate.flaps.p"),
-        ({"rate": {"ailerons": {"q": 1}}}, "there is no gain rate.ailerons.q"),
+        ({"rate": {"flaps": {"p": 1}}}, "unknown gain rate.flaps.p"),
+        ({"rate": {"ailerons": {"q": 1}}}, "unknown gain rate.ailerons.q"),
         ({"rate": {"ailerons": {"p": 50.5}}}, "a gain is not within 0 to 50"),
         ({"rate": {"ailerons": {"p": float("nan")}}}, "a gain is not within 0 to 50"),
     ],
 )
-def test_a_wrong_gain_is_a_sentence(settings, said):
+def test_an_invalid_gain_is_refused(settings, said):
     with pytest.raises(SettingsError, match=said):
         gains_bytes(settings, HELD_GAINS)
 
@@ -117,7 +117,7 @@ def test_a_board_with_the_prepared_eeprom_boots_with_the_settings(elf):
 
 
 def test_the_work_is_done_once_for_each_firmware_and_each_set(tmp_path, monkeypatch, elf):
-    monkeypatch.setattr(preparation, "kept_path", lambda *names: tmp_path.joinpath(*names))
+    monkeypatch.setattr(preparation, "cache_path", lambda *names: tmp_path.joinpath(*names))
     made = []
 
     def counted(*arguments):
@@ -126,20 +126,20 @@ def test_the_work_is_done_once_for_each_firmware_and_each_set(tmp_path, monkeypa
 
     monkeypatch.setattr(preparation, "prepare_eeprom", counted)
     try:
-        first = prepared_eeprom("firmware", {"motor": False}, {})
+        first = cached_eeprom("firmware", {"motor": False}, {})
     except BoardUnavailableError as error:
         unavailable(str(error))
-    assert prepared_eeprom("firmware", {"motor": False}, {}) == first
+    assert cached_eeprom("firmware", {"motor": False}, {}) == first
     assert len(made) == 1
-    assert prepared_eeprom("firmware", {"motor": True}, {}) != first
+    assert cached_eeprom("firmware", {"motor": True}, {}) != first
     assert len(made) == 2
 
 
 def test_no_flight_computer_needs_no_eeprom():
-    assert prepared_eeprom("direct", {}, {}) == b""
+    assert cached_eeprom("direct", {}, {}) == b""
 
 
-def test_a_refusal_says_what_and_why(elf):
+def test_a_refusal_names_setting_and_reason(elf):
     armed = board(elf)
     armed.set_stick("aux2", 1000)
     armed.run_us(2_000_000)
@@ -151,7 +151,7 @@ def test_a_refusal_says_what_and_why(elf):
         prepare_eeprom(armed, {"motor": False}, {})
 
 
-def test_a_board_that_does_not_answer_is_a_sentence():
+def test_a_board_without_an_answer_is_reported():
     silent = aboard("firmware").board()
     silent.write = lambda _data: None
     with pytest.raises(PreparationError, match="the board does not answer to c"):

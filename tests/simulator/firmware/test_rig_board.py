@@ -42,7 +42,7 @@ def test_a_silent_channel_alone_makes_the_receiver_invalid(aboard):
     assert aboard.status().is_receiver_valid
 
 
-def test_time_is_what_was_asked_for_to_an_instruction(aboard):
+def test_time_is_exact_to_an_instruction(aboard):
     before_us = aboard.board.now_us
     for _ in range(500):
         aboard.board.run_us(2000)

@@ -39,7 +39,7 @@ def digests(folder, seed, duration_s=3.0):
         flying.phone.unplug()
         flying.fly(duration_s / 3)
         assert flying.ground.frames > 5
-        log = "\n".join([*flying.raspilot.log, *flying.phone.said])
+        log = "\n".join([*flying.raspilot.log, *flying.phone.messages])
         ended = repr((flying.state, flying.ground.telemetry, log))
         flying.raspilot.kill()
     finally:

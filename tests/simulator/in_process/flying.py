@@ -6,29 +6,29 @@ from tests.support.firmware import build_firmware
 from up_simulator.aircraft.airframe import load_airframe
 from up_simulator.aircraft.dynamics import FlightDynamics, Start
 from up_simulator.firmware.imu_errors import ImuErrors
-from up_simulator.firmware.preparation import prepared_eeprom
+from up_simulator.firmware.line_monitor import LineMonitor
+from up_simulator.firmware.preparation import cached_eeprom
 from up_simulator.firmware.rig_board import RigBoard
-from up_simulator.firmware.tap import BoardTap
+from up_simulator.harness.world import STEP_S, World
 from up_simulator.in_process.config_folder import GROUND_PORT, write_config
 from up_simulator.in_process.ground import InProcessGround
 from up_simulator.in_process.phone import InProcessPhone
 from up_simulator.in_process.raspilot import InProcessRaspilot
 from up_simulator.in_process.reactor import SimulatedReactor
 from up_simulator.link.model import LinkModel, LinkSettings
-from up_simulator.scenario.serial_line import FROM_BOARD, TO_BOARD, SerialWires
-from up_simulator.world import STEP_S, World
+from up_simulator.scenario.line_board import FROM_BOARD, TO_BOARD, SerialWires
 
 ACRO_US, FBW_US, AUTO_US = 1000.0, 1500.0, 2000.0
 CELLULAR = LinkSettings(delay_ms=40, jitter_ms=10)
 
 
 class TappedBoard:
-    """Lets the serial line of a board be read along, both ways with their times, and spoilt."""
+    """Lets the serial line of a board be read along, both ways with their times, and corrupted."""
 
     def __init__(self, board, wires):
         self._board = board
         self.wires = wires
-        self.tap = BoardTap()
+        self.tap = LineMonitor()
         self.digest = hashlib.sha256()
 
     def __getattr__(self, name):
@@ -66,10 +66,9 @@ class Flying:
         link=None,
         arms=False,
         orientation="tcp",
-        java=None,
     ):
         airframe = load_airframe("glider")
-        eeprom = prepared_eeprom("firmware", airframe.profile, airframe.gains)
+        eeprom = cached_eeprom("firmware", airframe.profile, airframe.gains)
         rig = RigBoard(build_firmware(), seed=seed, imu_errors=ImuErrors(), eeprom=eeprom)
         self.board = TappedBoard(rig, SerialWires(seed))
         dynamics = FlightDynamics(airframe, start or Start(), seed=seed)
@@ -82,9 +81,7 @@ class Flying:
             self.up, self.down = LinkModel(link, seed), LinkModel(link, seed + 1)
             self.reactor.link(GROUND_PORT, self.up, self.down)
         self.ground = InProcessGround(self.reactor, seed=seed)
-        self.phone = InProcessPhone(
-            self.reactor, dynamics, orientation=orientation, seed=seed, java=java
-        )
+        self.phone = InProcessPhone(self.reactor, dynamics, orientation=orientation, seed=seed)
         self.board.set_stick("aux1", FBW_US)
         self.world.boot(arms=arms)
 

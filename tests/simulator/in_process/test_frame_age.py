@@ -5,7 +5,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from up.protocols.general_message import GeneralMessage
-from up_simulator.in_process.frame_age import UptimeAges
+from up_simulator.in_process.ground import UptimeAges
 
 PERIOD_S = 0.1
 LINK_S = 0.05

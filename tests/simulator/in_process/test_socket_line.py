@@ -8,7 +8,7 @@ from up_simulator.in_process.socket_line import SocketLine
 def test_a_line_passes_bytes_at_once_and_ends_with_a_hang_up():
     line = SocketLine()
     assert line.read(0.0, 10) == b""
-    line.write(b"nobody has opened it")
+    line.write(b"unopened")
     with line.open() as other:
         line.write(b"abc")
         assert os.read(other.fileno(), 10) == b"abc"

@@ -12,7 +12,7 @@ from up_simulator.link.model import LinkModel, LinkSettings
 class Bench:
     def __init__(self, link=None):
         self.reactor = SimulatedReactor()
-        self.pi, self.phone = self.reactor.machine(), self.reactor.machine()
+        self.pi, self.phone = self.reactor.host(), self.reactor.host()
         if link is not None:
             self.up, self.down = LinkModel(link, 1), LinkModel(link, 2)
             self.reactor.link(PORT, self.up, self.down)
@@ -21,7 +21,7 @@ class Bench:
         self.sending = self.phone.listenUDP(0, self.here)
 
 
-def test_a_datagram_and_its_answer_pass():
+def test_a_datagram_and_its_answer_arrive():
     bench = Bench()
     bench.sending.write(b"where?", ("127.0.0.1", PORT))
     bench.reactor.advance(0.01)
@@ -32,7 +32,7 @@ def test_a_datagram_and_its_answer_pass():
     assert bench.here.received[0][:2] == (b"here", ("127.0.0.1", PORT))
 
 
-def test_the_link_of_the_port_holds_both_ways():
+def test_the_link_of_the_port_applies_both_ways():
     bench = Bench(LinkSettings(delay_ms=100))
     bench.sending.write(b"x", ("127.0.0.1", PORT))
     bench.reactor.advance(0.5)
@@ -59,7 +59,7 @@ def test_some_datagrams_are_lost_and_none_comes_twice():
     assert 650 < len(arrived) < 750
 
 
-def test_what_goes_to_nobody_vanishes():
+def test_a_datagram_without_a_receiver_is_lost():
     bench = Bench()
     bench.listening.stopListening()
     bench.sending.write(b"x", ("127.0.0.1", PORT))
@@ -67,7 +67,7 @@ def test_what_goes_to_nobody_vanishes():
     assert bench.there.received == []
 
 
-def test_a_port_in_use_is_refused():
+def test_a_port_in_use_is_rejected():
     bench = Bench()
     with pytest.raises(CannotListenError, match=str(PORT)):
         listen_udp(bench.phone, PORT, Datagrams(bench.reactor.seconds))

@@ -80,14 +80,6 @@ def test_packets_queue_before_a_narrow_place_and_the_queue_drains():
     assert model.send(500, 10.0) == pytest.approx(10.5)
 
 
-def test_settings_changed_in_flight_hold_for_what_is_sent_from_then_on():
-    model = LinkModel(LinkSettings(delay_ms=100))
-    assert model.send(10, 0.0) == pytest.approx(0.1)
-    model.settings = LinkSettings(delay_ms=10)
-    assert model.send(10, 0.02) == pytest.approx(0.1), "it may not overtake"
-    assert model.send(10, 1.0) == pytest.approx(1.01)
-
-
 def test_nothing_comes_through_a_loss_of_100_percent():
     model = LinkModel(LinkSettings(loss_percent=100))
     assert model.send(1, 0.0) is None
@@ -127,19 +119,6 @@ def test_a_stall_loses_nothing_and_ends_in_a_burst(settings, traffic, seed, data
         assert math.isfinite(at_s) and at_s >= resumes_s
         arrived += [(each, at_s) for each in pipe.take(at_s)]
     assert [each for each, _ in arrived] == list(range(len(traffic)))
-
-
-def test_what_waited_for_a_stall_comes_at_its_end_and_not_before():
-    model = LinkModel(LinkSettings(delay_ms=100))
-    pipe = LinkPipe(model)
-    pipe.send("on its way", 10, 0.0)
-    model.stall(0.05)
-    pipe.send("during", 10, 0.3)
-    assert pipe.take(2.0) == []
-    model.resume(2.0)
-    pipe.send("after", 10, 2.0)
-    assert pipe.take(2.0) == ["on its way", "during"]
-    assert pipe.next_s() == pytest.approx(2.1)
 
 
 def test_a_blackout_loses_what_is_on_its_way_and_what_is_sent():

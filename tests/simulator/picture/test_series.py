@@ -46,7 +46,7 @@ def test_modes_are_spans_and_a_lost_receiver_is_its_own():
     assert mode_spans(log_of(truth__roll_deg=[1, 2])) == []
 
 
-def test_the_ground_tells_the_mode_where_no_board_is_heard():
+def test_the_ground_provides_the_mode_without_a_board():
     assert mode_spans(log_of(ground__flight_mode=["FBW", "FBW"]))[0].name == "FBW"
 
 
@@ -66,7 +66,7 @@ def test_metres_are_taken_as_they_are():
     assert track(log_of(truth__roll_deg=[1])) is None
 
 
-def test_a_column_of_which_nothing_is_known_is_none():
+def test_a_column_without_values_is_none():
     log = log_of(truth__roll_deg=[None, None], truth__crashed=[False, True])
     assert numbers(log, "truth.roll_deg") is None
     assert numbers(log, "truth.pitch_deg") is None

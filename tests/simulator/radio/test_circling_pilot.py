@@ -8,14 +8,14 @@ from up.earth import distance_m
 from up_rig import RigUnavailableError
 from up_rig.sticks import read_sticks
 from up_simulator.aircraft import FlightDynamics, Weather, load_airframe
-from up_simulator.crew.virtual_aircraft import MODE_NAMES
 from up_simulator.firmware.build import BoardUnavailableError, choose_board
-from up_simulator.firmware.preparation import prepared_eeprom
-from up_simulator.firmware.tap import BoardTap
+from up_simulator.firmware.line_monitor import LineMonitor
+from up_simulator.firmware.preparation import cached_eeprom
+from up_simulator.harness.virtual_aircraft import MODE_NAMES
+from up_simulator.harness.world import World
+from up_simulator.radio.choice import ScriptedRadio
 from up_simulator.radio.circling_pilot import CirclingPilot
-from up_simulator.radio.scripted import ScriptedRadio
 from up_simulator.radio.sticks import Sticks, Transmitter
-from up_simulator.world import World
 
 
 @pytest.mark.parametrize(
@@ -27,7 +27,7 @@ def test_it_stays_near_and_high_in_turbulence(airframe, wind_m_s, minutes):
     weather = Weather(wind_m_s=wind_m_s, turbulence="moderate")
     flight = FlightDynamics(flown, weather=weather, seed=3)
     try:
-        board = choose_board("host", eeprom=prepared_eeprom("host", flown.profile, flown.gains))
+        board = choose_board("host", eeprom=cached_eeprom("host", flown.profile, flown.gains))
     except (BoardUnavailableError, RigUnavailableError) as error:
         unavailable(str(error))
     world, pilot, transmitter = World(flight, board), CirclingPilot(), Transmitter(board)
@@ -52,10 +52,10 @@ def test_it_flies_by_the_mode_that_the_board_says(airframe, mode, switch):
     flown = load_airframe(airframe)
     flight = FlightDynamics(flown, weather=Weather(wind_m_s=4.0, turbulence="moderate"), seed=3)
     try:
-        board = choose_board("host", eeprom=prepared_eeprom("host", flown.profile, flown.gains))
+        board = choose_board("host", eeprom=cached_eeprom("host", flown.profile, flown.gains))
     except (BoardUnavailableError, RigUnavailableError) as error:
         unavailable(str(error))
-    tap = BoardTap()
+    tap = LineMonitor()
     pilot = CirclingPilot(switch=switch, mode=lambda: MODE_NAMES.get(tap.mode or "", ""))
     world, transmitter = World(flight, board), Transmitter(board)
     world.boot(arms=True)
@@ -107,7 +107,7 @@ class Board:
         self.told.append(("receiver", is_on))
 
 
-def test_only_what_moves_is_told_and_a_receiver_is_on_by_itself():
+def test_only_changes_are_sent_and_a_receiver_starts_switched_on():
     board = Board()
     transmitter = Transmitter(board)
     transmitter.send(Sticks())

@@ -4,8 +4,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from up_simulator.radio.keyboard import HELD_S, KeyboardSticks
-from up_simulator.radio.keys import KeyReader
+from up_simulator.radio.keyboard import HOLD_S, KeyboardSticks, KeyReader
 from up_simulator.radio.sticks import Sticks
 
 
@@ -48,14 +47,14 @@ def test_space_moves_the_arming_switch_there_and_back():
     assert not pressed(" ", " ").is_armed
 
 
-def test_a_stick_that_nobody_holds_goes_back_to_the_middle_and_the_throttle_stays():
+def test_a_released_stick_recentres_and_the_throttle_stays():
     keyboard = KeyboardSticks()
     for key in ("right", "right", "down", "w", "a"):
         keyboard.press(key, 0.0)
-    assert keyboard.sticks(HELD_S).ailerons == 1620, "a held key repeats: it stays meanwhile"
-    going = keyboard.sticks(HELD_S + 0.05)
+    assert keyboard.sticks(HOLD_S).ailerons == 1620, "a held key repeats: it stays"
+    going = keyboard.sticks(HOLD_S + 0.05)
     assert 1500 < going.ailerons < 1620
-    at_rest = keyboard.sticks(HELD_S + 0.2)
+    at_rest = keyboard.sticks(HOLD_S + 0.2)
     assert (at_rest.ailerons, at_rest.elevator, at_rest.rudder) == (1500, 1500, 1500)
     assert at_rest.throttle == 1050
 
@@ -66,7 +65,7 @@ def test_x_centres_at_once():
     assert sticks.throttle == 1050
 
 
-def test_it_takes_over_what_another_pilot_had_set():
+def test_it_starts_with_the_sticks_of_the_other_pilot():
     start = Sticks(throttle=1600, aux1=2000, aux2=2000)
     assert pressed("left", start=start) == start.moved("ailerons", 1440)
 

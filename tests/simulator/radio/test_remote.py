@@ -1,4 +1,4 @@
-"""A radio in another terminal: it takes over the sticks, shows the mode, and gives them back."""
+"""A radio in another terminal: it takes the sticks, shows the mode, and releases them."""
 
 import os
 import pty
@@ -21,37 +21,41 @@ from tests.support.tools import unavailable
 from up_rig import RigUnavailableError
 from up_simulator.aircraft import FlightDynamics, load_airframe
 from up_simulator.firmware.build import BoardUnavailableError, choose_board
-from up_simulator.firmware.preparation import prepared_eeprom
-from up_simulator.firmware.tap import BoardTap
+from up_simulator.firmware.line_monitor import LineMonitor
+from up_simulator.firmware.preparation import cached_eeprom
+from up_simulator.harness.user_log import no_log
+from up_simulator.harness.world import World
+from up_simulator.radio.choice import ScriptedRadio
 from up_simulator.radio.circling_pilot import CirclingPilot
 from up_simulator.radio.keyboard import HELP
 from up_simulator.radio.keyboard_radio import status_line
+from up_simulator.radio.rc_override import RadioLink
 from up_simulator.radio.remote import RemoteRadio
-from up_simulator.radio.remote_words import (
-    Seen,
-    read_seen,
+from up_simulator.radio.remote_messages import (
+    Snapshot,
+    read_snapshot,
     read_sticks_of,
-    write_seen,
+    write_snapshot,
     write_sticks,
 )
-from up_simulator.radio.scripted import ScriptedRadio
 from up_simulator.radio.sticks import RadioError, Sticks, Transmitter
-from up_simulator.radio.take_over import RadioLink
 from up_simulator.radio.terminal import wrapped
-from up_simulator.world import World
 
 DEADLINE_S = 30.0
 STATE = StillFlight().state
-OTHERS = Sticks(ailerons=1700, throttle=1400, aux1=1500, aux2=2000)
+OTHER = Sticks(ailerons=1700, throttle=1400, aux1=1500, aux2=2000)
 
 
 class Aircraft:
     """The aircraft's end, moved on by hand."""
 
     def __init__(self, path):
-        self.said = []
-        self.radio = RemoteRadio(path, ScriptedRadio([]), self.said.append, lambda: "FBW")
+        self.logged = []
+        self.radio = RemoteRadio(path, ScriptedRadio([]), self.log, lambda: "FBW")
         self.time_s = 0.0
+
+    def log(self, _text, /, *, code):
+        self.logged.append(code)
 
     def sticks(self, passed_s=0.02):
         self.time_s += passed_s
@@ -71,7 +75,7 @@ class Pilot:
         self.socket.sendto(datagram, str(self.path))
 
     def seen(self):
-        return read_seen(self.socket.recv(4096))
+        return read_snapshot(self.socket.recv(4096))
 
 
 @pytest.fixture
@@ -88,57 +92,57 @@ def pilot(tmp_path, aircraft):
     made.socket.close()
 
 
-def test_the_sticks_are_taken_shown_and_given_back(aircraft, pilot):
+def test_the_sticks_are_taken_shown_and_released(aircraft, pilot):
     assert aircraft.sticks() == Sticks()
-    pilot.send(write_sticks(OTHERS))
-    assert aircraft.sticks() == OTHERS
+    pilot.send(write_sticks(OTHER))
+    assert aircraft.sticks() == OTHER
     seen = pilot.seen()
-    assert (seen.mode, seen.sticks) == ("FBW", OTHERS)
+    assert (seen.mode, seen.sticks) == ("FBW", OTHER)
     assert seen.state.roll_deg == STATE.roll_deg and seen.state.height_m == STATE.height_m
     pilot.send(write_sticks(None))
     assert aircraft.sticks() == Sticks()
-    assert len(aircraft.said) == 2
+    assert aircraft.logged == ["sticks_taken", "sticks_released"]
 
 
-def test_who_is_silent_for_a_second_has_them_no_more(aircraft, pilot):
-    pilot.send(write_sticks(OTHERS))
-    assert aircraft.sticks() == OTHERS
-    assert aircraft.sticks(0.9) == OTHERS
+def test_a_radio_silent_for_a_second_loses_the_sticks(aircraft, pilot):
+    pilot.send(write_sticks(OTHER))
+    assert aircraft.sticks() == OTHER
+    assert aircraft.sticks(0.9) == OTHER
     assert aircraft.sticks(0.2) == Sticks()
 
 
-def test_a_second_radio_takes_nothing_and_sees(aircraft, pilot, tmp_path):
-    pilot.send(write_sticks(OTHERS))
+def test_a_second_radio_only_watches(aircraft, pilot, tmp_path):
+    pilot.send(write_sticks(OTHER))
     aircraft.sticks()
     second = Pilot(tmp_path / "radio")
     second.send(write_sticks(Sticks(ailerons=1000)))
     second.send(write_sticks(None))
-    assert aircraft.sticks() == OTHERS
-    told = [second.seen(), second.seen()]
-    assert [(each.sticks, each.is_others) for each in told] == [(OTHERS, True)] * 2
-    assert not pilot.seen().is_others
+    assert aircraft.sticks() == OTHER
+    answers = [second.seen(), second.seen()]
+    assert [(each.sticks, each.is_taken_by_other) for each in answers] == [(OTHER, True)] * 2
+    assert not pilot.seen().is_taken_by_other
     second.socket.close()
 
 
-def test_a_second_radio_is_told_at_once_who_has_the_sticks(aircraft, pilot, tmp_path):
-    pilot.send(write_sticks(OTHERS))
+def test_a_second_radio_is_refused_immediately(aircraft, pilot, tmp_path):
+    pilot.send(write_sticks(OTHER))
     aircraft.sticks()
-    asks, told = threading.Event(), []
+    is_requested, refusals = threading.Event(), []
 
     def take():
-        asks.set()
+        is_requested.set()
         try:
             RadioLink(tmp_path / "radio")
         except RadioError as error:
-            told.append(str(error))
+            refusals.append(error.code)
 
     second = threading.Thread(target=take)
     second.start()
-    asks.wait(DEADLINE_S)
+    is_requested.wait(DEADLINE_S)
     while second.is_alive():
         aircraft.sticks(0.0)
     second.join()
-    assert told == ["another radio has the sticks: q there gives them back"]
+    assert refusals == ["sticks_taken"]
 
 
 class Flown:
@@ -148,19 +152,19 @@ class Flown:
         airframe = load_airframe("glider")
         try:
             self.board = choose_board(
-                "host", eeprom=prepared_eeprom("host", airframe.profile, airframe.gains)
+                "host", eeprom=cached_eeprom("host", airframe.profile, airframe.gains)
             )
         except (BoardUnavailableError, RigUnavailableError) as error:
             unavailable(str(error))
-        self.tap = BoardTap()
-        self.radio = RemoteRadio(path, CirclingPilot(), lambda _: None, is_armed=self.is_armed)
+        self.monitor = LineMonitor()
+        self.radio = RemoteRadio(path, CirclingPilot(), no_log, is_armed=self.is_armed)
         self.world = World(FlightDynamics(airframe), self.board)
         self.transmitter = Transmitter(self.board)
         self.world.boot(arms=True)
-        self.board.write(self.tap.start_bytes())
+        self.board.write(self.monitor.start_bytes())
 
     def is_armed(self):
-        return None if self.tap.status is None else self.tap.status.is_armed
+        return None if self.monitor.status is None else self.monitor.status.is_armed
 
     def fly(self, seconds, before_each=lambda: None):
         for step in range(round(seconds * 500)):
@@ -168,18 +172,18 @@ class Flown:
                 before_each()
             self.transmitter.send(self.radio.sticks(self.world.time_s, self.world.state))
             self.world.step()
-            self.tap.feed(self.board.read(), self.world.time_s)
+            self.monitor.feed(self.board.read(), self.world.time_s)
 
 
 @pytest.mark.parametrize("disarmed_s", [0.5, 3.0])
-def test_who_gets_a_disarmed_aircraft_back_arms_it_and_goes_on(tmp_path, disarmed_s):
+def test_the_pilot_rearms_an_aircraft_that_was_disarmed(tmp_path, disarmed_s):
     """The throttle low, AUX2 from low to high, and the motor again: no other way arms a board."""
     flown = Flown(tmp_path / "radio")
     flown.fly(1.0)
     other = Pilot(tmp_path / "radio")
     disarmed = Sticks(throttle=1600, aux1=1500, aux2=1000)
     flown.fly(disarmed_s, lambda: other.send(write_sticks(disarmed)))
-    assert flown.board.pulses_us()[2] < 1010, "the motor stands"
+    assert flown.board.pulses_us()[2] < 1010, "the motor is off"
     other.send(write_sticks(None))
     flown.fly(5.0)
     assert flown.is_armed()
@@ -190,11 +194,11 @@ def test_who_gets_a_disarmed_aircraft_back_arms_it_and_goes_on(tmp_path, disarme
     flown.radio.close()
 
 
-def test_who_gets_an_armed_aircraft_back_moves_no_switch(tmp_path):
+def test_the_pilot_leaves_the_switches_of_an_armed_aircraft(tmp_path):
     flown = Flown(tmp_path / "radio")
     flown.fly(1.0)
     other = Pilot(tmp_path / "radio")
-    other.send(write_sticks(OTHERS))
+    other.send(write_sticks(OTHER))
     flown.fly(0.5)
     other.send(write_sticks(None))
     flown.fly(0.02)
@@ -203,7 +207,7 @@ def test_who_gets_an_armed_aircraft_back_moves_no_switch(tmp_path):
     flown.radio.close()
 
 
-def test_the_line_names_switch_and_mode_where_they_differ():
+def test_the_status_line_shows_switch_and_mode_where_they_differ():
     at_auto = Sticks(aux1=2000, aux2=2000)
     assert " AUTO, flies FBW armed " in status_line(at_auto, STATE, "FBW")
     assert " AUTO armed " in status_line(at_auto, STATE)
@@ -219,14 +223,14 @@ def test_the_help_is_wrapped_by_words(columns):
     assert "spring back" in HELP
 
 
-def test_rubbish_moves_nothing(aircraft, pilot):
+def test_invalid_datagrams_move_nothing(aircraft, pilot):
     for datagram in (b"", b"{}", b"[]", b"\xff", b'{"sticks": {"ailerons": 1500}}', b"[" * 2000):
         pilot.send(datagram)
     assert aircraft.sticks() == Sticks()
-    assert aircraft.said == []
+    assert aircraft.logged == []
 
 
-def test_the_socket_goes_with_the_aircraft(tmp_path):
+def test_the_socket_is_removed_with_the_aircraft(tmp_path):
     aircraft = Aircraft(tmp_path / "radio")
     aircraft.radio.close()
     assert list(tmp_path.iterdir()) == []
@@ -237,19 +241,21 @@ def test_an_old_socket_is_replaced_and_a_file_is_not(tmp_path):
     Aircraft(tmp_path / "radio").radio.close()
     first.radio.close()
     (tmp_path / "file").write_text("mine")
-    with pytest.raises(RadioError, match="no radio can be taken over"):
+    with pytest.raises(RadioError) as error:
         Aircraft(tmp_path / "file")
+    assert error.value.code == "socket_unusable"
     assert (tmp_path / "file").read_text() == "mine"
 
 
-def test_without_an_aircraft_it_is_one_sentence(tmp_path):
-    with pytest.raises(RadioError, match="does 'make run' fly"):
+def test_a_radio_without_an_aircraft_is_refused(tmp_path):
+    with pytest.raises(RadioError) as error:
         RadioLink(tmp_path / "radio")
+    assert error.value.code == "no_aircraft"
 
 
 @given(st.binary(max_size=300) | st.text(max_size=100).map(str.encode))
 def test_any_datagram_is_read_or_refused(datagram):
-    for read in (read_sticks_of, read_seen):
+    for read in (read_sticks_of, read_snapshot):
         try:
             read(datagram)
         except ValueError:
@@ -267,17 +273,17 @@ def test_any_datagram_is_read_or_refused(datagram):
 def test_any_object_is_read_or_refused(found):
     import json
 
-    for read in (read_sticks_of, read_seen):
+    for read in (read_sticks_of, read_snapshot):
         try:
             read(json.dumps(found).encode())
         except ValueError:
             continue
 
 
-def test_what_is_written_is_read():
-    assert read_sticks_of(write_sticks(OTHERS)) == OTHERS
+def test_written_messages_are_read_back():
+    assert read_sticks_of(write_sticks(OTHER)) == OTHER
     assert read_sticks_of(write_sticks(None)) is None
-    assert read_seen(write_seen(Seen(STATE, OTHERS, "FBW"))).sticks == OTHERS
+    assert read_snapshot(write_snapshot(Snapshot(STATE, OTHER, "FBW"))).sticks == OTHER
 
 
 class Terminal:
@@ -323,8 +329,8 @@ def fly_until(aircraft, terminal, condition, what):
     return True
 
 
-def test_keys_of_a_terminal_fly_it_and_q_gives_everything_back(aircraft, terminal):
-    fly_until(aircraft, terminal, lambda _: len(aircraft.said) == 1, "the sticks are taken")
+def test_keys_of_a_terminal_fly_it_and_q_releases_it(aircraft, terminal):
+    fly_until(aircraft, terminal, lambda _: len(aircraft.logged) == 1, "the sticks are taken")
     fly_until(aircraft, terminal, lambda _: "FBW" in terminal.shown, "the line")
     assert "arming switch" in terminal.shown, "the help"
     assert not terminal.is_as_before()
@@ -338,23 +344,23 @@ def test_keys_of_a_terminal_fly_it_and_q_gives_everything_back(aircraft, termina
         terminal.read()
         assert time.monotonic() < deadline_s
     assert terminal.process.returncode == 0
-    assert aircraft.sticks(0.001) == Sticks(), "at once, not after a second"
+    assert aircraft.sticks(0.001) == Sticks(), "immediately, not after a second"
     assert terminal.is_as_before()
 
 
 @pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGINT, signal.SIGHUP])
-def test_a_signal_gives_the_terminal_back(aircraft, terminal, number):
-    fly_until(aircraft, terminal, lambda _: len(aircraft.said) == 1, "the sticks are taken")
+def test_a_signal_restores_the_terminal(aircraft, terminal, number):
+    fly_until(aircraft, terminal, lambda _: len(aircraft.logged) == 1, "the sticks are taken")
     terminal.process.send_signal(number)
     terminal.process.wait(DEADLINE_S)
     assert terminal.is_as_before()
 
 
-def test_an_aircraft_that_ends_gives_the_terminal_back_with_a_sentence(aircraft, terminal):
-    fly_until(aircraft, terminal, lambda _: len(aircraft.said) == 1, "the sticks are taken")
+def test_the_end_of_the_aircraft_restores_the_terminal(aircraft, terminal):
+    fly_until(aircraft, terminal, lambda _: len(aircraft.logged) == 1, "the sticks are taken")
     aircraft.radio.close()
     assert terminal.process.wait(DEADLINE_S) == 1
     terminal.read()
-    assert "up-sim radio: no aircraft listens" in terminal.shown
+    assert "up-sim radio: " in terminal.shown
     assert "Traceback" not in terminal.shown
     assert terminal.is_as_before()

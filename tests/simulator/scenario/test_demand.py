@@ -25,29 +25,29 @@ def test_fly_by_wire_has_the_limits_of_the_profile():
     assert at("FBW", profile, ailerons=2200.0) == Demand(30.0, 0.0)
 
 
-def test_rate_has_the_rates_of_the_firmware():
+def test_rate_demands_the_rates_of_the_firmware():
     full = at("RATE", ailerons=2000.0, elevator=1000.0)
     assert full == Demand(roll_rate_deg_s=180.0, pitch_rate_deg_s=-90.0)
-    told = dict(re.findall(r"(\w+_STICK_DEG_S) = (\d+);", HEADER.read_text()))
-    assert float(told["ROLL_STICK_DEG_S"]) == demand.ROLL_STICK_DEG_S
-    assert float(told["PITCH_STICK_DEG_S"]) == demand.PITCH_STICK_DEG_S
+    found = dict(re.findall(r"(\w+_STICK_DEG_S) = (\d+);", HEADER.read_text()))
+    assert float(found["ROLL_STICK_DEG_S"]) == demand.ROLL_STICK_DEG_S
+    assert float(found["PITCH_STICK_DEG_S"]) == demand.PITCH_STICK_DEG_S
 
 
-def test_a_lost_receiver_asks_for_the_circle():
+def test_failsafe_demands_the_circle():
     assert at("FBW", is_failsafe=True, ailerons=2000.0) == Demand(20.0, -3.0)
     profile = {"receiver_lost": {"circle_bank_deg": -15, "glide_pitch_deg": -5}}
     assert at("ACRO", profile, is_failsafe=True) == Demand(-15.0, -5.0)
 
 
-def test_a_setpoint_is_what_the_raspberry_pi_sent():
+def test_a_set_point_is_that_of_the_raspberry_pi():
     model = DemandModel({})
     assert model.at("SETPOINT", False, CENTRED) == Demand()
-    model.hear_setpoint(struct.pack(">hhhHH", 1250, -300, 0, 0, 250))
+    model.receive_setpoint(struct.pack(">hhhHH", 1250, -300, 0, 0, 250))
     assert model.at("SETPOINT", False, CENTRED) == Demand(12.5, -3.0)
-    model.hear_setpoint(b"short")
+    model.receive_setpoint(b"short")
     assert model.at("SETPOINT", False, CENTRED) == Demand(12.5, -3.0)
 
 
 @pytest.mark.parametrize("mode", ["ACRO", "RTH", "None"])
-def test_where_nobody_holds_anything_nothing_is_asked(mode):
+def test_other_modes_demand_nothing(mode):
     assert at(mode, ailerons=2000.0) == Demand()

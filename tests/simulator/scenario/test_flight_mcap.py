@@ -18,12 +18,11 @@ from up_flightlog.read.flight_log import FlightLog
 from up_flightlog.read.telemetry_frames import frames
 from up_simulator.cli import main
 from up_simulator.scenario.event import CommandPart, Event
-from up_simulator.scenario.flight import FlightRecord
+from up_simulator.scenario.expectation import Verdict
 from up_simulator.scenario.flight_mcap import BEGIN_NS, write_flight
-from up_simulator.scenario.question import Question
+from up_simulator.scenario.flight_record import FlightRecord, PendingCommand
 from up_simulator.scenario.result import Result
 from up_simulator.scenario.sampler import columns_of
-from up_simulator.scenario.verdict import Verdict
 
 FLOWN = """\
 title: Flown
@@ -75,12 +74,12 @@ def flown(tmp_path_factory):
     return folder
 
 
-def test_the_same_flight_is_the_same_file(flown):
+def test_the_same_flight_gives_the_same_file(flown):
     first, second = (flown / name / "flown/flight.mcap" for name in ("first", "second"))
     assert first.read_bytes() == second.read_bytes()
 
 
-def test_the_estimate_lies_beside_the_truth_at_equal_times(flown):
+def test_estimate_and_truth_have_equal_times(flown):
     log = Read(flown / "first/flown/flight.mcap")
     truth = dict(log.messages["simulator.truth"])
     told = log.messages["up.orientation.update"]
@@ -96,7 +95,7 @@ def test_the_estimate_lies_beside_the_truth_at_equal_times(flown):
     assert log.series("simulator.truth", "wind_east_m_s")[-1] == pytest.approx(5.0, abs=0.01)
 
 
-def test_the_lost_receiver_is_told_as_the_board_tells_it(flown):
+def test_a_lost_receiver_is_logged_as_the_board_reports_it(flown):
     log = Read(flown / "first/flown/flight.mcap")
     assert log.series("up.rx.update", "valid")[0] == 63
     assert log.series("up.rx.update", "valid")[-1] == 0
@@ -116,7 +115,7 @@ def test_the_lost_receiver_is_told_as_the_board_tells_it(flown):
     assert log.schemas["log"][0] == "foxglove.Log"
 
 
-def test_it_says_what_flew_and_what_was_true_of_it(flown):
+def test_metadata_name_aircraft_scenario_and_verdicts(flown):
     log = Read(flown / "first/flown/flight.mcap")
     assert log.metadata["flight"]["aircraft"] == "glider"
     assert log.metadata["scenario"]["title"] == "Flown"
@@ -124,10 +123,9 @@ def test_it_says_what_flew_and_what_was_true_of_it(flown):
     assert b"units: degrees per second" in log.attachments["config/pids.yml"]
 
 
-def test_what_went_wrong_and_its_telemetry_can_be_told_from_it(flown):
+def test_the_flight_log_finds_failures_and_telemetry_in_it(flown):
     log = FlightLog.read([flown / "first/flown/flight.mcap"])
-    codes = {finding.code for finding in findings(log)}
-    assert {"receiver_lost", "failsafe"} <= codes
+    assert {"receiver_lost", "failsafe"} <= {finding.code for finding in findings(log)}
     assert [each.axis for each in estimate_errors(log)] == ["roll", "pitch"]
     newest = list(frames(log))[-1].data
     assert newest["flight_mode"] and newest["arduino"]["failsafe"] is True
@@ -135,7 +133,7 @@ def test_what_went_wrong_and_its_telemetry_can_be_told_from_it(flown):
     assert newest["source"]["orientation"] == "arduino"
 
 
-def test_without_a_phone_the_place_is_the_true_one_and_says_so(flown):
+def test_without_a_phone_the_position_is_the_true_one_by_its_origin(flown):
     log = Read(flown / "first/flown/flight.mcap")
     places = log.messages["up.location.update"]
     assert len(places) == 21
@@ -145,7 +143,7 @@ def test_without_a_phone_the_place_is_the_true_one_and_says_so(flown):
         assert data["_origin"] == "simulator (sensor)"
 
 
-def test_with_a_phone_only_what_it_told_is_there(tmp_path):
+def test_with_a_phone_the_position_is_measured(tmp_path):
     columns = {
         "truth.latitude_deg": lambda _: 1.0,
         "truth.longitude_deg": lambda _: 2.0,
@@ -170,7 +168,7 @@ def test_with_a_phone_only_what_it_told_is_there(tmp_path):
     assert log.series("up.panic", "delay_ms") == [20, 300]
 
 
-def test_an_arduino_that_is_silent_leaves_a_gap(tmp_path):
+def test_a_silent_board_leaves_a_gap(tmp_path):
     def age_s(time_s):
         return 0.005 if time_s < 0.5 or time_s > 1.5 else time_s - 0.495
 
@@ -183,20 +181,22 @@ def test_an_arduino_that_is_silent_leaves_a_gap(tmp_path):
     assert sorted(gaps)[-2] < 0.021
 
 
-def test_a_command_of_the_ground_is_there_if_it_was_carried_out(tmp_path):
+def test_only_executed_commands_of_the_ground_are_logged(tmp_path):
     def asked(name, at_s, answer):
         command = CommandPart(name, {"mode": "FBW"})
-        return Question(Event(at_s=at_s, command=command), command, "1", at_s, answer)
+        return PendingCommand(Event(at_s=at_s, command=command), command, "1", at_s, answer)
 
-    questions = [asked("up.flight_mode.set", 0.5, ""), asked("up.arm", 0.2, "forbidden: no")]
-    log = read(tmp_path, {"truth.roll_deg": lambda _: 0.0}, PHONE, questions=questions)
+    pending_commands = [asked("up.flight_mode.set", 0.5, ""), asked("up.arm", 0.2, "forbidden: no")]
+    log = read(
+        tmp_path, {"truth.roll_deg": lambda _: 0.0}, PHONE, pending_commands=pending_commands
+    )
     ((time_s, data),) = log.messages["up.flight_mode.set"]
     assert (round(time_s, 6), data) == (0.5, {"mode": "FBW", "_origin": "ground (pilot)"})
     assert "up.arm" not in log.messages
     assert log.series("log", "message") == ["up.arm from the ground: refused, forbidden: no"]
 
 
-def test_how_it_ended_is_its_last_word(tmp_path):
+def test_the_end_of_the_flight_is_the_last_log_entry(tmp_path):
     columns = {"truth.roll_deg": lambda _: 0.0}
     log = read(tmp_path, columns, crash="hit the ground", failure="raspilot died")
     assert [(data["level"], data["message"]) for _, data in log.messages["log"]] == [
@@ -210,13 +210,13 @@ FLOWN_WITH_ALL = scenario(PHONE)
 
 
 @given(st.lists(st.tuples(NUMBERS, NUMBERS, st.text(max_size=5)), min_size=1, max_size=4))
-def test_whatever_the_signals_are_the_file_is_whole(tmp_path_factory, rows):
+def test_any_signals_give_a_valid_file(tmp_path_factory, rows):
     path = tmp_path_factory.mktemp("any") / "flight.mcap"
     columns = columns_of(FLOWN_WITH_ALL)
     made = log_of({name: [None] for name in columns if name not in ("time_s", "event")}, 1)
     for at, (first, second, word) in enumerate(rows):
         values = {name: (first, second)[index % 2] for index, name in enumerate(columns)}
-        words = {name: word for name in columns if made.has_words(name)}
+        words = {name: word for name in columns if made.has_text(name)}
         made.append({**values, **words, "time_s": 0.02 * (at + 1)})
     write_flight("any", Result(FlightRecord(FLOWN_WITH_ALL, made), []), path)
     log = Read(path)
@@ -224,7 +224,7 @@ def test_whatever_the_signals_are_the_file_is_whole(tmp_path_factory, rows):
     assert all(math.isfinite(time_s) for each in log.messages.values() for time_s, _ in each)
 
 
-def test_a_file_that_cannot_be_written_is_an_error_of_the_system():
+def test_a_full_disk_is_an_os_error():
     flown = FlightRecord(scenario(), log_of({"truth.roll_deg": lambda _: 0.0}, 5))
     with pytest.raises(OSError, match="No space left"):
         write_flight("full", Result(flown, []), Path("/dev/full"))

@@ -7,11 +7,11 @@ from hypothesis import strategies as st
 from up_simulator.scenario.log import FlightLog, LogError, read_log
 
 COLUMNS = ["time_s", "truth.roll_deg", "board.mode", "board.armed", "event"]
-WORDS = st.text(st.characters(exclude_characters="\r\n\0", exclude_categories=["Cs"]), max_size=12)
+TEXTS = st.text(st.characters(exclude_characters="\r\n\0", exclude_categories=["Cs"]), max_size=12)
 
 
-@given(st.lists(st.tuples(st.floats(), st.one_of(st.none(), WORDS), st.booleans(), WORDS)))
-def test_what_is_written_is_read_again(tmp_path_factory, rows):
+@given(st.lists(st.tuples(st.floats(), st.one_of(st.none(), TEXTS), st.booleans(), TEXTS)))
+def test_a_log_is_read_as_it_was_written(tmp_path_factory, rows):
     log = FlightLog(COLUMNS)
     for at, (roll, mode, is_armed, event) in enumerate(rows):
         log.append(
@@ -32,10 +32,10 @@ def test_what_is_written_is_read_again(tmp_path_factory, rows):
     assert len(read) == len(rows)
 
 
-def test_columns_are_numbers_flags_and_words():
+def test_columns_are_numbers_flags_and_texts():
     log = FlightLog(COLUMNS)
     log.append({"time_s": 0, "board.mode": "FBW", "board.armed": True, "event": "a; b"})
-    assert log.column("board.mode") == ["FBW"] and log.has_words("board.mode")
+    assert log.column("board.mode") == ["FBW"] and log.has_text("board.mode")
     assert log.numbers("board.armed") == [1.0]
     assert math.isnan(log.numbers("truth.roll_deg")[0])
     assert log.events == [(0.0, "a"), (0.0, "b")]
@@ -45,31 +45,33 @@ def test_columns_are_numbers_flags_and_words():
         log.column("board.mod")
 
 
-def test_a_text_where_a_number_belongs_is_not_known():
+def test_a_text_in_a_column_of_numbers_is_unknown():
     log = FlightLog(COLUMNS)
     log.append({"time_s": 0, "truth.roll_deg": "far"})
     assert math.isnan(log.numbers("truth.roll_deg")[0])
 
 
 @pytest.mark.parametrize(
-    ("text", "what"),
+    ("text", "line", "code"),
     [
-        ("", ":1: is no log of a flight"),
-        ("a,b\n1,2\n", ":1: is no log of a flight"),
-        ("time_s,a,a\n", ":1: has two columns of one name"),
-        ("time_s,truth.roll_deg\n0,1\n0.02\n", ":3: has 1 values, not 2"),
-        ("time_s,truth.roll_deg\n0,x\n", ":2: truth.roll_deg is no number: 'x'"),
-        ("time_s\n0\n\xff\xfe", "is no log of a flight"),
+        ("", 1, "not_a_log"),
+        ("a,b\n1,2\n", 1, "not_a_log"),
+        ("time_s,a,a\n", 1, "duplicate_column"),
+        ("time_s,truth.roll_deg\n0,1\n0.02\n", 3, "row_length"),
+        ("time_s,truth.roll_deg\n0,x\n", 2, "not_a_number"),
+        ("time_s\n0\n\xff\xfe", 0, "not_a_log"),
     ],
 )
-def test_what_is_no_log_is_one_sentence(tmp_path, text, what):
+def test_a_file_that_is_not_a_log_is_rejected(tmp_path, text, line, code):
     path = tmp_path / "log.csv"
     path.write_bytes(text.encode("latin-1"))
     with pytest.raises(LogError) as caught:
         read_log(path)
-    assert what in str(caught.value) and "\n" not in str(caught.value)
+    assert (caught.value.line, caught.value.code) == (line, code)
+    assert str(caught.value).startswith(f"{path}:") and "\n" not in str(caught.value)
 
 
-def test_a_missing_log_is_one_sentence(tmp_path):
-    with pytest.raises(LogError, match="cannot be read: No such file"):
+def test_a_missing_log_is_rejected(tmp_path):
+    with pytest.raises(LogError) as caught:
         read_log(tmp_path / "log.csv")
+    assert caught.value.code == "not_readable"

@@ -8,7 +8,7 @@ class Terminal(io.StringIO):
         return True
 
 
-def test_one_line_tells_time_and_speed_and_goes_away():
+def test_one_line_shows_time_and_speed_and_is_cleared():
     terminal, now_s = Terminal(), [100.0]
     line = ProgressLine(terminal, True, lambda: now_s[0])
     line.begin("roll-step", 10.0)
@@ -20,7 +20,7 @@ def test_one_line_tells_time_and_speed_and_goes_away():
     shown = terminal.getvalue()
     assert "\n" not in shown
     assert "roll-step: 8.0 of 10 s, 4.0 x real time" in shown
-    # Twice within a fifth of a second is once.
+    # At most one update in 0.2 s.
     assert "8.1" not in shown
     assert shown.endswith("\r") and shown.rstrip("\r").endswith(" ")
 

@@ -30,7 +30,7 @@ def black_boxes(folder):
     return [FlightLog.read([path]) for path in found]
 
 
-def test_the_daemon_is_killed_hung_and_comes_back_in_real_time(tmp_path):
+def test_a_killed_daemon_returns_in_real_time(tmp_path):
     done = fly(
         tmp_path,
         HEAD
@@ -50,7 +50,6 @@ def test_the_daemon_is_killed_hung_and_comes_back_in_real_time(tmp_path):
         + "  - {name: f, signal: ground.latency_s, below: 2}\n",
     )
     assert done.returncode == 0, done.stdout + done.stderr
-    assert "real time, not repeatable to the digit" in done.stdout
     log = read_log(tmp_path / "run" / "flights" / "real" / "log.csv")
     assert max(log.numbers("ground.frames")) > 3
     first, second = black_boxes(tmp_path)
@@ -60,7 +59,7 @@ def test_the_daemon_is_killed_hung_and_comes_back_in_real_time(tmp_path):
     assert "up.telemetry.frequency" in first.topics or "up.telemetry.frequency" in second.topics
 
 
-def test_a_daemon_that_dies_is_told_with_the_tail_of_its_log(tmp_path):
+def test_a_daemon_that_fails_is_reported_with_its_newest_log_lines(tmp_path):
     done = fly(
         tmp_path,
         HEAD
@@ -70,27 +69,9 @@ def test_a_daemon_that_dies_is_told_with_the_tail_of_its_log(tmp_path):
         + "expect: [{name: a, signal: time_s, above: 0}]\n",
     )
     assert done.returncode == 1
-    assert "raspilot ended by itself with status" in done.stdout
     assert "SerialProvider" in done.stdout
     summary = json.loads(Path(tmp_path, "run/flights/real/summary.json").read_text())
-    assert summary["held"] is False and "ended by itself" in summary["failure"]
-
-
-def test_datagrams_of_the_phone_pass_its_cable(tmp_path):
-    age = "signal: ground.age_ms.orientation"
-    done = fly(
-        tmp_path,
-        HEAD.replace(", mode: FBW, arm: true", "")
-        + "duration_s: 6\nboard: direct\nraspilot: {runs: real}\nphone: {orientation: udp}\n"
-        + "ground: {}\n"
-        + "events:\n  - {at_s: 3, name: out, phone: unplugged}\n"
-        + "  - {at_s: 4.2, name: in, phone: back}\n"
-        + "expect:\n"
-        + "  - {name: a, signal: ground.source.orientation, becomes: android, within_s: 3}\n"
-        + f"  - {{name: b, {age}, after: out, becomes_above: 800, within_s: 2}}\n"
-        + f"  - {{name: c, {age}, after: in, becomes_below: 300, within_s: 1.8}}\n",
-    )
-    assert done.returncode == 0, done.stdout + done.stderr
+    assert summary["held"] is False and summary["failure_code"] == "participant_failed"
 
 
 def test_a_black_box_through_runner_and_proxy_leaves_no_process(tmp_path):

@@ -1,4 +1,4 @@
-"""What keeps real programs from flying is one sentence and status 1."""
+"""Real programs that cannot fly: one sentence and status 1."""
 
 import json
 import subprocess
@@ -8,7 +8,6 @@ from pathlib import Path
 import pytest
 
 from tests.support.firmware import build_firmware
-from up_simulator.cli import main
 
 LIMIT_S = 120.0
 REAL = """\
@@ -35,13 +34,13 @@ def taken(reactor, port, *models, **more):
 RealReactor.link = taken
 """
 TAKEN_NAME = """
-from up_simulator.scenario.real_companions import RealCompanions
-plug = RealCompanions.plug_serial
-def taken(companions, is_in):
+from up_simulator.scenario.real_participants import RealParticipants
+plug = RealParticipants.plug_serial
+def taken(participants, is_in):
     if is_in:
-        (companions._folder / "board").write_text("of somebody else")
-    plug(companions, is_in)
-RealCompanions.plug_serial = taken
+        (participants._folder / "board").write_text("of somebody else")
+    plug(participants, is_in)
+RealParticipants.plug_serial = taken
 """
 FLY = """
 import sys
@@ -57,9 +56,9 @@ def in_a_folder(tmp_path, monkeypatch):
     build_firmware()
 
 
-def fly(trouble):
+def fly(patch):
     return subprocess.run(
-        [sys.executable, "-c", trouble + FLY],
+        [sys.executable, "-c", patch + FLY],
         capture_output=True,
         text=True,
         timeout=LIMIT_S,
@@ -67,25 +66,16 @@ def fly(trouble):
     )
 
 
-def test_a_port_that_the_link_cannot_have_is_told_before_the_flight():
+def test_a_port_in_use_is_reported_before_the_flight():
     done = fly(TAKEN_PORT)
-    assert done.stderr.startswith("up-sim: real: the link cannot listen on 127.0.0.1:")
+    assert done.stderr.startswith("up-sim: real: ") and "127.0.0.1:" in done.stderr
     assert done.stderr.count("\n") == 1
     assert done.returncode == 1
 
 
-def test_a_pty_that_cannot_come_back_ends_the_flight_with_a_report():
+def test_a_serial_line_that_cannot_be_reopened_fails_the_flight():
     done = fly(TAKEN_NAME)
     assert "Traceback" not in done.stderr, done.stderr
     assert done.returncode == 1
-    assert "exists and is no symbolic link: left alone" in done.stdout
-    failure = json.loads(Path("out/real/summary.json").read_text())["failure"]
-    assert "board exists and is no symbolic link" in failure
-
-
-def test_datagrams_to_a_black_box_are_a_mistake_of_the_file(capsys):
-    lines = REAL.replace("ground: {}", "ground: {through: runner}\nphone: {orientation: udp}")
-    Path("real.yml").write_text(lines)
-    assert main(["check", "real.yml"]) == 2
-    told = capsys.readouterr().err
-    assert told.startswith("real.yml:6:") and "a Black Box on a server takes no datagrams" in told
+    summary = json.loads(Path("out/real/summary.json").read_text())
+    assert summary["failure_code"] == "serial_line" and summary["failure"] in done.stdout

@@ -2,11 +2,11 @@ import dataclasses
 
 import pytest
 
-from up_simulator.flight import FlightState
+from up_simulator.aircraft.flight import FlightState
 from up_simulator.scenario.signals import SIGNALS, Kind, signal_of
 
 
-def test_every_part_of_the_true_state_is_a_signal():
+def test_every_field_of_the_true_state_is_a_signal():
     fields = {field.name for field in dataclasses.fields(FlightState)} - {"time_s"}
     truth = {name.partition(".")[2] for name in SIGNALS if name.startswith("truth.")}
     assert truth == fields | {"crashed"}
@@ -35,12 +35,12 @@ def test_an_unknown_name_gets_a_suggestion(name, near):
     assert f"did you mean '{near}'?" in caught.value.args[0]
 
 
-def test_a_name_like_nothing_gets_the_way_to_the_list():
+def test_an_unknown_name_without_a_match_refers_to_the_list():
     with pytest.raises(KeyError, match="up-sim signals"):
         signal_of("xyzzy")
 
 
-def test_counters_are_whatever_the_modules_count():
+def test_counters_of_modules_are_signals():
     assert signal_of("ground.counters.serial.dropped").kind is Kind.NUMBER
     for wrong in ("ground.counters", "ground.counters.", "ground.counters.a"):
         with pytest.raises(KeyError):

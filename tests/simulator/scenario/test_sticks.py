@@ -18,7 +18,7 @@ def test_before_the_first_point_sticks_are_centred_and_switches_low():
     }  # fmt: skip
 
 
-def test_fractions_words_and_pulses_become_pulses():
+def test_fractions_modes_and_pulses_become_pulses():
     at = timeline(
         "[{at_s: 0, ailerons: -0.5, elevator: 1, throttle: 0.25, rudder_us: 1600, mode: auto,"
         " arm: true}]"
@@ -29,7 +29,7 @@ def test_fractions_words_and_pulses_become_pulses():
     }  # fmt: skip
 
 
-def test_a_mode_is_where_the_switch_has_it():
+def test_a_mode_selects_its_switch_position():
     with_rate = {"low": "ACRO", "middle": "RATE", "high": "FBW"}
     text = "switch: {middle: RATE, high: FBW}\nsticks: [{at_s: 0, mode: RATE}]\n"
     line = StickTimeline(scenario(text).sticks, with_rate)
@@ -38,18 +38,18 @@ def test_a_mode_is_where_the_switch_has_it():
         timeline("[{at_s: 0, mode: FBW}]", {"low": "ACRO"})
 
 
-def test_a_stick_moves_evenly_and_stays():
+def test_a_stick_moves_at_constant_speed():
     line = timeline("[{at_s: 1, ailerons: 1, over_s: 2}, {at_s: 4, ailerons: 0}]")
     assert [line.pulse_us("ailerons", at) for at in (0, 1, 1.5, 2, 3, 3.9, 4, 9)] == [
         1500, 1500, 1625, 1750, 2000, 2000, 1500, 1500,
     ]  # fmt: skip
 
 
-def test_a_move_begins_where_an_unfinished_one_has_come_to():
+def test_a_move_continues_from_an_unfinished_one():
     line = timeline("[{at_s: 0, rudder: 1, over_s: 2}, {at_s: 1, rudder: 0, over_s: 1}]")
     assert [line.pulse_us("rudder", at) for at in (1, 1.5, 2, 3)] == [1750, 1625, 1500, 1500]
 
 
-def test_points_may_stand_in_any_order():
+def test_points_may_be_in_any_order():
     one = timeline("[{at_s: 2, elevator: 1}, {at_s: 1, elevator: -1}]")
     assert [one.pulse_us("elevator", at) for at in (0, 1, 2)] == [1500, 1000, 2000]

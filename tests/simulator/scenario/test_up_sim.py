@@ -1,4 +1,4 @@
-"""The program: verbs, exit statuses, its output, and sentences for mistakes."""
+"""The program: verbs, exit statuses and its output."""
 
 import json
 import os
@@ -14,7 +14,7 @@ import pytest
 from tests.support.firmware import build_firmware
 from up_simulator.cli import VERBS, main
 from up_simulator.scenario.log import read_log
-from up_simulator.verbs.shelf import shipped_paths
+from up_simulator.verbs.catalogue import shipped_paths
 
 GOOD = """\
 title: Good
@@ -23,7 +23,6 @@ sticks: [{at_s: 0, mode: FBW, arm: true, throttle: 0.5}]
 expect: [{name: It flies, signal: truth.height_m, above: 50}]
 """
 BAD = GOOD.replace("above: 50", "above: 5000").replace("Good", "Bad")
-# In its own words a process needs more than a check of the parser.
 LIMIT_S = 120.0
 
 
@@ -38,59 +37,61 @@ def write(name, text):
     return name
 
 
-def test_without_a_verb_it_helps(capsys):
+def test_without_a_verb_it_prints_the_help(capsys):
     assert main([]) == 2
-    told = capsys.readouterr().out
-    assert all(f"  {verb}" in told for verb in VERBS)
+    printed = capsys.readouterr().out
+    assert all(f"  {verb}" in printed for verb in VERBS)
 
 
 @pytest.mark.parametrize(
-    ("words", "what"),
+    ("words", "named"),
     [
-        (["fyl"], "there is no verb 'fyl', did you mean 'fly'?"),
-        (["xyzzy"], "('up-sim --help' lists them)"),
-        (["fly", "reciever-lost"], "no scenario 'reciever-lost', did you mean 'receiver-lost'?"),
-        (["fly", "nowhere.yml"], "there is no file nowhere.yml"),
-        (["fly", "receiver-lost", "--set", "seed"], "not of the form key=value"),
-        (["check", "xyzzy"], "there is no scenario 'xyzzy'"),
-        (["signals", "tooth"], "there is no group 'tooth'"),
-        (["new", "nowhere/flight"], "there is no folder nowhere"),
-        (["new", "a flight!"], "is no name for a file"),
+        (["fyl"], "'fly'"),
+        (["xyzzy"], "--help"),
+        (["fly", "reciever-lost"], "'receiver-lost'"),
+        (["fly", "nowhere.yml"], "nowhere.yml"),
+        (["fly", "receiver-lost", "--set", "seed"], "--set seed"),
+        (["check", "xyzzy"], "'xyzzy'"),
+        (["signals", "tooth"], "'tooth'"),
+        (["new", "nowhere/flight"], "nowhere"),
+        (["new", "a flight!"], "a flight!"),
+        (["list", "--tag", "stpe"], "'step'"),
+        (["all", "--tag", "stpe"], "'step'"),
     ],
 )
-def test_a_wrong_word_is_one_sentence_and_status_2(words, what, capsys):
+def test_a_wrong_argument_is_one_line_and_status_2(words, named, capsys):
     assert main(words) == 2
-    told = capsys.readouterr().err
-    assert what in told and told.count("\n") == 1
+    printed = capsys.readouterr().err
+    assert printed.startswith("up-sim: ") and named in printed and printed.count("\n") == 1
 
 
 @pytest.mark.parametrize(
-    ("words", "said"),
+    ("words", "named"),
     [
-        (["fly", "save", "--board", "hots"], "did you mean 'host'?"),
-        (["fly", "save", "--sed", "7"], "unrecognized arguments: --sed 7, did you mean --seed?"),
-        (["list", "--tga", "step"], "did you mean --tag?"),
-        (["tune", "--axis", "rol"], "did you mean 'roll'?"),
-        (["all", "--xyzzy"], "('up-sim all --help' lists them)"),
-        (["check"], "required: FILE"),
-        (["--versoin"], "did you mean --version?"),
+        (["fly", "save", "--board", "hots"], "'host'"),
+        (["fly", "save", "--sed", "7"], "--seed"),
+        (["list", "--tga", "step"], "--tag"),
+        (["tune", "--axis", "rol"], "'roll'"),
+        (["all", "--xyzzy"], "'up-sim all --help'"),
+        (["check"], "FILE"),
+        (["--versoin"], "--version"),
     ],
 )
-def test_a_wrong_option_is_one_sentence_and_status_2(words, said, capsys):
+def test_a_wrong_option_is_one_line_and_status_2(words, named, capsys):
     with pytest.raises(SystemExit) as end:
         main(words)
-    told = capsys.readouterr().err
+    printed = capsys.readouterr().err
     assert end.value.code == 2
-    assert told.startswith("up-sim") and said in told and told.count("\n") == 1
+    assert printed.startswith("up-sim") and named in printed and printed.count("\n") == 1
 
 
-def test_every_verb_of_ours_helps_with_examples(capsys):
+def test_the_help_of_every_verb_has_examples(capsys):
     for verb in ("fly", "list", "new", "check", "signals", "all"):
         with pytest.raises(SystemExit) as end:
             main([verb, "--help"])
         assert end.value.code == 0
-        told = capsys.readouterr().out
-        assert "examples:" in told and f"up-sim {verb}" in told
+        printed = capsys.readouterr().out
+        assert "examples:" in printed and f"up-sim {verb}" in printed
 
 
 def test_the_list_names_every_scenario(capsys):
@@ -102,122 +103,112 @@ def test_the_list_names_every_scenario(capsys):
     assert "fbw-roll-step" in capsys.readouterr().out
 
 
-@pytest.mark.parametrize("verb", ["list", "all"])
-def test_a_tag_that_nothing_has_is_wrong_input(verb, capsys):
-    assert main([verb, "--tag", "stpe"]) == 2
-    assert "no scenario has the tag 'stpe': did you mean 'step'?" in capsys.readouterr().err
-
-
 @pytest.mark.parametrize("closed", [">&-", "2>&-", ">&- 2>&-", "<&- >&- 2>&-"])
 @pytest.mark.parametrize(("words", "status"), [("list", 0), ("fyl", 2), ("new", 2)])
-def test_closed_streams_are_no_trouble(closed, words, status):
+def test_closed_streams_are_tolerated(closed, words, status):
     command = f'"{sys.executable}" -m up_simulator {words} {closed}'
     done = subprocess.run(["sh", "-c", command], capture_output=True, timeout=LIMIT_S, check=False)
     assert done.returncode == status
     assert b"Traceback" not in done.stderr and b"Exception" not in done.stderr
 
 
-def test_check_tells_mistakes_with_their_places(capsys):
+def test_check_reports_problems_with_their_lines(capsys):
     assert main(["check", write("good.yml", GOOD)]) == 0
-    assert "Good: 1 s, 1 expectations, no mistake" in capsys.readouterr().out
+    assert "good.yml" in capsys.readouterr().out
     wrong = write("wrong.yml", GOOD.replace("above", "abov").replace("arm", "amr"))
     assert main(["check", wrong, "good.yml"]) == 2
-    told = capsys.readouterr()
-    lines = told.err.splitlines()
+    printed = capsys.readouterr()
+    lines = printed.err.splitlines()
     assert lines[0].startswith("wrong.yml:3:") and lines[1].startswith("wrong.yml:4:")
-    assert "good.yml" in told.out
+    assert "good.yml" in printed.out
 
 
 @pytest.mark.parametrize("verb", ["list", "check"])
-def test_what_a_terminal_would_carry_out_is_escaped(verb, capsys):
+def test_terminal_controls_are_escaped(verb, capsys):
     write("odd.yml", GOOD.replace("title: Good", 'title: "a\\e[31m\\n"'))
     assert main([verb, "odd.yml" if verb == "check" else "."]) == 0
-    told = capsys.readouterr().out
-    assert told.removesuffix("\n").isprintable() and "a\\x1b[31m" in told
+    printed = capsys.readouterr().out
+    assert printed.removesuffix("\n").isprintable() and "a\\x1b[31m" in printed
 
 
-def test_a_flight_that_holds_leaves_its_files(capsys, in_a_folder):
+def test_a_flight_writes_its_files(capsys, in_a_folder):
     build_firmware()
     assert main(["fly", write("good.yml", GOOD), "--seed", "4"]) == 0
-    told = capsys.readouterr()
-    assert "good: held (2 of 2 expectations)" in told.out
-    assert "seed 4" in told.out and "times as fast as real time" in told.out
+    printed = capsys.readouterr()
+    assert "seed 4" in printed.out and "2 of 2" in printed.out
     folder = in_a_folder / "run" / "flights" / "good"
     names = {path.name for path in folder.iterdir()}
     assert {"log.csv", "flight.mcap", "report.txt", "summary.json"} <= names
     assert (folder / "picture.png").stat().st_size > 10_000
     assert len(read_log(folder / "log.csv")) == 51
-    assert (folder / "report.txt").read_text() == told.out
-    assert json.loads((folder / "summary.json").read_text())["held"] is True
+    assert (folder / "report.txt").read_text() == printed.out
+    summary = json.loads((folder / "summary.json").read_text())
+    assert summary["held"] is True and {each["code"] for each in summary["expectations"]} == {""}
 
 
-def test_no_file_of_an_earlier_flight_is_left(in_a_folder):
+def test_files_of_an_earlier_flight_are_removed(in_a_folder):
     build_firmware()
     folder = in_a_folder / "run" / "flights" / "good"
     folder.mkdir(parents=True)
     for name in ("picture.png", "control.csv", "report.txt"):
-        (folder / name).write_text("of an earlier flight")
+        (folder / name).write_text("stale")
     (folder / "black-box").mkdir()
-    (folder / "black-box" / "0001-20260101T000000Z-default.mcap").write_text("of an earlier flight")
+    (folder / "black-box" / "0001-20260101T000000Z-default.mcap").write_text("stale")
     (folder / "notes.txt").write_text("the user's own")
     assert main(["fly", write("good.yml", GOOD), "--no-picture", "--quiet"]) == 0
     names = {path.name for path in folder.iterdir()}
     assert names == {"log.csv", "flight.mcap", "report.txt", "summary.json", "notes.txt"}
-    assert "of an earlier" not in (folder / "report.txt").read_text()
+    assert "stale" not in (folder / "report.txt").read_text()
 
 
-def test_a_flight_that_does_not_hold_is_status_1(capsys):
+def test_a_failed_flight_is_status_1(capsys):
     build_firmware()
     words = ["fly", write("bad.yml", BAD), write("good.yml", GOOD), "--no-picture"]
     assert main([*words, "--output", "elsewhere"]) == 1
-    told = capsys.readouterr().out
-    assert "NOT HELD It flies" in told and "at least 5000 m" in told
-    assert "1 of 2 scenarios held" in told
+    printed = capsys.readouterr().out
+    assert "at least 5000 m" in printed and "1 of 2" in printed
+    summary = json.loads(Path("elsewhere/bad/summary.json").read_text())
+    codes = {each["name"]: each["code"] for each in summary["expectations"]}
+    assert codes == {"It flies": "out_of_limits", "It does not crash": ""}
     assert Path("elsewhere/good/log.csv").is_file()
 
 
-def test_an_aircraft_that_is_none_is_a_sentence(capsys):
+def test_an_unknown_airframe_is_status_2(capsys):
     write("good.yml", GOOD + "airframe: ./nothing\n")
     assert main(["fly", "good.yml"]) == 2
-    told = capsys.readouterr().err
-    assert "up-sim: good: ./nothing" in told and "Traceback" not in told
+    printed = capsys.readouterr().err
+    assert "up-sim: good: ./nothing" in printed and "Traceback" not in printed
 
 
-def test_a_new_scenario_flies_and_holds(capsys):
+def test_a_new_scenario_is_listed_by_its_tag_and_holds(capsys):
     build_firmware()
     assert main(["new", "first-flight"]) == 0
     assert main(["new", "first-flight"]) == 2
-    assert "is there already" in capsys.readouterr().err
     assert main(["check", "first-flight.yml"]) == 0
-    assert "First flight" in capsys.readouterr().out
     assert main(["fly", "first-flight.yml", "--no-picture"]) == 0
-
-
-def test_a_new_scenario_is_found_as_it_says(capsys):
-    assert main(["new", "first-flight"]) == 0
-    said = Path("first-flight.yml").read_text().partition("up-sim list ")[2].splitlines()[0]
+    options = Path("first-flight.yml").read_text().partition("up-sim list ")[2].splitlines()[0]
     capsys.readouterr()
-    assert main(["list", *said.split()]) == 0
+    assert main(["list", *options.split()]) == 0
     assert "first-flight " in capsys.readouterr().out
 
 
-def test_a_new_scenario_that_cannot_be_written_is_named_and_not_left(in_a_folder):
+def test_a_new_scenario_that_cannot_be_written_is_removed(in_a_folder):
     command = f'ulimit -f 0; exec "{sys.executable}" -m up_simulator new first-flight'
     words = ["sh", "-c", command]
     done = subprocess.run(words, capture_output=True, text=True, timeout=LIMIT_S, check=False)
     assert done.returncode == 1
-    assert done.stderr == "up-sim: first-flight.yml is not written: File too large\n"
+    assert "first-flight.yml" in done.stderr and done.stderr.count("\n") == 1
     assert list(in_a_folder.iterdir()) == []
 
 
-def test_real_speed_is_no_faster_than_real_time():
+def test_real_speed_is_at_most_real_time():
     build_firmware()
     began_s = time.monotonic()
     assert main(["fly", write("good.yml", GOOD), "--speed", "real", "--no-picture"]) == 0
     assert time.monotonic() - began_s >= 0.98
 
 
-def test_ctrl_c_is_a_line_and_a_partial_report():
+def test_ctrl_c_ends_with_a_partial_report():
     build_firmware()
     write("long.yml", GOOD.replace("duration_s: 1", "duration_s: 3000"))
     own, other = pty.openpty()
@@ -228,29 +219,29 @@ def test_ctrl_c_is_a_line_and_a_partial_report():
         while b"x real time" not in shown:
             shown += os.read(own, 1000)
         process.send_signal(signal.SIGINT)
-        told = process.communicate(timeout=LIMIT_S)[0].decode()
+        printed = process.communicate(timeout=LIMIT_S)[0].decode()
     finally:
         process.kill()
         process.wait()
         os.close(own)
         os.close(other)
     assert process.returncode == 130
-    assert "the flight was interrupted at" in told and "Traceback" not in told
-    assert "long: NOT held" in told
+    assert "INTERRUPTED" in printed and "Traceback" not in printed
+    summary = json.loads(Path("run/flights/long/summary.json").read_text())
+    assert summary["interrupted"] and summary["expectations"][-1]["code"] == "cut_short"
 
 
-def test_all_flies_everything_and_counts(capsys, monkeypatch, in_a_folder):
+def test_all_flies_every_scenario_and_counts(capsys, monkeypatch, in_a_folder):
     build_firmware()
-    monkeypatch.setattr("up_simulator.verbs.shelf.SHIPPED", in_a_folder)
+    monkeypatch.setattr("up_simulator.verbs.catalogue.SHIPPED", in_a_folder)
     write("good.yml", GOOD)
     write("bad.yml", BAD)
     assert main(["all"]) == 1
-    told = capsys.readouterr().out
-    assert "1 of 2 scenarios held" in told and "MiB in one process" in told
-    assert "bad: It flies:" in told and "at least 5000 m" in told
+    printed = capsys.readouterr().out
+    assert "1 of 2" in printed and "at least 5000 m" in printed
     (in_a_folder / "bad.yml").unlink()
     assert main(["all"]) == 0
-    assert "1 of 1 scenarios held" in capsys.readouterr().out
+    assert "1 of 1" in capsys.readouterr().out
     write("wrong.yml", GOOD.replace("above", "abov"))
     assert main(["all"]) == 2
     assert "wrong.yml:4:" in capsys.readouterr().err

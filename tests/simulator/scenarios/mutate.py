@@ -20,12 +20,12 @@ from tests.arduino.mutate import changes
 from tests.arduino.mutate import mutations as firmware_mutations
 from up_simulator.scenario.file import read_scenario
 from up_simulator.scenario.run import SUMMARY
-from up_simulator.verbs.shelf import shipped_paths
+from up_simulator.verbs.catalogue import shipped_paths
 
 ROOT = Path(__file__).resolve().parents[3]
 FIRMWARE = "arduino/raspilot/src/"
 LEFT_OUT = (".git", ".venv", "run", "node_modules", "__pycache__", ".mypy_cache", ".ruff_cache")
-MOST_S = 300
+MAX_S = 300
 
 
 def mutations() -> dict[str, list[tuple[str, str, str]]]:
@@ -57,7 +57,7 @@ def failure_of(name: str, root: Path) -> str:
         env=os.environ | {"PYTHONPATH": os.pathsep.join(map(str, folders))},
         capture_output=True,
         text=True,
-        timeout=MOST_S,
+        timeout=MAX_S,
         check=False,
     )
     summary = output / name / SUMMARY

@@ -8,7 +8,7 @@ from tests.support.tools import need_tool
 from up_simulator.scenario.file import read_scenario
 from up_simulator.scenario.progress import ProgressLine
 from up_simulator.scenario.run import fly_scenario
-from up_simulator.verbs.shelf import shipped_paths
+from up_simulator.verbs.catalogue import shipped_paths
 
 SCENARIOS = {path.stem: read_scenario(path) for path in shipped_paths()}
 REAL = [name for name, each in SCENARIOS.items() if each.is_real]
@@ -29,7 +29,7 @@ def fly(name):
     result = fly_scenario(name, scenario, ProgressLine(io.StringIO(), is_shown=False))
     record = result.record
     assert record.board_title == title
-    assert record.failure is None and record.notes == [], record.failure_log
+    assert record.failure is None and record.notes == {}, record.failure_log
     return [
         f"{verdict.name}: {verdict.figure} ({verdict.limit}) {verdict.why}".rstrip()
         for verdict in result.verdicts

@@ -7,10 +7,10 @@ import pytest
 from tests.simulator.scenarios.mutate import ROOT, mutations
 from tests.simulator.scenarios.shipped import ALONE, REAL, SCENARIOS, WITH_DAEMON, fly
 from up_simulator.scenario.measures import limit_text
-from up_simulator.verbs.shelf import shipped_paths
+from up_simulator.verbs.catalogue import shipped_paths
 
 # Expectations that check only who controls the aircraft need no number of their own.
-LEAST_EXPECTATIONS = 2
+MIN_EXPECTATIONS = 2
 ATTITUDE = ("truth.roll_deg", "truth.pitch_deg", "error.roll_deg", "error.pitch_deg")
 CONTROLLERS = ("controller-on-arduino", "controller-on-raspberry")
 
@@ -24,7 +24,7 @@ def test_there_are_scenarios_of_each_kind():
 def test_it_says_what_it_shows_and_by_which_figures(name):
     scenario = SCENARIOS[name]
     assert scenario.title and scenario.about and scenario.tags
-    assert len(scenario.expect) >= LEAST_EXPECTATIONS
+    assert len(scenario.expect) >= MIN_EXPECTATIONS
     assert any(any(each.isdigit() for each in limit_text(limit)) for limit in scenario.expect)
     assert scenario.board in ("auto", "direct") and not scenario.may_crash
 

@@ -1,0 +1,60 @@
+"""The true state for a flight's log, beside the measurements."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from up_simulator.aircraft.flight import FlightState
+from up_simulator.aircraft.recorded_flight import COLUMNS
+
+TOPIC = "simulator.truth"
+PERIOD_S = 0.05
+NAMES = {
+    "time_s": "time_s",
+    "roll_deg": "roll_deg",
+    "pitch_deg": "pitch_deg",
+    "yaw_deg": "yaw_deg",
+    "roll_rate_deg_s": "roll_rate_deg_s",
+    "pitch_rate_deg_s": "pitch_rate_deg_s",
+    "yaw_rate_deg_s": "yaw_rate_deg_s",
+    "latitude_deg": "latitude_deg",
+    "longitude_deg": "longitude_deg",
+    "altitude_m": "altitude_m",
+    "height_m": "height_m",
+    "north_m": "north_m",
+    "east_m": "east_m",
+    "airspeed_m_s": "airspeed_m_s",
+    "ground_speed_m_s": "speed_m_s",
+    "track_deg": "track_deg",
+    "vertical_speed_m_s": "climb_m_s",
+    "wind_north_m_s": "wind_north_m_s",
+    "wind_east_m_s": "wind_east_m_s",
+    "wind_down_m_s": "wind_down_m_s",
+    "alpha_deg": "alpha_deg",
+    "sideslip_deg": "sideslip_deg",
+    "load_factor_g": "load_factor_g",
+    "motor_rpm": "motor_rpm",
+    "motor_w": "motor_w",
+    "battery_v": "battery_v",
+    "battery_percent": "battery_percent",
+}
+"""The name of each value in the log, and in a ``FlightState``."""
+RECORDED_NAMES = {name: field for name, field in NAMES.items() if field in COLUMNS}
+"""Those that a recorded flight knows."""
+_DIGITS = {"latitude_deg": 8, "longitude_deg": 8}
+
+
+def truth_of(state: FlightState, names: dict[str, str] = NAMES) -> dict[str, float]:
+    """Return the values by their names in the log; omits values that are not numbers."""
+    values = {name: getattr(state, field) for name, field in names.items()}
+    return {
+        name: round(value, _DIGITS.get(name, 4))
+        for name, value in values.items()
+        if math.isfinite(value)
+    }
+
+
+def record_of(state: FlightState, names: dict[str, str] = NAMES) -> dict[str, Any]:
+    """Return the data of ``black_box.record``, by which a companion on board logs something."""
+    return {"topic": TOPIC, "content": truth_of(state, names)}

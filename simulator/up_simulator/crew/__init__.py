@@ -1,1 +1,0 @@
-"""The programs that a virtual aircraft is flown with."""

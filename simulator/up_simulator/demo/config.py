@@ -1,0 +1,71 @@
+"""The configuration that the demo writes: everything on this machine."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import yaml
+
+from up_simulator.aircraft import Airframe
+from up_simulator.harness.ports import Ports
+
+FLIGHTS = "flights"
+"""Where, in the folder of a run, the black box writes."""
+
+
+def write_config(
+    folder: Path,
+    board: Path,
+    ports: Ports,
+    *,
+    controller: str,
+    airframe: Airframe,
+    uplink_port: int = 0,
+) -> None:
+    """Write the files of a run; gains that an earlier run of the same airframe saved stay.
+
+    ``controller`` (arduino or raspberry) holds the attitude: nothing else differs. The aircraft
+    finds the proxy at ``uplink_port`` if a bad link lies between them.
+    """
+    folder.mkdir(parents=True, exist_ok=True)
+    files = {
+        "config.yml": f"flight controller: {controller}\n",
+        "arduino.yml": f"port: {_quoted(board)}\n",
+        "black_box.yml": f"folder: {_quoted(folder.parent / FLIGHTS)}\n",
+        "android.yml": f"general port: {ports.general}\norientation port: {ports.orientation}\n",
+        "discovery.yml": f"port: {ports.discovery}\n",
+        "mission_control.yml": (
+            "remote_server:\n"
+            "  url: 127.0.0.1\n"
+            f"  port: {uplink_port or ports.airborne}\n"
+            "# Only this machine reaches loopback: the ground may arm and tune.\n"
+            "role: pilot\n"
+            "tune_in_flight: true\n"
+        ),
+        "proxy.yml": (
+            f"airborne port: {ports.airborne}\n"
+            f"ground port: {ports.ground}\n"
+            f"metrics port: {ports.metrics}\n"
+        ),
+    }
+    for name, text in files.items():
+        head = "# Written by 'make run', at every start.\n"
+        (folder / name).write_text(head + text, encoding="utf-8")
+    _keep_gains(folder, airframe)
+
+
+def _quoted(path: Path) -> str:
+    """Return a path as a text of YAML, whatever signs it has."""
+    return json.dumps(str(path), ensure_ascii=False)
+
+
+def _keep_gains(folder: Path, airframe: Airframe) -> None:
+    """Leave the gains of an earlier run, unless another airframe flew it."""
+    gains, flew = folder / "pids.yml", folder / "airframe.txt"
+    if gains.exists() and flew.exists() and flew.read_text(encoding="utf-8") == airframe.name:
+        return
+    head = f"# Gains of the virtual {airframe.name}; the ground's tuning is saved here.\n"
+    text = yaml.safe_dump(airframe.gains, sort_keys=False)
+    gains.write_text(head + text, encoding="utf-8")
+    flew.write_text(airframe.name, encoding="utf-8")

@@ -1,0 +1,48 @@
+"""The ground station in a browser: a part of ``make run`` that no flight needs."""
+
+from __future__ import annotations
+
+import shlex
+import sys
+from pathlib import Path
+
+from up_simulator.demo.hints import program
+from up_simulator.harness.child import Child
+from up_simulator.harness.participants import ParticipantError
+from up_simulator.harness.ports import Ports
+
+LIMIT_S = 30.0
+
+
+class Page:
+    """``up-ground serve`` for the aircraft behind the proxy of a run.
+
+    ``listen`` is its address, ``ADDRESS:PORT``; its output is in ``page.log``. ``command`` is the
+    shell command that starts it again.
+    """
+
+    def __init__(self, folder: Path, ports: Ports, listen: str | None = None) -> None:
+        (folder / "page.log").unlink(missing_ok=True)
+        words = ["serve", "--port", str(ports.ground)]
+        words += ["--listen", listen or f"127.0.0.1:{ports.page}"]
+        self.child = Child("page", [sys.executable, "-m", "up_ground.main", *words], folder)
+        self.command = f"{program('up-ground')} {shlex.join(words)}"
+
+    def wait_for_address(self) -> str | None:
+        """Return the page's address; None when it has ended or reports none in time."""
+        try:
+            return str(self.child.wait_for("page_open", LIMIT_S).fields["url"])
+        except ParticipantError:
+            return None
+
+    @property
+    def reason(self) -> str:
+        """Return in words why the page is missing."""
+        status = self.child.poll()
+        if status is None:
+            return f"no address within {LIMIT_S:.0f} s (its log: {self.child.log})"
+        texts = [line.text.strip() for line in self.child.lines() if line.text.strip()]
+        if texts and status >= 0:
+            return texts[-1].removeprefix("up-ground: ").removeprefix("error: ")
+        how = f"signal {-status}" if status < 0 else f"status {status}"
+        return f"it ended unexpectedly with {how} (its log: {self.child.log})"

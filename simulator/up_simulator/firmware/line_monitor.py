@@ -1,0 +1,132 @@
+"""Monitors a board's serial line and keeps the newest datum of each kind."""
+
+from __future__ import annotations
+
+import struct
+from collections import Counter
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from up.commands.board_schema import STATUS, BoardStatus
+from up_simulator.firmware.wire import MAX_ENCODED, Command, checked_frame, open_frame
+
+SIZES = {
+    "r": 8, "i": 13, "O": 26, "x": STATUS.size, "K": 2, "!": 3, "m": 1, "T": 48, "G": 72, "C": 54,
+}  # fmt: skip
+"""Payload bytes of every message from the Arduino in checked framing (protocols 2.4)."""
+_ORIENTATION = struct.Struct(">H6f")
+_OUTPUTS, _INPUTS = struct.Struct(">4H"), struct.Struct(">6HB")
+
+
+@dataclass(frozen=True, slots=True)
+class BoardOrientation:
+    """The board's estimate of its attitude: ``O``, in degrees and degrees per second."""
+
+    sequence: int
+    yaw_deg: float
+    pitch_deg: float
+    roll_deg: float
+    yaw_rate_deg_s: float
+    pitch_rate_deg_s: float
+    roll_rate_deg_s: float
+
+
+@dataclass(frozen=True, slots=True)
+class Inputs:
+    """The six receiver inputs, us, and which of them are valid: ``i``."""
+
+    pulses_us: tuple[int, ...]
+    validity: int
+
+
+class LineMonitor:
+    """Decodes the bytes that a board sends; each datum has the time at which it was complete.
+
+    A datum that no longer arrives keeps its last value, and its ``_s`` shows the age. ``counts``
+    counts the messages of each type, ``bad_frames`` the invalid ones, ``missing`` the gaps in the
+    sequence. A frame cut by a reset is invalid.
+    """
+
+    def __init__(self) -> None:
+        self._buffer = b""
+        self._expected: int | None = None
+        self._sequence = 0
+        self.counts: Counter[str] = Counter()
+        self.bad_frames = 0
+        self.missing = 0
+        self.status: BoardStatus | None = None
+        self.status_s = -float("inf")
+        self.orientation: BoardOrientation | None = None
+        self.orientation_s = -float("inf")
+        self.outputs_us: tuple[int, ...] | None = None
+        self.inputs: Inputs | None = None
+        self.mode: str | None = None
+        self.answers: list[Command] = []
+
+    def feed(self, data: bytes, now_s: float) -> list[Command]:
+        """Take bytes received until ``now_s``; return the messages that they complete."""
+        if not data:
+            return []
+        found = list(self._messages(data))
+        for message in found:
+            self.counts[message.type] += 1
+            self._take(message, now_s)
+        return found
+
+    def command_bytes(self, type_letter: str, payload: bytes = b"") -> bytes:
+        """Return the next Command to the board as bytes for its line (protocols 2.3)."""
+        sequence, self._sequence = self._sequence, (self._sequence + 1) % 256
+        return checked_frame(sequence, type_letter, payload)
+
+    def start_bytes(self) -> bytes:
+        """Return a Start Command: after it the board sends its streams."""
+        return self.command_bytes("s")
+
+    def take_answers(self) -> list[Command]:
+        """Return the answers since the last call: ``K ! m T G C``."""
+        answers, self.answers = self.answers, []
+        return answers
+
+    def _messages(self, data: bytes) -> Iterator[Command]:
+        *frames, self._buffer = (self._buffer + data).split(b"\0")
+        # An overlong frame is counted when it ends; its length need not be kept.
+        self._buffer = self._buffer[: MAX_ENCODED + 1]
+        for encoded in frames:
+            if not encoded:
+                continue
+            message = self._open(encoded)
+            if message is None:
+                self.bad_frames += 1
+            else:
+                yield message
+
+    def _open(self, encoded: bytes) -> Command | None:
+        body = open_frame(encoded)
+        if body is None:
+            return None
+        sequence, letter, payload = body[0], chr(body[1]), body[2:]
+        if self._expected is not None:
+            self.missing += (sequence - self._expected) % 256
+        self._expected = (sequence + 1) % 256
+        if SIZES.get(letter) != len(payload):
+            return None
+        return Command(letter, payload, sequence)
+
+    def _take(self, message: Command, now_s: float) -> None:
+        payload = message.payload
+        match message.type:
+            case "x":
+                self.status, self.status_s = BoardStatus(*STATUS.unpack(payload)), now_s
+                self.mode = self.status.mode_letter
+            case "O":
+                self.orientation = BoardOrientation(*_ORIENTATION.unpack(payload))
+                self.orientation_s = now_s
+            case "r":
+                self.outputs_us = _OUTPUTS.unpack(payload)
+            case "i":
+                *pulses_us, validity = _INPUTS.unpack(payload)
+                self.inputs = Inputs(tuple(pulses_us), validity)
+            case _:
+                if message.type == "m":
+                    self.mode = payload.decode("latin-1")
+                self.answers.append(message)

@@ -1,0 +1,1 @@
+"""Real processes, and the virtual aircraft in real time."""

@@ -1,0 +1,125 @@
+"""The project's programs as processes: the daemon, the Ground Station Proxy and the runner."""
+
+from __future__ import annotations
+
+import signal
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+from up_simulator.harness.child import Child
+from up_simulator.harness.participants import ParticipantError
+from up_simulator.harness.user_log import LogLine
+
+ROOT = Path(__file__).resolve().parents[3]
+START_LIMIT_S = 30.0
+
+
+class RealProgram:
+    """A program with a configuration folder ``config``; its log is ``<NAME>.log`` in ``folder``.
+
+    One log has all its runs. Only ``wait_for`` and ``stop`` wait.
+    """
+
+    NAME = ""
+    PROGRAM: tuple[str, ...] = ()
+    DEATH_SIGNAL = signal.SIGTERM
+
+    def __init__(self, config: Path, folder: Path) -> None:
+        self._command = [sys.executable, *self.PROGRAM, "--config", str(config)]
+        self._folder = folder
+        self._child: Child | None = None
+
+    @property
+    def is_running(self) -> bool:
+        """Return whether it runs now."""
+        return self._child is not None and self._child.poll() is None
+
+    @property
+    def pid(self) -> int:
+        """Return its process number; raises ``ParticipantError`` when it was never started."""
+        return self._started().pid
+
+    @property
+    def log(self) -> Sequence[str]:
+        """Return the newest texts that its newest process logged."""
+        return [] if self._child is None else [line.text for line in self._child.lines()]
+
+    def start(self) -> None:
+        """Start its process; raises ``ParticipantError`` when it runs already."""
+        if self.is_running:
+            raise ParticipantError(f"{self.NAME} runs already")
+        self._child = Child(self.NAME, self._command, self._folder, death_signal=self.DEATH_SIGNAL)
+
+    def wait_for(self, code: str, limit_s: float = START_LIMIT_S, **fields: Any) -> LogLine:
+        """Wait for a line with this code; raises as ``Child.wait_for``."""
+        return self._started().wait_for(code, limit_s, **fields)
+
+    def check(self) -> None:
+        """Raise ``ParticipantError`` with its last log lines if it has ended unexpectedly."""
+        if self._child is not None and (status := self._child.poll()) is not None:
+            raise ParticipantError(self._child.exit_report(status))
+
+    def request_stop(self) -> None:
+        """Send it the signal to end, as systemd does."""
+        if self._child is not None:
+            self._child.terminate()
+            self.thaw()
+
+    def stop(self) -> None:
+        """Send it the signal to end and wait for it."""
+        if self._child is not None:
+            self.request_stop()
+            self._child.wait()
+
+    def kill(self) -> None:
+        """Kill it immediately in any state, by ``kill -9``."""
+        if self._child is not None:
+            self._child.signal(signal.SIGKILL)
+            self._child.wait()
+
+    def freeze(self) -> None:
+        """Suspend it: it holds its ports and does nothing, as a hung one."""
+        self._started().signal(signal.SIGSTOP)
+
+    def thaw(self) -> None:
+        """Resume a frozen one."""
+        self._started().signal(signal.SIGCONT)
+
+    def _started(self) -> Child:
+        if self._child is None:
+            raise ParticipantError(f"{self.NAME} was not started")
+        return self._child
+
+
+class RealRaspilot(RealProgram):
+    """The daemon, started as on a Raspberry Pi; satisfies ``participants.Raspilot``."""
+
+    NAME, PROGRAM = "raspilot", (str(ROOT / "main.py"),)
+    # A frozen daemon receives only this signal when we are killed.
+    DEATH_SIGNAL = signal.SIGKILL
+
+
+class RealProxy(RealProgram):
+    """``up-proxy --config DIR``."""
+
+    NAME, PROGRAM = "proxy", ("-m", "up_proxy.main")
+
+    def wait_for_ports(self) -> None:
+        """Wait for ``airborne_port`` and ``ground_port``; raises as ``Child.wait_for``."""
+        self.airborne_port = int(self.wait_for("port_open", side="airborne").fields["port"])
+        self.ground_port = int(self.wait_for("port_open", side="ground").fields["port"])
+
+
+class RealRunner(RealProgram):
+    """``up-runner --config DIR``.
+
+    Its instances end with it if ``runner.yml`` has ``stop instances on exit: true``.
+    """
+
+    NAME, PROGRAM = "runner", ("-m", "up_runner.main")
+
+    def wait_for_port(self) -> None:
+        """Wait for ``port``; raises as ``Child.wait_for``."""
+        self.port = int(self.wait_for("port_open").fields["port"])

@@ -1,0 +1,232 @@
+"""One program's reactor: all that the program opened can be cut off in one call."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import partial
+from ipaddress import ip_address
+from typing import TYPE_CHECKING, Any
+
+from twisted.internet.address import IPv4Address, IPv6Address
+from twisted.internet.base import DelayedCall
+from twisted.internet.interfaces import (
+    IHostnameResolver,
+    IReactorFDSet,
+    IReactorPluggableNameResolver,
+    IReactorTCP,
+    IReactorTime,
+    IReactorUDP,
+)
+from zope.interface import implementer
+
+from up_simulator.in_process.tcp_ports import Connector, TcpPort
+from up_simulator.in_process.udp_port import UdpPort
+
+if TYPE_CHECKING:
+    from up_simulator.in_process.reactor import SimulatedReactor
+
+PRUNE_AT = 256
+
+
+class TimedCall(DelayedCall):
+    """A delayed call that knows its host."""
+
+    host: SimulatedHost | None = None
+
+
+@implementer(IReactorTime, IReactorTCP, IReactorUDP, IReactorFDSet, IReactorPluggableNameResolver)
+class SimulatedHost:
+    """The reactor that a program sees; its sockets stay in this process, at 127.0.0.1.
+
+    ``cut_off`` kills the program: no timer, descriptor or port of it is left. Between ``freeze``
+    and ``thaw`` it is suspended like a stopped process: its system still acknowledges arriving
+    data, and the program receives all of it when it resumes.
+    """
+
+    def __init__(self, reactor: SimulatedReactor, name: str) -> None:
+        self.name = name
+        self.running = True
+        self.is_frozen = False
+        self.reactor = reactor
+        self.network = reactor.network
+        self.nameResolver = LiteralResolver()
+        self.opened: dict[Any, None] = {}
+        self.seconds = reactor.seconds
+        self._calls: list[TimedCall] = []
+        self._late_calls: list[TimedCall] = []
+        self._missed: list[tuple[Callable[..., Any], tuple[Any, ...]]] = []
+        self._suspended_descriptors: list[Callable[[], None]] = []
+        self._descriptors: dict[Any, None] = {}
+
+    def callLater(  # noqa: N802 - Twisted's name
+        self, delay: float, callable: Callable[..., object], *args: object, **kw: object
+    ) -> TimedCall:
+        """Call later; ignored after the end of this program."""
+        call = self.reactor.callLater(delay, callable, *args, **kw)
+        call.host = self
+        self._calls.append(call)
+        if len(self._calls) > PRUNE_AT:
+            self._calls = [each for each in self._calls if each.active()]
+        return call
+
+    def callFromThread(self, callable: Callable[..., Any], *args: object, **kw: object) -> None:  # noqa: N802
+        """Call at the next step, from any thread."""
+        self.reactor.call_from_thread(partial(self.do, partial(callable, *args, **kw)))
+
+    def callWhenRunning(self, callable: Callable[..., Any], *args: object, **kw: object) -> None:  # noqa: N802
+        """Call immediately: this reactor is always running."""
+        callable(*args, **kw)
+
+    def getDelayedCalls(self) -> list[TimedCall]:  # noqa: N802 - Twisted's name
+        return [each for each in self._calls if each.active()]
+
+    def addSystemEventTrigger(self, *_: object, **__: object) -> object:  # noqa: N802
+        """Keep nothing: this reactor never shuts down on its own."""
+        return object()
+
+    def removeSystemEventTrigger(self, _: object) -> None:  # noqa: N802 - Twisted's name
+        """Do nothing: no trigger was kept."""
+
+    def addReader(self, reader: Any) -> None:  # noqa: N802 - Twisted's name
+        """Watch a descriptor of the system, as a serial port's."""
+        self._descriptors[reader] = None
+        self.reactor.add_reader(reader)
+
+    def removeReader(self, reader: Any) -> None:  # noqa: N802 - Twisted's name
+        self.reactor.remove_reader(reader)
+
+    def addWriter(self, writer: Any) -> None:  # noqa: N802 - Twisted's name
+        """Watch when a descriptor of the system takes bytes."""
+        self._descriptors[writer] = None
+        self.reactor.add_writer(writer)
+
+    def removeWriter(self, writer: Any) -> None:  # noqa: N802 - Twisted's name
+        self.reactor.remove_writer(writer)
+
+    def removeAll(self) -> list[Any]:  # noqa: N802 - Twisted's name
+        """Stop watching all descriptors and return them."""
+        descriptors, self._descriptors = list(self._descriptors), {}
+        for each in descriptors:
+            self.reactor.remove_reader(each)
+            self.reactor.remove_writer(each)
+        return descriptors
+
+    def getReaders(self) -> list[Any]:  # noqa: N802 - Twisted's name
+        return list(self._descriptors)
+
+    def getWriters(self) -> list[Any]:  # noqa: N802 - Twisted's name
+        return list(self._descriptors)
+
+    def listenTCP(  # noqa: N802 - Twisted's name
+        self, port: int, factory: Any, backlog: int = 50, interface: str = ""
+    ) -> TcpPort:
+        """Listen in memory; raises CannotListenError if the port is in use."""
+        listening = TcpPort(self, port, factory, interface)
+        listening.startListening()
+        return listening
+
+    def connectTCP(  # noqa: N802 - Twisted's name
+        self,
+        host: str,
+        port: int,
+        factory: Any,
+        timeout: float = 30,
+        bindAddress: Any = None,  # noqa: N803 - Twisted's name
+    ) -> Connector:
+        connector = Connector(self, host, port, factory, timeout)
+        connector.connect()
+        return connector
+
+    def listenUDP(  # noqa: N802 - Twisted's name
+        self,
+        port: int,
+        protocol: Any,
+        interface: str = "",
+        maxPacketSize: int = 8192,  # noqa: N803 - Twisted's name
+    ) -> UdpPort:
+        """Receive datagrams in memory; raises CannotListenError if the port is in use."""
+        listening = UdpPort(self, port, protocol, interface)
+        listening.startListening()
+        return listening
+
+    def installNameResolver(self, resolver: Any) -> Any:  # noqa: N802 - Twisted's name
+        """Replace the resolver and return the one before."""
+        before, self.nameResolver = self.nameResolver, resolver
+        return before
+
+    def do(self, call: Callable[..., Any], *arguments: Any) -> None:
+        """Call into the program now, or when it resumes."""
+        if self.is_frozen:
+            self._missed.append((call, arguments))
+        elif self.running:
+            call(*arguments)
+
+    def freeze(self) -> None:
+        if not self.is_frozen and self.running:
+            self.is_frozen = True
+            self._suspended_descriptors = self.reactor.suspend_descriptors(self._descriptors)
+
+    def keep_call(self, call: TimedCall) -> None:
+        """Keep a call that became due while frozen."""
+        self._late_calls.append(call)
+
+    def thaw(self) -> None:
+        """Resume the program: late timers first, then the data that has arrived since."""
+        if not self.is_frozen:
+            return
+        self.is_frozen = False
+        calls, self._late_calls = self._late_calls, []
+        for call in calls:
+            if call.active():
+                self.reactor.put_back(call)
+        descriptors, self._suspended_descriptors = self._suspended_descriptors, []
+        for resume in descriptors:
+            resume()
+        self.callLater(0, self._catch_up)
+
+    def _catch_up(self) -> None:
+        missed, self._missed = self._missed, []
+        for call, arguments in missed:
+            self.reactor.guarded(call, *arguments)
+
+    def cut_off(self) -> None:
+        """Kill the program: its system closes all that it leaves behind."""
+        self.running = False
+        for call in self._calls:
+            if call.active():
+                call.cancel()
+        for calls in (self._calls, self._late_calls, self._missed, self._suspended_descriptors):
+            calls.clear()
+        self.is_frozen = False
+        self.removeAll()
+        opened, self.opened = self.opened, {}
+        for each in opened:
+            each.cut_off()
+
+
+@implementer(IHostnameResolver)
+class LiteralResolver:
+    """Resolves addresses only: a name would have to be looked up outside this process."""
+
+    def resolveHostName(  # noqa: N802 - Twisted's name
+        self,
+        resolutionReceiver: Any,  # noqa: N803 - Twisted's name
+        hostName: str,  # noqa: N803 - Twisted's name
+        portNumber: int = 0,  # noqa: N803 - Twisted's name
+        addressTypes: Any = None,  # noqa: N803 - Twisted's name
+        transportSemantics: str = "TCP",  # noqa: N803 - Twisted's name
+    ) -> Any:
+        """Resolve a literal address to itself, any other name to nothing."""
+        resolutionReceiver.resolutionBegan(self)
+        try:
+            address = ip_address(hostName)
+        except ValueError:
+            pass
+        else:
+            kind = IPv4Address if address.version == 4 else IPv6Address
+            resolutionReceiver.addressResolved(kind("TCP", str(address), portNumber))
+        resolutionReceiver.resolutionComplete()
+        return self
+
+    def cancel(self) -> None:
+        """Do nothing: every request is already answered."""

@@ -1,0 +1,143 @@
+"""The tap reads the golden vectors, keeps the newest, counts the rest, and survives any bytes."""
+
+import struct
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from tests.simulator.pi import vectors
+from up_simulator.firmware.line_monitor import SIZES, LineMonitor
+from up_simulator.firmware.wire import MAX_PAYLOAD, CheckedReader, Command, checked_frame
+
+# `o` comes in thesis framing only.
+FROM_BOARD = [
+    each
+    for each in vectors("serial_checked.json")
+    if each["direction"] == "from_arduino" and each["type"] != "o"
+]
+
+
+@st.composite
+def messages(draw):
+    letter = draw(st.sampled_from(sorted(SIZES)))
+    return letter, draw(st.binary(min_size=SIZES[letter], max_size=SIZES[letter]))
+
+
+def wire_of(sent):
+    return b"".join(
+        checked_frame(at % 256, letter, payload) for at, (letter, payload) in enumerate(sent)
+    )
+
+
+def test_there_are_vectors():
+    assert {each["type"] for each in FROM_BOARD} >= set(SIZES) - {"T"}
+
+
+@pytest.mark.parametrize("vector", FROM_BOARD)
+def test_it_reads_the_vectors(vector):
+    tap = LineMonitor()
+    found = tap.feed(bytes.fromhex(vector["wire"]), 1.0)
+    payload = bytes.fromhex(vector["payload"])
+    assert found == [Command(vector["type"], payload, vector["sequence"])]
+    assert tap.bad_frames == 0
+
+
+@pytest.mark.parametrize("vector", vectors("serial_checked_bad.json"))
+def test_a_bad_frame_is_counted_and_the_next_one_read(vector):
+    tap = LineMonitor()
+    tap.feed(bytes.fromhex(vector["wire"]) + b"\0", 0.0)
+    bad = tap.bad_frames
+    tap.feed(wire_of([("m", b"f")]), 0.0)
+    assert tap.mode == "f"
+    assert bad >= 1
+
+
+def test_status_has_the_fields_of_the_page():
+    payload = struct.pack(
+        ">BcBBBBHHHHHHH", 1, b"f", 2, 0b10001011, 5, 0x88, 2000, 54, 1, 2, 3, 4, 5
+    )
+    tap = LineMonitor()
+    tap.feed(wire_of([("x", payload)]), 7.5)
+    status = tap.status
+    assert tap.status_s == 7.5
+    assert (status.version, status.mode_letter, status.switch, status.vetoes) == (1, "f", 2, 5)
+    assert status.is_armed and status.is_at_auto
+    assert status.is_imu_valid and status.is_pi_received
+    assert not status.is_receiver_valid and not status.is_failsafe
+    assert status.is_restored
+    assert (status.loop_us, status.late_us) == (2000, 54)
+    assert (status.frame_errors, status.frames_lost) == (1, 2)
+    assert (status.uptime_s, status.rx_age_ms, status.imu_age_ms) == (3, 4, 5)
+
+
+def test_orientation_outputs_and_inputs_are_kept_by_name():
+    tap = LineMonitor()
+    tap.feed(
+        wire_of(
+            [
+                ("O", struct.pack(">H6f", 9, 10, 20, 30, 1, 2, 3)),
+                ("r", struct.pack(">4H", 1100, 1200, 1300, 1400)),
+                ("i", struct.pack(">6HB", 1, 2, 3, 4, 5, 6, 0x3F)),
+            ]
+        ),
+        2.0,
+    )
+    orientation = tap.orientation
+    assert (orientation.yaw_deg, orientation.pitch_deg, orientation.roll_deg) == (10, 20, 30)
+    assert (orientation.yaw_rate_deg_s, orientation.roll_rate_deg_s) == (1, 3)
+    assert tap.outputs_us == (1100, 1200, 1300, 1400)
+    assert tap.inputs.pulses_us == (1, 2, 3, 4, 5, 6) and tap.inputs.validity == 0x3F
+    assert tap.counts == {"O": 1, "r": 1, "i": 1}
+
+
+def test_answers_are_taken_once():
+    tap = LineMonitor()
+    tap.feed(wire_of([("K", b"s\0"), ("!", b"a\1\x08"), ("r", bytes(8))]), 0.0)
+    assert [each.type for each in tap.take_answers()] == ["K", "!"]
+    assert tap.take_answers() == []
+
+
+def test_its_commands_are_read_by_a_firmware():
+    tap = LineMonitor()
+    wire = tap.start_bytes() + tap.command_bytes("M", b"f")
+    found = list(CheckedReader().feed(wire, 0.0))
+    assert found == [Command("s", b"", 0), Command("M", b"f", 1)]
+
+
+@given(st.lists(messages(), max_size=8), st.data())
+def test_however_the_bytes_are_cut_the_messages_are_the_same(sent, data):
+    wire = wire_of(sent)
+    cuts = sorted(data.draw(st.lists(st.integers(0, len(wire)), max_size=6)))
+    tap = LineMonitor()
+    found = []
+    for start, end in zip([0, *cuts], [*cuts, len(wire)], strict=True):
+        found += tap.feed(wire[start:end], 0.0)
+    assert [(each.type, each.payload) for each in found] == sent
+    assert tap.bad_frames == tap.missing == 0
+
+
+@given(st.binary(max_size=400), st.lists(messages(), min_size=1, max_size=3))
+def test_any_bytes_before_cost_no_more_than_the_frame_that_they_run_into(noise, sent):
+    tap = LineMonitor()
+    tap.feed(noise, 0.0)
+    tap.feed(b"\0", 0.0)
+    before = sum(tap.counts.values())
+    found = tap.feed(wire_of(sent), 0.0)
+    assert [(each.type, each.payload) for each in found] == sent
+    assert sum(tap.counts.values()) == before + len(sent)
+
+
+def test_lost_frames_are_counted_by_their_sequence():
+    tap = LineMonitor()
+    tap.feed(checked_frame(254, "m", b"f") + checked_frame(3, "m", b"f"), 0.0)
+    assert tap.missing == 4
+
+
+def test_a_stream_without_an_end_is_not_hoarded():
+    tap = LineMonitor()
+    for _ in range(100):
+        tap.feed(b"\1" * 1000, 0.0)
+    assert len(tap._buffer) <= 2 * MAX_PAYLOAD
+    assert tap.feed(b"\0" + wire_of([("m", b"a")]), 0.0)
+    assert tap.bad_frames == 1

@@ -1,0 +1,199 @@
+"""Real programs: started, killed within a frame, restarted, ended in every case."""
+
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+
+from up_rig.pty_line import PtyLine
+from up_simulator.firmware.wire import checked_frame
+from up_simulator.harness.child import Child
+from up_simulator.harness.participants import ParticipantError
+from up_simulator.harness.programs import RealProxy, RealRaspilot, RealRunner
+
+DEADLINE_S = 60.0
+
+
+def wait(condition, what):
+    deadline_s = time.monotonic() + DEADLINE_S
+    while not (value := condition()):
+        assert time.monotonic() < deadline_s, f"never: {what}"
+        time.sleep(0.02)
+    return value
+
+
+def child(tmp_path, code):
+    return Child("part", [sys.executable, "-c", code], tmp_path)
+
+
+def test_its_lines_are_those_of_this_process_and_new_ones_come_once(tmp_path):
+    (tmp_path / "part.log").write_text("of an earlier process\n")
+    made = child(tmp_path, "print('one'); print('two'); print('half', end='')")
+    assert made.wait() == 0
+    assert [line.text for line in made.lines()] == ["one", "two", "half"]
+    assert [line.text for line in made.new_lines()] == ["one", "two"]
+    assert made.new_lines() == []
+    assert "of an earlier process" in made.log.read_text()
+
+
+READY = (
+    "from up_simulator.harness.user_log import print_line; print_line('on 7', code='on', port=7)"
+)
+
+
+def test_a_line_is_awaited_by_its_code_and_fields(tmp_path):
+    made = child(tmp_path, f"print('half'); {READY}; print('after')")
+    passed = []
+    line = made.wait_for("on", DEADLINE_S, on_line=passed.append, port=7)
+    assert (line.text, line.fields["port"]) == ("on 7", 7)
+    assert [each.text for each in passed][:2] == ["half", "on 7"]
+    assert made.wait() == 0
+
+
+def test_one_that_ends_before_it_is_ready_is_reported_with_its_log(tmp_path):
+    made = child(tmp_path, "import sys; print('no port is free'); sys.exit(3)")
+    with pytest.raises(ParticipantError) as caught:
+        made.wait_for("on", DEADLINE_S)
+    report = str(caught.value).splitlines()
+    assert "status 3" in report[0] and report[1:] == ["  no port is free"]
+
+
+def test_one_that_ends_without_a_log_is_one_line(tmp_path):
+    made = child(tmp_path, "import sys; sys.exit(3)")
+    report = made.exit_report(made.wait())
+    assert "status 3" in report and "\n" not in report
+
+
+def test_one_that_does_not_get_ready_times_out(tmp_path):
+    made = child(tmp_path, f"import time; {READY}; time.sleep(600)")
+    wait(made.lines, "its first line")
+    with pytest.raises(ParticipantError, match="port=8"):
+        made.wait_for("on", 0.1, port=8)
+    assert made.end() == -signal.SIGTERM
+
+
+def test_one_that_ignores_the_signal_is_killed(tmp_path):
+    code = f"import signal, time; signal.signal(15, signal.SIG_IGN); {READY}; time.sleep(600)"
+    made = child(tmp_path, code)
+    made.wait_for("on", DEADLINE_S)
+    made.terminate()
+    assert made.wait(0.2) == -signal.SIGKILL
+
+
+def test_it_ends_when_we_are_killed(tmp_path):
+    code = (
+        "from up_simulator.harness.child import Child; import sys, time, pathlib;"
+        f"made = Child('part', [sys.executable, '-c', 'import time; time.sleep(600)'],"
+        f" pathlib.Path({str(tmp_path)!r})); print(made.pid, flush=True); time.sleep(600)"
+    )
+    us = subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE, text=True)
+    pid = int(us.stdout.readline())
+    us.kill()
+    us.wait()
+    us.stdout.close()
+    wait(lambda: not is_running(pid), "its end")
+
+
+def is_running(pid):
+    try:
+        state = Path(f"/proc/{pid}/stat").read_text().rsplit(")", 1)[1].split()[0]
+    except (FileNotFoundError, ProcessLookupError):
+        return False
+    return state != "Z"
+
+
+@pytest.fixture
+def line(tmp_path):
+    made = PtyLine(tmp_path / "board")
+    yield made
+    made.close()
+
+
+@pytest.fixture
+def raspilot(tmp_path, line):
+    config = tmp_path / "config"
+    config.mkdir()
+    for name, text in {
+        "arduino": f"port: {tmp_path / 'board'}\n",
+        "android": "general port: 0\norientation port: 0\n",
+        "discovery": "port: 0\n",
+        "mission_control": "listener: {port: 0, address: 127.0.0.1}\n",
+    }.items():
+        (config / f"{name}.yml").write_text(text)
+    made = RealRaspilot(config, tmp_path)
+    yield made
+    made.stop()
+
+
+def test_the_daemon_is_killed_within_a_frame_and_restarted(raspilot, line, tmp_path):
+    raspilot.start()
+    with pytest.raises(ParticipantError, match="already"):
+        raspilot.start()
+    raspilot.wait_for("started")
+    assert raspilot.is_running
+    whole = checked_frame(0, "x", bytes(20))
+    line.write(whole[: len(whole) // 2])
+    raspilot.kill()
+    assert not raspilot.is_running
+    with pytest.raises(ParticipantError, match="signal 9"):
+        raspilot.check()
+    raspilot.start()
+    raspilot.wait_for("started")
+    raspilot.check()
+    log = (tmp_path / "raspilot.log").read_text()
+    assert log.count('"code": "started"') == 2, "both runs are in one log"
+    raspilot.stop()
+    assert not raspilot.is_running
+
+
+def test_a_frozen_daemon_is_stopped(raspilot):
+    raspilot.start()
+    raspilot.wait_for("started")
+    raspilot.freeze()
+    stat = Path(f"/proc/{raspilot.pid}/stat")
+    wait(lambda: stat.read_text().rsplit(")", 1)[1].split()[0] == "T", "it stands still")
+    assert raspilot.is_running
+    raspilot.stop()
+    assert not raspilot.is_running
+
+
+def test_a_daemon_with_a_wrong_configuration_is_reported(raspilot, tmp_path):
+    (tmp_path / "config" / "config.yml").write_text("log levle: info\n")
+    raspilot.start()
+    with pytest.raises(ParticipantError) as caught:
+        raspilot.wait_for("started")
+    assert "status 2" in str(caught.value) and "config.yml" in str(caught.value)
+    assert raspilot.log
+
+
+def test_a_proxy_and_a_runner_report_their_ports(tmp_path, short_path):
+    (tmp_path / "proxy.yml").write_text("airborne port: 0\nground port: 0\nmetrics: false\n")
+    (tmp_path / "runner.yml").write_text(
+        f"port: 0\nrun folder: {short_path}\nstop instances on exit: true\ni_accept_root: true\n"
+    )
+    proxy, runner = RealProxy(tmp_path, tmp_path), RealRunner(tmp_path, tmp_path)
+    proxy.start()
+    runner.start()
+    proxy.wait_for_ports()
+    runner.wait_for_port()
+    for port in (proxy.airborne_port, proxy.ground_port, runner.port):
+        assert 1024 <= port <= 65535
+    for server in (proxy, runner):
+        server.check()
+        server.stop()
+        assert not server.is_running
+
+
+def test_a_proxy_that_is_killed_is_noticed(tmp_path):
+    (tmp_path / "proxy.yml").write_text("airborne port: 0\nground port: 0\nmetrics: false\n")
+    proxy = RealProxy(tmp_path, tmp_path)
+    proxy.start()
+    os.kill(proxy.pid, signal.SIGKILL)
+    wait(lambda: not proxy.is_running, "its end")
+    with pytest.raises(ParticipantError, match="signal 9"):
+        proxy.check()
+    proxy.stop()

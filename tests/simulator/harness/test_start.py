@@ -1,0 +1,250 @@
+"""``up-sim start`` with its board: a real process, a real pty, real time."""
+
+import csv
+import itertools
+import os
+import signal
+import struct
+import time
+
+import pytest
+
+from tests.simulator.pi import GAINS, pulses_for
+from tests.simulator.program import Line, Program
+from tests.support.firmware import build_firmware
+from up_simulator.firmware.rig_board import RigBoard
+from up_simulator.harness.start_options import read_options
+
+
+@pytest.fixture(scope="module", params=["host", "firmware"])
+def kind(request):
+    """Both kinds pass the same tests."""
+    if request.param == "firmware":
+        build_firmware()
+    return request.param
+
+
+def board(tmp_path, *arguments, kind="host"):
+    link = tmp_path / "board"
+    return Program("--no-phone", "--pty-link", link, "--board", kind, *arguments)
+
+
+@pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGINT])
+def test_it_makes_its_link_and_a_signal_removes_it_within_a_second(tmp_path, number):
+    with board(tmp_path) as program:
+        program.wait_for("board_ready", path=str(tmp_path / "board"))
+        assert (tmp_path / "board").is_symlink()
+        status, took_s, error = program.end(number)
+    assert (status, error) == (0, "")
+    # The program has one second, a loaded machine the rest.
+    assert took_s < 5.0
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_without_a_link_it_names_the_pty():
+    with Program("--no-phone") as program:
+        assert program.wait_for("board_ready").fields["path"].startswith("/dev/pts/")
+        assert program.end()[0] == 0
+
+
+def test_it_answers_on_its_real_line(tmp_path, kind):
+    with board(tmp_path, kind=kind) as program:
+        program.wait_for("board_ready")
+        with Line(tmp_path / "board") as line:
+            line.send("s")
+            confirmed = line.wait_for_type("K")
+            assert confirmed.payload == b"s\0"
+            numbers = [
+                struct.unpack(">H", line.wait_for_type("O").payload[:2])[0] for _ in range(50)
+            ]
+            assert numbers == list(range(numbers[0], numbers[0] + 50))
+            line.send("G")
+            assert len(line.wait_for_type("G").payload) == 72
+            assert line.wait_for_type("x").payload[1:2] == b"f", "no demands"
+        assert program.end()[0] == 0
+
+
+def test_the_line_may_be_closed_and_opened_again(tmp_path):
+    with board(tmp_path) as program:
+        program.wait_for("board_ready")
+        for _ in range(3):
+            with Line(tmp_path / "board") as line:
+                line.send("s")
+                assert line.wait_for_type("K").payload[:1] == b"s"
+                line.wait_for_type("O")
+        assert program.end()[0] == 0
+
+
+def test_streams_come_in_real_time(tmp_path, kind):
+    with board(tmp_path, kind=kind) as program:
+        program.wait_for("board_ready")
+        with Line(tmp_path / "board") as line:
+            line.send("s")
+            first, began_s = line.wait_for_type("O"), time.monotonic()
+            first_number = struct.unpack(">H", first.payload[:2])[0]
+            while time.monotonic() - began_s < 3.0:
+                newest = line.wait_for_type("O")
+            passed_s = time.monotonic() - began_s
+            count = struct.unpack(">H", newest.payload[:2])[0] - first_number
+        # Late is allowed on a loaded machine; early is not, except for data that waited in the pty.
+        assert 0.2 * passed_s / 0.02 < count < passed_s / 0.02 + 60
+
+
+def test_outputs_fly_the_aircraft_and_the_log_is_the_truth(tmp_path):
+    """Stabilise over the wire: the board's own words must be the model's, and it stays level."""
+    log = tmp_path / "truth.csv"
+    with board(tmp_path, "--state-log", log) as program:
+        program.wait_for("board_ready")
+        said = []
+        with Line(tmp_path / "board") as line:
+            line.send("s")
+            until_s = time.monotonic() + 8.0
+            while time.monotonic() < until_s:
+                sequence, *values = struct.unpack(">H6f", line.wait_for_type("O").payload)
+                _, pitch, roll, yaw_rate, pitch_rate, roll_rate = values
+                rates = (roll_rate, pitch_rate, yaw_rate)
+                ailerons, elevator, rudder = pulses_for((roll, pitch, rates), GAINS)
+                line.send("u", struct.pack(">5H", ailerons, elevator, 0, rudder, sequence))
+                said.append((roll, pitch))
+            assert line.wait_for_type("x").payload[1:2] == b"u"
+        program.wait_for("board_mode", mode="OUTPUT")
+        assert program.end()[0] == 0
+    with log.open() as file:
+        rows = list(csv.DictReader(file))
+    truth = [tuple(float(row[key]) for key in ("roll_deg", "pitch_deg")) for row in rows]
+    assert len(said) > 100
+    assert all(abs(roll) < 45 and abs(pitch) < 45 for roll, pitch in said[100:])
+    for each in said[10::20]:
+        nearest = min(max(abs(a - b) for a, b in zip(each, true, strict=True)) for true in truth)
+        assert nearest < 4.5
+    assert any(abs(int(row["ailerons_us"]) - 1500) > 20 for row in rows)
+    times = [float(row["time_s"]) for row in rows]
+    assert all(0.0199 < b - a < 0.3 for a, b in itertools.pairwise(times))
+
+
+def test_a_reader_that_stops_does_no_harm(tmp_path):
+    with board(tmp_path) as program:
+        program.wait_for("board_ready")
+        file = os.open(tmp_path / "board", os.O_RDWR | os.O_NOCTTY)
+        with Line(tmp_path / "board") as line:
+            line.send("s")
+            line.wait_for_type("K")
+        began_s = time.monotonic()
+        while time.monotonic() - began_s < 2.0:
+            time.sleep(0.05)  # an open line without a reader for two seconds: that is the test
+        with Line(tmp_path / "board") as line:
+            line.listener.feed(line.read())
+            line.listener.take()
+            line.send("m")
+            assert line.wait_for_type("m").payload == b"f"
+        os.close(file)
+        assert program.end()[0] == 0
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        ("--no-board", "--no-phone"),
+        ("--sticks", "flaps=1500"),
+        ("--wind", "fast"),
+        ("--wind", "nan"),
+        ("--general-port", "65536"),
+        ("--runner", "nowhere"),
+        ("--turbulence", "ligth"),
+        ("--radio", "telepathy"),
+        ("--controller", "flaps=1"),
+        ("--airfram", "wing"),
+    ],
+)
+def test_a_wrong_option_ends_it_with_one_line_that_names_it(arguments, capsys):
+    with pytest.raises(SystemExit) as ended:
+        read_options(list(arguments))
+    error = capsys.readouterr().err
+    assert ended.value.code == 2
+    assert arguments[0] in error and error.count("\n") == 1
+
+
+@pytest.mark.parametrize("name", ["glidr", "brk"])
+def test_an_unknown_airframe_is_a_wrong_option(name):
+    with Program("--airframe", name) as program:
+        assert program.process.wait(30) == 2
+        error = program.error()
+    assert name in error and error.count("\n") == 1
+
+
+def test_a_file_in_place_of_the_link_is_left_alone(tmp_path):
+    (tmp_path / "board").write_text("precious")
+    with board(tmp_path) as program:
+        assert program.process.wait(30) == 1
+        error = program.error()
+    assert str(tmp_path / "board") in error and error.count("\n") == 1
+    assert (tmp_path / "board").read_text() == "precious"
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        ("--radio", "/nowhere/js7"),
+        ("--radio", "keyboard"),
+        ("--elf", "missing.elf"),
+        ("--replay", "missing.csv"),
+    ],
+)
+def test_a_flight_that_cannot_start_ends_with_one_line_that_names_the_cause(tmp_path, arguments):
+    kind = "auto" if "--elf" in arguments else "host"
+    with board(tmp_path, *arguments, kind=kind) as program:
+        assert program.process.wait(60) == 1
+        error = program.error()
+    assert error.startswith("up-sim: ") and error.count("\n") == 1, error
+    assert arguments[1] in error
+    assert not (tmp_path / "board").is_symlink()
+
+
+def test_the_firmware_flies_and_its_attitude_is_the_truth(tmp_path):
+    build_firmware()
+    log = tmp_path / "truth.csv"
+    with board(
+        tmp_path, "--state-log", log, "--turbulence", "moderate", kind="firmware"
+    ) as program:
+        program.wait_for("board_selected", board=RigBoard.title)
+        program.wait_for("board_ready")
+        said = []
+        with Line(tmp_path / "board") as line:
+            line.send("s")
+            while len(said) < 200:
+                values = struct.unpack(">H6f", line.wait_for_type("O").payload)
+                said.append((values[3], values[2]))
+            status = line.wait_for_type("x").payload
+        assert program.end()[0] == 0
+    assert status[1:2] == b"f" and status[3] & 1, "FBW, armed"
+    with log.open() as file:
+        rows = list(csv.DictReader(file))
+    truth = [(float(row["roll_deg"]), float(row["pitch_deg"])) for row in rows]
+    for roll, pitch in said[::10]:
+        assert min(max(abs(roll - a), abs(pitch - b)) for a, b in truth) < 4.5
+    assert len({round(roll) for roll, _ in said}) > 5, "it banks into its circle"
+    assert all(float(row["height_m"]) > 100 for row in rows)
+    assert any(int(row["throttle_us"]) > 1300 for row in rows), "the motor runs"
+
+
+def test_it_follows_a_script(tmp_path):
+    build_firmware()
+    script = "t=0.5 aux1=1000 aileron=1700 t=1 aileron=1500"
+    with board(tmp_path, "--radio", "script", "--sticks", script, kind="firmware") as program:
+        program.wait_for("board_ready")
+        with Line(tmp_path / "board") as line:
+            line.send("s")
+            line.wait_for(lambda message: message.type == "x" and message.payload[1:2] == b"a")
+        assert program.end()[0] == 0
+
+
+def test_a_terminal_that_closes_ends_it_and_removes_the_link(tmp_path):
+    with board(tmp_path) as program:
+        program.wait_for("board_ready")
+        assert program.end(signal.SIGHUP)[0] == 0
+    assert not (tmp_path / "board").is_symlink()
+
+
+def test_help_ends_with_status_0():
+    with Program("--help") as program:
+        assert program.process.wait(30) == 0

@@ -1,9 +1,0 @@
-"""Gains that tuning tests begin with."""
-
-from up.flight_controller.gains import Gains, GainSet, LoopGains
-from up_simulator.tuning.gain_set import ZERO
-
-FIRM = GainSet(
-    LoopGains(Gains(6.0), Gains(3.0), Gains(1.0)), LoopGains(Gains(8.0), Gains(6.0), ZERO)
-)
-"""Fast at cruise, with a roll rate gain that has little left in a dive."""
