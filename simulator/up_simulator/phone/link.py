@@ -14,7 +14,7 @@ from twisted.internet.protocol import DatagramProtocol, Factory, Protocol
 from twisted.protocols.basic import LineOnlyReceiver
 from zope.interface import implementer
 
-from up.protocols.line_decoder import LONGEST_LINE
+from up.protocols.line_decoder import MAX_LINE_BYTES
 from up_simulator.harness.user_log import Log
 from up_simulator.phone.address import NotFoundError, RaspberryPi
 from up_simulator.phone.phone import Phone
@@ -174,7 +174,7 @@ class _GeneralLink(LineOnlyReceiver):
     """One connection of the General Message link."""
 
     delimiter = b"\n"
-    MAX_LENGTH = LONGEST_LINE
+    MAX_LENGTH = MAX_LINE_BYTES
 
     def __init__(self, phone: Phone, link: PhoneLink) -> None:
         self._phone = phone
