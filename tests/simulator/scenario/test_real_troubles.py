@@ -38,7 +38,7 @@ from up_simulator.scenario.real_participants import RealParticipants
 plug = RealParticipants.plug_serial
 def taken(participants, is_in):
     if is_in:
-        (participants._folder / "board").write_text("of somebody else")
+        (participants._folder / "board").write_text("foreign")
     plug(participants, is_in)
 RealParticipants.plug_serial = taken
 """

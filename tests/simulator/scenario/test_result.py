@@ -16,7 +16,7 @@ from up_simulator.scenario.result import (
 )
 
 ROLL = "expect: [{name: Level, signal: truth.roll_deg, between: [-5, 5]}]\n"
-CONTROL = "control: {about: nobody helps, mode: ACRO, fails: [Level]}\n"
+CONTROL = "control: {about: no help, mode: ACRO, fails: [Level]}\n"
 PLACE = {"truth.north_m": lambda t: 10 * t, "truth.east_m": lambda t: -t}
 
 

@@ -9,7 +9,7 @@ from tests.simulator.scenarios.shipped import ALONE, REAL, SCENARIOS, WITH_DAEMO
 from up_simulator.scenario.measures import limit_text
 from up_simulator.verbs.catalogue import shipped_paths
 
-# Expectations that check only who controls the aircraft need no number of their own.
+# Expectations that check only who controls the aircraft need no separate number.
 MIN_EXPECTATIONS = 2
 ATTITUDE = ("truth.roll_deg", "truth.pitch_deg", "error.roll_deg", "error.pitch_deg")
 CONTROLLERS = ("controller-on-arduino", "controller-on-raspberry")
