@@ -4,12 +4,12 @@ import org.raspilot.up.commands.CommandReceiver;
 import org.raspilot.up.commands.NackCode;
 
 /** The counters of the airborne side since its creation; immutable. */
-final class AirborneCounters {
-    final long connections;
-    final long telemetry;
-    final long executed;
-    final long refused;
-    final long malformed;
+public final class AirborneCounters {
+    public final long connections;
+    public final long telemetry;
+    public final long executed;
+    public final long refused;
+    public final long malformed;
 
     /** Takes the current counts; answers are those to messages sent with an id. */
     AirborneCounters(CommandReceiver receiver, long connections, long telemetry, long answers) {

@@ -22,7 +22,7 @@ public final class AirborneStatus {
     public final long panicDelayMs;
     /** Each provider, in the order of registration; unmodifiable. */
     public final List<ProviderStatus> providers;
-    private final AirborneCounters counters;
+    public final AirborneCounters counters;
 
     AirborneStatus(boolean isRunning, boolean isConnected, String linkText, Endpoint place,
             AirborneMode mode, OrientationTransport orientation, String orientationText,
@@ -47,30 +47,5 @@ public final class AirborneStatus {
             }
         }
         return 0;
-    }
-
-    /** Returns how often the link came. */
-    public long connections() {
-        return counters.connections;
-    }
-
-    /** Returns how many telemetry messages came. */
-    public long telemetry() {
-        return counters.telemetry;
-    }
-
-    /** Returns how many other Commands were carried out. */
-    public long executed() {
-        return counters.executed;
-    }
-
-    /** Returns how many Commands were refused. */
-    public long refused() {
-        return counters.refused;
-    }
-
-    /** Returns how many lines were dropped because they were no General Messages. */
-    public long malformed() {
-        return counters.malformed;
     }
 }

@@ -153,11 +153,11 @@ public final class AirborneTest {
         assertEquals(OrientationTransport.OFF, status.orientation);
         assertEquals("off", status.orientationText);
         assertEquals(150, status.panicDelayMs);
-        assertEquals(1, status.connections());
-        assertEquals(1, status.telemetry());
-        assertEquals(1, status.executed());
-        assertEquals(1, status.refused());
-        assertEquals(1, status.malformed());
+        assertEquals(1, status.counters.connections);
+        assertEquals(1, status.counters.telemetry);
+        assertEquals(1, status.counters.executed);
+        assertEquals(1, status.counters.refused);
+        assertEquals(1, status.counters.malformed);
         assertEquals("[location, altitude, heading, battery]", names(status).toString());
         assertEquals(ProviderState.SENDING, status.providers.get(0).state);
         assertEquals(2, status.providers.get(0).rateHz, 0);

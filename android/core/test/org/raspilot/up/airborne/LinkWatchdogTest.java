@@ -36,7 +36,7 @@ public final class LinkWatchdogTest {
             bench.fly(20, 1200);
         }
         assertTrue(bench.airborne.status().isConnected);
-        assertEquals(1, bench.airborne.status().connections());
+        assertEquals(1, bench.airborne.status().counters.connections);
     }
 
     @Test

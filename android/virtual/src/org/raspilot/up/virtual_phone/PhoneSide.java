@@ -26,7 +26,7 @@ final class PhoneSide implements LoopProgram.Part {
         sensors = new SimulatedSensors(loop, words);
         // Two phones with one seed are two phones, but a stepped one repeats its run.
         Random random = options.isStepped ? new Random(options.seed) : new Random();
-        airborne = new Airborne(loop, options.settings, sensors, events, events, random);
+        airborne = new Airborne(loop, options.settings, sensors.sensors(), events, events, random);
         if (options.isRecording) {
             record = new SimulatedSource<>("record", words);
             airborne.providers().register(new RecordProvider(record));

@@ -8,11 +8,10 @@ import org.raspilot.up.providers.Fix;
 import org.raspilot.up.providers.Pressure;
 import org.raspilot.up.providers.Rotation;
 import org.raspilot.up.providers.RotationRate;
-import org.raspilot.up.providers.SensorSource;
 import org.raspilot.up.providers.Sensors;
 
 /** All sensors of the virtual phone, fed by the lines of {@link VirtualPhone}'s page. */
-final class SimulatedSensors implements Sensors {
+final class SimulatedSensors {
     private final Loop loop;
     private final SimulatedSource<Fix> location;
     private final SimulatedSource<Rotation> rotation;
@@ -62,29 +61,8 @@ final class SimulatedSensors implements Sensors {
         }
     }
 
-    @Override
-    public SensorSource<Fix> location() {
-        return location;
-    }
-
-    @Override
-    public SensorSource<Rotation> rotation() {
-        return rotation;
-    }
-
-    @Override
-    public SensorSource<RotationRate> rotationRate() {
-        return rate;
-    }
-
-    @Override
-    public SensorSource<Pressure> pressure() {
-        return pressure;
-    }
-
-    @Override
-    public SensorSource<BatteryLevel> battery() {
-        return battery;
+    Sensors sensors() {
+        return new Sensors(location, rotation, rate, pressure, battery);
     }
 
     private static Rotation turned(double[] values, long nowMs) throws OptionException {
