@@ -23,7 +23,7 @@ import org.raspilot.up.airborne.AirborneStatus;
 import org.raspilot.up.android.BaseUpService;
 import org.raspilot.up.providers.BatteryProvider;
 import org.raspilot.up.providers.LocationProvider;
-import org.raspilot.up.providers.ProviderState;
+import org.raspilot.up.providers.ProviderStatus.ProviderState;
 import org.raspilot.up.providers.ProviderStatus;
 import org.robolectric.annotation.Config;
 import org.robolectric.shadows.ShadowPowerManager;

@@ -13,7 +13,7 @@ import org.raspilot.up.providers.BatteryProvider;
 import org.raspilot.up.providers.HeadingProvider;
 import org.raspilot.up.providers.LocationProvider;
 import org.raspilot.up.providers.OrientationProvider;
-import org.raspilot.up.providers.ProviderState;
+import org.raspilot.up.providers.ProviderStatus.ProviderState;
 import org.raspilot.up.providers.ProviderStatus;
 
 /** The list of what the phone sends, and the counters. */

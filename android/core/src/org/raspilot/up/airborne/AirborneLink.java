@@ -1,12 +1,13 @@
 package org.raspilot.up.airborne;
 
 import java.util.Random;
-import org.raspilot.up.commands.AnswerSink;
+import org.raspilot.up.airborne.AirborneSettings.OrientationTransport;
 import org.raspilot.up.commands.BaseCommand;
+import org.raspilot.up.commands.CommandReceiver.AnswerSink;
 import org.raspilot.up.loop.Loop;
+import org.raspilot.up.net.Endpoint;
 import org.raspilot.up.net.LastEndpoint;
 import org.raspilot.up.net.OrientationSender;
-import org.raspilot.up.net.Endpoint;
 import org.raspilot.up.net.UpSocket;
 import org.raspilot.up.net.UpSocketListener;
 import org.raspilot.up.net.UpSocketSettings;

@@ -131,4 +131,22 @@ public final class AirborneSettings {
             return settings;
         }
     }
+
+    /** Who the phone speaks to (thesis 3.1.3). */
+    public enum AirborneMode {
+        /** A Raspberry Pi on board, with an Arduino that flies. */
+        FLIGHT_CONTROLLER,
+        /** A server on the internet that a runner spawns; the phone is the only one on board. */
+        BLACK_BOX
+    }
+
+    /** How orientation leaves the phone. */
+    public enum OrientationTransport {
+        /** Not at all. */
+        OFF,
+        /** Frames back to back on a connection. */
+        TCP,
+        /** A frame a datagram. */
+        UDP
+    }
 }

@@ -1,6 +1,10 @@
 package org.raspilot.up.airborne;
 
 import java.util.List;
+import org.raspilot.up.airborne.AirborneSettings.AirborneMode;
+import org.raspilot.up.airborne.AirborneSettings.OrientationTransport;
+import org.raspilot.up.commands.CommandReceiver;
+import org.raspilot.up.commands.NackCode;
 import org.raspilot.up.net.Endpoint;
 import org.raspilot.up.providers.OrientationProvider;
 import org.raspilot.up.providers.ProviderStatus;
@@ -47,5 +51,28 @@ public final class AirborneStatus {
             }
         }
         return 0;
+    }
+
+    /** The counters of the airborne side since its creation; immutable. */
+    public static final class AirborneCounters {
+        public final long connections;
+        public final long telemetry;
+        public final long executed;
+        public final long refused;
+        public final long malformed;
+
+        /** Takes the current counts; answers are those to messages sent with an id. */
+        AirborneCounters(CommandReceiver receiver, long connections, long telemetry, long answers) {
+            this.connections = connections;
+            this.telemetry = telemetry;
+            malformed = receiver.count(NackCode.MALFORMED.word());
+            long others = 0;
+            for (NackCode code : NackCode.values()) {
+                others += code == NackCode.MALFORMED ? 0 : receiver.count(code.word());
+            }
+            refused = others;
+            executed = receiver.count("received") - receiver.count("repeated") - refused - telemetry
+                    - answers;
+        }
     }
 }

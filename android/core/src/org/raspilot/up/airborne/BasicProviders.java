@@ -1,5 +1,6 @@
 package org.raspilot.up.airborne;
 
+import org.raspilot.up.airborne.AirborneSettings.OrientationTransport;
 import org.raspilot.up.providers.AltitudeProvider;
 import org.raspilot.up.providers.BatteryProvider;
 import org.raspilot.up.providers.HeadingProvider;

@@ -146,4 +146,14 @@ public final class CommandReceiver {
     private void addOne(String what) {
         counts.put(what, count(what) + 1);
     }
+
+    /**
+     * Receives the answers to the Commands of one link; one object for the whole life of the link.
+     *
+     * <p>The receiver remembers ids by this object, so it outlives the link's connections.
+     */
+    public interface AnswerSink {
+        /** Sends an {@code up.ack} or {@code up.nack} if possible. */
+        void answer(GeneralMessage answer);
+    }
 }

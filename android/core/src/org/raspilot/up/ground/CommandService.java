@@ -2,6 +2,7 @@ package org.raspilot.up.ground;
 
 import org.raspilot.up.commands.BaseCommand;
 import org.raspilot.up.commands.Commands;
+import org.raspilot.up.ground.Answer.AnswerListener;
 import org.raspilot.up.loop.Loop;
 
 /** Sends what may be sent now or returns why not: nothing is queued, nothing is sent twice. */

@@ -9,6 +9,7 @@ import java.util.Map;
 import java.util.Random;
 import org.raspilot.up.commands.BaseCommand;
 import org.raspilot.up.commands.Commands;
+import org.raspilot.up.ground.Answer.AnswerListener;
 import org.raspilot.up.loop.Cancellable;
 import org.raspilot.up.loop.Loop;
 import org.raspilot.up.wire.GeneralMessage;

@@ -7,6 +7,7 @@ import java.net.Socket;
 import java.nio.ByteBuffer;
 import java.nio.channels.SelectionKey;
 import java.nio.channels.SocketChannel;
+import org.raspilot.up.loop.TcpConnection.TcpListener;
 
 /** One TCP connection of a {@link SelectorLoop}: looks up, connects, reads, writes. */
 final class TcpChannel implements TcpConnection, SelectorHandler, NameLookup.Asker {

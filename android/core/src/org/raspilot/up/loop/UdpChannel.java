@@ -8,6 +8,7 @@ import java.nio.channels.DatagramChannel;
 import java.nio.channels.SelectionKey;
 import java.util.HashMap;
 import java.util.Map;
+import org.raspilot.up.loop.UdpPort.UdpListener;
 
 /** One UDP socket of a {@link SelectorLoop}. */
 final class UdpChannel implements UdpPort, SelectorHandler {

@@ -1,5 +1,8 @@
 package org.raspilot.up.providers;
 
+import org.raspilot.up.providers.AltitudeProvider.Pressure;
+import org.raspilot.up.providers.BatteryProvider.BatteryLevel;
+
 /** The sensors that a device has for flying; one that it lacks is a source that is not present. */
 public final class Sensors {
     public final SensorSource<Fix> location;

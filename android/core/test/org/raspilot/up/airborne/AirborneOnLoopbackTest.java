@@ -17,7 +17,7 @@ import org.junit.Rule;
 import org.junit.Test;
 import org.raspilot.up.loop.RunningLoop;
 import org.raspilot.up.providers.Attitude;
-import org.raspilot.up.providers.BatteryLevel;
+import org.raspilot.up.providers.BatteryProvider.BatteryLevel;
 import org.raspilot.up.providers.Mounting;
 import org.raspilot.up.providers.Side;
 import org.raspilot.up.wire.GeneralMessage;

@@ -9,6 +9,7 @@ import org.junit.Rule;
 import org.junit.Test;
 import org.raspilot.up.commands.BaseCommand;
 import org.raspilot.up.commands.Commands;
+import org.raspilot.up.ground.GroundStatus.LinkState;
 import org.raspilot.up.wire.ProxyRole;
 
 /** Hello, seat and token, and how the link comes back (docs/protocols.md 9). */

@@ -17,6 +17,7 @@ import org.raspilot.up.loop.Faults;
 import org.raspilot.up.loop.ManualLoop;
 import org.raspilot.up.loop.RunningLoop;
 import org.raspilot.up.loop.ScriptedNetwork;
+import org.raspilot.up.net.DiscoveryClient.BroadcastAddresses;
 
 public final class DiscoveryClientTest implements BroadcastAddresses {
     private static final String QUESTION = "Where is Raspilot? -> ";

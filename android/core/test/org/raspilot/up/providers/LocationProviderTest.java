@@ -4,6 +4,7 @@ import static org.junit.Assert.assertEquals;
 import static org.junit.Assert.assertTrue;
 
 import org.junit.Test;
+import org.raspilot.up.providers.ProviderStatus.ProviderState;
 
 /** The sent values of a fix, their times, and their display. */
 public final class LocationProviderTest {

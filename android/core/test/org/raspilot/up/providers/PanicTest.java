@@ -6,6 +6,7 @@ import static org.junit.Assert.assertTrue;
 import static org.junit.Assert.fail;
 
 import org.junit.Test;
+import org.raspilot.up.providers.BatteryProvider.BatteryLevel;
 
 /** Panic Mode: its input, and that every stream obeys it. */
 public final class PanicTest {

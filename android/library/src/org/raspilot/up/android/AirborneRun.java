@@ -13,6 +13,7 @@ import org.raspilot.up.airborne.Airborne;
 import org.raspilot.up.airborne.AirborneListener;
 import org.raspilot.up.airborne.AirborneSettings;
 import org.raspilot.up.airborne.AirborneStatus;
+import org.raspilot.up.android.SensorProblem.SensorTexts;
 import org.raspilot.up.loop.SelectorLoop;
 import org.raspilot.up.net.Endpoint;
 import org.raspilot.up.providers.Mounting;

@@ -6,8 +6,10 @@ import android.os.Build;
 import android.os.Handler;
 import android.os.Looper;
 import java.util.concurrent.Executor;
+import org.raspilot.up.android.SensorProblem.SensorTexts;
 import org.raspilot.up.loop.Loop;
-import org.raspilot.up.providers.Pressure;
+import org.raspilot.up.providers.AltitudeProvider.Pressure;
+import org.raspilot.up.providers.Fix;
 import org.raspilot.up.providers.Rotation;
 import org.raspilot.up.providers.RotationRate;
 import org.raspilot.up.providers.SensorSource;
@@ -53,5 +55,11 @@ public final class AndroidSources {
                 loop, texts, SensorProblem.ROTATION, problems, (values, timeMs) ->
                         RotationVector.read(values, timeMs, Build.VERSION.SDK_INT));
         return vector.isPresent() ? vector : new FieldSource(access, loop, texts, problems);
+    }
+
+    /** Receives the fixes in addition to the provider that sends them. Called on any thread. */
+    public interface FixListener {
+        /** Takes a fix, possibly an old one from before the start. */
+        void onFix(Fix fix);
     }
 }

@@ -6,6 +6,7 @@ import android.hardware.SensorEventListener;
 import android.hardware.SensorManager;
 import java.util.concurrent.Executor;
 import java.util.concurrent.TimeUnit;
+import org.raspilot.up.android.SensorProblem.SensorTexts;
 import org.raspilot.up.providers.Quaternion;
 import org.raspilot.up.providers.Rotation;
 import org.raspilot.up.providers.SensorListener;

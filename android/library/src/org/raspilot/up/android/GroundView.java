@@ -4,6 +4,7 @@ import android.os.Handler;
 import android.os.Looper;
 import java.util.ArrayList;
 import java.util.List;
+import org.raspilot.up.android.TelemetryService.GroundWatcher;
 import org.raspilot.up.ground.Alarms;
 import org.raspilot.up.ground.EventLog;
 import org.raspilot.up.ground.GainsService;

@@ -5,6 +5,7 @@ import android.hardware.SensorEvent;
 import android.hardware.SensorEventListener;
 import java.util.concurrent.Executor;
 import java.util.concurrent.TimeUnit;
+import org.raspilot.up.android.SensorProblem.SensorTexts;
 import org.raspilot.up.providers.SensorListener;
 import org.raspilot.up.providers.SensorSource;
 

@@ -3,6 +3,7 @@ package org.raspilot.up.android;
 import android.content.Context;
 import android.os.Handler;
 import android.os.Looper;
+import org.raspilot.up.android.SensorProblem.SensorTexts;
 import org.raspilot.up.providers.Rotation;
 import org.raspilot.up.providers.SensorListener;
 import org.raspilot.up.providers.SensorSource;

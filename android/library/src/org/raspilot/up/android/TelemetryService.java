@@ -11,8 +11,8 @@ import org.raspilot.up.commands.BaseCommand;
 import org.raspilot.up.commands.Commands;
 import org.raspilot.up.commands.GainSet;
 import org.raspilot.up.ground.Alarms;
+import org.raspilot.up.ground.Answer.AnswerListener;
 import org.raspilot.up.ground.Answer;
-import org.raspilot.up.ground.AnswerListener;
 import org.raspilot.up.ground.EventLog;
 import org.raspilot.up.ground.GainsService;
 import org.raspilot.up.ground.GroundSettings;
@@ -210,5 +210,17 @@ public abstract class TelemetryService extends Service {
     /** A request to the aircraft, on the loop. */
     private interface Asking {
         void ask(GroundSide side, AnswerListener answers);
+    }
+
+    /** Receives the data of the aircraft. Called on the main thread. */
+    public interface GroundWatcher {
+        /** Takes the newest frame; older frames that were not delivered yet are skipped. */
+        void onTelemetry(Telemetry telemetry);
+
+        /** Takes the status, when it has changed. */
+        void onStatus(GroundStatus status);
+
+        /** Called when track, events, alarms or gains have changed. */
+        void onChanged();
     }
 }

@@ -9,6 +9,7 @@ import java.util.Collections;
 import java.util.List;
 import java.util.Map;
 import org.raspilot.app.R;
+import org.raspilot.app.commands.Permission.DisabledReason;
 import org.raspilot.app.ground.GroundSnapshot;
 import org.raspilot.app.view.HoldButton;
 import org.raspilot.app.view.TextViews;

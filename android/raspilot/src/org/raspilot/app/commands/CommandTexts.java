@@ -3,6 +3,7 @@ package org.raspilot.app.commands;
 import android.content.res.Resources;
 import java.util.Map;
 import org.raspilot.app.R;
+import org.raspilot.app.commands.Permission.DisabledReason;
 import org.raspilot.app.ground.GroundSnapshot;
 import org.raspilot.up.ground.Freshness;
 

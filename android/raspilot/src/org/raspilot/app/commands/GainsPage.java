@@ -9,18 +9,18 @@ import java.util.Collections;
 import java.util.List;
 import java.util.Map;
 import org.raspilot.app.R;
-import org.raspilot.app.ground.GroundSnapshot;
 import org.raspilot.app.ground.ControlPanel;
+import org.raspilot.app.ground.GroundSnapshot;
 import org.raspilot.app.view.TextViews;
 import org.raspilot.up.commands.CommandForm;
 import org.raspilot.up.commands.GainSet;
 import org.raspilot.up.commands.InvalidCommandException;
 import org.raspilot.up.ground.Age;
 import org.raspilot.up.ground.Freshness;
-import org.raspilot.up.ground.GainChange;
 import org.raspilot.up.ground.GainKey;
+import org.raspilot.up.ground.GainsService.GainChange;
+import org.raspilot.up.ground.GainsService.GainsEntry;
 import org.raspilot.up.ground.GainsService;
-import org.raspilot.up.ground.GainsEntry;
 
 /** The gains of every axis: active values, edits, their differences, and undo. */
 final class GainsPage implements Page, View.OnClickListener, GainsTable.ChangeListener {

@@ -10,7 +10,7 @@ import org.raspilot.app.R;
 import org.raspilot.app.view.InstrumentColors;
 import org.raspilot.app.view.TextViews;
 import org.raspilot.up.ground.Alarm;
-import org.raspilot.up.ground.EventLevel;
+import org.raspilot.up.ground.Event.EventLevel;
 
 /** The active alarms in words, and the button that silences them. Hidden without alarms. */
 final class AlarmPanel implements View.OnClickListener {

@@ -1,7 +1,6 @@
 package org.raspilot.app.ground;
 
 import android.content.res.Resources;
-
 import org.raspilot.app.R;
 import org.raspilot.app.view.FrameText;
 import org.raspilot.app.view.InstrumentColors;

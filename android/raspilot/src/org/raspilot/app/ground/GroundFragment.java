@@ -4,7 +4,6 @@ import android.os.Bundle;
 import android.view.LayoutInflater;
 import android.view.View;
 import android.view.ViewGroup;
-
 import org.raspilot.app.R;
 import org.raspilot.app.WatchingFragment;
 import org.raspilot.up.android.TelemetryService;

@@ -2,7 +2,6 @@ package org.raspilot.app.ground;
 
 import android.app.Activity;
 import android.view.View;
-
 import org.raspilot.app.R;
 import org.raspilot.app.view.FrameText;
 import org.raspilot.up.android.TelemetryService;

@@ -1,7 +1,6 @@
 package org.raspilot.app.ground;
 
 import android.view.View;
-
 import org.raspilot.app.R;
 import org.raspilot.app.view.AttitudeView;
 import org.raspilot.app.view.BarsView;

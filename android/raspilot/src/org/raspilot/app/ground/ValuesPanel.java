@@ -15,7 +15,7 @@ import java.util.Locale;
 import org.raspilot.app.R;
 import org.raspilot.app.view.InstrumentColors;
 import org.raspilot.up.ground.Telemetry;
-import org.raspilot.up.ground.TelemetryRow;
+import org.raspilot.up.ground.TelemetryText.TelemetryRow;
 import org.raspilot.up.ground.TelemetryText;
 
 /** Every value of the newest frame, including those of unknown modules. */

@@ -7,10 +7,10 @@ import static org.junit.Assert.fail;
 
 import java.util.Collections;
 import org.junit.Test;
+import org.raspilot.up.commands.GainSet.Gains;
+import org.raspilot.up.commands.GainSet.LoopGains;
 import org.raspilot.up.commands.GainSet;
-import org.raspilot.up.commands.Gains;
 import org.raspilot.up.commands.InvalidCommandException;
-import org.raspilot.up.commands.LoopGains;
 import org.raspilot.up.ground.GainKey;
 
 public final class GainsEditorTest {

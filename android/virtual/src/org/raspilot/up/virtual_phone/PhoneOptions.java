@@ -2,10 +2,11 @@ package org.raspilot.up.virtual_phone;
 
 import java.util.Collections;
 import java.util.Locale;
-import org.raspilot.up.airborne.AirborneMode;
+import org.raspilot.up.airborne.AirborneSettings.AirborneMode;
+import org.raspilot.up.airborne.AirborneSettings.OrientationTransport;
 import org.raspilot.up.airborne.AirborneSettings;
-import org.raspilot.up.airborne.OrientationTransport;
 import org.raspilot.up.providers.Mounting;
+import org.raspilot.up.virtual_phone.OptionParser.OptionException;
 
 /** The command line options of the virtual phone. */
 final class PhoneOptions {

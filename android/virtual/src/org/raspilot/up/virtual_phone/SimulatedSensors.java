@@ -3,12 +3,13 @@ package org.raspilot.up.virtual_phone;
 import java.util.List;
 import java.util.Map;
 import org.raspilot.up.loop.Loop;
-import org.raspilot.up.providers.BatteryLevel;
+import org.raspilot.up.providers.AltitudeProvider.Pressure;
+import org.raspilot.up.providers.BatteryProvider.BatteryLevel;
 import org.raspilot.up.providers.Fix;
-import org.raspilot.up.providers.Pressure;
 import org.raspilot.up.providers.Rotation;
 import org.raspilot.up.providers.RotationRate;
 import org.raspilot.up.providers.Sensors;
+import org.raspilot.up.virtual_phone.OptionParser.OptionException;
 
 /** All sensors of the virtual phone, fed by the lines of {@link VirtualPhone}'s page. */
 final class SimulatedSensors {
