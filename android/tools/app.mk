@@ -23,7 +23,7 @@ newer = $(call java,$(LIBRARY)/src-$(1) $(RASPILOT)/src-$(1))
 RES := $(sort $(shell find $(RASPILOT)/res $(RASPILOT)/assets -type f 2>/dev/null))
 
 ifneq ($(shell printf '%s' '$(LIMIT)' | tr -d 0-9),)
-$(error LIMIT=$(LIMIT) is no number of bytes)
+$(error LIMIT=$(LIMIT) must be a number of bytes)
 endif
 
 $(BUILD)/debian-tools: tools/app.mk

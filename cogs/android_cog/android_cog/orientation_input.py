@@ -74,7 +74,7 @@ class OrientationInput:
         }
 
     def judge_again(self) -> None:
-        """Drop the sources that are no longer permitted."""
+        """Drop the sources that are not permitted now."""
         if self.factory.source and not self._permits(host_of(self.factory.source)):
             self.factory.close()
         if self.datagrams.source and not self._permits(host_of(self.datagrams.source)):

@@ -24,7 +24,7 @@ public final class MeetingTest extends AppBench {
 
     @Before
     public void mustMeet() {
-        assumeNotNull("There is nobody to meet: tests/android/test_app.py starts them.",
+        assumeNotNull("No daemon to meet: tests/android/test_app.py starts them.",
                 property("general"), property("proxy"));
         handset.fitSensors();
         handset.set(R.string.key_host, "127.0.0.1");

@@ -77,7 +77,8 @@ final class ProvidersPanel {
     }
 
     private String counters(AirborneStatus status) {
-        String text = context.getString(R.string.counters, status.counters.telemetry, status.counters.executed,
+        String text = context.getString(R.string.counters, status.counters.telemetry,
+                status.counters.executed,
                 status.counters.refused, status.counters.malformed, status.counters.connections);
         return text + "\n" + context.getString(R.string.orientation_rate, status.orientationHz());
     }

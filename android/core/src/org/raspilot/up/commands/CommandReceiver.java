@@ -115,7 +115,7 @@ public final class CommandReceiver {
             refuse(message.id, answers, NackCode.FAILED, FAILED);
         } else if (handlers == 0) {
             refuse(message.id, answers, NackCode.UNAVAILABLE,
-                    "nobody handles " + message.name);
+                    "no handler for " + message.name);
         } else if (message.id != null) {
             answer(message.id, answers, Commands.ack(message.id));
         }

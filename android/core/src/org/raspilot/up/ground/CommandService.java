@@ -61,8 +61,8 @@ final class CommandService {
         final LinkStatus facts = link.facts();
         if (!link.isOpen()) {
             return Answer.refused(command.name(), "no_link",
-                    facts.reason.isEmpty() ? "there is no link"
-                            : "there is no link: " + facts.reason);
+                    facts.reason.isEmpty() ? "not connected"
+                            : "not connected: " + facts.reason);
         }
         if (Boolean.FALSE.equals(facts.isAircraftOnline)) {
             return Answer.refused(command.name(), "no_aircraft", "the aircraft "

@@ -102,7 +102,7 @@ public final class GainsService {
         final GainSet before = undoable.peekLast();
         if (before == null) {
             listener.onAnswer(Answer.refused(Commands.PIDS, "invalid",
-                    "there is no set of gains to undo"));
+                    "no set of gains to undo"));
         } else {
             transmit(before, shownBeacon, listener, true);
         }

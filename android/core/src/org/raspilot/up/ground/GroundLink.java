@@ -24,7 +24,7 @@ import org.raspilot.up.wire.SafeText;
  */
 final class GroundLink implements UpSocketListener {
     static final long HELLO_TIMEOUT_MS = 5000;
-    /** By then, ms, a proxy has reported who commands; an aircraft's own listener never does. */
+    /** By then, ms, a proxy has reported the owner of control; an aircraft itself never does. */
     static final long HOLDER_TOLD_MS = 1000;
 
     private static final int CONNECT_TIMEOUT_MS = 5000;
@@ -184,7 +184,7 @@ final class GroundLink implements UpSocketListener {
                 onHelloAnswer(HelloAnswer.read(bytes, length));
             }
         } else if (!isGreeted) {
-            socket.drop("the other side does not answer a hello: it is no Ground Station Proxy of"
+            socket.drop("the other side does not answer a hello: not a Ground Station Proxy of"
                     + " this version (a direct link says no hello)");
         } else {
             onLine(bytes, length);

@@ -145,7 +145,7 @@ final class PendingCommands {
 
     private void endUnanswered(Sent each, Answer.Outcome outcome, String why) {
         if (each.ackedMs != null) {
-            end(each, Answer.Outcome.ACK, "", "what was asked for did not come", each.ackedMs);
+            end(each, Answer.Outcome.ACK, "", "the requested data did not arrive", each.ackedMs);
         } else {
             end(each, outcome, "", why + "; it is not known whether it was carried out", null);
         }

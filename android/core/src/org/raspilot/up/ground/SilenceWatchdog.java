@@ -63,8 +63,8 @@ final class SilenceWatchdog {
     /**
      * Sets how long a link to a proxy may stay without a byte before it counts as dead.
      *
-     * <p>A proxy sends no heartbeat, so telemetry is the only traffic and the limit follows its period.
-     * When a phone leaves its network, the system may not report it for minutes.
+     * <p>A proxy sends no heartbeat, so telemetry is the only traffic and the limit follows its
+     * period. When a phone leaves its network, the system may not report it for minutes.
      */
     static final class SilenceLimit {
         /** The minimum, ms: the proxy reports a silent aircraft within 3 s. */

@@ -197,7 +197,7 @@ public final class Track {
 
     /** Detects gaps in the known positions; the track has no line across a gap. */
     static final class PositionGaps {
-        /** A longer time without a position, ms, is a gap, unless positions have a longer period. */
+        /** A longer time without a position, ms, is a gap, unless their period is longer. */
         private static final long GAP_MS = 900;
         private static final double PERIODS = 2.5;
         private static final int INTERVALS = 5;

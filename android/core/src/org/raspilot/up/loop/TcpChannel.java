@@ -157,7 +157,7 @@ final class TcpChannel implements TcpConnection, SelectorHandler, NameLookup.Ask
             // Some systems do not know the local address yet: it may be null.
             if (socket.getRemoteSocketAddress().equals(socket.getLocalSocketAddress())) {
                 // On loopback a connection to an unused port may by chance connect to itself.
-                connectNext("no connection to " + peer + ": nobody listens");
+                connectNext("no connection to " + peer + ": nothing listens there");
                 return;
             }
         } catch (IOException error) {

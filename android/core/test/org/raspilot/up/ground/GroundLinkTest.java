@@ -88,7 +88,7 @@ public final class GroundLinkTest {
         assertEquals("the heir may have gone", ControlStatus.OURS, bench.status.control);
         assertTrue(bench.ground.releaseControl());
         assertEquals("UP1 seat release\n", bench.peer().written());
-        assertEquals("what is sent now is dropped", ControlStatus.LATER,
+        assertEquals("messages sent now are dropped", ControlStatus.LATER,
                 bench.status.control);
         bench.ground.send(new BaseCommand(Commands.DISARM), bench.keeping());
         assertEquals("no_control", bench.answer().code);

@@ -59,7 +59,7 @@ public final class DiscoveryClientTest implements BroadcastAddresses {
     public void wrongAnswersAreCountedAndWaitedBeyond() {
         client.find(found);
         final ScriptedNetwork.Port port = network.ports.get(0);
-        port.come("where is everybody?", "192.168.43.9", 3001);
+        port.come("where are you?", "192.168.43.9", 3001);
         port.come("192.168.43.66", "192.168.43.66", 4000);
         assertTrue(found.told.isEmpty());
         assertEquals(2, client.wrongAnswers());

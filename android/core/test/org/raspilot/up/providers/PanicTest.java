@@ -31,7 +31,7 @@ public final class PanicTest {
                 assertEquals("delay_ms: 0 to 10000", error.getMessage());
             }
         }
-        assertEquals("what was refused changes nothing", 10000, panic.delayMs());
+        assertEquals("a refused value changes nothing", 10000, panic.delayMs());
     }
 
     @Test

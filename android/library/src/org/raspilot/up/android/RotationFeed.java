@@ -27,7 +27,7 @@ public final class RotationFeed {
         return source.isPresent();
     }
 
-    /** Returns the name of its source, or a sentence why there is none. */
+    /** Returns the name of its source, or a sentence about its absence. */
     public String name() {
         return source.name();
     }

@@ -35,7 +35,7 @@ public abstract class TelemetryService extends Service {
     /**
      * Returns the current settings; called at the service's start and at {@link Ground#reload}.
      *
-     * @throws IllegalArgumentException with a sentence for the user: there is no link then
+     * @throws IllegalArgumentException with a sentence for the user: the link stays closed then
      */
     protected abstract GroundSettings readSettings();
 

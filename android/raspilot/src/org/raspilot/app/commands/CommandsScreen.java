@@ -44,7 +44,7 @@ final class CommandsScreen
     private TelemetryService.Ground ground;
     private Page page;
 
-    /** Finds all views and restores the open page; {@code fault}: why there is no catalogue. */
+    /** Finds all views and restores the open page; {@code fault}: the error of the catalogue. */
     CommandsScreen(Activity activity, View root, CommandsState memory, List<CommandForm> forms,
             String fault) {
         this.activity = activity;

@@ -65,7 +65,7 @@ public final class GainsEditorTest {
         editor.setActive(set(3));
         editor.write(RATE_ROLL_P, "2.4");
         editor.setActive(null);
-        assertTrue("asked anew: what is being written waits", editor.hasEdits());
+        assertTrue("during a new request edits wait", editor.hasEdits());
         editor.setActive(set(2.4));
         assertFalse(editor.hasEdits());
     }

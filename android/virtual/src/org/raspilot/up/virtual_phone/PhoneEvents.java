@@ -50,8 +50,8 @@ final class PhoneEvents implements AirborneListener, Speaker, FaultListener {
     }
 
     void counters(AirborneStatus status) {
-        Map<String,
-                Object> event = EventWriter.event("counters", "connections", status.counters.connections);
+        Map<String, Object> event =
+                EventWriter.event("counters", "connections", status.counters.connections);
         event.put("telemetry", status.counters.telemetry);
         event.put("executed", status.counters.executed);
         event.put("refused", status.counters.refused);

@@ -25,7 +25,7 @@ final class PhoneOptions {
             + "  --runner HOST:PORT                     a runner's, asked to spawn it (Black Box)\n"
             + "  --aircraft NAME                        for which aircraft; default 'default'\n"
             + "how:\n"
-            + "  --orientation off|tcp|udp              its attitude besides; default off\n"
+            + "  --orientation off|tcp|udp              also sends its attitude; default off\n"
             + "  --orientation-hz N                     50 to 200 a second; default 50\n"
             + "  --mounting 'W X Y Z'                   how it lies: a rotation from nose, right\n"
             + "                                         wing, down to right edge, top edge, out\n"

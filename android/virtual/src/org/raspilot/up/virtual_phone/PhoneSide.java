@@ -66,7 +66,8 @@ final class PhoneSide implements LoopProgram.Part {
 
     private void calibrate(String nose) throws OptionException {
         try {
-            words.notice("mounting", "mounting: " + airborne.calibrate(Side.valueOf(nose)).toText());
+            words.notice("mounting", "mounting: "
+                    + airborne.calibrate(Side.valueOf(nose)).toText());
         } catch (IllegalArgumentException error) {
             throw new OptionException("not calibrated: " + error.getMessage());
         } catch (IllegalStateException error) {

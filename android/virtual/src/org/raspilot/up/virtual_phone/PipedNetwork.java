@@ -119,7 +119,8 @@ final class PipedNetwork implements Network {
             if (isClosed) {
                 return false;
             }
-            network.request("send", id, new String(datagram, PipedNetwork.BYTES), host, (long) port);
+            network.request("send", id, new String(datagram, PipedNetwork.BYTES), host,
+                    (long) port);
             return true;
         }
 
