@@ -60,7 +60,7 @@ public final class SpawnTest extends AppBench {
                 + "\"myAddress\": \"127.0.0.1\"}";
         ask();
         assertFalse(handset.startWished());
-        mustSay("no profile", text(R.id.run_link));
+        mustSay("Unknown profile", text(R.id.run_link));
     }
 
     @Test

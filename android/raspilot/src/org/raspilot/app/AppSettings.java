@@ -158,7 +158,7 @@ final class AppSettings {
     private void check(SettingRule rule, String value) {
         if (!rule.holds(value)) {
             throw new IllegalArgumentException(context.getString(R.string.setting_broken,
-                    value, context.getString(rule.sentence())));
+                    value, context.getString(rule.sentence)));
         }
     }
 }

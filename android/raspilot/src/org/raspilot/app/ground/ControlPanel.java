@@ -5,6 +5,7 @@ import android.widget.Button;
 import android.widget.TextView;
 import org.raspilot.app.R;
 import org.raspilot.app.view.TextViews;
+import org.raspilot.up.android.GroundSnapshot;
 import org.raspilot.up.android.TelemetryService;
 import org.raspilot.up.ground.ControlStatus;
 import org.raspilot.up.ground.GroundStatus;

@@ -5,6 +5,7 @@ import org.raspilot.app.R;
 import org.raspilot.app.view.FrameText;
 import org.raspilot.app.view.InstrumentColors;
 import org.raspilot.app.view.TextViews;
+import org.raspilot.up.android.GroundSnapshot;
 import org.raspilot.up.ground.Age;
 import org.raspilot.up.ground.Freshness;
 import org.raspilot.up.ground.Telemetry;

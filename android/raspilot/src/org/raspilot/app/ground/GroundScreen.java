@@ -4,6 +4,7 @@ import android.app.Activity;
 import android.view.View;
 import org.raspilot.app.R;
 import org.raspilot.app.view.FrameText;
+import org.raspilot.up.android.GroundSnapshot;
 import org.raspilot.up.android.TelemetryService;
 
 /** The parts of the ground screen while its views live. */

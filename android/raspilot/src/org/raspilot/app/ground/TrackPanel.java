@@ -11,6 +11,7 @@ import java.util.List;
 import org.raspilot.app.R;
 import org.raspilot.app.view.TextViews;
 import org.raspilot.app.view.TrackView;
+import org.raspilot.up.android.GroundSnapshot;
 import org.raspilot.up.ground.Freshness;
 import org.raspilot.up.ground.Telemetry;
 import org.raspilot.up.ground.Track.TrackPoint;
