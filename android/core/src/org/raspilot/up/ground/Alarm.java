@@ -1,7 +1,5 @@
 package org.raspilot.up.ground;
 
-import org.raspilot.up.ground.Event.EventLevel;
-
 /** Something that is wrong now. Immutable. */
 public final class Alarm {
     /** A fault; at most one alarm of each kind. */

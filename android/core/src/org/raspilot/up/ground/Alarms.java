@@ -5,7 +5,6 @@ import java.util.Collections;
 import java.util.EnumMap;
 import java.util.List;
 import java.util.Map;
-import org.raspilot.up.ground.Event.EventLevel;
 
 /**
  * The active alarms: each starts immediately and ends some time after its cause. Only on the

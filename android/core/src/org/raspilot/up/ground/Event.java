@@ -24,14 +24,4 @@ public final class Event {
     public String toString() {
         return level + " " + text;
     }
-
-    /** How much an event or an alarm matters. */
-    public enum EventLevel {
-        /** Good to know. */
-        INFO,
-        /** Needs attention. */
-        WARNING,
-        /** Requires immediate action. */
-        ALARM
-    }
 }

@@ -4,7 +4,6 @@ import java.util.ArrayDeque;
 import java.util.ArrayList;
 import java.util.Collections;
 import java.util.List;
-import org.raspilot.up.ground.Event.EventLevel;
 import org.raspilot.up.wire.SafeText;
 
 /** The newest events, the oldest of them going when there are too many. Only on the loop. */

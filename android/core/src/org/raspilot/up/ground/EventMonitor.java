@@ -1,7 +1,6 @@
 package org.raspilot.up.ground;
 
 import java.util.Arrays;
-import org.raspilot.up.ground.Event.EventLevel;
 
 /** Turns frames and link states into events: each change once, in plain words; flapping rarely. */
 final class EventMonitor {

@@ -4,7 +4,6 @@ import java.util.ArrayList;
 import java.util.Arrays;
 import java.util.Collections;
 import java.util.List;
-import org.raspilot.up.ground.Event.EventLevel;
 
 /** A value of telemetry whose changes are events. */
 final class EventRule {

@@ -9,7 +9,6 @@ import java.util.Arrays;
 import java.util.List;
 import org.junit.Rule;
 import org.junit.Test;
-import org.raspilot.up.ground.Event.EventLevel;
 import org.raspilot.up.wire.ProxyRole;
 
 /** Events in plain words, and active alarms. */

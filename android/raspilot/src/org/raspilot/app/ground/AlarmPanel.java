@@ -11,7 +11,7 @@ import org.raspilot.app.view.InstrumentColors;
 import org.raspilot.app.view.TextViews;
 import org.raspilot.up.android.GroundSnapshot;
 import org.raspilot.up.ground.Alarm;
-import org.raspilot.up.ground.Event.EventLevel;
+import org.raspilot.up.ground.EventLevel;
 
 /** The active alarms in words, and the button that silences them. Hidden without alarms. */
 final class AlarmPanel implements View.OnClickListener {
