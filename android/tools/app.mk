@@ -23,7 +23,7 @@ newer = $(call java,$(LIBRARY)/src-$(1) $(RASPILOT)/src-$(1))
 RES := $(sort $(shell find $(RASPILOT)/res $(RASPILOT)/assets -type f 2>/dev/null))
 
 ifneq ($(shell printf '%s' '$(LIMIT)' | tr -d 0-9),)
-$(error LIMIT=$(LIMIT) is no number of bytes)
+$(error LIMIT=$(LIMIT) must be a number of bytes)
 endif
 
 $(BUILD)/debian-tools: tools/app.mk
@@ -68,7 +68,7 @@ $(APP_JAR): $(APP_CODE) $(CORE_JAR) $(NEWER_JARS) $(BOOT) $(BUILD)/APP_CODE.list
 	$(call compile,$@,$(APP_CODE),$(APP_PATH))
 
 # The sources are Java 8; API 16 knows Java 7. ProGuard turns lambdas into classes and does nothing
-# else; the checks and Robolectric read its result.
+# else; Animal Sniffer, the guards and Robolectric read its result.
 JAVA7 := $(BUILD)/java7
 COMPILED := $(CORE_JAR) $(APP_JAR) $(NEWER_JARS)
 BACKPORTED := $(COMPILED:$(BUILD)/%=$(JAVA7)/%)
@@ -78,7 +78,7 @@ $(JAVA7)/.done: $(COMPILED) $(BOOT) $(JARS)/.proguard $(JARS)/.level-29
 	@$(JVM) -jar $(JARS)/proguard-base-6.2.2.jar \
 		$(foreach each,$(COMPILED),-injars $(each) -outjars $(JAVA7)/$(notdir $(each))) \
 		-libraryjars $(BOOT) -libraryjars $(FRAMEWORK_29) -target 1.7 -dontshrink -dontoptimize -dontobfuscate \
-		-dontpreverify -keepattributes '*' -dontwarn 'android.**,java.lang.invoke.**' -dontnote '**' \
+		-dontpreverify -keepattributes '*' -dontwarn '**' -dontnote '**' \
 		> $@.log || { grep -v "^Note" $@.log | head -9 >&2; exit 1; }
 	@touch $@
 $(BACKPORTED): $(JAVA7)/.done ;

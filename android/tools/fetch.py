@@ -113,7 +113,7 @@ def maven(group: str, names: list[str], folder: Path, pom: Path, options: list[s
                     flush=True,
                 )
             elif progress and not told:
-                print("  Maven fetches parts of its own first", flush=True)
+                print("  Maven fetches its own plugins first", flush=True)
                 told = True
             if line.startswith("[ERROR]"):
                 errors.append(line.removeprefix("[ERROR]").strip())

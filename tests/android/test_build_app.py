@@ -162,7 +162,7 @@ def test_an_apk_over_its_size_fails(app):
 
 def test_a_size_that_is_no_number_is_a_sentence(app):
     said = fails(app, "LIMIT=abc")
-    assert "LIMIT=abc is no number of bytes" in said and "Traceback" not in said
+    assert "LIMIT=abc must be a number of bytes" in said and "Traceback" not in said
 
 
 def test_a_level_of_which_nothing_is_known_is_a_sentence(app):
@@ -191,7 +191,7 @@ def test_a_release_key_signs(app, tmp_path):
 
 def test_a_release_key_is_looked_for_from_where_make_was_typed(app, tmp_path):
     key = {"ANDROID_KEYSTORE": "mine.jks", "PWD": str(tmp_path)}
-    assert f"names {tmp_path}/mine.jks, and there is no such file" in fails(app, env=key)
+    assert f"names {tmp_path}/mine.jks, which does not exist" in fails(app, env=key)
 
 
 def test_a_file_that_is_no_keystore_is_a_sentence(app):
@@ -208,7 +208,7 @@ def test_a_file_that_is_no_keystore_is_a_sentence(app):
 @pytest.mark.parametrize(
     ("key", "sentence"),
     [
-        ({"ANDROID_KEYSTORE": "/nowhere/x"}, "names /nowhere/x, and there is no such file"),
+        ({"ANDROID_KEYSTORE": "/nowhere/x"}, "names /nowhere/x, which does not exist"),
         ({"ANDROID_KEYSTORE": __file__}, "ANDROID_KEY_ALIAS is not"),
         (
             {"ANDROID_KEYSTORE": __file__, "ANDROID_KEY_ALIAS": "mine"},

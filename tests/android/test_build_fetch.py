@@ -134,7 +134,7 @@ def test_core_and_virtual_need_a_jdk_alone(copy, tmp_path):
 
 
 def test_no_source_is_a_sentence(copy):
-    assert "There are no sources for build/up-core.jar" in said_by(copy, "core")
+    assert "No sources for build/up-core.jar" in said_by(copy, "core")
 
 
 @pytest.mark.parametrize("goal", ["test", "test-app"])
@@ -146,7 +146,7 @@ def test_a_test_that_is_not_there_is_a_sentence_before_anything_is_built(copy, g
 def test_what_the_projects_own_make_was_told_is_not_told_to_the_phones(copy, monkeypatch):
     monkeypatch.setenv("MAKEFLAGS", " -- TEST=tests/up")
     monkeypatch.setenv("TEST", "tests/up")
-    assert "There are no sources for build/up-core.jar" in said_by(copy, "test")
+    assert "No sources for build/up-core.jar" in said_by(copy, "test")
 
 
 def test_a_build_that_takes_too_long_is_ended_and_said(tmp_path):

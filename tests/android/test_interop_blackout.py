@@ -71,7 +71,7 @@ def test_thirty_seconds_of_darkness(system, radio):
     dark_s = time.monotonic()
     radio.is_dark = True
     sent = [far.ask_later("black_box.mark", text="dark 0")]
-    far.until(lambda: far.answer(sent[0]), "what became of the first")
+    far.until(lambda: far.answer(sent[0]), "the outcome of the first")
     assert far.answer(sent[0])["outcome"] in ("TIMEOUT", "LOST")
     assert ground.ask("android.speak", text="dark"), "the daemon says why not"
     sent.append(far.ask_later("black_box.mark", text="dark 1"))
@@ -104,7 +104,7 @@ def test_thirty_seconds_of_darkness(system, radio):
     assert far.ask("android.speak", text="good morning")["outcome"] == "ACK"
     assert phone.said == ["good morning"]
     for tag in sent:
-        far.until(lambda tag=tag: far.answer(tag), "what became of each")
+        far.until(lambda tag=tag: far.answer(tag), "the outcome of each")
         assert far.answer(tag)["outcome"] in ("TIMEOUT", "LOST", "REFUSED")
     grown = {name: after - before[name] for name, after in system.memory().items()}
     oldest_ms = oldest(near, far, light_s)

@@ -263,7 +263,7 @@ def test_the_seat_comes_back_by_its_token_after_a_cut(system, console):
             pilot.until(lambda: pilot.status["seat"], "its seat")
         pilot.holds()
         seats = {each["seat"] for each in pilot.all("status")}
-        assert "listen" not in seats, "its token is worth the seat at once"
+        assert "listen" not in seats, "its token regains control immediately"
         assert pilot.ask("up.telemetry.frequency", frequency=100)["outcome"] == "ACK"
         pilot.say(seat="release")
         console.until(lambda: console.status["standing"] == "FREE", "that it is free")

@@ -19,7 +19,7 @@ PANIC = (
     f"panic delay (ms): {DELAY_MS}\nnormal delay (ms): 20\n"
 )
 WINDOW_S = 4.0
-"""Readings a second come in so long at most five times, or six when the machine was busy."""
+"""At most five readings arrive in this time, six on a busy machine."""
 MOST = 6
 
 

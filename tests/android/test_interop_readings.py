@@ -25,7 +25,7 @@ def daemon(tmp_path):
 def test_a_phone_finds_the_daemon_by_discovery_and_all_readings_arrive(daemon):
     place = (*daemon.place_at("192.0.2.1"), "--discover", f"127.0.0.1:{daemon.ports.discovery}")
     with PhoneProgram(*place) as phone:
-        phone.until(lambda: phone.all("notice"), "that nobody answers yet")
+        phone.until(lambda: phone.all("notice"), "a notice without an answer")
         assert phone.all("notice")[0]["code"] == "link_waiting"
         ground = daemon.start()
         assert phone.connected() == {
@@ -47,7 +47,7 @@ def test_a_phone_finds_the_daemon_by_discovery_and_all_readings_arrive(daemon):
         phone.is_turning = False
         wanted = phone.number * 91 % 719 / 2
         ground.comes("heading.actual", wanted, 0.1)
-        assert ground.at("source.orientation") != "android", "orientation is off by itself"
+        assert ground.at("source.orientation") != "android", "orientation is off by default"
         # Changes are reported.
         phone.readings["battery"] = 41
         phone.readings["fix"] = {**FIX, "latitude": 50.1}

@@ -145,7 +145,7 @@ def test_the_provider_is_in_the_flight_log_of_a_real_daemon(compiled, tmp_path):
             aboard.wait_for(f"connected to 127.0.0.1:{daemon.ports.general}")
             wait(lambda: len(daemon.log_of("phone.light")) >= 2, "two readings in the log")
         assert {each["lux"] for _, each in daemon.log_of("phone.light")} == {740.0}
-        assert "location: no GPS" in aboard.lines
+        assert "provider_problem: location: no GPS" in aboard.lines
     finally:
         daemon.end()
 

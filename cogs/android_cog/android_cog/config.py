@@ -11,7 +11,7 @@ from up.system.addresses import is_wildcard
 
 @dataclass(frozen=True, slots=True)
 class AndroidConfig:
-    """The airborne phone: where it connects, what it is told, and what its absence means."""
+    """The airborne phone: where it connects, what it receives, and what its absence means."""
 
     general_port: int = key(
         50001,

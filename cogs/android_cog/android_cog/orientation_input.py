@@ -39,21 +39,21 @@ class OrientationInput:
         self._on_connected = on_connected
         self._on_lost = on_lost
         self._sources = 0
-        self._stream_heard_s: float | None = None
+        self._stream_rx_s: float | None = None
         self._permits = permits
-        self.factory = _JudgedFactory(
+        self.factory = _FilteredFactory(
             clock,
             permits,
             on_orientation=self._on_stream_frame,
-            on_connected=self._came,
-            on_lost=self._went,
+            on_connected=self._on_source_connected,
+            on_lost=self._on_source_lost,
         )
-        self.datagrams = _JudgedDatagrams(
+        self.datagrams = _FilteredDatagrams(
             clock,
             permits,
             on_orientation=self._on_datagram_frame,
-            on_connected=self._came,
-            on_lost=self._went,
+            on_connected=self._on_source_connected,
+            on_lost=self._on_source_lost,
         )
 
     @property
@@ -73,8 +73,8 @@ class OrientationInput:
             "orientation_too_many": sum(part.too_many for part in parts),
         }
 
-    def judge_again(self) -> None:
-        """Drop the sources that are no longer permitted."""
+    def recheck(self) -> None:
+        """Drop the sources that are not permitted now."""
         if self.factory.source and not self._permits(host_of(self.factory.source)):
             self.factory.close()
         if self.datagrams.source and not self._permits(host_of(self.datagrams.source)):
@@ -85,29 +85,29 @@ class OrientationInput:
         self.factory.close()
 
     def _on_stream_frame(self, frame: OrientationFrame, source: str) -> None:
-        self._stream_heard_s = self._clock.seconds()
+        self._stream_rx_s = self._clock.seconds()
         self._on_frame(frame)
 
     def _on_datagram_frame(self, frame: OrientationFrame, source: str) -> None:
-        heard_s = self._stream_heard_s
-        if heard_s is not None and self._clock.seconds() - heard_s <= TAKEOVER_SILENCE_S:
+        rx_s = self._stream_rx_s
+        if rx_s is not None and self._clock.seconds() - rx_s <= TAKEOVER_SILENCE_S:
             self.datagrams.counters.frames -= 1
             self.datagrams.counters.foreign += 1
         else:
             self._on_frame(frame)
 
-    def _came(self, source: str) -> None:
+    def _on_source_connected(self, source: str) -> None:
         self._sources += 1
         if self._sources == 1:
             self._on_connected()
 
-    def _went(self, source: str, why: str) -> None:
+    def _on_source_lost(self, source: str, why: str) -> None:
         self._sources -= 1
         if self._sources == 0:
             self._on_lost()
 
 
-class _JudgedFactory(OrientationFactory):
+class _FilteredFactory(OrientationFactory):
     """Accepts connections only from permitted peers."""
 
     def __init__(self, clock: Clock, permits: Callable[[str], bool], **callbacks: Any) -> None:
@@ -120,7 +120,7 @@ class _JudgedFactory(OrientationFactory):
         return super().buildProtocol(addr)
 
 
-class _JudgedDatagrams(OrientationDatagrams):
+class _FilteredDatagrams(OrientationDatagrams):
     """Accepts datagrams only from permitted peers."""
 
     def __init__(self, clock: Clock, permits: Callable[[str], bool], **callbacks: Any) -> None:

@@ -85,7 +85,7 @@ class PhoneLink:
         self.replaced = 0
         self.dropped_too_long = 0
         self.factory = _Streams(self)
-        self.datagrams = _JudgedDatagrams(clock, self, {**self._callbacks, "bucket": self.bucket})
+        self.datagrams = _FilteredDatagrams(clock, self, {**self._callbacks, "bucket": self.bucket})
 
     @property
     def current(self) -> GeneralMessageLink | None:
@@ -242,7 +242,7 @@ class _Streams(Factory):
         return self._link.build() if self._link.peers.permits(getattr(addr, "host", "")) else None
 
 
-class _JudgedDatagrams(GeneralMessageDatagrams):
+class _FilteredDatagrams(GeneralMessageDatagrams):
     """Accepts permitted peers only, and of them the phone that owns the link."""
 
     noisy = False

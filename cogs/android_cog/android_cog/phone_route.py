@@ -16,7 +16,7 @@ from up.protocols.general_message import encode
 from up.protocols.general_message_link import GeneralMessageLink
 
 PENDING_LIMIT = 64
-_REMEMBERED_IDS = 512
+_MAX_USED_IDS = 512
 
 
 @dataclass(frozen=True, slots=True)
@@ -68,7 +68,7 @@ class PhoneRoute:
             raise CommandRefusedError("the phone takes nothing now", Code.UNAVAILABLE)
         if wire_id is None:
             return None
-        done: Deferred[None] = Deferred(lambda _: self._forget(wire_id))
+        done: Deferred[None] = Deferred(lambda _: self._discard(wire_id))
         self._pending[wire_id] = _Pending(link, link.peer, done)
         return done
 
@@ -95,12 +95,12 @@ class PhoneRoute:
                     CommandRefusedError("the phone went away before it answered", Code.UNAVAILABLE)
                 )
 
-    def _forget(self, wire_id: str) -> None:
+    def _discard(self, wire_id: str) -> None:
         self._pending.pop(wire_id, None)
 
     def _unused_id(self, wanted: str) -> str:
         chosen = uuid4().hex if wanted in self._used_ids or wanted in self._pending else wanted
         self._used_ids[chosen] = None
-        if len(self._used_ids) > _REMEMBERED_IDS:
+        if len(self._used_ids) > _MAX_USED_IDS:
             self._used_ids.popitem(last=False)
         return chosen

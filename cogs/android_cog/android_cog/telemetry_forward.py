@@ -19,7 +19,7 @@ class TelemetryForward:
         self._send = send
         self._newest: TelemetryCommand | None = None
         self._timer: Timer | None = None
-        self.least_interval_s = 0.0
+        self.min_interval_s = 0.0
         """A longer interval, used while it exceeds the usual one (Panic Mode)."""
 
     def offer(self, frame: TelemetryCommand) -> None:
@@ -29,7 +29,7 @@ class TelemetryForward:
         else:
             self._newest = frame
 
-    def forget(self) -> None:
+    def discard(self) -> None:
         """Drop the waiting frame and restart the interval."""
         self._newest = None
         if self._timer is not None:
@@ -37,11 +37,11 @@ class TelemetryForward:
             self._timer = None
 
     def _send_now(self, frame: TelemetryCommand) -> None:
-        delay_s = max(self._interval_s, self.least_interval_s)
-        self._timer = self._clock.callLater(delay_s, self._interval_over)
+        delay_s = max(self._interval_s, self.min_interval_s)
+        self._timer = self._clock.callLater(delay_s, self._on_interval)
         self._send(frame)
 
-    def _interval_over(self) -> None:
+    def _on_interval(self) -> None:
         self._timer = None
         newest, self._newest = self._newest, None
         if newest is not None:

@@ -3,8 +3,6 @@
 import struct
 
 import pytest
-from android_cog.absence_watch import AbsenceWatch
-from twisted.internet.task import Clock
 
 from tests.cogs.android_cog.flight import Flight
 from tests.cogs.peers import UdpPeer
@@ -109,7 +107,7 @@ def test_by_default_a_lost_orientation_link_stops_nothing(tmp_path):
             await until(lambda: counters(f) and f.provider._orientation.connected)
             await gyro.close()
             await until(lambda: not f.provider._orientation.connected)
-            assert f.provider._absence._timer is None
+            assert f.provider._stop_timer is None
 
     run_in_reactor(flight)
 
@@ -126,7 +124,7 @@ def test_an_autopilot_is_never_stopped_by_the_phone(tmp_path, mode):
             await until(lambda: f.provider._orientation.connected)
             await gyro.close()
             await until(lambda: not f.provider._orientation.connected)
-            assert f.provider._absence._timer is None
+            assert f.provider._stop_timer is None
             assert f.heard == []
 
     run_in_reactor(flight)
@@ -146,16 +144,18 @@ def test_a_black_box_stops_when_it_is_told_to(tmp_path):
     run_in_reactor(flight)
 
 
-def test_coming_back_in_time_cancels_the_stop():
-    clock, acted = Clock(), []
-    watch = AbsenceWatch(clock, 10, lambda: acted.append(clock.seconds()))
-    watch.begin()
-    clock.advance(9)
-    watch.cancel()
-    clock.advance(9)
-    watch.begin()
-    watch.begin()
-    clock.advance(9.5)
-    assert acted == []
-    clock.advance(1)
-    assert acted == [28.5]
+def test_coming_back_in_time_cancels_the_stop(tmp_path):
+    async def flight():
+        async with Flight(tmp_path, STOPS.replace(": 1", ": 60"), Mode.BLACK_BOX) as f:
+            f.listen_to(SystemStopCommand)
+            gyro = await f.gyro()
+            await until(lambda: f.provider._orientation.connected)
+            await gyro.close()
+            await until(lambda: f.provider._stop_timer)
+            timer = f.provider._stop_timer
+            await f.gyro()
+            await until(lambda: f.provider._stop_timer is None)
+            assert not timer.active()
+            assert f.heard == []
+
+    run_in_reactor(flight)

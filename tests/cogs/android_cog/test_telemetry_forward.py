@@ -38,13 +38,13 @@ def test_a_frame_after_silence_leaves_at_once():
 
 def test_panic_makes_it_slower_and_never_faster():
     clock, sent, telemetry = forward()
-    telemetry.least_interval_s = 1.0
+    telemetry.min_interval_s = 1.0
     for number in range(5):
         telemetry.offer(frame(number))
         clock.advance(0.5)
     assert [time_s for time_s, _ in sent] == [0, 1, 2]
-    telemetry.least_interval_s = 0.05
-    telemetry.forget()
+    telemetry.min_interval_s = 0.05
+    telemetry.discard()
     telemetry.offer(frame(8))
     telemetry.offer(frame(9))
     clock.advance(0.25)
@@ -55,7 +55,7 @@ def test_nothing_waits_across_a_reconnect():
     clock, sent, telemetry = forward()
     telemetry.offer(frame(1))
     telemetry.offer(frame(2))
-    telemetry.forget()
+    telemetry.discard()
     clock.advance(10)
     assert sent == [(0, 1)]
     telemetry.offer(frame(3))

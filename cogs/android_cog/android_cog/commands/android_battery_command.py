@@ -20,7 +20,7 @@ class AndroidBatteryCommand(BaseCommand):
 
 @dataclass(frozen=True, slots=True)
 class AndroidBatteryLowCommand(BaseCommand):
-    """The event that the phone's battery became low, or is not low any more; bus only."""
+    """The event that the phone's battery became low or recovered; bus only."""
 
     NAME: ClassVar[str] = "android.battery.low"
     level_percent: float = value(key="level", minimum=0, maximum=100, unit="percent")

@@ -51,11 +51,11 @@ class AndroidBatteryProvider(BaseProvider[float]):
             self.is_low = True
             text = "the phone's battery is low: {percent:g} percent"
             self.log.error(text, percent=level, code="battery_low")
-            self._tell(level)
+            self._publish(level)
         elif self.is_low and level >= self._low_percent + HYSTERESIS_PERCENT:
             self.is_low = False
             self.log.info("the phone's battery is at {percent:g} percent again", percent=level)
-            self._tell(level)
+            self._publish(level)
 
-    def _tell(self, level: float) -> None:
+    def _publish(self, level: float) -> None:
         self.up.command_executor.execute_command(AndroidBatteryLowCommand(level, self.is_low))

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any, ClassVar
 
-from android_cog.absence_watch import AbsenceWatch
 from android_cog.config import ANDROID
 from android_cog.orientation_input import OrientationInput
 from android_cog.phone_link import PhoneLink, host_of
@@ -27,6 +26,7 @@ from up.mode import Mode
 from up.protocols.general_message import GeneralMessage, MalformedMessage, encode
 from up.protocols.general_message_link import GeneralMessageLink
 from up.protocols.orientation_forward import OrientationFrame
+from up.system.clock import Timer
 from up.system.peer_filter import PeerFilter
 
 LINK = "android"
@@ -72,7 +72,7 @@ class AndroidProvider(BaseStartedModule):
         self._forward = TelemetryForward(
             clock, config.forward_interval_ms / 1000, self._send_telemetry
         )
-        self._absence = AbsenceWatch(clock, config.stop_delay_s, self._stop_program)
+        self._stop_timer: Timer | None = None
         self._ports = Ports(clock, config.address)
         self._origin = Origin(LINK, Role.SENSOR, PRIORITY)
         self._stream_link = self.up.open_link(
@@ -84,11 +84,11 @@ class AndroidProvider(BaseStartedModule):
         self._competitor = ""
         self._competitor_s = 0.0
         self._orientation_rejected = 0
-        self._speaker: GeneralMessageLink | None = None
+        self._sender: GeneralMessageLink | None = None
         self._panic: PanicCommand | None = None
         self._is_connected = False
         self._telemetry_faults = 0
-        self._said = Limited(clock, _LOG_INTERVAL_S)
+        self._limited = Limited(clock, _LOG_INTERVAL_S)
         self._subscribe()
 
     def _subscribe(self) -> None:
@@ -146,7 +146,8 @@ class AndroidProvider(BaseStartedModule):
         is_black_box = self.context.mode is Mode.BLACK_BOX
         if config.stop_if_orientation_is_lost and not is_black_box:
             self.log.warn(
-                "'stop if orientation connection is lost' holds in Black Box Mode only: ignored"
+                "'stop if orientation connection is lost' holds in Black Box Mode only: ignored",
+                code="setting_ignored",
             )
         datagrams = (None, None) if is_black_box else (self._phone, self._orientation)
         try:
@@ -169,17 +170,17 @@ class AndroidProvider(BaseStartedModule):
         self.up.advertise_port("orientation", orientation)
 
     async def on_stop(self) -> None:
-        self._absence.cancel()
-        self._forward.forget()
+        self._cancel_stop()
+        self._forward.discard()
         await self._ports.close()
         self._orientation.close()
         await self._phone.close()
-        self._said.stop()
+        self._limited.stop()
 
     def _on_message(self, link: GeneralMessageLink, message: GeneralMessage) -> None:
-        self._speaker = link
+        self._sender = link
         self.up.command_receiver.receive(message, self._command_link_of(link))
-        self._speaker = None
+        self._sender = None
 
     def _on_malformed(self, link: GeneralMessageLink, fault: MalformedMessage) -> None:
         self.up.command_receiver.receive_malformed(fault, self._command_link_of(link))
@@ -198,28 +199,31 @@ class AndroidProvider(BaseStartedModule):
     def _on_rejected(self, peer: str) -> None:
         self._competitor, self._competitor_s = host_of(peer), self.context.reactor.seconds()
         owner = self._phone.current
-        self._said.log(
+        self._limited.log(
             self.log.warn,
-            "the phone {peer} is rejected ({code}): {owner} is connected",
+            "the phone {peer} is rejected: {owner} is connected",
+            code="phone_rejected",
             peer=peer,
-            code=Code.TAKEN.value,
             owner="another" if owner is None else owner.peer,
         )
 
     def _on_connected(self, link: GeneralMessageLink) -> None:
-        self._orientation.judge_again()
-        self._said.log(self.log.info, "the phone is connected from {peer}", peer=link.peer)
-        self._forward.forget()
+        self._orientation.recheck()
+        self._limited.log(self.log.info, "the phone is connected from {peer}",
+            code="phone_connected", peer=link.peer)  # fmt: skip
+        self._forward.discard()
         if self._panic is not None:
             link.send(encode(self._panic.NAME, self._panic.data))
-        self._tell_state()
+        self._publish_state()
 
     def _on_lost(self, link: GeneralMessageLink, why: str) -> None:
-        self._said.log(self.log.warn, "the phone's link is lost: {why}", why=why)
+        self._limited.log(
+            self.log.warn, "the phone's link is lost: {why}", code="phone_lost", why=why
+        )
         self._route.on_lost(link)
-        self._tell_state()
+        self._publish_state()
 
-    def _tell_state(self) -> None:
+    def _publish_state(self) -> None:
         is_connected = self._phone.current is not None
         if is_connected != self._is_connected:
             self._is_connected = is_connected
@@ -229,22 +233,31 @@ class AndroidProvider(BaseStartedModule):
         self.up.command_executor.execute_command(OrientationCommand(*frame), self._origin)
 
     def _on_orientation_connected(self) -> None:
-        self._said.log(self.log.info, "the phone's orientation comes")
-        self._absence.cancel()
+        self._limited.log(self.log.info, "the phone sends orientation", code="orientation_received")
+        self._cancel_stop()
 
     def _on_orientation_lost(self) -> None:
-        self._said.log(self.log.warn, "the phone's orientation is lost")
+        self._limited.log(self.log.warn, "the phone's orientation is lost", code="orientation_lost")
         if (
             self.started
             and self.config.stop_if_orientation_is_lost
             and self.context.mode is Mode.BLACK_BOX
         ):
-            self._absence.begin()
+            self._stop_timer = self._stop_timer or self.context.reactor.callLater(
+                self.config.stop_delay_s, self._stop_program
+            )
+
+    def _cancel_stop(self) -> None:
+        if self._stop_timer is not None:
+            self._stop_timer.cancel()
+            self._stop_timer = None
 
     def _stop_program(self) -> None:
+        self._stop_timer = None
         self.log.error(
             "no orientation from the phone for {stop_delay_s:g} s: stopping"
             " (android.yml: stop if orientation connection is lost)",
+            code="orientation_stop",
             stop_delay_s=self.config.stop_delay_s,
         )
         self.up.command_executor.execute_command(SystemStopCommand())
@@ -260,14 +273,16 @@ class AndroidProvider(BaseStartedModule):
             self._telemetry_faults += 1
             if self._telemetry_faults == 1:
                 self.log.error(
-                    "telemetry cannot be sent to the phone: {error}; said once", error=error
+                    "telemetry cannot be sent to the phone: {error}; logged once",
+                    code="telemetry_not_sent",
+                    error=error,
                 )
         else:
             self._phone.send_newest(message)
 
     def _on_panic(self, command: PanicCommand) -> None:
         self._panic = command if command.panic else None
-        self._forward.least_interval_s = command.delay_ms / 1000 if command.panic else 0.0
+        self._forward.min_interval_s = command.delay_ms / 1000 if command.panic else 0.0
         self._phone.send(encode(command.NAME, command.data))
 
     def _on_ack(self, command: AckCommand) -> None:
@@ -282,5 +297,5 @@ class AndroidProvider(BaseStartedModule):
 
     def _on_answer(self, command_id: str, refusal: CommandRefusedError | None) -> None:
         """Handle an answer from the phone's own link; answers from other links are ignored."""
-        if self._speaker is not None and self.up.command_executor.origin.link == LINK:
-            self._route.on_answer(self._speaker, command_id, refusal)
+        if self._sender is not None and self.up.command_executor.origin.link == LINK:
+            self._route.on_answer(self._sender, command_id, refusal)

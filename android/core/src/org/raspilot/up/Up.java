@@ -1,9 +1,9 @@
 package org.raspilot.up;
 
+import org.raspilot.up.commands.CommandExecutor.HandlerFaultListener;
 import org.raspilot.up.commands.CommandExecutor;
 import org.raspilot.up.commands.CommandReceiver;
 import org.raspilot.up.commands.CommandRegistry;
-import org.raspilot.up.commands.HandlerFaultListener;
 import org.raspilot.up.loop.Loop;
 import org.raspilot.up.providers.ProvidersController;
 

@@ -24,7 +24,7 @@ public final class MeetingTest extends AppBench {
 
     @Before
     public void mustMeet() {
-        assumeNotNull("There is nobody to meet: tests/android/test_app.py starts them.",
+        assumeNotNull("No daemon to meet: tests/android/test_app.py starts them.",
                 property("general"), property("proxy"));
         handset.fitSensors();
         handset.set(R.string.key_host, "127.0.0.1");
@@ -36,7 +36,7 @@ public final class MeetingTest extends AppBench {
     }
 
     private Double told(String path) {
-        return handset.ground().telemetry().number(path);
+        return handset.ground().snapshot().telemetry.number(path);
     }
 
     /** Runs the sensors and draws the screens until a condition holds. */
@@ -63,8 +63,8 @@ public final class MeetingTest extends AppBench {
             Drawing.of(handset.window.get());
             return text(R.id.ground_place).contains("49.74747");
         });
-        fly("the seat", () -> handset.ground().status() != null
-                && handset.ground().status().control == ControlStatus.OURS);
+        fly("the seat", () -> handset.ground().snapshot().status != null
+                && handset.ground().snapshot().status.control == ControlStatus.OURS);
 
         handset.choose(Screen.COMMANDS);
         openCommand("up.telemetry.frequency");
@@ -75,6 +75,6 @@ public final class MeetingTest extends AppBench {
         find(R.id.page_send).performClick();
         fly("the answer", () -> text(R.id.commands_newest).startsWith("Telemetry period")
                 && text(R.id.commands_newest).contains("carried out"));
-        fly("twenty frames a second", () -> handset.ground().status().rateHz > 15);
+        fly("twenty frames a second", () -> handset.ground().snapshot().status.rateHz > 15);
     }
 }

@@ -154,9 +154,10 @@ public final class PicturesTest {
 
     private void stale(String name) throws Exception {
         proxy.setFlying(false);
-        long beacon = handset.ground().telemetry().beacon;
-        Wait.until("silence", () -> handset.ground().telemetry().isSilent(
-                handset.ground().nowMs()) && handset.ground().telemetry().beacon >= beacon);
+        long beacon = handset.ground().snapshot().telemetry.beacon;
+        Wait.until("silence", () -> handset.ground().snapshot().telemetry.isSilent(
+                handset.ground().snapshot().nowMs)
+                        && handset.ground().snapshot().telemetry.beacon >= beacon);
         Wait.pass(300);
         draw(name + "-stale");
         proxy.setFlying(true);
@@ -195,9 +196,9 @@ public final class PicturesTest {
         handset.sense(Sensor.TYPE_PRESSURE, 978.6f);
         handset.locate(49.74747, 13.37759, 345);
         assertNotNull(handset.ground());
-        Long before = handset.ground().telemetry().beacon;
+        Long before = handset.ground().snapshot().telemetry.beacon;
         Wait.until("a new frame", () -> {
-            Long now = handset.ground().telemetry().beacon;
+            Long now = handset.ground().snapshot().telemetry.beacon;
             return now != null && !now.equals(before);
         });
         Wait.pass(210);

@@ -55,12 +55,12 @@ public final class SpawnTest extends AppBench {
     @Test
     public void aRefusalIsALineOfTheLogAndStartsNothing() throws Exception {
         answer = "{\"message\": \"Raspilot not running\", \"spawned\": false, "
-                + "\"error\": \"There is no profile that is called so.\", \"running\": false, "
+                + "\"error\": \"Unknown profile.\", \"running\": false, "
                 + "\"pid\": null, \"instance\": \"glider-5\", \"ports\": null, \"proxy\": null, "
                 + "\"myAddress\": \"127.0.0.1\"}";
         ask();
         assertFalse(handset.startWished());
-        mustSay("no profile", text(R.id.run_link));
+        mustSay("Unknown profile", text(R.id.run_link));
     }
 
     @Test

@@ -23,7 +23,7 @@ import org.raspilot.up.airborne.AirborneStatus;
 import org.raspilot.up.android.BaseUpService;
 import org.raspilot.up.providers.BatteryProvider;
 import org.raspilot.up.providers.LocationProvider;
-import org.raspilot.up.providers.ProviderState;
+import org.raspilot.up.providers.ProviderStatus.ProviderState;
 import org.raspilot.up.providers.ProviderStatus;
 import org.robolectric.annotation.Config;
 import org.robolectric.shadows.ShadowPowerManager;
@@ -147,9 +147,9 @@ public final class UpServiceTest extends AppBench {
         String all = board.heard().toString();
         mustSay("49.74747", all);
         mustSay("83", all);
-        assertFalse("orientation is off by itself", status.orientationHz() > 0);
+        assertFalse("orientation is off by default", status.orientationHz() > 0);
         handset.battery(41);
-        Wait.until("the battery of now", () -> board.heard().toString().contains("41"));
+        Wait.until("the current battery level", () -> board.heard().toString().contains("41"));
     }
 
     @Test

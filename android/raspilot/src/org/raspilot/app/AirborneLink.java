@@ -6,8 +6,8 @@ import android.content.Intent;
 import android.content.ServiceConnection;
 import android.os.IBinder;
 import org.raspilot.up.airborne.AirborneStatus;
+import org.raspilot.up.android.BaseUpService.UpWatcher;
 import org.raspilot.up.android.BaseUpService;
-import org.raspilot.up.android.UpWatcher;
 
 /**
  * A screen's view of the airborne service while it is seen: bound without creating the service,

@@ -1,8 +1,8 @@
 package org.raspilot.app;
 
 import android.content.Context;
+import org.raspilot.up.android.SensorProblem.SensorTexts;
 import org.raspilot.up.android.SensorProblem;
-import org.raspilot.up.android.SensorTexts;
 
 /** The texts for missing parts of a phone, from the resources. */
 final class AppSensorTexts implements SensorTexts {

@@ -4,9 +4,9 @@ import android.content.Context;
 import android.content.SharedPreferences;
 import android.preference.PreferenceManager;
 import java.util.Locale;
-import org.raspilot.up.airborne.AirborneMode;
+import org.raspilot.up.airborne.AirborneSettings.AirborneMode;
+import org.raspilot.up.airborne.AirborneSettings.OrientationTransport;
 import org.raspilot.up.airborne.AirborneSettings;
-import org.raspilot.up.airborne.OrientationTransport;
 import org.raspilot.up.ground.GroundSettings;
 import org.raspilot.up.providers.Mounting;
 import org.raspilot.up.providers.Side;
@@ -158,7 +158,7 @@ final class AppSettings {
     private void check(SettingRule rule, String value) {
         if (!rule.holds(value)) {
             throw new IllegalArgumentException(context.getString(R.string.setting_broken,
-                    value, context.getString(rule.sentence())));
+                    value, context.getString(rule.sentence)));
         }
     }
 }

@@ -93,7 +93,7 @@ public final class MainActivity extends Activity implements ActionBar.TabListene
                     change.detach(fragment);
                 }
             } else if (fragment == null) {
-                change.add(part.pane, part.make(), part.name());
+                change.add(part.pane, part.maker.make(), part.name());
             } else if (fragment.isDetached()) {
                 change.attach(fragment);
             }

@@ -13,7 +13,7 @@ import org.raspilot.up.providers.BatteryProvider;
 import org.raspilot.up.providers.HeadingProvider;
 import org.raspilot.up.providers.LocationProvider;
 import org.raspilot.up.providers.OrientationProvider;
-import org.raspilot.up.providers.ProviderState;
+import org.raspilot.up.providers.ProviderStatus.ProviderState;
 import org.raspilot.up.providers.ProviderStatus;
 
 /** The list of what the phone sends, and the counters. */
@@ -77,8 +77,9 @@ final class ProvidersPanel {
     }
 
     private String counters(AirborneStatus status) {
-        String text = context.getString(R.string.counters, status.telemetry(), status.executed(),
-                status.refused(), status.malformed(), status.connections());
+        String text = context.getString(R.string.counters, status.counters.telemetry,
+                status.counters.executed,
+                status.counters.refused, status.counters.malformed, status.counters.connections);
         return text + "\n" + context.getString(R.string.orientation_rate, status.orientationHz());
     }
 

@@ -3,12 +3,12 @@ package org.raspilot.app;
 import android.app.Activity;
 import android.content.SharedPreferences;
 import android.preference.PreferenceManager;
-import org.raspilot.up.airborne.AirborneMode;
+import org.raspilot.up.airborne.AirborneSettings.AirborneMode;
 import org.raspilot.up.airborne.AirborneSettings;
 import org.raspilot.up.airborne.AirborneStatus;
 import org.raspilot.up.android.BaseUpService;
 import org.raspilot.up.android.NotificationTexts;
-import org.raspilot.up.android.SensorTexts;
+import org.raspilot.up.android.SensorProblem.SensorTexts;
 
 /** The airborne end, by the settings of this application. */
 public final class RaspilotUpService extends BaseUpService {

@@ -6,10 +6,10 @@ import android.graphics.PorterDuff;
 import android.view.View;
 import android.widget.Button;
 import android.widget.TextView;
-import org.raspilot.up.airborne.AirborneMode;
+import org.raspilot.up.airborne.AirborneSettings.AirborneMode;
+import org.raspilot.up.airborne.AirborneSettings.OrientationTransport;
 import org.raspilot.up.airborne.AirborneSettings;
 import org.raspilot.up.airborne.AirborneStatus;
-import org.raspilot.up.airborne.OrientationTransport;
 
 /** The upper part of the airborne screen: the link, start and stop, the configuration. */
 final class RunPanel {

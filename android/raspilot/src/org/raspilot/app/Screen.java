@@ -14,44 +14,24 @@ enum Screen {
 
     /** A fragment and the pane that contains it during its whole life. */
     enum Part {
-        AIRBORNE(R.id.pane_first) {
-            @Override
-            Fragment make() {
-                return new AirborneFragment();
-            }
-        },
-        GROUND(R.id.pane_first) {
-            @Override
-            Fragment make() {
-                return new GroundFragment();
-            }
-        },
-        COMMANDS(R.id.pane_second) {
-            @Override
-            Fragment make() {
-                return new CommandsFragment();
-            }
-        },
-        SETTINGS(R.id.pane_first) {
-            @Override
-            Fragment make() {
-                return new SettingsFragment();
-            }
-        },
-        LOG(R.id.pane_first) {
-            @Override
-            Fragment make() {
-                return new LogFragment();
-            }
-        };
+        AIRBORNE(R.id.pane_first, () -> new AirborneFragment()),
+        GROUND(R.id.pane_first, () -> new GroundFragment()),
+        COMMANDS(R.id.pane_second, () -> new CommandsFragment()),
+        SETTINGS(R.id.pane_first, () -> new SettingsFragment()),
+        LOG(R.id.pane_first, () -> new LogFragment());
 
-        final int pane;
-
-        Part(int pane) {
-            this.pane = pane;
+        /** Creates the fragment. */
+        interface Maker {
+            Fragment make();
         }
 
-        abstract Fragment make();
+        final int pane;
+        final Maker maker;
+
+        Part(int pane, Maker maker) {
+            this.pane = pane;
+            this.maker = maker;
+        }
     }
 
     final int title;

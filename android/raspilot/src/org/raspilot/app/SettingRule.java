@@ -2,76 +2,43 @@ package org.raspilot.app;
 
 import java.util.regex.Pattern;
 import org.raspilot.up.providers.AltitudeProvider;
+import org.raspilot.up.providers.OrientationProvider;
+import org.raspilot.up.wire.Hello;
 
 /** The rule for a setting, and the sentence that states it. */
 enum SettingRule {
-    /** A host's name or address. */
-    HOST(R.string.rule_host) {
-        @Override
-        boolean holds(String value) {
-            return value.length() <= 253 && HOSTS.matcher(value).matches();
-        }
-    },
-    /** The same, or nothing. */
-    HOST_OR_NOTHING(R.string.rule_host) {
-        @Override
-        boolean holds(String value) {
-            return value.isEmpty() || HOST.holds(value);
-        }
-    },
-    /** A port, 1 to 65535. */
-    PORT(R.string.rule_port) {
-        @Override
-        boolean holds(String value) {
-            return isWhole(value, 1, 65535);
-        }
-    },
-    /** An aircraft's name. */
-    AIRCRAFT(R.string.rule_aircraft) {
-        @Override
-        boolean holds(String value) {
-            return AIRCRAFTS.matcher(value).matches();
-        }
-    },
-    /** A profile's name, or nothing. */
-    PROFILE(R.string.rule_profile) {
-        @Override
-        boolean holds(String value) {
-            return value.isEmpty() || AIRCRAFTS.matcher(value).matches();
-        }
-    },
+    HOST(R.string.rule_host, value -> isHost(value)),
+    HOST_OR_NOTHING(R.string.rule_host, value -> value.isEmpty() || isHost(value)),
+    PORT(R.string.rule_port, value -> isWhole(value, 1, 65535)),
+    AIRCRAFT(R.string.rule_aircraft, value -> Hello.isAircraftName(value)),
+    PROFILE(R.string.rule_profile, value -> value.isEmpty() || Hello.isAircraftName(value)),
     /** How often orientation leaves, Hz. */
-    RATE(R.string.rule_rate) {
-        @Override
-        boolean holds(String value) {
-            return isWhole(value, 50, 200);
-        }
-    },
+    RATE(R.string.rule_rate, value -> isWhole(value, OrientationProvider.MIN_HZ,
+            OrientationProvider.MAX_HZ)),
     /** The pressure at altitude zero, hPa. */
-    PRESSURE(R.string.rule_pressure) {
-        @Override
-        boolean holds(String value) {
-            return NUMBERS.matcher(value).matches() && isWithin(number(value));
-        }
-    };
+    PRESSURE(R.string.rule_pressure, value ->
+            isNumber(value) && AltitudeProvider.isReference(number(value)));
+
+    private interface Check {
+        boolean holds(String value);
+    }
 
     private static final Pattern HOSTS = Pattern.compile("[A-Za-z0-9_.:%-]+");
-    private static final Pattern AIRCRAFTS = Pattern.compile("[A-Za-z0-9_-][A-Za-z0-9_.-]{0,31}");
     private static final Pattern WHOLES = Pattern.compile("[0-9]{1,9}");
     private static final Pattern NUMBERS = Pattern.compile("[0-9]{1,5}([.,][0-9]{1,6})?");
 
-    private final int sentence;
+    /** The resource of the sentence that states the rule. */
+    final int sentence;
+    private final Check check;
 
-    SettingRule(int sentence) {
+    SettingRule(int sentence, Check check) {
         this.sentence = sentence;
+        this.check = check;
     }
 
     /** Returns whether a value, trimmed, is valid. */
-    abstract boolean holds(String value);
-
-    /** Returns the resource of the sentence that states the rule. */
-    int sentence() {
-        return sentence;
+    boolean holds(String value) {
+        return check.holds(value);
     }
 
     /** Parses the number of a value; some phones' keyboards have only a comma. */
@@ -87,8 +54,11 @@ enum SettingRule {
         return number >= least && number <= greatest;
     }
 
-    private static boolean isWithin(double hPa) {
-        return hPa >= AltitudeProvider.MIN_REFERENCE_HPA
-                && hPa <= AltitudeProvider.MAX_REFERENCE_HPA;
+    private static boolean isHost(String value) {
+        return value.length() <= 253 && HOSTS.matcher(value).matches();
+    }
+
+    private static boolean isNumber(String value) {
+        return NUMBERS.matcher(value).matches();
     }
 }

@@ -62,7 +62,7 @@ public final class SettingsFragment extends PreferenceFragment
         if (rule == null || rule.holds(String.valueOf(value).trim())) {
             return true;
         }
-        Toast.makeText(getActivity(), rule.sentence(), Toast.LENGTH_LONG).show();
+        Toast.makeText(getActivity(), rule.sentence, Toast.LENGTH_LONG).show();
         return false;
     }
 

@@ -2,8 +2,7 @@ package org.raspilot.app;
 
 import android.app.Fragment;
 import android.os.Handler;
-
-import org.raspilot.up.android.GroundWatcher;
+import org.raspilot.up.android.TelemetryService.GroundWatcher;
 import org.raspilot.up.android.TelemetryService;
 import org.raspilot.up.ground.GroundStatus;
 import org.raspilot.up.ground.Telemetry;

@@ -1,12 +1,12 @@
 package org.raspilot.up.airborne;
 
 import org.raspilot.up.commands.CommandExecutor;
-import org.raspilot.up.commands.CommandRefusedException;
 import org.raspilot.up.commands.CommandFields;
+import org.raspilot.up.commands.CommandRefusedException;
 import org.raspilot.up.commands.Commands;
-import org.raspilot.up.wire.GeneralMessage;
 import org.raspilot.up.commands.NackCode;
 import org.raspilot.up.providers.Panic;
+import org.raspilot.up.wire.GeneralMessage;
 
 /** What the airborne phone does with the Commands that the Raspberry Pi sends. */
 final class AirborneHandlers {

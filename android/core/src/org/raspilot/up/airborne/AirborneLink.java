@@ -1,12 +1,13 @@
 package org.raspilot.up.airborne;
 
 import java.util.Random;
-import org.raspilot.up.commands.AnswerSink;
+import org.raspilot.up.airborne.AirborneSettings.OrientationTransport;
 import org.raspilot.up.commands.BaseCommand;
+import org.raspilot.up.commands.CommandReceiver.AnswerSink;
 import org.raspilot.up.loop.Loop;
+import org.raspilot.up.net.Endpoint;
 import org.raspilot.up.net.LastEndpoint;
 import org.raspilot.up.net.OrientationSender;
-import org.raspilot.up.net.Endpoint;
 import org.raspilot.up.net.UpSocket;
 import org.raspilot.up.net.UpSocketListener;
 import org.raspilot.up.net.UpSocketSettings;
@@ -17,7 +18,7 @@ import org.raspilot.up.wire.OrientationFrame;
 
 /** The two links to the Raspberry Pi: one for Commands and, if enabled, one for orientation. */
 final class AirborneLink implements MessageSink, AnswerSink, UpSocketListener {
-    private static final String DEAD = "the Raspberry Pi does not answer any more";
+    private static final String DEAD = "the Raspberry Pi stopped answering";
 
     private final Owner owner;
     private final LastEndpoint known;
@@ -37,7 +38,7 @@ final class AirborneLink implements MessageSink, AnswerSink, UpSocketListener {
         /** Called when the link is lost, with the reason. */
         void onClosed(String reason);
 
-        /** Called with the reason why there is no link, once until it changes. */
+        /** Called with the reason for a missing link, once until it changes. */
         void onTrouble(String sentence);
     }
 

@@ -52,8 +52,7 @@ public final class AirborneSettings {
         generalPort = builder.generalPort;
         orientationPort = builder.orientationPort;
         discoveryPort = builder.discoveryPort;
-        discoveryHosts =
-                Collections.unmodifiableList(new ArrayList<>(builder.discoveryHosts));
+        discoveryHosts = Collections.unmodifiableList(new ArrayList<>(builder.discoveryHosts));
         runnerHost = builder.runnerHost;
         runnerPort = builder.runnerPort;
         aircraft = builder.aircraft;
@@ -83,7 +82,7 @@ public final class AirborneSettings {
         return isWanted ? orientation : OrientationTransport.OFF;
     }
 
-    /** Builds settings; a value that is not set keeps its default. */
+    /** Builds settings; a value that is not set keeps its default. Names and units as above. */
     public static final class Builder {
         private AirborneMode mode = AirborneMode.FLIGHT_CONTROLLER;
         private String host = "";
@@ -105,115 +104,25 @@ public final class AirborneSettings {
         private double declinationDeg;
         private Mounting mounting = Mounting.FLAT;
 
-        public Builder mode(AirborneMode value) {
-            mode = value;
-            return this;
-        }
-
-        /** Sets the Raspberry Pi's host; empty: Discovery, in Black Box Mode the runner. */
-        public Builder host(String value) {
-            host = value;
-            return this;
-        }
-
-        /** Sets the Raspberry Pi's port for General Messages. */
-        public Builder generalPort(int value) {
-            generalPort = value;
-            return this;
-        }
-
-        /** Sets the Raspberry Pi's port for orientation. */
-        public Builder orientationPort(int value) {
-            orientationPort = value;
-            return this;
-        }
-
-        public Builder discoveryPort(int value) {
-            discoveryPort = value;
-            return this;
-        }
-
-        /** Sets Discovery's targets; empty: 255.255.255.255 and every interface's own. */
-        public Builder discoveryHosts(List<String> value) {
-            discoveryHosts = new ArrayList<>(value);
-            return this;
-        }
-
-        /** Sets the runner's host, Black Box Mode only; empty: the host runs already. */
-        public Builder runnerHost(String value) {
-            runnerHost = value;
-            return this;
-        }
-
-        public Builder runnerPort(int value) {
-            runnerPort = value;
-            return this;
-        }
-
-        /** Sets the aircraft's name for the runner; empty: none. */
-        public Builder aircraft(String value) {
-            aircraft = value;
-            return this;
-        }
-
-        /** Sets the runner's ready-made configuration; empty: none. */
-        public Builder profile(String value) {
-            profile = value;
-            return this;
-        }
-
-        public Builder orientation(OrientationTransport value) {
-            orientation = value;
-            return this;
-        }
-
-        /** Sets whether orientation leaves in Flight Controller Mode too. */
-        public Builder redundantOrientation(boolean value) {
-            redundantOrientation = value;
-            return this;
-        }
-
-        /** Sets how often orientation leaves, Hz, 50 to 200. */
-        public Builder orientationHz(int value) {
-            orientationHz = value;
-            return this;
-        }
-
-        /** Sets how often the location leaves at most, ms. */
-        public Builder locationPeriodMs(int value) {
-            locationPeriodMs = value;
-            return this;
-        }
-
-        /** Sets how often the altitude leaves at most, ms. */
-        public Builder altitudePeriodMs(int value) {
-            altitudePeriodMs = value;
-            return this;
-        }
-
-        /** Sets how often the heading leaves at most, ms. */
-        public Builder headingPeriodMs(int value) {
-            headingPeriodMs = value;
-            return this;
-        }
-
-        /** Sets the pressure at altitude zero, hPa. */
-        public Builder referencePressureHPa(double value) {
-            referencePressureHPa = value;
-            return this;
-        }
-
-        /** Sets degrees from magnetic to true north, east positive. */
-        public Builder declinationDeg(double value) {
-            declinationDeg = value;
-            return this;
-        }
-
-        /** Sets the phone's mounting in the aeroplane. */
-        public Builder mounting(Mounting value) {
-            mounting = value;
-            return this;
-        }
+        public Builder mode(AirborneMode v) { mode = v; return this; }
+        public Builder host(String v) { host = v; return this; }
+        public Builder generalPort(int v) { generalPort = v; return this; }
+        public Builder orientationPort(int v) { orientationPort = v; return this; }
+        public Builder discoveryPort(int v) { discoveryPort = v; return this; }
+        public Builder discoveryHosts(List<String> v) { discoveryHosts = v; return this; }
+        public Builder runnerHost(String v) { runnerHost = v; return this; }
+        public Builder runnerPort(int v) { runnerPort = v; return this; }
+        public Builder aircraft(String v) { aircraft = v; return this; }
+        public Builder profile(String v) { profile = v; return this; }
+        public Builder orientation(OrientationTransport v) { orientation = v; return this; }
+        public Builder redundantOrientation(boolean v) { redundantOrientation = v; return this; }
+        public Builder orientationHz(int v) { orientationHz = v; return this; }
+        public Builder locationPeriodMs(int v) { locationPeriodMs = v; return this; }
+        public Builder altitudePeriodMs(int v) { altitudePeriodMs = v; return this; }
+        public Builder headingPeriodMs(int v) { headingPeriodMs = v; return this; }
+        public Builder referencePressureHPa(double v) { referencePressureHPa = v; return this; }
+        public Builder declinationDeg(double v) { declinationDeg = v; return this; }
+        public Builder mounting(Mounting v) { mounting = v; return this; }
 
         /** Returns the settings; raises IllegalArgumentException with a sentence for the user. */
         public AirborneSettings build() {
@@ -221,5 +130,23 @@ public final class AirborneSettings {
             SettingsRules.check(settings);
             return settings;
         }
+    }
+
+    /** Who the phone speaks to (thesis 3.1.3). */
+    public enum AirborneMode {
+        /** A Raspberry Pi on board, with an Arduino that flies. */
+        FLIGHT_CONTROLLER,
+        /** A server on the internet that a runner spawns; the phone is the only one on board. */
+        BLACK_BOX
+    }
+
+    /** How orientation leaves the phone. */
+    public enum OrientationTransport {
+        /** Not at all. */
+        OFF,
+        /** Frames back to back on a connection. */
+        TCP,
+        /** A frame a datagram. */
+        UDP
     }
 }

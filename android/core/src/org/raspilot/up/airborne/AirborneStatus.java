@@ -1,6 +1,10 @@
 package org.raspilot.up.airborne;
 
 import java.util.List;
+import org.raspilot.up.airborne.AirborneSettings.AirborneMode;
+import org.raspilot.up.airborne.AirborneSettings.OrientationTransport;
+import org.raspilot.up.commands.CommandReceiver;
+import org.raspilot.up.commands.NackCode;
 import org.raspilot.up.net.Endpoint;
 import org.raspilot.up.providers.OrientationProvider;
 import org.raspilot.up.providers.ProviderStatus;
@@ -22,7 +26,7 @@ public final class AirborneStatus {
     public final long panicDelayMs;
     /** Each provider, in the order of registration; unmodifiable. */
     public final List<ProviderStatus> providers;
-    private final AirborneCounters counters;
+    public final AirborneCounters counters;
 
     AirborneStatus(boolean isRunning, boolean isConnected, String linkText, Endpoint place,
             AirborneMode mode, OrientationTransport orientation, String orientationText,
@@ -49,28 +53,26 @@ public final class AirborneStatus {
         return 0;
     }
 
-    /** Returns how often the link came. */
-    public long connections() {
-        return counters.connections;
-    }
+    /** The counters of the airborne side since its creation; immutable. */
+    public static final class AirborneCounters {
+        public final long connections;
+        public final long telemetry;
+        public final long executed;
+        public final long refused;
+        public final long malformed;
 
-    /** Returns how many telemetry messages came. */
-    public long telemetry() {
-        return counters.telemetry;
-    }
-
-    /** Returns how many other Commands were carried out. */
-    public long executed() {
-        return counters.executed;
-    }
-
-    /** Returns how many Commands were refused. */
-    public long refused() {
-        return counters.refused;
-    }
-
-    /** Returns how many lines were dropped because they were no General Messages. */
-    public long malformed() {
-        return counters.malformed;
+        /** Takes the current counts; answers are those to messages sent with an id. */
+        AirborneCounters(CommandReceiver receiver, long connections, long telemetry, long answers) {
+            this.connections = connections;
+            this.telemetry = telemetry;
+            malformed = receiver.count(NackCode.MALFORMED.word());
+            long others = 0;
+            for (NackCode code : NackCode.values()) {
+                others += code == NackCode.MALFORMED ? 0 : receiver.count(code.word());
+            }
+            refused = others;
+            executed = receiver.count("received") - receiver.count("repeated") - refused - telemetry
+                    - answers;
+        }
     }
 }

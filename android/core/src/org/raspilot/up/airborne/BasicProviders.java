@@ -1,5 +1,6 @@
 package org.raspilot.up.airborne;
 
+import org.raspilot.up.airborne.AirborneSettings.OrientationTransport;
 import org.raspilot.up.providers.AltitudeProvider;
 import org.raspilot.up.providers.BatteryProvider;
 import org.raspilot.up.providers.HeadingProvider;
@@ -24,15 +25,15 @@ final class BasicProviders {
     private final OrientationProvider orientation;
 
     BasicProviders(AirborneSettings settings, Sensors sensors) {
-        SharedSource<Rotation> rotation = new SharedSource<>(sensors.rotation());
-        location = new LocationProvider(sensors.location(), settings.locationPeriodMs);
-        altitude = new AltitudeProvider(sensors.pressure(), settings.altitudePeriodMs);
+        SharedSource<Rotation> rotation = new SharedSource<>(sensors.rotation);
+        location = new LocationProvider(sensors.location, settings.locationPeriodMs);
+        altitude = new AltitudeProvider(sensors.pressure, settings.altitudePeriodMs);
         altitude.setReferenceHPa(settings.referencePressureHPa);
-        battery = new BatteryProvider(sensors.battery());
+        battery = new BatteryProvider(sensors.battery);
         heading = new HeadingProvider(
                 rotation.branch(), settings.mounting, settings.headingPeriodMs);
         orientation = settings.orientationTransport() == OrientationTransport.OFF ? null
-                : new OrientationProvider(rotation.branch(), sensors.rotationRate(),
+                : new OrientationProvider(rotation.branch(), sensors.rotationRate,
                         settings.mounting, settings.orientationHz);
         setDeclinationDeg(settings.declinationDeg);
     }

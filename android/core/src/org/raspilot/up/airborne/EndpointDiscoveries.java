@@ -1,12 +1,12 @@
 package org.raspilot.up.airborne;
 
 import org.raspilot.up.loop.Loop;
-import org.raspilot.up.net.BroadcastAddresses;
+import org.raspilot.up.net.DiscoveryClient.BroadcastAddresses;
 import org.raspilot.up.net.DiscoveryClient;
-import org.raspilot.up.net.FixedEndpoint;
-import org.raspilot.up.net.InterfaceBroadcasts;
 import org.raspilot.up.net.Endpoint;
 import org.raspilot.up.net.EndpointDiscovery;
+import org.raspilot.up.net.FixedEndpoint;
+import org.raspilot.up.net.InterfaceBroadcasts;
 import org.raspilot.up.net.RunnerClient;
 import org.raspilot.up.net.RunnerRequest;
 

@@ -4,7 +4,7 @@ import java.util.HashSet;
 import java.util.Set;
 import org.raspilot.up.loop.Cancellable;
 import org.raspilot.up.loop.Loop;
-import org.raspilot.up.providers.ProviderState;
+import org.raspilot.up.providers.ProviderStatus.ProviderState;
 import org.raspilot.up.providers.ProviderStatus;
 import org.raspilot.up.providers.ProvidersController;
 

@@ -1,6 +1,7 @@
 package org.raspilot.up.airborne;
 
 import java.util.List;
+import org.raspilot.up.airborne.AirborneSettings.AirborneMode;
 import org.raspilot.up.providers.AltitudeProvider;
 import org.raspilot.up.providers.OrientationProvider;
 import org.raspilot.up.wire.Hello;

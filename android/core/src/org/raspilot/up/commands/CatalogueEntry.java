@@ -15,7 +15,7 @@ final class CatalogueEntry {
     /** Creates an entry from an element of a list. */
     static CatalogueEntry of(Object value) throws MalformedException {
         if (!(value instanceof Map)) {
-            throw new MalformedException("an entry of the catalogue is no object");
+            throw new MalformedException("an entry of the catalogue must be an object");
         }
         return new CatalogueEntry((Map<?, ?>) value);
     }

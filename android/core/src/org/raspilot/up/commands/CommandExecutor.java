@@ -125,4 +125,21 @@ public final class CommandExecutor {
     private Map<UUID, CommandHandler> copyOfHandlers(String name) {
         return new LinkedHashMap<>(handlersOf(name));
     }
+
+    /** Receives the failures of handlers; the other handlers and the link continue. */
+    public interface HandlerFaultListener {
+        /** Called on the loop thread with an exception of a handler that is not a refusal. */
+        void onHandlerFailed(CommandHandler handler, BaseCommand command, Throwable fault);
+    }
+
+    /** Receives the outcome of one Command on the bus. */
+    interface CommandOutcome {
+        /**
+         * Called when the handlers have finished, on the loop thread.
+         *
+         * @param handlers the number of handlers
+         * @param fault the first exception that a handler threw, or null
+         */
+        void onDone(int handlers, Throwable fault);
+    }
 }

@@ -115,7 +115,7 @@ public final class CommandReceiver {
             refuse(message.id, answers, NackCode.FAILED, FAILED);
         } else if (handlers == 0) {
             refuse(message.id, answers, NackCode.UNAVAILABLE,
-                    "nobody handles " + message.name);
+                    "no handler for " + message.name);
         } else if (message.id != null) {
             answer(message.id, answers, Commands.ack(message.id));
         }
@@ -145,5 +145,15 @@ public final class CommandReceiver {
 
     private void addOne(String what) {
         counts.put(what, count(what) + 1);
+    }
+
+    /**
+     * Receives the answers to the Commands of one link; one object for the whole life of the link.
+     *
+     * <p>The receiver remembers ids by this object, so it outlives the link's connections.
+     */
+    public interface AnswerSink {
+        /** Sends an {@code up.ack} or {@code up.nack} if possible. */
+        void answer(GeneralMessage answer);
     }
 }

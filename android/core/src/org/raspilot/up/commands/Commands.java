@@ -5,6 +5,7 @@ import java.util.Collections;
 import java.util.LinkedHashMap;
 import java.util.List;
 import java.util.Map;
+import org.raspilot.up.commands.CommandRegistry.CommandReader;
 import org.raspilot.up.wire.GeneralMessage;
 
 /**

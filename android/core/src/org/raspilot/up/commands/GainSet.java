@@ -115,4 +115,35 @@ public final class GainSet {
         data.put("d", gains.d);
         return data;
     }
+
+    /** The gains of one loop on every axis; without a rudder the set is the two-axis form. */
+    public static final class LoopGains {
+        public final Gains ailerons;
+        public final Gains elevator;
+        /** The gains of the rudder, or null. */
+        public final Gains rudder;
+
+        /** Creates the gains of a loop; {@code rudder} null: unchanged. */
+        public LoopGains(Gains ailerons, Gains elevator, Gains rudder) {
+            this.ailerons = ailerons;
+            this.elevator = elevator;
+            this.rudder = rudder;
+        }
+    }
+
+    /** The three gains of one PID controller, each 0 to 50 (docs/protocols.md 5). */
+    public static final class Gains {
+        public static final double MAX = 50;
+
+        public final double p;
+        public final double i;
+        public final double d;
+
+        /** Creates the gains of one controller; {@link PidTuningsCommand} checks them. */
+        public Gains(double p, double i, double d) {
+            this.p = p;
+            this.i = i;
+            this.d = d;
+        }
+    }
 }

@@ -30,7 +30,7 @@ public enum NackCode {
     TIMEOUT,
     /** Carrying it out failed inside. */
     FAILED,
-    /** Not implemented by any component; the reason names what is missing. */
+    /** Not implemented by any component; the reason names the missing part. */
     NOT_SUPPORTED;
 
     /** Returns the word on the wire. */

@@ -28,7 +28,7 @@ public final class Age {
     /** Whether the link that delivered the frame is gone. */
     public final boolean isLinkLost;
     private final long receivedMs;
-    /** The frame's transit time, ms, as far as it is known. */
+    /** The known part of the frame's transit time, ms. */
     public final long transitMs;
     private final Map<String, Double> onBoardMs;
 

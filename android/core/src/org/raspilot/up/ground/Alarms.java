@@ -63,7 +63,7 @@ public final class Alarms {
         return snapshot;
     }
 
-    /** Ends all alarms: the aircraft is no longer monitored. */
+    /** Ends all alarms: monitoring of the aircraft has ended. */
     void clear() {
         causeMs.clear();
         known.clear();

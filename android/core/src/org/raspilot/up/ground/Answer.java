@@ -73,4 +73,9 @@ public final class Answer {
     public String toString() {
         return sentence();
     }
+
+    /** Receives the outcome of a Command: once, on the loop, possibly before the call returns. */
+    public interface AnswerListener {
+        void onAnswer(Answer answer);
+    }
 }

@@ -2,6 +2,7 @@ package org.raspilot.up.ground;
 
 import org.raspilot.up.commands.BaseCommand;
 import org.raspilot.up.commands.Commands;
+import org.raspilot.up.ground.Answer.AnswerListener;
 import org.raspilot.up.loop.Loop;
 
 /** Sends what may be sent now or returns why not: nothing is queued, nothing is sent twice. */
@@ -60,8 +61,8 @@ final class CommandService {
         final LinkStatus facts = link.facts();
         if (!link.isOpen()) {
             return Answer.refused(command.name(), "no_link",
-                    facts.reason.isEmpty() ? "there is no link"
-                            : "there is no link: " + facts.reason);
+                    facts.reason.isEmpty() ? "not connected"
+                            : "not connected: " + facts.reason);
         }
         if (Boolean.FALSE.equals(facts.isAircraftOnline)) {
             return Answer.refused(command.name(), "no_aircraft", "the aircraft "

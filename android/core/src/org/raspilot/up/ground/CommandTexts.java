@@ -4,6 +4,7 @@ import java.util.HashMap;
 import java.util.List;
 import java.util.Map;
 import org.raspilot.up.commands.BaseCommand;
+import org.raspilot.up.ground.GainsService.GainChange;
 
 /** The description of a Command and of its outcome in an event. */
 final class CommandTexts {

@@ -1,5 +1,6 @@
 package org.raspilot.up.ground;
 
+import org.raspilot.up.ground.GroundStatus.LinkState;
 import org.raspilot.up.wire.ProxyRole;
 
 /** The state of the seat that commands. */
@@ -12,7 +13,7 @@ public enum ControlStatus {
     FREE,
     /** Another ground commands. */
     HELD,
-    /** This ground listens and does not know yet who commands. */
+    /** This ground listens and does not know the owner of control yet. */
     LATER;
 
     /** Returns the state of the seat; a direct link has no seats, so all may send there. */

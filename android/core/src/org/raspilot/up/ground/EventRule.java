@@ -25,7 +25,7 @@ final class EventRule {
             source("orientation"), source("location"), source("altitude"), source("heading"),
             source("battery"));
 
-    /** What is known of a change. */
+    /** The description of a change. */
     static final class Change {
         final String code;
         final EventLevel level;

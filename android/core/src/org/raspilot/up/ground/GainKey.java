@@ -4,9 +4,9 @@ import java.util.ArrayList;
 import java.util.Collections;
 import java.util.List;
 import java.util.Locale;
+import org.raspilot.up.commands.GainSet.Gains;
+import org.raspilot.up.commands.GainSet.LoopGains;
 import org.raspilot.up.commands.GainSet;
-import org.raspilot.up.commands.Gains;
-import org.raspilot.up.commands.LoopGains;
 
 /** Names one gain: loop, axis and term. Immutable. */
 public final class GainKey {

@@ -3,10 +3,11 @@ package org.raspilot.up.ground;
 import java.util.HashMap;
 import java.util.Map;
 import java.util.regex.Pattern;
+import org.raspilot.up.commands.GainSet.Gains;
+import org.raspilot.up.commands.GainSet.LoopGains;
 import org.raspilot.up.commands.GainSet;
-import org.raspilot.up.commands.Gains;
 import org.raspilot.up.commands.InvalidCommandException;
-import org.raspilot.up.commands.LoopGains;
+import org.raspilot.up.ground.GainsService.GainChange;
 import org.raspilot.up.wire.SafeText;
 
 /** Reads the gains that a person has typed, and judges sets before they are sent. */

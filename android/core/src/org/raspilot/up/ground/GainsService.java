@@ -1,5 +1,6 @@
 package org.raspilot.up.ground;
 
+import java.math.BigDecimal;
 import java.util.ArrayDeque;
 import java.util.ArrayList;
 import java.util.Collections;
@@ -9,6 +10,8 @@ import org.raspilot.up.commands.BaseCommand;
 import org.raspilot.up.commands.Commands;
 import org.raspilot.up.commands.GainSet;
 import org.raspilot.up.commands.InvalidCommandException;
+import org.raspilot.up.ground.Answer.AnswerListener;
+import org.raspilot.up.ground.GainsService.GainChange;
 import org.raspilot.up.loop.Loop;
 
 /** Requests, tracks, replaces and restores the active gains, as whole sets. On the loop only. */
@@ -99,7 +102,7 @@ public final class GainsService {
         final GainSet before = undoable.peekLast();
         if (before == null) {
             listener.onAnswer(Answer.refused(Commands.PIDS, "invalid",
-                    "there is no set of gains to undo"));
+                    "no set of gains to undo"));
         } else {
             transmit(before, shownBeacon, listener, true);
         }
@@ -202,5 +205,63 @@ public final class GainsService {
     private static boolean isSame(Double before, double after) {
         return before != null && Math.abs(before - after)
                 <= Math.max(NEAR_ZERO, SINGLE * Math.max(Math.abs(before), Math.abs(after)));
+    }
+
+    /** One gain that differs between two sets. Immutable. */
+    public static final class GainChange {
+        public final GainKey key;
+        /** Its value before; null: not known. */
+        public final Double before;
+        public final double after;
+
+        GainChange(GainKey key, Double before, double after) {
+            this.key = key;
+            this.before = before;
+            this.after = after;
+        }
+
+        /** Returns {@code rate roll P 3 to 2.4}. */
+        @Override
+        public String toString() {
+            final String from = before == null ? "" : number(before) + " to ";
+            return key.words() + " " + from + number(after);
+        }
+
+        /** Returns a gain as the shortest text that is this number, without an exponent. */
+        static String number(double value) {
+            if (Double.isNaN(value) || Double.isInfinite(value)) {
+                return String.valueOf(value);
+            }
+            // The board holds gains in single precision: 0.1f is not 0.10000000149.
+            final boolean isSingle = (float) value == value;
+            final String text = isSingle ? Float.toString((float) value) : Double.toString(value);
+            final String plain = new BigDecimal(text).toPlainString();
+            return plain.contains(".") ? plain.replaceFirst("\\.?0+$", "") : plain;
+        }
+    }
+
+    /** One set of gains that was sent, and its outcome. Immutable. */
+    public static final class GainsEntry {
+        /** Its number, counting up from 1. */
+        public final int number;
+        /** When its answer came, by the loop's clock, ms. */
+        public final long atMs;
+        /** What flew before; null: not known. */
+        public final GainSet before;
+        public final GainSet after;
+        public final Answer answer;
+
+        GainsEntry(int number, long atMs, GainSet before, GainSet after, Answer answer) {
+            this.number = number;
+            this.atMs = atMs;
+            this.before = before;
+            this.after = after;
+            this.answer = answer;
+        }
+
+        /** Returns the gains in which the two differ. */
+        public List<GainChange> changes() {
+            return GainsService.difference(before, after);
+        }
     }
 }

@@ -1,10 +1,11 @@
 package org.raspilot.up.ground;
 
 import java.util.Random;
+import org.raspilot.up.ground.GroundStatus.LinkState;
 import org.raspilot.up.loop.Cancellable;
 import org.raspilot.up.loop.Loop;
-import org.raspilot.up.net.FixedEndpoint;
 import org.raspilot.up.net.Endpoint;
+import org.raspilot.up.net.FixedEndpoint;
 import org.raspilot.up.net.UpSocket;
 import org.raspilot.up.net.UpSocketListener;
 import org.raspilot.up.net.UpSocketSettings;
@@ -13,8 +14,8 @@ import org.raspilot.up.wire.ControlLine;
 import org.raspilot.up.wire.GeneralMessage;
 import org.raspilot.up.wire.HelloAnswer;
 import org.raspilot.up.wire.MalformedException;
-import org.raspilot.up.wire.SafeText;
 import org.raspilot.up.wire.ProxyRole;
+import org.raspilot.up.wire.SafeText;
 
 /**
  * The link to the aircraft: sends the hello, keeps the seat and its token, reconnects after losses.
@@ -23,7 +24,7 @@ import org.raspilot.up.wire.ProxyRole;
  */
 final class GroundLink implements UpSocketListener {
     static final long HELLO_TIMEOUT_MS = 5000;
-    /** By then, ms, a proxy has reported who commands; an aircraft's own listener never does. */
+    /** By then, ms, a proxy has reported the owner of control; an aircraft itself never does. */
     static final long HOLDER_TOLD_MS = 1000;
 
     private static final int CONNECT_TIMEOUT_MS = 5000;
@@ -183,7 +184,7 @@ final class GroundLink implements UpSocketListener {
                 onHelloAnswer(HelloAnswer.read(bytes, length));
             }
         } else if (!isGreeted) {
-            socket.drop("the other side does not answer a hello: it is no Ground Station Proxy of"
+            socket.drop("the other side does not answer a hello: not a Ground Station Proxy of"
                     + " this version (a direct link says no hello)");
         } else {
             onLine(bytes, length);
@@ -306,5 +307,20 @@ final class GroundLink implements UpSocketListener {
         public void onQuiet(long forMs) {
             socket.drop("nothing came for " + Math.round(forMs / 1000.0) + " s");
         }
+    }
+
+    /** Receives the events and messages of a {@link GroundLink}. */
+    interface LinkListener {
+        /** Takes a message from the aircraft. */
+        void onMessage(GeneralMessage message);
+
+        /** Called when the link is open: messages can be sent. */
+        void onOpened();
+
+        /** Called when an open link is lost. */
+        void onLost(String reason);
+
+        /** Called when a part of the link's state has changed. */
+        void onLink();
     }
 }

@@ -1,8 +1,8 @@
 package org.raspilot.up.ground;
 
 import org.raspilot.up.wire.Hello;
-import org.raspilot.up.wire.SafeText;
 import org.raspilot.up.wire.ProxyRole;
+import org.raspilot.up.wire.SafeText;
 
 /** The peer of a ground device and the role it requests; immutable and valid. */
 public final class GroundSettings {

@@ -7,6 +7,8 @@ import org.raspilot.up.commands.CommandExecutor;
 import org.raspilot.up.commands.Commands;
 import org.raspilot.up.commands.GainSet;
 import org.raspilot.up.commands.InvalidCommandException;
+import org.raspilot.up.ground.Answer.AnswerListener;
+import org.raspilot.up.ground.GroundLink.LinkListener;
 import org.raspilot.up.loop.Cancellable;
 import org.raspilot.up.loop.Loop;
 import org.raspilot.up.wire.GeneralMessage;

@@ -20,7 +20,7 @@ public final class GroundStatus {
     public final LinkState link;
     /** Since when the link is so, by the loop's clock, ms. */
     public final long sinceMs;
-    /** Why there is no link, without a full stop; empty when it is open. */
+    /** The reason for a missing link, without a full stop; empty when it is open. */
     public final String reason;
     /** The code with which the proxy refused the hello (docs/protocols.md 9), or empty. */
     public final String rejection;
@@ -95,23 +95,23 @@ public final class GroundStatus {
         }
     }
 
-    /** Describes for a pilot who commands, without a full stop. */
+    /** Describes the owner of control for a pilot, without a full stop. */
     public String controlText() {
         switch (control) {
             case OURS:
                 if (isDirect) {
-                    return "a direct link: what is sent arrives";
+                    return "a direct link: Commands are always sent";
                 }
                 return requestedBy == null ? "you command"
                         : "you command, ground " + requestedBy + " asks for it";
             case FREE:
-                return "nobody commands";
+                return "control is free";
             case HELD:
                 return "ground " + owner + " commands";
             case LATER:
                 return "you listen";
             default:
-                return "not known who commands";
+                return "owner of control unknown";
         }
     }
 
@@ -127,5 +127,17 @@ public final class GroundStatus {
                     ? "connected, no telemetry yet" : "the aircraft is silent";
         }
         return "connected";
+    }
+
+    /** How far the connection to the other side is. */
+    public enum LinkState {
+        /** Not started, or stopped. */
+        STOPPED,
+        /** In progress: connecting, or waiting for the answer to the hello. */
+        CONNECTING,
+        /** Messages can go. */
+        OPEN,
+        /** Lost or refused: it is tried again after a little wait. */
+        WAITING
     }
 }

@@ -1,5 +1,6 @@
 package org.raspilot.up.ground;
 
+import org.raspilot.up.ground.GroundStatus.LinkState;
 import org.raspilot.up.wire.ProxyRole;
 
 /** The current state of the link; written by {@link GroundLink} and its {@link ControlLease}. */

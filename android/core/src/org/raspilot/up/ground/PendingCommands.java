@@ -9,6 +9,7 @@ import java.util.Map;
 import java.util.Random;
 import org.raspilot.up.commands.BaseCommand;
 import org.raspilot.up.commands.Commands;
+import org.raspilot.up.ground.Answer.AnswerListener;
 import org.raspilot.up.loop.Cancellable;
 import org.raspilot.up.loop.Loop;
 import org.raspilot.up.wire.GeneralMessage;
@@ -144,7 +145,7 @@ final class PendingCommands {
 
     private void endUnanswered(Sent each, Answer.Outcome outcome, String why) {
         if (each.ackedMs != null) {
-            end(each, Answer.Outcome.ACK, "", "what was asked for did not come", each.ackedMs);
+            end(each, Answer.Outcome.ACK, "", "the requested data did not arrive", each.ackedMs);
         } else {
             end(each, outcome, "", why + "; it is not known whether it was carried out", null);
         }

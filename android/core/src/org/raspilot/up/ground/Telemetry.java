@@ -45,7 +45,7 @@ public final class Telemetry {
      * @param data the Command's fields as JSON values; copied
      * @param beacon the aircraft's number of the frame, or null
      * @param receivedMs the loop's time of reception
-     * @param wayMs the transit time, as far as it is known
+     * @param wayMs the known part of the transit time
      */
     public static Telemetry of(Map<String, ?> data, Long beacon, long receivedMs, long wayMs) {
         final Map<String, Object> tree = frozen(data);

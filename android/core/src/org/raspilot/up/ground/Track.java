@@ -1,6 +1,7 @@
 package org.raspilot.up.ground;
 
 import java.util.ArrayList;
+import java.util.Arrays;
 import java.util.Collections;
 import java.util.List;
 
@@ -173,5 +174,59 @@ public final class Track {
 
     private static double distanceM(Spot a, Spot b) {
         return Earth.distanceM(a.latitudeDeg, a.longitudeDeg, b.latitudeDeg, b.longitudeDeg);
+    }
+
+    /** One place of the track. Immutable. */
+    public static final class TrackPoint {
+        /** The metres north of the track's origin. */
+        public final double northM;
+        /** The metres east of the track's origin. */
+        public final double eastM;
+        /** The altitude, m; null: not known. */
+        public final Double altitudeM;
+        /** Whether a gap precedes it: no line leads to it. */
+        public final boolean isAfterSilence;
+
+        TrackPoint(double northM, double eastM, Double altitudeM, boolean isAfterSilence) {
+            this.northM = northM;
+            this.eastM = eastM;
+            this.altitudeM = altitudeM;
+            this.isAfterSilence = isAfterSilence;
+        }
+    }
+
+    /** Detects gaps in the known positions; the track has no line across a gap. */
+    static final class PositionGaps {
+        /** A longer time without a position, ms, is a gap, unless their period is longer. */
+        private static final long GAP_MS = 900;
+        private static final double PERIODS = 2.5;
+        private static final int INTERVALS = 5;
+
+        private final long[] intervalsMs = new long[INTERVALS];
+        private int intervals;
+        private Long knownMs;
+
+        /** Takes a known position; returns whether it ends a gap. */
+        boolean update(long nowMs) {
+            final Long beforeMs = knownMs;
+            knownMs = nowMs;
+            if (beforeMs == null) {
+                return false;
+            }
+            final double periodMs = periodMs();
+            intervalsMs[intervals % INTERVALS] = nowMs - beforeMs;
+            intervals++;
+            return nowMs - beforeMs > Math.max(GAP_MS, PERIODS * periodMs);
+        }
+
+        /** Returns the median time between the last positions; 0: unknown. */
+        private double periodMs() {
+            if (intervals < INTERVALS) {
+                return 0;
+            }
+            final long[] sorted = intervalsMs.clone();
+            Arrays.sort(sorted);
+            return sorted[INTERVALS / 2];
+        }
     }
 }

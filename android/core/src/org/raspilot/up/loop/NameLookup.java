@@ -1,5 +1,6 @@
 package org.raspilot.up.loop;
 
+import java.net.Inet4Address;
 import java.net.InetAddress;
 import java.net.UnknownHostException;
 import java.util.ArrayList;
@@ -145,6 +146,20 @@ final class NameLookup {
         Answer(InetAddress[] addresses, String reason) {
             this.addresses = addresses;
             this.reason = reason;
+        }
+    }
+
+    /** Queries the system for a name's addresses: IPv4 first, on which the peers listen. */
+    static final class SystemResolver implements NameLookup.Resolver {
+        @Override
+        public InetAddress[] resolve(String host) throws UnknownHostException {
+            final List<InetAddress> others = new ArrayList<>();
+            final List<InetAddress> sorted = new ArrayList<>();
+            for (InetAddress address : InetAddress.getAllByName(host)) {
+                (address instanceof Inet4Address ? sorted : others).add(address);
+            }
+            sorted.addAll(others);
+            return sorted.toArray(new InetAddress[sorted.size()]);
         }
     }
 }

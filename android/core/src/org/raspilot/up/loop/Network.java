@@ -1,6 +1,8 @@
 package org.raspilot.up.loop;
 
 import java.io.IOException;
+import org.raspilot.up.loop.TcpConnection.TcpListener;
+import org.raspilot.up.loop.UdpPort.UdpListener;
 
 /** Opens connections whose listeners are called on the loop. Only on the loop. */
 public interface Network {

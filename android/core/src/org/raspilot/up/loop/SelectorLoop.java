@@ -7,6 +7,9 @@ import java.nio.channels.SelectionKey;
 import java.util.concurrent.TimeUnit;
 import java.util.concurrent.atomic.AtomicLong;
 import java.util.concurrent.locks.LockSupport;
+import org.raspilot.up.loop.NameLookup.SystemResolver;
+import org.raspilot.up.loop.TcpConnection.TcpListener;
+import org.raspilot.up.loop.UdpPort.UdpListener;
 
 /**
  * A loop on its own thread, with real sockets and real, monotonic time.

@@ -7,6 +7,7 @@ import java.net.Socket;
 import java.nio.ByteBuffer;
 import java.nio.channels.SelectionKey;
 import java.nio.channels.SocketChannel;
+import org.raspilot.up.loop.TcpConnection.TcpListener;
 
 /** One TCP connection of a {@link SelectorLoop}: looks up, connects, reads, writes. */
 final class TcpChannel implements TcpConnection, SelectorHandler, NameLookup.Asker {
@@ -156,7 +157,7 @@ final class TcpChannel implements TcpConnection, SelectorHandler, NameLookup.Ask
             // Some systems do not know the local address yet: it may be null.
             if (socket.getRemoteSocketAddress().equals(socket.getLocalSocketAddress())) {
                 // On loopback a connection to an unused port may by chance connect to itself.
-                connectNext("no connection to " + peer + ": nobody listens");
+                connectNext("no connection to " + peer + ": nothing listens there");
                 return;
             }
         } catch (IOException error) {

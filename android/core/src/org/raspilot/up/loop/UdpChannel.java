@@ -8,6 +8,7 @@ import java.nio.channels.DatagramChannel;
 import java.nio.channels.SelectionKey;
 import java.util.HashMap;
 import java.util.Map;
+import org.raspilot.up.loop.UdpPort.UdpListener;
 
 /** One UDP socket of a {@link SelectorLoop}. */
 final class UdpChannel implements UdpPort, SelectorHandler {
@@ -94,7 +95,7 @@ final class UdpChannel implements UdpPort, SelectorHandler {
         try {
             source = (InetSocketAddress) channel.receive(buffer);
         } catch (IOException error) {
-            // A socket with a read error would stay ready for ever; the next send opens another.
+            // A socket with a read error would stay ready; the next send opens another.
             closeChannel();
             loop.report(error);
             return false;

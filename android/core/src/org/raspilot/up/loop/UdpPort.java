@@ -11,4 +11,13 @@ public interface UdpPort {
 
     /** Closes the socket; its listener is not called afterwards. Later calls have no effect. */
     void close();
+
+    /** Takes the datagrams of one UDP socket. Called on the loop. */
+    interface UdpListener {
+        /**
+         * Takes a datagram: the first {@code length} bytes of {@code bytes}, which are reused
+         * afterwards, from the numeric address {@code host} and {@code port}.
+         */
+        void onDatagram(byte[] bytes, int length, String host, int port);
+    }
 }

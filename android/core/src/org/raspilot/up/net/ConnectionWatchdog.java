@@ -4,7 +4,7 @@ import org.raspilot.up.loop.Loop;
 
 /**
  * Watches one connection: requests a heartbeat after own silence, and closes the connection when
- * for too long the peer sends nothing, or accepts none of the waiting data.
+ * for too long the peer sends nothing, or accepts no waiting data.
  */
 final class ConnectionWatchdog {
     private final IdleTimer beat;

@@ -5,8 +5,9 @@ import java.nio.charset.Charset;
 import java.util.List;
 import org.raspilot.up.loop.Cancellable;
 import org.raspilot.up.loop.Loop;
-import org.raspilot.up.loop.UdpListener;
+import org.raspilot.up.loop.UdpPort.UdpListener;
 import org.raspilot.up.loop.UdpPort;
+import org.raspilot.up.net.EndpointDiscovery.DiscoveryListener;
 
 /** Finds the Raspberry Pi on the local network by Discovery (protocols 7). Only on the loop. */
 public final class DiscoveryClient implements EndpointDiscovery {
@@ -132,5 +133,11 @@ public final class DiscoveryClient implements EndpointDiscovery {
             listener.onNotFound(wasSent ? "no answer from Discovery at " + where + refused
                     : "no network to ask for Discovery in: " + where);
         }
+    }
+
+    /** The targets of Discovery, read for each request because a phone's networks change. */
+    public interface BroadcastAddresses {
+        /** Returns numeric IPv4 addresses, broadcast or of one host; empty without a network. */
+        List<String> current();
     }
 }

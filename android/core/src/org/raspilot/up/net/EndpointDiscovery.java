@@ -9,4 +9,16 @@ public interface EndpointDiscovery {
      * search is cancelled before.
      */
     Cancellable find(DiscoveryListener listener);
+
+    /** Receives the result of a search for a peer. Called on the loop, one of the two, once. */
+    interface DiscoveryListener {
+        void onFound(Endpoint place);
+
+        /**
+         * Called when the search fails.
+         *
+         * @param reason a sentence without a full stop
+         */
+        void onNotFound(String reason);
+    }
 }

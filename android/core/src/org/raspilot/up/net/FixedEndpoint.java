@@ -1,6 +1,7 @@
 package org.raspilot.up.net;
 
 import org.raspilot.up.loop.Cancellable;
+import org.raspilot.up.net.EndpointDiscovery.DiscoveryListener;
 
 /** A configured place: always found, immediately. */
 public final class FixedEndpoint implements EndpointDiscovery {

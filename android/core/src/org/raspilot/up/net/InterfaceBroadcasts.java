@@ -6,6 +6,7 @@ import java.net.SocketException;
 import java.util.ArrayList;
 import java.util.Enumeration;
 import java.util.List;
+import org.raspilot.up.net.DiscoveryClient.BroadcastAddresses;
 
 /** The IPv4 broadcast address of every network interface that is up, by the system's list. */
 public final class InterfaceBroadcasts implements BroadcastAddresses {

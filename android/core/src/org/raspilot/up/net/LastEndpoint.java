@@ -1,6 +1,7 @@
 package org.raspilot.up.net;
 
 import org.raspilot.up.loop.Cancellable;
+import org.raspilot.up.net.EndpointDiscovery.DiscoveryListener;
 
 /**
  * Stores the last result of another finder, so that orientation goes to the host of the General

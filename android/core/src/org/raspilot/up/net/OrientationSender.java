@@ -3,7 +3,7 @@ package org.raspilot.up.net;
 import java.io.IOException;
 import java.util.Random;
 import org.raspilot.up.loop.Loop;
-import org.raspilot.up.loop.UdpListener;
+import org.raspilot.up.loop.UdpPort.UdpListener;
 import org.raspilot.up.loop.UdpPort;
 
 /**

@@ -4,8 +4,9 @@ import java.io.ByteArrayOutputStream;
 import java.nio.charset.Charset;
 import org.raspilot.up.loop.Cancellable;
 import org.raspilot.up.loop.Loop;
+import org.raspilot.up.loop.TcpConnection.TcpListener;
 import org.raspilot.up.loop.TcpConnection;
-import org.raspilot.up.loop.TcpListener;
+import org.raspilot.up.net.EndpointDiscovery.DiscoveryListener;
 
 /** Requests an instance from a runner and finds its address (protocols 8). Only on the loop. */
 public final class RunnerClient implements EndpointDiscovery {

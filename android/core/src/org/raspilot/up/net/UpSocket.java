@@ -3,8 +3,9 @@ package org.raspilot.up.net;
 import java.util.Random;
 import org.raspilot.up.loop.Cancellable;
 import org.raspilot.up.loop.Loop;
+import org.raspilot.up.loop.TcpConnection.TcpListener;
 import org.raspilot.up.loop.TcpConnection;
-import org.raspilot.up.loop.TcpListener;
+import org.raspilot.up.net.EndpointDiscovery.DiscoveryListener;
 
 /**
  * Keeps one connection to a peer: finds it, connects, and reconnects after a loss.

@@ -12,7 +12,7 @@ public final class UpSocketSettings {
     public final int heartbeatMs;
     /** The limit of the peer's silence; 0: none. */
     public final int silenceLimitMs;
-    /** How long the peer may accept none of the waiting data; 0: no limit. */
+    /** How long the peer may accept no waiting data; 0: no limit. */
     public final int stallLimitMs;
     /** The wait after the first failure. */
     public final int initialRetryMs;

@@ -9,7 +9,7 @@ import org.raspilot.up.commands.Commands;
  * <p>It is relative to the reference pressure: above sea level if that is the QNH, above the field
  * after {@link #zeroHere}. It is not smoothed, to avoid delay.
  */
-public final class AltitudeProvider extends SensorProvider<Pressure> {
+public final class AltitudeProvider extends SensorProvider<AltitudeProvider.Pressure> {
     /** The name under which it is registered. */
     public static final String NAME = "altitude";
     /** The lowest reference pressure, hPa: a field at 9 km. */
@@ -69,5 +69,16 @@ public final class AltitudeProvider extends SensorProvider<Pressure> {
         }
         double altitudeM = StandardAtmosphere.altitudeM(pressure.hPa, referenceHPa);
         return Commands.of(Commands.ALTITUDE, "altitude", Rounded.to(2, altitudeM));
+    }
+
+    /** The air pressure at the device, by its barometer. */
+    public static final class Pressure {
+        /** Hectopascal. */
+        public final double hPa;
+
+        /** Stores the value unchanged; {@link AltitudeProvider} validates it. */
+        public Pressure(double hPa) {
+            this.hPa = hPa;
+        }
     }
 }

@@ -4,7 +4,7 @@ import org.raspilot.up.commands.BaseCommand;
 import org.raspilot.up.commands.Commands;
 
 /** Sends the device's battery level: {@code android.battery}, on change and each ten seconds. */
-public final class BatteryProvider extends SensorProvider<BatteryLevel> {
+public final class BatteryProvider extends SensorProvider<BatteryProvider.BatteryLevel> {
     /** The name under which it is registered. */
     public static final String NAME = "battery";
 
@@ -22,5 +22,16 @@ public final class BatteryProvider extends SensorProvider<BatteryLevel> {
             throw new IllegalArgumentException("a level of " + level.percent + " percent");
         }
         return Commands.of(Commands.BATTERY, "level", Math.round(level.percent));
+    }
+
+    /** How full the device's battery is. */
+    public static final class BatteryLevel {
+        /** Percent, 0 to 100. */
+        public final double percent;
+
+        /** Stores the value unchanged; {@link BatteryProvider} validates it. */
+        public BatteryLevel(double percent) {
+            this.percent = percent;
+        }
     }
 }

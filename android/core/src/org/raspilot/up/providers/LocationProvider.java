@@ -21,7 +21,7 @@ public final class LocationProvider extends SensorProvider<Fix> {
     protected BaseCommand read(Fix fix) {
         if (fix.accuracyM != null && fix.accuracyM > MAX_ACCURACY_M) {
             throw new IllegalArgumentException("a fix that may be off by more than "
-                    + Math.round(MAX_ACCURACY_M) + " m is none to fly by");
+                    + Math.round(MAX_ACCURACY_M) + " m is not usable in flight");
         }
         return Commands.of(Commands.LOCATION,
                 "latitude", Rounded.to(7, fix.latitudeDeg),

@@ -113,7 +113,7 @@ public final class Mounting {
                     Double.parseDouble(parts[3])));
         } catch (IllegalArgumentException error) {
             throw new IllegalArgumentException(
-                    "the mounting '" + SafeText.of(text, MAX_SHOWN_LENGTH) + "' is no rotation",
+                    "the mounting '" + SafeText.of(text, MAX_SHOWN_LENGTH) + "' is not a rotation",
                             error);
         }
     }

@@ -94,7 +94,7 @@ public final class OrientationProvider extends UpProvider {
                 (float) attitude.rollDeg, (float) attitude.pitchDeg, (float) attitude.yawDeg,
                 (float) rates[0], (float) rates[1], (float) rates[2]);
         if (!frame.isInRange()) {
-            reject("its reading cannot be used: a rate that is none, or above 4000 deg/s");
+            reject("its reading cannot be used: a rate is not a number, or above 4000 deg/s");
             return false;
         }
         boolean isTaken = to.sendOrientation(frame);

@@ -34,4 +34,18 @@ public final class ProviderStatus {
         this.problem = problem;
         this.sent = sent;
     }
+
+    /** What a provider does now. */
+    public enum ProviderState {
+        /** This device has no such sensor. */
+        ABSENT,
+        /** It was not started, or it was stopped. */
+        STOPPED,
+        /** No reading yet, or no link to send it on. */
+        WAITING,
+        /** Its readings leave. */
+        SENDING,
+        /** The sensor is present and has been silent for longer than allowed. */
+        SILENT
+    }
 }

@@ -57,6 +57,12 @@ public final class Quaternion {
         return new Quaternion(wz, xz, yz, fourZ).unit();
     }
 
+    /** Returns the rotation of a matrix of nine numbers, row by row, as Android writes it. */
+    public static Quaternion ofMatrix(float[] m) {
+        return ofAxes(new double[] {m[0], m[3], m[6]}, new double[] {m[1], m[4], m[7]},
+                new double[] {m[2], m[5], m[8]});
+    }
+
     /** Returns this times that: as rotations, that one first. */
     public Quaternion times(Quaternion that) {
         return new Quaternion(

@@ -1,6 +1,8 @@
 package org.raspilot.up.providers;
 
 import org.raspilot.up.loop.Loop;
+import org.raspilot.up.providers.ProviderStatus.ProviderState;
+import org.raspilot.up.providers.ProvidersController.ProvidersListener;
 
 /**
  * Reads a sensor, converts its readings for the Raspberry Pi, and sends them (thesis 3.5.2).

@@ -1,10 +1,8 @@
 package org.raspilot.up.wire;
 
 /**
- * A line between proxy and ground that is not relayed: who commands, and whether the aircraft is
- * connected.
- *
- * <p>Source: docs/protocols.md 9.
+ * A line between proxy and ground that is not relayed: the owner of control, and whether the
+ * aircraft is connected. Source: docs/protocols.md 9.
  */
 public final class ControlLine {
     public enum Kind {

@@ -103,15 +103,15 @@ public final class GeneralMessage {
         Object name = fields.get("name");
         if (!(name instanceof String) || !hasLength((String) name, MAX_NAME_LENGTH)) {
             throw new MalformedException(
-                    "name is no text of 1 to " + MAX_NAME_LENGTH + " characters", id);
+                    "name must be text of 1 to " + MAX_NAME_LENGTH + " characters", id);
         }
         Object data = fields.get("data");
         if (data != null && !(data instanceof Map)) {
-            throw new MalformedException("data is no object", id);
+            throw new MalformedException("data must be an object", id);
         }
         Object beacon = fields.get("beacon");
         if (beacon != null && !(beacon instanceof Long)) {
-            throw new MalformedException("beacon is no whole number of 64 bits", id);
+            throw new MalformedException("beacon must be an integer of 64 bits", id);
         }
         return new GeneralMessage((String) name, (Map<String, Object>) data, id, (Long) beacon);
     }

@@ -128,7 +128,7 @@ public final class Hello {
             }
             String key = words[i].substring(0, equals);
             if (values.containsKey(key)) {
-                throw new MalformedException(key + " is said twice");
+                throw new MalformedException(key + " is repeated");
             }
             values.put(key, words[i].substring(equals + 1));
         }

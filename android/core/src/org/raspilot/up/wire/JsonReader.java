@@ -144,7 +144,7 @@ final class JsonReader {
     private Object readConstant(String word, double value) throws MalformedException {
         Object constant = readWord(word, value);
         if (isStrict) {
-            throw new MalformedException(word + " is no JSON number");
+            throw new MalformedException(word + " is not a JSON number");
         }
         return constant;
     }

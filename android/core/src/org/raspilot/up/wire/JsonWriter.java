@@ -41,7 +41,7 @@ final class JsonWriter {
         String separator = "{";
         for (Map.Entry<?, ?> field : fields.entrySet()) {
             if (!(field.getKey() instanceof String)) {
-                throw fault("has a key that is no text");
+                throw fault("has a key that is not text");
             }
             place[depth - 1] = field.getKey();
             out.append(separator);

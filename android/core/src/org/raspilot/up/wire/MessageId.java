@@ -23,7 +23,7 @@ final class MessageId {
         }
         if (text == null || !GeneralMessage.hasLength(text, GeneralMessage.MAX_ID_LENGTH)) {
             throw new MalformedException(
-                    "id is no text of 1 to " + GeneralMessage.MAX_ID_LENGTH + " characters");
+                    "id must be text of 1 to " + GeneralMessage.MAX_ID_LENGTH + " characters");
         }
         return text;
     }

@@ -4,21 +4,21 @@ import java.util.ArrayList;
 import java.util.Collections;
 import java.util.List;
 import java.util.Random;
+import org.raspilot.up.airborne.AirborneSettings.AirborneMode;
 import org.raspilot.up.loop.Faults;
 import org.raspilot.up.loop.ManualLoop;
 import org.raspilot.up.loop.ScriptedNetwork;
 import org.raspilot.up.net.Endpoint;
-import org.raspilot.up.providers.BatteryLevel;
+import org.raspilot.up.providers.AltitudeProvider.Pressure;
+import org.raspilot.up.providers.BatteryProvider.BatteryLevel;
 import org.raspilot.up.providers.Fix;
-import org.raspilot.up.providers.Pressure;
 import org.raspilot.up.providers.Rotation;
 import org.raspilot.up.providers.RotationRate;
-import org.raspilot.up.providers.SensorSource;
 import org.raspilot.up.providers.Sensors;
 import org.raspilot.up.providers.TestSource;
 
 /** A phone on board whose sensors, network and time a test controls. */
-final class AirborneBench implements Sensors, Speaker, AirborneListener {
+final class AirborneBench implements Speaker, AirborneListener {
     static final Fix HERE = new Fix(48.1, 17.1, 150.0, null, null, null);
     static final Rotation LEVEL = new Rotation(1, 0, 0, 0, 0);
 
@@ -33,6 +33,7 @@ final class AirborneBench implements Sensors, Speaker, AirborneListener {
     final TestSource<RotationRate> gyroscope = new TestSource<>("gyroscope");
     final TestSource<Pressure> barometer = new TestSource<>("barometer");
     final TestSource<BatteryLevel> battery = new TestSource<>("battery");
+    final Sensors sensors = new Sensors(gps, rotation, gyroscope, barometer, battery);
     final List<String> events = new ArrayList<>();
     final List<String> sentences = new ArrayList<>();
     final List<String> said = new ArrayList<>();
@@ -50,7 +51,7 @@ final class AirborneBench implements Sensors, Speaker, AirborneListener {
 
     /** Creates the phone and starts it. */
     Airborne start(AirborneSettings settings) {
-        airborne = new Airborne(loop, settings, this, this, this, new Random(1));
+        airborne = new Airborne(loop, settings, sensors, this, this, new Random(1));
         airborne.start();
         loop.advance(0);
         return airborne;
@@ -173,30 +174,5 @@ final class AirborneBench implements Sensors, Speaker, AirborneListener {
     @Override
     public void speak(String text) {
         said.add(text);
-    }
-
-    @Override
-    public SensorSource<Fix> location() {
-        return gps;
-    }
-
-    @Override
-    public SensorSource<Rotation> rotation() {
-        return rotation;
-    }
-
-    @Override
-    public SensorSource<RotationRate> rotationRate() {
-        return gyroscope;
-    }
-
-    @Override
-    public SensorSource<Pressure> pressure() {
-        return barometer;
-    }
-
-    @Override
-    public SensorSource<BatteryLevel> battery() {
-        return battery;
     }
 }

@@ -75,7 +75,7 @@ public final class AirborneCommandsTest {
                 command -> frames.add(command));
         bench.hear("{\"name\": \"up.telemetry.update\", \"data\": {\"altitude\": 5.0}, "
                 + "\"beacon\": 12}");
-        assertEquals(1, airborne.status().telemetry());
+        assertEquals(1, airborne.status().counters.telemetry);
         assertEquals(5.0, frames.get(0).data().get("altitude"));
         assertEquals("[]", bench.lines().toString());
     }
@@ -133,6 +133,6 @@ public final class AirborneCommandsTest {
             assertTrue(datas[at] + answer, answer.contains("\"code\": \"invalid\""));
         }
         assertEquals(0, airborne.status().panicDelayMs);
-        assertEquals(datas.length, airborne.status().refused());
+        assertEquals(datas.length, airborne.status().counters.refused);
     }
 }

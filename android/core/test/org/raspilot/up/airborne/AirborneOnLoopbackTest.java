@@ -17,7 +17,7 @@ import org.junit.Rule;
 import org.junit.Test;
 import org.raspilot.up.loop.RunningLoop;
 import org.raspilot.up.providers.Attitude;
-import org.raspilot.up.providers.BatteryLevel;
+import org.raspilot.up.providers.BatteryProvider.BatteryLevel;
 import org.raspilot.up.providers.Mounting;
 import org.raspilot.up.providers.Side;
 import org.raspilot.up.wire.GeneralMessage;
@@ -55,7 +55,7 @@ public final class AirborneOnLoopbackTest {
             Airborne made = new Airborne(running.loop, AirborneBench.blackBox()
                     .host("127.0.0.1").generalPort(general.getLocalPort())
                     .orientationPort(orientation.getLocalPort()).mounting(mounting).build(),
-                    sensors, sensors, sensors, new Random(1));
+                    sensors.sensors, sensors, sensors, new Random(1));
             made.start();
             return made;
         });
@@ -91,7 +91,7 @@ public final class AirborneOnLoopbackTest {
         }
         running.call(() -> {
             assertEquals("[ahoj]", sensors.said.toString());
-            assertEquals(2, airborne.status().connections());
+            assertEquals(2, airborne.status().counters.connections);
             airborne.stop();
             return null;
         });

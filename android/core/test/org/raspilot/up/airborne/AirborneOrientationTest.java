@@ -5,6 +5,7 @@ import static org.junit.Assert.assertTrue;
 
 import org.junit.After;
 import org.junit.Test;
+import org.raspilot.up.airborne.AirborneSettings.OrientationTransport;
 import org.raspilot.up.loop.ScriptedNetwork;
 
 /** In which mode orientation leaves the phone, and how (thesis 4.2.3). */

@@ -7,6 +7,7 @@ import java.util.Collections;
 import java.util.List;
 import org.junit.After;
 import org.junit.Test;
+import org.raspilot.up.airborne.AirborneSettings.OrientationTransport;
 import org.raspilot.up.commands.BaseCommand;
 import org.raspilot.up.providers.RatePolicy;
 import org.raspilot.up.providers.SensorProvider;

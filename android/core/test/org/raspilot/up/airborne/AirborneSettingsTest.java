@@ -8,6 +8,8 @@ import static org.junit.Assert.fail;
 import java.util.Arrays;
 import java.util.List;
 import org.junit.Test;
+import org.raspilot.up.airborne.AirborneSettings.AirborneMode;
+import org.raspilot.up.airborne.AirborneSettings.OrientationTransport;
 
 /** Defaults, rejected values with their messages, and the addresses of Discovery requests. */
 public final class AirborneSettingsTest {

@@ -25,7 +25,7 @@ public final class LinkWatchdogTest {
         assertTrue(bench.airborne.status().isConnected);
         bench.fly(20, 1500);
         assertFalse(bench.airborne.status().isConnected);
-        assertTrue(bench.events.contains("lost: the Raspberry Pi does not answer any more"));
+        assertTrue(bench.events.contains("lost: the Raspberry Pi stopped answering"));
     }
 
     @Test
@@ -36,7 +36,7 @@ public final class LinkWatchdogTest {
             bench.fly(20, 1200);
         }
         assertTrue(bench.airborne.status().isConnected);
-        assertEquals(1, bench.airborne.status().connections());
+        assertEquals(1, bench.airborne.status().counters.connections);
     }
 
     @Test

@@ -2,6 +2,7 @@ package org.raspilot.up.commands;
 
 import java.util.ArrayList;
 import java.util.List;
+import org.raspilot.up.commands.CommandReceiver.AnswerSink;
 import org.raspilot.up.wire.GeneralMessage;
 
 /** The far end of a link: keeps the answers as "ack id" and "nack id code reason". */

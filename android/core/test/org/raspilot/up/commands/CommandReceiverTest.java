@@ -38,7 +38,7 @@ public final class CommandReceiverTest {
     public void aCommandWithoutAnIdIsAnsweredByNothing() {
         receive("{\"name\": \"android.speak\", \"data\": {\"text\": \"hello\"}}");
         receive("{\"name\": \"android.speak\", \"data\": {\"text\": \"\"}}");
-        receive("{\"name\": \"nobody.knows\"}");
+        receive("{\"name\": \"app.unknown\"}");
         receive("no JSON");
         assertEquals(1, speaker.commands.size());
         assertEquals(NOTHING, answers.heard());
@@ -50,18 +50,18 @@ public final class CommandReceiverTest {
 
     @Test
     public void refusalsSayWhy() {
-        receive("{\"name\": \"nobody.knows\", \"id\": 1}");
+        receive("{\"name\": \"app.unknown\", \"id\": 1}");
         receive("{\"name\": \"android.speak\", \"id\": 2}");
         receive("{\"name\": \"android.speak\", \"id\": 3, \"data\": NaN}");
         receive("{\"name\": \"load_guard.panic\", \"id\": 4, \"data\": {\"panic\": 1}}");
         receive("{\"name\": \"up.panic\", \"id\": 5,"
                 + " \"data\": {\"panic\": true, \"delay_ms\": 9}}");
         assertEquals(Arrays.asList(
-                "nack 1 unknown no Command 'nobody.knows'",
+                "nack 1 unknown no Command 'app.unknown'",
                 "nack 2 invalid android.speak: text is missing",
-                "nack 3 malformed NaN is no JSON number",
+                "nack 3 malformed NaN is not a JSON number",
                 "nack 4 invalid up.panic: panic must be true or false, not 1",
-                "nack 5 unavailable nobody handles up.panic"), answers.heard());
+                "nack 5 unavailable no handler for up.panic"), answers.heard());
         assertEquals(0, speaker.commands.size());
     }
 
@@ -84,8 +84,8 @@ public final class CommandReceiverTest {
         assertEquals(1, speaker.commands.size());
         assertEquals(Arrays.asList("ack 7", "ack 7"), answers.heard());
         assertEquals(1, receiver.count("repeated"));
-        receive("{\"name\": \"nobody.knows\", \"id\": 1}");
-        receive("{\"name\": \"nobody.knows\", \"id\": 1}");
+        receive("{\"name\": \"app.unknown\", \"id\": 1}");
+        receive("{\"name\": \"app.unknown\", \"id\": 1}");
         assertEquals(2, answers.heard().size());
         assertEquals(1, receiver.count("unknown"));
     }
@@ -97,9 +97,9 @@ public final class CommandReceiverTest {
         assertEquals(2, speaker.commands.size());
         receive(speak("7", "hello"));
         assertEquals(3, speaker.commands.size());
-        receive("{\"name\": \"nobody.knows\", \"data\": {\"text\": \"hello\"}, \"id\": \"7\"}");
+        receive("{\"name\": \"app.unknown\", \"data\": {\"text\": \"hello\"}, \"id\": \"7\"}");
         assertEquals(Arrays.asList("ack 7", "ack 7", "ack 7",
-                "nack 7 unknown no Command 'nobody.knows'"), answers.heard());
+                "nack 7 unknown no Command 'app.unknown'"), answers.heard());
     }
 
     @Test

@@ -2,6 +2,7 @@ package org.raspilot.up.commands;
 
 import java.util.ArrayList;
 import java.util.List;
+import org.raspilot.up.commands.CommandExecutor.HandlerFaultListener;
 
 /** Records exceptions of handlers. */
 final class HandlerFaults implements HandlerFaultListener {

@@ -9,6 +9,8 @@ import static org.junit.Assert.fail;
 import java.util.Arrays;
 import java.util.Collections;
 import org.junit.Test;
+import org.raspilot.up.commands.GainSet.Gains;
+import org.raspilot.up.commands.GainSet.LoopGains;
 import org.raspilot.up.wire.GeneralMessage;
 
 public final class TypedCommandsTest {

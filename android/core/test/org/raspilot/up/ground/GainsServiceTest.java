@@ -13,9 +13,9 @@ import org.junit.Rule;
 import org.junit.Test;
 import org.raspilot.up.commands.BaseCommand;
 import org.raspilot.up.commands.Commands;
+import org.raspilot.up.commands.GainSet.Gains;
+import org.raspilot.up.commands.GainSet.LoopGains;
 import org.raspilot.up.commands.GainSet;
-import org.raspilot.up.commands.Gains;
-import org.raspilot.up.commands.LoopGains;
 import org.raspilot.up.loop.ScriptedNetwork;
 import org.raspilot.up.wire.GeneralMessage;
 import org.raspilot.up.wire.Json;
@@ -100,7 +100,7 @@ public final class GainsServiceTest {
         assertTrue(bench.events().contains("gains_ack"));
         bench.fly(2, 1);
         answerRequest(set(2.5));
-        assertEquals("what flies is what the aircraft says", 2.5, flyingP(), 0);
+        assertEquals("active gains are those that the aircraft reports", 2.5, flyingP(), 0);
     }
 
     @Test
@@ -141,7 +141,7 @@ public final class GainsServiceTest {
         bench.loop.advance(3000);
         assertEquals(Answer.Outcome.TIMEOUT, bench.answer().outcome);
         assertEquals(3, flyingP(), 0);
-        assertNull("nobody knows whether there is something to undo",
+        assertNull("unknown whether there is something to undo",
                 bench.ground.gains().snapshot().undo);
         bench.fly(2, 1);
         answerRequest(set(9));

@@ -8,6 +8,8 @@ import java.util.Random;
 import org.junit.rules.ExternalResource;
 import org.raspilot.up.commands.CommandExecutor;
 import org.raspilot.up.commands.CommandRegistry;
+import org.raspilot.up.ground.Answer.AnswerListener;
+import org.raspilot.up.ground.TokenStore.MemoryTokenStore;
 import org.raspilot.up.loop.Faults;
 import org.raspilot.up.loop.ManualLoop;
 import org.raspilot.up.loop.ScriptedNetwork;

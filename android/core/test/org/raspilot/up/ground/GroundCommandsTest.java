@@ -79,7 +79,7 @@ public final class GroundCommandsTest {
         flySeen(1, 1);
         bench.fly(2, 20);
         send(new BaseCommand(Commands.DISARM));
-        assertEquals("2 s are no too long", Long.valueOf(1),
+        assertEquals("2 s are not too long", Long.valueOf(1),
                 bench.sent(Commands.DISARM).beacon);
         bench.fly(22, 1);
         send(new BaseCommand(Commands.DISARM));
@@ -167,7 +167,7 @@ public final class GroundCommandsTest {
         mustBeRefused("no_aircraft");
         bench.peer().end("gone");
         send(new BaseCommand(Commands.DISARM));
-        assertEquals("there is no link: gone", bench.answer().reason);
+        assertEquals("not connected: gone", bench.answer().reason);
         bench.loop.advance(700);
         bench.accept(ProxyRole.COMMAND);
         flySeen(4, 3);

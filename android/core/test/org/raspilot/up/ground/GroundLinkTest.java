@@ -9,6 +9,7 @@ import org.junit.Rule;
 import org.junit.Test;
 import org.raspilot.up.commands.BaseCommand;
 import org.raspilot.up.commands.Commands;
+import org.raspilot.up.ground.GroundStatus.LinkState;
 import org.raspilot.up.wire.ProxyRole;
 
 /** Hello, seat and token, and how the link comes back (docs/protocols.md 9). */
@@ -87,7 +88,7 @@ public final class GroundLinkTest {
         assertEquals("the heir may have gone", ControlStatus.OURS, bench.status.control);
         assertTrue(bench.ground.releaseControl());
         assertEquals("UP1 seat release\n", bench.peer().written());
-        assertEquals("what is sent now is dropped", ControlStatus.LATER,
+        assertEquals("messages sent now are dropped", ControlStatus.LATER,
                 bench.status.control);
         bench.ground.send(new BaseCommand(Commands.DISARM), bench.keeping());
         assertEquals("no_control", bench.answer().code);

@@ -20,6 +20,8 @@ import org.junit.Test;
 import org.raspilot.up.commands.CommandExecutor;
 import org.raspilot.up.commands.CommandRegistry;
 import org.raspilot.up.commands.Commands;
+import org.raspilot.up.ground.GroundStatus.LinkState;
+import org.raspilot.up.ground.TokenStore.MemoryTokenStore;
 import org.raspilot.up.loop.RunningLoop;
 import org.raspilot.up.wire.GeneralMessage;
 import org.raspilot.up.wire.MalformedException;

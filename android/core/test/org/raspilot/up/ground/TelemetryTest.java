@@ -14,6 +14,7 @@ import java.util.List;
 import java.util.Map;
 import java.util.Random;
 import org.junit.Test;
+import org.raspilot.up.ground.TelemetryText.TelemetryRow;
 
 /** Values read from a frame with any content, and their age. */
 public final class TelemetryTest {

@@ -8,6 +8,7 @@ import java.util.LinkedHashMap;
 import java.util.List;
 import java.util.Map;
 import org.junit.Test;
+import org.raspilot.up.ground.TelemetryText.TelemetryRow;
 
 /** All telemetry as rows. */
 public final class TelemetryTextTest {

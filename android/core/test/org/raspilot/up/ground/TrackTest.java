@@ -11,6 +11,7 @@ import java.util.ArrayList;
 import java.util.List;
 import java.util.Random;
 import org.junit.Test;
+import org.raspilot.up.ground.Track.TrackPoint;
 
 /** The track of the aircraft. */
 public final class TrackTest {

@@ -4,6 +4,7 @@ import java.io.ByteArrayOutputStream;
 import java.util.ArrayList;
 import java.util.List;
 import java.util.concurrent.Callable;
+import org.raspilot.up.loop.TcpConnection.TcpListener;
 
 /** Records the events of a TCP connection; to be read on the loop. */
 class Heard implements TcpListener {

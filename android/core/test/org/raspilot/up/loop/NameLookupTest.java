@@ -20,6 +20,8 @@ import org.junit.After;
 import org.junit.Before;
 import org.junit.Rule;
 import org.junit.Test;
+import org.raspilot.up.loop.NameLookup.SystemResolver;
+import org.raspilot.up.loop.TcpConnection.TcpListener;
 
 public final class NameLookupTest implements NameLookup.Resolver {
     private final CountDownLatch isAnswered = new CountDownLatch(1);

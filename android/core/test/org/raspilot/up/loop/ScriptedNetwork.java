@@ -5,6 +5,8 @@ import java.io.IOException;
 import java.nio.charset.Charset;
 import java.util.ArrayList;
 import java.util.List;
+import org.raspilot.up.loop.TcpConnection.TcpListener;
+import org.raspilot.up.loop.UdpPort.UdpListener;
 
 /** The network of a test: the test triggers every event of its connections. */
 public final class ScriptedNetwork implements Network {

@@ -15,6 +15,7 @@ import org.junit.After;
 import org.junit.Before;
 import org.junit.Rule;
 import org.junit.Test;
+import org.raspilot.up.loop.TcpConnection.TcpListener;
 
 public final class SelectorLoopTcpTest {
     private static final int LONG_MS = 20000;

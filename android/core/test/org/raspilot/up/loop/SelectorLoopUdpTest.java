@@ -19,6 +19,7 @@ import org.junit.After;
 import org.junit.Before;
 import org.junit.Rule;
 import org.junit.Test;
+import org.raspilot.up.loop.UdpPort.UdpListener;
 
 public final class SelectorLoopUdpTest implements UdpListener {
     private static final Charset ASCII = Charset.forName("US-ASCII");

@@ -23,6 +23,7 @@ import java.util.concurrent.CountDownLatch;
 import java.util.concurrent.TimeUnit;
 import org.junit.Rule;
 import org.junit.Test;
+import org.raspilot.up.loop.NameLookup.SystemResolver;
 
 public final class SocketSelectorTest {
     private final List<Selector> opened = new ArrayList<>();

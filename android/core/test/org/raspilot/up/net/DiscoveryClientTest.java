@@ -17,6 +17,7 @@ import org.raspilot.up.loop.Faults;
 import org.raspilot.up.loop.ManualLoop;
 import org.raspilot.up.loop.RunningLoop;
 import org.raspilot.up.loop.ScriptedNetwork;
+import org.raspilot.up.net.DiscoveryClient.BroadcastAddresses;
 
 public final class DiscoveryClientTest implements BroadcastAddresses {
     private static final String QUESTION = "Where is Raspilot? -> ";
@@ -58,7 +59,7 @@ public final class DiscoveryClientTest implements BroadcastAddresses {
     public void wrongAnswersAreCountedAndWaitedBeyond() {
         client.find(found);
         final ScriptedNetwork.Port port = network.ports.get(0);
-        port.come("where is everybody?", "192.168.43.9", 3001);
+        port.come("where are you?", "192.168.43.9", 3001);
         port.come("192.168.43.66", "192.168.43.66", 4000);
         assertTrue(found.told.isEmpty());
         assertEquals(2, client.wrongAnswers());

@@ -2,6 +2,7 @@ package org.raspilot.up.net;
 
 import java.util.ArrayList;
 import java.util.List;
+import org.raspilot.up.net.EndpointDiscovery.DiscoveryListener;
 
 /** Records the result of a finder. */
 final class Found implements DiscoveryListener {

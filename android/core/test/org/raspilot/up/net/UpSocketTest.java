@@ -12,6 +12,7 @@ import org.raspilot.up.loop.Cancellable;
 import org.raspilot.up.loop.Faults;
 import org.raspilot.up.loop.ManualLoop;
 import org.raspilot.up.loop.ScriptedNetwork;
+import org.raspilot.up.net.EndpointDiscovery.DiscoveryListener;
 
 /** When an UpSocket connects, gives up and tries again. */
 public final class UpSocketTest {

@@ -40,7 +40,7 @@ public final class UpSocketWatchTest {
         assertEquals("\n", network.newest().written());
         loop.advance(3000);
         assertEquals("\n\n\n", network.newest().written());
-        assertEquals("heartbeats are no lines", 1, socket.counters().sent);
+        assertEquals("heartbeats are not lines", 1, socket.counters().sent);
         assertEquals(7, socket.counters().bytesOut);
     }
 

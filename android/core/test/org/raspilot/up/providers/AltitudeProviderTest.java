@@ -5,6 +5,7 @@ import static org.junit.Assert.assertTrue;
 import static org.junit.Assert.fail;
 
 import org.junit.Test;
+import org.raspilot.up.providers.AltitudeProvider.Pressure;
 
 /** The altitude by the pressure, over the sea or over the field. */
 public final class AltitudeProviderTest {

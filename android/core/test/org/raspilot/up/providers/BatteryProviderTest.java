@@ -4,6 +4,8 @@ import static org.junit.Assert.assertEquals;
 import static org.junit.Assert.assertTrue;
 
 import org.junit.Test;
+import org.raspilot.up.providers.BatteryProvider.BatteryLevel;
+import org.raspilot.up.providers.ProviderStatus.ProviderState;
 
 /** The battery's level: on change, and again and again. */
 public final class BatteryProviderTest {

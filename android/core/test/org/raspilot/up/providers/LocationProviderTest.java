@@ -4,6 +4,7 @@ import static org.junit.Assert.assertEquals;
 import static org.junit.Assert.assertTrue;
 
 import org.junit.Test;
+import org.raspilot.up.providers.ProviderStatus.ProviderState;
 
 /** The sent values of a fix, their times, and their display. */
 public final class LocationProviderTest {
@@ -56,7 +57,7 @@ public final class LocationProviderTest {
         gps.give(new Fix(1, 2, null, Double.POSITIVE_INFINITY, null, null));
         assertEquals(0, bench.sink.commands.size());
         assertEquals("told once", "[location: its reading cannot be used: "
-                + "a fix that may be off by more than 50 m is none to fly by]",
+                + "a fix that may be off by more than 50 m is not usable in flight]",
                 bench.told.toString());
         bench.loop.advance(10001);
         assertEquals(ProviderState.SILENT, provider.state());

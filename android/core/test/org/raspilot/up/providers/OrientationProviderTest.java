@@ -4,6 +4,7 @@ import static org.junit.Assert.assertEquals;
 import static org.junit.Assert.assertTrue;
 
 import org.junit.Test;
+import org.raspilot.up.providers.ProviderStatus.ProviderState;
 import org.raspilot.up.wire.OrientationFrame;
 
 /** Frames of attitude and rates: their rate, their axes, and what becomes without a gyroscope. */

@@ -6,6 +6,7 @@ import java.util.Collections;
 import org.junit.Test;
 import org.raspilot.up.commands.BaseCommand;
 import org.raspilot.up.commands.Commands;
+import org.raspilot.up.providers.ProviderStatus.ProviderState;
 
 /**
  * How to add your own sensor: one class and one registration.

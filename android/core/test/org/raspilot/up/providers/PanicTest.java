@@ -6,6 +6,7 @@ import static org.junit.Assert.assertTrue;
 import static org.junit.Assert.fail;
 
 import org.junit.Test;
+import org.raspilot.up.providers.BatteryProvider.BatteryLevel;
 
 /** Panic Mode: its input, and that every stream obeys it. */
 public final class PanicTest {
@@ -30,7 +31,7 @@ public final class PanicTest {
                 assertEquals("delay_ms: 0 to 10000", error.getMessage());
             }
         }
-        assertEquals("what was refused changes nothing", 10000, panic.delayMs());
+        assertEquals("a refused value changes nothing", 10000, panic.delayMs());
     }
 
     @Test

@@ -9,6 +9,9 @@ import java.util.ArrayList;
 import java.util.List;
 import org.junit.Test;
 import org.raspilot.up.commands.BaseCommand;
+import org.raspilot.up.providers.AltitudeProvider.Pressure;
+import org.raspilot.up.providers.BatteryProvider.BatteryLevel;
+import org.raspilot.up.providers.ProviderStatus.ProviderState;
 
 /** Registering, starting and stopping, and the isolation of a provider's fault. */
 public final class ProvidersControllerTest {

@@ -51,8 +51,8 @@ public final class JsonTest {
 
     @Test
     public void whatTheProtocolForbidsIsRefused() {
-        assertRefused("NaN", "NaN is no JSON number");
-        assertRefused("[-Infinity]", "-Infinity is no JSON number");
+        assertRefused("NaN", "NaN is not a JSON number");
+        assertRefused("[-Infinity]", "-Infinity is not a JSON number");
         assertRefused("{\"x\": 1e999}", "too large");
         assertRefused("123456789012345678901", "more than 20 characters");
         assertRefused("{\"a\": 1, \"\\u0061\": 2}", "'a' is repeated");
@@ -131,7 +131,7 @@ public final class JsonTest {
         fields.put("x", new StringBuilder());
         assertUnwritable("x is a StringBuilder, which JSON cannot hold", fields);
         assertUnwritable("the value is inf", Double.POSITIVE_INFINITY);
-        assertUnwritable("the value has a key that is no text", Collections.singletonMap(1, 2));
+        assertUnwritable("the value has a key that is not text", Collections.singletonMap(1, 2));
     }
 
     private static void assertUnwritable(String complaint, Object value) {

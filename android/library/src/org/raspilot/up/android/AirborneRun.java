@@ -13,9 +13,11 @@ import org.raspilot.up.airborne.Airborne;
 import org.raspilot.up.airborne.AirborneListener;
 import org.raspilot.up.airborne.AirborneSettings;
 import org.raspilot.up.airborne.AirborneStatus;
+import org.raspilot.up.android.SensorProblem.SensorTexts;
 import org.raspilot.up.loop.SelectorLoop;
 import org.raspilot.up.net.Endpoint;
 import org.raspilot.up.providers.Mounting;
+import org.raspilot.up.providers.Sensors;
 
 /**
  * One run of the airborne side, from start to stop: its loop, the sensors' thread, the locks that
@@ -63,7 +65,7 @@ final class AirborneRun {
         sensorsThread = new HandlerThread("up sensors", Process.THREAD_PRIORITY_FOREGROUND);
         sensorsThread.start();
         ProblemListener problems = sentence -> reportEvent(sentence);
-        AndroidSources sensors = new AndroidSources(context, sensorsThread.getLooper(), loop,
+        Sensors sensors = AndroidSources.find(context, sensorsThread.getLooper(), loop,
                 texts, problems, new Declination(deg -> setDeclination(deg)));
         speaker = new AndroidSpeaker(context, texts, problems);
         locks = new AwakeLocks(context);

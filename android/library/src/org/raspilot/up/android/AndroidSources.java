@@ -1,13 +1,15 @@
 package org.raspilot.up.android;
 
 import android.content.Context;
+import android.hardware.Sensor;
+import android.os.Build;
 import android.os.Handler;
 import android.os.Looper;
 import java.util.concurrent.Executor;
+import org.raspilot.up.android.SensorProblem.SensorTexts;
 import org.raspilot.up.loop.Loop;
-import org.raspilot.up.providers.BatteryLevel;
+import org.raspilot.up.providers.AltitudeProvider.Pressure;
 import org.raspilot.up.providers.Fix;
-import org.raspilot.up.providers.Pressure;
 import org.raspilot.up.providers.Rotation;
 import org.raspilot.up.providers.RotationRate;
 import org.raspilot.up.providers.SensorSource;
@@ -17,12 +19,9 @@ import org.raspilot.up.providers.Sensors;
  * The phone's own sensors. The system calls on the thread that is handed in; readings are posted
  * to the loop.
  */
-public final class AndroidSources implements Sensors {
-    private final SensorSource<Fix> location;
-    private final SensorSource<Rotation> rotation;
-    private final SensorSource<RotationRate> rotationRate;
-    private final SensorSource<Pressure> pressure;
-    private final SensorSource<BatteryLevel> battery;
+public final class AndroidSources {
+    private AndroidSources() {
+    }
 
     /**
      * Finds the available sensors.
@@ -31,47 +30,36 @@ public final class AndroidSources implements Sensors {
      * @param looper whose thread the system calls on
      * @param fixes receives each fix in addition to its provider
      */
-    public AndroidSources(Context context, Looper looper, final Loop loop, SensorTexts texts,
+    public static Sensors find(Context context, Looper looper, Loop loop, SensorTexts texts,
             ProblemListener problems, FixListener fixes) {
         Context lasting = context.getApplicationContext();
         Executor posting = call -> loop.post(call);
-        SensorAccess desk = new SensorAccess(lasting, looper);
-        location = new LocationSource(lasting, looper, posting, texts, problems, fixes);
-        rotation = rotation(desk, posting, texts, problems);
-        rotationRate = new GyroscopeSource(desk, posting, texts, problems);
-        pressure = new BarometerSource(desk, posting, texts, problems);
-        battery = new BatterySource(lasting, new Handler(looper), posting, texts);
+        SensorAccess access = new SensorAccess(lasting, looper);
+        return new Sensors(
+                new LocationSource(lasting, looper, posting, texts, problems, fixes),
+                rotation(access, posting, texts, problems),
+                new HardwareSource<>(access, Sensor.TYPE_GYROSCOPE, posting, texts,
+                        SensorProblem.GYROSCOPE, problems, (values, timeMs) ->
+                                new RotationRate(values[0], values[1], values[2], timeMs)),
+                new HardwareSource<>(access, Sensor.TYPE_PRESSURE, posting, texts,
+                        SensorProblem.BAROMETER, problems, (values, timeMs) ->
+                                new Pressure(values[0])),
+                new BatterySource(lasting, new Handler(looper), posting, texts));
     }
 
     /** Returns the best source of a phone; its own fusion includes north and its gyroscope. */
-    static SensorSource<Rotation> rotation(SensorAccess desk, Executor loop, SensorTexts texts,
+    static SensorSource<Rotation> rotation(SensorAccess access, Executor loop, SensorTexts texts,
             ProblemListener problems) {
-        SensorSource<Rotation> vector = new VectorSource(desk, loop, texts, problems);
-        return vector.isPresent() ? vector : new FieldSource(desk, loop, texts, problems);
+        // The game rotation vector has no north: its yaw would be sent as a heading.
+        SensorSource<Rotation> vector = new HardwareSource<>(access, Sensor.TYPE_ROTATION_VECTOR,
+                loop, texts, SensorProblem.ROTATION, problems, (values, timeMs) ->
+                        RotationVector.read(values, timeMs, Build.VERSION.SDK_INT));
+        return vector.isPresent() ? vector : new FieldSource(access, loop, texts, problems);
     }
 
-    @Override
-    public SensorSource<Fix> location() {
-        return location;
-    }
-
-    @Override
-    public SensorSource<Rotation> rotation() {
-        return rotation;
-    }
-
-    @Override
-    public SensorSource<RotationRate> rotationRate() {
-        return rotationRate;
-    }
-
-    @Override
-    public SensorSource<Pressure> pressure() {
-        return pressure;
-    }
-
-    @Override
-    public SensorSource<BatteryLevel> battery() {
-        return battery;
+    /** Receives the fixes in addition to the provider that sends them. Called on any thread. */
+    public interface FixListener {
+        /** Takes a fix, possibly an old one from before the start. */
+        void onFix(Fix fix);
     }
 }

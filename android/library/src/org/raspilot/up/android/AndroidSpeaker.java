@@ -8,6 +8,7 @@ import java.util.ArrayList;
 import java.util.HashMap;
 import java.util.List;
 import org.raspilot.up.airborne.Speaker;
+import org.raspilot.up.android.SensorProblem.SensorTexts;
 
 /** Speaks texts by the phone's own text to speech; texts wait until it is ready. */
 final class AndroidSpeaker implements Speaker, TextToSpeech.OnInitListener {

@@ -13,6 +13,7 @@ import java.util.List;
 import org.raspilot.up.Up;
 import org.raspilot.up.airborne.AirborneSettings;
 import org.raspilot.up.airborne.AirborneStatus;
+import org.raspilot.up.android.SensorProblem.SensorTexts;
 import org.raspilot.up.android.api26.Foreground;
 import org.raspilot.up.providers.LocationProvider;
 import org.raspilot.up.providers.Mounting;
@@ -208,5 +209,11 @@ public abstract class BaseUpService extends Service {
                 run.zeroAltitudeHere();
             }
         }
+    }
+
+    /** Sees what the airborne side does. Called on the main thread. */
+    public interface UpWatcher {
+        /** Takes the current status: twice a second, and soon after a change of the link. */
+        void onStatus(AirborneStatus status);
     }
 }

@@ -7,7 +7,8 @@ import android.content.IntentFilter;
 import android.os.BatteryManager;
 import android.os.Handler;
 import java.util.concurrent.Executor;
-import org.raspilot.up.providers.BatteryLevel;
+import org.raspilot.up.android.SensorProblem.SensorTexts;
+import org.raspilot.up.providers.BatteryProvider.BatteryLevel;
 import org.raspilot.up.providers.SensorListener;
 import org.raspilot.up.providers.SensorSource;
 

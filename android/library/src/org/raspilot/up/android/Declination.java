@@ -1,6 +1,7 @@
 package org.raspilot.up.android;
 
 import android.hardware.GeomagneticField;
+import org.raspilot.up.android.AndroidSources.FixListener;
 import org.raspilot.up.providers.Fix;
 
 /** Reports the magnetic declination along the flight, by Android's model. */

@@ -6,6 +6,8 @@ import android.hardware.SensorEventListener;
 import android.hardware.SensorManager;
 import java.util.concurrent.Executor;
 import java.util.concurrent.TimeUnit;
+import org.raspilot.up.android.SensorProblem.SensorTexts;
+import org.raspilot.up.providers.Quaternion;
 import org.raspilot.up.providers.Rotation;
 import org.raspilot.up.providers.SensorListener;
 import org.raspilot.up.providers.SensorSource;
@@ -88,7 +90,7 @@ final class FieldSource implements SensorSource<Rotation>, SensorEventListener {
         boolean isKnown = gravity.isKnown() && field.isKnown() && SensorManager.getRotationMatrix(
                 matrix, null, gravity.values(), field.values());
         if (isKnown) {
-            handover.put(new Rotation(RotationMatrix.quaternion(matrix), timeMs));
+            handover.put(new Rotation(Quaternion.ofMatrix(matrix), timeMs));
         }
     }
 

@@ -4,6 +4,7 @@ import android.os.Handler;
 import android.os.Looper;
 import java.util.ArrayList;
 import java.util.List;
+import org.raspilot.up.android.TelemetryService.GroundWatcher;
 import org.raspilot.up.ground.Alarms;
 import org.raspilot.up.ground.EventLog;
 import org.raspilot.up.ground.GainsService;
@@ -23,12 +24,7 @@ final class GroundView implements Runnable {
     private boolean isTelemetryNew;
     private boolean isStatusNew;
     private boolean isChanged;
-    private Telemetry telemetry = Telemetry.EMPTY;
-    private GroundStatus status;
-    private Track.Snapshot track;
-    private EventLog.Snapshot events;
-    private Alarms.Snapshot alarms;
-    private GainsService.Snapshot gains;
+    private GroundSnapshot snapshot = GroundSnapshot.EMPTY;
 
     /** Adds a watcher; on the main thread. */
     void add(GroundWatcher watcher) {
@@ -44,7 +40,8 @@ final class GroundView implements Runnable {
 
     void update(Telemetry newest) {
         synchronized (lock) {
-            telemetry = newest;
+            snapshot = new GroundSnapshot(newest, snapshot.status, snapshot.track,
+                    snapshot.events, snapshot.alarms, snapshot.gains, 0);
             isTelemetryNew = true;
             wake();
         }
@@ -52,19 +49,18 @@ final class GroundView implements Runnable {
 
     void update(GroundStatus newest) {
         synchronized (lock) {
-            status = newest;
+            snapshot = new GroundSnapshot(snapshot.telemetry, newest, snapshot.track,
+                    snapshot.events, snapshot.alarms, snapshot.gains, 0);
             isStatusNew = true;
             wake();
         }
     }
 
-    void update(Track.Snapshot newTrack, EventLog.Snapshot newEvents, Alarms.Snapshot newAlarms,
-            GainsService.Snapshot newGains) {
+    void update(Track.Snapshot track, EventLog.Snapshot events, Alarms.Snapshot alarms,
+            GainsService.Snapshot gains) {
         synchronized (lock) {
-            track = newTrack;
-            events = newEvents;
-            alarms = newAlarms;
-            gains = newGains;
+            snapshot = new GroundSnapshot(snapshot.telemetry, snapshot.status, track, events,
+                    alarms, gains, 0);
             isChanged = true;
             wake();
         }
@@ -73,51 +69,16 @@ final class GroundView implements Runnable {
     /** Clears everything, as before another link; the watchers are notified. */
     void clear() {
         synchronized (lock) {
-            telemetry = Telemetry.EMPTY;
-            status = null;
-            track = null;
-            events = null;
-            alarms = null;
-            gains = null;
+            snapshot = GroundSnapshot.EMPTY;
             isTelemetryNew = true;
             isChanged = true;
             wake();
         }
     }
 
-    Telemetry telemetry() {
+    GroundSnapshot snapshot() {
         synchronized (lock) {
-            return telemetry;
-        }
-    }
-
-    GroundStatus status() {
-        synchronized (lock) {
-            return status;
-        }
-    }
-
-    Track.Snapshot track() {
-        synchronized (lock) {
-            return track;
-        }
-    }
-
-    EventLog.Snapshot events() {
-        synchronized (lock) {
-            return events;
-        }
-    }
-
-    Alarms.Snapshot alarms() {
-        synchronized (lock) {
-            return alarms;
-        }
-    }
-
-    GainsService.Snapshot gains() {
-        synchronized (lock) {
-            return gains;
+            return snapshot;
         }
     }
 
@@ -127,8 +88,8 @@ final class GroundView implements Runnable {
         final GroundStatus newStatus;
         final boolean isOtherNew;
         synchronized (lock) {
-            newTelemetry = isTelemetryNew ? telemetry : null;
-            newStatus = isStatusNew ? status : null;
+            newTelemetry = isTelemetryNew ? snapshot.telemetry : null;
+            newStatus = isStatusNew ? snapshot.status : null;
             isOtherNew = isChanged;
             isTelemetryNew = false;
             isStatusNew = false;

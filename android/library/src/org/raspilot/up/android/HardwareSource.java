@@ -5,6 +5,7 @@ import android.hardware.SensorEvent;
 import android.hardware.SensorEventListener;
 import java.util.concurrent.Executor;
 import java.util.concurrent.TimeUnit;
+import org.raspilot.up.android.SensorProblem.SensorTexts;
 import org.raspilot.up.providers.SensorListener;
 import org.raspilot.up.providers.SensorSource;
 
@@ -13,8 +14,15 @@ import org.raspilot.up.providers.SensorSource;
  *
  * @param <R> what one reading is
  */
-abstract class HardwareSource<R> implements SensorSource<R>, SensorEventListener {
-    private final SensorAccess desk;
+final class HardwareSource<R> implements SensorSource<R>, SensorEventListener {
+    /** Converts the values of an event, on the sensors' thread. */
+    interface Reader<R> {
+        /** Returns the reading, or null for none. */
+        R read(float[] values, long timeMs);
+    }
+
+    private final SensorAccess access;
+    private final Reader<R> reader;
     private final Sensor sensor;
     private final String absence;
     private final LatestReading<R> handover;
@@ -23,11 +31,12 @@ abstract class HardwareSource<R> implements SensorSource<R>, SensorEventListener
     private final BadReadings bad;
 
     /** Takes the type of {@link Sensor} and the reason to report if the phone has none. */
-    HardwareSource(SensorAccess desk, int type, Executor loop, SensorTexts texts,
+    HardwareSource(SensorAccess access, int type, Executor loop, SensorTexts texts,
             SensorProblem lack,
-            ProblemListener problems) {
-        this.desk = desk;
-        sensor = desk.find(type);
+            ProblemListener problems, Reader<R> reader) {
+        this.reader = reader;
+        this.access = access;
+        sensor = access.find(type);
         absence = texts.of(lack);
         refusal = texts.of(SensorProblem.REFUSED);
         handover = new LatestReading<>(loop);
@@ -35,16 +44,13 @@ abstract class HardwareSource<R> implements SensorSource<R>, SensorEventListener
         bad = new BadReadings(problems, refusal);
     }
 
-    /** Returns the reading of an event, or null for none; on the sensors' thread. */
-    abstract R read(float[] values, long timeMs);
-
     @Override
-    public final boolean isPresent() {
+    public boolean isPresent() {
         return sensor != null;
     }
 
     @Override
-    public final String name() {
+    public String name() {
         if (sensor == null) {
             return absence;
         }
@@ -54,27 +60,27 @@ abstract class HardwareSource<R> implements SensorSource<R>, SensorEventListener
     }
 
     @Override
-    public final void subscribe(long periodMs, SensorListener<R> listener) {
+    public void subscribe(long periodMs, SensorListener<R> listener) {
         if (sensor == null) {
             throw new IllegalStateException(absence);
         }
-        desk.unregister(this);
+        access.unregister(this);
         handover.setListener(listener);
-        if (!desk.register(this, sensor, periodMs)) {
+        if (!access.register(this, sensor, periodMs)) {
             problems.onProblem(refusal + ": " + sensor.getName());
         }
     }
 
     @Override
-    public final void unsubscribe() {
-        desk.unregister(this);
+    public void unsubscribe() {
+        access.unregister(this);
         handover.setListener(null);
     }
 
     @Override
-    public final void onSensorChanged(SensorEvent event) {
+    public void onSensorChanged(SensorEvent event) {
         try {
-            R reading = read(event.values, TimeUnit.NANOSECONDS.toMillis(event.timestamp));
+            R reading = reader.read(event.values, TimeUnit.NANOSECONDS.toMillis(event.timestamp));
             if (reading != null) {
                 handover.put(reading);
             }
@@ -85,6 +91,6 @@ abstract class HardwareSource<R> implements SensorSource<R>, SensorEventListener
     }
 
     @Override
-    public final void onAccuracyChanged(Sensor changed, int accuracy) {
+    public void onAccuracyChanged(Sensor changed, int accuracy) {
     }
 }

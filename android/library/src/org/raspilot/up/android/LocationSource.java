@@ -9,6 +9,8 @@ import android.os.Build;
 import android.os.Bundle;
 import android.os.Looper;
 import java.util.concurrent.Executor;
+import org.raspilot.up.android.AndroidSources.FixListener;
+import org.raspilot.up.android.SensorProblem.SensorTexts;
 import org.raspilot.up.android.api23.FixTime;
 import org.raspilot.up.providers.Fix;
 import org.raspilot.up.providers.SensorListener;

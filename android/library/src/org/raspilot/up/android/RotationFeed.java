@@ -3,6 +3,7 @@ package org.raspilot.up.android;
 import android.content.Context;
 import android.os.Handler;
 import android.os.Looper;
+import org.raspilot.up.android.SensorProblem.SensorTexts;
 import org.raspilot.up.providers.Rotation;
 import org.raspilot.up.providers.SensorListener;
 import org.raspilot.up.providers.SensorSource;
@@ -26,7 +27,7 @@ public final class RotationFeed {
         return source.isPresent();
     }
 
-    /** Returns the name of its source, or a sentence why there is none. */
+    /** Returns the name of its source, or a sentence about its absence. */
     public String name() {
         return source.name();
     }

@@ -19,5 +19,11 @@ public enum SensorProblem {
     /** The system refused to read a sensor that is there. */
     REFUSED,
     /** There is nothing that speaks. */
-    SPEECH
+    SPEECH;
+
+    /** The application's texts for missing parts of a phone. Called on any thread. */
+    public interface SensorTexts {
+        /** Returns a sentence without a full stop. */
+        String of(SensorProblem lack);
+    }
 }

@@ -56,7 +56,7 @@ public final class SpawnResult {
         return values.getBoolean(IS_SPAWNED);
     }
 
-    /** Returns the runner's message, or why there is none, without a full stop. */
+    /** Returns the runner's message, or the reason for its absence, without a full stop. */
     public String sentence() {
         return values.getString(SENTENCE);
     }

@@ -82,7 +82,7 @@ public final class SpawnService extends IntentService {
         try {
             answer.send(message);
         } catch (RemoteException gone) {
-            Log.w(TAG, "nobody waits for the runner's answer any more", gone);
+            Log.w(TAG, "the requester of the runner's answer is gone", gone);
         }
     }
 }

@@ -10,17 +10,13 @@ import org.raspilot.up.Up;
 import org.raspilot.up.commands.BaseCommand;
 import org.raspilot.up.commands.Commands;
 import org.raspilot.up.commands.GainSet;
-import org.raspilot.up.ground.Alarms;
+import org.raspilot.up.ground.Answer.AnswerListener;
 import org.raspilot.up.ground.Answer;
-import org.raspilot.up.ground.AnswerListener;
-import org.raspilot.up.ground.EventLog;
-import org.raspilot.up.ground.GainsService;
 import org.raspilot.up.ground.GroundSettings;
 import org.raspilot.up.ground.GroundSide;
 import org.raspilot.up.ground.GroundStatus;
 import org.raspilot.up.ground.Telemetry;
 import org.raspilot.up.ground.TelemetrySource;
-import org.raspilot.up.ground.Track;
 
 /**
  * Receives telemetry and sends Commands while a client is bound (thesis 4.5.2): a bound service. An
@@ -35,7 +31,7 @@ public abstract class TelemetryService extends Service {
     /**
      * Returns the current settings; called at the service's start and at {@link Ground#reload}.
      *
-     * @throws IllegalArgumentException with a sentence for the user: there is no link then
+     * @throws IllegalArgumentException with a sentence for the user: the link stays closed then
      */
     protected abstract GroundSettings readSettings();
 
@@ -115,39 +111,9 @@ public abstract class TelemetryService extends Service {
             begin();
         }
 
-        /** Returns the time to compute ages with, ms. */
-        public long nowMs() {
-            return run == null ? SystemClock.elapsedRealtime() : run.nowMs();
-        }
-
-        /** Returns the newest frame; {@link Telemetry#EMPTY} before the first. */
-        public Telemetry telemetry() {
-            return view.telemetry();
-        }
-
-        /** Returns the newest status; null before the first. */
-        public GroundStatus status() {
-            return view.status();
-        }
-
-        /** Returns the newest track; null before the first. */
-        public Track.Snapshot track() {
-            return view.track();
-        }
-
-        /** Returns the events; null: nothing is known yet. */
-        public EventLog.Snapshot events() {
-            return view.events();
-        }
-
-        /** Returns the active alarms, or null if nothing is known yet. */
-        public Alarms.Snapshot alarms() {
-            return view.alarms();
-        }
-
-        /** Returns the gains; null: nothing is known yet. */
-        public GainsService.Snapshot gains() {
-            return view.gains();
+        /** Returns the newest state, with the time to compute ages with. */
+        public GroundSnapshot snapshot() {
+            return view.snapshot().at(run == null ? SystemClock.elapsedRealtime() : run.nowMs());
         }
 
         /** Sends a Command; {@code shownBeacon} is that of the frame on the screen, or null. */
@@ -210,5 +176,17 @@ public abstract class TelemetryService extends Service {
     /** A request to the aircraft, on the loop. */
     private interface Asking {
         void ask(GroundSide side, AnswerListener answers);
+    }
+
+    /** Receives the data of the aircraft. Called on the main thread. */
+    public interface GroundWatcher {
+        /** Takes the newest frame; older frames that were not delivered yet are skipped. */
+        void onTelemetry(Telemetry telemetry);
+
+        /** Takes the status, when it has changed. */
+        void onStatus(GroundStatus status);
+
+        /** Called when track, events, alarms or gains have changed. */
+        void onChanged();
     }
 }

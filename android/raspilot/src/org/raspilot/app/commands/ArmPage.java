@@ -2,6 +2,7 @@ package org.raspilot.app.commands;
 
 import android.content.Context;
 import android.content.res.Resources;
+import android.text.TextUtils;
 import android.view.LayoutInflater;
 import android.view.View;
 import android.widget.TextView;
@@ -9,7 +10,8 @@ import java.util.Collections;
 import java.util.List;
 import java.util.Map;
 import org.raspilot.app.R;
-import org.raspilot.app.ground.GroundSnapshot;
+import org.raspilot.app.commands.Permission.DisabledReason;
+import org.raspilot.up.android.GroundSnapshot;
 import org.raspilot.app.view.HoldButton;
 import org.raspilot.app.view.TextViews;
 import org.raspilot.up.commands.BaseCommand;
@@ -120,10 +122,6 @@ final class ArmPage implements Page, HoldButton.HoldListener {
         if (isArmed == null || all == null || all.isEmpty()) {
             return "";
         }
-        StringBuilder text = new StringBuilder();
-        for (String each : all) {
-            text.append(text.length() == 0 ? "" : "; ").append(each);
-        }
-        return words.getString(R.string.arm_will_refuse, text.toString());
+        return words.getString(R.string.arm_will_refuse, TextUtils.join("; ", all));
     }
 }

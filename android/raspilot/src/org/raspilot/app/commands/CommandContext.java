@@ -2,7 +2,8 @@ package org.raspilot.app.commands;
 
 import android.content.Context;
 import java.util.Map;
-import org.raspilot.app.ground.GroundSnapshot;
+import org.raspilot.app.commands.Permission.DisabledReason;
+import org.raspilot.up.android.GroundSnapshot;
 import org.raspilot.up.commands.BaseCommand;
 import org.raspilot.up.commands.CommandForm;
 import org.raspilot.up.commands.GainSet;

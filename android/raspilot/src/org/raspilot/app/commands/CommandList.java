@@ -11,6 +11,7 @@ import java.util.BitSet;
 import java.util.Collections;
 import java.util.List;
 import org.raspilot.app.R;
+import org.raspilot.app.commands.Permission.DisabledReason;
 import org.raspilot.app.view.InstrumentColors;
 import org.raspilot.app.view.TextViews;
 import org.raspilot.up.commands.CommandForm;

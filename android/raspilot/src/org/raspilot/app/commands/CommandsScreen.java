@@ -3,7 +3,7 @@ package org.raspilot.app.commands;
 import android.app.Activity;
 import android.content.Context;
 import android.text.Editable;
-import android.text.TextWatcher;
+import org.raspilot.app.view.TextListener;
 import android.view.View;
 import android.view.ViewGroup;
 import android.widget.AdapterView;
@@ -13,9 +13,10 @@ import android.widget.TextView;
 import java.util.List;
 import java.util.Map;
 import org.raspilot.app.R;
-import org.raspilot.app.ground.FrameLine;
-import org.raspilot.app.ground.GroundSnapshot;
+import org.raspilot.app.commands.Permission.DisabledReason;
 import org.raspilot.app.ground.ControlPanel;
+import org.raspilot.app.ground.FrameLine;
+import org.raspilot.up.android.GroundSnapshot;
 import org.raspilot.app.view.FrameText;
 import org.raspilot.app.view.TextViews;
 import org.raspilot.up.android.TelemetryService;
@@ -26,7 +27,7 @@ import org.raspilot.up.ground.GainsService;
 
 /** The list of Commands and the page of the one that is open, while their views live. */
 final class CommandsScreen
-        implements CommandContext, AdapterView.OnItemClickListener, TextWatcher,
+        implements CommandContext, AdapterView.OnItemClickListener, TextListener,
                 View.OnClickListener {
     private final Activity activity;
     private final CommandsState memory;
@@ -43,7 +44,7 @@ final class CommandsScreen
     private TelemetryService.Ground ground;
     private Page page;
 
-    /** Finds all views and restores the open page; {@code fault}: why there is no catalogue. */
+    /** Finds all views and restores the open page; {@code fault}: the error of the catalogue. */
     CommandsScreen(Activity activity, View root, CommandsState memory, List<CommandForm> forms,
             String fault) {
         this.activity = activity;
@@ -132,14 +133,6 @@ final class CommandsScreen
     }
 
     @Override
-    public void beforeTextChanged(CharSequence text, int start, int count, int after) {
-    }
-
-    @Override
-    public void onTextChanged(CharSequence text, int start, int before, int count) {
-    }
-
-    @Override
     public Context context() {
         return activity;
     }
@@ -151,7 +144,7 @@ final class CommandsScreen
 
     @Override
     public GainsService.Snapshot gains() {
-        return ground == null ? null : ground.gains();
+        return GroundSnapshot.of(ground).gains;
     }
 
     @Override

@@ -7,8 +7,8 @@ import android.os.SystemClock;
 import java.util.HashMap;
 import java.util.LinkedHashMap;
 import java.util.Map;
+import org.raspilot.up.ground.Answer.AnswerListener;
 import org.raspilot.up.ground.Answer;
-import org.raspilot.up.ground.AnswerListener;
 
 /**
  * The state of the commands screen beyond its views: typed text, sent Commands, the open page.

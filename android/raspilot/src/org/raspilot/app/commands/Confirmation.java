@@ -2,7 +2,6 @@ package org.raspilot.app.commands;
 
 import android.app.AlertDialog;
 import android.content.Context;
-
 import org.raspilot.app.R;
 
 /** A question before something is done; one at a time, and gone with the screen. */

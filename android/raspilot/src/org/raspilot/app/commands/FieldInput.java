@@ -4,7 +4,7 @@ import android.content.Context;
 import android.text.Editable;
 import android.text.InputFilter;
 import android.text.InputType;
-import android.text.TextWatcher;
+import org.raspilot.app.view.TextListener;
 import android.text.method.DigitsKeyListener;
 import android.view.View;
 import android.widget.AdapterView;
@@ -51,7 +51,7 @@ abstract class FieldInput {
     /** Writes or chooses; what cannot be chosen chooses nothing. */
     abstract void setText(String text);
 
-    private static final class TextInput extends FieldInput implements TextWatcher {
+    private static final class TextInput extends FieldInput implements TextListener {
         private final EditText view;
         private final ChangeListener listener;
 
@@ -88,14 +88,6 @@ abstract class FieldInput {
         @Override
         public void afterTextChanged(Editable text) {
             listener.onChange();
-        }
-
-        @Override
-        public void beforeTextChanged(CharSequence text, int start, int count, int after) {
-        }
-
-        @Override
-        public void onTextChanged(CharSequence text, int start, int before, int count) {
         }
 
         private static int inputType(CommandField field) {

@@ -8,14 +8,14 @@ import java.util.LinkedHashMap;
 import java.util.List;
 import java.util.Locale;
 import java.util.Map;
+import org.raspilot.up.commands.GainSet.Gains;
+import org.raspilot.up.commands.GainSet.LoopGains;
 import org.raspilot.up.commands.GainSet;
-import org.raspilot.up.commands.Gains;
 import org.raspilot.up.commands.InvalidCommandException;
-import org.raspilot.up.commands.LoopGains;
-import org.raspilot.up.ground.GainChange;
 import org.raspilot.up.ground.GainKey;
-import org.raspilot.up.ground.GainsService;
 import org.raspilot.up.ground.GainsForm;
+import org.raspilot.up.ground.GainsService.GainChange;
+import org.raspilot.up.ground.GainsService;
 
 /**
  * The edits of the gains, beside the active gains.

@@ -1,6 +1,7 @@
 package org.raspilot.app.commands;
 
 import android.content.Context;
+import android.text.TextUtils;
 import android.view.LayoutInflater;
 import android.view.View;
 import android.widget.Button;
@@ -9,18 +10,18 @@ import java.util.Collections;
 import java.util.List;
 import java.util.Map;
 import org.raspilot.app.R;
-import org.raspilot.app.ground.GroundSnapshot;
 import org.raspilot.app.ground.ControlPanel;
+import org.raspilot.up.android.GroundSnapshot;
 import org.raspilot.app.view.TextViews;
 import org.raspilot.up.commands.CommandForm;
 import org.raspilot.up.commands.GainSet;
 import org.raspilot.up.commands.InvalidCommandException;
 import org.raspilot.up.ground.Age;
 import org.raspilot.up.ground.Freshness;
-import org.raspilot.up.ground.GainChange;
 import org.raspilot.up.ground.GainKey;
+import org.raspilot.up.ground.GainsService.GainChange;
+import org.raspilot.up.ground.GainsService.GainsEntry;
 import org.raspilot.up.ground.GainsService;
-import org.raspilot.up.ground.GainsEntry;
 
 /** The gains of every axis: active values, edits, their differences, and undo. */
 final class GainsPage implements Page, View.OnClickListener, GainsTable.ChangeListener {
@@ -203,11 +204,7 @@ final class GainsPage implements Page, View.OnClickListener, GainsTable.ChangeLi
     }
 
     private static String lines(List<GainChange> changes) {
-        StringBuilder all = new StringBuilder();
-        for (GainChange each : changes) {
-            all.append(all.length() == 0 ? "" : "\n").append(each);
-        }
-        return all.toString();
+        return TextUtils.join("\n", changes);
     }
 
     private static String joined(String one, String other) {

@@ -1,7 +1,7 @@
 package org.raspilot.app.commands;
 
 import android.text.Editable;
-import android.text.TextWatcher;
+import org.raspilot.app.view.TextListener;
 import android.view.LayoutInflater;
 import android.view.View;
 import android.view.ViewGroup;
@@ -105,7 +105,7 @@ final class GainsTable {
         list.addView(row);
     }
 
-    private final class Cell implements TextWatcher {
+    private final class Cell implements TextListener {
         private final GainKey key;
         private final EditText input;
         private final TextView flying;
@@ -122,14 +122,6 @@ final class GainsTable {
                 editor.write(key, text.toString());
                 listener.onWritten();
             }
-        }
-
-        @Override
-        public void beforeTextChanged(CharSequence text, int start, int count, int after) {
-        }
-
-        @Override
-        public void onTextChanged(CharSequence text, int start, int before, int count) {
         }
     }
 }

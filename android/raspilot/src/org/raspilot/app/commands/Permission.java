@@ -45,7 +45,7 @@ final class Permission {
         return name.equals(Commands.PIDS) ? PILOT : OPERATOR;
     }
 
-    /** Returns whether a role includes the required one; an unknown role is no reason to object. */
+    /** Returns whether a role includes the required one; an unknown role is accepted. */
     static boolean allows(String role, String needed) {
         return !ROLES.contains(role) || ROLES.indexOf(role) >= ROLES.indexOf(needed);
     }
@@ -55,8 +55,8 @@ final class Permission {
      *
      * @param name of the Command
      * @param told the role that the catalogue states
-     * @param data as far as it is known already
-     * @param status null: there is no service yet
+     * @param data the known fields
+     * @param status null: the service is not connected yet
      */
     static DisabledReason objection(String name, String told, Map<String, ?> data,
             GroundStatus status, Telemetry telemetry, long nowMs) {
@@ -124,5 +124,31 @@ final class Permission {
             return isArmed ? DisabledReason.NONE : DisabledReason.DISARMED_ALREADY;
         }
         return DisabledReason.NONE;
+    }
+
+    /** Why a Command is not offered now. */
+    enum DisabledReason {
+        /** It is offered. */
+        NONE,
+        /** No link to send it over. */
+        NO_LINK,
+        /** The proxy does not have the aircraft. */
+        NO_AIRCRAFT,
+        /** No ground commands: control must be requested. */
+        CONTROL_FREE,
+        /** Another ground commands. */
+        CONTROL_TAKEN,
+        /** This ground listens, and the owner of control is unknown. */
+        LISTENING,
+        /** The aircraft's link does not allow it to a ground. */
+        ROLE,
+        /** The pilot must see the aircraft's state to command. */
+        SILENT,
+        /** Gains are refused in flight. */
+        ARMED,
+        /** The motor is armed already. */
+        ARMED_ALREADY,
+        /** The motor is disarmed already. */
+        DISARMED_ALREADY
     }
 }

@@ -9,6 +9,7 @@ import java.util.Map;
 import org.raspilot.app.R;
 import org.raspilot.app.view.InstrumentColors;
 import org.raspilot.app.view.TextViews;
+import org.raspilot.up.android.GroundSnapshot;
 import org.raspilot.up.ground.Alarm;
 import org.raspilot.up.ground.EventLevel;
 

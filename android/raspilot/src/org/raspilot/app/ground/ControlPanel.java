@@ -3,14 +3,14 @@ package org.raspilot.app.ground;
 import android.view.View;
 import android.widget.Button;
 import android.widget.TextView;
-
 import org.raspilot.app.R;
 import org.raspilot.app.view.TextViews;
+import org.raspilot.up.android.GroundSnapshot;
 import org.raspilot.up.android.TelemetryService;
-import org.raspilot.up.ground.GroundStatus;
 import org.raspilot.up.ground.ControlStatus;
+import org.raspilot.up.ground.GroundStatus;
 
-/** Who commands and the state of the link, with the button that requests or leaves the seat. */
+/** The owner of control and the state of the link, with the buttons for control. */
 public final class ControlPanel implements View.OnClickListener {
     private final TextView link;
     private final TextView seat;

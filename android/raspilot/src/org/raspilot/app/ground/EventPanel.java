@@ -5,6 +5,7 @@ import android.widget.TextView;
 import java.util.List;
 import org.raspilot.app.R;
 import org.raspilot.app.view.TextViews;
+import org.raspilot.up.android.GroundSnapshot;
 import org.raspilot.up.ground.Age;
 import org.raspilot.up.ground.Event;
 

@@ -1,11 +1,11 @@
 package org.raspilot.app.ground;
 
 import android.content.res.Resources;
-
 import org.raspilot.app.R;
 import org.raspilot.app.view.FrameText;
 import org.raspilot.app.view.InstrumentColors;
 import org.raspilot.app.view.TextViews;
+import org.raspilot.up.android.GroundSnapshot;
 import org.raspilot.up.ground.Age;
 import org.raspilot.up.ground.Freshness;
 import org.raspilot.up.ground.Telemetry;

@@ -4,9 +4,9 @@ import android.os.Bundle;
 import android.view.LayoutInflater;
 import android.view.View;
 import android.view.ViewGroup;
-
 import org.raspilot.app.R;
 import org.raspilot.app.WatchingFragment;
+import org.raspilot.up.android.GroundSnapshot;
 import org.raspilot.up.android.TelemetryService;
 
 /**

@@ -2,9 +2,9 @@ package org.raspilot.app.ground;
 
 import android.app.Activity;
 import android.view.View;
-
 import org.raspilot.app.R;
 import org.raspilot.app.view.FrameText;
+import org.raspilot.up.android.GroundSnapshot;
 import org.raspilot.up.android.TelemetryService;
 
 /** The parts of the ground screen while its views live. */

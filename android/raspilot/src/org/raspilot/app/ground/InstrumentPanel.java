@@ -1,13 +1,13 @@
 package org.raspilot.app.ground;
 
 import android.view.View;
-
 import org.raspilot.app.R;
 import org.raspilot.app.view.AttitudeView;
 import org.raspilot.app.view.BarsView;
 import org.raspilot.app.view.CompassView;
 import org.raspilot.app.view.Instrument;
 import org.raspilot.app.view.TapeView;
+import org.raspilot.up.android.GroundSnapshot;
 import org.raspilot.up.ground.Age;
 import org.raspilot.up.ground.Freshness;
 import org.raspilot.up.ground.Telemetry;

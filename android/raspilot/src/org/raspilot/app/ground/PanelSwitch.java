@@ -3,7 +3,6 @@ package org.raspilot.app.ground;
 import android.os.Bundle;
 import android.view.View;
 import android.widget.RadioGroup;
-
 import org.raspilot.app.R;
 
 /**

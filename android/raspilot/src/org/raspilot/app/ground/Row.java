@@ -4,11 +4,10 @@ import android.view.LayoutInflater;
 import android.view.View;
 import android.view.ViewGroup;
 import android.widget.TextView;
-
 import org.raspilot.app.R;
 import org.raspilot.app.view.Hatch;
-import org.raspilot.app.view.InstrumentColors;
 import org.raspilot.app.view.Instrument;
+import org.raspilot.app.view.InstrumentColors;
 import org.raspilot.app.view.TextViews;
 import org.raspilot.up.ground.Freshness;
 

@@ -5,12 +5,14 @@ import android.content.Intent;
 import android.content.IntentFilter;
 import android.content.res.Resources;
 import android.os.BatteryManager;
+import android.text.TextUtils;
 import android.view.View;
 import android.view.ViewGroup;
 import java.util.List;
 import java.util.Locale;
 import org.raspilot.app.R;
 import org.raspilot.app.view.InstrumentColors;
+import org.raspilot.up.android.GroundSnapshot;
 import org.raspilot.up.ground.BusyState;
 import org.raspilot.up.ground.Freshness;
 import org.raspilot.up.ground.Telemetry;
@@ -98,7 +100,7 @@ final class StatePanel {
         List<String> all = picture.telemetry.texts("vetoes");
         boolean isFree = all != null && all.isEmpty();
         String text = all == null ? "" : isFree ? words.getString(R.string.state_none)
-                : joined(all);
+                : TextUtils.join("; ", all);
         // In the air a veto is not a warning: it only states what blocks arming again.
         boolean isWarning = !isFree && !Boolean.TRUE.equals(isArmed);
         show(vetoes, picture, "vetoes", all == null ? null : text,
@@ -213,13 +215,5 @@ final class StatePanel {
 
     private static String percent(double percent) {
         return String.format(Locale.ROOT, "%d %%", Math.round(percent));
-    }
-
-    private static String joined(List<String> all) {
-        StringBuilder text = new StringBuilder();
-        for (String each : all) {
-            text.append(text.length() == 0 ? "" : "; ").append(each);
-        }
-        return text.toString();
     }
 }

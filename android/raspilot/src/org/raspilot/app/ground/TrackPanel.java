@@ -11,10 +11,11 @@ import java.util.List;
 import org.raspilot.app.R;
 import org.raspilot.app.view.TextViews;
 import org.raspilot.app.view.TrackView;
+import org.raspilot.up.android.GroundSnapshot;
 import org.raspilot.up.ground.Freshness;
 import org.raspilot.up.ground.Telemetry;
+import org.raspilot.up.ground.Track.TrackPoint;
 import org.raspilot.up.ground.Track;
-import org.raspilot.up.ground.TrackPoint;
 
 /** The track, the aircraft's position, and a link to the system's own map. */
 final class TrackPanel implements View.OnClickListener {

@@ -1,7 +1,7 @@
 package org.raspilot.app.ground;
 
 import android.text.Editable;
-import android.text.TextWatcher;
+import org.raspilot.app.view.TextListener;
 import android.view.LayoutInflater;
 import android.view.View;
 import android.view.ViewGroup;
@@ -14,12 +14,13 @@ import java.util.List;
 import java.util.Locale;
 import org.raspilot.app.R;
 import org.raspilot.app.view.InstrumentColors;
+import org.raspilot.up.android.GroundSnapshot;
 import org.raspilot.up.ground.Telemetry;
-import org.raspilot.up.ground.TelemetryRow;
+import org.raspilot.up.ground.TelemetryText.TelemetryRow;
 import org.raspilot.up.ground.TelemetryText;
 
 /** Every value of the newest frame, including those of unknown modules. */
-final class ValuesPanel extends BaseAdapter implements TextWatcher {
+final class ValuesPanel extends BaseAdapter implements TextListener {
     private final View element;
     private final EditText filter;
     private final ListView list;
@@ -128,13 +129,5 @@ final class ValuesPanel extends BaseAdapter implements TextWatcher {
     public void afterTextChanged(Editable text) {
         rows = chosen(all, text.toString());
         notifyDataSetChanged();
-    }
-
-    @Override
-    public void beforeTextChanged(CharSequence text, int start, int count, int after) {
-    }
-
-    @Override
-    public void onTextChanged(CharSequence text, int start, int before, int count) {
     }
 }

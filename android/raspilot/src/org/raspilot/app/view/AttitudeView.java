@@ -5,7 +5,6 @@ import android.graphics.Canvas;
 import android.graphics.Path;
 import android.graphics.RectF;
 import android.util.AttributeSet;
-
 import org.raspilot.app.R;
 
 /** The artificial horizon: attitude as one sees it from the seat, with roll scale and ladder. */

@@ -3,10 +3,8 @@ package org.raspilot.app.view;
 import android.content.Context;
 import android.graphics.Canvas;
 import android.util.AttributeSet;
-
-import org.raspilot.app.R;
-
 import java.util.Arrays;
+import org.raspilot.app.R;
 
 /**
  * Six channels as bars of 1000 to 2000 us around their middle: the pilot's sticks or the servos.

@@ -4,7 +4,6 @@ import android.content.Context;
 import android.graphics.Canvas;
 import android.graphics.Path;
 import android.util.AttributeSet;
-
 import org.raspilot.app.R;
 
 /** The heading on a horizontal tape, with the direction of home. */

@@ -2,7 +2,6 @@ package org.raspilot.app.view;
 
 import android.content.Context;
 import android.content.res.TypedArray;
-
 import org.raspilot.app.R;
 
 /** The colours of the instruments, from the theme's {@code instrumentStyle}; each an ARGB int. */

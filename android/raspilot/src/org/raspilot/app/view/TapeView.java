@@ -5,7 +5,6 @@ import android.content.res.TypedArray;
 import android.graphics.Canvas;
 import android.graphics.Path;
 import android.util.AttributeSet;
-
 import org.raspilot.app.R;
 import org.raspilot.up.ground.Freshness;
 

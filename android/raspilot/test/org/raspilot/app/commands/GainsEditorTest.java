@@ -7,10 +7,10 @@ import static org.junit.Assert.fail;
 
 import java.util.Collections;
 import org.junit.Test;
+import org.raspilot.up.commands.GainSet.Gains;
+import org.raspilot.up.commands.GainSet.LoopGains;
 import org.raspilot.up.commands.GainSet;
-import org.raspilot.up.commands.Gains;
 import org.raspilot.up.commands.InvalidCommandException;
-import org.raspilot.up.commands.LoopGains;
 import org.raspilot.up.ground.GainKey;
 
 public final class GainsEditorTest {
@@ -65,7 +65,7 @@ public final class GainsEditorTest {
         editor.setActive(set(3));
         editor.write(RATE_ROLL_P, "2.4");
         editor.setActive(null);
-        assertTrue("asked anew: what is being written waits", editor.hasEdits());
+        assertTrue("during a new request edits wait", editor.hasEdits());
         editor.setActive(set(2.4));
         assertFalse(editor.hasEdits());
     }

@@ -8,6 +8,7 @@ import java.util.Collections;
 import java.util.HashMap;
 import java.util.Map;
 import org.junit.Test;
+import org.raspilot.app.commands.Permission.DisabledReason;
 import org.raspilot.up.ground.Telemetry;
 
 public final class PermissionTest {

@@ -2,6 +2,7 @@ package org.raspilot.up.virtual_phone;
 
 import java.util.List;
 import java.util.Map;
+import org.raspilot.up.virtual_phone.OptionParser.OptionException;
 import org.raspilot.up.wire.Json;
 import org.raspilot.up.wire.MalformedException;
 

@@ -10,6 +10,7 @@ import java.util.concurrent.CountDownLatch;
 import org.raspilot.up.loop.FaultListener;
 import org.raspilot.up.loop.Loop;
 import org.raspilot.up.loop.SelectorLoop;
+import org.raspilot.up.virtual_phone.OptionParser.OptionException;
 
 /** A program in real time with its own sockets: it runs until its standard input ends. */
 final class LoopProgram implements FaultListener {

@@ -50,4 +50,13 @@ final class OptionParser {
     private static OptionException outOfRange(String what, String value, long least, long most) {
         return new OptionException(what + " is " + least + " to " + most + ", not '" + value + "'");
     }
+
+    /** Invalid input of a program: one sentence for the user. */
+    static final class OptionException extends Exception {
+        private static final long serialVersionUID = 1;
+
+        OptionException(String sentence) {
+            super(sentence);
+        }
+    }
 }

@@ -50,12 +50,12 @@ final class PhoneEvents implements AirborneListener, Speaker, FaultListener {
     }
 
     void counters(AirborneStatus status) {
-        Map<String,
-                Object> event = EventWriter.event("counters", "connections", status.connections());
-        event.put("telemetry", status.telemetry());
-        event.put("executed", status.executed());
-        event.put("refused", status.refused());
-        event.put("malformed", status.malformed());
+        Map<String, Object> event =
+                EventWriter.event("counters", "connections", status.counters.connections);
+        event.put("telemetry", status.counters.telemetry);
+        event.put("executed", status.counters.executed);
+        event.put("refused", status.counters.refused);
+        event.put("malformed", status.counters.malformed);
         words.write(event);
     }
 }

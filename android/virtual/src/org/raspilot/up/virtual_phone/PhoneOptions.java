@@ -2,10 +2,11 @@ package org.raspilot.up.virtual_phone;
 
 import java.util.Collections;
 import java.util.Locale;
-import org.raspilot.up.airborne.AirborneMode;
+import org.raspilot.up.airborne.AirborneSettings.AirborneMode;
+import org.raspilot.up.airborne.AirborneSettings.OrientationTransport;
 import org.raspilot.up.airborne.AirborneSettings;
-import org.raspilot.up.airborne.OrientationTransport;
 import org.raspilot.up.providers.Mounting;
+import org.raspilot.up.virtual_phone.OptionParser.OptionException;
 
 /** The command line options of the virtual phone. */
 final class PhoneOptions {
@@ -24,7 +25,7 @@ final class PhoneOptions {
             + "  --runner HOST:PORT                     a runner's, asked to spawn it (Black Box)\n"
             + "  --aircraft NAME                        for which aircraft; default 'default'\n"
             + "how:\n"
-            + "  --orientation off|tcp|udp              its attitude besides; default off\n"
+            + "  --orientation off|tcp|udp              also sends its attitude; default off\n"
             + "  --orientation-hz N                     50 to 200 a second; default 50\n"
             + "  --mounting 'W X Y Z'                   how it lies: a rotation from nose, right\n"
             + "                                         wing, down to right edge, top edge, out\n"

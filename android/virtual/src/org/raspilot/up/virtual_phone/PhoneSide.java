@@ -1,10 +1,17 @@
 package org.raspilot.up.virtual_phone;
 
+import java.util.LinkedHashMap;
 import java.util.Map;
 import java.util.Random;
 import org.raspilot.up.airborne.Airborne;
+import org.raspilot.up.commands.BaseCommand;
+import org.raspilot.up.commands.Commands;
 import org.raspilot.up.loop.Loop;
+import org.raspilot.up.providers.RatePolicy;
+import org.raspilot.up.providers.SensorProvider;
+import org.raspilot.up.providers.SensorSource;
 import org.raspilot.up.providers.Side;
+import org.raspilot.up.virtual_phone.OptionParser.OptionException;
 
 /** The phone itself with its simulated sensors, on whatever loop. */
 final class PhoneSide implements LoopProgram.Part {
@@ -26,7 +33,7 @@ final class PhoneSide implements LoopProgram.Part {
         sensors = new SimulatedSensors(loop, words);
         // Two phones with one seed are two phones, but a stepped one repeats its run.
         Random random = options.isStepped ? new Random(options.seed) : new Random();
-        airborne = new Airborne(loop, options.settings, sensors, events, events, random);
+        airborne = new Airborne(loop, options.settings, sensors.sensors(), events, events, random);
         if (options.isRecording) {
             record = new SimulatedSource<>("record", words);
             airborne.providers().register(new RecordProvider(record));
@@ -59,11 +66,33 @@ final class PhoneSide implements LoopProgram.Part {
 
     private void calibrate(String nose) throws OptionException {
         try {
-            words.notice("mounting", "mounting: " + airborne.calibrate(Side.valueOf(nose)).toText());
+            words.notice("mounting", "mounting: "
+                    + airborne.calibrate(Side.valueOf(nose)).toText());
         } catch (IllegalArgumentException error) {
             throw new OptionException("not calibrated: " + error.getMessage());
         } catch (IllegalStateException error) {
             throw new OptionException("not calibrated: " + error.getMessage());
+        }
+    }
+
+    /** Sends what a companion on board has the black box write, as {@code black_box.record}. */
+    static final class RecordProvider extends SensorProvider<Map<?, ?>> {
+        /** The quickest: the black box takes 200 a second of all together. */
+        private static final int PERIOD_MS = 50;
+
+        private static final int SILENCE_MS = 3000;
+
+        /** Takes the {@code "record"} of an input line: topic and content. */
+        RecordProvider(SensorSource<Map<?, ?>> source) {
+            super("record", source, RatePolicy.stream(PERIOD_MS, SILENCE_MS));
+        }
+
+        @Override
+        protected BaseCommand read(Map<?, ?> reading) {
+            Map<String, Object> data = new LinkedHashMap<>();
+            data.put("topic", reading.get("topic"));
+            data.put("content", reading.get("content"));
+            return new BaseCommand(Commands.RECORD, data);
         }
     }
 }

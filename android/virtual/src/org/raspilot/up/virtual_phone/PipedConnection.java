@@ -1,7 +1,8 @@
 package org.raspilot.up.virtual_phone;
 
+import org.raspilot.up.loop.TcpConnection.TcpListener;
 import org.raspilot.up.loop.TcpConnection;
-import org.raspilot.up.loop.TcpListener;
+import org.raspilot.up.virtual_phone.OptionParser.OptionException;
 
 /** A TCP connection of a simulator. */
 final class PipedConnection implements TcpConnection {

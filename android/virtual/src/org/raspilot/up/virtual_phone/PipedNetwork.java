@@ -8,10 +8,11 @@ import java.util.List;
 import java.util.Map;
 import org.raspilot.up.loop.Loop;
 import org.raspilot.up.loop.Network;
+import org.raspilot.up.loop.TcpConnection.TcpListener;
 import org.raspilot.up.loop.TcpConnection;
-import org.raspilot.up.loop.TcpListener;
-import org.raspilot.up.loop.UdpListener;
+import org.raspilot.up.loop.UdpPort.UdpListener;
 import org.raspilot.up.loop.UdpPort;
+import org.raspilot.up.virtual_phone.OptionParser.OptionException;
 
 /** A network behind a pipe: a simulator opens, writes and closes for it. */
 final class PipedNetwork implements Network {
@@ -97,5 +98,43 @@ final class PipedNetwork implements Network {
                 event.apply(connection);
             }
         };
+    }
+
+    /** A UDP socket of a simulator. */
+    static final class PipedUdpPort implements UdpPort {
+        private final PipedNetwork network;
+        private final long id;
+        private final UdpListener listener;
+        private boolean isClosed;
+
+        /** Takes its number on the pipe. */
+        PipedUdpPort(PipedNetwork network, long id, UdpListener listener) {
+            this.network = network;
+            this.id = id;
+            this.listener = listener;
+        }
+
+        @Override
+        public boolean send(byte[] datagram, String host, int port) {
+            if (isClosed) {
+                return false;
+            }
+            network.request("send", id, new String(datagram, PipedNetwork.BYTES), host,
+                    (long) port);
+            return true;
+        }
+
+        @Override
+        public void close() {
+            if (!isClosed) {
+                isClosed = true;
+                network.remove(id);
+                network.request("shut", id);
+            }
+        }
+
+        void deliver(byte[] datagram, String host, int port) {
+            listener.onDatagram(datagram, datagram.length, host, port);
+        }
     }
 }

@@ -3,16 +3,16 @@ package org.raspilot.up.virtual_phone;
 import java.util.List;
 import java.util.Map;
 import org.raspilot.up.loop.Loop;
-import org.raspilot.up.providers.BatteryLevel;
+import org.raspilot.up.providers.AltitudeProvider.Pressure;
+import org.raspilot.up.providers.BatteryProvider.BatteryLevel;
 import org.raspilot.up.providers.Fix;
-import org.raspilot.up.providers.Pressure;
 import org.raspilot.up.providers.Rotation;
 import org.raspilot.up.providers.RotationRate;
-import org.raspilot.up.providers.SensorSource;
 import org.raspilot.up.providers.Sensors;
+import org.raspilot.up.virtual_phone.OptionParser.OptionException;
 
 /** All sensors of the virtual phone, fed by the lines of {@link VirtualPhone}'s page. */
-final class SimulatedSensors implements Sensors {
+final class SimulatedSensors {
     private final Loop loop;
     private final SimulatedSource<Fix> location;
     private final SimulatedSource<Rotation> rotation;
@@ -62,29 +62,8 @@ final class SimulatedSensors implements Sensors {
         }
     }
 
-    @Override
-    public SensorSource<Fix> location() {
-        return location;
-    }
-
-    @Override
-    public SensorSource<Rotation> rotation() {
-        return rotation;
-    }
-
-    @Override
-    public SensorSource<RotationRate> rotationRate() {
-        return rate;
-    }
-
-    @Override
-    public SensorSource<Pressure> pressure() {
-        return pressure;
-    }
-
-    @Override
-    public SensorSource<BatteryLevel> battery() {
-        return battery;
+    Sensors sensors() {
+        return new Sensors(location, rotation, rate, pressure, battery);
     }
 
     private static Rotation turned(double[] values, long nowMs) throws OptionException {

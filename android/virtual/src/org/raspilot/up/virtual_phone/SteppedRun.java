@@ -9,6 +9,7 @@ import java.util.LinkedHashMap;
 import java.util.List;
 import java.util.Map;
 import org.raspilot.up.loop.ManualLoop;
+import org.raspilot.up.virtual_phone.OptionParser.OptionException;
 
 /** The phone in the simulator's time, with the simulator's network: one answer a line. */
 final class SteppedRun {

@@ -1,6 +1,7 @@
 package org.raspilot.up.virtual_phone;
 
 import java.io.IOException;
+import org.raspilot.up.virtual_phone.OptionParser.OptionException;
 
 /**
  * The airborne phone without a phone: the Up Library's core on the JVM, with simulated sensors.

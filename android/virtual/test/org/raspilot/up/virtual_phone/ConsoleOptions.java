@@ -5,6 +5,7 @@ import java.util.Arrays;
 import java.util.Collections;
 import java.util.List;
 import org.raspilot.up.ground.GroundSettings;
+import org.raspilot.up.virtual_phone.OptionParser.OptionException;
 import org.raspilot.up.wire.ProxyRole;
 
 /** The command line options of the ground console. */

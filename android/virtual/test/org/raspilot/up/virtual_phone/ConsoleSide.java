@@ -4,20 +4,21 @@ import java.util.LinkedHashMap;
 import java.util.Map;
 import java.util.Random;
 import org.raspilot.up.commands.BaseCommand;
-import org.raspilot.up.commands.CommandHandler;
+import org.raspilot.up.commands.CommandExecutor.HandlerFaultListener;
 import org.raspilot.up.commands.CommandExecutor;
+import org.raspilot.up.commands.CommandHandler;
 import org.raspilot.up.commands.CommandRegistry;
 import org.raspilot.up.commands.GainSet;
-import org.raspilot.up.commands.HandlerFaultListener;
 import org.raspilot.up.commands.InvalidCommandException;
+import org.raspilot.up.ground.Answer.AnswerListener;
 import org.raspilot.up.ground.Answer;
-import org.raspilot.up.ground.AnswerListener;
 import org.raspilot.up.ground.GroundListener;
 import org.raspilot.up.ground.GroundSide;
 import org.raspilot.up.ground.GroundStatus;
-import org.raspilot.up.ground.MemoryTokenStore;
 import org.raspilot.up.ground.Telemetry;
+import org.raspilot.up.ground.TokenStore.MemoryTokenStore;
 import org.raspilot.up.loop.Loop;
+import org.raspilot.up.virtual_phone.OptionParser.OptionException;
 
 /** The ground side with lines in the place of a screen. */
 final class ConsoleSide implements LoopProgram.Part, GroundListener, HandlerFaultListener {

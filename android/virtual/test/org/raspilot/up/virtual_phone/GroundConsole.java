@@ -1,6 +1,7 @@
 package org.raspilot.up.virtual_phone;
 
 import java.io.IOException;
+import org.raspilot.up.virtual_phone.OptionParser.OptionException;
 
 /**
  * A ground station without a screen: the Up Library's ground side on the JVM, for programs.

@@ -1,12 +1,11 @@
-package org.raspilot.up.android;
+package org.raspilot.up.providers;
 
 import static org.junit.Assert.assertEquals;
 
 import java.util.Random;
 import org.junit.Test;
-import org.raspilot.up.providers.Quaternion;
 
-public final class RotationMatrixTest {
+public final class QuaternionTest {
     private static final long SEED = 20160522;
 
     @Test
@@ -37,7 +36,7 @@ public final class RotationMatrixTest {
             matrix[3 * row + 1] = (float) y[row];
             matrix[3 * row + 2] = (float) z[row];
         }
-        double[] turned = RotationMatrix.quaternion(matrix).turn(1, 2, 3);
+        double[] turned = Quaternion.ofMatrix(matrix).turn(1, 2, 3);
         double[] right = wanted.turn(1, 2, 3);
         for (int axis = 0; axis < 3; axis++) {
             assertEquals("seed " + SEED, right[axis], turned[axis], 1e-5);
