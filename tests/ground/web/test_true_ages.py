@@ -21,7 +21,7 @@ from up_simulator.link.model import LinkModel
 from up_simulator.link.relay import LinkRelay
 from up_simulator.link.settings import LinkSettings
 
-AGES_TOLD = Path(__file__).parent / "static/support/ages_told.mjs"
+REPORTED_AGES = Path(__file__).parent / "static/support/reported_ages.mjs"
 SILENT_S, ROUNDING_S = 0.9, 0.003
 DOUBT_S = 0.1
 """By so much a page may take a frame for younger than it is."""
@@ -97,7 +97,7 @@ class NodePage:
     def __init__(self, port):
         self.told = []
         self._process = subprocess.Popen(
-            [need_tool("node", "nodejs"), str(AGES_TOLD), f"ws://127.0.0.1:{port}/link"],
+            [need_tool("node", "nodejs"), str(REPORTED_AGES), f"ws://127.0.0.1:{port}/link"],
             stdout=subprocess.PIPE,
             text=True,
         )

@@ -1,7 +1,7 @@
 import assert from "node:assert/strict";
 import { beforeEach, test } from "node:test";
 import { Connection } from "../../../../ground/up_ground/web/static/js/link/connection.js";
-import { Keepsake } from "../../../../ground/up_ground/web/static/js/link/keepsake.js";
+import { Storage } from "../../../../ground/up_ground/web/static/js/link/storage.js";
 import { FakeClock } from "./support/fake_clock.mjs";
 import { FakeServer } from "./support/fake_server.mjs";
 
@@ -10,7 +10,7 @@ let clock, server, memory, page;
 beforeEach(() => {
   clock = new FakeClock();
   server = new FakeServer();
-  memory = new Keepsake(null);
+  memory = new Storage(null);
   page = connect();
 });
 
@@ -187,9 +187,8 @@ test("what became of a Command is not known once the connection is lost", async 
   server.welcome();
   const answer = page.command("up.disarm", {});
   server.socket.fail();
-  const { outcome, reason } = await answer;
-  assert.equal(outcome, "timeout");
-  assert.match(reason, /lost before an answer/);
+  const { outcome, code } = await answer;
+  assert.deepEqual([outcome, code], ["timeout", "connection_lost"]);
 });
 
 test("a server that never answers a Command is a timeout", async () => {
@@ -260,7 +259,7 @@ test("a browser that keeps nothing forgets politely", () => {
       throw new Error("full");
     },
   };
-  const forgetful = new Keepsake(broken);
+  const forgetful = new Storage(broken);
   assert.equal(forgetful.get("token"), null);
   forgetful.set("token", "x");
   assert.equal(forgetful.get("token"), "x");

@@ -5,7 +5,7 @@ import { climbText } from "../../../../ground/up_ground/web/static/js/instrument
 import {
   switchMode,
   switchText,
-} from "../../../../ground/up_ground/web/static/js/panels/switch.js";
+} from "../../../../ground/up_ground/web/static/js/state/pilot_input.js";
 import { lostText } from "../../../../ground/up_ground/web/static/js/shell.js";
 import { alarmOf } from "../../../../ground/up_ground/web/static/js/state/alarm_level.js";
 

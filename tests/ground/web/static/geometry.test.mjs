@@ -6,16 +6,16 @@ import {
   onCircle,
   rollMarks,
   rungs,
-} from "../../../../ground/up_ground/web/static/js/instruments/ladder.js";
+} from "../../../../ground/up_ground/web/static/js/instruments/geometry.js";
 import {
   beyond,
   share,
   stickPlace,
-} from "../../../../ground/up_ground/web/static/js/instruments/stick_geometry.js";
+} from "../../../../ground/up_ground/web/static/js/instruments/geometry.js";
 import {
   rootScale,
   TapeScale,
-} from "../../../../ground/up_ground/web/static/js/instruments/tape_scale.js";
+} from "../../../../ground/up_ground/web/static/js/instruments/geometry.js";
 
 test("the ladder reaches from the nadir to the zenith and is the same on both sides", () => {
   const all = rungs().map((each) => each.pitch_deg);

@@ -1,7 +1,7 @@
 import assert from "node:assert/strict";
 import { beforeEach, test } from "node:test";
 import { Connection } from "../../../../ground/up_ground/web/static/js/link/connection.js";
-import { Keepsake } from "../../../../ground/up_ground/web/static/js/link/keepsake.js";
+import { Storage } from "../../../../ground/up_ground/web/static/js/link/storage.js";
 import { Store } from "../../../../ground/up_ground/web/static/js/state/store.js";
 import { FakeClock } from "./support/fake_clock.mjs";
 import { FakeServer } from "./support/fake_server.mjs";
@@ -13,7 +13,7 @@ beforeEach(() => {
   server = new FakeServer();
   frames = [];
   const { now_s, timers } = clock;
-  const memory = new Keepsake(null);
+  const memory = new Storage(null);
   connection = new Connection("ws://x/link", {
     memory,
     now_s,

@@ -1,7 +1,7 @@
 import assert from "node:assert/strict";
 import { beforeEach, test } from "node:test";
 
-import { AnswerNotes } from "../../../../../ground/up_ground/web/static/js/panels/answer_notes.js";
+import { AnswerNotes } from "../../../../../ground/up_ground/web/static/js/panels/command_sender.js";
 
 let calls, store, connection, notes, note;
 
@@ -22,7 +22,7 @@ beforeEach(() => {
   notes = new AnswerNotes(store, connection);
   calls.update();
   note = new Note();
-  notes.tell(note, "carried out", "good");
+  notes.show(note, "carried out", "good");
 });
 
 function wait(seconds) {
@@ -57,7 +57,7 @@ test("an answer goes with the aircraft that gave it", () => {
 test("an answer goes with the connection, and what is told afterwards stays", () => {
   calls.closed();
   assert.equal(note.textContent, "");
-  notes.tell(note, "nobody knows", "bad");
+  notes.show(note, "nobody knows", "bad");
   calls.update();
   assert.equal(note.textContent, "nobody knows");
 });

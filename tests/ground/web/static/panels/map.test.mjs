@@ -3,9 +3,9 @@ import { test } from "node:test";
 
 import {
   bearing_deg, distance_m, distanceText, offsetOf, placeAt, placeOf,
-} from "../../../../../ground/up_ground/web/static/js/map/earth.js";
-import { linesBetween, stepOf, stepText, windowOf } from "../../../../../ground/up_ground/web/static/js/map/grid.js";
-import { homeWords } from "../../../../../ground/up_ground/web/static/js/map/picture.js";
+} from "../../../../../ground/up_ground/web/static/js/state/earth.js";
+import { linesBetween, stepOf, stepText, windowOf } from "../../../../../ground/up_ground/web/static/js/state/earth.js";
+import { homeText } from "../../../../../ground/up_ground/web/static/js/map/picture.js";
 
 const HOME = { latitude: 50.1, longitude: 8.6 };
 const near = (value, wanted, by) => assert.ok(Math.abs(value - wanted) <= by, `${value} is not ${wanted}`);
@@ -83,8 +83,8 @@ test("the plain map shows every point with a margin, and not less than a field",
 
 test("the way home is said, and the age of a position that is old", () => {
   const picture = { aircraft: placeAt(HOME, { east_m: 0, north_m: 340 }), home: HOME, freshness: "live", age: "12.3 s" };
-  assert.equal(homeWords(picture), "340 m from home at 000°, the way back 180°");
-  assert.match(homeWords({ ...picture, freshness: "stale" }), /, seen 12.3 s ago$/);
-  assert.equal(homeWords({ ...picture, home: null }), "No home yet");
-  assert.equal(homeWords({ ...picture, aircraft: null }), "No position yet");
+  assert.equal(homeText(picture), "340 m from home at 000°, the way back 180°");
+  assert.match(homeText({ ...picture, freshness: "stale" }), /, seen 12.3 s ago$/);
+  assert.equal(homeText({ ...picture, home: null }), "No home yet");
+  assert.equal(homeText({ ...picture, aircraft: null }), "No position yet");
 });

@@ -2,7 +2,7 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 
 import { piecesOf } from "../../../../../ground/up_ground/web/static/js/map/track_line.js";
-import { Silence } from "../../../../../ground/up_ground/web/static/js/state/silence.js";
+import { Silence } from "../../../../../ground/up_ground/web/static/js/state/track.js";
 import { Track } from "../../../../../ground/up_ground/web/static/js/state/track.js";
 
 /** Fly north by 0.001 degrees a frame. */

@@ -1,4 +1,4 @@
-import { GAP_S, Silence } from "../state/silence.js";
+import { GAP_S, Silence } from "../state/track.js";
 
 /** The time span of a chart. */
 export const WINDOW_S = 60;
@@ -35,7 +35,7 @@ export class History {
       this.#push((last_s + time_s) / 2, {});
     }
     this.#push(time_s, values);
-    this.#forget(time_s - WINDOW_S - GAP_S);
+    this.#clear(time_s - WINDOW_S - GAP_S);
   }
 
   /** Draw no line between the samples before and after: another flight, another time. */
@@ -80,7 +80,7 @@ export class History {
     });
   }
 
-  #forget(before_s) {
+  #clear(before_s) {
     const kept = this.#times_s.findIndex((time_s) => time_s >= before_s);
     // Cut rarely, and then much: cutting at every frame would copy a minute at every frame.
     if (kept > 256) {

@@ -1,8 +1,7 @@
-import { html } from "../readout.js";
-import { Pace } from "../pace.js";
+import { html } from "../dom.js";
+import { Pace, PlainRow, Row } from "../readout.js";
 import { ageText, numberText } from "../state/format.js";
-import { number, text } from "../state/judge.js";
-import { PlainRow, Row } from "./row.js";
+import { number, text } from "../state/validate.js";
 
 /** Every stretch of the way from the aircraft to this page. */
 export function mount(element, store, connection) {

@@ -1,4 +1,4 @@
-import { cellsOf, cellWords, difference, gainText, readGain, setOf } from "./gain_set.js";
+import { cellsOf, cellText, difference, gainText, readGain, setOf } from "./gain_set.js";
 
 /**
  * The edited gains beside the active ones.
@@ -71,7 +71,7 @@ export class GainsEditor {
     return [...this.#edits]
       .map(([path, { written }]) => ({ path, problem: readGain(written).problem }))
       .filter(({ problem }) => problem)
-      .map(({ path, problem }) => ({ path, words: `${cellWords(path)} ${problem}` }));
+      .map(({ path, problem }) => ({ path, words: `${cellText(path)} ${problem}` }));
   }
 
   /** Edited cells whose active value has changed. */
@@ -80,7 +80,7 @@ export class GainsEditor {
     for (const [path, { written, seen }] of this.#edits) {
       const flying = this.#flying.get(path);
       if (flying !== undefined && gainText(flying) !== gainText(seen)) {
-        const words = `${cellWords(path)}: ${gainText(flying)} flies now, it was ${gainText(seen)} when you wrote ${written.trim()}`;
+        const words = `${cellText(path)}: ${gainText(flying)} flies now, it was ${gainText(seen)} when you wrote ${written.trim()}`;
         found.push({ path, words });
       }
     }

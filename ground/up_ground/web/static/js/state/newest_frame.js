@@ -1,5 +1,5 @@
 import { freshnessOf, isSilent, readingOf } from "./ages.js";
-import * as judge from "./judge.js";
+import * as validate from "./validate.js";
 
 /** The newest telemetry of an aircraft, validated, and the age of each part of it. */
 export class NewestFrame {
@@ -26,17 +26,17 @@ export class NewestFrame {
    * message: the server's `frame`; way_s: how long it was on its way from the server. Returns
    * whether it was one.
    */
-  takeFrame(message, way_s) {
+  updateFrame(message, way_s) {
     if (message.data === null || typeof message.data !== "object") {
       return false;
     }
     this.data = message.data;
-    this.beacon = judge.number(message.beacon);
-    this.frameTime_s = judge.number(message.time_s);
+    this.beacon = validate.number(message.beacon);
+    this.frameTime_s = validate.number(message.time_s);
     this.frames += 1;
     this.#frameAt_s = this.now_s;
     this.#heldAt_s = this.#heldAt_s === null ? null : this.now_s;
-    this.#frameAge_s = Math.max(0, judge.number(message.age_ms) ?? 0) / 1000 + way_s;
+    this.#frameAge_s = Math.max(0, validate.number(message.age_ms) ?? 0) / 1000 + way_s;
     return true;
   }
 
@@ -54,7 +54,7 @@ export class NewestFrame {
   }
 
   /** Reset to unknown. */
-  forgetFrame() {
+  clearFrame() {
     this.data = {};
     this.beacon = null;
     this.#frameAt_s = null;
@@ -77,19 +77,19 @@ export class NewestFrame {
 
   /** A number at that path; null: absent, or of another type. */
   number(path) {
-    return judge.number(judge.at(this.data, path));
+    return validate.number(validate.at(this.data, path));
   }
 
   flag(path) {
-    return judge.flag(judge.at(this.data, path));
+    return validate.flag(validate.at(this.data, path));
   }
 
   text(path) {
-    return judge.text(judge.at(this.data, path));
+    return validate.text(validate.at(this.data, path));
   }
 
   texts(path) {
-    return judge.texts(judge.at(this.data, path));
+    return validate.texts(validate.at(this.data, path));
   }
 
   /** The value, validated. */
@@ -115,11 +115,11 @@ export class NewestFrame {
 
   /** reading: null: the newest frame itself. */
   freshness(reading) {
-    const aboard = judge.at(this.data, `age_ms.${reading}`);
+    const aboard = validate.at(this.data, `age_ms.${reading}`);
     return freshnessOf(
       reading,
       this.age_s(null),
-      aboard === null ? null : (judge.number(aboard) ?? undefined),
+      aboard === null ? null : (validate.number(aboard) ?? undefined),
     );
   }
 

@@ -1,9 +1,9 @@
 import { TIMERS } from "./clock.js";
 
-const LONGEST_S = 15;
+const MAX_S = 15;
 
 /** Commands that wait for their answers, each by its number. */
-export class PendingAsks {
+export class PendingCommands {
   #last = 0;
   #waiting = new Map();
   #timers;
@@ -19,8 +19,8 @@ export class PendingAsks {
     const ask = this.#last;
     const answer = new Promise((resolve) => {
       const timer = this.#timers.once(
-        () => this.take({ ask, outcome: "timeout", reason: "the ground server did not answer" }),
-        LONGEST_S,
+        () => this.take({ ask, outcome: "timeout", code: "no_answer", reason: "the ground server did not answer" }),
+        MAX_S,
       );
       this.#waiting.set(ask, { resolve, timer });
     });
@@ -38,10 +38,10 @@ export class PendingAsks {
     waiting.resolve({ code: null, reason: "", round_trip_ms: null, data: null, ...message });
   }
 
-  /** reason: why no answer can arrive now: the outcome of the requests is unknown. */
-  giveUp(reason) {
+  /** cause: code and reason why no answer can arrive now: the outcome of the requests is unknown. */
+  giveUp(cause) {
     for (const ask of [...this.#waiting.keys()]) {
-      this.take({ ask, outcome: "timeout", reason });
+      this.take({ ask, outcome: "timeout", ...cause });
     }
   }
 }

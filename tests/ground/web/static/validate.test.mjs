@@ -6,7 +6,7 @@ import {
   number,
   text,
   texts,
-} from "../../../../ground/up_ground/web/static/js/state/judge.js";
+} from "../../../../ground/up_ground/web/static/js/state/validate.js";
 
 const ODD = [null, undefined, "7", [], {}, NaN, Infinity, -Infinity, 1e300, true];
 
