@@ -79,7 +79,6 @@ class GroundLink:
         self._is_greeted = False
 
     def start(self) -> None:
-        """Begin to connect."""
         if self._wanted is Seat.COMMAND and not self._settings.direct:
             self._tokens.hold()
             self._token = self._tokens.load()
@@ -160,7 +159,6 @@ class GroundLink:
         self._listener.on_message(message)
 
     def on_control(self, connection: GroundProtocol, line: bytes) -> None:
-        """Take a line of the proxy."""
         said = None if self._settings.direct else parse_line(line)
         is_due = isinstance(said, Refused) or isinstance(said, Accepted) is not self._is_greeted
         if said is None or isinstance(said, GroundLine) or not is_due:
@@ -170,7 +168,6 @@ class GroundLink:
         self._listener.on_link()
 
     def on_lost(self, connection: GroundProtocol, reason: str, code: str) -> None:
-        """Wait a little and connect again."""
         self._too_long += connection.dropped_too_long
         self.status.too_long = self._too_long
         if connection is self._connection:

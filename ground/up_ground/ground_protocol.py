@@ -81,7 +81,6 @@ class GroundProtocol(Protocol):
         self.transport.abortConnection()
 
     def close(self) -> None:
-        """Send the queued data, then close."""
         self._is_open = False
         self.transport.loseConnection()
 
@@ -98,7 +97,6 @@ class GroundProtocol(Protocol):
         return float(rtt_us) / 1000
 
     def connectionMade(self) -> None:  # noqa: N802 - Twisted's name
-        """Set the socket up and send the hello."""
         watch_peer(self.transport, USER_TIMEOUT_MS)
         self._is_open = True
         if self._hello is not None:

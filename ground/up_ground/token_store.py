@@ -88,7 +88,6 @@ class TokenStore:
                 self._path.unlink()
 
     def close(self) -> None:
-        """Leave the token to the next program."""
         if self._lock is not None:
             os.close(self._lock)
             self._lock = None

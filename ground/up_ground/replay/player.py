@@ -71,7 +71,6 @@ class Player:
         self._advance()
 
     def pause(self) -> None:
-        """Pause."""
         self._freeze()
         self.is_playing = False
         self._changed()
@@ -100,7 +99,6 @@ class Player:
             self._advance()
 
     def stop(self) -> None:
-        """End."""
         self.is_playing = False
         self._cancel()
 

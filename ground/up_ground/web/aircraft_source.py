@@ -49,9 +49,6 @@ class AircraftSource(Protocol):
     def on_away(self, page: ClientSession) -> None:
         """Handle the loss of a page's link; the page may return."""
 
-    def on_back(self, page: ClientSession) -> None:
-        """Handle the return of a page."""
-
     def on_gone(self, page: ClientSession) -> None:
         """Handle the final loss of a page."""
 

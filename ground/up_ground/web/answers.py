@@ -83,7 +83,6 @@ class Answers:
             self.end(id_, _timed_out(sent, "link_lost", "the link was lost before the answer"))
 
     def stop(self) -> None:
-        """Stop waiting for all answers."""
         for sent in self._sent.values():
             sent.timer.cancel()
         self._sent.clear()

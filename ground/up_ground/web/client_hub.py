@@ -76,7 +76,6 @@ class ClientHub:
         self._all_closed: Deferred[None] | None = None
 
     def start(self) -> None:
-        """Start to send the status once a second."""
         self._beat = self._clock.callLater(1.0, self._on_second)
 
     async def stop(self) -> None:
@@ -94,7 +93,6 @@ class ClientHub:
     # Called by an aircraft.
 
     def all(self) -> list[ClientSession]:
-        """Return the pages that are here."""
         return [page for page in self._pages.values() if page.link is not None]
 
     def get(self, number: int) -> ClientSession | None:
@@ -117,7 +115,6 @@ class ClientHub:
                 page.send_bytes(encoded)
 
     def send_status(self, aircraft: str) -> None:
-        """Give the aircraft's status to every page."""
         for page in self._pages.values():
             self._send_status(page, self.fleet[aircraft])
 
@@ -153,7 +150,6 @@ class ClientHub:
                 link.close(VIOLATION, "too many faults")
 
     def on_closed(self, link: ClientConnection) -> None:
-        """Keep a page's place for a moment."""
         connection = self._connections.pop(link, None)
         if connection is None:
             return
@@ -327,7 +323,6 @@ class ClientHub:
         if self._catalogue is not None:
             page.send_bytes(self._catalogue)
         for aircraft in self.fleet.values():
-            aircraft.on_back(page)
             self.send_status(aircraft.name)
 
     def _on_watch(self, page: ClientSession, aircraft: AircraftSource) -> None:

@@ -63,7 +63,6 @@ class CommandService:
         self._gains_holder: ClientSession | None = None
 
     def stop(self) -> None:
-        """Stop waiting for all answers."""
         self._answers.stop()
 
     def on_command(self, page: ClientSession, message: Reader) -> None:
@@ -113,7 +112,6 @@ class CommandService:
             self._notify_all(self.profile_message())
 
     def on_lost(self) -> None:
-        """Handle the loss of the link."""
         self._answers.on_link_lost()
 
     def want_gains(self) -> None:

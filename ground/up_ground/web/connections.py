@@ -30,7 +30,6 @@ class Connection(ProtocolWrapper):
     """Whether a complete request has arrived."""
 
     def makeConnection(self, transport: Any) -> None:  # noqa: N802 - Twisted's name
-        """Begin to wait for the first request."""
         self._http = self.wrappedProtocol
         self._timer = self.factory.reactor.callLater(HEADER_S, self._on_time_over)
         super().makeConnection(transport)  # type: ignore[no-untyped-call]
@@ -46,7 +45,6 @@ class Connection(ProtocolWrapper):
         self.factory.remove(self)
 
     def connectionLost(self, reason: Failure = connectionDone) -> None:  # noqa: N802
-        """Stop counting."""
         if self._timer.active():
             self._timer.cancel()
         self.factory.remove(self)
@@ -73,7 +71,6 @@ class Connections(WrappingFactory):
         self._waiting: dict[str, dict[Connection, None]] = {}
 
     def buildProtocol(self, addr: Any) -> ProtocolWrapper:  # noqa: N802 - Twisted's name
-        """Return the transport of the connection."""
         made: Any = super().buildProtocol(addr)
         made.peer = neighbourhood(addr.host)
         own = self._waiting.setdefault(made.peer, {})

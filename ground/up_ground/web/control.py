@@ -69,7 +69,6 @@ class Control:
         self._asking: Timer | None = None
 
     def stop(self) -> None:
-        """Forget all pages and release the seat."""
         for timer in (self._asking, self._ground_timer, *self._askers.values()):
             _cancel(timer)
         self._askers.clear()
@@ -140,7 +139,6 @@ class Control:
             self._on_change()
 
     def on_gone(self, page: ClientSession) -> None:
-        """Take control back from a lost page."""
         if page in (self.holder, self._wanting) or page in self._askers:
             self.release(page)
 

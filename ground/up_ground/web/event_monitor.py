@@ -174,7 +174,6 @@ class EventMonitor:
         self.on_moment(telemetry, link, now_s)
 
     def on_link(self, link: LinkSnapshot, now_s: float) -> None:
-        """Process the state of the link."""
         state: tuple[bool, bool | None] = (link.is_open, link.is_aircraft_online)
 
         def on_change(before: Any, now: Any) -> None:

@@ -89,7 +89,6 @@ class Reader:
     fields: dict[str, Any]
 
     def text(self, key: str, longest: int = 200) -> str:
-        """Return a text."""
         found = self.optional_text(key, longest)
         if found is None:
             raise PageFault(f"{key} is missing")
@@ -121,7 +120,6 @@ class Reader:
         return found
 
     def number(self, key: str) -> float:
-        """Return a number."""
         found = self.fields.get(key)
         if isinstance(found, bool) or not isinstance(found, int | float):
             raise PageFault(f"{key} is not a number")

@@ -89,7 +89,6 @@ class PageLink(WebSocketServerProtocol):
         self._asked: dict[bytes, Callable[[bool], object]] = {}
 
     def onOpen(self) -> None:  # noqa: N802 - the library's name
-        """Take the transport."""
         # The transport of the HTTP request is still registered there.
         self.transport.unregisterProducer()
         watch_peer(self.transport, USER_TIMEOUT_MS)
@@ -104,20 +103,17 @@ class PageLink(WebSocketServerProtocol):
         self.transport.admit()
 
     def onMessage(self, payload: bytes, isBinary: bool) -> None:  # noqa: N802, N803
-        """Hand a message on."""
         if isBinary:
             self.close(NOT_TEXT, "only text messages")
         elif self._is_open:
             self._owner.on_message(self, payload)
 
     def onPong(self, payload: bytes) -> None:  # noqa: N802 - the library's name
-        """Take a sign of life."""
         notify = self._asked.pop(payload, None)
         if notify is not None:
             notify(True)
 
     def onClose(self, wasClean: bool, code: int | None, reason: str | None) -> None:  # noqa: N802, N803
-        """Report its loss."""
         self.output.stopProducing()
         asked, self._asked = self._asked, {}
         for notify in asked.values():
@@ -139,7 +135,6 @@ class PageLink(WebSocketServerProtocol):
         self.sendPing(mark)
 
     def close(self, code: int, reason: str) -> None:
-        """Send the reason, and close."""
         self.output.finish()
         self.sendClose(code, reason)
 

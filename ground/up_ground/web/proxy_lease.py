@@ -55,7 +55,6 @@ class ProxyLease:
         self._link.give_seat(to)
 
     def release(self) -> None:
-        """Leave it free."""
         self._unanswered = 0
         self._is_left = not self._is_direct
         status = self._link.status

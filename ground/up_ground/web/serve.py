@@ -106,7 +106,6 @@ class PageOptions:
         return cls(listen, access, _tiles_of(options.tiles, environ), options.attribution)
 
     def server(self, reactor: Any, make_sources: Any, **more: Any) -> Any:
-        """Return the server."""
         server = importlib.import_module("up_ground.web.server")
         tiles = None if self.make_tiles is None else self.make_tiles(reactor)
         return server.Server(

@@ -65,7 +65,6 @@ class GroundResource(Resource):
         self._tiles = tiles
 
     def render(self, request: Any) -> Any:
-        """Answer one request."""
         for name, value in HEADERS.items():
             request.setHeader(name, value)
         if not self._access.permits_host(_only(request, b"host")):
@@ -110,7 +109,6 @@ class GroundRequest(Request):
     """A request without a body: a longer one is cut off before it is stored anywhere."""
 
     def gotLength(self, length: int | None) -> None:  # noqa: N802 - Twisted's name
-        """Refuse a body."""
         if length != 0:
             channel: Any = self.channel
             channel.transport.abortConnection()

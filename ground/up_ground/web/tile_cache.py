@@ -63,7 +63,6 @@ class TileCache:
         return content
 
     def put(self, z: int, x: int, y: int, content: bytes) -> None:
-        """Keep a tile."""
         tile = (z, x, y)
         path = self._path(tile)
         fresh = path.with_suffix(f".{secrets.token_hex(4)}")

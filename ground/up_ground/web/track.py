@@ -115,7 +115,6 @@ class Home:
         self._place: tuple[float, float] | None = None
 
     def update(self, telemetry: Telemetry) -> None:
-        """Take a frame."""
         latitude = telemetry.number("location", "latitude")
         longitude = telemetry.number("location", "longitude")
         distance = telemetry.number("home", "distance")
