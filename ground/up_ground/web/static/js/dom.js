@@ -72,16 +72,12 @@ export function short(value) {
 }
 
 /** Show once on the page that a library is not installed. */
-export function showMissing(sentence) {
+export function showMissing(code, text) {
   const place = document.getElementById("missing");
-  const known = [...(place?.children ?? [])].some((each) => each.textContent === sentence);
-  if (place === null || known) {
-    return;
+  if (place !== null && place.querySelector(`[data-code="${code}"]`) === null) {
+    place.append(html("span", { "data-code": code, text }));
+    place.hidden = false;
   }
-  const line = document.createElement("span");
-  line.textContent = sentence;
-  place.append(line);
-  place.hidden = false;
 }
 
 /** address: of a style sheet of an npm package. Returns fails when it is missing. */

@@ -37,7 +37,7 @@ async function mountPart(registry, [id, path], store, connection) {
     const element = document.getElementById(id);
     registry.add(id, mount(element, store, connection), element);
   } catch (error) {
-    registry.say(`${id} is not there: ${error.message}`);
+    registry.report(id, `${id} cannot be loaded: ${error.message}`);
     console.error(error);
   }
 }

@@ -44,9 +44,9 @@ export class PartRegistry {
     }
   }
 
-  /** sentence: that names the missing part. Returns its line. */
-  say(sentence) {
-    const line = html("span", {}, sentence);
+  /** Report a missing part; returns the line of the report. */
+  report(name, sentence) {
+    const line = html("span", { "data-code": name }, sentence);
     this.#place.append(line);
     this.#place.hidden = false;
     return line;
@@ -78,9 +78,9 @@ export class PartRegistry {
         setAttribute(each, "data-freshness", "none");
       }
     }
-    member.line ??= this.say("");
-    const next = member.faults < MAX_FAULTS ? "it is tried again" : "load the page anew";
-    setText(member.line, `${member.name} stopped: ${error.message}; ${next}`);
+    member.line ??= this.report(member.name, "");
+    const next = member.faults < MAX_FAULTS ? "retrying" : "reload the page";
+    setText(member.line, `${member.name} failed: ${error.message}; ${next}`);
     member.part.fail?.();
   }
 }

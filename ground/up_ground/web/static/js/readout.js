@@ -93,6 +93,11 @@ export class PlainRow {
     list.append(html("div", { class: "row" }, html("dt", {}, name), html("dd", {}, this.#value)));
   }
 
+  /** The value's code, for programs and tests. */
+  setState(code) {
+    setAttribute(this.#value, "data-state", code);
+  }
+
   /** text: null: not known. */
   show(text, level = "", isOld = false) {
     setText(this.#value, text ?? "--");

@@ -52,6 +52,7 @@ export function mountShell(store, connection) {
   function showLink() {
     const banner = at("link-banner");
     setHidden(banner, connection.isOpen);
+    setAttribute(banner, "data-code", connection.isFull ? "full" : "lost");
     if (!connection.isOpen) {
       const retry_s = connection.retry_s;
       setText(at("link-banner-text"), lostText(reason, connection.isFull));
@@ -69,6 +70,7 @@ export function mountShell(store, connection) {
     setHidden(silence, state === "live");
     if (state !== "live") {
       setText(silence, silenceText(store, state));
+      setAttribute(silence, "data-age", String(store.age_s(null)?.toFixed(1) ?? ""));
     }
     const frame = store.freshness(null);
     showBar("bar-link", linkWord(store, connection), state === "none" ? "none" : frame);
@@ -104,7 +106,7 @@ export function mountShell(store, connection) {
 
 /** The text over the instruments. */
 export function silenceText(store, state) {
-  return state === "none" ? "nothing heard yet" : `no news for ${store.age_s(null).toFixed(1)} s`;
+  return state === "none" ? "no telemetry yet" : `no news for ${store.age_s(null).toFixed(1)} s`;
 }
 
 /**

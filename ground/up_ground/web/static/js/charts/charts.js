@@ -5,7 +5,7 @@ import { html, showMissing, styleSheet } from "../dom.js";
 import { rollDemand_deg } from "../state/pilot_input.js";
 
 const MISSING =
-  "There are no charts, as uPlot is not installed: run tools/web_assets (it needs npm) and load this page again.";
+  "uPlot is not installed, so there are no charts: run tools/web_assets (it needs npm) and reload this page.";
 const DRAW_S = 0.1;
 const CHARTS = [
   {
@@ -47,7 +47,7 @@ export function mount(place, store, connection) {
       console.warn(error);
       notice.textContent = MISSING;
       notice.hidden = false;
-      showMissing(MISSING);
+      showMissing("uplot", MISSING);
     }
   }
 

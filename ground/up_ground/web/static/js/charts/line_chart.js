@@ -118,7 +118,7 @@ export class LineChart {
   #summary(values) {
     const known = values.filter((each) => each !== null);
     if (known.length === 0) {
-      return `${this.#title}: nothing came in the last minute`;
+      return `${this.#title}: no data in the last minute`;
     }
     const [least, most] = [Math.min(...known), Math.max(...known)];
     return `${this.#title} of the last minute: now ${this.#text(values.at(-1))}, between ${this.#text(least)} and ${this.#text(most)}`;

@@ -27,7 +27,7 @@ export function mount(element, store, connection) {
     update() {
       const link = store.status?.link ?? {};
       const isOld = !connection.isOpen;
-      const isDoubtful = isOld || saysMoreThanIsHeard(link, store);
+      const isDoubtful = isOld || isReportOutdated(link, store);
       if (pace.isTime(store.now_s)) {
         const age_s = store.age_s(null);
         ageShown = age_s === null ? null : ageText(age_s);
@@ -43,6 +43,7 @@ export function mount(element, store, connection) {
       const isOnline = typeof link.aircraft_online === "boolean" ? link.aircraft_online : null;
       const online = isOnline === null ? null : isOnline ? "at the proxy" : "not at the proxy";
       plain.aircraft.show(online, isOnline === false ? "warning" : "", isDoubtful);
+      plain.aircraft.setState(isOnline === false ? "offline" : "online");
       for (const row of rows) {
         row.update(store);
       }
@@ -51,7 +52,7 @@ export function mount(element, store, connection) {
 }
 
 /** A proxy that hangs still counts as connected at the server: its reports are outdated. */
-function saysMoreThanIsHeard(link, store) {
+function isReportOutdated(link, store) {
   return store.isSilent && link.state === "connected" && link.aircraft_online !== false;
 }
 
@@ -60,7 +61,7 @@ function agesText(store) {
     return null;
   }
   return store.number("system.clock_ms") === null
-    ? "without the way to the proxy: the aircraft tells no clock"
+    ? "without the delay to the proxy: the aircraft reports no clock"
     : "by the aircraft's clock";
 }
 
@@ -86,6 +87,7 @@ function showProxy(row, link, isOld) {
   const reason = text(link.reason) ?? "";
   const words = state === null ? null : reason === "" ? state : `${state}: ${reason}`;
   row.show(words, state === "connected" ? "" : "warning", isOld);
+  row.setState(state ?? "");
 }
 
 function showNumber(row, found, format, isOld) {

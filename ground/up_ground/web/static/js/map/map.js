@@ -27,9 +27,9 @@ export class Wind {
 }
 
 const MISSING =
-  "The map is a plain one, as Leaflet is not installed: run tools/web_assets (it needs npm) and load this page again.";
+  "Leaflet is not installed, so the map is a plain one: run tools/web_assets (it needs npm) and reload this page.";
 
-const NO_TILES = "No pictures of the ground come: a grid of metres stands in for them.";
+const NO_TILES = "Map tiles are unavailable: the map shows a grid of metres.";
 
 /** The map: Leaflet where it is installed, a plain one of our own elsewhere. */
 export function mount(place, store, connection) {
@@ -100,7 +100,7 @@ export function mount(place, store, connection) {
       console.warn(error);
       map = new PlainMap(canvas);
       notify(MISSING);
-      showMissing(MISSING);
+      showMissing("leaflet", MISSING);
     }
     showFollow();
   }

@@ -51,28 +51,29 @@ export class FlightModes {
       setAttribute(button, "aria-pressed", String(mode === selected));
       setAttribute(button, "data-offered", String(isOffered));
     }
-    setText(this.#line, this.#lineText(isControllerReady));
+    const missing = isControllerReady ? [] : (store.texts("flight_control.missing") ?? []);
+    setText(this.#line, this.#lineText(isControllerReady, missing));
+    setAttribute(this.#line, "data-missing", missing.join(" "));
   }
 
   async #select(mode) {
     const flown = this.#store.text("flight_mode") ?? "an unknown mode";
     const question = {
       title: `Fly ${mode}?`,
-      text: `Now it flies ${flown}. In ${mode} ${modeText(mode)}. The pilot's switch decides: leaving AUTO there takes over at once.`,
+      text: `Now it flies ${flown}. In ${mode} ${modeText(mode)}. The pilot's switch decides: leaving AUTO there takes over immediately.`,
       yes: `Fly ${mode}`,
       no: "Leave it",
     };
     await this.#sender.send(NAME, { mode }, { note: this.#note, question });
   }
 
-  #lineText(isControllerReady) {
+  #lineText(isControllerReady, missing) {
     const words = [];
     const selected = switchMode(this.#store);
     if (selected !== null && selected !== "AUTO") {
       words.push(`The pilot's switch stands at ${selected}: the aircraft takes a mode only at AUTO.`);
     }
     if (!isControllerReady) {
-      const missing = this.#store.texts("flight_control.missing") ?? [];
       const why = missing.length > 0 ? ` (missing: ${missing.join(", ")})` : "";
       words.push(`AUTO is not offered: the Raspberry Pi's flight controller cannot fly now${why}.`);
     }

@@ -70,7 +70,8 @@ export function mount(place, store, connection) {
       }
       const spoken = `${clockText(replay.time_s)} of ${clockText(replay.length_s)}`;
       setText(play, replay.is_playing ? "Pause" : "Play");
-      setText(name, `Replay of ${replay.name}: what you see is past.`);
+      setAttribute(play, "data-playing", String(replay.is_playing));
+      setText(name, `Replay of ${replay.name}: not live.`);
       setText(time, isDragged ? `${clockText(Number(slider.value))} of ${clockText(replay.length_s)}` : spoken);
       setAttribute(slider, "max", String(replay.length_s));
       setAttribute(slider, "aria-valuetext", spoken);
