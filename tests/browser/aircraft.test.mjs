@@ -28,7 +28,7 @@ async function shown(ground, start) {
   return (await ground.values()).filter(({ key }) => key.startsWith(start));
 }
 
-test("a reading that is old on board looks old at once, while the others are of now", async () => {
+test("a stale reading is greyed out, while the others are live", async () => {
   const ground = await (await GroundPage.open(browser, flight.address)).isLive();
   flight.tell({ data: { age_ms: { ...AGES, orientation: 5000 } } });
   const isStale = (start) =>
@@ -54,7 +54,7 @@ test("a reading that is old on board looks old at once, while the others are of 
   ground.assertClean();
 });
 
-test("another aircraft is chosen, and one that says nothing shows nothing of the first", async () => {
+test("a silent second aircraft shows nothing of the first", async () => {
   const ground = await (await GroundPage.open(browser, flight.address)).isLive();
   const names = await ground.page.$$eval("#aircraft-select option", (all) => all.map((each) => each.textContent));
   assert.deepEqual(names, ["glider-1", "glider-2"]);
@@ -75,7 +75,7 @@ function charted([place, words]) {
   return label?.includes(words);
 }
 
-test("an aircraft that is not at the proxy says so in sight, and takes no Command", async () => {
+test("an aircraft that is not at the proxy is reported, and takes no Command", async () => {
   const ground = await (await GroundPage.open(browser, flight.address)).isLive();
   assert.equal(await ground.page.$("#aircraft-away"), null);
   await ground.page.selectOption("#aircraft-select", "glider-2");
@@ -92,7 +92,7 @@ test("an aircraft that is not at the proxy says so in sight, and takes no Comman
   ground.assertClean();
 });
 
-test("of two that fly, each has its own charts, track, answers and wishes", async () => {
+test("of two aircraft, each has its charts, track, answers and inputs", async () => {
   const other = await flight.another("UP1 aircraft=glider-2");
   const place = { latitude: 51, longitude: 9, altitude: 900 };
   const orientation = { roll: -77, pitch: 5, yaw: 0 };
@@ -114,7 +114,7 @@ test("of two that fly, each has its own charts, track, answers and wishes", asyn
   ground.assertClean();
 });
 
-test("a failsafe raises an alarm and tells it among the events, until it is over", async () => {
+test("a failsafe raises an alarm and an event, until it is over", async () => {
   const ground = await (await GroundPage.open(browser, flight.address)).isLive();
   const arduino = { connected: true, framing: "checked", switch: "high", failsafe: true };
   flight.tell({ data: { arduino } });

@@ -51,7 +51,7 @@ test("a flight mode is flown after a question, and its ack is shown", async () =
   }
 });
 
-test("who says no to the question sends nothing", async () => {
+test("a declined confirmation sends nothing", async () => {
   const before = await answers();
   await ground.page.click('[data-mode="RATE"]');
   await ground.page.click("#confirm-no");
@@ -60,7 +60,7 @@ test("who says no to the question sends nothing", async () => {
   assert.equal(await ground.page.isVisible("dialog#confirm"), false);
 });
 
-test("what no aircraft could do is not sent", async () => {
+test("an invalid Command is not sent", async () => {
   const before = await answers();
   await ground.page.fill("#telemetry-period", "19");
   await ground.page.click("#telemetry-period-send");

@@ -28,7 +28,7 @@ async function offers(page) {
   return page.page.isEnabled('[data-mode="FBW"]');
 }
 
-test("one has control, the other watches and sees who has it", async () => {
+test("one has control, the other watches and shows the owner", async () => {
   await first.takeControl();
   await second.untilHolder("page");
   await first.until(() => !document.querySelector('[data-mode="FBW"]').disabled, "modes offered");
@@ -39,7 +39,7 @@ test("one has control, the other watches and sees who has it", async () => {
   assert.equal(answer.outcome, "ack", JSON.stringify(answer));
 });
 
-test("who is asked may keep it, wherever the page is scrolled to", async () => {
+test("the owner may keep control, wherever the page is scrolled to", async () => {
   await first.show("#mark");
   await second.page.click("#control-request");
   await first.until(() => !document.querySelector("#control-notice").hidden, "the question");
@@ -58,7 +58,7 @@ test("who is asked may keep it, wherever the page is scrolled to", async () => {
   assert.equal(await offers(second), false);
 });
 
-test("who asks may withdraw it", async () => {
+test("a request may be withdrawn", async () => {
   await second.page.click("#control-request");
   await first.until(() => !document.querySelector("#control-notice").hidden, "the question");
   await second.until(() => document.querySelector("#control-request").dataset.waiting === "true", "waiting");
@@ -68,7 +68,7 @@ test("who asks may withdraw it", async () => {
   assert.equal(await offers(first), true);
 });
 
-test("who is asked may give it, and the roles change over", async () => {
+test("the owner may give control, and the roles change over", async () => {
   await second.page.click("#control-request");
   await first.until(() => !document.querySelector("#control-give").hidden, "the question");
   await first.page.click("#control-give");

@@ -29,7 +29,7 @@ async function shows(key, text) {
   await until(async () => (await ground.value(key)) === text || null, `${key} ${text} on the page`);
 }
 
-test("the field of an application's one file and that of a cog appear by themselves", async () => {
+test("the field of an application's one file and that of a cog appear automatically", async () => {
   assert.equal(await ground.value("hook.opening"), null, "nothing is listed while it is closed");
   await ground.page.click("#telemetry > summary");
   await shows("hook.opening", "5");
@@ -38,7 +38,7 @@ test("the field of an application's one file and that of a cog appear by themsel
   assert.equal(await ground.attribute('[data-key="hook.opening"]', "data-freshness"), "live");
 });
 
-test("the filter leaves what is looked for", async () => {
+test("the filter leaves the matching rows", async () => {
   await ground.page.fill("#telemetry-filter", "HOOK open");
   const keys = () => [...document.querySelectorAll("#telemetry-list [data-key]")].map((each) => each.dataset.key);
   await ground.until(() => document.querySelectorAll("#telemetry-list li").length === 1, "one row");
@@ -47,7 +47,7 @@ test("the filter leaves what is looked for", async () => {
   await shows("tow.length", "0");
 });
 
-test("without control nothing is offered, and why is said", async () => {
+test("without control nothing is offered, with the reason", async () => {
   await ground.page.click("#any-command > summary");
   await ground.reason("#any-why", "control_free");
   assert.equal(await ground.page.isDisabled("#any-send"), true);
@@ -87,7 +87,7 @@ test("an application's own Command, which no ground knows, is sent by its name",
   await shows("hook.opening", "30");
 });
 
-test("what the aircraft refuses is told as it says it", async () => {
+test("a refusal of the aircraft is shown with its reason", async () => {
   await ground.page.fill("#any-json", '{"opening": 13}');
   const refused = await ground.answerTo(() => ground.press("#any-send"));
   assert.equal(refused.outcome, "nack");
@@ -104,7 +104,7 @@ test("arming is not offered past its held button", async () => {
   assert.equal(await ground.page.isDisabled("#any-send"), true);
 });
 
-test("a number is drawn in a chart of its own, which a reload remembers", async () => {
+test("a number is drawn in a separate chart, which a reload remembers", async () => {
   await ground.page.click('[aria-label="Chart hook.opening"]');
   await ground.until(() => document.querySelector("#chosen-chart canvas") !== null, "the chart");
   await ground.page.reload();

@@ -77,7 +77,7 @@ test("a change reaches the firmware, its ack the page, and undo takes it back", 
   ground.assertClean();
 });
 
-test("what is no gain is not sent", async () => {
+test("an invalid gain is not sent", async () => {
   const ground = await (await GroundPage.open(browser, showcase.address)).isLive();
   await ground.takeControl();
   await ground.until((s) => document.querySelector(s)?.value, "the gains that fly", FIELD);

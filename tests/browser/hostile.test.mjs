@@ -172,7 +172,7 @@ test("a refusal's reason is shown as text", async () => {
   ground.assertClean();
 });
 
-test("a name that is no name is refused, and a page shows one as text all the same", async () => {
+test("an invalid name is rejected, and a page shows one as text", async () => {
   const wrong = await run("up-ground", ["serve", "--aircraft", HOSTILE[0]]);
   assert.equal(wrong.status, 2);
   const page = await GroundPage.open(browser, "about:blank");

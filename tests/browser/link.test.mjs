@@ -76,7 +76,7 @@ function watchSilence([ofThePage, ofTheProxy]) {
   requestAnimationFrame(look);
 }
 
-test("a cut link looks old within a second, and only what is of now comes back", async (t) => {
+test("a cut link is greyed out within a second, and only fresh data return", async (t) => {
   const ground = await (await GroundPage.open(browser, showcase.address)).isLive();
   await ground.page.evaluate(watchSilence, [OF_THE_PAGE, OF_THE_PROXY]);
   const recorded = await record(ground.page, {
@@ -126,7 +126,7 @@ test("a cut link looks old within a second, and only what is of now comes back",
   ground.assertClean();
 });
 
-test("a server that dies is said, and is found again without a hand", async () => {
+test("a server that dies is reported, and the page reconnects", async () => {
   const words = ["serve", "--port", String(showcase.groundPort), "--listen"];
   const first = startProgram("up-ground", [...words, "127.0.0.1:0"]);
   const address = (await first.line(/(http:\/\/\S+)/))[1];

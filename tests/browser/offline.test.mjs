@@ -54,7 +54,7 @@ test("map and charts are drawn, and not one request leaves the server of the pag
   ground.assertClean();
 });
 
-test("without the map and the charts of others the instruments work, and it is said", async () => {
+test("without Leaflet and uPlot the instruments work, and the page reports them", async () => {
   const ground = await GroundPage.open(browser, "about:blank");
   await ground.page.route("**/vendor/**", (route) => route.fulfill({ status: 404 }));
   await ground.page.goto(showcase.address);

@@ -30,7 +30,7 @@ async function framesOf(ground) {
   return new Map(frames.map(({ message }) => [message.beacon, message.data]));
 }
 
-test("somebody flies and looks on", async () => {
+test("a flight is watched", async () => {
   const ground = await (await GroundPage.open(browser, showcase.address)).isLive();
   const pilot = await new Pilot(showcase).ready();
   pilot.move({ aux1: 2000, aux2: 2000, throttle: 1600, ailerons: 1850 });

@@ -131,7 +131,7 @@ test("a button that is disabled sends nothing, however long it is held", async (
   assert.equal(await ground.attribute("#arming-note", "data-code"), "armed");
 });
 
-test("a press is void when the motor is armed meanwhile, and the next one counts", async () => {
+test("a press is void when the motor becomes armed, and the next one counts", async () => {
   await ground.takeControl();
   await ground.until(() => !document.querySelector("#arm-button").disabled, "disarmed on the page");
   const commands = await countCommands();
@@ -153,7 +153,7 @@ test("a press is void when the motor is armed meanwhile, and the next one counts
   ground.assertClean();
 });
 
-test("a key that is let go after its button was disabled counts anew the next time", async () => {
+test("a key released after its button was disabled counts again the next time", async () => {
   await ground.takeControl();
   await ground.until(() => !document.querySelector("#arm-button").disabled, "disarmed on the page");
   const { keyboard } = ground.page;

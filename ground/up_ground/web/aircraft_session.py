@@ -181,7 +181,7 @@ class AircraftSession:
         if action == "give":
             taker = None if to is None else self._subscribers.get(to)
             if to is not None and taker is None:
-                raise PageFault(f"there is no page {to}", "unknown_page")
+                raise PageFault(f"unknown page {to}", "unknown_page")
             self.control.give(page, taker)
         else:
             {

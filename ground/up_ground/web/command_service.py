@@ -190,7 +190,7 @@ class CommandService:
         """Return why no Command can be sent now."""
         status = self._link.status
         if not status.is_open:
-            reason = status.reason or "there is no link"
+            reason = status.reason or "no link to the proxy"
             return Answer("unsent", "no_link", reason)
         if status.is_aircraft_online is False:
             reason = f"the aircraft {self._name} is not connected to the proxy"
@@ -214,7 +214,7 @@ class CommandService:
             self._answers.end(id_, Answer("refused", "invalid", str(error)[:500]))
             return
         if not self._link.send(line):
-            self._answers.end(id_, Answer("unsent", "no_link", "there is no link"))
+            self._answers.end(id_, Answer("unsent", "no_link", "no link to the proxy"))
 
     def _on_gains_answer(
         self,

@@ -71,7 +71,7 @@ class GroundResource(Resource):
             return refuse(
                 request,
                 MISDIRECTED_REQUEST,
-                "this server is not called so: open it by its address, or start it with --name",
+                "unknown host name: open this server by its address, or start it with --name",
             )
         if request.method not in (b"GET", b"HEAD"):
             request.setHeader(b"allow", b"GET, HEAD")
@@ -86,7 +86,7 @@ class GroundResource(Resource):
         upgrade = _only(request, b"upgrade") or ""
         if request.method != b"GET" or upgrade.casefold() != "websocket":
             request.setHeader(b"upgrade", b"websocket")
-            return refuse(request, UPGRADE_REQUIRED, "this address is a WebSocket's")
+            return refuse(request, UPGRADE_REQUIRED, "this address is a WebSocket")
         origins = request.requestHeaders.getRawHeaders(b"origin", [])
         origin = _only(request, b"origin")
         if (origins and origin is None) or not self._access.permits_origin(
@@ -98,7 +98,7 @@ class GroundResource(Resource):
     def _render_file(self, request: Any) -> Any:
         found = self._files.get(request.path)
         if found is None:
-            return refuse(request, http.NOT_FOUND, "there is nothing here")
+            return refuse(request, http.NOT_FOUND, "not found")
         request.setHeader(b"content-type", found.media_type.encode("ascii"))
         if request.setETag(found.etag.encode("ascii")) is http.CACHED:
             return b""

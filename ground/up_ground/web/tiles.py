@@ -67,11 +67,11 @@ class TileSource:
         match = _PATH.fullmatch(request.path)
         z, x, y = (int(each) for each in match.groups()) if match else (99, 0, 0)
         if z > MAX_ZOOM or max(x, y) >= 1 << z:
-            return refuse(request, http.NOT_FOUND, "there is no such tile")
+            return refuse(request, http.NOT_FOUND, "unknown tile")
         tile = (z, x, y)
         if tile not in self._requests:
             if len(self._requests) >= MAX_WAITING:
-                return refuse(request, http.SERVICE_UNAVAILABLE, "too many tiles are asked for")
+                return refuse(request, http.SERVICE_UNAVAILABLE, "too many tiles are requested")
             self._requests[tile] = []
             # Before the queue: a kept tile does not wait for a source that does not answer.
             kept = self._in_thread(self._cache.get, *tile)
@@ -138,7 +138,7 @@ class TileSource:
 
 def _finish_refused(request: Any) -> None:
     """Answer that the source failed."""
-    finish(request, refuse(request, http.BAD_GATEWAY, "the source of the map gave no tile"))
+    finish(request, refuse(request, http.BAD_GATEWAY, "the map's source returned no tile"))
 
 
 class _Body(Protocol):

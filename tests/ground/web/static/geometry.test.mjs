@@ -34,19 +34,6 @@ test("right wing down turns the picture left, nose up moves it down", () => {
   assert.match(ballTransform(0, 400), /translate\(0 450\.00\)/);
 });
 
-test("the roll scale has the same marks left and right", () => {
-  const marks = rollMarks()
-    .map((each) => each.roll_deg)
-    .sort((one, other) => one - other);
-  assert.deepEqual(marks, [-60, -45, -30, -20, -10, 10, 20, 30, 45, 60]);
-});
-
-test("angles on a circle go clockwise from above", () => {
-  const near = ([x, y], [ex, ey]) => assert.ok(Math.hypot(x - ex, y - ey) < 1e-9);
-  near(onCircle(0, 10), [0, -10]);
-  near(onCircle(90, 10), [10, 0]);
-});
-
 test("a tape's mark stands at the pointer when the value is the mark's", () => {
   const scale = new TapeScale({ step: 5, units: 16, height: 280 });
   for (const value of [-3, 0, 0.1, 2.49, 2.5, 7.5, 365.93, -1000]) {

@@ -4,7 +4,7 @@ import { Motion } from "../../../../ground/up_ground/web/static/js/state/motion.
 
 const DEGREE_M = (Math.PI / 180) * 6371009;
 
-test("one fix is no speed", () => {
+test("one fix gives no speed", () => {
   const motion = new Motion();
   motion.place(50, 8, 10);
   motion.place(50, 8, 10.01);

@@ -26,7 +26,7 @@ test("with a question the way is half of the quickest round trip", () => {
   near(hear(10.5, ONE_WAY_S), ONE_WAY_S);
 });
 
-test("what waited in a queue is as old as it is, and then the next is young again", () => {
+test("a queued message has its true age, and the next is fresh", () => {
   hear(10, ONE_WAY_S, 10 - ONE_WAY_S);
   near(hear(11, 3), 3);
   near(hear(11.1, 2.9), 2.9);
@@ -63,7 +63,7 @@ test("clocks that drift make nothing old", () => {
   }
 });
 
-test("no message is told younger than it is by more than 0.1 s, nor older by a quick question", () => {
+test("no delay is underestimated by more than 0.1 s, nor overestimated by a quick request", () => {
   let state = 7;
   const random = () => {
     state = (state * 48271) % 2147483647;
@@ -89,7 +89,7 @@ test("no message is told younger than it is by more than 0.1 s, nor older by a q
   }
 });
 
-test("a page that slept, and a server that slept, begin anew", () => {
+test("a page or server that slept resets the estimate", () => {
   for (const asleep_s of [-60, 60]) {
     way = new OneWayDelayEstimator();
     hear(10, ONE_WAY_S, 10 - ONE_WAY_S);

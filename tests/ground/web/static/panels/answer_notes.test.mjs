@@ -54,7 +54,7 @@ test("an answer goes with the aircraft that gave it", () => {
   assert.equal(note.textContent, "");
 });
 
-test("an answer goes with the connection, and what is told afterwards stays", () => {
+test("an answer goes with the connection, and a later one stays", () => {
   calls.closed();
   assert.equal(note.textContent, "");
   notes.show(note, "nobody knows", "bad");
@@ -62,7 +62,7 @@ test("an answer goes with the connection, and what is told afterwards stays", ()
   assert.equal(note.textContent, "nobody knows");
 });
 
-test("what somebody else has written there is left alone", () => {
+test("a text written by another part is kept", () => {
   note.textContent = "must be 0 to 360 deg";
   wait(130);
   calls.closed();

@@ -13,7 +13,7 @@ beforeEach(() => {
   requests = new ControlRequests();
 });
 
-test("a wish is of one aircraft alone, and so is what became of it", () => {
+test("a request and its outcome belong to one aircraft", () => {
   requests.asked("one", "Anna", 10);
   assert.equal(requests.isWaiting("one", HELD, 3, 11), true);
   assert.equal(requests.state("one", 11).code, "requested");
@@ -42,7 +42,7 @@ test("a wish ends by control, by its withdrawal, by its time, and with the conne
   assert.equal(requests.isWaiting("one", HELD, 3, 71), false);
 });
 
-test("what the server knows of this page's asking counts, and is not told as somebody else's", () => {
+test("a request known to the server counts as this page's own", () => {
   const asked = { ...HELD, asked_by: { page: 3, name: "page 3" } };
   assert.equal(requests.isWaiting("one", asked, 3, 10), true);
   assert.equal(controlTexts(asked, WELCOME).asked, "");

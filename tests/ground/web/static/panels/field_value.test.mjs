@@ -52,7 +52,7 @@ test("a whole number is whole", () => {
   assert.notEqual(problem(lamps, "90071992547409920"), "");
 });
 
-test("what may be left out is left out, and null is null only where it may be", () => {
+test("optional fields are left out, and null is allowed only for nullable ones", () => {
   assert.equal(value(side, ""), "left out");
   assert.equal(value(lamps, ""), "left out");
   assert.equal(value(lamps, "7", true), null);

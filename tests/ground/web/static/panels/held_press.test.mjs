@@ -60,7 +60,7 @@ test("a page that hung does not fire when it wakes", () => {
   assert.equal(press.reason.code, "page_delayed");
 });
 
-test("the repetition of a held key is no second press", () => {
+test("the repetition of a held key is not a second press", () => {
   const press = new HeldPress();
   press.press("key  ", 0);
   hold(press, 0, 0.5);
@@ -81,7 +81,7 @@ test("a second finger makes it void until both have gone", () => {
   assert.equal(press.state, "idle");
 });
 
-test("what is taken away while it presses counts no more", () => {
+test("an abandoned press does not count", () => {
   const press = new HeldPress();
   press.press("pointer", 0);
   hold(press, 0, 1);

@@ -59,7 +59,7 @@ test("ages and times read as people say them", () => {
   assert.equal(clockText(NaN), "0:00");
 });
 
-test("numbers and texts out of bounds are told at once", () => {
+test("numbers and texts out of bounds are rejected", () => {
   const period = numberBetween(20, 10000, "ms");
   assert.equal(period("20").problem, "");
   assert.equal(period("19").problem, "must be 20 to 10000 ms");
@@ -111,7 +111,7 @@ test("why a Command is not offered", () => {
   assert.equal(code(store(you, "pilot", { aircraft_online: null })), null);
 });
 
-test("a profile reads as a page, and what is not told has no row", () => {
+test("a profile reads as a page, and a missing value has no row", () => {
   const parts = profileParts({
     mix: "elevon",
     motor: false,

@@ -73,7 +73,7 @@ test("a filter is words that must all be in the path", () => {
   assert.ok(!matches("hook.opening", "hook x"));
 });
 
-test("the chart of one's own is remembered, and nonsense in the memory is none", () => {
+test("the selected chart is remembered, and invalid storage is ignored", () => {
   const kept = new Map();
   const memory = { get: (key) => kept.get(key) ?? null, set: (key, value) => kept.set(key, value) };
   const choice = new ChartChoice(memory);
@@ -87,11 +87,4 @@ test("the chart of one's own is remembered, and nonsense in the memory is none",
     kept.set("chart", nonsense);
     assert.equal(new ChartChoice(memory).keys, null, nonsense);
   }
-});
-
-test("the axis of a value of which nothing is known is never a sliver", () => {
-  const [low, high] = span(1500, 1500, null);
-  assert.ok(high - low >= 29 && high - low <= 31);
-  assert.deepEqual(span(0, 0, null), [-0.5, 0.5]);
-  assert.deepEqual(span(null, null, null), [-0.5, 0.5]);
 });

@@ -5,7 +5,7 @@ import { html, showMissing, styleSheet } from "../dom.js";
 import { rollDemand_deg } from "../state/pilot_input.js";
 
 const MISSING =
-  "uPlot is not installed, so there are no charts: run tools/web_assets (it needs npm) and reload this page.";
+  "the charts need uPlot, which is not installed: run tools/web_assets (it needs npm) and reload this page.";
 const DRAW_S = 0.1;
 const CHARTS = [
   {

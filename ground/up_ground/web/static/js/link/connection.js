@@ -120,7 +120,7 @@ export class Connection {
         ask,
         outcome: "unsent",
         code: "no_server",
-        reason: "there is no connection to the ground server",
+        reason: "not connected to the ground server",
       });
     }
     return answer;

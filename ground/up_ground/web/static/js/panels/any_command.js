@@ -141,7 +141,7 @@ function aboutText(name, command) {
     return "";
   }
   if (command === null) {
-    return "This ground station does not know it. The aircraft may: an application has Commands of its own.";
+    return "Unknown to this ground station; the aircraft may have it.";
   }
   const role = command.role === "depends" ? "" : ` [${command.role} or more]`;
   const alias = name === command.name ? "" : `${command.name}: `;
@@ -157,7 +157,7 @@ export function questionOf(name, data, command, warning = "") {
     ? { title: `Send ${name}?`, text: `${command.text}\n\n${lines}`, yes: "Send", no: "Do not send", isDanger: false }
     : {
         title: `Send ${name} unchecked?`,
-        text: `Nobody on the ground knows this Command: nothing has checked its name and its fields, and nothing here can say what it does. If the aircraft has it, it carries it out.\n\n${lines}`,
+        text: `Unknown to this ground station: its name and fields are unchecked. If the aircraft has this Command, it executes it.\n\n${lines}`,
         yes: "Send unchecked",
         no: "Do not send",
         isDanger: true,

@@ -20,7 +20,7 @@ const NEEDED = {
 /** Commands that are sent only by their held button. */
 const HELD_ONLY = { "up.arm": "Arm", "up.disarm": "Disarm" };
 
-const OFFLINE = { code: "no_server", text: "There is no connection to the ground server." };
+const OFFLINE = { code: "no_server", text: "Not connected to the ground server." };
 const REPLAY = { code: "replay", text: "This is a replay: it takes no Commands." };
 /** The aircraft sends no telemetry. */
 export const SILENT = { code: "silent", text: "The aircraft is silent." };

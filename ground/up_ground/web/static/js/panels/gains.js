@@ -91,10 +91,10 @@ class GainsPanel {
   #stateText() {
     const gains = this.#store.gains;
     if (!gains?.flying) {
-      return "The gains that fly are not known yet.";
+      return "The active gains are not known yet.";
     }
     const told_s = (Number(gains.age_ms) || 0) / 1000 + this.#store.flight_s - this.#came_s;
-    return `What flies, as the aircraft told it ${ageText(told_s)} ago.`;
+    return `Active gains, reported by the aircraft ${ageText(told_s)} ago.`;
   }
 
   async #send() {
@@ -103,7 +103,7 @@ class GainsPanel {
       return;
     }
     const changed = this.#editor.difference.map(({ words }) => words);
-    const found = conflicts.map(({ words }) => `Changed meanwhile: ${words}.`);
+    const found = conflicts.map(({ words }) => `Changed by another page: ${words}.`);
     const text = [...changed, ...found, gainsWarning(this.#store)].filter(Boolean).join("\n");
     const isYes = await confirm({ title: "Send these gains?", text, yes: "Send", no: "Not yet" });
     if (isYes) {

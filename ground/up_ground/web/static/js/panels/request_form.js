@@ -25,7 +25,7 @@ export class FrameSize {
   }
 }
 
-/** As long as the aircraft takes them (android.speak, black_box.mark). */
+/** The aircraft's limit for android.speak and black_box.mark. */
 const MAX_TEXT = 200;
 
 /** Telemetry's period, the phone's voice, a mark in the log. */
@@ -43,7 +43,7 @@ export class RequestForm {
     this.#sender = sender;
     this.#period = this.#number(
       "telemetry-period",
-      "Telemetry every so many ms",
+      "Telemetry period, ms",
       [20, 10000],
       "ms",
       (value) => this.#send("up.telemetry.frequency", { frequency: value }, this.#period),
