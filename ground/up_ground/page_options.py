@@ -43,9 +43,7 @@ def add_page_options(
         metavar="TEXT",
         help="the map's copyright notice",
     )
-    parser.add_argument(
-        "--watch-only", action="store_true", help="no page may control"
-    )
+    parser.add_argument("--watch-only", action="store_true", help="no page may control")
     parser.add_argument(
         "--key",
         type=_key,

@@ -160,25 +160,6 @@ def test_a_page_behind_a_thin_line_draws_nothing_old_as_live(proxy, tmp_path):
     assert {each["freshness"] for each in told} == {"live", "stale"}
 
 
-def test_a_line_that_was_thin_from_the_first_moment_on_is_known_too(proxy, tmp_path):
-    data = frame(pad="x" * 1500)
-
-    async def fly():
-        with (
-            ClockedAircraft(proxy.airborne_port, data=data),
-            Serve(tmp_path, proxy.ground_port) as server,
-        ):
-            async with link_to(server.port, window=96 * 1024) as link:
-                link.down.settings = LinkSettings(rate_bytes_s=40_000)
-                with NodePage(link.port) as page:
-                    await until(lambda: page.told and page.told[-1]["trueAge_s"] > 1.8)
-                    count = len(page.told)
-                    await until(lambda: len(page.told) > count + 20)
-                return page.told
-
-    assert judge(run_in_reactor(fly)) > 1.8
-
-
 def test_a_page_that_hung_wakes_to_a_backlog_and_says_how_old_it_is(proxy, tmp_path):
     async def fly():
         with (

