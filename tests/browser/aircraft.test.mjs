@@ -1,24 +1,17 @@
 // Several aircraft, old readings, alarms, and who may only watch: what a page makes of what it hears.
 import assert from "node:assert/strict";
-import { after, afterEach, before, test } from "node:test";
+import { afterEach, before, test } from "node:test";
 
-import { startBrowser } from "./support/browser.mjs";
 import { FakeFlight } from "./support/fake_flight.mjs";
 import { GroundPage } from "./support/ground_page.mjs";
+import { browser, stopAfter } from "./support/setup.mjs";
 
 const AGES = { orientation: 12, rx: 20, servo: 20, location: 600, altitude: 30, heading: 40, battery: 20000 };
-let browser;
 let flight;
 
 before(async () => {
-  browser = await startBrowser();
   const serve = ["--aircraft", "glider-1", "--aircraft", "glider-2"];
-  flight = await FakeFlight.start({ hello: "UP1 aircraft=glider-1", serve });
-});
-
-after(async () => {
-  await browser?.close();
-  await flight?.stop();
+  flight = stopAfter(await FakeFlight.start({ hello: "UP1 aircraft=glider-1", serve }));
 });
 
 afterEach(() => GroundPage.closeAll());

@@ -1,30 +1,23 @@
 // The aircraft executes each request of the page, or refuses it with its reason.
 import assert from "node:assert/strict";
-import { after, before, test } from "node:test";
+import { before, test } from "node:test";
 
-import { startBrowser } from "./support/browser.mjs";
 import { GroundPage } from "./support/ground_page.mjs";
 import { Pilot } from "./support/pilot.mjs";
 import { record } from "./support/recorder.mjs";
+import { browser, stopAfter } from "./support/setup.mjs";
 import { startShowcase } from "./support/showcase.mjs";
 import { until } from "./support/wait.mjs";
 
 /** How long a press must last, less what a frame of the screen takes. */
 const HELD_MS = 1450;
 let showcase;
-let browser;
 let ground;
 
 before(async () => {
-  browser = await startBrowser();
-  showcase = await startShowcase();
+  showcase = stopAfter(await startShowcase());
   ground = await (await GroundPage.open(browser, showcase.address)).isLive();
   await ground.takeControl();
-});
-
-after(async () => {
-  await browser?.close();
-  await showcase?.stop();
 });
 
 /** Wait until telemetry says something. */

@@ -1,26 +1,19 @@
 // Two browsers and one control: its owner commands, the other watches, and it is handed over.
 import assert from "node:assert/strict";
-import { after, before, test } from "node:test";
+import { before, test } from "node:test";
 
-import { startBrowser } from "./support/browser.mjs";
 import { GroundPage } from "./support/ground_page.mjs";
+import { browser, stopAfter } from "./support/setup.mjs";
 import { startShowcase } from "./support/showcase.mjs";
 
 let showcase;
-let browser;
 let first;
 let second;
 
 before(async () => {
-  browser = await startBrowser();
-  showcase = await startShowcase();
+  showcase = stopAfter(await startShowcase());
   first = await (await GroundPage.open(browser, showcase.address)).isLive();
   second = await (await GroundPage.open(browser, showcase.address)).isLive();
-});
-
-after(async () => {
-  await browser?.close();
-  await showcase?.stop();
 });
 
 /** Whether a page offers to command. */

@@ -1,27 +1,20 @@
 // A new capability is one new file, or one cog, and no change anywhere else: the page shows its
 // telemetry and offers its Command.
 import assert from "node:assert/strict";
-import { after, before, test } from "node:test";
+import { before, test } from "node:test";
 
 import { ExtendedFlight } from "./support/extended_flight.mjs";
-import { startBrowser } from "./support/browser.mjs";
 import { seriousFaults } from "./support/accessibility.mjs";
 import { GroundPage } from "./support/ground_page.mjs";
+import { browser, stopAfter } from "./support/setup.mjs";
 import { until } from "./support/wait.mjs";
 
-let browser;
 let flight;
 let ground;
 
 before(async () => {
-  browser = await startBrowser();
-  flight = await ExtendedFlight.start();
+  flight = stopAfter(await ExtendedFlight.start());
   ground = await (await GroundPage.open(browser, flight.address)).isLive();
-});
-
-after(async () => {
-  await browser?.close();
-  await flight?.stop();
 });
 
 /** Wait until the page shows a value. */

@@ -1,11 +1,11 @@
 // Gains go from the page into the firmware and back, and not where the aircraft forbids it.
 import assert from "node:assert/strict";
-import { after, afterEach, before, test } from "node:test";
+import { afterEach, before, test } from "node:test";
 
-import { startBrowser } from "./support/browser.mjs";
-import { startCarefulFlight } from "./support/careful_flight.mjs";
+import { CarefulFlight } from "./support/careful_flight.mjs";
 import { GroundPage } from "./support/ground_page.mjs";
 import { run } from "./support/program.mjs";
+import { browser, stopAfter } from "./support/setup.mjs";
 import { startShowcase } from "./support/showcase.mjs";
 import { until } from "./support/wait.mjs";
 
@@ -13,18 +13,10 @@ const FIELD = '#gains input[name="ratePIDs.ailerons.p"]';
 const FAR = 0.0001;
 let showcase;
 let careful;
-let browser;
 
 before(async () => {
-  browser = await startBrowser();
-  showcase = await startShowcase();
-  careful = await startCarefulFlight();
-});
-
-after(async () => {
-  await browser?.close();
-  await careful?.stop();
-  await showcase?.stop();
+  showcase = stopAfter(await startShowcase());
+  careful = stopAfter(await CarefulFlight.start());
 });
 
 afterEach(() => GroundPage.closeAll());

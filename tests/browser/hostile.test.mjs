@@ -1,11 +1,11 @@
 // An aircraft that lies: whatever it calls itself and says is shown as text, and never runs.
 import assert from "node:assert/strict";
-import { after, afterEach, before, beforeEach, test } from "node:test";
+import { afterEach, before, beforeEach, test } from "node:test";
 
-import { startBrowser } from "./support/browser.mjs";
 import { FakeFlight } from "./support/fake_flight.mjs";
 import { GroundPage } from "./support/ground_page.mjs";
 import { run } from "./support/program.mjs";
+import { browser, stopAfter } from "./support/setup.mjs";
 
 const RUN = "window.wasHurt = true";
 const HOSTILE = [
@@ -21,18 +21,11 @@ const HOSTILE = [
 ];
 /** Keys whose values are texts, and those under which the aircraft chooses the keys. */
 const TEXTS = ["mode", "flight_mode", "flight_controller"];
-let browser;
 let flight;
 let ground;
 
 before(async () => {
-  browser = await startBrowser();
-  flight = await FakeFlight.start();
-});
-
-after(async () => {
-  await browser?.close();
-  await flight?.stop();
+  flight = stopAfter(await FakeFlight.start());
 });
 
 beforeEach(async () => {

@@ -1,11 +1,11 @@
 // Values that are no longer current stop looking current, and recover automatically.
 import assert from "node:assert/strict";
-import { after, afterEach, before, test } from "node:test";
+import { afterEach, before, test } from "node:test";
 
-import { startBrowser } from "./support/browser.mjs";
 import { GroundPage } from "./support/ground_page.mjs";
 import { startProgram } from "./support/program.mjs";
 import { record } from "./support/recorder.mjs";
+import { browser, stopAfter } from "./support/setup.mjs";
 import { startShowcase } from "./support/showcase.mjs";
 import { between, distance_m, truthOf } from "./support/truth.mjs";
 
@@ -18,16 +18,9 @@ const OF_THE_PAGE = ["link.age", "link.rate", "link.lost", "link.page"];
 /** The proxy reports that the aircraft is gone: all these values are current then. */
 const OF_THE_PROXY = ["link.proxy", "link.latency", "link.aircraft"];
 let showcase;
-let browser;
 
 before(async () => {
-  browser = await startBrowser();
-  showcase = await startShowcase();
-});
-
-after(async () => {
-  await browser?.close();
-  await showcase?.stop();
+  showcase = stopAfter(await startShowcase());
 });
 
 afterEach(() => GroundPage.closeAll());

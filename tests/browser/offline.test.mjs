@@ -1,23 +1,16 @@
 // A field without any network: everything comes from the machine itself.
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
-import { after, afterEach, before, test } from "node:test";
+import { afterEach, before, test } from "node:test";
 
-import { startBrowser } from "./support/browser.mjs";
 import { GroundPage } from "./support/ground_page.mjs";
+import { browser, stopAfter } from "./support/setup.mjs";
 import { startShowcase } from "./support/showcase.mjs";
 
 let showcase;
-let browser;
 
 before(async () => {
-  browser = await startBrowser();
-  showcase = await startShowcase();
-});
-
-after(async () => {
-  await browser?.close();
-  await showcase?.stop();
+  showcase = stopAfter(await startShowcase());
 });
 
 afterEach(() => GroundPage.closeAll());

@@ -1,27 +1,19 @@
 // A flight that the page has shown is played again from its log.
 import assert from "node:assert/strict";
-import { after, before, test } from "node:test";
+import { before, test } from "node:test";
 
-import { startBrowser } from "./support/browser.mjs";
 import { GroundPage } from "./support/ground_page.mjs";
 import { Pilot } from "./support/pilot.mjs";
 import { startProgram } from "./support/program.mjs";
+import { browser, stopAfter } from "./support/setup.mjs";
 import { startShowcase } from "./support/showcase.mjs";
 
 let showcase;
-let browser;
 let replay;
 let seen;
 
 before(async () => {
-  browser = await startBrowser();
-  showcase = await startShowcase();
-});
-
-after(async () => {
-  await browser?.close();
-  await replay?.stop();
-  await showcase?.stop();
+  showcase = stopAfter(await startShowcase());
 });
 
 /** The frames that a page has got, by their beacons. */
@@ -47,7 +39,7 @@ test("a flight is watched", async () => {
 
 test("the log of that flight shows the same on the page, and takes no Commands", async (t) => {
   const words = ["replay", "last", "--folder", showcase.flights, "--listen", "127.0.0.1:0"];
-  replay = startProgram("up-ground", words);
+  replay = stopAfter(startProgram("up-ground", words));
   const ground = await GroundPage.open(browser, (await replay.line(/(http:\/\/\S+)/))[1]);
   await ground.until(() => {
     const place = document.querySelector("#panel-replay");

@@ -1,23 +1,16 @@
 // A part of the page that fails, and a button that may not be pressed.
 import assert from "node:assert/strict";
-import { after, afterEach, before, beforeEach, test } from "node:test";
+import { afterEach, before, beforeEach, test } from "node:test";
 
-import { startBrowser } from "./support/browser.mjs";
 import { FakeFlight } from "./support/fake_flight.mjs";
 import { GroundPage } from "./support/ground_page.mjs";
+import { browser, stopAfter } from "./support/setup.mjs";
 
-let browser;
 let flight;
 let ground;
 
 before(async () => {
-  browser = await startBrowser();
-  flight = await FakeFlight.start();
-});
-
-after(async () => {
-  await browser?.close();
-  await flight?.stop();
+  flight = stopAfter(await FakeFlight.start());
 });
 
 beforeEach(async () => {
