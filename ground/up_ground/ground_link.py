@@ -30,7 +30,7 @@ from up.protocols.proxy_lines import (
     parse_line,
 )
 from up.system.backoff import Backoff
-from up.system.clock import Timer
+from up.system.clock import Timer, cancel
 from up_ground.ground_protocol import GroundProtocol
 from up_ground.link_status import LinkState, LinkStatus
 from up_ground.settings import Seat, Settings
@@ -42,11 +42,9 @@ CONNECT_TIMEOUT_S = 5.0
 class LinkListener(Interface):
     """Who uses the link."""
 
-    def on_message(self, message: GeneralMessage) -> None:
-        """Take a message from the aircraft."""
+    def on_message(self, message: GeneralMessage) -> None: ...
 
-    def on_link(self) -> None:
-        """Handle a change of the link's status."""
+    def on_link(self) -> None: ...
 
 
 class GroundLink:
@@ -87,8 +85,7 @@ class GroundLink:
     async def stop(self) -> None:
         """Close the link permanently; returns when the connection is closed."""
         self.status.disconnected(LinkState.STOPPED, self._reactor.seconds())
-        if self._timer is not None and self._timer.active():
-            self._timer.cancel()
+        cancel(self._timer)
         if self._attempt is not None:
             self._attempt.cancel()
         if self._connection is not None:
@@ -109,11 +106,9 @@ class GroundLink:
         return not self._settings.direct and self.send(ControlRequest().encode())
 
     def give_seat(self, to: int) -> bool:
-        """Hand the seat to the listener with that number."""
         return self.status.seat is Seat.COMMAND and self.send(ControlGive(to).encode())
 
     def release_seat(self) -> bool:
-        """Leave the seat free."""
         return self.status.seat is Seat.COMMAND and self.send(ControlRelease().encode())
 
     def reconnect(self, seat: Seat) -> None:

@@ -38,7 +38,6 @@ class TokenStore:
 
     @property
     def path(self) -> Path:
-        """Return the file of the token."""
         return self._path
 
     def hold(self) -> bool:

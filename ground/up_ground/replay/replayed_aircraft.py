@@ -69,7 +69,6 @@ class ReplayedAircraft:
         return self._frame
 
     def past(self) -> Iterable[dict[str, Any]]:
-        """Return the messages for a page that starts to watch."""
         now_s = self._player.time_s
         yield self._replay()
         yield self._timeline.track_until(now_s)

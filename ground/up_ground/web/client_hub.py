@@ -10,7 +10,7 @@ from typing import Any
 from twisted.internet.defer import Deferred
 
 from up.protocols.link_output import Make
-from up.system.clock import Clock, Timer
+from up.system.clock import Clock, Timer, cancel
 from up.system.token_bucket import TokenBucket
 from up.version import VERSION
 from up_ground.sanitize_text import sanitize_text
@@ -80,10 +80,7 @@ class ClientHub:
 
     async def stop(self) -> None:
         """Close every page's link; returns when they are closed, after a second at most."""
-        timers = [self._beat, *self._timers.values()]
-        for timer in timers:
-            if timer is not None and timer.active():
-                timer.cancel()
+        cancel(self._beat, *self._timers.values())
         if self._connections:
             self._all_closed = Deferred()
             for link in list(self._connections):
@@ -96,7 +93,6 @@ class ClientHub:
         return [page for page in self._pages.values() if page.link is not None]
 
     def get(self, number: int) -> ClientSession | None:
-        """Return the page with that number that is here."""
         page = self._pages.get(number)
         return None if page is None or page.link is None else page
 
@@ -107,7 +103,6 @@ class ClientHub:
                 page.send_latest(kind, make)
 
     def notify(self, aircraft: str, message: dict[str, Any]) -> None:
-        """Send a message to the pages that watch the aircraft."""
         encoded = b""
         for page in self._pages.values():
             if page.watched == aircraft:
@@ -153,8 +148,7 @@ class ClientHub:
         connection = self._connections.pop(link, None)
         if connection is None:
             return
-        if connection.timer.active():
-            connection.timer.cancel()
+        cancel(connection.timer)
         if self._all_closed is not None:
             if not self._connections:
                 self._all_closed.callback(None)
@@ -271,9 +265,7 @@ class ClientHub:
 
     def _evict(self, page: ClientSession) -> None:
         link, page.link = page.link, None
-        timer = self._timers.get(page.number)
-        if timer is not None and timer.active():
-            timer.cancel()
+        cancel(self._timers.get(page.number))
         if link is not None:
             self._reject(link, "a page that may control needs the place")
             for aircraft in self.fleet.values():
@@ -283,16 +275,13 @@ class ClientHub:
     def _reject(self, link: ClientConnection, reason: str) -> None:
         """Close a link without a page."""
         connection = self._connections.pop(link)
-        if connection.timer.active():
-            connection.timer.cancel()
+        cancel(connection.timer)
         link.close(LATER, reason)
 
     def _welcome_back(
         self, link: ClientConnection, page: ClientSession, name: str, denial: Denial | None
     ) -> None:
-        timer = self._timers.pop(page.number, None)
-        if timer is not None and timer.active():
-            timer.cancel()
+        cancel(self._timers.pop(page.number, None))
         page.name = name or page.name
         page.denial = denial
         page.watched = ""

@@ -135,11 +135,9 @@ class CommandService:
         self._send(GAINS, {"request": True}, self._telemetry.beacon, lambda answer: None)
 
     def gains_message(self) -> dict[str, Any]:
-        """Return the gains message for pages."""
         return self.gains.message(self._name, self._clock.seconds())
 
     def profile_message(self) -> dict[str, Any]:
-        """Return the profile message for pages."""
         return {"type": "profile", "aircraft": self._name, "profile": self.profile}
 
     def _execute(

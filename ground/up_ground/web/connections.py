@@ -9,6 +9,7 @@ from twisted.protocols.policies import ProtocolWrapper, WrappingFactory
 from twisted.python.failure import Failure
 
 from up.system.addresses import neighbourhood
+from up.system.clock import cancel
 
 WAITING_LIMIT = 128
 """Connections that are not a welcomed page's."""
@@ -35,7 +36,6 @@ class Connection(ProtocolWrapper):
         super().makeConnection(transport)  # type: ignore[no-untyped-call]
 
     def on_request(self) -> None:
-        """Note the arrival of a complete request."""
         if not self.has_asked:
             self.has_asked = True
             self._timer.reset(HTTP_LIMIT_S - HEADER_S)
@@ -45,8 +45,7 @@ class Connection(ProtocolWrapper):
         self.factory.remove(self)
 
     def connectionLost(self, reason: Failure = connectionDone) -> None:  # noqa: N802
-        if self._timer.active():
-            self._timer.cancel()
+        cancel(self._timer)
         self.factory.remove(self)
         super().connectionLost(reason)  # type: ignore[no-untyped-call]
 
@@ -82,7 +81,6 @@ class Connections(WrappingFactory):
         return cast("Connection", made)
 
     def remove(self, connection: Connection) -> None:
-        """Count a connection no longer."""
         own = self._waiting.get(connection.peer, {})
         own.pop(connection, None)
         if not own:

@@ -31,7 +31,6 @@ class PageSendBuffer(BaseOutput):
 
     @property
     def waiting_bytes(self) -> int:
-        """Return the size of the queued messages."""
         return self._size
 
     def send(self, message: bytes) -> None:
@@ -49,7 +48,6 @@ class PageSendBuffer(BaseOutput):
             self._put_news(kind, make, may_leave=self._is_drained)
 
     def discard(self, kind: str) -> None:
-        """Drop the queued one of a kind."""
         self._news.pop(kind, None)
 
 
@@ -64,14 +62,11 @@ TOO_LONG = 4008
 class LinkOwner(Interface):
     """Receiver of the events of the pages' links."""
 
-    def on_opened(self, link: PageLink) -> None:
-        """Handle a new link."""
+    def on_opened(self, link: PageLink) -> None: ...
 
-    def on_message(self, link: PageLink, payload: bytes) -> None:
-        """Handle its message."""
+    def on_message(self, link: PageLink, payload: bytes) -> None: ...
 
-    def on_closed(self, link: PageLink) -> None:
-        """Handle its loss."""
+    def on_closed(self, link: PageLink) -> None: ...
 
 
 class PageLink(WebSocketServerProtocol):

@@ -29,7 +29,6 @@ class ProxyLease:
 
     @property
     def holder(self) -> int | None:
-        """Return the number of the ground that has it."""
         return self._link.status.holder
 
     def pop_request(self) -> int | None:

@@ -86,7 +86,6 @@ class PageOptions:
 
     @classmethod
     def of(cls, options: argparse.Namespace, environ: Mapping[str, str]) -> PageOptions:
-        """Return the parsed options; raises ServeError."""
         try:
             # Its further dependencies are an extra; every other verb starts without them.
             importlib.import_module("up_ground.web.server")

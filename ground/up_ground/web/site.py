@@ -39,11 +39,9 @@ _PLAIN = b"text/plain; charset=utf-8"
 class Tiles(Interface):
     """Source of the map tiles."""
 
-    def render(self, request: Any) -> Any:
-        """Answer a request for one."""
+    def render(self, request: Any) -> Any: ...
 
-    def stop(self) -> None:
-        """Stop all fetches."""
+    def stop(self) -> None: ...
 
 
 class GroundResource(Resource):

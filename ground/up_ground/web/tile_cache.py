@@ -45,7 +45,6 @@ class TileCache:
         self._bytes = 0
 
     def get(self, z: int, x: int, y: int) -> bytes | None:
-        """Return a tile; None: it is not here."""
         path = self._path((z, x, y))
         try:
             stored = path.read_bytes()

@@ -29,6 +29,6 @@ export class ExtendedFlight extends Flight {
       }
     }
     this.daemon = this._runs(startProgram("up", ["-f", application, "start"], { environment }));
-    await this._startServer();
+    await this._startServer([], environment);
   }
 }

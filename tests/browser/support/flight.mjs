@@ -53,9 +53,9 @@ export class Flight {
     this.groundPort = (await proxy.line(/ground side listens on port (\d+)/))[1];
   }
 
-  async _startServer(options = []) {
+  async _startServer(options = [], more = {}) {
     const words = ["--port", this.groundPort, "serve", "--listen", "127.0.0.1:0", ...options];
-    const environment = { XDG_STATE_HOME: this._folder.path };
+    const environment = { XDG_STATE_HOME: this._folder.path, ...more };
     const server = this._runs(startProgram("up-ground", words, { environment }));
     this.address = (await server.line(/(http:\/\/\S+)/))[1];
   }

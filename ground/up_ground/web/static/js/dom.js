@@ -1,6 +1,5 @@
 const SVG = "http://www.w3.org/2000/svg";
 
-/** Writes a text into an element, only when it changed. */
 export function setText(element, text) {
   if (element.shownText !== text) {
     element.textContent = text;

@@ -28,7 +28,6 @@ export class PartRegistry {
     this.#members.push({ name, part, element, faults: 0, wait: 0, good: 0, line: null });
   }
 
-  /** Update every part. */
   update() {
     for (const member of this.#members.filter(({ faults }) => faults < MAX_FAULTS)) {
       if (member.wait > 0) {

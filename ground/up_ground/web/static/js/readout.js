@@ -44,7 +44,6 @@ export class Readout {
     element.setAttribute("data-key", path);
   }
 
-  /** The value shown, null: none. */
   update(store) {
     const value = store[this.#kind](this.#path);
     const freshness = value === null ? "none" : store.freshness(this.#reading);

@@ -104,7 +104,6 @@ export function mountShell(store, connection) {
   };
 }
 
-/** The text over the instruments. */
 export function silenceText(store, state) {
   return state === "none" ? "no telemetry yet" : `no news for ${store.age_s(null).toFixed(1)} s`;
 }

@@ -13,7 +13,6 @@ export class ChartChoice {
   #memory;
   #keys;
 
-  /** memory: with get and set. */
   constructor(memory) {
     this.#memory = memory;
     this.#keys = keysOf(memory.get(KEY));
@@ -24,19 +23,16 @@ export class ChartChoice {
     return this.#keys;
   }
 
-  /** Whether this one is drawn. */
   is(keys) {
     return this.#keys !== null && this.#keys.length === keys.length && this.#keys.every((each, index) => each === keys[index]);
   }
 
-  /** keys: null: no chart. */
   choose(keys) {
     this.#keys = keys;
     this.#memory.set(KEY, keys === null ? "" : JSON.stringify(keys));
   }
 }
 
-/** The page's choice. */
 export const chartChoice = new ChartChoice(storageOf("localStorage"));
 
 function keysOf(text) {

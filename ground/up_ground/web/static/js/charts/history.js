@@ -1,6 +1,5 @@
 import { GAP_S, Silence } from "../state/track.js";
 
-/** The time span of a chart. */
 export const WINDOW_S = 60;
 
 /**
@@ -14,13 +13,11 @@ export class History {
   #values;
   #silence = new Silence();
 
-  /** names: of the values. */
   constructor(names) {
     this.#names = names;
     this.#values = names.map(() => []);
   }
 
-  /** How many points are kept, the ones that mark holes included. */
   get length() {
     return this.#times_s.length;
   }

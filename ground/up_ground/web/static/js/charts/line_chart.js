@@ -40,13 +40,11 @@ export class LineChart {
     document.addEventListener("up-theme", this.#onTheme);
   }
 
-  /** Draw no more. */
   end() {
     document.removeEventListener("up-theme", this.#onTheme);
     this.#rebuild();
   }
 
-  /** columns: seconds before now, then the values of each line. */
   show(columns) {
     const width = this.#canvas.clientWidth;
     if (width === 0) {

@@ -55,7 +55,6 @@ export function mount(element, store) {
   };
 }
 
-/** Whole metres below 10 km. */
 export function distanceText(distance_m) {
   if (distance_m === null) {
     return UNKNOWN;

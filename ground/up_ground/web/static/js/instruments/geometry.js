@@ -43,7 +43,6 @@ export function isWhole(x, y, roll_deg, pitch_deg) {
   return isBelowArc && Math.abs(across) < (along < -10 ? 88 : 107) && along < 133;
 }
 
-/** The marks of the roll scale. */
 export function rollMarks() {
   const lengths = { 10: 6, 20: 6, 30: 12, 45: 7, 60: 12 };
   return Object.entries(lengths).flatMap(([roll_deg, length]) => [

@@ -3,7 +3,6 @@ import { ballTransform, isWhole, onCircle, rollMarks, rungs, UNITS_PER_DEG } fro
 import { ageText } from "../state/format.js";
 import { rollDemand_deg } from "../state/pilot_input.js";
 
-/** The box of the horizon and of the tapes upon it. */
 export const VIEW = { x: -200, y: -140, width: 400, height: 280 };
 const FAR = 1200;
 const ROLL_RADIUS = 112;

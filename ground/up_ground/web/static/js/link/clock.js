@@ -21,7 +21,6 @@ const MAX_S = 2;
 export class Backoff {
   #attempts = 0;
 
-  /** How many attempts failed since the last success. */
   get attempts() {
     return this.#attempts;
   }
@@ -33,7 +32,6 @@ export class Backoff {
     return wait_s;
   }
 
-  /** Reset: the server was reached. */
   reset() {
     this.#attempts = 0;
   }

@@ -40,7 +40,6 @@ export class Connection {
   #hello_s = null;
   #way = new OneWayDelayEstimator();
 
-  /** The server's `welcome`, null while disconnected. */
   welcome = null;
   /** Whether the server refuses the connection because it has the maximum number of pages. */
   isFull = false;
@@ -51,7 +50,6 @@ export class Connection {
   /** Which frame the page has shown: set by the page, echoed in Commands. */
   shownBeacon = () => null;
 
-  /** url: of the WebSocket; timers: as TIMERS. */
   constructor(url, parts = {}) {
     this.#url = url;
     this.#key = parts.key ?? null;
@@ -62,7 +60,6 @@ export class Connection {
     this.#asks = new PendingCommands(this.#timers);
   }
 
-  /** Whether the server has welcomed this page and the connection is open. */
   get isOpen() {
     return this.welcome !== null;
   }
@@ -79,13 +76,11 @@ export class Connection {
     return () => calls.delete(call);
   }
 
-  /** Connect, and stay connected. */
   start() {
     this.#pinger ??= this.#timers.each(() => this.#tick(), PING_S);
     this.#attempt();
   }
 
-  /** Close, and stay closed. */
   stop() {
     this.#timers.cancel(this.#pinger);
     this.#timers.cancel(this.#timer);
@@ -98,7 +93,6 @@ export class Connection {
     this.#asks.giveUp(LOST);
   }
 
-  /** message: with its `type`. Returns whether it went out. */
   send(message) {
     if (!this.isOpen || this.#socket?.readyState !== 1) {
       return false;

@@ -8,12 +8,10 @@ export class PendingCommands {
   #waiting = new Map();
   #timers;
 
-  /** timers: as TIMERS. */
   constructor(timers = TIMERS) {
     this.#timers = timers;
   }
 
-  /** A new number and its future answer. */
   add() {
     this.#last += 1;
     const ask = this.#last;
@@ -27,7 +25,6 @@ export class PendingCommands {
     return { ask, answer };
   }
 
-  /** message: the server's `answer`; dropped if no request waits for it. */
   take(message) {
     const waiting = this.#waiting.get(message.ask);
     if (waiting === undefined) {

@@ -93,7 +93,6 @@ export class LeafletMap {
     }
   }
 
-  /** Show the whole track and home. */
   showAll() {
     const bounds = this.#track.bounds();
     if (bounds !== null) {

@@ -13,7 +13,6 @@ export class Wind {
     this.element = html("p.map-wind", { hidden: true }, arrow, this.#words);
   }
 
-  /** store: `wind.from` in degrees, `wind.speed` in m/s. */
   show(store) {
     const from_deg = store.number("wind.from");
     const speed_m_s = store.number("wind.speed");

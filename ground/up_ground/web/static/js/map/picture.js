@@ -27,7 +27,6 @@ export function pictureOf(store) {
   };
 }
 
-/** Distance and direction to walk. */
 export function homeText(picture) {
   if (picture.aircraft === null) {
     return "No position yet";

@@ -68,10 +68,8 @@ export class PlainMap {
   /** Does nothing: this map always shows everything. */
   follow() {}
 
-  /** It has no other scale. */
   zoom() {}
 
-  /** It always does. */
   showAll() {}
 
   #drawGrid(view, size, x, y) {

@@ -72,7 +72,6 @@ export class Arming {
       : { code: "disarmed", text: "The motor is already disarmed." };
   }
 
-  /** Whether the motor is armed, null without a fresh value. */
   #armed() {
     return this.#store.freshnessAt("armed") === "live" ? this.#store.flag("armed") : null;
   }

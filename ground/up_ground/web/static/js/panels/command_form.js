@@ -31,12 +31,10 @@ export class CommandField {
     );
   }
 
-  /** On the wire. */
   get name() {
     return this.#field.name;
   }
 
-  /** Its content. */
   read() {
     return fieldValue(this.#field, this.#input.value, this.#null?.checked === true);
   }
@@ -48,7 +46,6 @@ export class CommandField {
     }
   }
 
-  /** empty: none. */
   say(problem) {
     this.#input.setAttribute("aria-invalid", String(problem !== ""));
     this.#note.setAttribute("data-look", problem ? "bad" : "plain");
@@ -84,11 +81,9 @@ function inputOf(field, has) {
   return html("textarea", { rows: 3, spellcheck: "false", placeholder: field.type === "list" ? "[]" : "{}", title: wanted(field), ...has });
 }
 
-/** The fields of a Command that the server knows. */
 export class KnownFields {
   #fields;
 
-  /** command: of Catalogue.get(). */
   constructor(command) {
     this.#fields = command.fields.map((field, place) => new CommandField(field, place));
     this.element = html("div.any-fields", {}, ...this.#fields.map((each) => each.element));

@@ -118,7 +118,6 @@ export class CommandSender {
     this.#notes = notesOf(store, connection);
   }
 
-  /** Why a Command is not offered, {code, text}; null: it is. */
   disabledReason(name, data = {}) {
     return disabledReason(this.#store, this.#connection, name, data);
   }

@@ -5,7 +5,6 @@ import { CommandSender } from "./command_sender.js";
 import { FlightModes } from "./flight_modes.js";
 import { RequestForm } from "./request_form.js";
 
-/** The requests to the aircraft, and the outcome of the last one. */
 export function mount(place, store, connection) {
   const sender = new CommandSender(store, connection);
   const last = html("p", { id: "last-answer", role: "status", "data-look": "plain" });

@@ -3,7 +3,6 @@ import { sentence } from "./disabled_reason.js";
 const LIMIT_S = 30;
 /** The server reports the end of a request; without a report the page ends it a little later. */
 const LATE_S = 3;
-/** How long the outcome of a request is shown. */
 const SHOWN_S = 30;
 
 /** This page's requests for control, with their outcomes, by aircraft. */
@@ -33,7 +32,6 @@ export class ControlRequests {
     this.#notes.set(place, { code: String(code ?? ""), text: String(text ?? ""), at_s: now_s });
   }
 
-  /** The connection is lost, and with it every request. */
   clear() {
     this.#requests.clear();
     this.#notes.clear();
@@ -56,7 +54,6 @@ export class ControlRequests {
     return this.#requests.has(aircraft) || isRequester(control, page);
   }
 
-  /** The state of the request, {code, text}; null: none. */
   state(aircraft, now_s) {
     const request = this.#requests.get(aircraft);
     if (request !== undefined) {

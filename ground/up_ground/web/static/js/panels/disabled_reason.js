@@ -22,7 +22,6 @@ const HELD_ONLY = { "up.arm": "Arm", "up.disarm": "Disarm" };
 
 const OFFLINE = { code: "no_server", text: "Not connected to the ground server." };
 const REPLAY = { code: "replay", text: "This is a replay: it takes no Commands." };
-/** The aircraft sends no telemetry. */
 export const SILENT = { code: "silent", text: "The aircraft is silent." };
 
 /**
@@ -42,7 +41,6 @@ export function isOnlyRequest(name, data = {}) {
   return name === "arduino.profile.request" || (name === GAINS && data.request === true);
 }
 
-/** Why a Command is not offered. */
 export function disabledReason(store, connection, name, data = {}) {
   if (!connection.isOpen || store.aircraft === null) {
     return OFFLINE;
@@ -92,7 +90,6 @@ function controlReason(store, connection) {
   }
 }
 
-/** A text with a capital and a full stop. */
 export function sentence(text) {
   const trimmed = String(text).trim().replace(/\.$/, "");
   return trimmed === "" ? "" : `${trimmed[0].toUpperCase()}${trimmed.slice(1)}.`;

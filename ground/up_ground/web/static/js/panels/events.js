@@ -17,13 +17,11 @@ export class EventLines {
     this.#window = window;
   }
 
-  /** Whether the newest line is in sight. */
   get isAtNewest() {
     const { scrollTop, clientHeight, scrollHeight } = this.#window;
     return scrollHeight - scrollTop - clientHeight < 24;
   }
 
-  /** Scroll the newest line into view. */
   toNewest() {
     this.#window.scrollTop = this.#window.scrollHeight;
   }
@@ -88,7 +86,6 @@ const LEVELS = [
 const ORDER = ["info", "warning", "alarm"];
 const MARK = "black_box.mark";
 
-/** The events in plain words, the newest last. */
 export function mount(place, store, connection) {
   const sender = new CommandSender(store, connection);
   const note = html("p.note", { role: "status" });

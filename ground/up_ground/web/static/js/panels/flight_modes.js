@@ -81,7 +81,6 @@ export class FlightModes {
   }
 }
 
-/** The heading of a part of a panel. */
 export function heading(text) {
   return html("h3", { text });
 }

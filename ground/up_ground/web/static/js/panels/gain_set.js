@@ -7,7 +7,6 @@ export const LOOPS = [
   { key: "stabPIDs", word: "stabilize", unit: "deg/s per deg" },
 ];
 
-/** The axes of a loop. */
 export const AXES = [
   { key: "ailerons", word: "roll" },
   { key: "elevator", word: "pitch" },
@@ -19,7 +18,6 @@ export function isUsed(loop, axis) {
   return loop.key !== "stabPIDs" || axis.key !== "rudder";
 }
 
-/** The gains of an axis. */
 export const TERMS = ["p", "i", "d"];
 
 /**
@@ -41,7 +39,6 @@ export function cellsOf(set) {
   return cells;
 }
 
-/** The complete set, in the form in which it is sent. */
 export function setOf(cells) {
   const set = {};
   for (const [path, value] of cells) {
@@ -86,7 +83,6 @@ export function readGain(written) {
   return { value, problem: "" };
 }
 
-/** The differences. */
 export function difference(before, after) {
   const found = [];
   for (const [path, value] of after) {

@@ -9,7 +9,6 @@ import { ageText } from "../state/format.js";
 
 const NAME = "arduino.pids.tunings";
 
-/** The gains that fly, editing them, and sending whole sets. */
 export function mount(place, store, connection) {
   return new GainsPanel(place, store, connection);
 }

@@ -10,7 +10,6 @@ export class GainsEditor {
   #flying = new Map();
   #edits = new Map();
 
-  /** The flying gains by their paths. */
   get flying() {
     return this.#flying;
   }
@@ -43,7 +42,6 @@ export class GainsEditor {
     }
   }
 
-  /** Take everything back that was written. */
   discard() {
     this.#edits.clear();
   }
@@ -55,18 +53,15 @@ export class GainsEditor {
     }
   }
 
-  /** The content of a cell. */
   textOf(path) {
     const flying = this.#flying.get(path);
     return this.#edits.get(path)?.written ?? (flying === undefined ? "" : gainText(flying));
   }
 
-  /** Whether a cell differs from the active value. */
   isCellEdited(path) {
     return this.#edits.has(path);
   }
 
-  /** Cells that hold no gain. */
   get problems() {
     return [...this.#edits]
       .map(([path, { written }]) => ({ path, problem: readGain(written).problem }))
@@ -92,7 +87,6 @@ export class GainsEditor {
     return difference(this.#flying, this.#wanted());
   }
 
-  /** The whole set to send; null: no changes, or a cell without a gain. */
   get wanted() {
     return this.isEdited && this.problems.length === 0 ? setOf(this.#wanted()) : null;
   }

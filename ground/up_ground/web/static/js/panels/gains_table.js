@@ -20,14 +20,12 @@ export class GainsTable {
   #cells = new Map();
   #shape = "";
 
-  /** onInput: something was written. */
   constructor(editor, onInput) {
     this.#editor = editor;
     this.#onInput = onInput;
     this.element = html("div.gains", { id: "gains" });
   }
 
-  /** isOffered: whether anything may be written. */
   show(isOffered) {
     const shape = [...this.#editor.flying.keys()].join();
     if (shape !== this.#shape) {

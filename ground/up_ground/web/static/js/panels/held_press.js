@@ -1,4 +1,3 @@
-/** How long a press must last. */
 export const HOLD_S = 1.5;
 
 /** Maximum time between two updates of a press: a page that hung must not fire when it wakes. */
@@ -85,7 +84,6 @@ export class HeldPress {
     return false;
   }
 
-  /** Completed part of the press, 0 to 1. */
   progress(now_s) {
     if (this.state === "done") {
       return 1;

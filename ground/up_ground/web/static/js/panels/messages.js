@@ -31,7 +31,6 @@ export function commandText(name, data = {}) {
   }
 }
 
-/** The outcome of a Command, in plain words. */
 export function answerText(answer) {
   const reason = String(answer.reason ?? "").replace(/[.\s]+$/, "") || String(answer.code ?? "");
   const after_ms = answer.round_trip_ms;
@@ -60,7 +59,6 @@ export function answerCode(answer) {
   return answer.code ? `${answer.outcome} ${answer.code}` : String(answer.outcome);
 }
 
-/** Its style. */
 export function answerLook(answer) {
   return answer.outcome === "ack" ? "good" : "bad";
 }
@@ -76,7 +74,6 @@ export function costText(period_ms, frame_bytes) {
   return `${often}, about ${amount(kilobytes)} an hour at ${Math.round(frame_bytes)} bytes a frame`;
 }
 
-/** How long ago, short. */
 export function agoText(age_s) {
   if (!Number.isFinite(age_s)) {
     return "";

@@ -2,7 +2,6 @@ import { html, setAttribute, setText } from "../dom.js";
 import { readingOf } from "../state/ages.js";
 import { ageText, plainNumber } from "../state/format.js";
 
-/** How many values are listed. */
 export const MAX_LEAVES = 1000;
 const MAX_DEPTH = 24;
 const MAX_TEXT = 160;
@@ -102,7 +101,6 @@ export class TelemetryRow {
     );
   }
 
-  /** isDrawn: whether it is in the chart. */
   show(value, store, isDrawn) {
     const words = valueText(value);
     if (words !== this.#words) {

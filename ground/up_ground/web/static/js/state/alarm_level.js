@@ -31,7 +31,6 @@ export function acknowledge(alarm) {
   known.add(keyOf(alarm));
 }
 
-/** Whether the user has acknowledged it. */
 export function isAcknowledged(alarm) {
   return known.has(keyOf(alarm));
 }

@@ -29,7 +29,6 @@ export class Catalogue {
     return this.#byName.get(name) ?? null;
   }
 
-  /** The least role that may send it; null: not known, or a field decides. */
   role(name) {
     const role = this.get(name)?.role ?? "";
     return role === "" || role === "depends" ? null : role;

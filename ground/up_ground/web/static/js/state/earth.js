@@ -16,7 +16,6 @@ export function placeOf(latitude, longitude) {
   return isPlace ? { latitude, longitude } : null;
 }
 
-/** Metres along the great circle. */
 export function distance_m(from, to) {
   const half = (degrees) => Math.sin((degrees * RADIANS) / 2) ** 2;
   const chord =

@@ -43,7 +43,6 @@ export class EventList {
     return true;
   }
 
-  /** Forget all. */
   clear() {
     this.all = [];
     this.version += 1;

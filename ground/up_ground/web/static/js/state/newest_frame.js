@@ -10,9 +10,7 @@ export class NewestFrame {
 
   /** The tree as received, not validated. */
   data = {};
-  /** Number of frames received. */
   frames = 0;
-  /** Its number, null without a frame. */
   beacon = null;
   /** Its time in a recorded flight, seconds; null: live. */
   frameTime_s = null;
@@ -53,7 +51,6 @@ export class NewestFrame {
     this.#heldAt_s = null;
   }
 
-  /** Reset to unknown. */
   clearFrame() {
     this.data = {};
     this.beacon = null;
@@ -65,17 +62,14 @@ export class NewestFrame {
     return this.#clock_s();
   }
 
-  /** Whether every value shown may be stale. */
   get isSilent() {
     return isSilent(this.age_s(null));
   }
 
-  /** None: no frame yet. */
   get aircraftState() {
     return this.#frameAt_s === null ? "none" : this.isSilent ? "silent" : "live";
   }
 
-  /** A number at that path; null: absent, or of another type. */
   number(path) {
     return validate.number(validate.at(this.data, path));
   }
@@ -92,7 +86,6 @@ export class NewestFrame {
     return validate.texts(validate.at(this.data, path));
   }
 
-  /** The value, validated. */
   value(path) {
     return this.number(path) ?? this.flag(path) ?? this.text(path) ?? this.texts(path);
   }
@@ -123,7 +116,6 @@ export class NewestFrame {
     );
   }
 
-  /** path: of a value. Returns none: not in the frame. */
   freshnessAt(path) {
     return this.value(path) === null ? "none" : this.freshness(readingOf(path));
   }

@@ -69,7 +69,6 @@ export class Store extends NewestFrame {
     }, POLL_S);
   }
 
-  /** name: of the aircraft to watch from now on. */
   watch(name) {
     if (name !== this.aircraft) {
       this.aircraft = name;
@@ -92,7 +91,6 @@ export class Store extends NewestFrame {
     return () => this.#calls.delete(call);
   }
 
-  /** The server's `status` of the aircraft watched. */
   get status() {
     return this.statuses.get(this.aircraft) ?? null;
   }
@@ -122,12 +120,10 @@ export class Store extends NewestFrame {
     return this.#events.all;
   }
 
-  /** Changes with the events. */
   get eventsVersion() {
     return this.#events.version;
   }
 
-  /** message: of the server. */
   take(message) {
     if (message.type === "status") {
       this.statuses.set(message.aircraft, message);

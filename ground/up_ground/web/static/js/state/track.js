@@ -50,7 +50,6 @@ export class Track {
   points = [];
   /** Counts the times it was replaced or emptied; points appended do not change it. */
   version = 0;
-  /** The altitude where it begins, m; null while none is known. */
   startAltitude_m = null;
 
   /** points: the server's, which replace the present ones; now_s: a silence counts from then on. */

@@ -13,7 +13,6 @@ export function flag(found) {
   return typeof found === "boolean" ? found : null;
 }
 
-/** A text, bounded. */
 export function text(found) {
   return typeof found === "string" ? found.slice(0, MAX_TEXT) : null;
 }
