@@ -15,11 +15,11 @@ function store(texts, profile = null) {
 
 test("sticks and rates hold no attitude", () => {
   const plain = store({});
-  assert.equal(holderText("ACRO", plain), "none: the sticks");
-  assert.equal(holderText("RATE", plain), "none: rates only");
+  assert.equal(holderText("ACRO", plain), "nobody: the sticks");
+  assert.equal(holderText("RATE", plain), "nobody: rates only");
   assert.equal(holderText("FBW", plain), "Arduino");
   assert.equal(holderText("OUTPUT", plain), "Raspberry Pi");
-  assert.equal(holderText("OUTPUT", store({ "flight_control.mode": "ACRO" })), "none: the sticks");
+  assert.equal(holderText("OUTPUT", store({ "flight_control.mode": "ACRO" })), "nobody: the sticks");
   assert.equal(holderText("constructor", plain), "--");
 });
 
