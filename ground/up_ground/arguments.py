@@ -227,7 +227,7 @@ def _add_serve(verbs: argparse._SubParsersAction[_Parser]) -> None:
         action="append",
         dest="fleet",
         metavar="NAME[@HOST:PORT[/direct]]",
-        help="an aircraft, of the proxy that --host and --port name or at an address of its own;"
+        help="an aircraft, of the proxy that --host and --port name or at the given address;"
         " again for each one",
     )
     _add_connection(serve, *(argparse.SUPPRESS,) * 3)

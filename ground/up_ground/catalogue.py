@@ -44,7 +44,6 @@ class Catalogue:
         return cls([*BUILTIN_COMMANDS, *_cog_commands(problems)], problems)
 
     def get(self, name: str) -> type[BaseCommand] | None:
-        """Return the class of a name or alias."""
         return self._registry.get(name)
 
     def sendable(self) -> list[type[BaseCommand]]:

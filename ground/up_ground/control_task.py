@@ -17,12 +17,10 @@ class ControlTask(LinkTask):
     _has_requested = False
 
     def start(self) -> None:
-        """Begin."""
         self.after(self._reactor, "limit", self.LIMIT_S, self.on_limit)
         self.link.start()
 
     def on_limit(self) -> None:
-        """Handle the timeout."""
         self.fail(f"no answer of the proxy within {self.LIMIT_S:g} s", "no_answer", EXIT_NO_ANSWER)
 
 

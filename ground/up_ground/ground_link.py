@@ -30,7 +30,7 @@ from up.protocols.proxy_lines import (
     parse_line,
 )
 from up.system.backoff import Backoff
-from up.system.clock import Timer
+from up.system.clock import Timer, cancel
 from up_ground.ground_protocol import GroundProtocol
 from up_ground.link_status import LinkState, LinkStatus
 from up_ground.settings import Seat, Settings
@@ -42,11 +42,9 @@ CONNECT_TIMEOUT_S = 5.0
 class LinkListener(Interface):
     """Who uses the link."""
 
-    def on_message(self, message: GeneralMessage) -> None:
-        """Take a message from the aircraft."""
+    def on_message(self, message: GeneralMessage) -> None: ...
 
-    def on_link(self) -> None:
-        """Handle a change of the link's status."""
+    def on_link(self) -> None: ...
 
 
 class GroundLink:
@@ -79,7 +77,6 @@ class GroundLink:
         self._is_greeted = False
 
     def start(self) -> None:
-        """Begin to connect."""
         if self._wanted is Seat.COMMAND and not self._settings.direct:
             self._tokens.hold()
             self._token = self._tokens.load()
@@ -88,8 +85,7 @@ class GroundLink:
     async def stop(self) -> None:
         """Close the link permanently; returns when the connection is closed."""
         self.status.disconnected(LinkState.STOPPED, self._reactor.seconds())
-        if self._timer is not None and self._timer.active():
-            self._timer.cancel()
+        cancel(self._timer)
         if self._attempt is not None:
             self._attempt.cancel()
         if self._connection is not None:
@@ -110,11 +106,9 @@ class GroundLink:
         return not self._settings.direct and self.send(ControlRequest().encode())
 
     def give_seat(self, to: int) -> bool:
-        """Hand the seat to the listener with that number."""
         return self.status.seat is Seat.COMMAND and self.send(ControlGive(to).encode())
 
     def release_seat(self) -> bool:
-        """Leave the seat free."""
         return self.status.seat is Seat.COMMAND and self.send(ControlRelease().encode())
 
     def reconnect(self, seat: Seat) -> None:
@@ -160,7 +154,6 @@ class GroundLink:
         self._listener.on_message(message)
 
     def on_control(self, connection: GroundProtocol, line: bytes) -> None:
-        """Take a line of the proxy."""
         said = None if self._settings.direct else parse_line(line)
         is_due = isinstance(said, Refused) or isinstance(said, Accepted) is not self._is_greeted
         if said is None or isinstance(said, GroundLine) or not is_due:
@@ -170,7 +163,6 @@ class GroundLink:
         self._listener.on_link()
 
     def on_lost(self, connection: GroundProtocol, reason: str, code: str) -> None:
-        """Wait a little and connect again."""
         self._too_long += connection.dropped_too_long
         self.status.too_long = self._too_long
         if connection is self._connection:

@@ -13,7 +13,7 @@ from twisted.python.failure import Failure
 from up.protocols.line_decoder import LineDecoder
 from up.protocols.proxy_lines import PREFIX
 from up.protocols.tcp_options import watch_peer
-from up.system.clock import Clock, Timer
+from up.system.clock import Clock, Timer, cancel
 
 USER_TIMEOUT_MS = 1500
 HEARTBEAT_S = 1.0
@@ -24,14 +24,12 @@ _TCPI_RTT_OFFSET = 68
 class ConnectionOwner(Interface):
     """Receiver of the connection's events."""
 
-    def on_line(self, connection: GroundProtocol, line: bytes) -> None:
-        """Take a line that was relayed from the aircraft, without its end."""
+    def on_line(self, connection: GroundProtocol, line: bytes) -> None: ...
 
     def on_control(self, connection: GroundProtocol, line: bytes) -> None:
         """Take a line of the proxy, without its end."""
 
-    def on_made(self, connection: GroundProtocol) -> None:
-        """Handle a new connection."""
+    def on_made(self, connection: GroundProtocol) -> None: ...
 
     def on_lost(self, connection: GroundProtocol, reason: str, code: str) -> None:
         """Handle the loss of the connection, with its reason and the reason's code."""
@@ -81,7 +79,6 @@ class GroundProtocol(Protocol):
         self.transport.abortConnection()
 
     def close(self) -> None:
-        """Send the queued data, then close."""
         self._is_open = False
         self.transport.loseConnection()
 
@@ -98,7 +95,6 @@ class GroundProtocol(Protocol):
         return float(rtt_us) / 1000
 
     def connectionMade(self) -> None:  # noqa: N802 - Twisted's name
-        """Set the socket up and send the hello."""
         watch_peer(self.transport, USER_TIMEOUT_MS)
         self._is_open = True
         if self._hello is not None:
@@ -120,7 +116,7 @@ class GroundProtocol(Protocol):
         """Report the lost connection; an unfinished line is dropped."""
         self._is_open = False
         self._lines.reset()
-        self._cancel()
+        cancel(self._timer)
         text, code = self._reason if self._reason[0] else (reason.getErrorMessage(), "lost")
         self._owner.on_lost(self, text, code)
 
@@ -139,9 +135,5 @@ class GroundProtocol(Protocol):
         self._schedule(rest_s, self._beat)
 
     def _schedule(self, delay_s: float, call: Any) -> None:
-        self._cancel()
+        cancel(self._timer)
         self._timer = self._clock.callLater(delay_s, call)
-
-    def _cancel(self) -> None:
-        if self._timer is not None and self._timer.active():
-            self._timer.cancel()

@@ -52,12 +52,10 @@ class LinkStatus:
 
     @property
     def is_open(self) -> bool:
-        """Return whether messages can be sent now."""
         return self.state is LinkState.OPEN
 
     @property
     def dropped(self) -> int:
-        """Return how many lines were dropped."""
         return self.malformed + self.too_long + self.strange_control
 
     def disconnected(

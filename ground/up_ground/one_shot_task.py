@@ -13,7 +13,7 @@ from twisted.internet.defer import Deferred
 
 from up.log.setup import FORMAT_VARIABLE
 from up.protocols.general_message import GeneralMessage
-from up.system.clock import use_monotonic_time
+from up.system.clock import cancel, use_monotonic_time
 from up.system.pid_file import service
 from up_ground.ground_link import GroundLink
 from up_ground.link_status import ASK_INTERVAL_S, ControlStatus, LinkState, control_status
@@ -37,9 +37,7 @@ class OneShotTask:
 
     def finish(self, status: int) -> None:
         """End; the first status counts."""
-        for timer in self._timers.values():
-            if timer.active():
-                timer.cancel()
+        cancel(*self._timers.values())
         if not self.finished.called:
             self.finished.callback(status)
 
@@ -57,7 +55,6 @@ class OneShotTask:
 
     @property
     def is_finished(self) -> bool:
-        """Return whether the task has ended."""
         return bool(self.finished.called)
 
     def after(self, reactor: Any, name: str, delay_s: float, call: Callable[[], object]) -> None:
@@ -67,10 +64,7 @@ class OneShotTask:
             self._timers[name] = reactor.callLater(delay_s, call)
 
     def cancel_timer(self, name: str) -> None:
-        """Take a call back."""
-        timer = self._timers.pop(name, None)
-        if timer is not None and timer.active():
-            timer.cancel()
+        cancel(self._timers.pop(name, None))
 
 
 class LinkTask(OneShotTask):
@@ -83,11 +77,9 @@ class LinkTask(OneShotTask):
         self._settings = settings
 
     async def stop(self) -> None:
-        """Close the link; returns when it is closed."""
         await self.link.stop()
 
-    def on_message(self, message: GeneralMessage) -> None:
-        """Handle a message of the aircraft."""
+    def on_message(self, message: GeneralMessage) -> None: ...
 
     def on_link(self) -> None:
         """End when the link is lost; otherwise continue with `on_control`."""
@@ -101,8 +93,7 @@ class LinkTask(OneShotTask):
         elif status.is_open:
             self.on_control(control_status(status, self._settings.direct))
 
-    def on_control(self, control: ControlStatus) -> None:
-        """Handle the state of control."""
+    def on_control(self, control: ControlStatus) -> None: ...
 
     def request_control(self) -> None:
         """Request control until the task ends or cancels the timer ``request``."""

@@ -33,7 +33,7 @@ class OneWayDelayEstimator:
     def update(self, stamp_ms: float | None, now_s: float) -> float | None:
         """Take a message that arrives now; return its delay in seconds.
 
-        ``stamp_ms`` is the sender's clock at departure; without it the result is None.
+        ``stamp_ms`` is the sender's clock at departure; None: unknown.
         """
         self.has_begun = False
         if stamp_ms is None:

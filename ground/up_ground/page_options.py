@@ -20,20 +20,20 @@ def add_page_options(
         "--listen",
         default=DEFAULT_LISTEN,
         metavar="ADDRESS:PORT",
-        help="where browsers find the page; 0.0.0.0 is every interface (default %(default)s)",
+        help="address of the page; 0.0.0.0 is every interface (default %(default)s)",
     )
     parser.add_argument(
         "--name",
         action="append",
         type=_host_name,
         metavar="HOST",
-        help="another name under which the page is opened, besides this machine's own",
+        help="another host name of the page, in addition to this machine's",
     )
     parser.add_argument(
         "--tiles",
         default=environ.get("UP_GROUND_TILES", ""),
         metavar="URL",
-        help="where this server fetches the pictures of the map, with {z}, {x} and {y} in it; they"
+        help="URL from which this server fetches the map's tiles, with {z}, {x} and {y}; they"
         " are kept on disk (default: none, the map has a grid alone)",
     )
     parser.add_argument(
@@ -41,11 +41,9 @@ def add_page_options(
         type=_attribution,
         default="",
         metavar="TEXT",
-        help="whose map it is, as its owner wants it to be shown",
+        help="the map's copyright notice",
     )
-    parser.add_argument(
-        "--watch-only", action="store_true", help="no page may control, whatever it brings"
-    )
+    parser.add_argument("--watch-only", action="store_true", help="no page may control")
     parser.add_argument(
         "--key",
         type=_key,

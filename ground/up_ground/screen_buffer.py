@@ -48,7 +48,6 @@ class ScreenBuffer:
         return column + len(text)
 
     def fill(self, row: int, style: Style) -> None:
-        """Give a whole row a style."""
         if 0 <= row < self.rows:
             self._style[row] = [style] * self.columns
 

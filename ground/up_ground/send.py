@@ -53,7 +53,6 @@ class Send(LinkTask):
         self._is_acked = False
 
     def start(self) -> None:
-        """Begin."""
         self.after(self._reactor, "connect", CONNECT_LIMIT_S, self._on_no_control)
         self.link.start()
 
@@ -67,7 +66,6 @@ class Send(LinkTask):
             self._on_answer(message, self._sent_s)
 
     def on_control(self, control: ControlStatus) -> None:
-        """Continue as far as the link permits."""
         status = self.link.status
         if control is ControlStatus.HELD:
             text = f"ground {status.holder} has control; 'up-ground control request' requests it"

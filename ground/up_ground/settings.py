@@ -29,5 +29,4 @@ class Settings:
 
     @property
     def address(self) -> str:
-        """Return host and port as people write them."""
         return f"[{self.host}]:{self.port}" if ":" in self.host else f"{self.host}:{self.port}"

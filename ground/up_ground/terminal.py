@@ -31,12 +31,10 @@ class Terminal:
         self._shown_size = (0, 0)
 
     def fileno(self) -> int:
-        """Return where keys are read."""
         return self._input
 
     @property
     def size(self) -> tuple[int, int]:
-        """Return columns and rows as they are now."""
         try:
             size = os.get_terminal_size(self._output)
         except OSError:
@@ -44,7 +42,6 @@ class Terminal:
         return (size.columns, size.lines) if size.columns and size.lines else _FALLBACK_SIZE
 
     def enter(self) -> None:
-        """Take the terminal over."""
         with contextlib.suppress(termios.error):
             saved = termios.tcgetattr(self._input)
             tty.setcbreak(self._input, termios.TCSANOW)
@@ -61,7 +58,6 @@ class Terminal:
         self._flush()
 
     def leave(self) -> None:
-        """Give the terminal back as it was."""
         if self._own is not None:
             os.close(self._own)
             self._own = None

@@ -38,7 +38,6 @@ class TokenStore:
 
     @property
     def path(self) -> Path:
-        """Return the file of the token."""
         return self._path
 
     def hold(self) -> bool:
@@ -88,7 +87,6 @@ class TokenStore:
                 self._path.unlink()
 
     def close(self) -> None:
-        """Leave the token to the next program."""
         if self._lock is not None:
             os.close(self._lock)
             self._lock = None

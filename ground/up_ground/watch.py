@@ -48,7 +48,6 @@ class Watch(LinkTask):
         self._measured_s = 0.0
 
     def start(self) -> None:
-        """Begin."""
         if self._for_s is not None:
             self.after(self._reactor, "end", self._for_s, self.on_time_over)
         self.link.start()
@@ -100,14 +99,12 @@ class PlainWatch(Watch):
     """One line a second."""
 
     def start(self) -> None:
-        """Start after the data of the first second."""
         self.link.start()
         if self._for_s is not None:
             self.after(self._reactor, "end", self._for_s, self.on_time_over)
         self.after(self._reactor, "tick", self.PERIOD_S, self._tick)
 
     def on_tick(self, now_s: float) -> None:
-        """Print a line."""
         self.echo(plain_line(self.state.status, self.state.telemetry, now_s))
         self.shown_one()
 
@@ -124,7 +121,6 @@ class JSONWatch(Watch):
         self.shown_one()
 
     def on_link(self) -> None:
-        """Print once why there is no output."""
         status = self.link.status
         if status.state is LinkState.WAITING and status.reason != self._reported:
             self._reported = status.reason
@@ -143,7 +139,6 @@ class OnceWatch(Watch):
         super().start()
 
     def on_frame(self, message: GeneralMessage) -> None:
-        """Print the picture."""
         self.link.measure()
         self.echo(draw(self.state, self._reactor.seconds(), PRINTED_SIZE).plain())
         self.finish(EXIT_DONE)
@@ -169,7 +164,6 @@ class ScreenWatch(Watch):
         self._terminal = terminal
 
     def start(self) -> None:
-        """Take the keys and begin."""
         self._reactor.addReader(self)
         super().start()
 
@@ -179,7 +173,6 @@ class ScreenWatch(Watch):
         super().finish(status)
 
     def on_tick(self, now_s: float) -> None:
-        """Paint."""
         try:
             painted = self._terminal.paint(render(self.state, now_s, self._terminal.size))
         except OSError:
@@ -194,14 +187,12 @@ class ScreenWatch(Watch):
         return self._terminal.fileno()
 
     def logPrefix(self) -> str:  # noqa: N802 - Twisted's name
-        """Return who this is, for the reactor."""
         return "keys"
 
     def connectionLost(self, reason: object) -> None:  # noqa: N802 - Twisted's name
         """Handle the stop of the reactor."""
 
     def doRead(self) -> None:  # noqa: N802 - Twisted's name
-        """Carry out the keys."""
         keys = self._terminal.keys()
         if not keys:
             self.finish(EXIT_DONE)

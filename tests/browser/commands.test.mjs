@@ -1,30 +1,23 @@
 // The aircraft executes each request of the page, or refuses it with its reason.
 import assert from "node:assert/strict";
-import { after, before, test } from "node:test";
+import { before, test } from "node:test";
 
-import { startBrowser } from "./support/browser.mjs";
 import { GroundPage } from "./support/ground_page.mjs";
 import { Pilot } from "./support/pilot.mjs";
 import { record } from "./support/recorder.mjs";
+import { browser, stopAfter } from "./support/setup.mjs";
 import { startShowcase } from "./support/showcase.mjs";
 import { until } from "./support/wait.mjs";
 
 /** How long a press must last, less what a frame of the screen takes. */
 const HELD_MS = 1450;
 let showcase;
-let browser;
 let ground;
 
 before(async () => {
-  browser = await startBrowser();
-  showcase = await startShowcase();
+  showcase = stopAfter(await startShowcase());
   ground = await (await GroundPage.open(browser, showcase.address)).isLive();
   await ground.takeControl();
-});
-
-after(async () => {
-  await browser?.close();
-  await showcase?.stop();
 });
 
 /** Wait until telemetry says something. */
@@ -41,7 +34,7 @@ test("a flight mode is flown after a question, and its ack is shown", async () =
   for (const mode of ["RATE", "FBW"]) {
     const answer = await ground.answerTo(() => ground.press(`[data-mode="${mode}"]`));
     assert.equal(answer.outcome, "ack", JSON.stringify(answer));
-    assert.match(answer.shown, new RegExp(`^Flight mode ${mode}: carried out after \\d+ ms$`));
+    assert.equal(answer.code_shown, "ack");
     await flies((frame) => frame.flight_mode === mode, `${mode} in telemetry`);
     await ground.until(
       (mode) => document.querySelector('[data-key="flight_mode"]').textContent === mode,
@@ -51,7 +44,7 @@ test("a flight mode is flown after a question, and its ack is shown", async () =
   }
 });
 
-test("who says no to the question sends nothing", async () => {
+test("a declined confirmation sends nothing", async () => {
   const before = await answers();
   await ground.page.click('[data-mode="RATE"]');
   await ground.page.click("#confirm-no");
@@ -60,11 +53,11 @@ test("who says no to the question sends nothing", async () => {
   assert.equal(await ground.page.isVisible("dialog#confirm"), false);
 });
 
-test("what no aircraft could do is not sent", async () => {
+test("an invalid Command is not sent", async () => {
   const before = await answers();
   await ground.page.fill("#telemetry-period", "19");
   await ground.page.click("#telemetry-period-send");
-  assert.match(await ground.text("#telemetry-period-note"), /must be 20 to 10000 ms/);
+  assert.equal(await ground.attribute("#telemetry-period", "aria-invalid"), "true");
   assert.equal(await ground.page.isVisible("dialog#confirm"), false);
   assert.equal(await answers(), before);
 });
@@ -80,8 +73,8 @@ test("a disarm in flight is refused by the aircraft, and the page says why", asy
   assert.ok(presses[done].unix_ms - presses[done - 1].unix_ms > HELD_MS, "it is held");
   assert.equal(answer.outcome, "nack");
   assert.equal(answer.code, "refused");
-  assert.match(answer.reason, /throttle/);
-  assert.equal(answer.shown, `Disarm: ${answer.reason.replace("the Arduino refused", "refused by the Arduino")}`);
+  assert.equal(answer.code_shown, "nack refused");
+  assert.ok(answer.shown.endsWith(answer.reason), answer.shown);
   assert.equal((await ground.frame()).armed, true);
 });
 
@@ -91,7 +84,7 @@ test("a press that does not last does nothing", async () => {
   await hand.down();
   await ground.until(() => Number(document.querySelector("#disarm-button").dataset.progress) > 0.3, "a press");
   await hand.up();
-  assert.match(await ground.text("#arming-note"), /let go too early/);
+  assert.equal(await ground.attribute("#arming-note", "data-code"), "too_early");
   assert.equal(await answers(), before);
 });
 
@@ -105,11 +98,10 @@ test("with the throttle low the page disarms the motor and arms it again", async
     // It was not low for 2 s yet.
     return answer.outcome === "ack" ? answer : null;
   }, "the disarming");
-  assert.match(disarmed.shown, /^Disarm: carried out/);
+  assert.equal(disarmed.code_shown, "ack");
   await ground.until(() => document.querySelector("#bar-armed").textContent === "disarmed", "disarmed");
   const armed = await ground.answerTo(() => ground.hold("#arm-button"));
   assert.equal(armed.outcome, "ack", JSON.stringify(armed));
-  assert.match(armed.shown, /^Arm: carried out/);
   await ground.until(() => document.querySelector("#bar-armed").textContent === "ARMED", "armed");
   await pilot.leave();
 });

@@ -1,27 +1,20 @@
 // A new capability is one new file, or one cog, and no change anywhere else: the page shows its
 // telemetry and offers its Command.
 import assert from "node:assert/strict";
-import { after, before, test } from "node:test";
+import { before, test } from "node:test";
 
 import { ExtendedFlight } from "./support/extended_flight.mjs";
-import { startBrowser } from "./support/browser.mjs";
 import { seriousFaults } from "./support/accessibility.mjs";
 import { GroundPage } from "./support/ground_page.mjs";
+import { browser, stopAfter } from "./support/setup.mjs";
 import { until } from "./support/wait.mjs";
 
-let browser;
 let flight;
 let ground;
 
 before(async () => {
-  browser = await startBrowser();
-  flight = await ExtendedFlight.start();
+  flight = stopAfter(await ExtendedFlight.start());
   ground = await (await GroundPage.open(browser, flight.address)).isLive();
-});
-
-after(async () => {
-  await browser?.close();
-  await flight?.stop();
 });
 
 /** Wait until the page shows a value. */
@@ -29,7 +22,7 @@ async function shows(key, text) {
   await until(async () => (await ground.value(key)) === text || null, `${key} ${text} on the page`);
 }
 
-test("the field of an application's one file and that of a cog appear by themselves", async () => {
+test("the field of an application's one file and that of a cog appear automatically", async () => {
   assert.equal(await ground.value("hook.opening"), null, "nothing is listed while it is closed");
   await ground.page.click("#telemetry > summary");
   await shows("hook.opening", "5");
@@ -38,7 +31,7 @@ test("the field of an application's one file and that of a cog appear by themsel
   assert.equal(await ground.attribute('[data-key="hook.opening"]', "data-freshness"), "live");
 });
 
-test("the filter leaves what is looked for", async () => {
+test("the filter leaves the matching rows", async () => {
   await ground.page.fill("#telemetry-filter", "HOOK open");
   const keys = () => [...document.querySelectorAll("#telemetry-list [data-key]")].map((each) => each.dataset.key);
   await ground.until(() => document.querySelectorAll("#telemetry-list li").length === 1, "one row");
@@ -47,10 +40,9 @@ test("the filter leaves what is looked for", async () => {
   await shows("tow.length", "0");
 });
 
-test("without control nothing is offered, and why is said", async () => {
+test("without control nothing is offered, with the reason", async () => {
   await ground.page.click("#any-command > summary");
-  await ground.until(() => document.querySelector("#any-why").textContent !== "", "a reason");
-  assert.match(await ground.text("#any-why"), /Nobody has control/);
+  await ground.reason("#any-why", "control_free");
   assert.equal(await ground.page.isDisabled("#any-send"), true);
   await ground.takeControl();
   await ground.until(() => document.querySelector("#any-why").hidden, "no reason any more");
@@ -62,53 +54,50 @@ test("a cog's Command has a form with its bounds, is sent, and is carried out", 
   );
   assert.ok(offered.includes("tow.let_out"), String(offered));
   await ground.page.fill("#any-name", "tow.let_out");
-  assert.match(await ground.text("#any-about"), /^Lets the banner out\. \[operator or more\]$/);
   await ground.page.fill("#any-field-0", "41");
-  assert.equal(await ground.text("#any-field-0-note"), "must be a number between 0 and 40 m");
+  assert.equal(await ground.attribute("#any-field-0", "aria-invalid"), "true");
   await ground.page.click("#any-send");
   assert.equal(await ground.page.isVisible("dialog#confirm"), false);
   await ground.page.fill("#any-field-0", "12.5");
   await ground.page.selectOption("#any-field-1", { label: "right" });
   const answer = await ground.answerTo(() => ground.press("#any-send"));
   assert.equal(answer.outcome, "ack", JSON.stringify(answer));
-  assert.match(answer.shown, /^tow\.let_out: carried out after \d+ ms$/);
-  assert.match(await ground.text("#any-note"), /^carried out after/);
+  assert.equal(await ground.attribute("#any-note", "data-code"), "ack");
   await shows("tow.length", "12.5");
   await shows("tow.side", '"right"');
 });
 
 test("an application's own Command, which no ground knows, is sent by its name", async () => {
   await ground.page.fill("#any-name", "extended.hook");
-  assert.match(await ground.text("#any-about"), /does not know it/);
   await ground.page.fill("#any-json", "[1]");
   await ground.page.click("#any-send");
-  assert.match(await ground.text("#any-json-note"), /write an object/);
+  assert.equal(await ground.attribute("#any-json", "aria-invalid"), "true");
   await ground.page.fill("#any-json", '{"opening": 30}');
   await ground.page.click("#any-send");
-  assert.match(await ground.text("#confirm-text"), /nothing has checked/);
+  assert.equal(await ground.attribute("#confirm-yes", "class"), "danger");
   const answer = await ground.answerTo(() => ground.page.click("#confirm-yes"));
   assert.equal(answer.outcome, "ack", JSON.stringify(answer));
   await shows("hook.opening", "30");
 });
 
-test("what the aircraft refuses is told as it says it", async () => {
+test("a refusal of the aircraft is shown with its reason", async () => {
   await ground.page.fill("#any-json", '{"opening": 13}');
   const refused = await ground.answerTo(() => ground.press("#any-send"));
   assert.equal(refused.outcome, "nack");
-  assert.match(await ground.text("#any-note"), /the hook sticks at 13/);
+  assert.match(await ground.attribute("#any-note", "data-code"), /^nack /);
   await ground.page.fill("#any-json", '{"opening": 91}');
   const invalid = await ground.answerTo(() => ground.press("#any-send"));
-  assert.match(invalid.reason, /opening must be a number between 0 and 90 deg/);
+  assert.equal(invalid.code, "invalid");
 });
 
 test("arming is not offered past its held button", async () => {
   await ground.page.fill("#any-name", "up.arm");
   // Control and the role of a pilot are there: it is this alone that keeps it back.
-  assert.match(await ground.text("#any-why"), /^Arming takes the button that is held/);
+  await ground.reason("#any-why", "held_only");
   assert.equal(await ground.page.isDisabled("#any-send"), true);
 });
 
-test("a number is drawn in a chart of its own, which a reload remembers", async () => {
+test("a number is drawn in a separate chart, which a reload remembers", async () => {
   await ground.page.click('[aria-label="Chart hook.opening"]');
   await ground.until(() => document.querySelector("#chosen-chart canvas") !== null, "the chart");
   await ground.page.reload();

@@ -1,11 +1,11 @@
 // What the page shows is what the aircraft does.
 import assert from "node:assert/strict";
-import { after, before, test } from "node:test";
+import { before, test } from "node:test";
 
-import { startBrowser } from "./support/browser.mjs";
 import { GroundPage } from "./support/ground_page.mjs";
 import { Pilot } from "./support/pilot.mjs";
 import { record, series } from "./support/recorder.mjs";
+import { browser, stopAfter } from "./support/setup.mjs";
 import { startShowcase } from "./support/showcase.mjs";
 import { between, distance_m, lateness, truthOf } from "./support/truth.mjs";
 import { until } from "./support/wait.mjs";
@@ -20,18 +20,11 @@ const ESTIMATE_DEG = 4;
 const LOCATION_S = 1.9;
 const SILENT_S = 0.9;
 let showcase;
-let browser;
 let ground;
 
 before(async () => {
-  browser = await startBrowser();
-  showcase = await startShowcase();
+  showcase = stopAfter(await startShowcase());
   ground = await (await GroundPage.open(browser, showcase.address)).isLive();
-});
-
-after(async () => {
-  await browser?.close();
-  await showcase?.stop();
 });
 
 test("the aircraft moves on the map where it truly flies", async (t) => {

@@ -1,11 +1,11 @@
 // Gains go from the page into the firmware and back, and not where the aircraft forbids it.
 import assert from "node:assert/strict";
-import { after, afterEach, before, test } from "node:test";
+import { afterEach, before, test } from "node:test";
 
-import { startBrowser } from "./support/browser.mjs";
-import { startCarefulFlight } from "./support/careful_flight.mjs";
+import { CarefulFlight } from "./support/careful_flight.mjs";
 import { GroundPage } from "./support/ground_page.mjs";
 import { run } from "./support/program.mjs";
+import { browser, stopAfter } from "./support/setup.mjs";
 import { startShowcase } from "./support/showcase.mjs";
 import { until } from "./support/wait.mjs";
 
@@ -13,18 +13,10 @@ const FIELD = '#gains input[name="ratePIDs.ailerons.p"]';
 const FAR = 0.0001;
 let showcase;
 let careful;
-let browser;
 
 before(async () => {
-  browser = await startBrowser();
-  showcase = await startShowcase();
-  careful = await startCarefulFlight();
-});
-
-after(async () => {
-  await browser?.close();
-  await careful?.stop();
-  await showcase?.stop();
+  showcase = stopAfter(await startShowcase());
+  careful = stopAfter(await CarefulFlight.start());
 });
 
 afterEach(() => GroundPage.closeAll());
@@ -58,7 +50,7 @@ test("a change reaches the firmware, its ack the page, and undo takes it back", 
   assert.ok(difference.includes(String(wanted)), difference);
   const answer = await ground.answerTo(() => ground.press("#gains-send"));
   assert.equal(answer.outcome, "ack", JSON.stringify(answer));
-  assert.match(answer.shown, /New gains: carried out after \d+ ms/);
+  assert.equal(answer.code_shown, "ack");
   await ground.until(() => document.querySelector("#gains-difference").hidden, "no difference left");
 
   await ground.leaveControl();
@@ -77,13 +69,13 @@ test("a change reaches the firmware, its ack the page, and undo takes it back", 
   ground.assertClean();
 });
 
-test("what is no gain is not sent", async () => {
+test("an invalid gain is not sent", async () => {
   const ground = await (await GroundPage.open(browser, showcase.address)).isLive();
   await ground.takeControl();
   await ground.until((s) => document.querySelector(s)?.value, "the gains that fly", FIELD);
   await ground.page.fill(FIELD, "99");
   await ground.until(() => document.querySelector("#gains-send").disabled, "no way to send it");
-  assert.match(await ground.text("#gains-difference"), /0 to 50/);
+  assert.equal(await ground.attribute("#gains-difference", "data-problems"), "1");
   ground.assertClean();
 });
 
@@ -93,10 +85,7 @@ test("in flight an aircraft that forbids it refuses, and the page says why", asy
   await ground.until(() => document.querySelector("#bar-armed").textContent === "ARMED", "armed");
   await ground.until((s) => document.querySelector(s)?.value, "the gains that fly", FIELD);
   await ground.until(() => document.querySelector("#gains-send").disabled, "nothing offered");
-  await ground.until(
-    () => /refused while the aircraft is armed.*tune_in_flight/.test(document.querySelector("#gains-why").textContent),
-    "the reason",
-  );
+  await ground.reason("#gains-why", "tune_armed");
   // Past everything that the page forbids: the aircraft has the last word.
   const { flying } = (await ground.messages("gains")).pop().message;
   const answer = await ground.answerTo(() =>
@@ -110,6 +99,5 @@ test("in flight an aircraft that forbids it refuses, and the page says why", asy
   );
   assert.equal(answer.outcome, "nack", JSON.stringify(answer));
   assert.equal(answer.code, "forbidden");
-  assert.match(answer.reason, /tune_in_flight/);
   ground.assertClean();
 });

@@ -39,7 +39,7 @@ test("a request that would leave the machine is seen", async () => {
   assert.deepEqual(outsideRequests(page), ["http://192.0.2.1/picture.png"]);
 });
 
-test("a script that the policy stops is not run, and is told", async () => {
+test("a script that the policy stops is not run, and is reported", async () => {
   const page = await openPage(browser, address);
   await until(() => page.seen.violations.length > 0, "the violation");
   assert.match(page.seen.violations[0], /^script-src-elem inline/);

@@ -1,11 +1,11 @@
 // An aircraft that lies: whatever it calls itself and says is shown as text, and never runs.
 import assert from "node:assert/strict";
-import { after, afterEach, before, beforeEach, test } from "node:test";
+import { afterEach, before, beforeEach, test } from "node:test";
 
-import { startBrowser } from "./support/browser.mjs";
 import { FakeFlight } from "./support/fake_flight.mjs";
 import { GroundPage } from "./support/ground_page.mjs";
 import { run } from "./support/program.mjs";
+import { browser, stopAfter } from "./support/setup.mjs";
 
 const RUN = "window.wasHurt = true";
 const HOSTILE = [
@@ -21,18 +21,11 @@ const HOSTILE = [
 ];
 /** Keys whose values are texts, and those under which the aircraft chooses the keys. */
 const TEXTS = ["mode", "flight_mode", "flight_controller"];
-let browser;
 let flight;
 let ground;
 
 before(async () => {
-  browser = await startBrowser();
-  flight = await FakeFlight.start();
-});
-
-after(async () => {
-  await browser?.close();
-  await flight?.stop();
+  flight = stopAfter(await FakeFlight.start());
 });
 
 beforeEach(async () => {
@@ -139,7 +132,7 @@ test("no form sends what takes a held press, nor gains that the aircraft's rule 
   await ground.page.click("#any-command > summary");
   for (const name of ["up.arm", "up.disarm", " up.arm "]) {
     await ground.page.fill("#any-name", name);
-    await ground.until(() => /button that is held/.test(document.querySelector("#any-why").textContent), "why");
+    await ground.reason("#any-why", "held_only");
     assert.equal(await ground.page.isDisabled("#any-send"), true, name);
     await ground.page.evaluate(() => document.querySelector("#any-name").form.requestSubmit());
     await ground.page.press("#any-name", "Enter");
@@ -152,38 +145,9 @@ test("no form sends what takes a held press, nor gains that the aircraft's rule 
   );
   await ground.page.fill(`#${field}`, "{}");
   await ground.page.click("#any-send");
-  await ground.until(() => document.querySelector("#any-note").textContent !== "", "the rule");
-  assert.match(await ground.text("#any-note"), /refused while the aircraft is armed/);
+  await ground.reason("#any-note", "tune_armed");
   assert.equal(await ground.page.isVisible("dialog#confirm"), false);
   assert.deepEqual(await sent(), []);
-  ground.assertClean();
-});
-
-test("numbers of telemetry that are none are not known", async () => {
-  flight.tell({
-    whole: true,
-    data: {
-      orientation: { roll: "90", pitch: null, yaw: [1] },
-      rates: "x",
-      location: { latitude: 1e300, longitude: { deg: 3 } },
-      altitude: true,
-      heading: [],
-      age_ms: { orientation: -5, location: "now" },
-      servo: null,
-      rx: 7,
-      vetoes: { length: 3 },
-      arduino: [],
-      android: { batteryLevel: "<b>" },
-    },
-  });
-  await ground.until(
-    () => document.querySelector('[data-key="altitude"]').textContent === "--",
-    "an altitude that is not known",
-  );
-  const known = (await ground.values()).filter(({ key, text }) =>
-    /^(orientation|location|rx|servo|rates|android)\./.test(key) && text !== "--");
-  assert.deepEqual(known, []);
-  assert.equal(await ground.attribute("html", "data-aircraft-state"), "live");
   ground.assertClean();
 });
 
@@ -201,10 +165,9 @@ test("a refusal's reason is shown as text", async () => {
   ground.assertClean();
 });
 
-test("a name that is no name is refused, and a page shows one as text all the same", async () => {
+test("an invalid name is rejected, and a page shows one as text", async () => {
   const wrong = await run("up-ground", ["serve", "--aircraft", HOSTILE[0]]);
   assert.equal(wrong.status, 2);
-  assert.match(wrong.said, /is no NAME/);
   const page = await GroundPage.open(browser, "about:blank");
   await page.page.routeWebSocket(/\/link$/, (socket) => {
     const server = socket.connectToServer();

@@ -1,11 +1,12 @@
 // A phone in the field, fingers, a keyboard, and who does not see well.
 import assert from "node:assert/strict";
-import { after, afterEach, before, test } from "node:test";
+import { afterEach, before, test } from "node:test";
 
 import { seriousFaults } from "./support/accessibility.mjs";
-import { LAPTOP, PHONE, startBrowser } from "./support/browser.mjs";
+import { LAPTOP, PHONE } from "./support/browser.mjs";
 import { GroundPage } from "./support/ground_page.mjs";
 import { Pilot } from "./support/pilot.mjs";
+import { browser, stopAfter } from "./support/setup.mjs";
 import { startShowcase } from "./support/showcase.mjs";
 import { until } from "./support/wait.mjs";
 
@@ -26,19 +27,12 @@ const KEY_CONTROLS = [
   "#jump a",
 ];
 let showcase;
-let browser;
 let pilot;
 
 before(async () => {
-  browser = await startBrowser();
-  showcase = await startShowcase();
+  showcase = stopAfter(await startShowcase());
   pilot = await new Pilot(showcase).ready();
-});
-
-after(async () => {
-  await pilot?.leave();
-  await browser?.close();
-  await showcase?.stop();
+  stopAfter({ stop: () => pilot.leave() });
 });
 
 afterEach(() => GroundPage.closeAll());

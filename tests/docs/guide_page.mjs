@@ -40,7 +40,7 @@ async function carriedOut(action) {
 const browser = await startBrowser();
 const ground = await (await GroundPage.open(browser, address, LAPTOP)).isLive();
 try {
-  await press("Ask for control");
+  await press("Request control");
   await says("#control-holder", "You have control. All others watch.");
   for (const mode of ["RATE", "FBW"]) {
     await ground.until((m) => !document.querySelector(`[data-mode="${m}"]`).disabled, "the mode", mode);
@@ -49,7 +49,7 @@ try {
     await carriedOut(() => press(`Fly ${mode}`));
   }
   assert.match(PAGE, /`Flight mode RATE: carried out after 12 ms`/);
-  assert.match(await ground.text("#last-answer"), /^Flight mode FBW: carried out after \d+ ms$/);
+  assert.equal(await ground.attribute("#last-answer", "data-code"), "ack");
 
   await ground.until((s) => document.querySelector(s)?.value, "the gains that fly", ROLL_P);
   const [, wanted] = /write ([\d.]+) over the P of \*Rate\*, \*roll\*/.exec(PAGE);
@@ -85,19 +85,17 @@ try {
     await says("#silence", "no news for 1.2 s");
     await says("#alarms [role=alert]", "the aircraft is silent");
     // Then nothing that is sent now can be fresh again.
-    await ground.until(() => parseFloat(/for ([\d.]+)/.exec(document.querySelector("#silence").textContent)[1]) > 2.5, "2.5 s");
+    await ground.until(() => Number(document.querySelector("#silence").dataset.age) > 2.5, "2.5 s");
     place = PAGE.indexOf("no news for");
     const late = await ground.answerTo(() => press("Mark now"));
     assert.equal(late.code, "stale", JSON.stringify(late));
-    assert.match(late.shown, /refused by the ground server.* older than 2 s/);
   } finally {
     process.kill(Number(proxy), "SIGCONT");
   }
   await ground.isLive();
   await ground.untilHolder("you");
-  const told = () => [...document.querySelectorAll("#events li")].map((each) => each.textContent).join("\n");
-  await ground.until(`/telemetry comes again/.test((${told})())`, "it said");
-  await press("Leave control");
+  await ground.until(() => document.querySelector('#events li[data-code="heard"]') !== null, "the event");
+  await press("Release control");
   await ground.until(() => document.querySelector("#control-holder").dataset.holder === "nobody", "nobody");
   ground.assertClean();
 } finally {

@@ -27,6 +27,13 @@ class Clock(Protocol):
         """Call `callable` after `delay` seconds."""
 
 
+def cancel(*timers: Timer | None) -> None:
+    """Cancel the timers that are still pending."""
+    for timer in timers:
+        if timer is not None and timer.active():
+            timer.cancel()
+
+
 def use_monotonic_time(reactor: Any) -> None:
     """Make the reactor's timers use the monotonic clock.
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 
-from up.system.clock import Clock, Timer
+from up.system.clock import Clock, Timer, cancel
 from up_flightlog.read.telemetry_frames import Frame
 
 MIN_SPEED, MAX_SPEED = 0.25, 64.0
@@ -53,7 +53,6 @@ class Player:
 
     @property
     def time_s(self) -> float:
-        """Return the moment of the flight that is shown."""
         if not self.is_playing:
             return self._from_s
         gone_s = (self._clock.seconds() - self._since_s) * self.speed
@@ -71,13 +70,11 @@ class Player:
         self._advance()
 
     def pause(self) -> None:
-        """Pause."""
         self._freeze()
         self.is_playing = False
         self._changed()
 
     def seek(self, time_s: float) -> None:
-        """Go to a moment and show it."""
         self._freeze()
         self._from_s = self._reported_s = max(0.0, min(self.length_s, time_s))
         self._frames = self._open_at(self._from_s)
@@ -92,7 +89,6 @@ class Player:
             self._advance()
 
     def set_speed(self, speed: float) -> None:
-        """Play faster or slower."""
         self._freeze()
         self.speed = max(MIN_SPEED, min(MAX_SPEED, speed))
         self._changed()
@@ -100,18 +96,13 @@ class Player:
             self._advance()
 
     def stop(self) -> None:
-        """End."""
         self.is_playing = False
-        self._cancel()
+        cancel(self._timer)
 
     def _freeze(self) -> None:
-        self._cancel()
+        cancel(self._timer)
         self._from_s = self.time_s
         self._since_s = self._clock.seconds()
-
-    def _cancel(self) -> None:
-        if self._timer is not None and self._timer.active():
-            self._timer.cancel()
 
     def _advance(self) -> None:
         now_s = self.time_s

@@ -54,26 +54,21 @@ class ReplayedAircraft:
 
     @property
     def summary(self) -> str:
-        """Return the aircraft in one line."""
         return f"{self.name}: {self._title}, {self._timeline.length_s:.0f} s"
 
     def start(self) -> None:
-        """Begin to play."""
         self._player.play()
         self._repeat()
 
     async def stop(self) -> None:
-        """End."""
         self._player.stop()
         if self._timer is not None:
             self._timer.cancel()
 
     def frame(self) -> FrameMessage | None:
-        """Return the frame that is shown."""
         return self._frame
 
     def past(self) -> Iterable[dict[str, Any]]:
-        """Return the messages for a page that starts to watch."""
         now_s = self._player.time_s
         yield self._replay()
         yield self._timeline.track_until(now_s)
@@ -83,7 +78,6 @@ class ReplayedAircraft:
         yield self._profile(now_s)
 
     def status(self, page: ClientSession) -> dict[str, Any]:
-        """Return the status as this page sees it."""
         pages = [{"page": each.number, "name": each.name} for each in self._subscribers.all()]
         return {
             "type": "status",
@@ -156,9 +150,6 @@ class ReplayedAircraft:
 
     def on_away(self, page: ClientSession) -> None:
         """Handle the loss of a page's link; the page may return."""
-
-    def on_back(self, page: ClientSession) -> None:
-        """Handle a new page."""
 
     def on_gone(self, page: ClientSession) -> None:
         """Handle the final loss of a page."""

@@ -87,7 +87,6 @@ class ReplayTimeline:
 
     @property
     def home(self) -> dict[str, float] | None:
-        """Return the home's place."""
         return self._home.position()
 
     def events_until(self, time_s: float) -> list[dict[str, Any]]:
@@ -108,7 +107,6 @@ class ReplayTimeline:
         ]
 
     def alarms_at(self, time_s: float) -> dict[str, Any]:
-        """Return the alarms at a moment."""
         place = bisect_right(self._alarm_times_s, time_s)
         if not place:
             return {"type": "alarms", "aircraft": self.aircraft, "active": []}
@@ -128,7 +126,6 @@ class ReplayTimeline:
         return last_before(self._profiles, time_s)
 
     def track_until(self, time_s: float) -> dict[str, Any]:
-        """Return the way up to a moment."""
         return track_message(self.aircraft, self._track.points_until(time_s))
 
     def _read(self, log: FlightLog) -> None:

@@ -72,17 +72,14 @@ class AircraftSession:
 
     @property
     def summary(self) -> str:
-        """Return the aircraft in one line."""
         way = "directly" if self._settings.direct else "by way of the proxy"
         return f"{self.name} {way} at {self._settings.address}"
 
     def start(self) -> None:
-        """Begin to connect."""
         self.link.start()
         self._on_tick()
 
     async def stop(self) -> None:
-        """Leave the seat and give the link up."""
         if self._tick is not None:
             self._tick.cancel()
         self.control.stop()
@@ -90,7 +87,6 @@ class AircraftSession:
         await self.link.stop()
 
     def on_message(self, message: GeneralMessage) -> None:
-        """Handle a message of the aircraft."""
         came_s = self._reactor.seconds()
         if self.telemetry.update(message, came_s):
             made_s = came_s - self.telemetry.way_s
@@ -120,7 +116,6 @@ class AircraftSession:
         self.commands.on_moment()
 
     def on_link(self) -> None:
-        """Handle a change of the link."""
         status = self.link.status
         if self._was_open and not status.is_open:
             self.commands.on_lost()
@@ -135,7 +130,6 @@ class AircraftSession:
         self._send_status()
 
     def frame(self) -> FrameMessage | None:
-        """Return the newest frame."""
         return self._frame
 
     def past(self) -> Iterable[dict[str, Any]]:
@@ -147,12 +141,10 @@ class AircraftSession:
             yield self.commands.profile_message()
 
     def on_second(self) -> None:
-        """Measure the link."""
         self.link.measure()
         self.telemetry.on_round_trip(self.link.status.round_trip_ms)
 
     def status(self, page: ClientSession) -> dict[str, Any]:
-        """Return the status as this page sees it."""
         now_s, status, telemetry = self._reactor.seconds(), self.link.status, self.telemetry
         age_s, rate_hz = telemetry.age_s(now_s), telemetry.rate_hz(now_s)
         role = telemetry.text("ground", "role")
@@ -189,7 +181,7 @@ class AircraftSession:
         if action == "give":
             taker = None if to is None else self._subscribers.get(to)
             if to is not None and taker is None:
-                raise PageFault(f"there is no page {to}", "unknown_page")
+                raise PageFault(f"unknown page {to}", "unknown_page")
             self.control.give(page, taker)
         else:
             {
@@ -199,7 +191,6 @@ class AircraftSession:
             }[action](page)
 
     def on_command(self, page: ClientSession, message: Reader) -> None:
-        """Send a page's Command."""
         self.commands.on_command(page, message)
 
     def on_replay(self, page: ClientSession, action: str, message: Reader) -> None:
@@ -210,11 +201,7 @@ class AircraftSession:
         """Handle the loss of a page's link; the page may return."""
         self.control.on_away(page)
 
-    def on_back(self, page: ClientSession) -> None:
-        """Handle a new page."""
-
     def on_gone(self, page: ClientSession) -> None:
-        """Handle the final loss of a page."""
         self.control.on_gone(page)
 
     def _on_tick(self) -> None:

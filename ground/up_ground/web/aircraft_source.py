@@ -16,41 +16,28 @@ class AircraftSource(Protocol):
     name: str
 
     @property
-    def summary(self) -> str:
-        """Return the aircraft in one line."""
+    def summary(self) -> str: ...
 
-    def start(self) -> None:
-        """Begin."""
+    def start(self) -> None: ...
 
-    async def stop(self) -> None:
-        """End."""
+    async def stop(self) -> None: ...
 
-    def past(self) -> Iterable[dict[str, Any]]:
-        """Return the messages for a page that starts to watch."""
+    def past(self) -> Iterable[dict[str, Any]]: ...
 
-    def frame(self) -> FrameMessage | None:
-        """Return the newest frame."""
+    def frame(self) -> FrameMessage | None: ...
 
-    def status(self, page: ClientSession) -> dict[str, Any]:
-        """Return the status as this page sees it."""
+    def status(self, page: ClientSession) -> dict[str, Any]: ...
 
-    def on_second(self) -> None:
-        """Handle the end of a second."""
+    def on_second(self) -> None: ...
 
-    def on_control(self, page: ClientSession, action: str, to: int | None) -> None:
-        """Let a page request, give, deny or release control."""
+    def on_control(self, page: ClientSession, action: str, to: int | None) -> None: ...
 
-    def on_command(self, page: ClientSession, message: Reader) -> None:
-        """Send a page's Command."""
+    def on_command(self, page: ClientSession, message: Reader) -> None: ...
 
-    def on_replay(self, page: ClientSession, action: str, message: Reader) -> None:
-        """Let a page control the replay."""
+    def on_replay(self, page: ClientSession, action: str, message: Reader) -> None: ...
 
     def on_away(self, page: ClientSession) -> None:
         """Handle the loss of a page's link; the page may return."""
-
-    def on_back(self, page: ClientSession) -> None:
-        """Handle the return of a page."""
 
     def on_gone(self, page: ClientSession) -> None:
         """Handle the final loss of a page."""
@@ -59,17 +46,12 @@ class AircraftSource(Protocol):
 class Subscribers(Protocol):
     """The pages, as an aircraft sees them."""
 
-    def send_latest(self, aircraft: str, kind: str, make: Make) -> None:
-        """Send the pages that watch the aircraft a message that the next of its kind replaces."""
+    def send_latest(self, aircraft: str, kind: str, make: Make) -> None: ...
 
-    def notify(self, aircraft: str, message: dict[str, Any]) -> None:
-        """Send a message to the pages that watch the aircraft."""
+    def notify(self, aircraft: str, message: dict[str, Any]) -> None: ...
 
-    def send_status(self, aircraft: str) -> None:
-        """Give the aircraft's status to every page."""
+    def send_status(self, aircraft: str) -> None: ...
 
-    def all(self) -> list[ClientSession]:
-        """Return the pages that are here."""
+    def all(self) -> list[ClientSession]: ...
 
-    def get(self, number: int) -> ClientSession | None:
-        """Return the page with that number that is here."""
+    def get(self, number: int) -> ClientSession | None: ...

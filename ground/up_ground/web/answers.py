@@ -9,7 +9,7 @@ from typing import Any
 
 from up.flight_log.gain_changes import changes_text
 from up.protocols.general_message import GeneralMessage
-from up.system.clock import Clock, Timer
+from up.system.clock import Clock, Timer, cancel
 from up_ground.catalogue import GAINS, requested_content
 from up_ground.sanitize_text import sanitize_text
 from up_ground.web.event_rules import INFO, WARNING, Report
@@ -52,7 +52,6 @@ class Answers:
         self._sent: dict[str, _Sent] = {}
 
     def __len__(self) -> int:
-        """Return how many Commands wait for their answer."""
         return len(self._sent)
 
     def expect(self, name: str, data: dict[str, Any], notify: Notify) -> str:
@@ -83,7 +82,6 @@ class Answers:
             self.end(id_, _timed_out(sent, "link_lost", "the link was lost before the answer"))
 
     def stop(self) -> None:
-        """Stop waiting for all answers."""
         for sent in self._sent.values():
             sent.timer.cancel()
         self._sent.clear()
@@ -103,10 +101,8 @@ class Answers:
         self.end(id_, _timed_out(sent, "no_answer", f"no answer within {ANSWER_LIMIT_S:g} s"))
 
     def end(self, id_: str, answer: Answer) -> None:
-        """End waiting with that answer."""
         sent = self._sent.pop(id_)
-        if sent.timer.active():
-            sent.timer.cancel()
+        cancel(sent.timer)
         sent.notify(answer)
 
 

@@ -10,7 +10,7 @@ from typing import Any
 from twisted.internet.defer import Deferred
 
 from up.protocols.link_output import Make
-from up.system.clock import Clock, Timer
+from up.system.clock import Clock, Timer, cancel
 from up.system.token_bucket import TokenBucket
 from up.version import VERSION
 from up_ground.sanitize_text import sanitize_text
@@ -76,15 +76,11 @@ class ClientHub:
         self._all_closed: Deferred[None] | None = None
 
     def start(self) -> None:
-        """Start to send the status once a second."""
         self._beat = self._clock.callLater(1.0, self._on_second)
 
     async def stop(self) -> None:
         """Close every page's link; returns when they are closed, after a second at most."""
-        timers = [self._beat, *self._timers.values()]
-        for timer in timers:
-            if timer is not None and timer.active():
-                timer.cancel()
+        cancel(self._beat, *self._timers.values())
         if self._connections:
             self._all_closed = Deferred()
             for link in list(self._connections):
@@ -94,11 +90,9 @@ class ClientHub:
     # Called by an aircraft.
 
     def all(self) -> list[ClientSession]:
-        """Return the pages that are here."""
         return [page for page in self._pages.values() if page.link is not None]
 
     def get(self, number: int) -> ClientSession | None:
-        """Return the page with that number that is here."""
         page = self._pages.get(number)
         return None if page is None or page.link is None else page
 
@@ -109,7 +103,6 @@ class ClientHub:
                 page.send_latest(kind, make)
 
     def notify(self, aircraft: str, message: dict[str, Any]) -> None:
-        """Send a message to the pages that watch the aircraft."""
         encoded = b""
         for page in self._pages.values():
             if page.watched == aircraft:
@@ -117,7 +110,6 @@ class ClientHub:
                 page.send_bytes(encoded)
 
     def send_status(self, aircraft: str) -> None:
-        """Give the aircraft's status to every page."""
         for page in self._pages.values():
             self._send_status(page, self.fleet[aircraft])
 
@@ -153,12 +145,10 @@ class ClientHub:
                 link.close(VIOLATION, "too many faults")
 
     def on_closed(self, link: ClientConnection) -> None:
-        """Keep a page's place for a moment."""
         connection = self._connections.pop(link, None)
         if connection is None:
             return
-        if connection.timer.active():
-            connection.timer.cancel()
+        cancel(connection.timer)
         if self._all_closed is not None:
             if not self._connections:
                 self._all_closed.callback(None)
@@ -275,9 +265,7 @@ class ClientHub:
 
     def _evict(self, page: ClientSession) -> None:
         link, page.link = page.link, None
-        timer = self._timers.get(page.number)
-        if timer is not None and timer.active():
-            timer.cancel()
+        cancel(self._timers.get(page.number))
         if link is not None:
             self._reject(link, "a page that may control needs the place")
             for aircraft in self.fleet.values():
@@ -287,16 +275,13 @@ class ClientHub:
     def _reject(self, link: ClientConnection, reason: str) -> None:
         """Close a link without a page."""
         connection = self._connections.pop(link)
-        if connection.timer.active():
-            connection.timer.cancel()
+        cancel(connection.timer)
         link.close(LATER, reason)
 
     def _welcome_back(
         self, link: ClientConnection, page: ClientSession, name: str, denial: Denial | None
     ) -> None:
-        timer = self._timers.pop(page.number, None)
-        if timer is not None and timer.active():
-            timer.cancel()
+        cancel(self._timers.pop(page.number, None))
         page.name = name or page.name
         page.denial = denial
         page.watched = ""
@@ -327,7 +312,6 @@ class ClientHub:
         if self._catalogue is not None:
             page.send_bytes(self._catalogue)
         for aircraft in self.fleet.values():
-            aircraft.on_back(page)
             self.send_status(aircraft.name)
 
     def _on_watch(self, page: ClientSession, aircraft: AircraftSource) -> None:

@@ -19,8 +19,7 @@ class ClientConnection(Interface):
     host: str
     """Its remote address."""
 
-    def admit(self) -> None:
-        """Apply the limits of a welcomed page from now on."""
+    def admit(self) -> None: ...
 
     def close(self, code: int, reason: str) -> None:
         """Close it; ``code`` is 4000 to 4999, as RFC 6455 leaves them to us."""
@@ -54,7 +53,6 @@ class ClientSession:
 
     @property
     def may_control(self) -> bool:
-        """Return whether it may request control."""
         return self.denial is None
 
     def send(self, message: dict[str, Any]) -> None:
@@ -62,7 +60,6 @@ class ClientSession:
         self.send_bytes(message_bytes(message))
 
     def send_bytes(self, message: bytes) -> None:
-        """Send an encoded message."""
         if self.link is not None:
             self.link.output.send(message)
 
@@ -72,7 +69,6 @@ class ClientSession:
             self.link.output.send_newest(kind, make)
 
     def fault(self, text: str, code: str) -> None:
-        """Report an error of the page to it."""
         self.send({"type": "fault", "code": code, "text": text})
 
 

@@ -63,7 +63,6 @@ class CommandService:
         self._gains_holder: ClientSession | None = None
 
     def stop(self) -> None:
-        """Stop waiting for all answers."""
         self._answers.stop()
 
     def on_command(self, page: ClientSession, message: Reader) -> None:
@@ -113,7 +112,6 @@ class CommandService:
             self._notify_all(self.profile_message())
 
     def on_lost(self) -> None:
-        """Handle the loss of the link."""
         self._answers.on_link_lost()
 
     def want_gains(self) -> None:
@@ -137,11 +135,9 @@ class CommandService:
         self._send(GAINS, {"request": True}, self._telemetry.beacon, lambda answer: None)
 
     def gains_message(self) -> dict[str, Any]:
-        """Return the gains message for pages."""
         return self.gains.message(self._name, self._clock.seconds())
 
     def profile_message(self) -> dict[str, Any]:
-        """Return the profile message for pages."""
         return {"type": "profile", "aircraft": self._name, "profile": self.profile}
 
     def _execute(
@@ -192,7 +188,7 @@ class CommandService:
         """Return why no Command can be sent now."""
         status = self._link.status
         if not status.is_open:
-            reason = status.reason or "there is no link"
+            reason = status.reason or "no link to the proxy"
             return Answer("unsent", "no_link", reason)
         if status.is_aircraft_online is False:
             reason = f"the aircraft {self._name} is not connected to the proxy"
@@ -216,7 +212,7 @@ class CommandService:
             self._answers.end(id_, Answer("refused", "invalid", str(error)[:500]))
             return
         if not self._link.send(line):
-            self._answers.end(id_, Answer("unsent", "no_link", "there is no link"))
+            self._answers.end(id_, Answer("unsent", "no_link", "no link to the proxy"))
 
     def _on_gains_answer(
         self,

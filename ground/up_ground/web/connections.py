@@ -9,6 +9,7 @@ from twisted.protocols.policies import ProtocolWrapper, WrappingFactory
 from twisted.python.failure import Failure
 
 from up.system.addresses import neighbourhood
+from up.system.clock import cancel
 
 WAITING_LIMIT = 128
 """Connections that are not a welcomed page's."""
@@ -30,13 +31,11 @@ class Connection(ProtocolWrapper):
     """Whether a complete request has arrived."""
 
     def makeConnection(self, transport: Any) -> None:  # noqa: N802 - Twisted's name
-        """Begin to wait for the first request."""
         self._http = self.wrappedProtocol
         self._timer = self.factory.reactor.callLater(HEADER_S, self._on_time_over)
         super().makeConnection(transport)  # type: ignore[no-untyped-call]
 
     def on_request(self) -> None:
-        """Note the arrival of a complete request."""
         if not self.has_asked:
             self.has_asked = True
             self._timer.reset(HTTP_LIMIT_S - HEADER_S)
@@ -46,9 +45,7 @@ class Connection(ProtocolWrapper):
         self.factory.remove(self)
 
     def connectionLost(self, reason: Failure = connectionDone) -> None:  # noqa: N802
-        """Stop counting."""
-        if self._timer.active():
-            self._timer.cancel()
+        cancel(self._timer)
         self.factory.remove(self)
         super().connectionLost(reason)  # type: ignore[no-untyped-call]
 
@@ -73,7 +70,6 @@ class Connections(WrappingFactory):
         self._waiting: dict[str, dict[Connection, None]] = {}
 
     def buildProtocol(self, addr: Any) -> ProtocolWrapper:  # noqa: N802 - Twisted's name
-        """Return the transport of the connection."""
         made: Any = super().buildProtocol(addr)
         made.peer = neighbourhood(addr.host)
         own = self._waiting.setdefault(made.peer, {})
@@ -85,7 +81,6 @@ class Connections(WrappingFactory):
         return cast("Connection", made)
 
     def remove(self, connection: Connection) -> None:
-        """Count a connection no longer."""
         own = self._waiting.get(connection.peer, {})
         own.pop(connection, None)
         if not own:

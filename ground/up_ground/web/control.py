@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any, Protocol
 
-from up.system.clock import Clock, Timer
+from up.system.clock import Clock, Timer, cancel
 from up_ground.link_status import ASK_INTERVAL_S, ControlStatus
 from up_ground.sanitize_text import sanitize_text
 from up_ground.web.client_session import ClientSession
@@ -22,24 +22,19 @@ class Lease(Protocol):
     """The seat of the proxy, as far as it concerns control."""
 
     @property
-    def status(self) -> ControlStatus:
-        """Return the owner."""
+    def status(self) -> ControlStatus: ...
 
     @property
-    def holder(self) -> int | None:
-        """Return the number of the ground that has it."""
+    def holder(self) -> int | None: ...
 
     def pop_request(self) -> int | None:
         """Return which ground has requested it since the last call."""
 
-    def request(self) -> None:
-        """Request it."""
+    def request(self) -> None: ...
 
-    def give(self, to: int) -> None:
-        """Hand it to another ground."""
+    def give(self, to: int) -> None: ...
 
-    def release(self) -> None:
-        """Leave it free."""
+    def release(self) -> None: ...
 
 
 class Control:
@@ -69,9 +64,7 @@ class Control:
         self._asking: Timer | None = None
 
     def stop(self) -> None:
-        """Forget all pages and release the seat."""
-        for timer in (self._asking, self._ground_timer, *self._askers.values()):
-            _cancel(timer)
+        cancel(self._asking, self._ground_timer, *self._askers.values())
         self._askers.clear()
         self.holder = self._wanting = None
         if self._lease.status is ControlStatus.OURS:
@@ -88,7 +81,7 @@ class Control:
             self._want_until_s = self._clock.seconds() + ASK_LIMIT_S
             self._request_lease()
         else:
-            _cancel(self._askers.get(page))
+            cancel(self._askers.get(page))
             self._askers[page] = self._clock.callLater(ASK_LIMIT_S, self._withdraw, page)
         self._on_change()
 
@@ -112,7 +105,7 @@ class Control:
         self._must_hold(page)
         if self._askers:
             asker = next(iter(self._askers))
-            _cancel(self._askers.pop(asker))
+            cancel(self._askers.pop(asker))
             asker.fault(f"{page.name} keeps control", "denied")
         elif self._ground is not None:
             self._denied[self._ground] = self._clock.seconds()
@@ -128,7 +121,7 @@ class Control:
         elif page is self._wanting:
             self._stop_wanting()
         elif page in self._askers:
-            _cancel(self._askers.pop(page))
+            cancel(self._askers.pop(page))
         else:
             raise PageFault("this page has no control to release", "no_control")
         self._on_change()
@@ -136,11 +129,10 @@ class Control:
     def on_away(self, page: ClientSession) -> None:
         """Stop requesting for a page whose link was lost; its control is kept for it."""
         if page in self._askers:
-            _cancel(self._askers.pop(page))
+            cancel(self._askers.pop(page))
             self._on_change()
 
     def on_gone(self, page: ClientSession) -> None:
-        """Take control back from a lost page."""
         if page in (self.holder, self._wanting) or page in self._askers:
             self.release(page)
 
@@ -189,7 +181,7 @@ class Control:
 
     def _request_lease(self) -> None:
         """Request the seat until it is granted or the request times out."""
-        _cancel(self._asking)
+        cancel(self._asking)
         status = self._lease.status
         if status is ControlStatus.OURS:
             if self._wanting is not None:
@@ -216,8 +208,8 @@ class Control:
         return "the proxy has not given the seat"
 
     def _grant(self, page: ClientSession) -> None:
-        _cancel(self._asking)
-        _cancel(self._askers.pop(page, None))
+        cancel(self._asking)
+        cancel(self._askers.pop(page, None))
         self._wanting = None
         self.holder = page
         self._notify("control_granted", f"{page.name} has control")
@@ -225,7 +217,7 @@ class Control:
 
     def _free(self) -> None:
         holder, self.holder = self.holder, None
-        _cancel(self._asking)
+        cancel(self._asking)
         if self._askers:
             self._grant(next(iter(self._askers)))
         elif self._ground is not None:
@@ -246,7 +238,7 @@ class Control:
 
     def _stop_wanting(self) -> None:
         self._wanting = None
-        _cancel(self._asking)
+        cancel(self._asking)
         if self._askers:
             self._request_next()
         elif self._lease.status is ControlStatus.OURS:
@@ -255,7 +247,7 @@ class Control:
     def _request_next(self) -> None:
         """Request the seat for the first page in the queue."""
         page = next(iter(self._askers))
-        _cancel(self._askers.pop(page))
+        cancel(self._askers.pop(page))
         self.request(page)
 
     def _withdraw(self, page: ClientSession) -> None:
@@ -273,12 +265,12 @@ class Control:
             return
         self._denied.clear()
         self._ground = ground
-        _cancel(self._ground_timer)
+        cancel(self._ground_timer)
         self._ground_timer = self._clock.callLater(ASK_LIMIT_S, self._clear_ground_request)
 
     def _clear_ground_request(self) -> None:
         self._ground = None
-        _cancel(self._ground_timer)
+        cancel(self._ground_timer)
         self._on_change()
 
     def _notify(self, code: str, text: str) -> None:
@@ -287,8 +279,3 @@ class Control:
     def _must_hold(self, page: ClientSession) -> None:
         if page is not self.holder:
             raise PageFault("this page has no control to give", "no_control")
-
-
-def _cancel(timer: Timer | None) -> None:
-    if timer is not None and timer.active():
-        timer.cancel()

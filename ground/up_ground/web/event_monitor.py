@@ -105,7 +105,6 @@ class Alarms:
         return self.active != before
 
     def message(self, aircraft: str) -> dict[str, Any]:
-        """Return the message for the pages."""
         active = [
             {"kind": each.kind, "code": each.code, "level": each.level, "text": each.text}
             for each in self.active
@@ -123,7 +122,6 @@ class Event:
     report: Report
 
     def message(self, aircraft: str, now_s: float, is_past: bool) -> dict[str, Any]:
-        """Return the message for the pages."""
         return {
             "type": "event",
             "aircraft": aircraft,
@@ -158,7 +156,6 @@ class EventMonitor:
         self._number = 0
 
     def report(self, kind: str, report: Report | None, now_s: float) -> None:
-        """Report an event; None: no event."""
         if report is not None:
             self._number += 1
             event = Event(self._number, now_s, kind, report)
@@ -166,7 +163,6 @@ class EventMonitor:
             self._notify(event.message(self._aircraft, now_s, is_past=False))
 
     def on_frame(self, telemetry: Telemetry, link: LinkSnapshot, now_s: float) -> None:
-        """Process a new frame."""
         for rule in EVENT_RULES:
             value = rule.read(telemetry)
             if value is not None:
@@ -174,7 +170,6 @@ class EventMonitor:
         self.on_moment(telemetry, link, now_s)
 
     def on_link(self, link: LinkSnapshot, now_s: float) -> None:
-        """Process the state of the link."""
         state: tuple[bool, bool | None] = (link.is_open, link.is_aircraft_online)
 
         def on_change(before: Any, now: Any) -> None:

@@ -30,7 +30,6 @@ class GainsHistory:
         self._number = 0
 
     def on_values(self, values: dict[str, Any], now_s: float) -> None:
-        """Take the active gains that the aircraft reports."""
         self.flying = values
         self._reported_s = now_s
 
@@ -43,13 +42,11 @@ class GainsHistory:
         reason: str,
         now_s: float,
     ) -> None:
-        """Record a sent set and its outcome."""
         self._number += 1
         change = _Change(self._number, now_s, by, before, after, outcome, reason)
         self._changes.append(change)
 
     def message(self, aircraft: str, now_s: float) -> dict[str, Any]:
-        """Return the message for the pages."""
         age_ms = None if self._reported_s is None else round((now_s - self._reported_s) * 1000)
         return {
             "type": "gains",

@@ -89,14 +89,12 @@ class Reader:
     fields: dict[str, Any]
 
     def text(self, key: str, longest: int = 200) -> str:
-        """Return a text."""
         found = self.optional_text(key, longest)
         if found is None:
             raise PageFault(f"{key} is missing")
         return found
 
     def optional_text(self, key: str, longest: int = 200) -> str | None:
-        """Return a text; None: absent or null."""
         found = self.fields.get(key)
         if found is not None and (not isinstance(found, str) or len(found) > longest):
             raise PageFault(f"{key} is not a text of at most {longest} characters")
@@ -110,7 +108,6 @@ class Reader:
         return found
 
     def optional_whole(self, key: str) -> int | None:
-        """Return such a number; None: absent or null."""
         found = self.fields.get(key)
         if found is None:
             return None
@@ -121,14 +118,12 @@ class Reader:
         return found
 
     def number(self, key: str) -> float:
-        """Return a number."""
         found = self.fields.get(key)
         if isinstance(found, bool) or not isinstance(found, int | float):
             raise PageFault(f"{key} is not a number")
         return float(found)
 
     def object(self, key: str) -> dict[str, Any]:
-        """Return an object; absent or null is an empty one."""
         found = self.fields.get(key)
         if found is None:
             return {}
@@ -137,7 +132,6 @@ class Reader:
         return found
 
     def choice(self, key: str, *words: str) -> str:
-        """Return one of ``words``."""
         found = self.text(key)
         if found not in words:
             raise PageFault(f"{key} is not one of {', '.join(words)}")

@@ -31,7 +31,6 @@ class PageSendBuffer(BaseOutput):
 
     @property
     def waiting_bytes(self) -> int:
-        """Return the size of the queued messages."""
         return self._size
 
     def send(self, message: bytes) -> None:
@@ -49,7 +48,6 @@ class PageSendBuffer(BaseOutput):
             self._put_news(kind, make, may_leave=self._is_drained)
 
     def discard(self, kind: str) -> None:
-        """Drop the queued one of a kind."""
         self._news.pop(kind, None)
 
 
@@ -64,14 +62,11 @@ TOO_LONG = 4008
 class LinkOwner(Interface):
     """Receiver of the events of the pages' links."""
 
-    def on_opened(self, link: PageLink) -> None:
-        """Handle a new link."""
+    def on_opened(self, link: PageLink) -> None: ...
 
-    def on_message(self, link: PageLink, payload: bytes) -> None:
-        """Handle its message."""
+    def on_message(self, link: PageLink, payload: bytes) -> None: ...
 
-    def on_closed(self, link: PageLink) -> None:
-        """Handle its loss."""
+    def on_closed(self, link: PageLink) -> None: ...
 
 
 class PageLink(WebSocketServerProtocol):
@@ -89,7 +84,6 @@ class PageLink(WebSocketServerProtocol):
         self._asked: dict[bytes, Callable[[bool], object]] = {}
 
     def onOpen(self) -> None:  # noqa: N802 - the library's name
-        """Take the transport."""
         # The transport of the HTTP request is still registered there.
         self.transport.unregisterProducer()
         watch_peer(self.transport, USER_TIMEOUT_MS)
@@ -104,20 +98,17 @@ class PageLink(WebSocketServerProtocol):
         self.transport.admit()
 
     def onMessage(self, payload: bytes, isBinary: bool) -> None:  # noqa: N802, N803
-        """Hand a message on."""
         if isBinary:
             self.close(NOT_TEXT, "only text messages")
         elif self._is_open:
             self._owner.on_message(self, payload)
 
     def onPong(self, payload: bytes) -> None:  # noqa: N802 - the library's name
-        """Take a sign of life."""
         notify = self._asked.pop(payload, None)
         if notify is not None:
             notify(True)
 
     def onClose(self, wasClean: bool, code: int | None, reason: str | None) -> None:  # noqa: N802, N803
-        """Report its loss."""
         self.output.stopProducing()
         asked, self._asked = self._asked, {}
         for notify in asked.values():
@@ -139,7 +130,6 @@ class PageLink(WebSocketServerProtocol):
         self.sendPing(mark)
 
     def close(self, code: int, reason: str) -> None:
-        """Send the reason, and close."""
         self.output.finish()
         self.sendClose(code, reason)
 

@@ -29,7 +29,6 @@ class ProxyLease:
 
     @property
     def holder(self) -> int | None:
-        """Return the number of the ground that has it."""
         return self._link.status.holder
 
     def pop_request(self) -> int | None:
@@ -55,7 +54,6 @@ class ProxyLease:
         self._link.give_seat(to)
 
     def release(self) -> None:
-        """Leave it free."""
         self._unanswered = 0
         self._is_left = not self._is_direct
         status = self._link.status

@@ -86,7 +86,6 @@ class PageOptions:
 
     @classmethod
     def of(cls, options: argparse.Namespace, environ: Mapping[str, str]) -> PageOptions:
-        """Return the parsed options; raises ServeError."""
         try:
             # Its further dependencies are an extra; every other verb starts without them.
             importlib.import_module("up_ground.web.server")
@@ -106,7 +105,6 @@ class PageOptions:
         return cls(listen, access, _tiles_of(options.tiles, environ), options.attribution)
 
     def server(self, reactor: Any, make_sources: Any, **more: Any) -> Any:
-        """Return the server."""
         server = importlib.import_module("up_ground.web.server")
         tiles = None if self.make_tiles is None else self.make_tiles(reactor)
         return server.Server(

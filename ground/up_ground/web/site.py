@@ -39,11 +39,9 @@ _PLAIN = b"text/plain; charset=utf-8"
 class Tiles(Interface):
     """Source of the map tiles."""
 
-    def render(self, request: Any) -> Any:
-        """Answer a request for one."""
+    def render(self, request: Any) -> Any: ...
 
-    def stop(self) -> None:
-        """Stop all fetches."""
+    def stop(self) -> None: ...
 
 
 class GroundResource(Resource):
@@ -65,14 +63,13 @@ class GroundResource(Resource):
         self._tiles = tiles
 
     def render(self, request: Any) -> Any:
-        """Answer one request."""
         for name, value in HEADERS.items():
             request.setHeader(name, value)
         if not self._access.permits_host(_only(request, b"host")):
             return refuse(
                 request,
                 MISDIRECTED_REQUEST,
-                "this server is not called so: open it by its address, or start it with --name",
+                "unknown host name: open this server by its address, or start it with --name",
             )
         if request.method not in (b"GET", b"HEAD"):
             request.setHeader(b"allow", b"GET, HEAD")
@@ -87,7 +84,7 @@ class GroundResource(Resource):
         upgrade = _only(request, b"upgrade") or ""
         if request.method != b"GET" or upgrade.casefold() != "websocket":
             request.setHeader(b"upgrade", b"websocket")
-            return refuse(request, UPGRADE_REQUIRED, "this address is a WebSocket's")
+            return refuse(request, UPGRADE_REQUIRED, "this address is a WebSocket")
         origins = request.requestHeaders.getRawHeaders(b"origin", [])
         origin = _only(request, b"origin")
         if (origins and origin is None) or not self._access.permits_origin(
@@ -99,7 +96,7 @@ class GroundResource(Resource):
     def _render_file(self, request: Any) -> Any:
         found = self._files.get(request.path)
         if found is None:
-            return refuse(request, http.NOT_FOUND, "there is nothing here")
+            return refuse(request, http.NOT_FOUND, "not found")
         request.setHeader(b"content-type", found.media_type.encode("ascii"))
         if request.setETag(found.etag.encode("ascii")) is http.CACHED:
             return b""
@@ -110,7 +107,6 @@ class GroundRequest(Request):
     """A request without a body: a longer one is cut off before it is stored anywhere."""
 
     def gotLength(self, length: int | None) -> None:  # noqa: N802 - Twisted's name
-        """Refuse a body."""
         if length != 0:
             channel: Any = self.channel
             channel.transport.abortConnection()

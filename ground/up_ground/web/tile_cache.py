@@ -45,7 +45,6 @@ class TileCache:
         self._bytes = 0
 
     def get(self, z: int, x: int, y: int) -> bytes | None:
-        """Return a tile; None: it is not here."""
         path = self._path((z, x, y))
         try:
             stored = path.read_bytes()
@@ -63,7 +62,6 @@ class TileCache:
         return content
 
     def put(self, z: int, x: int, y: int, content: bytes) -> None:
-        """Keep a tile."""
         tile = (z, x, y)
         path = self._path(tile)
         fresh = path.with_suffix(f".{secrets.token_hex(4)}")

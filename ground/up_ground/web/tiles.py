@@ -58,22 +58,20 @@ class TileSource:
         self._busy: dict[Tile, Deferred[Any]] = {}
 
     def stop(self) -> None:
-        """Stop all fetches."""
         self._waiting.clear()
         self._requests.clear()
         for each in list(self._busy.values()):
             each.cancel()
 
     def render(self, request: Any) -> Any:
-        """Answer a request for a tile."""
         match = _PATH.fullmatch(request.path)
         z, x, y = (int(each) for each in match.groups()) if match else (99, 0, 0)
         if z > MAX_ZOOM or max(x, y) >= 1 << z:
-            return refuse(request, http.NOT_FOUND, "there is no such tile")
+            return refuse(request, http.NOT_FOUND, "unknown tile")
         tile = (z, x, y)
         if tile not in self._requests:
             if len(self._requests) >= MAX_WAITING:
-                return refuse(request, http.SERVICE_UNAVAILABLE, "too many tiles are asked for")
+                return refuse(request, http.SERVICE_UNAVAILABLE, "too many tiles are requested")
             self._requests[tile] = []
             # Before the queue: a kept tile does not wait for a source that does not answer.
             kept = self._in_thread(self._cache.get, *tile)
@@ -140,7 +138,7 @@ class TileSource:
 
 def _finish_refused(request: Any) -> None:
     """Answer that the source failed."""
-    finish(request, refuse(request, http.BAD_GATEWAY, "the source of the map gave no tile"))
+    finish(request, refuse(request, http.BAD_GATEWAY, "the map's source returned no tile"))
 
 
 class _Body(Protocol):
@@ -151,13 +149,11 @@ class _Body(Protocol):
         self._content = b""
 
     def dataReceived(self, data: bytes) -> None:  # noqa: N802 - Twisted's name
-        """Take a part."""
         self._content += data
         if len(self._content) > MAX_TILE_BYTES:
             self._abort()
 
     def connectionLost(self, reason: Failure = connectionDone) -> None:  # noqa: N802
-        """Take the end."""
         is_whole = reason.check(ResponseDone) and len(self._content) <= MAX_TILE_BYTES
         if not self.done.called:
             self.done.callback(self._content if is_whole else b"")

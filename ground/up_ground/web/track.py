@@ -58,13 +58,11 @@ class Track:
                 self._thin()
 
     def points(self) -> list[Point]:
-        """Return the points from the oldest to the newest."""
         if self._newest is None or self._points[-1] == self._newest:
             return list(self._points)
         return [*self._points, self._newest]
 
     def points_until(self, time_s: float) -> list[Point]:
-        """Return the points up to a moment."""
         return self._points[: bisect_right(self._times_s, time_s)]
 
     def _was_silent(self, time_s: float) -> bool:
@@ -115,7 +113,6 @@ class Home:
         self._place: tuple[float, float] | None = None
 
     def update(self, telemetry: Telemetry) -> None:
-        """Take a frame."""
         latitude = telemetry.number("location", "latitude")
         longitude = telemetry.number("location", "longitude")
         distance = telemetry.number("home", "distance")
@@ -129,7 +126,6 @@ class Home:
             self._place = place
 
     def position(self) -> dict[str, float] | None:
-        """Return the home position in the form sent to pages."""
         if self._place is None:
             return None
         return {"latitude": round(self._place[0], 7), "longitude": round(self._place[1], 7)}

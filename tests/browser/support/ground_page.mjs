@@ -89,6 +89,12 @@ export class GroundPage {
     return this.page.evaluate(([s, n]) => document.querySelector(s)?.getAttribute(n) ?? null, words);
   }
 
+  /** Wait until an element shows the reason with a code. */
+  async reason(selector, code) {
+    const shows = ([s, c]) => document.querySelector(s).dataset.code === c;
+    await this.until(shows, `${code} at ${selector}`, [selector, code]);
+  }
+
   /** The displayed value of a telemetry key. */
   async value(key) {
     return this.text(`[data-key="${key}"]`);
@@ -128,7 +134,7 @@ export class GroundPage {
     }
   }
 
-  /** Do something and return the answer that the page then shows, in its words. */
+  /** Do something and return the answer, and what the page shows of it. */
   async answerTo(action) {
     const before = (await this.messages("answer")).length;
     await action();
@@ -136,7 +142,11 @@ export class GroundPage {
     await until(async () => (await this.page.evaluate(count)) > before || null, "an answer");
     await this.page.evaluate(() => new Promise(requestAnimationFrame));
     const answers = await this.messages("answer");
-    return { ...answers[answers.length - 1].message, shown: await this.text("#last-answer") };
+    return {
+      ...answers[answers.length - 1].message,
+      shown: await this.text("#last-answer"),
+      code_shown: await this.attribute("#last-answer", "data-code"),
+    };
   }
 
   /**
@@ -148,14 +158,14 @@ export class GroundPage {
     for (;;) {
       await this.page.evaluate(watchPress, selector);
       await hand.down();
-      const [how, note] = await this.until(() => window.testPressEnd, `${selector} held to its end`);
+      const [how, code] = await this.until(() => window.testPressEnd, `${selector} held to its end`);
       await hand.up();
       if (how === "done") {
         return;
       }
       // A machine that is busy elsewhere holds the page up, or moves the button late from under the
       // pointer: both make a press void on purpose.
-      assert.match(note, /held up|left the button/);
+      assert.match(code, /^(page_delayed|pointer_left)$/);
     }
   }
 
@@ -237,7 +247,7 @@ function watchPress(selector) {
   new MutationObserver((_, observer) => {
     const { press } = button.dataset;
     if (!["idle", "pressed"].includes(press)) {
-      window.testPressEnd = [press, document.querySelector("#arming-note").textContent];
+      window.testPressEnd = [press, document.querySelector("#arming-note").dataset.code];
       observer.disconnect();
     }
   }).observe(button, { attributeFilter: ["data-press"] });

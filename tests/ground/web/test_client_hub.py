@@ -97,9 +97,6 @@ class Kite:
     def on_away(self, page):
         self.heard.append(("away", page.number))
 
-    def on_back(self, page):
-        self.heard.append(("back", page.number))
-
     def on_gone(self, page):
         self.heard.append(("gone", page.number))
 

@@ -34,13 +34,13 @@ test("what comes once a second is stale later", () => {
   assert.equal(freshnessOf("battery", 0.1, 120000), "stale");
 });
 
-test("a reading that never came is none, one without an age is as its frame", () => {
+test("a reading that never arrived has no freshness, one without an age has its frame's", () => {
   assert.equal(freshnessOf("rx", 0.1, null), "none");
   assert.equal(freshnessOf("rx", 5, null), "none");
   assert.equal(freshnessOf("rx", 0.1, undefined), "live");
 });
 
-test("an age below zero is none gained", () => {
+test("a negative age makes nothing fresher", () => {
   assert.equal(freshnessOf("rx", 0.95, -5000), "stale");
   assert.equal(freshnessOf("rx", 0.1, -5000), "live");
 });

@@ -14,18 +14,18 @@ function store(alarms = [], aircraftState = "live") {
   return { alarms, aircraftState };
 }
 
-test("the worst level counts, and one that nobody knows is none", () => {
+test("the worst level counts, an unknown one does not", () => {
   assert.equal(worstLevel([]), "none");
   assert.equal(worstLevel([BATTERY, FAILSAFE]), "alarm");
   assert.equal(worstLevel([{ level: "strange" }, null]), "none");
 });
 
-test("no alarm is said only of an aircraft that is heard", () => {
+test("only a live aircraft is shown without alarm", () => {
   assert.deepEqual(alarmOf(store(), OPEN), { level: "none", text: "none" });
   assert.deepEqual(alarmOf(store([], "none"), OPEN), { level: "none", text: null });
 });
 
-test("silence and a lost server are alarms without being told", () => {
+test("the page itself detects silence and a lost server", () => {
   assert.deepEqual(alarmOf(store([], "silent"), OPEN), { level: "alarm", text: "silent" });
   assert.deepEqual(alarmOf(store([BATTERY], "silent"), OPEN), { level: "alarm", text: "silent" });
   assert.deepEqual(alarmOf(store(), { isOpen: false }), { level: "alarm", text: "no server" });

@@ -1,7 +1,7 @@
 import assert from "node:assert/strict";
 import { beforeEach, test } from "node:test";
 import { Connection } from "../../../../ground/up_ground/web/static/js/link/connection.js";
-import { Keepsake } from "../../../../ground/up_ground/web/static/js/link/keepsake.js";
+import { Storage } from "../../../../ground/up_ground/web/static/js/link/storage.js";
 import { FakeClock } from "./support/fake_clock.mjs";
 import { FakeServer } from "./support/fake_server.mjs";
 
@@ -10,7 +10,7 @@ let clock, server, memory, page;
 beforeEach(() => {
   clock = new FakeClock();
   server = new FakeServer();
-  memory = new Keepsake(null);
+  memory = new Storage(null);
   page = connect();
 });
 
@@ -28,7 +28,7 @@ test("it says hello, and is open when it is welcomed", () => {
   assert.equal(page.isOpen, true);
 });
 
-test("it comes back by itself with its token, and says when", () => {
+test("it reconnects with its token, and reports when", () => {
   const closed = [];
   page.on("closed", (event) => closed.push(event));
   page.start();
@@ -58,7 +58,7 @@ test("failing attempts come at 0.25, 0.5, 1, 2, 2 seconds", () => {
   }
 });
 
-test("after a success the attempts begin anew", () => {
+test("a success resets the attempts", () => {
   page.start();
   for (const wait_s of [0.25, 0.5, 1]) {
     server.socket.fail();
@@ -88,7 +88,7 @@ test("a server that is full is asked every five seconds, and told from one that 
   assert.equal(page.retry_s, 0.25);
 });
 
-test("who throws keeps nobody else from a message, and who hears all hears it first", (t) => {
+test("an exception in one listener does not stop the others", (t) => {
   t.mock.method(console, "error", () => {});
   const heard = [];
   page.on("alarms", () => heard.push("alarms"));
@@ -126,7 +126,7 @@ test("an attempt that leads nowhere is given up after five seconds", () => {
   assert.equal(server.sockets.length, 2);
 });
 
-test("what a socket says after it was left is not heard", () => {
+test("messages of an abandoned socket are ignored", () => {
   const heard = [];
   page.on("status", (message) => heard.push(message));
   page.start();
@@ -182,14 +182,13 @@ test("a Command without a connection is unsent, and never sent later", async () 
   assert.deepEqual(server.socket.of("command"), []);
 });
 
-test("what became of a Command is not known once the connection is lost", async () => {
+test("the outcome of a Command is unknown once the connection is lost", async () => {
   page.start();
   server.welcome();
   const answer = page.command("up.disarm", {});
   server.socket.fail();
-  const { outcome, reason } = await answer;
-  assert.equal(outcome, "timeout");
-  assert.match(reason, /lost before an answer/);
+  const { outcome, code } = await answer;
+  assert.deepEqual([outcome, code], ["timeout", "connection_lost"]);
 });
 
 test("a server that never answers a Command is a timeout", async () => {
@@ -203,7 +202,7 @@ test("a server that never answers a Command is a timeout", async () => {
   assert.equal((await answer).outcome, "timeout");
 });
 
-test("the way of a message is told from the hello on, by the server's clock", () => {
+test("the delay of a message is known from the hello on, by the server's clock", () => {
   page.start();
   server.socket.open();
   clock.advance(0.04);
@@ -231,7 +230,7 @@ test("a ping is answered however many are on their way", () => {
   assert.ok(page.roundTrip_s < 1e-9);
 });
 
-test("what is no message is dropped", () => {
+test("invalid messages are dropped", () => {
   const heard = [];
   page.on("message", (message) => heard.push(message.type));
   page.start();
@@ -260,7 +259,7 @@ test("a browser that keeps nothing forgets politely", () => {
       throw new Error("full");
     },
   };
-  const forgetful = new Keepsake(broken);
+  const forgetful = new Storage(broken);
   assert.equal(forgetful.get("token"), null);
   forgetful.set("token", "x");
   assert.equal(forgetful.get("token"), "x");

@@ -5,7 +5,7 @@ import { climbText } from "../../../../ground/up_ground/web/static/js/instrument
 import {
   switchMode,
   switchText,
-} from "../../../../ground/up_ground/web/static/js/panels/switch.js";
+} from "../../../../ground/up_ground/web/static/js/state/pilot_input.js";
 import { lostText } from "../../../../ground/up_ground/web/static/js/shell.js";
 import { alarmOf } from "../../../../ground/up_ground/web/static/js/state/alarm_level.js";
 
@@ -13,7 +13,7 @@ function store(texts, profile = null) {
   return { text: (path) => texts[path] ?? null, profile, alarms: [], aircraftState: "live" };
 }
 
-test("nobody holds the attitude where the sticks or rates decide", () => {
+test("sticks and rates hold no attitude", () => {
   const plain = store({});
   assert.equal(holderText("ACRO", plain), "nobody: the sticks");
   assert.equal(holderText("RATE", plain), "nobody: rates only");

@@ -9,7 +9,7 @@ import {
   UNKNOWN,
 } from "../../../../ground/up_ground/web/static/js/state/format.js";
 
-test("a number that is none is shown as unknown", () => {
+test("a value that is not a number is shown as unknown", () => {
   for (const none of [null, undefined, NaN, Infinity]) {
     assert.equal(numberText(none, 1), UNKNOWN);
     assert.equal(ageText(none), UNKNOWN);

@@ -6,16 +6,16 @@ import {
   onCircle,
   rollMarks,
   rungs,
-} from "../../../../ground/up_ground/web/static/js/instruments/ladder.js";
+} from "../../../../ground/up_ground/web/static/js/instruments/geometry.js";
 import {
   beyond,
   share,
   stickPlace,
-} from "../../../../ground/up_ground/web/static/js/instruments/stick_geometry.js";
+} from "../../../../ground/up_ground/web/static/js/instruments/geometry.js";
 import {
   rootScale,
   TapeScale,
-} from "../../../../ground/up_ground/web/static/js/instruments/tape_scale.js";
+} from "../../../../ground/up_ground/web/static/js/instruments/geometry.js";
 
 test("the ladder reaches from the nadir to the zenith and is the same on both sides", () => {
   const all = rungs().map((each) => each.pitch_deg);
@@ -32,19 +32,6 @@ test("right wing down turns the picture left, nose up moves it down", () => {
   assert.equal(ballTransform(30, 0), "rotate(-30.00) translate(0 0.00)");
   assert.match(ballTransform(0, 10), /translate\(0 50\.00\)/);
   assert.match(ballTransform(0, 400), /translate\(0 450\.00\)/);
-});
-
-test("the roll scale has the same marks left and right", () => {
-  const marks = rollMarks()
-    .map((each) => each.roll_deg)
-    .sort((one, other) => one - other);
-  assert.deepEqual(marks, [-60, -45, -30, -20, -10, 10, 20, 30, 45, 60]);
-});
-
-test("angles on a circle go clockwise from above", () => {
-  const near = ([x, y], [ex, ey]) => assert.ok(Math.hypot(x - ex, y - ey) < 1e-9);
-  near(onCircle(0, 10), [0, -10]);
-  near(onCircle(90, 10), [10, 0]);
 });
 
 test("a tape's mark stands at the pointer when the value is the mark's", () => {

@@ -1,7 +1,7 @@
 import assert from "node:assert/strict";
 import { beforeEach, test } from "node:test";
 import { Connection } from "../../../../ground/up_ground/web/static/js/link/connection.js";
-import { Keepsake } from "../../../../ground/up_ground/web/static/js/link/keepsake.js";
+import { Storage } from "../../../../ground/up_ground/web/static/js/link/storage.js";
 import { Store } from "../../../../ground/up_ground/web/static/js/state/store.js";
 import { FakeClock } from "./support/fake_clock.mjs";
 import { FakeServer } from "./support/fake_server.mjs";
@@ -13,7 +13,7 @@ beforeEach(() => {
   server = new FakeServer();
   frames = [];
   const { now_s, timers } = clock;
-  const memory = new Keepsake(null);
+  const memory = new Storage(null);
   connection = new Connection("ws://x/link", {
     memory,
     now_s,
@@ -49,7 +49,7 @@ test("an age is that on board, on the link, half the page's round trip, and sinc
   assert.equal(store.age_s("rx"), null);
 });
 
-test("a frame of a backlog is as old as it is, and is drawn so at once", () => {
+test("a delayed frame is shown with its true age", () => {
   const sent = (before_s) => ({ sent_ms: (clock.seconds + 5000 - before_s) * 1000 });
   const [ping] = server.socket.of("ping");
   clock.advance(0.06);
@@ -74,7 +74,7 @@ test("another connection has another clock", () => {
   assert.ok(store.age_s(null) < 0.03);
 });
 
-test("every value of a frame is judged", () => {
+test("every value of a frame is validated", () => {
   const odd = { roll: "1", pitch: null, yaw: [1] };
   frame({ orientation: odd, altitude: 1e300, armed: "yes", vetoes: "no", flight_mode: 3 });
   assert.equal(store.number("orientation.roll"), null);
@@ -88,7 +88,7 @@ test("every value of a frame is judged", () => {
   assert.equal(store.number("constructor.length"), null);
 });
 
-test("a frame that is no tree changes nothing", () => {
+test("an invalid frame changes nothing", () => {
   frame({ altitude: 5 });
   frame(null);
   frame("x");
@@ -226,7 +226,7 @@ test("the track grows by live fixes only", () => {
   assert.equal(store.track.points.length, 2);
 });
 
-test("alarms that are none are left out", () => {
+test("invalid alarms are dropped", () => {
   const active = [null, 7, { kind: "imu", level: "alarm", text: "t" }];
   server.socket.say({ type: "alarms", aircraft: "one", active });
   assert.deepEqual(store.alarms, [active[2]]);
@@ -270,7 +270,7 @@ test("after a jump in a replay events are as old as they are in the flight", () 
   assert.equal(store.flight_s, 600);
 });
 
-test("a jump in a replay is no flight", () => {
+test("a jump in a replay gives no speed", () => {
   const at = (time_s) => {
     server.socket.say({ type: "replay", name: "n", time_s, length_s: 600, speed: 1, is_playing: true });
     const location = { latitude: 50 + (time_s * 10) / 111195, longitude: 8 };
@@ -282,7 +282,7 @@ test("a jump in a replay is no flight", () => {
   assert.equal(store.motion.groundSpeed_m_s, null);
 });
 
-test("a new track begins the events anew: in a replay they are of another time", () => {
+test("a new track clears the events: in a replay they are of another time", () => {
   const event = { type: "event", aircraft: "one", number: 7, age_ms: 0, level: "info", text: "t" };
   server.socket.say(event);
   server.socket.say({ type: "track", aircraft: "one", points: [] });

@@ -11,7 +11,7 @@ export function confirm({ title, text, yes = "Yes", no = "No", isDanger = false 
   yesButton.textContent = yes;
   noButton.textContent = no;
   yesButton.classList.toggle("danger", isDanger);
-  const asker = document.activeElement;
+  const sender = document.activeElement;
   return new Promise((resolve) => {
     const quit = new AbortController();
     let answer = false;
@@ -26,7 +26,7 @@ export function confirm({ title, text, yes = "Yes", no = "No", isDanger = false 
       "close",
       () => {
         quit.abort();
-        asker?.focus?.();
+        sender?.focus?.();
         resolve(answer);
       },
       when,

@@ -7,7 +7,7 @@ const KEYS = [
   ["Space or Enter, held", "arm or disarm, on its button"],
   ["+ - F", "on the map: closer, farther, follow or not"],
   ["K J L", "in a replay: play or pause, 5 s back, 5 s on"],
-  ["Escape", "close a question: the answer is no"],
+  ["Escape", "close a dialog: no"],
 ];
 const PLACES = ["instruments", "panel-map", "panel-control", "panel-charts", "panel-events"];
 

@@ -1,10 +1,9 @@
-import { Crew } from "./crew.js";
 import { mountHelp } from "./help.js";
 import { Connection } from "./link/connection.js";
-import { mountShell } from "./shell.js";
+import { PartRegistry } from "./part_registry.js";
+import { mountShell, mountTheme } from "./shell.js";
 import { mountSound } from "./sound.js";
 import { Store } from "./state/store.js";
-import { mountTheme } from "./theme.js";
 
 /** Which module draws into which element; each has `mount(element, store, connection)`. */
 const PARTS = [
@@ -32,13 +31,13 @@ const PARTS = [
   ["panel-telemetry", "./panels/telemetry_tree.js"],
 ];
 
-async function mountPart(crew, [id, path], store, connection) {
+async function mountPart(registry, [id, path], store, connection) {
   try {
     const { mount } = await import(path);
     const element = document.getElementById(id);
-    crew.add(id, mount(element, store, connection), element);
+    registry.add(id, mount(element, store, connection), element);
   } catch (error) {
-    crew.say(`${id} is not there: ${error.message}`);
+    registry.report(id, `${id} cannot be loaded: ${error.message}`);
     console.error(error);
   }
 }
@@ -50,15 +49,15 @@ async function begin() {
   const asked = new URLSearchParams(location.hash.slice(1));
   const connection = new Connection(address.href, { key: asked.get("key") });
   const store = new Store(connection);
-  const crew = new Crew(document.getElementById("missing"));
+  const registry = new PartRegistry(document.getElementById("missing"));
   mountTheme(document.getElementById("theme-button"));
   mountSound(document.getElementById("sound-button"), store, connection);
   mountHelp();
-  crew.add("bar", mountShell(store, connection), document.getElementById("bar-state"));
-  store.subscribe(() => crew.update());
+  registry.add("bar", mountShell(store, connection), document.getElementById("bar-state"));
+  store.subscribe(() => registry.update());
   store.start();
   connection.start();
-  await Promise.all(PARTS.map((part) => mountPart(crew, part, store, connection)));
+  await Promise.all(PARTS.map((part) => mountPart(registry, part, store, connection)));
 }
 
 begin();

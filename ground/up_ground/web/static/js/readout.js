@@ -1,31 +1,21 @@
+import { html, setAttribute, setText } from "./dom.js";
 import { readingOf } from "./state/ages.js";
 import { ageText, UNKNOWN } from "./state/format.js";
 
-/** Writes a text into an element, only when it changed. */
-export function setText(element, text) {
-  if (element.shownText !== text) {
-    element.textContent = text;
-    element.shownText = text;
-  }
-}
+const PERIOD_S = 0.2;
 
-/** Sets an attribute, only when it changed. */
-export function setAttribute(element, name, value) {
-  const shown = (element.shownAttributes ??= {});
-  if (shown[name] !== value) {
-    element.setAttribute(name, value);
-    shown[name] = value;
-  }
-}
+/** Limits displayed ages to five changes a second: faster ones cannot be read. */
+export class Pace {
+  #next_s = -Infinity;
 
-/** Makes a HTML element. */
-export function html(tag, attributes = {}, ...children) {
-  const element = document.createElement(tag);
-  for (const [name, value] of Object.entries(attributes)) {
-    element.setAttribute(name, value);
+  /** Whether it is time to write them again. */
+  isTime(now_s) {
+    if (now_s < this.#next_s) {
+      return false;
+    }
+    this.#next_s = now_s + PERIOD_S * 0.9;
+    return true;
   }
-  element.append(...children);
-  return element;
 }
 
 /** otherwise: text while the reading is not stale. Returns age of a stale reading. */
@@ -54,7 +44,6 @@ export class Readout {
     element.setAttribute("data-key", path);
   }
 
-  /** The value shown, null: none. */
   update(store) {
     const value = store[this.#kind](this.#path);
     const freshness = value === null ? "none" : store.freshness(this.#reading);
@@ -64,5 +53,54 @@ export class Readout {
       setText(this.ageElement, oldText(store, this.#reading, freshness));
     }
     return freshness === "none" ? null : value;
+  }
+}
+
+/**
+ * One line of a list: its name, its value, its age while its reading is old.
+ */
+export class Row {
+  #readout;
+  #validate;
+
+  /**
+   * list: a `dl`; kind: a value of another type is ignored; validate: style of a live value: "" plain,
+   * "warning" or "alarm".
+   */
+  constructor(list, name, path, kind, format = String, validate = () => "") {
+    const value = html("span", { class: "row-value" });
+    const age = html("span", { class: "age" });
+    list.append(html("div", { class: "row" }, html("dt", {}, name), html("dd", {}, value, age)));
+    const ownAge = readingOf(path) === null ? null : age;
+    this.#readout = new Readout(value, path, format, ownAge, kind);
+    this.#validate = validate;
+  }
+
+  update(store) {
+    const value = this.#readout.update(store);
+    const level = value === null ? "" : this.#validate(value);
+    setAttribute(this.#readout.element, "data-level", level);
+  }
+}
+
+/** A line whose text comes from the page or its server, not from telemetry. */
+export class PlainRow {
+  #value;
+
+  constructor(list, name, key) {
+    this.#value = html("span", { class: "row-value", "data-key": key });
+    list.append(html("div", { class: "row" }, html("dt", {}, name), html("dd", {}, this.#value)));
+  }
+
+  /** The value's code, for programs and tests. */
+  setState(code) {
+    setAttribute(this.#value, "data-state", code);
+  }
+
+  /** text: null: not known. */
+  show(text, level = "", isOld = false) {
+    setText(this.#value, text ?? "--");
+    setAttribute(this.#value, "data-level", text === null ? "" : level);
+    setAttribute(this.#value, "data-freshness", text === null ? "none" : isOld ? "stale" : "live");
   }
 }

@@ -1,6 +1,31 @@
-import { setAttribute, setText } from "./readout.js";
+import { setAttribute, setText } from "./dom.js";
+import { storageOf } from "./link/storage.js";
 import { alarmOf } from "./state/alarm_level.js";
 import { UNKNOWN } from "./state/format.js";
+
+const THEMES = ["dark", "daylight"];
+
+/**
+ * Dark or daylight: follows the system until the user chooses. button: toggles; its label names the
+ * other theme.
+ */
+export function mountTheme(button) {
+  const memory = storageOf("localStorage");
+  const system = matchMedia("(prefers-color-scheme: light)");
+  const chosen = () => (THEMES.includes(memory.get("theme")) ? memory.get("theme") : null);
+  const show = () => {
+    const theme = chosen() ?? (system.matches ? "daylight" : "dark");
+    document.documentElement.dataset.theme = theme;
+    button.textContent = theme === "dark" ? "Daylight" : "Dark";
+    document.dispatchEvent(new CustomEvent("up-theme", { detail: theme }));
+  };
+  button.addEventListener("click", () => {
+    memory.set("theme", document.documentElement.dataset.theme === "dark" ? "daylight" : "dark");
+    show();
+  });
+  system.addEventListener("change", show);
+  show();
+}
 
 /** The frame of the page: bar, banner of the link, choice of the aircraft, silence. */
 export function mountShell(store, connection) {
@@ -27,6 +52,7 @@ export function mountShell(store, connection) {
   function showLink() {
     const banner = at("link-banner");
     setHidden(banner, connection.isOpen);
+    setAttribute(banner, "data-code", connection.isFull ? "full" : "lost");
     if (!connection.isOpen) {
       const retry_s = connection.retry_s;
       setText(at("link-banner-text"), lostText(reason, connection.isFull));
@@ -44,6 +70,7 @@ export function mountShell(store, connection) {
     setHidden(silence, state === "live");
     if (state !== "live") {
       setText(silence, silenceText(store, state));
+      setAttribute(silence, "data-age", String(store.age_s(null)?.toFixed(1) ?? ""));
     }
     const frame = store.freshness(null);
     showBar("bar-link", linkWord(store, connection), state === "none" ? "none" : frame);
@@ -77,9 +104,8 @@ export function mountShell(store, connection) {
   };
 }
 
-/** The text over the instruments. */
 export function silenceText(store, state) {
-  return state === "none" ? "nothing heard yet" : `no news for ${store.age_s(null).toFixed(1)} s`;
+  return state === "none" ? "no telemetry yet" : `no news for ${store.age_s(null).toFixed(1)} s`;
 }
 
 /**

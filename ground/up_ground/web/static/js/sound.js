@@ -1,5 +1,5 @@
 import { TIMERS } from "./link/clock.js";
-import { keepsakeOf } from "./link/keepsake.js";
+import { storageOf } from "./link/storage.js";
 import { alarmOf } from "./state/alarm_level.js";
 
 const TONES = {
@@ -7,8 +7,8 @@ const TONES = {
   alarm: { pitches_hz: [880, 660, 880], gap_s: 0.16, vibrate_ms: [300, 100, 300] },
   test: { pitches_hz: [660], gap_s: 0.15, vibrate_ms: [50] },
 };
-const AGAIN_S = 6;
-const LOOK_S = 0.5;
+const REPEAT_S = 6;
+const POLL_S = 0.5;
 
 /** Decides when to ring: at a new alarm, and every 6 s while one is active. */
 export class Bell {
@@ -22,7 +22,7 @@ export class Bell {
       now.add(`${alarm.text} ${alarm.level}`);
     }
     const isNew = [...now].some((each) => !this.#known.has(each));
-    const isAgain = alarm.level === "alarm" && now_s - this.#rang_s >= AGAIN_S;
+    const isAgain = alarm.level === "alarm" && now_s - this.#rang_s >= REPEAT_S;
     this.#known = now;
     if ((alarm.level !== "alarm" && alarm.level !== "warning") || !(isNew || isAgain)) {
       return null;
@@ -37,7 +37,7 @@ export class Bell {
  * nothing before a gesture. Driven by a timer, so that a page in the background rings too.
  */
 export function mountSound(button, store, connection) {
-  const memory = keepsakeOf("localStorage");
+  const memory = storageOf("localStorage");
   const bell = new Bell();
   let isOn = memory.get("sound") === "on";
   let context = null;
@@ -69,7 +69,7 @@ export function mountSound(button, store, connection) {
   document.addEventListener("pointerdown", unlock);
   document.addEventListener("keydown", unlock);
   connection.on("alarms", look);
-  TIMERS.each(look, LOOK_S);
+  TIMERS.each(look, POLL_S);
   show();
 }
 

@@ -1,7 +1,7 @@
 import assert from "node:assert/strict";
 import { beforeEach, test } from "node:test";
 
-import { AnswerNotes } from "../../../../../ground/up_ground/web/static/js/panels/answer_notes.js";
+import { AnswerNotes } from "../../../../../ground/up_ground/web/static/js/panels/command_sender.js";
 
 let calls, store, connection, notes, note;
 
@@ -22,7 +22,7 @@ beforeEach(() => {
   notes = new AnswerNotes(store, connection);
   calls.update();
   note = new Note();
-  notes.tell(note, "carried out", "good");
+  notes.show(note, "carried out", "good");
 });
 
 function wait(seconds) {
@@ -54,15 +54,15 @@ test("an answer goes with the aircraft that gave it", () => {
   assert.equal(note.textContent, "");
 });
 
-test("an answer goes with the connection, and what is told afterwards stays", () => {
+test("an answer goes with the connection, and a later one stays", () => {
   calls.closed();
   assert.equal(note.textContent, "");
-  notes.tell(note, "nobody knows", "bad");
+  notes.show(note, "nobody knows", "bad");
   calls.update();
   assert.equal(note.textContent, "nobody knows");
 });
 
-test("what somebody else has written there is left alone", () => {
+test("a text written by another part is kept", () => {
   note.textContent = "must be 0 to 360 deg";
   wait(130);
   calls.closed();

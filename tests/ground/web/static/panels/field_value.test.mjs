@@ -52,7 +52,7 @@ test("a whole number is whole", () => {
   assert.notEqual(problem(lamps, "90071992547409920"), "");
 });
 
-test("what may be left out is left out, and null is null only where it may be", () => {
+test("optional fields are left out, and null is allowed only for nullable ones", () => {
   assert.equal(value(side, ""), "left out");
   assert.equal(value(lamps, ""), "left out");
   assert.equal(value(lamps, "7", true), null);
@@ -80,9 +80,9 @@ test("choices, texts, flags, maps and lists", () => {
 test("the fields of an unknown Command are an object of JSON", () => {
   assert.deepEqual(jsonFields(" "), { problem: "", value: {} });
   assert.deepEqual(jsonFields('{"a": 1}').value, { a: 1 });
-  assert.match(jsonFields("[1]").problem, /write an object/);
-  assert.match(jsonFields("null").problem, /write an object/);
-  assert.match(jsonFields("{a: 1}").problem, /no JSON/);
+  for (const wrong of ["[1]", "null", "{a: 1}"]) {
+    assert.notEqual(jsonFields(wrong).problem, "");
+  }
   assert.equal(nameProblem("plane.release"), "");
   assert.notEqual(nameProblem("a name"), "");
   assert.notEqual(nameProblem("x".repeat(129)), "");

@@ -23,7 +23,7 @@ test("a set goes to cells and back whole", () => {
   assert.equal(cellsOf({ ratePIDs: { ailerons: { p: "2", i: NaN, d: 0 } } }).size, 1);
 });
 
-test("a difference is said in words, with how much it is", () => {
+test("a difference is described with its size", () => {
   const words = (path, value) => difference(cellsOf(SET), cellsOf(changed(path, value)))[0].words;
   assert.equal(words("ratePIDs.ailerons.p", 2.4), "rate roll P 2.0 → 2.4, +20 %");
   assert.equal(words("stabPIDs.elevator.p", 0.995), "stabilize pitch P 1.0 → 0.995, −0.5 %");
@@ -32,7 +32,7 @@ test("a difference is said in words, with how much it is", () => {
   assert.equal(words("ratePIDs.elevator.p", 4.2), "rate pitch P 2.1 → 4.2, +100 %");
 });
 
-test("figures that single precision adds are neither shown nor a difference", () => {
+test("digits added by single precision are neither shown nor a difference", () => {
   assert.equal(gainText(2.0999999046325684), "2.1");
   assert.equal(gainText(0.7), "0.7");
   assert.equal(gainText(50), "50.0");
@@ -40,7 +40,7 @@ test("figures that single precision adds are neither shown nor a difference", ()
   assert.deepEqual(difference(cellsOf(SET), rounded), []);
 });
 
-test("what is no gain is refused at once and named", () => {
+test("an invalid gain is rejected with its reason", () => {
   for (const written of ["0", "50", "2.4", " .5 ", "1e-3", "3."]) {
     assert.equal(readGain(written).problem, "", written);
   }
@@ -53,7 +53,7 @@ test("what is no gain is refused at once and named", () => {
   }
 });
 
-test("what is sent is the whole set, untouched gains with every figure they came with", () => {
+test("the whole set is sent, untouched gains with every digit", () => {
   const made = editor(changed("ratePIDs.elevator.p", 2.0999999046325684));
   assert.equal(made.wanted, null);
   made.write("ratePIDs.ailerons.p", "2.4");
@@ -62,7 +62,7 @@ test("what is sent is the whole set, untouched gains with every figure they came
   assert.equal(cellsOf(made.wanted).size, 18);
 });
 
-test("nothing is sent while one cell holds no gain", () => {
+test("nothing is sent while one cell is invalid", () => {
   const made = editor();
   made.write("ratePIDs.ailerons.p", "2.4");
   made.write("ratePIDs.ailerons.i", "51");
@@ -73,14 +73,14 @@ test("nothing is sent while one cell holds no gain", () => {
   assert.equal(made.difference.length, 1);
 });
 
-test("what was written back to what flies is no edit any more", () => {
+test("an edit back to the active value is not an edit", () => {
   const made = editor();
   made.write("ratePIDs.ailerons.p", "2.4");
   made.write("ratePIDs.ailerons.p", "2.00");
   assert.equal(made.isEdited, false);
 });
 
-test("gains that fly from elsewhere never overwrite what is edited: they are a conflict", () => {
+test("active gains from another page never overwrite an edit: they are a conflict", () => {
   const made = editor();
   made.write("ratePIDs.ailerons.p", "2.4");
   made.takeFlying(changed("ratePIDs.ailerons.p", 2.2));
@@ -98,7 +98,7 @@ test("gains that fly from elsewhere never overwrite what is edited: they are a c
   assert.equal(made.wanted.ratePIDs.ailerons.p, 2.5);
 });
 
-test("gains from elsewhere in other cells are taken over into what is sent", () => {
+test("active gains from another page in other cells are sent back", () => {
   const made = editor();
   made.write("ratePIDs.ailerons.p", "2.4");
   made.takeFlying(changed("stabPIDs.elevator.d", 0.2));
@@ -107,14 +107,14 @@ test("gains from elsewhere in other cells are taken over into what is sent", () 
   assert.equal(made.wanted.stabPIDs.elevator.d, 0.2);
 });
 
-test("what was sent and flies now is no edit any more", () => {
+test("an edit that became active is not an edit", () => {
   const made = editor();
   made.write("ratePIDs.ailerons.p", "2.4");
   made.takeFlying(changed("ratePIDs.ailerons.p", 2.4000000953674316));
   assert.equal(made.isEdited, false);
 });
 
-test("undo is the set before the one that flies, and nothing where that is not known", () => {
+test("undo is the set before the active one, if known", () => {
   const [first, second] = [SET, changed("ratePIDs.ailerons.p", 2.4)];
   const acked = { before: first, after: second, outcome: "ack" };
   const refused = { before: second, after: changed("ratePIDs.ailerons.p", 9), outcome: "nack" };

@@ -4,10 +4,10 @@ import { test } from "node:test";
 import { HeldPress, HOLD_S } from "../../../../../ground/up_ground/web/static/js/panels/held_press.js";
 
 /** Look every 16 ms, as a page does, and count how often the press fired. */
-function hold(press, from_s, to_s, objection = () => "") {
+function hold(press, from_s, to_s, reason = () => null) {
   let fired = 0;
   for (let now_s = from_s; now_s <= to_s + 1e-9; now_s += 0.016) {
-    fired += press.look(now_s, objection(now_s)) ? 1 : 0;
+    fired += press.update(now_s, reason(now_s)) ? 1 : 0;
   }
   return fired;
 }
@@ -28,17 +28,17 @@ test("let go a moment too early it does nothing and says so", () => {
   assert.equal(hold(press, 0, HOLD_S - 0.02), 0);
   press.release("pointer");
   assert.equal(press.state, "idle");
-  assert.match(press.why, /too early/);
+  assert.equal(press.reason.code, "too_early");
   assert.equal(hold(press, HOLD_S, 5), 0);
 });
 
 test("an objection that comes while it is held ends it for good, gone again or not", () => {
   const press = new HeldPress();
   press.press("pointer", 0);
-  const silent = (now_s) => (now_s > 0.7 && now_s < 0.8 ? "the aircraft is silent" : "");
+  const silent = (now_s) => (now_s > 0.7 && now_s < 0.8 ? { code: "silent" } : null);
   assert.equal(hold(press, 0, 10, silent), 0);
   assert.equal(press.state, "void");
-  assert.equal(press.why, "the aircraft is silent");
+  assert.equal(press.reason.code, "silent");
   press.release("pointer");
   press.press("pointer", 11);
   assert.equal(hold(press, 11, 13), 1);
@@ -46,7 +46,7 @@ test("an objection that comes while it is held ends it for good, gone again or n
 
 test("an objection at the first moment lets it not even begin", () => {
   const press = new HeldPress();
-  press.press("key Enter", 0, "you have no control");
+  press.press("key Enter", 0, { code: "control_free" });
   assert.equal(press.state, "void");
   assert.equal(hold(press, 0, 5), 0);
 });
@@ -54,13 +54,13 @@ test("an objection at the first moment lets it not even begin", () => {
 test("a page that hung does not fire when it wakes", () => {
   const press = new HeldPress();
   press.press("pointer", 0);
-  assert.equal(press.look(0.3), false);
-  assert.equal(press.look(5), false);
+  assert.equal(press.update(0.3), false);
+  assert.equal(press.update(5), false);
   assert.equal(press.state, "void");
-  assert.match(press.why, /held up/);
+  assert.equal(press.reason.code, "page_delayed");
 });
 
-test("the repetition of a held key is no second press", () => {
+test("the repetition of a held key is not a second press", () => {
   const press = new HeldPress();
   press.press("key  ", 0);
   hold(press, 0, 0.5);
@@ -81,13 +81,13 @@ test("a second finger makes it void until both have gone", () => {
   assert.equal(press.state, "idle");
 });
 
-test("what is taken away while it presses counts no more", () => {
+test("an abandoned press does not count", () => {
   const press = new HeldPress();
   press.press("pointer", 0);
   hold(press, 0, 1);
-  press.abandon("the focus went elsewhere");
+  press.abandon({ code: "unfocused" });
   assert.equal(press.state, "idle");
-  assert.equal(press.why, "the focus went elsewhere");
+  assert.equal(press.reason.code, "unfocused");
   assert.equal(hold(press, 1, 9), 0);
   press.release("pointer");
   assert.equal(press.state, "idle");
@@ -99,6 +99,6 @@ test("the ring fills from nothing to whole, and is empty for a void press", () =
   press.press("pointer", 0);
   assert.equal(press.progress(HOLD_S / 2), 0.5);
   assert.equal(press.progress(HOLD_S * 2), 1);
-  press.void("gone");
+  press.void({ code: "gone" });
   assert.equal(press.progress(HOLD_S / 2), 0);
 });

@@ -11,7 +11,7 @@ function fill(history, from_s, to_s, period_s = 0.1) {
   }
 }
 
-test("what comes evenly is one line without a hole", () => {
+test("an even sequence is one line without a gap", () => {
   const history = new History(["roll"]);
   fill(history, 100, 110);
   const [times_s, rolls] = history.columns(110);
@@ -30,14 +30,14 @@ test("no line goes across a silence", () => {
   assert.ok(holes[0] > -4 && holes[0] < -1);
 });
 
-test("a short delay is no silence", () => {
+test("a short delay is not a silence", () => {
   const history = new History(["roll"]);
   fill(history, 100, 105);
   fill(history, 105.6, 106);
   assert.ok(!history.columns(106)[1].includes(null));
 });
 
-test("a slow period is no silence once it is known", () => {
+test("a slow period is not a silence once it is known", () => {
   const history = new History(["roll"]);
   fill(history, 100, 140, 2);
   const [times_s, rolls] = history.columns(140);

@@ -3,9 +3,9 @@ import { test } from "node:test";
 
 import {
   bearing_deg, distance_m, distanceText, offsetOf, placeAt, placeOf,
-} from "../../../../../ground/up_ground/web/static/js/map/earth.js";
-import { linesBetween, stepOf, stepText, windowOf } from "../../../../../ground/up_ground/web/static/js/map/grid.js";
-import { homeWords } from "../../../../../ground/up_ground/web/static/js/map/picture.js";
+} from "../../../../../ground/up_ground/web/static/js/state/earth.js";
+import { linesBetween, stepOf, stepText, windowOf } from "../../../../../ground/up_ground/web/static/js/state/earth.js";
+import { homeText } from "../../../../../ground/up_ground/web/static/js/map/picture.js";
 
 const HOME = { latitude: 50.1, longitude: 8.6 };
 const near = (value, wanted, by) => assert.ok(Math.abs(value - wanted) <= by, `${value} is not ${wanted}`);
@@ -33,7 +33,7 @@ test("metres around a place go there and back, across the date line too", () => 
   near(offsetOf({ latitude: 0, longitude: 179.999 }, west).east_m, 222.4, 0.1);
 });
 
-test("what is no place is none", () => {
+test("an invalid place is rejected", () => {
   assert.deepEqual(placeOf(50.1, 8.6), HOME);
   for (const [latitude, longitude] of [[91, 0], [0, 181], [null, 8], ["50", 8], [NaN, 8]]) {
     assert.equal(placeOf(latitude, longitude), null);
@@ -65,11 +65,6 @@ test("the lines of a stretch are all those in it", () => {
   assert.deepEqual(linesBetween(1, 9, 10), []);
 });
 
-test("two neighbouring tiles have each line once or at their common edge", () => {
-  const [left, right] = [linesBetween(0, 256, 100), linesBetween(256, 512, 100)];
-  assert.deepEqual([...left, ...right], [0, 100, 200, 300, 400, 500]);
-});
-
 test("the plain map shows every point with a margin, and not less than a field", () => {
   const size = { width_px: 400, height_px: 300 };
   const points = [{ east_m: -500, north_m: 0 }, { east_m: 300, north_m: 900 }];
@@ -81,10 +76,10 @@ test("the plain map shows every point with a margin, and not less than a field",
   assert.equal(windowOf([], size).metresPerPixel * 300, 200);
 });
 
-test("the way home is said, and the age of a position that is old", () => {
+test("the way home has the age of a stale position", () => {
   const picture = { aircraft: placeAt(HOME, { east_m: 0, north_m: 340 }), home: HOME, freshness: "live", age: "12.3 s" };
-  assert.equal(homeWords(picture), "340 m from home at 000°, the way back 180°");
-  assert.match(homeWords({ ...picture, freshness: "stale" }), /, seen 12.3 s ago$/);
-  assert.equal(homeWords({ ...picture, home: null }), "No home yet");
-  assert.equal(homeWords({ ...picture, aircraft: null }), "No position yet");
+  assert.equal(homeText(picture), "340 m from home at 000°, the way back 180°");
+  assert.match(homeText({ ...picture, freshness: "stale" }), /, seen 12.3 s ago$/);
+  assert.equal(homeText({ ...picture, home: null }), "No home yet");
+  assert.equal(homeText({ ...picture, aircraft: null }), "No position yet");
 });

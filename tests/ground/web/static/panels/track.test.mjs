@@ -2,7 +2,7 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 
 import { piecesOf } from "../../../../../ground/up_ground/web/static/js/map/track_line.js";
-import { Silence } from "../../../../../ground/up_ground/web/static/js/state/silence.js";
+import { Silence } from "../../../../../ground/up_ground/web/static/js/state/track.js";
 import { Track } from "../../../../../ground/up_ground/web/static/js/state/track.js";
 
 /** Fly north by 0.001 degrees a frame. */
@@ -37,15 +37,4 @@ test("an aircraft that comes back long after the page was told its way is not jo
   track.replace([[50, 8, 1], [50.1, 8, 1]], 100);
   fly(track, 106, 107);
   assert.equal(piecesOf(track.points).length, 2);
-});
-
-test("what comes every two seconds is no silence", () => {
-  const silence = new Silence();
-  let silences = 0;
-  for (let time_s = 0; time_s < 60; time_s += 2) {
-    silences += silence.take(time_s) ? 1 : 0;
-  }
-  assert.ok(silences <= 5);
-  assert.equal(silence.take(63), false);
-  assert.equal(silence.take(75), true);
 });

@@ -1,12 +1,11 @@
-import { element } from "../panels/element.js";
-import { sayMissing, styleSheet } from "../panels/vendor.js";
 import { ChosenChart } from "./chosen_chart.js";
-import { rollDemand_deg } from "./demand.js";
 import { History } from "./history.js";
 import { LineChart } from "./line_chart.js";
+import { html, showMissing, styleSheet } from "../dom.js";
+import { rollDemand_deg } from "../state/pilot_input.js";
 
 const MISSING =
-  "There are no charts, as uPlot is not installed: run tools/web_assets (it needs npm) and load this page again.";
+  "the charts need uPlot, which is not installed: run tools/web_assets (it needs npm) and reload this page.";
 const DRAW_S = 0.1;
 const CHARTS = [
   {
@@ -26,8 +25,8 @@ const CHARTS = [
 
 /** The last minute of attitude, altitude and the link's delay. */
 export function mount(place, store, connection) {
-  const notice = element("p.why", { hidden: true });
-  const row = element("div.charts", { id: "charts" });
+  const notice = html("p.why", { hidden: true });
+  const row = html("div.charts", { id: "charts" });
   place.append(notice, row);
   const names = CHARTS.flatMap((chart) => chart.lines.map((line) => line.name));
   const history = new History(names);
@@ -48,7 +47,7 @@ export function mount(place, store, connection) {
       console.warn(error);
       notice.textContent = MISSING;
       notice.hidden = false;
-      sayMissing(MISSING);
+      showMissing("uplot", MISSING);
     }
   }
 

@@ -1,11 +1,55 @@
-import { element } from "../panels/element.js";
-import { readingOf } from "../state/ages.js";
-import * as judge from "../state/judge.js";
-import { chartChoice } from "./chart_choice.js";
 import { History } from "./history.js";
 import { LineChart } from "./line_chart.js";
+import { html } from "../dom.js";
+import { storageOf } from "../link/storage.js";
+import { readingOf } from "../state/ages.js";
+import * as validate from "../state/validate.js";
 
-const LONGEST_TITLE = 60;
+const KEY = "chart";
+const MAX_KEYS = 24;
+
+/** Which value of the telemetry the chart of one's own choice draws; the browser remembers it. */
+export class ChartChoice {
+  #memory;
+  #keys;
+
+  constructor(memory) {
+    this.#memory = memory;
+    this.#keys = keysOf(memory.get(KEY));
+  }
+
+  /** The way to the value; null: none is chosen. */
+  get keys() {
+    return this.#keys;
+  }
+
+  is(keys) {
+    return this.#keys !== null && this.#keys.length === keys.length && this.#keys.every((each, index) => each === keys[index]);
+  }
+
+  choose(keys) {
+    this.#keys = keys;
+    this.#memory.set(KEY, keys === null ? "" : JSON.stringify(keys));
+  }
+}
+
+export const chartChoice = new ChartChoice(storageOf("localStorage"));
+
+function keysOf(text) {
+  try {
+    const keys = JSON.parse(text || "null");
+    const isGood =
+      Array.isArray(keys) &&
+      keys.length > 0 &&
+      keys.length <= MAX_KEYS &&
+      keys.every((each) => typeof each === "string");
+    return isGood ? keys : null;
+  } catch {
+    return null;
+  }
+}
+
+const MAX_TITLE = 60;
 
 /** One more chart, of a value that the user has chosen in the list of all telemetry. */
 export class ChosenChart {
@@ -16,7 +60,7 @@ export class ChosenChart {
 
   constructor(UPlot) {
     this.#UPlot = UPlot;
-    this.element = element("div.chosen-chart", { id: "chosen-chart", hidden: true });
+    this.element = html("div.chosen-chart", { id: "chosen-chart", hidden: true });
     this.#follow();
   }
 
@@ -30,7 +74,7 @@ export class ChosenChart {
     this.#follow();
     if (this.#keys !== null) {
       const isLive = store.freshness(readingOf(this.#keys[0])) === "live";
-      const value = judge.number(judge.atKeys(store.data, this.#keys));
+      const value = validate.number(validate.atKeys(store.data, this.#keys));
       this.#history.add(time_s, { value: isLive ? value : null });
     }
   }
@@ -52,7 +96,7 @@ export class ChosenChart {
     this.element.replaceChildren();
     this.element.hidden = keys === null;
     if (keys !== null) {
-      const title = keys.join(".").slice(0, LONGEST_TITLE);
+      const title = keys.join(".").slice(0, MAX_TITLE);
       const lines = [{ name: "value", label: "is", colour: "--accent" }];
       this.#chart = new LineChart(this.#UPlot, { title, unit: "", decimals: null, leastSpan: null, lines });
       this.element.append(this.#chart.element, this.#closer(title));
@@ -60,7 +104,7 @@ export class ChosenChart {
   }
 
   #closer(title) {
-    return element("button.quiet", {
+    return html("button.quiet", {
       type: "button",
       id: "chosen-chart-close",
       text: "Remove",

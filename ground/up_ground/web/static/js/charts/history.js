@@ -1,6 +1,5 @@
-import { GAP_S, Silence } from "../state/silence.js";
+import { GAP_S, Silence } from "../state/track.js";
 
-/** The time span of a chart. */
 export const WINDOW_S = 60;
 
 /**
@@ -14,13 +13,11 @@ export class History {
   #values;
   #silence = new Silence();
 
-  /** names: of the values. */
   constructor(names) {
     this.#names = names;
     this.#values = names.map(() => []);
   }
 
-  /** How many points are kept, the ones that mark holes included. */
   get length() {
     return this.#times_s.length;
   }
@@ -35,7 +32,7 @@ export class History {
       this.#push((last_s + time_s) / 2, {});
     }
     this.#push(time_s, values);
-    this.#forget(time_s - WINDOW_S - GAP_S);
+    this.#clear(time_s - WINDOW_S - GAP_S);
   }
 
   /** Draw no line between the samples before and after: another flight, another time. */
@@ -80,7 +77,7 @@ export class History {
     });
   }
 
-  #forget(before_s) {
+  #clear(before_s) {
     const kept = this.#times_s.findIndex((time_s) => time_s >= before_s);
     // Cut rarely, and then much: cutting at every frame would copy a minute at every frame.
     if (kept > 256) {

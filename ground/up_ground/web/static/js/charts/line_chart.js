@@ -1,7 +1,6 @@
-import { element } from "../panels/element.js";
-import { setText } from "../readout.js";
-import { numberText, plainNumber } from "../state/format.js";
 import { WINDOW_S } from "./history.js";
+import { html, setText } from "../dom.js";
+import { numberText, plainNumber } from "../state/format.js";
 
 const HEIGHT_PX = 104;
 
@@ -15,7 +14,7 @@ export class LineChart {
   #leastSpan;
   #decimals;
   #plot = null;
-  #canvas = element("div.chart-canvas", { role: "img" });
+  #canvas = html("div.chart-canvas", { role: "img" });
   #now = [];
   #title;
   #onTheme = () => this.#rebuild();
@@ -31,23 +30,21 @@ export class LineChart {
     this.#leastSpan = leastSpan;
     this.#decimals = decimals;
     this.#title = title;
-    const head = element("p.chart-head", {}, element("strong", { text: title }));
+    const head = html("p.chart-head", {}, html("strong", { text: title }));
     for (const line of lines) {
-      const now = element("span", { "data-line": line.name });
+      const now = html("span", { "data-line": line.name });
       this.#now.push(now);
       head.append(now);
     }
-    this.element = element("div.chart", {}, head, this.#canvas);
+    this.element = html("div.chart", {}, head, this.#canvas);
     document.addEventListener("up-theme", this.#onTheme);
   }
 
-  /** Draw no more. */
   end() {
     document.removeEventListener("up-theme", this.#onTheme);
     this.#rebuild();
   }
 
-  /** columns: seconds before now, then the values of each line. */
   show(columns) {
     const width = this.#canvas.clientWidth;
     if (width === 0) {
@@ -119,7 +116,7 @@ export class LineChart {
   #summary(values) {
     const known = values.filter((each) => each !== null);
     if (known.length === 0) {
-      return `${this.#title}: nothing came in the last minute`;
+      return `${this.#title}: no data in the last minute`;
     }
     const [least, most] = [Math.min(...known), Math.max(...known)];
     return `${this.#title} of the last minute: now ${this.#text(values.at(-1))}, between ${this.#text(least)} and ${this.#text(most)}`;
@@ -142,7 +139,7 @@ export function span(least, most, leastSpan) {
 
 // A canvas does not support light-dark(): read the present colour from the element.
 function colourOf(place, name) {
-  const probe = element("span");
+  const probe = html("span");
   probe.style.setProperty("color", `var(${name})`);
   place.append(probe);
   const colour = getComputedStyle(probe).color;

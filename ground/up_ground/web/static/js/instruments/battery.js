@@ -1,9 +1,9 @@
-import { html, Readout, setAttribute } from "../readout.js";
+import { html, setAttribute } from "../dom.js";
+import { Readout, Row } from "../readout.js";
 import { numberText } from "../state/format.js";
-import { Row } from "./row.js";
 
 const LOW_PERCENT = 20;
-const SCANT_PERCENT = 35;
+const WARNING_PERCENT = 35;
 
 /** The battery of the phone on board: the only one that telemetry knows of. */
 export function mount(element, store) {
@@ -43,5 +43,5 @@ export function mount(element, store) {
 }
 
 export function batteryLevel(percent) {
-  return percent < LOW_PERCENT ? "alarm" : percent < SCANT_PERCENT ? "warning" : "";
+  return percent < LOW_PERCENT ? "alarm" : percent < WARNING_PERCENT ? "warning" : "";
 }

@@ -1,7 +1,7 @@
-import { html } from "../readout.js";
+import { html } from "../dom.js";
+import { Row } from "../readout.js";
 import { BOARD_ROWS } from "../state/board_schema.js";
 import { flagText, numberText } from "../state/format.js";
-import { Row } from "./row.js";
 
 /** The Arduino as it sees itself, and how busy the Raspberry Pi is. */
 export function mount(element, store) {

@@ -1,7 +1,7 @@
-import { oldText, setAttribute, setText } from "../readout.js";
+import { drawing, hatch, setAttribute, setText, short, svg } from "../dom.js";
+import { onCircle } from "./geometry.js";
+import { oldText } from "../readout.js";
 import { headingText, numberText, UNKNOWN } from "../state/format.js";
-import { onCircle } from "./ladder.js";
-import { drawing, hatch, short, svg } from "./svg.js";
 
 const RADIUS = 84;
 const LETTERS = { 0: "N", 90: "E", 180: "S", 270: "W" };
@@ -55,7 +55,6 @@ export function mount(element, store) {
   };
 }
 
-/** Whole metres below 10 km. */
 export function distanceText(distance_m) {
   if (distance_m === null) {
     return UNKNOWN;

@@ -1,8 +1,8 @@
-import { html, Readout, setAttribute, setText } from "../readout.js";
-import { switchText } from "../panels/switch.js";
+import { html, setAttribute, setText } from "../dom.js";
+import { Readout, Row } from "../readout.js";
 import { MODES } from "../state/board_schema.js";
 import { flagText, numberText, UNKNOWN } from "../state/format.js";
-import { Row } from "./row.js";
+import { switchText } from "../state/pilot_input.js";
 
 /** State of control: mode, armed, vetoes, load, failsafe. */
 export function mount(element, store) {

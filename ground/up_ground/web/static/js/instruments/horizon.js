@@ -1,10 +1,8 @@
-import { rollDemand_deg } from "../charts/demand.js";
-import { setAttribute, setText } from "../readout.js";
+import { drawing, hatch, setAttribute, setText, short, svg } from "../dom.js";
+import { ballTransform, isWhole, onCircle, rollMarks, rungs, UNITS_PER_DEG } from "./geometry.js";
 import { ageText } from "../state/format.js";
-import { ballTransform, isWhole, onCircle, rollMarks, rungs, UNITS_PER_DEG } from "./ladder.js";
-import { drawing, hatch, short, svg } from "./svg.js";
+import { rollDemand_deg } from "../state/pilot_input.js";
 
-/** The box of the horizon and of the tapes upon it. */
 export const VIEW = { x: -200, y: -140, width: 400, height: 280 };
 const FAR = 1200;
 const ROLL_RADIUS = 112;

@@ -1,8 +1,7 @@
-import { html } from "../readout.js";
-import { Pace } from "../pace.js";
+import { html } from "../dom.js";
+import { Pace, PlainRow, Row } from "../readout.js";
 import { ageText, numberText } from "../state/format.js";
-import { number, text } from "../state/judge.js";
-import { PlainRow, Row } from "./row.js";
+import { number, text } from "../state/validate.js";
 
 /** Every stretch of the way from the aircraft to this page. */
 export function mount(element, store, connection) {
@@ -28,7 +27,7 @@ export function mount(element, store, connection) {
     update() {
       const link = store.status?.link ?? {};
       const isOld = !connection.isOpen;
-      const isDoubtful = isOld || saysMoreThanIsHeard(link, store);
+      const isDoubtful = isOld || isReportOutdated(link, store);
       if (pace.isTime(store.now_s)) {
         const age_s = store.age_s(null);
         ageShown = age_s === null ? null : ageText(age_s);
@@ -44,6 +43,7 @@ export function mount(element, store, connection) {
       const isOnline = typeof link.aircraft_online === "boolean" ? link.aircraft_online : null;
       const online = isOnline === null ? null : isOnline ? "at the proxy" : "not at the proxy";
       plain.aircraft.show(online, isOnline === false ? "warning" : "", isDoubtful);
+      plain.aircraft.setState(isOnline === false ? "offline" : "online");
       for (const row of rows) {
         row.update(store);
       }
@@ -52,7 +52,7 @@ export function mount(element, store, connection) {
 }
 
 /** A proxy that hangs still counts as connected at the server: its reports are outdated. */
-function saysMoreThanIsHeard(link, store) {
+function isReportOutdated(link, store) {
   return store.isSilent && link.state === "connected" && link.aircraft_online !== false;
 }
 
@@ -61,7 +61,7 @@ function agesText(store) {
     return null;
   }
   return store.number("system.clock_ms") === null
-    ? "without the way to the proxy: the aircraft tells no clock"
+    ? "without the delay to the proxy: the aircraft reports no clock"
     : "by the aircraft's clock";
 }
 
@@ -87,6 +87,7 @@ function showProxy(row, link, isOld) {
   const reason = text(link.reason) ?? "";
   const words = state === null ? null : reason === "" ? state : `${state}: ${reason}`;
   row.show(words, state === "connected" ? "" : "warning", isOld);
+  row.setState(state ?? "");
 }
 
 function showNumber(row, found, format, isOld) {

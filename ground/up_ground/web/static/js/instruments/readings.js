@@ -1,5 +1,5 @@
-import { html, setAttribute, setText } from "../readout.js";
-import { Pace } from "../pace.js";
+import { html, setAttribute, setText } from "../dom.js";
+import { Pace } from "../readout.js";
 import { READINGS } from "../state/ages.js";
 import { ageText, UNKNOWN } from "../state/format.js";
 

@@ -1,7 +1,8 @@
-import { html, oldText, Readout, setAttribute, setText } from "../readout.js";
+import { html, setAttribute, setText } from "../dom.js";
+import { beyond, share } from "./geometry.js";
+import { oldText, Readout } from "../readout.js";
 import { readingOf } from "../state/ages.js";
 import { numberText } from "../state/format.js";
-import { beyond, share } from "./stick_geometry.js";
 
 const CHANNELS = ["ailerons", "elevator", "throttle", "rudder", "aux1", "aux2"];
 

@@ -1,7 +1,6 @@
-import { html, setAttribute, setText } from "../readout.js";
-import { keepsakeOf } from "../link/keepsake.js";
-import { drawing, hatch, svg } from "./svg.js";
-import { stickPlace } from "./stick_geometry.js";
+import { drawing, hatch, html, setAttribute, setText, svg } from "../dom.js";
+import { stickPlace } from "./geometry.js";
+import { storageOf } from "../link/storage.js";
 
 /** Which channel moves which way: [across, along] of the left and of the right stick. */
 const MODES = {
@@ -17,7 +16,7 @@ const MODES = {
 
 /** The two sticks as received, in mode 2 or 1. */
 export function mount(element, store) {
-  const memory = keepsakeOf("localStorage");
+  const memory = storageOf("localStorage");
   let mode = memory.get("stick-mode") === "1" ? 1 : 2;
   const button = html("button", { type: "button", id: "stick-mode", class: "quiet" });
   const gimbals = [gimbalOf("left"), gimbalOf("right")];

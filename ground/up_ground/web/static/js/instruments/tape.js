@@ -1,7 +1,6 @@
-import { setAttribute, setText } from "../readout.js";
+import { hatch, setAttribute, setText, short, svg } from "../dom.js";
+import { TapeScale } from "./geometry.js";
 import { UNKNOWN } from "../state/format.js";
-import { svg, hatch, short } from "./svg.js";
-import { TapeScale } from "./tape_scale.js";
 
 const HEIGHT = 280;
 

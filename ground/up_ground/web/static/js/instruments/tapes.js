@@ -1,13 +1,13 @@
-import { oldText, setAttribute, setText } from "../readout.js";
-import { numberText } from "../state/format.js";
-import { number } from "../state/judge.js";
-import { distance_m } from "../state/motion.js";
+import { drawing, setAttribute, setText, short, svg } from "../dom.js";
+import { rootScale } from "./geometry.js";
 import { VIEW } from "./horizon.js";
-import { drawing, short, svg } from "./svg.js";
 import { Tape } from "./tape.js";
-import { rootScale } from "./tape_scale.js";
+import { oldText } from "../readout.js";
+import { numberText } from "../state/format.js";
+import { distance_m } from "../state/earth.js";
+import { number } from "../state/validate.js";
 
-const CLIMB_MOST_M_S = 10;
+const MAX_CLIMB_M_S = 10;
 const CLIMB_LENGTH = 96;
 const NEAR_HOME_M = 30;
 
@@ -115,7 +115,7 @@ export function climbText(climb_m_s) {
 function climbOf() {
   const scale = svg("g", { class: "climb-scale" });
   for (const value of [-10, -5, -2, -1, 0, 1, 2, 5, 10]) {
-    const y = -rootScale(value, CLIMB_MOST_M_S, CLIMB_LENGTH);
+    const y = -rootScale(value, MAX_CLIMB_M_S, CLIMB_LENGTH);
     scale.append(svg("path", { d: `M185 ${short(y)}h${value === 0 ? 15 : 5}` }));
   }
   const needle = svg("rect", { x: 186, y: 0, width: 12, height: 1, class: "climb-bar" });
@@ -132,7 +132,7 @@ function climbOf() {
   return {
     element,
     show(climb_m_s, freshness) {
-      const length = climb_m_s === null ? 0 : rootScale(climb_m_s, CLIMB_MOST_M_S, CLIMB_LENGTH);
+      const length = climb_m_s === null ? 0 : rootScale(climb_m_s, MAX_CLIMB_M_S, CLIMB_LENGTH);
       setAttribute(element, "data-freshness", freshness);
       setAttribute(needle, "y", short(Math.min(0, -length)));
       setAttribute(needle, "height", short(Math.max(1, Math.abs(length))));

@@ -1,8 +1,8 @@
-import { html, Readout, setAttribute } from "../readout.js";
+import { drawing, html, setAttribute, short, svg } from "../dom.js";
+import { Readout } from "../readout.js";
 import { numberText } from "../state/format.js";
-import { drawing, short, svg } from "./svg.js";
 
-const MOST_DEG_S = 60;
+const MAX_DEG_S = 60;
 const LENGTH = 92;
 
 /** Roll and pitch in figures, and between them how fast the nose turns. */
@@ -14,8 +14,8 @@ export function mount(element, store) {
   const turn = figure("Turn");
   const bar = svg("rect", { x: 0, y: -5, width: 0, height: 6, class: "turn-bar" });
   const scale = svg("g", { class: "turn-scale" });
-  for (let rate = -MOST_DEG_S; rate <= MOST_DEG_S; rate += 10) {
-    const x = (rate / MOST_DEG_S) * LENGTH;
+  for (let rate = -MAX_DEG_S; rate <= MAX_DEG_S; rate += 10) {
+    const x = (rate / MAX_DEG_S) * LENGTH;
     const length = rate === 0 ? 12 : rate % 30 === 0 ? 9 : 5;
     scale.append(svg("path", { d: `M${short(x)} ${2 - length}V2` }));
   }
@@ -37,7 +37,7 @@ export function mount(element, store) {
         each.update(store);
       }
       const rate = store.number("rates.yaw");
-      const share = Math.max(-1, Math.min(1, (rate ?? 0) / MOST_DEG_S));
+      const share = Math.max(-1, Math.min(1, (rate ?? 0) / MAX_DEG_S));
       setAttribute(bar, "x", short(Math.min(0, share * LENGTH)));
       setAttribute(bar, "width", short(Math.abs(share * LENGTH)));
       setAttribute(

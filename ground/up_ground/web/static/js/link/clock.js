@@ -13,3 +13,26 @@ export const TIMERS = {
   /** timer: of either kind; null and undefined do no harm. */
   cancel: (timer) => clearTimeout(timer),
 };
+
+const INITIAL_S = 0.25;
+const MAX_S = 2;
+
+/** How long to wait before the next attempt: 0.25 s, doubled up to 2 s. */
+export class Backoff {
+  #attempts = 0;
+
+  get attempts() {
+    return this.#attempts;
+  }
+
+  /** The seconds to wait now; each call counts one failure. */
+  next_s() {
+    const wait_s = Math.min(MAX_S, INITIAL_S * 2 ** this.#attempts);
+    this.#attempts = Math.min(this.#attempts + 1, 1000);
+    return wait_s;
+  }
+
+  reset() {
+    this.#attempts = 0;
+  }
+}

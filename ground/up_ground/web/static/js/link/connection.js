@@ -1,17 +1,16 @@
-import { Backoff } from "./backoff.js";
-import { now_s, TIMERS } from "./clock.js";
-import { keepsakeOf } from "./keepsake.js";
-import { PendingAsks } from "./pending_asks.js";
-import { Way } from "./way.js";
+import { Backoff, now_s, TIMERS } from "./clock.js";
+import { OneWayDelayEstimator } from "./one_way_delay.js";
+import { PendingCommands } from "./pending_commands.js";
+import { storageOf } from "./storage.js";
 
 const PING_S = 1;
-const DEAF_S = 4;
+const SILENT_LIMIT_S = 4;
 const CONNECT_S = 5;
 const PINGS_KEPT = 64;
 /** The closing code of a server with too many pages, and how long to wait then. */
 const FULL = 4013;
 const FULL_S = 5;
-const LOST = "the connection to the ground server was lost before an answer came";
+const LOST = { code: "connection_lost", reason: "the connection to the ground server was lost" };
 
 /**
  * The page's connection to the ground server: opens, reconnects, sends requests and gets answers.
@@ -31,7 +30,7 @@ export class Connection {
   #makeSocket;
   #now_s;
   #timers;
-  #heard_s = 0;
+  #lastRx_s = 0;
   #began_s = 0;
   #retryAt_s = null;
   #timer = null;
@@ -39,9 +38,8 @@ export class Connection {
   #pings = new Map();
   #ping = 0;
   #hello_s = null;
-  #way = new Way();
+  #way = new OneWayDelayEstimator();
 
-  /** The server's `welcome`, null while disconnected. */
   welcome = null;
   /** Whether the server refuses the connection because it has the maximum number of pages. */
   isFull = false;
@@ -52,18 +50,16 @@ export class Connection {
   /** Which frame the page has shown: set by the page, echoed in Commands. */
   shownBeacon = () => null;
 
-  /** url: of the WebSocket; timers: as TIMERS. */
   constructor(url, parts = {}) {
     this.#url = url;
     this.#key = parts.key ?? null;
-    this.#memory = parts.memory ?? keepsakeOf("sessionStorage");
+    this.#memory = parts.memory ?? storageOf("sessionStorage");
     this.#makeSocket = parts.makeSocket ?? ((address) => new WebSocket(address));
     this.#now_s = parts.now_s ?? now_s;
     this.#timers = parts.timers ?? TIMERS;
-    this.#asks = new PendingAsks(this.#timers);
+    this.#asks = new PendingCommands(this.#timers);
   }
 
-  /** Whether the server has welcomed this page and the connection is open. */
   get isOpen() {
     return this.welcome !== null;
   }
@@ -80,13 +76,11 @@ export class Connection {
     return () => calls.delete(call);
   }
 
-  /** Connect, and stay connected. */
   start() {
     this.#pinger ??= this.#timers.each(() => this.#tick(), PING_S);
     this.#attempt();
   }
 
-  /** Close, and stay closed. */
   stop() {
     this.#timers.cancel(this.#pinger);
     this.#timers.cancel(this.#timer);
@@ -99,7 +93,6 @@ export class Connection {
     this.#asks.giveUp(LOST);
   }
 
-  /** message: with its `type`. Returns whether it went out. */
   send(message) {
     if (!this.isOpen || this.#socket?.readyState !== 1) {
       return false;
@@ -120,7 +113,8 @@ export class Connection {
       this.#asks.take({
         ask,
         outcome: "unsent",
-        reason: "there is no connection to the ground server",
+        code: "no_server",
+        reason: "not connected to the ground server",
       });
     }
     return answer;
@@ -131,7 +125,7 @@ export class Connection {
 
   #attempt() {
     this.#retryAt_s = null;
-    this.#began_s = this.#heard_s = this.#now_s();
+    this.#began_s = this.#lastRx_s = this.#now_s();
     let socket;
     try {
       socket = this.#makeSocket(this.#url);
@@ -141,20 +135,20 @@ export class Connection {
     }
     this.#socket = socket;
     socket.onopen = () => this.#hello(socket);
-    socket.onmessage = (event) => socket === this.#socket && this.#heard(event.data);
+    socket.onmessage = (event) => socket === this.#socket && this.#onText(event.data);
     socket.onclose = (event) => socket === this.#socket && this.#lost(event.reason, event.code);
   }
 
   #hello(socket) {
     const token = this.#memory.get("token");
     // Without a name the server chooses one.
-    const name = this.#memory.get("name") ?? keepsakeOf("localStorage").get("name") ?? "";
+    const name = this.#memory.get("name") ?? storageOf("localStorage").get("name") ?? "";
     this.#hello_s = this.#now_s();
     socket.send(JSON.stringify({ type: "hello", name, key: this.#key, token }));
   }
 
-  #heard(text) {
-    this.#heard_s = this.#now_s();
+  #onText(text) {
+    this.#lastRx_s = this.#now_s();
     let message;
     try {
       message = JSON.parse(text);
@@ -190,7 +184,7 @@ export class Connection {
   /** Without a clock from the server, half of the round trip. */
   #timeWay(message) {
     const asked_s = message.type === "welcome" ? this.#hello_s : this.#pings.get(message.ping);
-    const way_s = this.#way.take(message.sent_ms, this.#heard_s, asked_s ?? null);
+    const way_s = this.#way.take(message.sent_ms, this.#lastRx_s, asked_s ?? null);
     this.way_s = way_s ?? (this.roundTrip_s ?? 0) / 2;
   }
 
@@ -220,10 +214,10 @@ export class Connection {
       this.#sendPing();
     }
     const now = this.#now_s();
-    const isDeaf = this.isOpen && now - this.#heard_s > DEAF_S;
+    const isDeaf = this.isOpen && now - this.#lastRx_s > SILENT_LIMIT_S;
     const isStuck = !this.isOpen && this.#retryAt_s === null && now - this.#began_s > CONNECT_S;
     if (this.#socket !== null && (isDeaf || isStuck)) {
-      this.#lost("the ground server said nothing");
+      this.#lost("the ground server is silent");
     }
   }
 

@@ -1,11 +1,11 @@
-import { AircraftSymbol } from "./aircraft_symbol.js";
+import { svg } from "../dom.js";
 import { metreGrid } from "./metre_grid.js";
-import { drawn } from "../panels/element.js";
+import { AircraftSymbol } from "./picture.js";
 import { TrackLine } from "./track_line.js";
 
-const FIRST_ZOOM = 16;
-const CLOSEST = 21;
-const CLOSEST_TILES = 19;
+const INITIAL_ZOOM = 16;
+const MAX_ZOOM = 21;
+const MAX_TILE_ZOOM = 19;
 
 /** The map by Leaflet. It follows the aircraft, or it stays where the user put it. */
 export class LeafletMap {
@@ -37,7 +37,7 @@ export class LeafletMap {
       fadeAnimation: !isCalm,
       zoomControl: false,
       attributionControl: tiles !== null,
-      maxZoom: CLOSEST,
+      maxZoom: MAX_ZOOM,
       minZoom: 2,
       worldCopyJump: true,
       zoomSnap: 0.5,
@@ -45,7 +45,7 @@ export class LeafletMap {
     this.#map.attributionControl?.setPrefix(false);
     L.control.scale({ imperial: false, position: "bottomleft" }).addTo(this.#map);
     if (tiles !== null) {
-      const options = { maxZoom: CLOSEST, maxNativeZoom: CLOSEST_TILES, attribution: escaped(tiles.attribution) };
+      const options = { maxZoom: MAX_ZOOM, maxNativeZoom: MAX_TILE_ZOOM, attribution: escaped(tiles.attribution) };
       this.#tiles = L.tileLayer(tiles.url, options).addTo(this.#map);
       this.#tiles.on("tileload", () => onTiles(true));
       this.#tiles.on("tileerror", () => {
@@ -93,7 +93,6 @@ export class LeafletMap {
     }
   }
 
-  /** Show the whole track and home. */
   showAll() {
     const bounds = this.#track.bounds();
     if (bounds !== null) {
@@ -106,14 +105,14 @@ export class LeafletMap {
     const { aircraft, home } = picture;
     if (picture.name !== this.#name) {
       this.#name = picture.name;
-      this.#forget(picture);
+      this.#clear(picture);
     }
     if (!this.#hasView) {
       const first = aircraft ?? home;
       if (first === null) {
         return;
       }
-      this.#map.setView([first.latitude, first.longitude], FIRST_ZOOM);
+      this.#map.setView([first.latitude, first.longitude], INITIAL_ZOOM);
       this.#hasView = true;
     }
     this.#showGround(home ?? aircraft, home !== null);
@@ -125,7 +124,7 @@ export class LeafletMap {
   }
 
   // Another aircraft flies elsewhere: reset everything, including the origin of the grid.
-  #forget(picture) {
+  #clear(picture) {
     this.#showAircraft({ ...picture, aircraft: null });
     this.#showHome(null);
     this.#wayHome.setLatLngs([]);
@@ -211,10 +210,10 @@ function latLng({ latitude, longitude }) {
 }
 
 function homeSymbol() {
-  return drawn(
+  return svg(
     "svg.home-symbol",
     { viewBox: "-12 -12 24 24", width: 24, height: 24, "aria-hidden": "true" },
-    drawn("path", { d: "M0 -9 L9 0 H6 V8 H-6 V0 H-9 Z" }),
+    svg("path", { d: "M0 -9 L9 0 H6 V8 H-6 V0 H-9 Z" }),
   );
 }
 

@@ -1,33 +1,53 @@
-import { element } from "../panels/element.js";
-import { sayMissing, styleSheet } from "../panels/vendor.js";
-import { setAttribute, setText } from "../readout.js";
-import { homeWords, pictureOf } from "./picture.js";
+import { html, showMissing, setAttribute, setText, styleSheet, svg } from "../dom.js";
+import { homeText, pictureOf } from "./picture.js";
 import { PlainMap } from "./plain_map.js";
-import { Wind } from "./wind.js";
+
+/** The wind beside the map, if the aircraft reports it: an arrow along the wind, and text. */
+export class Wind {
+  #arrow = svg("path", { d: "M0 -7 V7 M-4 3 L0 7 L4 3" });
+  #words = html("span");
+
+  constructor() {
+    const arrow = svg("svg", { viewBox: "-8 -8 16 16", width: 16, height: 16 }, this.#arrow);
+    setAttribute(arrow, "aria-hidden", "true");
+    this.element = html("p.map-wind", { hidden: true }, arrow, this.#words);
+  }
+
+  show(store) {
+    const from_deg = store.number("wind.from");
+    const speed_m_s = store.number("wind.speed");
+    this.element.hidden =
+      from_deg === null || speed_m_s === null || store.freshness(null) !== "live";
+    if (!this.element.hidden) {
+      setAttribute(this.#arrow, "transform", `rotate(${from_deg.toFixed(0)})`);
+      setText(this.#words, `wind ${speed_m_s.toFixed(1)} m/s from ${from_deg.toFixed(0)}°`);
+    }
+  }
+}
 
 const MISSING =
-  "The map is a plain one, as Leaflet is not installed: run tools/web_assets (it needs npm) and load this page again.";
+  "Leaflet is not installed, so the map is a plain one: run tools/web_assets (it needs npm) and reload this page.";
 
-const NO_TILES = "No pictures of the ground come: a grid of metres stands in for them.";
+const NO_TILES = "Map tiles are unavailable: the map shows a grid of metres.";
 
 /** The map: Leaflet where it is installed, a plain one of our own elsewhere. */
 export function mount(place, store, connection) {
-  const canvas = element("div.map-canvas", { role: "region", "aria-label": "Map; arrow keys move it" });
+  const canvas = html("div.map-canvas", { role: "region", "aria-label": "Map; arrow keys move it" });
   const follow = button("Follow", "Follow: keep the aircraft in the middle", () => setFollow(!map?.isFollowing));
   follow.id = "map-follow";
   const closer = button("+", "Closer", () => map?.zoom(1));
   const farther = button("−", "Farther", () => map?.zoom(-1));
   const whole = button("All", "All of the track", () => map?.showAll());
-  const tools = element("div.map-tools", {}, follow, whole, closer, farther);
-  const words = element("p.map-words", { id: "map-home" });
+  const tools = html("div.map-tools", {}, follow, whole, closer, farther);
+  const words = html("p.map-words", { id: "map-home" });
   const wind = new Wind();
-  const notice = element("p.map-notice", { id: "map-notice", hidden: true });
-  place.append(canvas, tools, element("div.map-foot", {}, words, wind.element), notice);
+  const notice = html("p.map-notice", { id: "map-notice", hidden: true });
+  place.append(canvas, tools, html("div.map-foot", {}, words, wind.element), notice);
   let map = null;
   place.addEventListener("keydown", onKey);
 
   function button(text, label, click) {
-    return element("button", { type: "button", text, title: label, "aria-label": label, on: { click } });
+    return html("button", { type: "button", text, title: label, "aria-label": label, on: { click } });
   }
 
   function notify(text) {
@@ -79,7 +99,7 @@ export function mount(place, store, connection) {
       console.warn(error);
       map = new PlainMap(canvas);
       notify(MISSING);
-      sayMissing(MISSING);
+      showMissing("leaflet", MISSING);
     }
     showFollow();
   }
@@ -103,7 +123,7 @@ export function mount(place, store, connection) {
       setAttribute(place, "data-longitude", isShown ? String(picture.aircraft.longitude) : "");
       setAttribute(place, "data-heading", isShown ? String(picture.heading_deg ?? "") : "");
       setAttribute(words, "data-freshness", picture.freshness);
-      setText(words, homeWords(picture));
+      setText(words, homeText(picture));
       wind.show(store);
     },
   };

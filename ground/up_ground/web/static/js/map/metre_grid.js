@@ -1,5 +1,4 @@
-import { offsetOf, placeAt } from "./earth.js";
-import { linesBetween, stepOf, stepText } from "./grid.js";
+import { linesBetween, offsetOf, placeAt, stepOf, stepText } from "../state/earth.js";
 
 const METRES_AROUND = 40075016.7;
 

@@ -1,4 +1,5 @@
-import { bearing_deg, distance_m, distanceText, placeOf } from "./earth.js";
+import { setAttribute, setText, svg } from "../dom.js";
+import { bearing_deg, distance_m, distanceText, placeOf } from "../state/earth.js";
 import { ageText, headingText } from "../state/format.js";
 
 /**
@@ -20,14 +21,13 @@ export function pictureOf(store) {
     aircraft: seen,
     heading_deg: isSeen ? headingOf(store) : null,
     freshness: seen === null ? "none" : isSeen ? freshnessOf(store) : "stale",
-    age: ageWords(store.age_s("location") ?? store.age_s(null)),
+    age: lastSeenText(store.age_s("location") ?? store.age_s(null)),
     home: placeOf(home?.latitude, home?.longitude),
     track: store.track,
   };
 }
 
-/** Distance and direction to walk. */
-export function homeWords(picture) {
+export function homeText(picture) {
   if (picture.aircraft === null) {
     return "No position yet";
   }
@@ -42,7 +42,7 @@ export function homeWords(picture) {
 }
 
 // A position from the track alone: its time is unknown.
-function ageWords(age_s) {
+function lastSeenText(age_s) {
   return age_s === null ? "some time" : ageText(age_s);
 }
 
@@ -55,4 +55,33 @@ function headingOf(store) {
 // A position without a known age is as fresh as the frame that brought it.
 function freshnessOf(store) {
   return store.freshness("location") === "live" ? "live" : "stale";
+}
+
+const OUTLINE = "M0 -15 L2 -9 L2 -4 L15 3 L15 6 L2 3 L1.5 10 L5 13 L5 15 L0 14 L-5 15 L-5 13 L-1.5 10 L-2 3 L-15 6 L-15 3 L-2 -4 L-2 -9 Z";
+const NO_HEADING = "M0 -9 A9 9 0 1 1 -0.01 -9 Z";
+
+/** The aircraft as the map draws it: turned by its heading; without one it is a disc. */
+export class AircraftSymbol {
+  #outline = svg("path", { d: NO_HEADING });
+  #age = svg("text", { x: 0, y: 30, "text-anchor": "middle" });
+
+  constructor() {
+    this.element = svg(
+      "svg.aircraft-symbol",
+      { viewBox: "-18 -18 36 36", width: 40, height: 40, "aria-hidden": "true" },
+      this.#outline,
+      this.#age,
+    );
+  }
+
+  /**
+   * heading_deg: clockwise from north; age: how long ago it was seen there, written below while it
+   * is not live.
+   */
+  show(heading_deg, freshness, age) {
+    setAttribute(this.#outline, "d", heading_deg === null ? NO_HEADING : OUTLINE);
+    setAttribute(this.#outline, "transform", `rotate(${(heading_deg ?? 0).toFixed(1)})`);
+    setAttribute(this.element, "data-freshness", freshness);
+    setText(this.#age, freshness === "live" ? "" : age);
+  }
 }

@@ -1,21 +1,19 @@
-import { offsetOf } from "./earth.js";
-import { linesBetween, stepOf, stepText, windowOf } from "./grid.js";
-import { drawn } from "../panels/element.js";
-import { setAttribute, setText } from "../readout.js";
-import { AircraftSymbol } from "./aircraft_symbol.js";
+import { setAttribute, setText, svg } from "../dom.js";
+import { AircraftSymbol } from "./picture.js";
 import { piecesOf } from "./track_line.js";
+import { linesBetween, offsetOf, stepOf, stepText, windowOf } from "../state/earth.js";
 
-const MOST_POINTS = 1500;
+const MAX_POINTS = 1500;
 /** Height covered by the line of text below the map. */
 const FOOT_PX = 40;
 
 /** A map of our own: track, home and aircraft in metres on a grid. It always shows everything. */
 export class PlainMap {
   #symbol = new AircraftSymbol();
-  #lines = drawn("path.grid");
-  #track = drawn("path.track");
-  #home = drawn("path.home-symbol");
-  #scale = drawn("text.scale", { x: 12 });
+  #lines = svg("path.grid");
+  #track = svg("path.track");
+  #home = svg("path.home-symbol");
+  #scale = svg("text.scale", { x: 12 });
   #step_m = 0;
   #place;
 
@@ -23,7 +21,7 @@ export class PlainMap {
 
   constructor(place) {
     this.#place = place;
-    this.element = drawn(
+    this.element = svg(
       "svg.plain-map",
       { role: "img", "aria-label": "Map: track, home and aircraft on a grid of metres" },
       this.#lines,
@@ -41,7 +39,7 @@ export class PlainMap {
     if (origin === null || size.width_px === 0 || size.height_px === 0) {
       return;
     }
-    const every = Math.ceil(track.points.length / MOST_POINTS) || 1;
+    const every = Math.ceil(track.points.length / MAX_POINTS) || 1;
     const pieces = piecesOf(track.points).map((piece) =>
       piece
         .filter((_, index) => index % every === 0 || index === piece.length - 1)
@@ -70,10 +68,8 @@ export class PlainMap {
   /** Does nothing: this map always shows everything. */
   follow() {}
 
-  /** It has no other scale. */
   zoom() {}
 
-  /** It always does. */
   showAll() {}
 
   #drawGrid(view, size, x, y) {

@@ -1,35 +1,35 @@
-import { setAttribute, setText } from "../readout.js";
-import { acknowledge, forgetOthers, isAcknowledged } from "./acknowledged.js";
-import { element } from "./element.js";
-import { awayWords } from "./why.js";
+import { html, setAttribute, setText } from "../dom.js";
+import { offlineReason } from "./disabled_reason.js";
+import { acknowledge, dropAcknowledged, isAcknowledged } from "../state/alarm_level.js";
 
 /** The active alarms: a bar each, until it is over. Acknowledging silences it. */
 export function mount(place, store, connection) {
   const bars = new Map();
-  const away = element("div.alarm", { id: "aircraft-away", role: "alert", "data-level": "warning" }, element("strong"));
+  const away = html("div.alarm", { id: "aircraft-away", role: "alert", "data-level": "warning" }, html("strong"));
   let aircraft = store.aircraft;
 
   // If the aircraft had sent telemetry before, its own alarm already reports this.
   function showAway(standing) {
-    const isSaid = standing.some(({ text }) => text.includes("not connected to the proxy"));
-    const words = isSaid || !connection.isOpen ? "" : awayWords(store);
-    if (words === "") {
+    const isReported = standing.some(({ code }) => code === "aircraft_offline");
+    const reason = isReported || !connection.isOpen ? null : offlineReason(store);
+    if (reason === null) {
       away.remove();
     } else if (!away.isConnected) {
       place.prepend(away);
     }
-    setText(away.firstChild, words);
+    setText(away.firstChild, reason?.text ?? "");
+    setAttribute(away, "data-code", reason?.code ?? "");
   }
 
   function barOf(alarm) {
-    const text = element("strong");
-    const button = element("button.acknowledge", {
+    const text = html("strong");
+    const button = html("button.acknowledge", {
       type: "button",
       on: { click: () => acknowledge(alarm) },
     });
-    const bar = element(
+    const bar = html(
       "div.alarm",
-      { role: "alert", "data-kind": alarm.kind, "data-level": alarm.level },
+      { role: "alert", "data-kind": alarm.kind, "data-code": alarm.code ?? "", "data-level": alarm.level },
       text,
       button,
     );
@@ -40,7 +40,7 @@ export function mount(place, store, connection) {
     update() {
       const standing = store.alarms.filter((each) => typeof each?.text === "string");
       // An acknowledgement for one aircraft does not hold for another.
-      forgetOthers(store.aircraft === aircraft ? standing : []);
+      dropAcknowledged(store.aircraft === aircraft ? standing : []);
       aircraft = store.aircraft;
       const keys = new Set(standing.map(keyOf));
       for (const [key, { bar }] of bars) {

@@ -1,18 +1,17 @@
-import { setText } from "../readout.js";
-import { ruleAgainst, warningOf } from "./any_command_rules.js";
-import { Asker, tell } from "./asker.js";
+import { html, setText } from "../dom.js";
 import { KnownFields, UnknownFields } from "./command_form.js";
-import { element } from "./element.js";
+import { CommandSender, showNote } from "./command_sender.js";
+import { nameReason, showReason, warningOf } from "./disabled_reason.js";
 import { nameProblem } from "./field_value.js";
 
-const LONGEST_SHOWN = 600;
+const MAX_SHOWN = 600;
 
 /** Every Command that the server knows, and by name those that it does not. */
 export function mount(place, store, connection) {
-  const asker = new Asker(store, connection);
-  const why = element("p.why", { id: "any-why" });
-  const names = element("datalist", { id: "any-names" });
-  const input = element("input", {
+  const sender = new CommandSender(store, connection);
+  const why = html("p.why", { id: "any-why" });
+  const names = html("datalist", { id: "any-names" });
+  const input = html("input", {
     id: "any-name",
     type: "text",
     list: "any-names",
@@ -23,20 +22,20 @@ export function mount(place, store, connection) {
     "aria-describedby": "any-about any-note",
     on: { input: () => choose() },
   });
-  const about = element("p.quiet", { id: "any-about" });
-  const fields = element("div");
-  const send = element("button", { type: "submit", id: "any-send", text: "Send" });
-  const note = element("p.note", { id: "any-note", role: "status" });
-  const form = element(
+  const about = html("p.quiet", { id: "any-about" });
+  const fields = html("div");
+  const send = html("button", { type: "submit", id: "any-send", text: "Send" });
+  const note = html("p.note", { id: "any-note", role: "status" });
+  const form = html(
     "form",
     { novalidate: true, on: { submit: (event) => submit(event) } },
-    element("div.field", {}, element("label", { for: "any-name", text: "Command" }), input, names),
+    html("div.field", {}, html("label", { for: "any-name", text: "Command" }), input, names),
     about,
     fields,
-    element("div.row", {}, send),
+    html("div.row", {}, send),
     note,
   );
-  const details = element("details", { id: "any-command" }, element("summary", {}, place.querySelector("h2")), why, form);
+  const details = html("details", { id: "any-command" }, html("summary", {}, place.querySelector("h2")), why, form);
   place.append(details);
   let offered = null;
   let offeredWords = "";
@@ -49,7 +48,7 @@ export function mount(place, store, connection) {
     // After a lost connection the same ones arrive again: the input stays.
     if (words !== offeredWords && commands.length > 0) {
       offeredWords = words;
-      names.replaceChildren(...commands.map(({ name }) => element("option", { value: name })));
+      names.replaceChildren(...commands.map(({ name }) => html("option", { value: name })));
       chosen = { name: "", command: null, part: null };
       fields.replaceChildren();
       choose();
@@ -69,14 +68,14 @@ export function mount(place, store, connection) {
     if (!isSame) {
       fields.replaceChildren(...(part === null ? [] : [part.element]));
     }
-    setText(about, aboutWords(name, command));
+    setText(about, aboutText(name, command));
     setText(note, "");
     offer();
   }
 
-  function objection(data = null) {
+  function reasonNow(data = null) {
     const name = chosen.command?.name ?? chosen.name;
-    return ruleAgainst(store, asker, name === "" ? "up.flight_mode.set" : name, data);
+    return nameReason(store, sender, name === "" ? "up.flight_mode.set" : name, data);
   }
 
   // The input was meant for the aircraft watched before.
@@ -89,29 +88,28 @@ export function mount(place, store, connection) {
   }
 
   function offer() {
-    const words = objection();
-    setText(why, words);
-    why.hidden = words === "";
-    chosen.part?.offer(words === "");
-    send.disabled = words !== "" || chosen.part === null;
+    const reason = reasonNow();
+    showReason(why, reason);
+    chosen.part?.offer(reason === null);
+    send.disabled = reason !== null || chosen.part === null;
   }
 
   async function submit(event) {
     event.preventDefault();
     const { name, command, part } = chosen;
-    if (part === null || objection() !== "") {
+    if (part === null || reasonNow() !== null) {
       return;
     }
     const problem = command === null ? nameProblem(name) : "";
     const data = problem ? null : part.read();
-    const against = problem || (data === null ? "" : objection(data));
-    if (data === null || against) {
-      tell(note, against, "bad");
+    const reason = data === null ? { code: "invalid", text: problem } : reasonNow(data);
+    if (reason !== null) {
+      showNote(note, reason.text, "bad", reason.code);
       return;
     }
     const sent = command?.name ?? name;
     const warning = warningOf(store, sent, data);
-    await asker.ask(sent, data, {
+    await sender.send(sent, data, {
       note,
       question: questionOf(sent, data, command, warning),
       isForced: command === null,
@@ -138,12 +136,12 @@ function partOf(command) {
   return command === null ? new UnknownFields() : new KnownFields(command);
 }
 
-function aboutWords(name, command) {
+function aboutText(name, command) {
   if (name === "") {
     return "";
   }
   if (command === null) {
-    return "This ground station does not know it. The aircraft may: an application has Commands of its own.";
+    return "Unknown to this ground station; the aircraft may have it.";
   }
   const role = command.role === "depends" ? "" : ` [${command.role} or more]`;
   const alias = name === command.name ? "" : `${command.name}: `;
@@ -153,13 +151,13 @@ function aboutWords(name, command) {
 /** command: null: unknown here; warning: shown before sending. */
 export function questionOf(name, data, command, warning = "") {
   const written = JSON.stringify(data);
-  const shown = written.length > LONGEST_SHOWN ? `${written.slice(0, LONGEST_SHOWN)}...` : written;
+  const shown = written.length > MAX_SHOWN ? `${written.slice(0, MAX_SHOWN)}...` : written;
   const lines = [written === "{}" ? "Without fields." : shown, warning].filter(Boolean).join("\n\n");
   return command !== null
     ? { title: `Send ${name}?`, text: `${command.text}\n\n${lines}`, yes: "Send", no: "Do not send", isDanger: false }
     : {
         title: `Send ${name} unchecked?`,
-        text: `Nobody on the ground knows this Command: nothing has checked its name and its fields, and nothing here can say what it does. If the aircraft has it, it carries it out.\n\n${lines}`,
+        text: `Unknown to this ground station: its name and fields are unchecked. If the aircraft has this Command, it executes it.\n\n${lines}`,
         yes: "Send unchecked",
         no: "Do not send",
         isDanger: true,

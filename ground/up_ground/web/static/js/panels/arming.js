@@ -1,30 +1,30 @@
-import { setAttribute, setText } from "../readout.js";
-import { element } from "./element.js";
+import { SILENT } from "./disabled_reason.js";
+import { html, setAttribute, setText } from "../dom.js";
 import { heading } from "./flight_modes.js";
 import { HeldButton } from "./held_button.js";
 
 /** Arm and disarm, each by a held press, which prevents accidents. */
 export class Arming {
   #store;
-  #asker;
+  #sender;
   #arm;
   #disarm;
-  #state = element("strong");
-  #line = element("p.quiet");
-  #note = element("p.note", { id: "arming-note", role: "status" });
+  #state = html("strong");
+  #line = html("p.quiet");
+  #note = html("p.note", { id: "arming-note", role: "status" });
 
-  constructor(store, asker) {
+  constructor(store, sender) {
     this.#store = store;
-    this.#asker = asker;
+    this.#sender = sender;
     this.#arm = this.#button("arm-button", "Hold to arm", "up.arm");
     this.#disarm = this.#button("disarm-button", "Hold to disarm", "up.disarm");
-    const state = element("p.armed-state", {}, "The motor is ", this.#state);
-    this.element = element(
+    const state = html("p.armed-state", {}, "The motor is ", this.#state);
+    this.element = html(
       "section.part.arming",
       {},
       heading("Motor"),
       state,
-      element("div.buttons", {}, this.#arm.button, this.#disarm.button),
+      html("div.buttons", {}, this.#arm.button, this.#disarm.button),
       this.#arm.how,
       this.#disarm.how,
       this.#line,
@@ -37,8 +37,8 @@ export class Arming {
     const armed = this.#armed();
     setText(this.#state, armed === null ? "in a state not known" : armed ? "ARMED" : "disarmed");
     setAttribute(this.#state, "data-armed", String(armed));
-    this.#arm.button.disabled = this.#refusal("up.arm") !== "";
-    this.#disarm.button.disabled = this.#refusal("up.disarm") !== "";
+    this.#arm.button.disabled = this.#reason("up.arm") !== null;
+    this.#disarm.button.disabled = this.#reason("up.disarm") !== null;
     this.#arm.update();
     this.#disarm.update();
     setText(this.#line, this.#lineText(isLive, armed));
@@ -48,29 +48,30 @@ export class Arming {
     return new HeldButton({
       id,
       text,
-      objection: () => this.#refusal(name),
-      fire: () => this.#asker.ask(name, {}, { note: this.#note }),
+      disabledReason: () => this.#reason(name),
+      fire: () => this.#sender.send(name, {}, { note: this.#note }),
       now_s: () => this.#store.now_s,
       note: this.#note,
     });
   }
 
-  #refusal(name) {
-    const why = this.#asker.objection(name);
-    if (why) {
-      return why;
+  #reason(name) {
+    const reason = this.#sender.disabledReason(name);
+    if (reason !== null) {
+      return reason;
     }
     if (this.#store.aircraftState !== "live") {
-      return "The aircraft is silent.";
+      return SILENT;
     }
     const armed = this.#armed();
-    if (armed !== null && armed === (name === "up.arm")) {
-      return armed ? "The motor is armed already." : "The motor is disarmed already.";
+    if (armed === null || armed !== (name === "up.arm")) {
+      return null;
     }
-    return "";
+    return armed
+      ? { code: "armed", text: "The motor is already armed." }
+      : { code: "disarmed", text: "The motor is already disarmed." };
   }
 
-  /** Whether the motor is armed, null without a fresh value. */
   #armed() {
     return this.#store.freshnessAt("armed") === "live" ? this.#store.flag("armed") : null;
   }

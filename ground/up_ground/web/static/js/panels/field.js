@@ -1,5 +1,4 @@
-import { setText } from "../readout.js";
-import { element } from "./element.js";
+import { html, setText } from "../dom.js";
 
 /** A field with its label, its button, and the error of its content. */
 export class Field {
@@ -11,15 +10,15 @@ export class Field {
   constructor({ id, label, button, input, read, send }) {
     this.#read = read;
     this.#send = send;
-    this.input = element("input", { id, "aria-describedby": `${id}-note`, ...input });
-    this.button = element("button", { type: "submit", id: `${id}-send`, text: button });
-    this.note = element("p.note", { id: `${id}-note`, role: "status" });
-    this.hint = element("p.quiet");
-    this.element = element(
+    this.input = html("input", { id, "aria-describedby": `${id}-note`, ...input });
+    this.button = html("button", { type: "submit", id: `${id}-send`, text: button });
+    this.note = html("p.note", { id: `${id}-note`, role: "status" });
+    this.hint = html("p.quiet");
+    this.element = html(
       "form.field",
-      { novalidate: true, on: { submit: (event) => this.#submit(event), input: () => this.#judge() } },
-      element("label", { for: id, text: label }),
-      element("div.field-row", {}, this.input, this.button),
+      { novalidate: true, on: { submit: (event) => this.#submit(event), input: () => this.#validate() } },
+      html("label", { for: id, text: label }),
+      html("div.field-row", {}, this.input, this.button),
       this.hint,
       this.note,
     );
@@ -45,7 +44,7 @@ export class Field {
     this.#say("");
   }
 
-  #judge() {
+  #validate() {
     const { problem } = this.input.value === "" ? { problem: "" } : this.#read(this.input.value);
     this.#say(problem);
   }

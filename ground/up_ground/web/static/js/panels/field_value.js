@@ -34,7 +34,7 @@ export function jsonFields(text) {
   try {
     value = JSON.parse(text);
   } catch (error) {
-    return { problem: `this is no JSON: ${error.message}` };
+    return { problem: `invalid JSON: ${error.message}` };
   }
   return isObject(value)
     ? { problem: "", value }

@@ -1,7 +1,6 @@
-import { setAttribute, setText } from "../readout.js";
-import { element } from "./element.js";
-import { switchMode } from "./switch.js";
-import { modeWords } from "./words.js";
+import { html, setAttribute, setText } from "../dom.js";
+import { modeText } from "./messages.js";
+import { switchMode } from "../state/pilot_input.js";
 
 /** Modes that the ground may select; only the pilot's switch selects ACRO. */
 const MODES = ["RATE", "FBW", "AUTO"];
@@ -13,17 +12,17 @@ const FLOWN_AT_AUTO = ["SETPOINT", "OUTPUT"];
 /** The buttons of the flight modes; the one that is flown is marked. */
 export class FlightModes {
   #store;
-  #asker;
+  #sender;
   #buttons = new Map();
-  #line = element("p.quiet");
-  #note = element("p.note", { role: "status" });
+  #line = html("p.quiet");
+  #note = html("p.note", { role: "status" });
 
-  constructor(store, asker) {
+  constructor(store, sender) {
     this.#store = store;
-    this.#asker = asker;
-    const row = element("div.buttons.modes", { role: "group", "aria-label": "Flight mode" });
+    this.#sender = sender;
+    const row = html("div.buttons.modes", { role: "group", "aria-label": "Flight mode" });
     for (const mode of MODES) {
-      const button = element(
+      const button = html(
         "button",
         {
           type: "button",
@@ -31,13 +30,13 @@ export class FlightModes {
           "aria-pressed": "false",
           on: { click: () => this.#select(mode) },
         },
-        element("strong", { text: mode }),
-        element("small", { text: modeWords(mode) }),
+        html("strong", { text: mode }),
+        html("small", { text: modeText(mode) }),
       );
       this.#buttons.set(mode, button);
       row.append(button);
     }
-    this.element = element("section.part", {}, heading("Flight mode"), row, this.#line, this.#note);
+    this.element = html("section.part", {}, heading("Flight mode"), row, this.#line, this.#note);
   }
 
   update() {
@@ -48,32 +47,33 @@ export class FlightModes {
     for (const [mode, button] of this.#buttons) {
       // RATE and FBW are the board's own; AUTO is flown by a controller on the Raspberry Pi, if any.
       const isOffered = mode !== "AUTO" || isControllerReady;
-      button.disabled = !isOffered || this.#asker.objection(NAME, { mode }) !== "";
+      button.disabled = !isOffered || this.#sender.disabledReason(NAME, { mode }) !== null;
       setAttribute(button, "aria-pressed", String(mode === selected));
       setAttribute(button, "data-offered", String(isOffered));
     }
-    setText(this.#line, this.#lineText(isControllerReady));
+    const missing = isControllerReady ? [] : (store.texts("flight_control.missing") ?? []);
+    setText(this.#line, this.#lineText(isControllerReady, missing));
+    setAttribute(this.#line, "data-missing", missing.join(" "));
   }
 
   async #select(mode) {
     const flown = this.#store.text("flight_mode") ?? "an unknown mode";
     const question = {
       title: `Fly ${mode}?`,
-      text: `Now it flies ${flown}. In ${mode} ${modeWords(mode)}. The pilot's switch decides: leaving AUTO there takes over at once.`,
+      text: `Now it flies ${flown}. In ${mode} ${modeText(mode)}. The pilot's switch decides: leaving AUTO there takes over immediately.`,
       yes: `Fly ${mode}`,
       no: "Leave it",
     };
-    await this.#asker.ask(NAME, { mode }, { note: this.#note, question });
+    await this.#sender.send(NAME, { mode }, { note: this.#note, question });
   }
 
-  #lineText(isControllerReady) {
+  #lineText(isControllerReady, missing) {
     const words = [];
     const selected = switchMode(this.#store);
     if (selected !== null && selected !== "AUTO") {
       words.push(`The pilot's switch stands at ${selected}: the aircraft takes a mode only at AUTO.`);
     }
     if (!isControllerReady) {
-      const missing = this.#store.texts("flight_control.missing") ?? [];
       const why = missing.length > 0 ? ` (missing: ${missing.join(", ")})` : "";
       words.push(`AUTO is not offered: the Raspberry Pi's flight controller cannot fly now${why}.`);
     }
@@ -81,7 +81,6 @@ export class FlightModes {
   }
 }
 
-/** The heading of a part of a panel. */
 export function heading(text) {
-  return element("h3", { text });
+  return html("h3", { text });
 }

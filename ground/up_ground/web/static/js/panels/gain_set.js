@@ -1,5 +1,5 @@
 /** The greatest gain; the least is 0 (docs/protocols.md 5). */
-export const GREATEST = 50;
+export const MAX_GAIN = 50;
 
 /** The loops of a set that a controller uses, in the order of the wire. */
 export const LOOPS = [
@@ -7,7 +7,6 @@ export const LOOPS = [
   { key: "stabPIDs", word: "stabilize", unit: "deg/s per deg" },
 ];
 
-/** The axes of a loop. */
 export const AXES = [
   { key: "ailerons", word: "roll" },
   { key: "elevator", word: "pitch" },
@@ -19,7 +18,6 @@ export function isUsed(loop, axis) {
   return loop.key !== "stabPIDs" || axis.key !== "rudder";
 }
 
-/** The gains of an axis. */
 export const TERMS = ["p", "i", "d"];
 
 /**
@@ -41,7 +39,6 @@ export function cellsOf(set) {
   return cells;
 }
 
-/** The complete set, in the form in which it is sent. */
 export function setOf(cells) {
   const set = {};
   for (const [path, value] of cells) {
@@ -54,7 +51,7 @@ export function setOf(cells) {
 }
 
 /** As `rate roll P`. */
-export function cellWords(path) {
+export function cellText(path) {
   const [loop, axis, term] = path.split(".");
   const word = (list, key) => list.find((each) => each.key === key)?.word ?? key;
   return `${word(LOOPS, loop)} ${word(AXES, axis)} ${term.toUpperCase()}`;
@@ -80,26 +77,25 @@ export function readGain(written) {
     return { value: NaN, problem: `is not a number${hint}` };
   }
   const value = Number(text);
-  if (value < 0 || value > GREATEST) {
-    return { value: NaN, problem: `must be 0 to ${GREATEST}` };
+  if (value < 0 || value > MAX_GAIN) {
+    return { value: NaN, problem: `must be 0 to ${MAX_GAIN}` };
   }
   return { value, problem: "" };
 }
 
-/** The differences. */
 export function difference(before, after) {
   const found = [];
   for (const [path, value] of after) {
     const old = before.get(path);
     if (old !== undefined && gainText(old) !== gainText(value)) {
-      found.push({ path, before: old, after: value, words: changeWords(path, old, value) });
+      found.push({ path, before: old, after: value, words: changeText(path, old, value) });
     }
   }
   return found;
 }
 
-function changeWords(path, before, after) {
-  const change = `${cellWords(path)} ${gainText(before)} → ${gainText(after)}`;
+function changeText(path, before, after) {
+  const change = `${cellText(path)} ${gainText(before)} → ${gainText(after)}`;
   if (before === 0) {
     return `${change}, was off`;
   }

@@ -1,32 +1,29 @@
 import { confirm } from "../dialog.js";
-import { setAttribute, setText } from "../readout.js";
-import { ageText } from "../state/format.js";
-import { Asker } from "./asker.js";
-import { element } from "./element.js";
+import { html, setAttribute, setText } from "../dom.js";
+import { CommandSender } from "./command_sender.js";
+import { gainsReason, gainsWarning, showReason } from "./disabled_reason.js";
 import { cellsOf, difference } from "./gain_set.js";
 import { GainsEditor, setBefore } from "./gains_editor.js";
-import { entriesOf, GainsHistory } from "./gains_history.js";
-import { GainsTable } from "./gains_table.js";
-import { gainsObjection, gainsWarning } from "./gains_why.js";
+import { entriesOf, GainsHistory, GainsTable } from "./gains_table.js";
+import { ageText } from "../state/format.js";
 
 const NAME = "arduino.pids.tunings";
 
-/** The gains that fly, editing them, and sending whole sets. */
 export function mount(place, store, connection) {
   return new GainsPanel(place, store, connection);
 }
 
 class GainsPanel {
   #store;
-  #asker;
+  #sender;
   #editor = new GainsEditor();
   #history = new GainsHistory();
   #table = new GainsTable(this.#editor, () => this.update());
-  #state = element("p.quiet", { id: "gains-state" });
-  #why = element("p.why", { id: "gains-why" });
-  #conflict = element("ul.conflict", { id: "gains-conflict", role: "alert" });
-  #difference = element("ul.difference", { id: "gains-difference", "aria-live": "polite" });
-  #note = element("p.note", { id: "gains-note", role: "status" });
+  #state = html("p.quiet", { id: "gains-state" });
+  #why = html("p.why", { id: "gains-why" });
+  #conflict = html("ul.conflict", { id: "gains-conflict", role: "alert" });
+  #difference = html("ul.difference", { id: "gains-difference", "aria-live": "polite" });
+  #note = html("p.note", { id: "gains-note", role: "status" });
   #buttons;
   #shown = undefined;
   #shownAircraft = null;
@@ -34,8 +31,8 @@ class GainsPanel {
 
   constructor(place, store, connection) {
     this.#store = store;
-    this.#asker = new Asker(store, connection);
-    const button = (id, text, click) => element("button", { type: "button", id, text, on: { click } });
+    this.#sender = new CommandSender(store, connection);
+    const button = (id, text, click) => html("button", { type: "button", id, text, on: { click } });
     this.#buttons = {
       send: button("gains-send", "Send gains", () => this.#send()),
       discard: button("gains-discard", "Discard", () => this.#discard()),
@@ -43,28 +40,26 @@ class GainsPanel {
       ask: button("gains-ask", "Ask the aircraft", () => this.#ask({ request: true })),
     };
     const { send, discard, undo, ask } = this.#buttons;
-    const row = element("div.buttons", {}, undo, discard, send);
-    place.append(this.#state, element("div.row", {}, ask), this.#why, this.#table.element, this.#conflict, this.#difference);
+    const row = html("div.buttons", {}, undo, discard, send);
+    place.append(this.#state, html("div.row", {}, ask), this.#why, this.#table.element, this.#conflict, this.#difference);
     place.append(row, this.#note, this.#history.element);
   }
 
   update() {
     this.#take();
     const store = this.#store;
-    const why = gainsObjection(store, this.#asker);
-    const warning = why === "" ? gainsWarning(store) : "";
-    setText(this.#why, why || warning);
-    this.#why.hidden = this.#why.textContent === "";
+    const reason = gainsReason(store, this.#sender);
+    showReason(this.#why, reason, gainsWarning(store));
     setText(this.#state, this.#stateText());
-    this.#table.show(why === "");
+    this.#table.show(reason === null);
     this.#showLists();
     const { send, discard, undo, ask } = this.#buttons;
-    send.disabled = why !== "" || this.#editor.wanted === null;
+    send.disabled = reason !== null || this.#editor.wanted === null;
     discard.hidden = !this.#editor.isEdited;
-    undo.disabled = why !== "" || this.#before() === null;
+    undo.disabled = reason !== null || this.#before() === null;
     // A recorded flight cannot be changed.
     ask.hidden = undo.hidden = send.hidden = store.replay !== null;
-    ask.disabled = this.#asker.objection(NAME, { request: true }) !== "";
+    ask.disabled = this.#sender.disabledReason(NAME, { request: true }) !== null;
     this.#history.show(store.gains, store.flight_s - this.#came_s);
   }
 
@@ -95,10 +90,10 @@ class GainsPanel {
   #stateText() {
     const gains = this.#store.gains;
     if (!gains?.flying) {
-      return "The gains that fly are not known yet.";
+      return "The active gains are not known yet.";
     }
     const told_s = (Number(gains.age_ms) || 0) / 1000 + this.#store.flight_s - this.#came_s;
-    return `What flies, as the aircraft told it ${ageText(told_s)} ago.`;
+    return `Active gains, reported by the aircraft ${ageText(told_s)} ago.`;
   }
 
   async #send() {
@@ -107,7 +102,7 @@ class GainsPanel {
       return;
     }
     const changed = this.#editor.difference.map(({ words }) => words);
-    const found = conflicts.map(({ words }) => `Changed meanwhile: ${words}.`);
+    const found = conflicts.map(({ words }) => `Changed by another page: ${words}.`);
     const text = [...changed, ...found, gainsWarning(this.#store)].filter(Boolean).join("\n");
     const isYes = await confirm({ title: "Send these gains?", text, yes: "Send", no: "Not yet" });
     if (isYes) {
@@ -140,14 +135,14 @@ class GainsPanel {
   }
 
   #ask(data) {
-    return this.#asker.ask(NAME, data, { note: this.#note });
+    return this.#sender.send(NAME, data, { note: this.#note });
   }
 }
 
 function showLines(list, lines) {
   const shown = [...list.children].map((each) => each.textContent);
   if (shown.join("\n") !== lines.join("\n")) {
-    list.replaceChildren(...lines.map((text) => element("li", { text })));
+    list.replaceChildren(...lines.map((text) => html("li", { text })));
   }
   list.hidden = lines.length === 0;
 }

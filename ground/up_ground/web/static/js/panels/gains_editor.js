@@ -1,4 +1,4 @@
-import { cellsOf, cellWords, difference, gainText, readGain, setOf } from "./gain_set.js";
+import { cellsOf, cellText, difference, gainText, readGain, setOf } from "./gain_set.js";
 
 /**
  * The edited gains beside the active ones.
@@ -10,7 +10,6 @@ export class GainsEditor {
   #flying = new Map();
   #edits = new Map();
 
-  /** The flying gains by their paths. */
   get flying() {
     return this.#flying;
   }
@@ -43,7 +42,6 @@ export class GainsEditor {
     }
   }
 
-  /** Take everything back that was written. */
   discard() {
     this.#edits.clear();
   }
@@ -55,23 +53,20 @@ export class GainsEditor {
     }
   }
 
-  /** The content of a cell. */
   textOf(path) {
     const flying = this.#flying.get(path);
     return this.#edits.get(path)?.written ?? (flying === undefined ? "" : gainText(flying));
   }
 
-  /** Whether a cell differs from the active value. */
   isCellEdited(path) {
     return this.#edits.has(path);
   }
 
-  /** Cells that hold no gain. */
   get problems() {
     return [...this.#edits]
       .map(([path, { written }]) => ({ path, problem: readGain(written).problem }))
       .filter(({ problem }) => problem)
-      .map(({ path, problem }) => ({ path, words: `${cellWords(path)} ${problem}` }));
+      .map(({ path, problem }) => ({ path, words: `${cellText(path)} ${problem}` }));
   }
 
   /** Edited cells whose active value has changed. */
@@ -80,7 +75,7 @@ export class GainsEditor {
     for (const [path, { written, seen }] of this.#edits) {
       const flying = this.#flying.get(path);
       if (flying !== undefined && gainText(flying) !== gainText(seen)) {
-        const words = `${cellWords(path)}: ${gainText(flying)} flies now, it was ${gainText(seen)} when you wrote ${written.trim()}`;
+        const words = `${cellText(path)}: ${gainText(flying)} flies now, it was ${gainText(seen)} when you wrote ${written.trim()}`;
         found.push({ path, words });
       }
     }
@@ -92,7 +87,6 @@ export class GainsEditor {
     return difference(this.#flying, this.#wanted());
   }
 
-  /** The whole set to send; null: no changes, or a cell without a gain. */
   get wanted() {
     return this.isEdited && this.problems.length === 0 ? setOf(this.#wanted()) : null;
   }

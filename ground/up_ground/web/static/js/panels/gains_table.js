@@ -1,6 +1,17 @@
-import { setAttribute, setText } from "../readout.js";
-import { element } from "./element.js";
-import { AXES, GREATEST, LOOPS, TERMS, cellWords, gainText, isUsed, readGain } from "./gain_set.js";
+import { html, setAttribute, setText } from "../dom.js";
+import {
+  AXES,
+  cellsOf,
+  cellText,
+  difference,
+  gainText,
+  MAX_GAIN,
+  isUsed,
+  LOOPS,
+  readGain,
+  TERMS,
+} from "./gain_set.js";
+import { agoText } from "./messages.js";
 
 /** The fields of a set of gains: a table for each loop, a row for each axis. */
 export class GainsTable {
@@ -9,14 +20,12 @@ export class GainsTable {
   #cells = new Map();
   #shape = "";
 
-  /** onInput: something was written. */
   constructor(editor, onInput) {
     this.#editor = editor;
     this.#onInput = onInput;
-    this.element = element("div.gains", { id: "gains" });
+    this.element = html("div.gains", { id: "gains" });
   }
 
-  /** isOffered: whether anything may be written. */
   show(isOffered) {
     const shape = [...this.#editor.flying.keys()].join();
     if (shape !== this.#shape) {
@@ -46,11 +55,11 @@ export class GainsTable {
       const used = AXES.filter((axis) => isUsed(loop, axis));
       const rows = used.map((axis) => this.#row(loop, axis)).filter((row) => row !== null);
       if (rows.length > 0) {
-        const head = element("tr", {}, element("th", { scope: "col", text: "" }));
-        head.append(...TERMS.map((term) => element("th", { scope: "col", text: term.toUpperCase() })));
-        const title = element("caption", {}, element("strong", { text: capital(loop.word) }), ` ${loop.unit}`);
-        const body = element("tbody", {}, ...rows);
-        this.element.append(element("table", {}, title, element("thead", {}, head), body));
+        const head = html("tr", {}, html("th", { scope: "col", text: "" }));
+        head.append(...TERMS.map((term) => html("th", { scope: "col", text: term.toUpperCase() })));
+        const title = html("caption", {}, html("strong", { text: capital(loop.word) }), ` ${loop.unit}`);
+        const body = html("tbody", {}, ...rows);
+        this.element.append(html("table", {}, title, html("thead", {}, head), body));
       }
     }
   }
@@ -60,19 +69,19 @@ export class GainsTable {
     if (!paths.every((path) => this.#editor.flying.has(path))) {
       return null;
     }
-    const row = element("tr", {}, element("th", { scope: "row", text: axis.word }));
+    const row = html("tr", {}, html("th", { scope: "row", text: axis.word }));
     for (const path of paths) {
-      const input = element("input", {
+      const input = html("input", {
         name: path,
         type: "text",
         inputmode: "decimal",
         autocomplete: "off",
-        "aria-label": `${cellWords(path)}, 0 to ${GREATEST}`,
+        "aria-label": `${cellText(path)}, 0 to ${MAX_GAIN}`,
         on: { input: () => this.#written(path) },
       });
-      const flying = element("small", { title: "flies now" });
+      const flying = html("small", { title: "flies now" });
       this.#cells.set(path, { input, flying });
-      row.append(element("td", {}, input, flying));
+      row.append(html("td", {}, input, flying));
     }
     return row;
   }
@@ -85,4 +94,57 @@ export class GainsTable {
 
 function capital(word) {
   return word[0].toUpperCase() + word.slice(1);
+}
+
+const OUTCOMES = { ack: "carried out", nack: "refused", timeout: "no answer", unsent: "not sent", refused: "refused" };
+
+/** The sent sets: time, sender, changes and outcome. */
+export class GainsHistory {
+  #list = html("ol.gains-history", { id: "gains-history" });
+  #ages = [];
+  #shown = null;
+
+  constructor() {
+    this.element = html("details", { hidden: true }, html("summary", { text: "History" }), this.#list);
+  }
+
+  /** message: the server's `gains`; since_s: seconds since its arrival. */
+  show(message, since_s) {
+    if (message !== this.#shown) {
+      this.#shown = message;
+      this.#build(entriesOf(message));
+    }
+    for (const { time, age_s } of this.#ages) {
+      setText(time, agoText(age_s + since_s));
+    }
+  }
+
+  #build(entries) {
+    this.element.hidden = entries.length === 0;
+    this.#ages = [];
+    this.#list.replaceChildren();
+    for (const entry of [...entries].reverse()) {
+      const time = html("time");
+      const changes = difference(cellsOf(entry.before), cellsOf(entry.after)).map(({ words }) => words);
+      const reason = entry.outcome === "ack" || !entry.reason ? "" : `: ${entry.reason}`;
+      const outcome = `${OUTCOMES[entry.outcome] ?? entry.outcome}${reason}`;
+      this.#list.append(
+        html(
+          "li",
+          { "data-outcome": entry.outcome },
+          html("span", { text: changes.join("; ") || "no difference" }),
+          html("span.quiet", { text: `by ${entry.by || "somebody"}, ${outcome}, ` }, time),
+        ),
+      );
+      this.#ages.push({ time, age_s: Number(entry.age_s) || 0 });
+    }
+  }
+}
+
+/** message: the server's `gains`. Returns its history, the oldest first. */
+export function entriesOf(message) {
+  const entries = Array.isArray(message?.history) ? message.history : [];
+  return entries
+    .filter((each) => each !== null && typeof each === "object")
+    .toSorted((one, other) => Number(one.number) - Number(other.number));
 }

@@ -1,48 +1,50 @@
-import { setAttribute } from "../readout.js";
-import { tell } from "./asker.js";
-import { drawn, element } from "./element.js";
-import { HOLD_S, HeldPress } from "./held_press.js";
+import { html, setAttribute, svg } from "../dom.js";
+import { showNote } from "./command_sender.js";
+import { HeldPress, HOLD_S } from "./held_press.js";
 
 const ROUND = 2 * Math.PI * 15;
 const KEYS = new Set([" ", "Enter"]);
+const LEFT = { code: "pointer_left", text: "the pointer left the button" };
+const UNFOCUSED = { code: "unfocused", text: "the focus moved elsewhere" };
 
 /**
  * A button that acts only when it is held, by pointer, touch or key.
  *
- * `objection()` returns why it may not be pressed now; it is called throughout the press. A
+ * `disabledReason()` returns why it may not be pressed now, {code, text} or null; it is called
+ * throughout the press. A
  * disabled button ignores presses too: browsers deliver pointer events to it all the same. `fire()`
  * is called once when the press has lasted long enough. `note` shows why a press did not.
  */
 export class HeldButton {
   #press = new HeldPress();
-  #objection;
+  #disabledReason;
   #fire;
   #clock_s;
   #ring;
   #note;
   #isLooking = false;
 
-  constructor({ id, text, objection, fire, now_s, note }) {
+  constructor({ id, text, disabledReason, fire, now_s, note }) {
     this.#note = note;
-    this.#objection = objection;
+    this.#disabledReason = disabledReason;
     this.#fire = fire;
     this.#clock_s = now_s;
-    this.#ring = drawn("circle.ring-done", { cx: 18, cy: 18, r: 15, "stroke-dasharray": ROUND });
-    const ring = drawn(
+    this.#ring = svg("circle.ring-done", { cx: 18, cy: 18, r: 15, "stroke-dasharray": ROUND });
+    const ring = svg(
       "svg.ring",
       { viewBox: "0 0 36 36", "aria-hidden": "true" },
-      drawn("circle.ring-whole", { cx: 18, cy: 18, r: 15 }),
+      svg("circle.ring-whole", { cx: 18, cy: 18, r: 15 }),
       this.#ring,
     );
-    this.button = element(
+    this.button = html(
       "button.held",
       { id, type: "button", "aria-describedby": `${id}-how` },
       ring,
-      element("span", { text }),
+      html("span", { text }),
     );
-    this.how = element("span.hidden-text", {
+    this.how = html("span.hidden-text", {
       id: `${id}-how`,
-      text: `Hold for ${HOLD_S} seconds; with the keyboard hold Space or Enter. Letting go before that does nothing.`,
+      text: `Hold for ${HOLD_S} seconds; with the keyboard hold Space or Enter. Releasing it earlier does nothing.`,
     });
     this.#listen();
     this.#show();
@@ -67,11 +69,11 @@ export class HeldButton {
     // A finger is captured by the first element it touched: only its position shows that it left.
     button.addEventListener("pointermove", (event) => {
       if (this.#press.state === "pressed" && !isWithin(event, button)) {
-        this.#end(() => this.#press.void("the pointer left the button"));
+        this.#end(() => this.#press.void(LEFT));
       }
     });
-    button.addEventListener("pointerleave", () => this.#abandon("the pointer left the button"));
-    button.addEventListener("pointercancel", () => this.#abandon("the touch was interrupted"));
+    button.addEventListener("pointerleave", () => this.#abandon(LEFT));
+    button.addEventListener("pointercancel", () => this.#abandon({ code: "touch_cancelled", text: "the touch was interrupted" }));
     button.addEventListener("contextmenu", (event) => event.preventDefault());
     button.addEventListener("keydown", (event) => {
       if (KEYS.has(event.key)) {
@@ -80,7 +82,7 @@ export class HeldButton {
           this.#begin(`key ${event.key}`, now_s());
         }
       } else if (event.key === "Escape") {
-        this.#end(() => this.#press.void("Escape was pressed"));
+        this.#end(() => this.#press.void({ code: "escape", text: "Escape was pressed" }));
       }
     });
     button.addEventListener("keyup", (event) => {
@@ -91,19 +93,23 @@ export class HeldButton {
     // The release may happen elsewhere: a button that became disabled gets no more key events.
     window.addEventListener("pointerup", ({ pointerId }) => this.#release(`pointer ${pointerId}`), true);
     window.addEventListener("keyup", ({ key }) => this.#release(`key ${key}`), true);
-    button.addEventListener("blur", () => this.#abandon("the focus went elsewhere"));
-    window.addEventListener("blur", () => this.#abandon("the window lost the focus"));
+    button.addEventListener("blur", () => this.#abandon(UNFOCUSED));
+    window.addEventListener("blur", () => this.#abandon(UNFOCUSED));
     document.addEventListener("visibilitychange", () => {
       if (document.hidden) {
-        this.#abandon("the page was hidden");
+        this.#abandon({ code: "hidden", text: "the page was hidden" });
       }
     });
   }
 
   #begin(by, now_s) {
-    this.#press.press(by, now_s, this.#refusal());
+    this.#press.press(by, now_s, this.#reason());
     const isPressed = this.#press.state === "pressed";
-    tell(this.#note, isPressed ? "keep holding" : `not sent: ${this.#press.why}`, "plain");
+    if (isPressed) {
+      showNote(this.#note, "keep holding", "plain", "pressed");
+    } else {
+      this.#showVoid();
+    }
     if (isPressed && !this.#isLooking) {
       this.#isLooking = true;
       requestAnimationFrame(() => this.#tick());
@@ -122,21 +128,21 @@ export class HeldButton {
 
   #look() {
     this.#end(() => {
-      if (this.#press.look(this.#clock_s(), this.#refusal())) {
+      if (this.#press.update(this.#clock_s(), this.#reason())) {
         this.#fire();
       }
     });
   }
 
-  #refusal() {
-    const why = this.#objection();
-    if (why) {
-      return why;
+  #reason() {
+    const reason = this.#disabledReason();
+    if (reason !== null) {
+      return reason;
     }
     if (this.button.closest("[inert]") !== null) {
-      return "this part of the page has stopped";
+      return { code: "part_failed", text: "this part of the page has failed" };
     }
-    return this.button.disabled ? "it is not offered now" : "";
+    return this.button.disabled ? { code: "disabled", text: "it is not offered now" } : null;
   }
 
   #release(by) {
@@ -145,9 +151,9 @@ export class HeldButton {
     }
   }
 
-  #abandon(why) {
+  #abandon(reason) {
     if (this.#press.state !== "idle") {
-      this.#end(() => this.#press.abandon(why));
+      this.#end(() => this.#press.abandon(reason));
     }
   }
 
@@ -155,9 +161,14 @@ export class HeldButton {
     const wasPressed = this.#press.state === "pressed";
     change();
     if (wasPressed && this.#press.state !== "pressed" && this.#press.state !== "done") {
-      tell(this.#note, `not sent: ${this.#press.why}`, "plain");
+      this.#showVoid();
     }
     this.#show();
+  }
+
+  #showVoid() {
+    const { code, text } = this.#press.reason;
+    showNote(this.#note, `not sent: ${text}`, "plain", code);
   }
 
   #show() {

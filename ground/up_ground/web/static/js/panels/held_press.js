@@ -1,8 +1,7 @@
-/** How long a press must last. */
 export const HOLD_S = 1.5;
 
 /** Maximum time between two updates of a press: a page that hung must not fire when it wakes. */
-const LONGEST_LOOK_S = 0.5;
+const MAX_STEP_S = 0.5;
 
 /**
  * A press that acts only when it is held: idle -> pressed -> done, or void.
@@ -17,24 +16,24 @@ export class HeldPress {
 
   /** @type {"idle"|"pressed"|"done"|"void"} */
   state = "idle";
-  /** Why the last press became void, in words; empty while it did not. */
-  why = "";
+  /** Why the last press became void, {code, text}; null: it did not. */
+  reason = null;
 
-  /** by: the input: a pointer or a key, by name; objection: why it may not be pressed now. */
-  press(by, now_s, objection = "") {
+  /** by: the input: a pointer or a key, by name; reason: why it may not be pressed now. */
+  press(by, now_s, reason = null) {
     if (this.#by.has(by)) {
       return;
     }
     this.#by.add(by);
     if (this.state === "idle") {
       this.state = "pressed";
-      this.why = "";
+      this.reason = null;
       this.#began_s = this.#looked_s = now_s;
-      if (objection) {
-        this.void(objection);
+      if (reason !== null) {
+        this.void(reason);
       }
     } else {
-      this.void("something else pressed as well");
+      this.void({ code: "second_input", text: "a second input was pressed" });
     }
   }
 
@@ -43,41 +42,41 @@ export class HeldPress {
     if (!this.#by.delete(by)) {
       return;
     }
-    this.void("it was let go too early");
+    this.void({ code: "too_early", text: "released too early" });
     if (this.#by.size === 0) {
       this.state = "idle";
     }
   }
 
   /** Release all inputs: the pointer was cancelled, the focus was lost. */
-  abandon(why) {
-    this.void(why);
+  abandon(reason) {
+    this.void(reason);
     this.#by.clear();
     this.state = "idle";
   }
 
-  /** why: a press under way is cancelled; any other state stays. */
-  void(why) {
+  /** reason: a press under way is cancelled; any other state stays. */
+  void(reason) {
     if (this.state === "pressed") {
       this.state = "void";
-      this.why = why;
+      this.reason = reason;
     }
   }
 
   /**
-   * Update to the present time. objection: why it may not be pressed now. Returns true once, when
+   * Update to the present time. reason: why it may not be pressed now. Returns true once, when
    * the press has lasted long enough.
    */
-  look(now_s, objection = "") {
+  update(now_s, reason = null) {
     if (this.state !== "pressed") {
       return false;
     }
     const since_s = now_s - this.#looked_s;
     this.#looked_s = now_s;
-    if (objection) {
-      this.void(objection);
-    } else if (since_s > LONGEST_LOOK_S || since_s < 0) {
-      this.void("the page was held up");
+    if (reason !== null) {
+      this.void(reason);
+    } else if (since_s > MAX_STEP_S || since_s < 0) {
+      this.void({ code: "page_delayed", text: "the page was delayed" });
     } else if (now_s - this.#began_s >= HOLD_S) {
       this.state = "done";
       return true;
@@ -85,7 +84,6 @@ export class HeldPress {
     return false;
   }
 
-  /** Completed part of the press, 0 to 1. */
   progress(now_s) {
     if (this.state === "done") {
       return 1;

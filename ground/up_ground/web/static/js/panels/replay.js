@@ -1,14 +1,13 @@
-import { setAttribute, setText } from "../readout.js";
-import { element } from "./element.js";
-import { clockWords } from "./words.js";
+import { html, setAttribute, setText } from "../dom.js";
+import { clockText } from "./messages.js";
 
 const SPEEDS = [0.25, 0.5, 1, 2, 5, 10, 30];
 const STEP_S = 5;
 
 /** Plays a flight of the past: play and pause, speed, where in time; by keys k, j, l as well. */
 export function mount(place, store, connection) {
-  const play = element("button", { type: "button", id: "replay-play", on: { click: toggle } });
-  const slider = element("input", {
+  const play = html("button", { type: "button", id: "replay-play", on: { click: toggle } });
+  const slider = html("input", {
     type: "range",
     id: "replay-time",
     min: 0,
@@ -16,11 +15,11 @@ export function mount(place, store, connection) {
     step: 0.1,
     "aria-label": "Time in the flight",
   });
-  const speed = element("select", { id: "replay-speed", "aria-label": "Speed" });
-  speed.append(...SPEEDS.map((each) => element("option", { value: each, text: `${each} ×` })));
-  const time = element("output", { for: "replay-time" });
-  const name = element("p.quiet", { id: "replay-name" });
-  place.append(element("div.replay-bar", {}, play, slider, time, speed), name);
+  const speed = html("select", { id: "replay-speed", "aria-label": "Speed" });
+  speed.append(...SPEEDS.map((each) => html("option", { value: each, text: `${each} ×` })));
+  const time = html("output", { for: "replay-time" });
+  const name = html("p.quiet", { id: "replay-name" });
+  place.append(html("div.replay-bar", {}, play, slider, time, speed), name);
   let isDragged = false;
 
   slider.addEventListener("input", () => {
@@ -69,10 +68,11 @@ export function mount(place, store, connection) {
       if (replay === null) {
         return;
       }
-      const spoken = `${clockWords(replay.time_s)} of ${clockWords(replay.length_s)}`;
+      const spoken = `${clockText(replay.time_s)} of ${clockText(replay.length_s)}`;
       setText(play, replay.is_playing ? "Pause" : "Play");
-      setText(name, `Replay of ${replay.name}: what you see is past.`);
-      setText(time, isDragged ? `${clockWords(Number(slider.value))} of ${clockWords(replay.length_s)}` : spoken);
+      setAttribute(play, "data-playing", String(replay.is_playing));
+      setText(name, `Replay of ${replay.name}: not live.`);
+      setText(time, isDragged ? `${clockText(Number(slider.value))} of ${clockText(replay.length_s)}` : spoken);
       setAttribute(slider, "max", String(replay.length_s));
       setAttribute(slider, "aria-valuetext", spoken);
       if (!isDragged) {

@@ -1,14 +1,12 @@
-import { chartChoice } from "../charts/chart_choice.js";
-import { Pace } from "../pace.js";
-import { setText } from "../readout.js";
+import { chartChoice } from "../charts/chosen_chart.js";
+import { html, setText } from "../dom.js";
+import { leavesOf, matches, MAX_LEAVES, pathText, TelemetryRow } from "./telemetry_row.js";
+import { Pace } from "../readout.js";
 import { ageText } from "../state/format.js";
-import { element } from "./element.js";
-import { leavesOf, matches, MOST_LEAVES, pathWords } from "./telemetry_leaves.js";
-import { TelemetryRow } from "./telemetry_row.js";
 
 /** Every value of the newest frame, also those that no other part of the page knows. */
 export function mount(place, store) {
-  const filter = element("input", {
+  const filter = html("input", {
     id: "telemetry-filter",
     type: "search",
     autocomplete: "off",
@@ -16,14 +14,14 @@ export function mount(place, store) {
     placeholder: "words of the path",
     on: { input: () => show() },
   });
-  const count = element("p.quiet", { id: "telemetry-count" });
-  const note = element("p.note", { id: "telemetry-note", role: "status" });
-  const list = element("ul.leaves", { id: "telemetry-list" });
-  const details = element(
+  const count = html("p.quiet", { id: "telemetry-count" });
+  const note = html("p.note", { id: "telemetry-note", role: "status" });
+  const list = html("ul.leaves", { id: "telemetry-list" });
+  const details = html(
     "details",
     { id: "telemetry", on: { toggle: () => toggled() } },
-    element("summary", {}, place.querySelector("h2")),
-    element("div.field", {}, element("label", { for: "telemetry-filter", text: "Filter" }), filter),
+    html("summary", {}, place.querySelector("h2")),
+    html("div.field", {}, html("label", { for: "telemetry-filter", text: "Filter" }), filter),
     count,
     note,
     list,
@@ -52,7 +50,7 @@ export function mount(place, store) {
   function draw(keys) {
     const isDrawn = chartChoice.is(keys);
     chartChoice.choose(isDrawn ? null : keys);
-    setText(note, isDrawn ? "" : `${pathWords(keys.join("."))} is drawn under Charts.`);
+    setText(note, isDrawn ? "" : `${pathText(keys.join("."))} is drawn under Charts.`);
     show();
   }
 
@@ -63,15 +61,15 @@ export function mount(place, store) {
     for (const leaf of chosen) {
       rows.get(keyOf(leaf)).show(leaf.value, store, chartChoice.is(leaf.keys));
     }
-    setText(count, countWords(chosen.length, leaves.length, isCut));
+    setText(count, countText(chosen.length, leaves.length, isCut));
   }
 
-  function countWords(shown, all, isCut) {
+  function countText(shown, all, isCut) {
     if (all === 0) {
       return "No telemetry came yet.";
     }
     const old = store.isSilent ? `, ${ageText(store.age_s(null))} old` : "";
-    const more = isCut ? ` (the frame has more: the first ${MOST_LEAVES} are here)` : "";
+    const more = isCut ? ` (the frame has more: the first ${MAX_LEAVES} are here)` : "";
     return `${shown} of ${all} values of the newest frame${old}${more}`;
   }
 

@@ -31,7 +31,7 @@ const READING_OF = {
   arduino: "flight",
 };
 /** Values about the Arduino that the Raspberry Pi determines, not the Arduino. */
-const KNOWN_BESIDES = new Set(["arduino.connected", "arduino.framing"]);
+const KNOWN_TO_PI = new Set(["arduino.connected", "arduino.framing"]);
 
 /**
  * path: of a value in the telemetry. Returns the reading whose age is the value's; null: the
@@ -41,7 +41,7 @@ export function readingOf(path) {
   if (path === "android.batteryLevel") {
     return "battery";
   }
-  if (KNOWN_BESIDES.has(path)) {
+  if (KNOWN_TO_PI.has(path)) {
     return null;
   }
   const first = path.split(".", 1)[0];

@@ -23,3 +23,28 @@ export function alarmOf(store, connection) {
   const worst = store.alarms.filter((each) => each.level === level);
   return { level, text: worst.length === 1 ? String(worst[0].kind) : `${worst.length} alarms` };
 }
+
+const known = new Set();
+
+/** Silence an alarm until it is over and returns. */
+export function acknowledge(alarm) {
+  known.add(keyOf(alarm));
+}
+
+export function isAcknowledged(alarm) {
+  return known.has(keyOf(alarm));
+}
+
+/** Forget alarms that are over: when one returns, it sounds again. alarms: that are active now. */
+export function dropAcknowledged(alarms) {
+  const standing = new Set(alarms.map(keyOf));
+  for (const key of known) {
+    if (!standing.has(key)) {
+      known.delete(key);
+    }
+  }
+}
+
+function keyOf(alarm) {
+  return `${alarm.kind} ${alarm.level}`;
+}

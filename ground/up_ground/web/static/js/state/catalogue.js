@@ -1,7 +1,7 @@
-import * as judge from "./judge.js";
+import * as validate from "./validate.js";
 
-const MOST_COMMANDS = 500;
-const MOST_FIELDS = 64;
+const MAX_COMMANDS = 500;
+const MAX_FIELDS = 64;
 const TYPES = ["boolean", "integer", "number", "text", "object", "list"];
 
 /** The Commands that the ground server knows, its own and those of the cogs that it has. */
@@ -10,7 +10,7 @@ export class Catalogue {
 
   /** commands: of the server's `catalogue`; malformed entries are dropped. */
   constructor(commands = []) {
-    const all = Array.isArray(commands) ? commands.slice(0, MOST_COMMANDS) : [];
+    const all = Array.isArray(commands) ? commands.slice(0, MAX_COMMANDS) : [];
     this.commands = all.map(commandOf).filter((each) => each !== null);
     for (const command of this.commands) {
       for (const name of [command.name, ...command.aliases]) {
@@ -29,7 +29,6 @@ export class Catalogue {
     return this.#byName.get(name) ?? null;
   }
 
-  /** The least role that may send it; null: not known, or a field decides. */
   role(name) {
     const role = this.get(name)?.role ?? "";
     return role === "" || role === "depends" ? null : role;
@@ -37,24 +36,24 @@ export class Catalogue {
 }
 
 function commandOf(found) {
-  const name = judge.text(judge.at(found, "name"));
+  const name = validate.text(validate.at(found, "name"));
   if (!name) {
     return null;
   }
-  const fields = judge.at(found, "fields");
-  const read = (Array.isArray(fields) ? fields.slice(0, MOST_FIELDS) : []).map(fieldOf);
+  const fields = validate.at(found, "fields");
+  const read = (Array.isArray(fields) ? fields.slice(0, MAX_FIELDS) : []).map(fieldOf);
   return {
     name,
-    aliases: judge.texts(found.aliases) ?? [],
-    role: judge.text(found.role) ?? "",
-    text: judge.text(found.text) ?? "",
+    aliases: validate.texts(found.aliases) ?? [],
+    role: validate.text(found.role) ?? "",
+    text: validate.text(found.text) ?? "",
     needsBeacon: found.needs_beacon === true,
     fields: read.filter((each) => each !== null),
   };
 }
 
 function fieldOf(found) {
-  const name = judge.text(judge.at(found, "name"));
+  const name = validate.text(validate.at(found, "name"));
   if (!name) {
     return null;
   }
@@ -62,14 +61,14 @@ function fieldOf(found) {
     name,
     // A type of a later server is written as JSON: that server judges it.
     type: TYPES.includes(found.type) ? found.type : "json",
-    unit: judge.text(found.unit) ?? "",
+    unit: validate.text(found.unit) ?? "",
     // Bounds may be as large as numbers are.
     minimum: Number.isFinite(found.minimum) ? found.minimum : null,
     maximum: Number.isFinite(found.maximum) ? found.maximum : null,
     choices: Array.isArray(found.choices) ? found.choices : null,
-    longest: judge.number(found.max_length),
+    longest: validate.number(found.max_length),
     isNullable: found.nullable === true,
     isRequired: found.required === true,
-    text: judge.text(found.text) ?? "",
+    text: validate.text(found.text) ?? "",
   };
 }

@@ -1,6 +1,6 @@
-import { number } from "./judge.js";
+import { number } from "./validate.js";
 
-const MOST = 500;
+const MAX_ITEMS = 500;
 const LEVELS = new Set(["info", "warning", "alarm"]);
 
 /** The aircraft's events, in order of the server's numbers, each once, the newest last. */
@@ -34,15 +34,15 @@ export class EventList {
       at_s: number(message.time_s) ?? now_s - Math.max(0, number(message.age_ms) ?? 0) / 1000,
       level: LEVELS.has(message.level) ? message.level : "info",
       kind: String(message.kind ?? ""),
+      code: String(message.code ?? ""),
       text: message.text,
       is_past: message.is_past === true,
     });
-    this.all.splice(0, Math.max(0, this.all.length - MOST));
+    this.all.splice(0, Math.max(0, this.all.length - MAX_ITEMS));
     this.version += 1;
     return true;
   }
 
-  /** Forget all. */
   clear() {
     this.all = [];
     this.version += 1;

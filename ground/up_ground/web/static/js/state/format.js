@@ -1,4 +1,3 @@
-/** Placeholder of an unknown value. */
 export const UNKNOWN = "--";
 
 /** sign: + before values that are not negative. */
@@ -53,7 +52,6 @@ export function compassDegrees(degrees) {
   return degrees === null ? null : ((degrees % 360) + 360) % 360;
 }
 
-/** Three figures, 000 to 359. */
 export function headingText(degrees) {
   if (degrees === null) {
     return UNKNOWN;

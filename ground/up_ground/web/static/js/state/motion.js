@@ -1,10 +1,11 @@
-const EARTH_RADIUS_M = 6371009;
-const LONGEST_S = 6;
-const SHORTEST_S = 0.4;
+import { distance_m } from "./earth.js";
+
+const MAX_S = 6;
+const MIN_S = 0.4;
 const KEPT = 16;
 const WINDOW_S = 2.2;
 const JITTER_S = 0.05;
-const AGAIN_S = 0.3;
+const REPEAT_S = 0.3;
 
 /**
  * Ground speed and vertical speed, derived from the positions and altitudes in telemetry, which has
@@ -40,10 +41,10 @@ export class Motion {
 function keep(list, fix, isSame) {
   const last = list.at(-1);
   const since_s = last === undefined ? Infinity : fix.at_s - last.at_s;
-  if (since_s < JITTER_S || (since_s < AGAIN_S && isSame(last, fix))) {
+  if (since_s < JITTER_S || (since_s < REPEAT_S && isSame(last, fix))) {
     return false;
   }
-  if (since_s > LONGEST_S) {
+  if (since_s > MAX_S) {
     list.length = 0;
   }
   list.push(fix);
@@ -56,7 +57,7 @@ function rate(list, difference) {
   const from =
     list.find((each) => last.at_s - each.at_s <= WINDOW_S && each !== last) ?? list.at(-2);
   const time_s = from === undefined ? 0 : last.at_s - from.at_s;
-  if (time_s < SHORTEST_S) {
+  if (time_s < MIN_S) {
     return null;
   }
   return difference(from, last) / time_s;
@@ -68,14 +69,4 @@ function isSamePlace(one, other) {
 
 function isSameHeight(one, other) {
   return one.altitude_m === other.altitude_m;
-}
-
-/** Metres, for places near each other. */
-export function distance_m(from, to) {
-  const radians = Math.PI / 180;
-  const north = (to.latitude - from.latitude) * radians;
-  const middle = ((to.latitude + from.latitude) / 2) * radians;
-  let east_deg = to.longitude - from.longitude;
-  east_deg -= Math.round(east_deg / 360) * 360;
-  return EARTH_RADIUS_M * Math.hypot(north, east_deg * radians * Math.cos(middle));
 }

@@ -1,5 +1,5 @@
 import { freshnessOf, isSilent, readingOf } from "./ages.js";
-import * as judge from "./judge.js";
+import * as validate from "./validate.js";
 
 /** The newest telemetry of an aircraft, validated, and the age of each part of it. */
 export class NewestFrame {
@@ -10,9 +10,7 @@ export class NewestFrame {
 
   /** The tree as received, not validated. */
   data = {};
-  /** Number of frames received. */
   frames = 0;
-  /** Its number, null without a frame. */
   beacon = null;
   /** Its time in a recorded flight, seconds; null: live. */
   frameTime_s = null;
@@ -26,17 +24,17 @@ export class NewestFrame {
    * message: the server's `frame`; way_s: how long it was on its way from the server. Returns
    * whether it was one.
    */
-  takeFrame(message, way_s) {
+  updateFrame(message, way_s) {
     if (message.data === null || typeof message.data !== "object") {
       return false;
     }
     this.data = message.data;
-    this.beacon = judge.number(message.beacon);
-    this.frameTime_s = judge.number(message.time_s);
+    this.beacon = validate.number(message.beacon);
+    this.frameTime_s = validate.number(message.time_s);
     this.frames += 1;
     this.#frameAt_s = this.now_s;
     this.#heldAt_s = this.#heldAt_s === null ? null : this.now_s;
-    this.#frameAge_s = Math.max(0, judge.number(message.age_ms) ?? 0) / 1000 + way_s;
+    this.#frameAge_s = Math.max(0, validate.number(message.age_ms) ?? 0) / 1000 + way_s;
     return true;
   }
 
@@ -53,8 +51,7 @@ export class NewestFrame {
     this.#heldAt_s = null;
   }
 
-  /** Reset to unknown. */
-  forgetFrame() {
+  clearFrame() {
     this.data = {};
     this.beacon = null;
     this.#frameAt_s = null;
@@ -65,34 +62,30 @@ export class NewestFrame {
     return this.#clock_s();
   }
 
-  /** Whether every value shown may be stale. */
   get isSilent() {
     return isSilent(this.age_s(null));
   }
 
-  /** None: no frame yet. */
   get aircraftState() {
     return this.#frameAt_s === null ? "none" : this.isSilent ? "silent" : "live";
   }
 
-  /** A number at that path; null: absent, or of another type. */
   number(path) {
-    return judge.number(judge.at(this.data, path));
+    return validate.number(validate.at(this.data, path));
   }
 
   flag(path) {
-    return judge.flag(judge.at(this.data, path));
+    return validate.flag(validate.at(this.data, path));
   }
 
   text(path) {
-    return judge.text(judge.at(this.data, path));
+    return validate.text(validate.at(this.data, path));
   }
 
   texts(path) {
-    return judge.texts(judge.at(this.data, path));
+    return validate.texts(validate.at(this.data, path));
   }
 
-  /** The value, validated. */
   value(path) {
     return this.number(path) ?? this.flag(path) ?? this.text(path) ?? this.texts(path);
   }
@@ -115,15 +108,14 @@ export class NewestFrame {
 
   /** reading: null: the newest frame itself. */
   freshness(reading) {
-    const aboard = judge.at(this.data, `age_ms.${reading}`);
+    const aboard = validate.at(this.data, `age_ms.${reading}`);
     return freshnessOf(
       reading,
       this.age_s(null),
-      aboard === null ? null : (judge.number(aboard) ?? undefined),
+      aboard === null ? null : (validate.number(aboard) ?? undefined),
     );
   }
 
-  /** path: of a value. Returns none: not in the frame. */
   freshnessAt(path) {
     return this.value(path) === null ? "none" : this.freshness(readingOf(path));
   }

@@ -2,13 +2,13 @@ import { now_s, TIMERS } from "../link/clock.js";
 import { READINGS } from "./ages.js";
 import { Catalogue } from "./catalogue.js";
 import { EventList } from "./event_list.js";
-import * as judge from "./judge.js";
 import { Motion } from "./motion.js";
 import { NewestFrame } from "./newest_frame.js";
 import { Track } from "./track.js";
+import * as validate from "./validate.js";
 
 const REPAINT_S = 0.2;
-const LOOK_S = 0.04;
+const POLL_S = 0.04;
 const JUMP_S = 1.5;
 
 /**
@@ -66,15 +66,14 @@ export class Store extends NewestFrame {
         known = now;
         this.#change();
       }
-    }, LOOK_S);
+    }, POLL_S);
   }
 
-  /** name: of the aircraft to watch from now on. */
   watch(name) {
     if (name !== this.aircraft) {
       this.aircraft = name;
       this.#connection.aircraft = name;
-      this.#forget();
+      this.#clear();
     }
     this.#events.clear();
     this.track.replace([]);
@@ -92,20 +91,19 @@ export class Store extends NewestFrame {
     return () => this.#calls.delete(call);
   }
 
-  /** The server's `status` of the aircraft watched. */
   get status() {
     return this.statuses.get(this.aircraft) ?? null;
   }
 
   /** Seconds: now in the replayed flight, otherwise on the page's clock. */
   get flight_s() {
-    const time_s = judge.number(this.replay?.time_s);
+    const time_s = validate.number(this.replay?.time_s);
     if (time_s === null) {
       return this.now_s;
     }
     const since_s = this.replay.is_playing === false ? 0 : this.now_s - this.#replayAt_s;
-    const speed = judge.number(this.replay.speed) ?? 1;
-    return Math.min(time_s + since_s * speed, judge.number(this.replay.length_s) ?? Infinity);
+    const speed = validate.number(this.replay.speed) ?? 1;
+    return Math.min(time_s + since_s * speed, validate.number(this.replay.length_s) ?? Infinity);
   }
 
   /** When the newest frame was so, by `flight_s`. */
@@ -122,12 +120,10 @@ export class Store extends NewestFrame {
     return this.#events.all;
   }
 
-  /** Changes with the events. */
   get eventsVersion() {
     return this.#events.version;
   }
 
-  /** message: of the server. */
   take(message) {
     if (message.type === "status") {
       this.statuses.set(message.aircraft, message);
@@ -136,7 +132,7 @@ export class Store extends NewestFrame {
     } else if (message.type === "catalogue") {
       this.catalogue = new Catalogue(message.commands);
     } else if (message.type === "fault") {
-      this.fault = judge.text(message.text) ?? "";
+      this.fault = validate.text(message.text) ?? "";
     } else if (message.aircraft !== this.aircraft || this.aircraft === null) {
       return;
     } else if (!this.#takeOfAircraft(message)) {
@@ -147,7 +143,7 @@ export class Store extends NewestFrame {
 
   #takeOfAircraft(message) {
     const known = {
-      frame: () => this.takeFrame(message, this.#connection.way_s) && this.#follow(),
+      frame: () => this.updateFrame(message, this.#connection.way_s) && this.#follow(),
       event: () => this.#events.take(message, this.flight_s),
       alarms: () => (this.alarms = alarmsOf(message.active)),
       gains: () => (this.gains = message),
@@ -177,8 +173,8 @@ export class Store extends NewestFrame {
     } else {
       this.release();
     }
-    const speed = judge.number(message.speed) ?? 1;
-    const step_s = (judge.number(message.time_s) ?? 0) - (judge.number(before?.time_s) ?? 0);
+    const speed = validate.number(message.speed) ?? 1;
+    const step_s = (validate.number(message.time_s) ?? 0) - (validate.number(before?.time_s) ?? 0);
     const hasJumped = step_s < -0.01 || step_s > JUMP_S * Math.max(1, speed);
     if (before === null || hasJumped) {
       this.motion = new Motion();
@@ -206,7 +202,7 @@ export class Store extends NewestFrame {
   }
 
   #opened(welcome) {
-    this.names = judge.texts(welcome.aircraft) ?? [];
+    this.names = validate.texts(welcome.aircraft) ?? [];
     this.replay = null;
     this.fault = "";
     const kept = this.names.includes(this.aircraft) ? this.aircraft : this.names[0];
@@ -216,8 +212,8 @@ export class Store extends NewestFrame {
     this.#change();
   }
 
-  #forget() {
-    this.forgetFrame();
+  #clear() {
+    this.clearFrame();
     this.shownBeacon = null;
     this.alarms = [];
     this.gains = this.profile = null;

@@ -1,9 +1,9 @@
-import { html, setAttribute, setText } from "./readout.js";
+import { html, setAttribute, setText } from "./dom.js";
 
 /** Failures in a row until a part is given up; with the waits that takes half a minute. */
-const MOST_FAULTS = 16;
+const MAX_FAULTS = 16;
 /** Between two tries pass 1, 2, 4 updates and so on, but not more than these. */
-const LONGEST_WAIT = 64;
+const MAX_WAIT = 64;
 /** Successful updates in a row that clear the failure count. */
 const GOOD_UPDATES = 50;
 
@@ -14,7 +14,7 @@ const GOOD_UPDATES = 50;
  * inert, and none of its values is marked live. The part is retried at later updates, with growing
  * waits, and is restored when one succeeds.
  */
-export class Crew {
+export class PartRegistry {
   #members = [];
   #place;
 
@@ -28,9 +28,8 @@ export class Crew {
     this.#members.push({ name, part, element, faults: 0, wait: 0, good: 0, line: null });
   }
 
-  /** Update every part. */
   update() {
-    for (const member of this.#members.filter(({ faults }) => faults < MOST_FAULTS)) {
+    for (const member of this.#members.filter(({ faults }) => faults < MAX_FAULTS)) {
       if (member.wait > 0) {
         member.wait -= 1;
         continue;
@@ -44,9 +43,9 @@ export class Crew {
     }
   }
 
-  /** sentence: that names the missing part. Returns its line. */
-  say(sentence) {
-    const line = html("span", {}, sentence);
+  /** Report a missing part; returns the line of the report. */
+  report(name, sentence) {
+    const line = html("span", { "data-code": name }, sentence);
     this.#place.append(line);
     this.#place.hidden = false;
     return line;
@@ -69,7 +68,7 @@ export class Crew {
   #fail(member, error) {
     console.error(error);
     member.good = 0;
-    member.wait = Math.min(LONGEST_WAIT, 2 ** member.faults) - 1;
+    member.wait = Math.min(MAX_WAIT, 2 ** member.faults) - 1;
     member.faults += 1;
     member.element.classList.add("is-broken");
     member.element.inert = true;
@@ -78,9 +77,9 @@ export class Crew {
         setAttribute(each, "data-freshness", "none");
       }
     }
-    member.line ??= this.say("");
-    const next = member.faults < MOST_FAULTS ? "it is tried again" : "load the page anew";
-    setText(member.line, `${member.name} stopped: ${error.message}; ${next}`);
+    member.line ??= this.report(member.name, "");
+    const next = member.faults < MAX_FAULTS ? "retrying" : "reload the page";
+    setText(member.line, `${member.name} failed: ${error.message}; ${next}`);
     member.part.fail?.();
   }
 }

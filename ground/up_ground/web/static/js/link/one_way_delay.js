@@ -1,4 +1,4 @@
-import { number } from "../state/judge.js";
+import { number } from "../state/validate.js";
 
 const DRIFT = 1e-4;
 const DOUBT_S = 0.1;
@@ -13,7 +13,7 @@ const ROUNDING_S = 0.005;
  * most 0.1 s too small, and too great by at most the time of the quickest request. Only the drift
  * of the clocks is forgotten: a queue may stand for hours.
  */
-export class Way {
+export class OneWayDelayEstimator {
   #most_s = null;
   #least_s = -Infinity;
   #now_s = 0;

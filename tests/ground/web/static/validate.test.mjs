@@ -6,7 +6,7 @@ import {
   number,
   text,
   texts,
-} from "../../../../ground/up_ground/web/static/js/state/judge.js";
+} from "../../../../ground/up_ground/web/static/js/state/validate.js";
 
 const ODD = [null, undefined, "7", [], {}, NaN, Infinity, -Infinity, 1e300, true];
 
@@ -18,7 +18,7 @@ test("only a finite number of sane size is a number", () => {
   }
 });
 
-test("other types are none of the kind asked for", () => {
+test("values of other types are rejected", () => {
   assert.equal(flag(1), null);
   assert.equal(flag(false), false);
   assert.equal(text(7), null);
@@ -32,7 +32,7 @@ test("texts are bounded", () => {
   assert.equal(texts(Array(1000).fill("x")).length, 32);
 });
 
-test("a path finds only what the tree has of its own", () => {
+test("a path finds only own properties", () => {
   const tree = JSON.parse('{"a": {"b": 1}, "__proto__": {"c": 2}}');
   assert.equal(at(tree, "a.b"), 1);
   assert.equal(at(tree, "a.b.c"), undefined);

@@ -1,5 +1,5 @@
 /**
- * The page's link and state without a browser: `node ages_told.mjs ws://.../link`.
+ * The page's link and state without a browser: `node reported_ages.mjs ws://.../link`.
  *
  * Prints a line of JSON for each frame: how long it was on its way from the server as the page
  * believes and in truth, the same for its whole age, what the page draws, and how long the quickest

@@ -1,3 +1,22 @@
+const CENTRE_US = 1500;
+const HALF_TRAVEL_US = 500;
+/** The bank at full stick of a new Arduino. */
+const ROLL_DEG = 50;
+
+/**
+ * The bank demanded by the pilot's stick in FBW (raspilot/flight_controller/sticks.py). Returns
+ * degrees, right wing down positive; null: no demand in other modes.
+ */
+export function rollDemand_deg(store) {
+  const stick_us = store.number("rx.ailerons");
+  if (store.text("flight_mode") !== "FBW" || stick_us === null || store.freshness("rx") !== "live") {
+    return null;
+  }
+  const limit_deg = store.profile?.fly_by_wire?.roll_deg;
+  const part = Math.max(-1, Math.min(1, (stick_us - CENTRE_US) / HALF_TRAVEL_US));
+  return part * (Number.isFinite(limit_deg) ? limit_deg : ROLL_DEG);
+}
+
 /** The positions' modes without a profile: the firmware's defaults (docs/airframe.md). */
 const SELECTS = { low: "ACRO", middle: "FBW", high: "AUTO" };
 

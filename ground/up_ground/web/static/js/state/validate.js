@@ -1,10 +1,10 @@
-const GREATEST = 1e12;
-const LONGEST_TEXT = 400;
-const MOST_TEXTS = 32;
+const MAX_GAIN = 1e12;
+const MAX_TEXT = 400;
+const MAX_TEXTS = 32;
 
 /** A finite number of sane size; null: any other value. */
 export function number(found) {
-  return typeof found === "number" && Number.isFinite(found) && Math.abs(found) < GREATEST
+  return typeof found === "number" && Number.isFinite(found) && Math.abs(found) < MAX_GAIN
     ? found
     : null;
 }
@@ -13,9 +13,8 @@ export function flag(found) {
   return typeof found === "boolean" ? found : null;
 }
 
-/** A text, bounded. */
 export function text(found) {
-  return typeof found === "string" ? found.slice(0, LONGEST_TEXT) : null;
+  return typeof found === "string" ? found.slice(0, MAX_TEXT) : null;
 }
 
 /** The texts of a list, bounded; null: no list. */
@@ -24,7 +23,7 @@ export function texts(found) {
     return null;
   }
   return found
-    .slice(0, MOST_TEXTS)
+    .slice(0, MAX_TEXTS)
     .map(text)
     .filter((each) => each !== null);
 }

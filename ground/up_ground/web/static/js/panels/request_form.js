@@ -1,29 +1,49 @@
-import { setText } from "../readout.js";
-import { element } from "./element.js";
+import { html, setText } from "../dom.js";
 import { Field, numberBetween, textUpTo } from "./field.js";
 import { heading } from "./flight_modes.js";
-import { FrameSize } from "./frame_size.js";
-import { costWords } from "./words.js";
+import { costText } from "./messages.js";
 
-/** As long as the aircraft takes them (android.speak, black_box.mark). */
-const LONGEST_TEXT = 200;
+/** Overhead of a frame's message around its tree: its name, the beacon, the line's end. */
+const AROUND_BYTES = 52;
+const EVERY = 20;
+
+/** Bytes of a telemetry frame as received from the aircraft: measured now and then. */
+export class FrameSize {
+  #nextAt = 0;
+
+  /** @type {number|null} the mean of the last ones; null: no frame yet */
+  bytes = null;
+
+  /** tree: of the newest frame; count: of all frames so far. */
+  look(tree, count) {
+    if (count === 0 || count < this.#nextAt) {
+      return;
+    }
+    this.#nextAt = count + EVERY;
+    const bytes = new TextEncoder().encode(JSON.stringify(tree)).length + AROUND_BYTES;
+    this.bytes = this.bytes === null ? bytes : this.bytes + (bytes - this.bytes) / 4;
+  }
+}
+
+/** The aircraft's limit for android.speak and black_box.mark. */
+const MAX_TEXT = 200;
 
 /** Telemetry's period, the phone's voice, a mark in the log. */
-export class Wishes {
+export class RequestForm {
   #store;
-  #asker;
+  #sender;
   #size = new FrameSize();
   #period;
   #speak;
   #mark;
   #aircraft = null;
 
-  constructor(store, asker) {
+  constructor(store, sender) {
     this.#store = store;
-    this.#asker = asker;
+    this.#sender = sender;
     this.#period = this.#number(
       "telemetry-period",
-      "Telemetry every so many ms",
+      "Telemetry period, ms",
       [20, 10000],
       "ms",
       (value) => this.#send("up.telemetry.frequency", { frequency: value }, this.#period),
@@ -35,8 +55,8 @@ export class Wishes {
       this.#send("black_box.mark", { text }, this.#mark),
     );
     this.#period.input.addEventListener("input", () => this.#showCost());
-    this.element = element(
-      "section.part.wishes",
+    this.element = html(
+      "section.part.requests",
       {},
       heading("Telemetry, voice, mark"),
       ...this.#fields.map(([field]) => field.element),
@@ -53,7 +73,7 @@ export class Wishes {
       this.#fields.forEach(([field]) => field.clear());
     }
     for (const [field, name, data] of this.#fields) {
-      field.offer(this.#asker.objection(name, data) === "");
+      field.offer(this.#sender.disabledReason(name, data) === null);
     }
     const store = this.#store;
     this.#size.look(store.data, store.frames);
@@ -74,16 +94,16 @@ export class Wishes {
     const isLive = this.#store.aircraftState === "live";
     const now_ms = isLive && typeof rate_hz === "number" && rate_hz > 0 ? 1000 / rate_hz : null;
     if (written !== null) {
-      setText(this.#period.hint, costWords(written, this.#size.bytes));
+      setText(this.#period.hint, costText(written, this.#size.bytes));
     } else if (now_ms !== null) {
-      setText(this.#period.hint, `now ${costWords(now_ms, this.#size.bytes)}`);
+      setText(this.#period.hint, `now ${costText(now_ms, this.#size.bytes)}`);
     } else {
       setText(this.#period.hint, "");
     }
   }
 
   #send(name, data, field) {
-    return this.#asker.ask(name, data, { note: field.note });
+    return this.#sender.send(name, data, { note: field.note });
   }
 
   #number(id, label, [least, most], unit, send) {
@@ -94,6 +114,6 @@ export class Wishes {
   #text(id, label, button, send) {
     // Without maxlength: it counts in halves of some characters, and cuts silently.
     const input = { type: "text", autocomplete: "off" };
-    return new Field({ id, label, button, input, read: textUpTo(LONGEST_TEXT), send });
+    return new Field({ id, label, button, input, read: textUpTo(MAX_TEXT), send });
   }
 }

@@ -1,7 +1,7 @@
 /**
  * Data that this tab keeps over a reload; without storage in the browser nothing is kept.
  */
-export class Keepsake {
+export class Storage {
   #storage;
   #here = new Map();
 
@@ -31,10 +31,10 @@ export class Keepsake {
   }
 }
 
-export function keepsakeOf(name) {
+export function storageOf(name) {
   try {
-    return new Keepsake(globalThis[name] ?? null);
+    return new Storage(globalThis[name] ?? null);
   } catch {
-    return new Keepsake(null);
+    return new Storage(null);
   }
 }

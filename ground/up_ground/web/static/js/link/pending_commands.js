@@ -1,33 +1,30 @@
 import { TIMERS } from "./clock.js";
 
-const LONGEST_S = 15;
+const MAX_S = 15;
 
 /** Commands that wait for their answers, each by its number. */
-export class PendingAsks {
+export class PendingCommands {
   #last = 0;
   #waiting = new Map();
   #timers;
 
-  /** timers: as TIMERS. */
   constructor(timers = TIMERS) {
     this.#timers = timers;
   }
 
-  /** A new number and its future answer. */
   add() {
     this.#last += 1;
     const ask = this.#last;
     const answer = new Promise((resolve) => {
       const timer = this.#timers.once(
-        () => this.take({ ask, outcome: "timeout", reason: "the ground server did not answer" }),
-        LONGEST_S,
+        () => this.take({ ask, outcome: "timeout", code: "no_answer", reason: "the ground server did not answer" }),
+        MAX_S,
       );
       this.#waiting.set(ask, { resolve, timer });
     });
     return { ask, answer };
   }
 
-  /** message: the server's `answer`; dropped if no request waits for it. */
   take(message) {
     const waiting = this.#waiting.get(message.ask);
     if (waiting === undefined) {
@@ -38,10 +35,10 @@ export class PendingAsks {
     waiting.resolve({ code: null, reason: "", round_trip_ms: null, data: null, ...message });
   }
 
-  /** reason: why no answer can arrive now: the outcome of the requests is unknown. */
-  giveUp(reason) {
+  /** cause: code and reason why no answer can arrive now: the outcome of the requests is unknown. */
+  giveUp(cause) {
     for (const ask of [...this.#waiting.keys()]) {
-      this.take({ ask, outcome: "timeout", reason });
+      this.take({ ask, outcome: "timeout", ...cause });
     }
   }
 }

@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import { beforeEach, test } from "node:test";
-import { Way } from "../../../../ground/up_ground/web/static/js/link/way.js";
+import { OneWayDelayEstimator } from "../../../../ground/up_ground/web/static/js/link/one_way_delay.js";
 
 const APART_S = 4321;
 const ONE_WAY_S = 0.03;
@@ -9,7 +9,7 @@ const DRIFT = 1e-4;
 let way;
 
 beforeEach(() => {
-  way = new Way();
+  way = new OneWayDelayEstimator();
 });
 
 /** A message sent at `sent_s` of the page's clock with that transit time. */
@@ -26,7 +26,7 @@ test("with a question the way is half of the quickest round trip", () => {
   near(hear(10.5, ONE_WAY_S), ONE_WAY_S);
 });
 
-test("what waited in a queue is as old as it is, and then the next is young again", () => {
+test("a queued message has its true age, and the next is fresh", () => {
   hear(10, ONE_WAY_S, 10 - ONE_WAY_S);
   near(hear(11, 3), 3);
   near(hear(11.1, 2.9), 2.9);
@@ -56,21 +56,21 @@ test("a queue that stands for an hour is not taken for the way", () => {
 
 test("clocks that drift make nothing old", () => {
   for (const drift of [-DRIFT, DRIFT]) {
-    way = new Way();
+    way = new OneWayDelayEstimator();
     for (let second = 0; second < 20000; second += 1) {
       near(hear(second, ONE_WAY_S, second - ONE_WAY_S, drift), ONE_WAY_S, 0.01);
     }
   }
 });
 
-test("no message is told younger than it is by more than 0.1 s, nor older by a quick question", () => {
+test("no delay is underestimated by more than 0.1 s, nor overestimated by a quick request", () => {
   let state = 7;
   const random = () => {
     state = (state * 48271) % 2147483647;
     return state / 2147483647;
   };
   for (let flight = 0; flight < 300; flight += 1) {
-    way = new Way();
+    way = new OneWayDelayEstimator();
     const here_s = random() * 0.3;
     const there_s = random() * 0.3;
     const queue_s = random() < 0.5 ? 0 : random() * 5;
@@ -89,9 +89,9 @@ test("no message is told younger than it is by more than 0.1 s, nor older by a q
   }
 });
 
-test("a page that slept, and a server that slept, begin anew", () => {
+test("a page or server that slept resets the estimate", () => {
   for (const asleep_s of [-60, 60]) {
-    way = new Way();
+    way = new OneWayDelayEstimator();
     hear(10, ONE_WAY_S, 10 - ONE_WAY_S);
     const stamp_ms = (20 + APART_S - asleep_s) * 1000;
     way.take(stamp_ms, 20 + ONE_WAY_S, 20 - ONE_WAY_S);

@@ -1,12 +1,12 @@
 import { MODES } from "../state/board_schema.js";
 
 /** The effect of a flight mode, in a few words; empty for an unknown one. */
-export function modeWords(mode) {
+export function modeText(mode) {
   return Object.hasOwn(MODES, mode) ? MODES[mode].about : "";
 }
 
 /** name: of a Command. Returns the request of a Command, as a heading. */
-export function commandWords(name, data = {}) {
+export function commandText(name, data = {}) {
   switch (name) {
     case "up.flight_mode.set":
       return `Flight mode ${data.mode}`;
@@ -21,9 +21,9 @@ export function commandWords(name, data = {}) {
     case "black_box.mark":
       return `Mark "${data.text}"`;
     case "arduino.pids.tunings":
-      return data.request ? "Ask for the gains" : "New gains";
+      return data.request ? "Request the gains" : "New gains";
     case "arduino.profile.request":
-      return "Ask for the profile";
+      return "Request the profile";
     case "arduino.calibrate":
       return `Calibrate ${String(data.what).replace("_", " ")}`;
     default:
@@ -31,43 +31,42 @@ export function commandWords(name, data = {}) {
   }
 }
 
-/** The outcome of a Command, in plain words. */
-export function answerWords(answer) {
-  const reason = String(answer.reason ?? "")
-    .replace(/^not sent: /, "")
-    .replace(/; it is not known whether it was carried out$/, "")
-    .replace(/[.\s]+$/, "");
+export function answerText(answer) {
+  const reason = String(answer.reason ?? "").replace(/[.\s]+$/, "") || String(answer.code ?? "");
   const after_ms = answer.round_trip_ms;
+  const because = reason === "" ? "" : `: ${reason}`;
   switch (answer.outcome) {
     case "ack":
       if (reason) {
         return reason;
       }
-      return Number.isFinite(after_ms)
-        ? `carried out after ${Math.round(after_ms)} ms`
-        : "carried out";
+      return Number.isFinite(after_ms) ? `carried out after ${Math.round(after_ms)} ms` : "carried out";
     case "nack":
-      return refusalWords(reason || String(answer.code ?? ""));
+      return `refused${because}`;
     case "timeout":
-      return `${reason || "no answer"}: nobody knows whether it was carried out`;
+      return `outcome unknown${because}`;
     case "unsent":
-      return `not sent: ${reason || "no connection"}`;
+      return `not sent${because}`;
     case "refused":
-      return `refused by the ground server: ${reason || "no reason given"}`;
+      return `refused by the ground server${because}`;
     default:
-      return `an answer that this page does not know: ${answer.outcome}`;
+      return `unknown outcome ${answer.outcome}`;
   }
 }
 
-/** Its style. */
+/** The outcome for programs: `ack`, `nack forbidden`, `unsent no_link`. */
+export function answerCode(answer) {
+  return answer.code ? `${answer.outcome} ${answer.code}` : String(answer.outcome);
+}
+
 export function answerLook(answer) {
   return answer.outcome === "ack" ? "good" : "bad";
 }
 
 /** Data rate of a telemetry period. frame_bytes: measured; null: unknown. */
-export function costWords(period_ms, frame_bytes) {
+export function costText(period_ms, frame_bytes) {
   if (frame_bytes === null || !(period_ms > 0)) {
-    return "what it costs is not known yet: no frame came";
+    return "data rate unknown: no frame yet";
   }
   const kilobytes = (3600 * frame_bytes) / period_ms;
   const rate = 1000 / period_ms;
@@ -75,8 +74,7 @@ export function costWords(period_ms, frame_bytes) {
   return `${often}, about ${amount(kilobytes)} an hour at ${Math.round(frame_bytes)} bytes a frame`;
 }
 
-/** How long ago, short. */
-export function agoWords(age_s) {
+export function agoText(age_s) {
   if (!Number.isFinite(age_s)) {
     return "";
   }
@@ -91,7 +89,7 @@ export function agoWords(age_s) {
 }
 
 /** As 3:07 or 1:02:07. */
-export function clockWords(time_s) {
+export function clockText(time_s) {
   const whole_s = Math.max(0, Math.floor(Number.isFinite(time_s) ? time_s : 0));
   const minutes = Math.floor(whole_s / 60) % 60;
   const seconds = String(whole_s % 60).padStart(2, "0");
@@ -99,12 +97,6 @@ export function clockWords(time_s) {
   return hours > 0
     ? `${hours}:${String(minutes).padStart(2, "0")}:${seconds}`
     : `${minutes}:${seconds}`;
-}
-
-// The board's own refusal already has its name: do not repeat it.
-function refusalWords(reason) {
-  const [, ofBoard] = /^the Arduino refused: (.+)$/s.exec(reason) ?? [];
-  return ofBoard ? `refused by the Arduino: ${ofBoard}` : `refused by the aircraft: ${reason || "no reason given"}`;
 }
 
 function trimmed(value) {

@@ -1,0 +1,131 @@
+import assert from "node:assert/strict";
+import { test } from "node:test";
+
+import { controlTexts, offeredActions } from "../../../../../ground/up_ground/web/static/js/panels/control_requests.js";
+import { numberBetween, textUpTo } from "../../../../../ground/up_ground/web/static/js/panels/field.js";
+import { FrameSize } from "../../../../../ground/up_ground/web/static/js/panels/request_form.js";
+import { profileParts } from "../../../../../ground/up_ground/web/static/js/panels/profile.js";
+import { disabledReason } from "../../../../../ground/up_ground/web/static/js/panels/disabled_reason.js";
+import { agoText, answerCode, answerText, clockText, commandText, costText } from "../../../../../ground/up_ground/web/static/js/panels/messages.js";
+
+const WELCOME = { page: 1, may_control: true, denial: null, is_replay: false };
+
+test("an answer has the text and the code of its outcome", () => {
+  const text = (answer) => answerText({ code: null, reason: "", round_trip_ms: null, ...answer });
+  assert.equal(text({ outcome: "ack", round_trip_ms: 83.6 }), "carried out after 84 ms");
+  assert.equal(text({ outcome: "nack", code: "forbidden", reason: "armed." }), "refused: armed");
+  assert.equal(text({ outcome: "nack", code: "stale" }), "refused: stale");
+  assert.equal(text({ outcome: "timeout" }), "outcome unknown");
+  assert.equal(text({ outcome: "unsent", reason: "no link" }), "not sent: no link");
+  assert.equal(answerCode({ outcome: "nack", code: "stale" }), "nack stale");
+  assert.equal(answerCode({ outcome: "ack", code: null }), "ack");
+});
+
+test("a Command has a name that a person understands", () => {
+  assert.equal(commandText("up.flight_mode.set", { mode: "FBW" }), "Flight mode FBW");
+  assert.equal(commandText("arduino.pids.tunings", { request: true }), "Request the gains");
+  assert.equal(commandText("arduino.pids.tunings", { pids: {} }), "New gains");
+  assert.equal(commandText("some.cog.thing", {}), "some.cog.thing");
+});
+
+test("a period says what it costs", () => {
+  assert.equal(
+    costText(100, 2000),
+    "10 a second, about 72 MB an hour at 2000 bytes a frame",
+  );
+  assert.equal(costText(10000, 900), "one every 10 s, about 324 KB an hour at 900 bytes a frame");
+  assert.notEqual(costText(100, null), costText(100, 2000));
+});
+
+test("the size of a frame is measured from frames", () => {
+  const size = new FrameSize();
+  size.look({}, 0);
+  assert.equal(size.bytes, null);
+  size.look({ orientation: { roll: 1.25 } }, 1);
+  assert.ok(size.bytes > 60 && size.bytes < 100);
+  const [before] = [size.bytes];
+  size.look({ text: "x".repeat(500) }, 2);
+  assert.equal(size.bytes, before);
+  size.look({ text: "x".repeat(500) }, 40);
+  assert.ok(size.bytes > before);
+});
+
+test("ages and times read as people say them", () => {
+  assert.equal(agoText(0.4), "0 s ago");
+  assert.equal(agoText(61), "1 min ago");
+  assert.equal(agoText(3725), "1 h 2 min ago");
+  assert.equal(clockText(187.9), "3:07");
+  assert.equal(clockText(3727), "1:02:07");
+  assert.equal(clockText(NaN), "0:00");
+});
+
+test("numbers and texts out of bounds are rejected", () => {
+  const period = numberBetween(20, 10000, "ms");
+  assert.equal(period("20").problem, "");
+  assert.equal(period("19").problem, "must be 20 to 10000 ms");
+  assert.equal(period("").problem, "write a number");
+  assert.equal(period("ten").problem, "write a number");
+  const speech = textUpTo(200);
+  assert.deepEqual(speech("  hello "), { value: "hello", problem: "" });
+  assert.notEqual(speech("x".repeat(201)).problem, "");
+  assert.equal(speech("ü".repeat(200)).problem, "");
+  assert.equal(speech("\u{1f6e9}".repeat(200)).problem, "");
+  assert.equal(speech("\u{1f6e9}".repeat(201)).problem, "must be at most 200 characters");
+  assert.notEqual(speech("  ").problem, "");
+});
+
+test("the actions for control are those of its state", () => {
+  const control = (holder, more = {}) => ({ holder, holder_name: "", asked_by: null, pages: [], ...more });
+  const offered = (...words) => [...offeredActions(...words)];
+  assert.deepEqual(offered(control("nobody"), WELCOME), ["request"]);
+  assert.deepEqual(offered(control("you"), WELCOME), ["release"]);
+  const asked = control("you", { asked_by: { page: 2, name: "Ben" } });
+  assert.deepEqual(offered(asked, WELCOME), ["give", "deny", "release"]);
+  const only = { ...WELCOME, may_control: false, denial: { code: "no_key", text: "the key is missing" } };
+  assert.deepEqual(offered(control("nobody"), only), []);
+  assert.match(controlTexts(control("nobody"), only).holder, /The key is missing\.$/);
+  assert.deepEqual(offered(control("nobody"), null), []);
+});
+
+test("why a Command is not offered", () => {
+  const store = (control, role = "pilot", link = {}) => ({ aircraft: "one", status: { control, role, link } });
+  const connection = { isOpen: true, welcome: WELCOME };
+  const code = (its, name = "up.arm", data = {}, to = connection) => disabledReason(its, to, name, data)?.code ?? null;
+  const you = { holder: "you" };
+  assert.equal(code(store(you)), null);
+  assert.equal(code(store({ holder: "page", holder_name: "Anna" })), "control_page");
+  assert.equal(code(store({ holder: "nobody" })), "control_free");
+  assert.equal(code(store(you, "operator")), "role");
+  assert.equal(code(store(you, "operator"), "up.flight_mode.set"), null);
+  assert.equal(code(store(you, "operator"), "arduino.pids.tunings", { pids: {} }), "role");
+  assert.equal(code(store(you, null)), null);
+  assert.equal(code(store(you), "up.arm", {}, { isOpen: false, welcome: null }), "no_server");
+  assert.equal(code(store(you), "up.arm", {}, { isOpen: true, welcome: { ...WELCOME, is_replay: true } }), "replay");
+  const denied = { ...WELCOME, may_control: false, denial: { code: "no_key", text: "" } };
+  assert.equal(code(store(you), "up.arm", {}, { isOpen: true, welcome: denied }), "no_key");
+  assert.equal(code(store({ holder: "nobody" }), "arduino.profile.request"), null);
+  assert.equal(code(store({ holder: "nobody" }, "observer"), "arduino.pids.tunings", { request: true }), null);
+  const away = store(you, "pilot", { aircraft_online: false });
+  assert.equal(code(away, "up.flight_mode.set"), "aircraft_offline");
+  assert.equal(code(away, "arduino.profile.request"), "aircraft_offline");
+  assert.equal(code(store(you, "pilot", { aircraft_online: null })), null);
+});
+
+test("a profile reads as a page, and a missing value has no row", () => {
+  const parts = profileParts({
+    mix: "elevon",
+    motor: false,
+    ailerons: { reversed: true, trim_us: -12, lowest_us: 1000, highest_us: 2000 },
+    switch: { low: "ACRO", middle: "FBW", high: "AUTO" },
+    receiver_lost: { circle_bank_deg: -20, return_with_motor: false },
+  });
+  const rows = Object.fromEntries(parts.flatMap((part) => part.rows));
+  assert.equal(rows["Ailerons (left elevon)"], "reversed, trim −12 us, 1000 to 2000 us");
+  assert.equal(rows["Bank of the circle"], "20° to the left");
+  assert.equal(rows.High, "AUTO");
+  assert.match(rows.Motor, /glider/);
+  assert.ok(!parts.some((part) => part.title === "Limits in FBW"));
+  assert.deepEqual(profileParts({}), []);
+  const odd = { mix: "constructor", motor: "toString", ailerons: 7, switch: "high", receiver_lost: [1] };
+  assert.deepEqual(profileParts(odd), [{ title: "Airframe", rows: [["Mix", "constructor"]] }]);
+});
