@@ -30,7 +30,7 @@ help:
 	@echo 'make scenarios  fly every scenario that is shipped and count (SCENARIO=receiver-lost for some)'
 	@echo 'make test     set up everything and run every test (TEST=tests/up for some)'
 	@echo 'make test-browser  only the tests of the page in a headless Chromium'
-	@echo 'make check    lint, types, import contracts; of the phone where a JDK and Debian'"'"'s tools are'
+	@echo 'make check    lint, types, import contracts, language; of the phone where a JDK and Debian'"'"'s tools are'
 	@echo 'make bench    the performance table (BENCH="bus --quick" for some)'
 	@echo 'make pictures  the documentation'"'"'s pictures of the page, from a flight'
 	@echo 'make format   put the code into the project'"'"'s form'
@@ -83,6 +83,7 @@ check: $(VENV)/.dev-ready
 		MYPYPATH=$(MYPY_ROOTS) $(BIN)/mypy $$cog/$$(basename $$cog) || exit 1; done
 	MYPYPATH=android/tools $(BIN)/mypy android/tools/*.py
 	$(PY) tools/import_contracts.py
+	$(PY) tools/plain_english.py --max 1
 	$(PY) tools/schema.py --check
 	@android/tools/where_ready check
 
