@@ -4,12 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Collection
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 from typing import Protocol as Interface
 
 from up_ground.web.access import Denial
 from up_ground.web.messages import message_bytes
-from up_ground.web.page_link import PageSendBuffer
+
+if TYPE_CHECKING:
+    from up_ground.web.page_link import PageSendBuffer
 
 
 class ClientConnection(Interface):
