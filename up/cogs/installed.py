@@ -15,7 +15,7 @@ from up.cogs.source_tree import distribution_name
 
 
 def is_installed(wanted: WantedCog) -> bool:
-    """Return whether the cog can be imported and comes from the Cogfile's source."""
+    """Return whether the cog can be imported and comes from the Cogfile's source, none older."""
     importlib.invalidate_caches()
     if _package_folder(wanted.cog) is None:
         return False
@@ -32,13 +32,26 @@ def is_installed(wanted: WantedCog) -> bool:
 def _is_from_folder(cog: str, folder: Path) -> bool:
     name = distribution_name(folder)
     found = distribution_of(cog, name)
-    if found is None:
+    if found is None or _is_older(found, folder):
         return False
     package = _package_folder(cog)
     if package is not None and package.is_relative_to(folder):
         return True
     address = urllib.parse.urlsplit(str(_direct_url(found).get("url", "")))
     return address.scheme == "file" and Path(urllib.parse.unquote(address.path)) == folder
+
+
+def _is_older(found: Distribution, folder: Path) -> bool:
+    """Return whether the folder's packaging changed since: entry points, requirements."""
+    metadata = next((each.locate() for each in found.files or () if each.name == "METADATA"), None)
+    if metadata is None:
+        return False
+    files = [folder / name for name in ("setup.py", "setup.cfg", "pyproject.toml")]
+    try:
+        installed_s = Path(str(metadata)).stat().st_mtime
+        return any(each.stat().st_mtime > installed_s for each in files if each.is_file())
+    except OSError:
+        return False
 
 
 def _is_from_git(found: Distribution, url: str, revision: str) -> bool:

@@ -45,6 +45,14 @@ def test_the_life_of_a_cogfile(environment, application, tree):
         "2 cogs of Cogfile.yml installed and registered",
     ]
 
+    # Packaging that is newer than the installation may bring other entry points.
+    (tree / "alpha_cog" / "setup.py").touch()
+    updated = environment.up("gather", cwd=application).stdout.splitlines()
+    assert updated[:2] == [
+        f"alpha_cog: to be installed from {tree}/alpha_cog",
+        "installed 1 cog",
+    ]
+
     modules = environment.up("modules", cwd=application).stdout
     assert modules.index("AlphaModule") < modules.index("BetaModule")
     environment.up("check", cwd=application)
