@@ -19,7 +19,7 @@ def hints(ports: Ports, folder: Path, page: str | None) -> list[str]:
     port = "" if ports.ground == 3004 else f" --port {ports.ground}"
     socket = "" if folder == Path.cwd() / "run/demo" else f" --socket {folder / 'radio'}"
     in_browser = [
-        f"Open {page} in a browser: the flight, live. 'Ask for control' there,",
+        f"Open {page} in a browser: the flight, live. 'Request control' there,",
         "then choose modes and change gains in flight, which this aircraft allows.",
     ]
     return [
