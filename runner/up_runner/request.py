@@ -17,6 +17,7 @@ DEFAULT_NAME = "default"
 NAME = AIRCRAFT_NAME
 _MAX_TEXT = 256
 _MAX_WORD = 64
+_MAX_SHOWN = 100
 
 Scalar = bool | int | float | str
 Configuration = Mapping[str, Mapping[str, Scalar]]
@@ -111,10 +112,10 @@ def _configuration(value: Any) -> dict[str, dict[str, Scalar]]:
     for file, settings in value.items():
         _check_word(file)
         if not isinstance(settings, dict):
-            raise MalformedRequest(f"configuration of {file!a} must be an object of keys")
+            raise MalformedRequest(f"configuration of {_shown(file)} must be an object of keys")
         for key, setting in settings.items():
             _check_word(key)
-            _check_setting(f"{file!a} {key!a}", setting)
+            _check_setting(f"{_shown(file)} {_shown(key)}", setting)
     return value
 
 
@@ -137,3 +138,9 @@ def _check_setting(where: str, value: Any) -> None:
 def _check_word(text: str) -> None:
     if not text or len(text) > _MAX_WORD:
         raise MalformedRequest(f"a file or key must have 1 to {_MAX_WORD} characters")
+
+
+def _shown(text: str) -> str:
+    """Return the text in ASCII and quoted, cut where its escapes would make the sentence long."""
+    shown = ascii(text)
+    return shown if len(shown) <= _MAX_SHOWN else f"{shown[:_MAX_SHOWN]}..."

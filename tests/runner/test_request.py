@@ -77,6 +77,9 @@ json_values = st.recursive(
         st.sampled_from(["aircraft", "profile", "configuration", "action"]), json_values
     )
 )
+@example({"configuration": {"\U00010000" * 64: None}})
+@example({"configuration": {"\U00010000" * 64: {"\U00010000" * 64: None}}})
+@example({"configuration": {"\U00010000" * 64: {"\U00010000" * 64: "/"}}})
 def test_wrong_types_are_one_short_sentence(found):
     try:
         request = parse(json.dumps(found).encode())

@@ -45,7 +45,16 @@ _GAINS = struct.Struct(">18f")
 
 
 class SettingsError(ValueError):
-    """A setting cannot be put on the wire: the message is one sentence that names it."""
+    """A setting cannot be put on the wire: the message is one sentence that names it.
+
+    ``code`` is the kind of mistake and ``key`` the setting, empty if it is not known.
+    """
+
+    # The defaults let a process pool copy the error.
+    def __init__(self, message: str, *, code: str = "invalid_settings", key: str = "") -> None:
+        super().__init__(message)
+        self.code = code
+        self.key = key
 
 
 def profile_bytes(settings: Mapping[str, Any], held: bytes) -> bytes:
@@ -61,7 +70,9 @@ def profile_bytes(settings: Mapping[str, Any], held: bytes) -> bytes:
         elif key == "mix":
             fields[_PLACES[key]] = _choice(key, value, {name: at for at, name in enumerate(MIXES)})
         elif key not in _PLACES:
-            raise SettingsError(f"unknown key of a profile: {key}")
+            raise SettingsError(
+                f"unknown key of a profile: {key}", code="unknown_profile_key", key=key
+            )
         elif _PLACES[key] in _ANGLES:
             fields[_PLACES[key]] = round(_number(key, value) * _CENTI)
         else:
@@ -72,7 +83,7 @@ def profile_bytes(settings: Mapping[str, Any], held: bytes) -> bytes:
     except struct.error:
         wire = b""
     if not wire or not _is_in_range(fields):
-        raise SettingsError("a value of the profile is out of range")
+        raise SettingsError("a value of the profile is out of range", code="profile_out_of_range")
     return wire
 
 
@@ -88,11 +99,11 @@ def gains_bytes(settings: Mapping[str, Any], held: bytes) -> bytes:
         if key == "units" or loop == "navigation":
             continue
         if loop not in _LOOPS or axis not in _AXES or term not in tuple(_TERMS):
-            raise SettingsError(f"unknown gain {key}")
+            raise SettingsError(f"unknown gain {key}", code="unknown_gain", key=key)
         at = 9 * _LOOPS.index(loop) + 3 * _AXES.index(axis) + _TERMS.index(term)
         values[at] = _number(key, value)
     if not all(math.isfinite(each) and 0.0 <= each <= MAX_GAIN for each in values):
-        raise SettingsError(f"a gain is not within 0 to {MAX_GAIN:g}")
+        raise SettingsError(f"a gain is not within 0 to {MAX_GAIN:g}", code="gain_out_of_range")
     return _GAINS.pack(*values)
 
 
@@ -122,11 +133,12 @@ def _flat(settings: Mapping[str, Any], above: str = "") -> list[tuple[str, Any]]
 
 def _choice(key: str, value: Any, known: Mapping[str, Any]) -> Any:
     if value not in known:
-        raise SettingsError(f"{key} is one of {', '.join(known)}, not {value}")
+        text = f"{key} is one of {', '.join(known)}, not {value}"
+        raise SettingsError(text, code="unknown_choice", key=key)
     return known[value]
 
 
 def _number(key: str, value: Any) -> float:
     if not isinstance(value, int | float):
-        raise SettingsError(f"{key} is a number, not {value!r}")
+        raise SettingsError(f"{key} is a number, not {value!r}", code="not_a_number", key=key)
     return float(value)

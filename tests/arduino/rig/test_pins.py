@@ -96,7 +96,7 @@ def test_sleeping_takes_simulated_time_alone(case):
 def test_time_without_interrupts_and_the_stack_are_measured(case):
     rig = case(5, is_measuring=True)
     rig.run_until_us(101)
-    rig.discard_measures()
+    rig.forget_measures()
     rig.run_us(2000)
     measures = rig.measures()
     assert 1000 <= measures.longest_off_cycles <= 1006

@@ -1,5 +1,6 @@
 """An airframe's settings reach the board as from the Pi, or the reason is reported."""
 
+import pickle
 import struct
 
 import pytest
@@ -77,34 +78,52 @@ def test_named_gains_change_their_places_and_no_others():
 
 
 @pytest.mark.parametrize(
-    ("settings", "said"),
+    ("settings", "code", "key"),
     [
-        ({"flaps": 1}, "a profile has no flaps"),
-        ({"ailerons": {"trim": 1}}, "a profile has no ailerons.trim"),
-        ({"mix": "delta"}, "mix is one of none, elevon, V-tail, not delta"),
-        ({"switch": {"low": "RTH"}}, "switch.low is one of ACRO, RATE, FBW, AUTO, not RTH"),
-        ({"rudder": {"trim_us": "much"}}, "rudder.trim_us is a number, not 'much'"),
-        ({"rudder": {"trim_us": 201}}, "a value of the profile is out of range"),
-        ({"fly_by_wire": {"roll_deg": 1e9}}, "a value of the profile is out of range"),
+        ({"flaps": 1}, "unknown_profile_key", "flaps"),
+        ({"ailerons": {"trim": 1}}, "unknown_profile_key", "ailerons.trim"),
+        ({"mix": "delta"}, "unknown_choice", "mix"),
+        ({"switch": {"low": "RTH"}}, "unknown_choice", "switch.low"),
+        ({"rudder": {"trim_us": "much"}}, "not_a_number", "rudder.trim_us"),
+        ({"rudder": {"trim_us": 201}}, "profile_out_of_range", ""),
+        ({"fly_by_wire": {"roll_deg": 1e9}}, "profile_out_of_range", ""),
     ],
 )
-def test_an_invalid_profile_is_refused(settings, said):
-    with pytest.raises(SettingsError, match=said):
+def test_an_invalid_profile_is_refused(settings, code, key):
+    with pytest.raises(SettingsError) as error:
         profile_bytes(settings, HELD)
+    assert (error.value.code, error.value.key) == (code, key)
+    assert key in str(error.value)
+
+
+def test_an_unknown_choice_is_refused_with_the_known_ones():
+    for settings, known in (
+        ({"mix": "delta"}, "none, elevon, V-tail, not delta"),
+        ({"switch": {"low": "RTH"}}, "ACRO, RATE, FBW, AUTO, not RTH"),
+    ):
+        with pytest.raises(SettingsError, match=known):
+            profile_bytes(settings, HELD)
+
+
+def test_an_error_of_settings_is_the_same_after_a_copy_between_processes():
+    error = pickle.loads(pickle.dumps(SettingsError("a text", code="not_a_number", key="mix")))
+    assert (str(error), error.code, error.key) == ("a text", "not_a_number", "mix")
 
 
 @pytest.mark.parametrize(
-    ("settings", "said"),
+    ("settings", "code", "key"),
     [
-        ({"rate": {"flaps": {"p": 1}}}, "unknown gain rate.flaps.p"),
-        ({"rate": {"ailerons": {"q": 1}}}, "unknown gain rate.ailerons.q"),
-        ({"rate": {"ailerons": {"p": 50.5}}}, "a gain is not within 0 to 50"),
-        ({"rate": {"ailerons": {"p": float("nan")}}}, "a gain is not within 0 to 50"),
+        ({"rate": {"flaps": {"p": 1}}}, "unknown_gain", "rate.flaps.p"),
+        ({"rate": {"ailerons": {"q": 1}}}, "unknown_gain", "rate.ailerons.q"),
+        ({"rate": {"ailerons": {"p": 50.5}}}, "gain_out_of_range", ""),
+        ({"rate": {"ailerons": {"p": float("nan")}}}, "gain_out_of_range", ""),
     ],
 )
-def test_an_invalid_gain_is_refused(settings, said):
-    with pytest.raises(SettingsError, match=said):
+def test_an_invalid_gain_is_refused(settings, code, key):
+    with pytest.raises(SettingsError) as error:
         gains_bytes(settings, HELD_GAINS)
+    assert (error.value.code, error.value.key) == (code, key)
+    assert key in str(error.value)
 
 
 def test_a_board_with_the_prepared_eeprom_boots_with_the_settings(elf):

@@ -4,6 +4,7 @@ import pytest
 
 from tests.simulator.bench import StillFlight
 from tests.support.tools import unavailable
+from up.commands.board_schema import FLIGHT_MODES
 from up.earth import distance_m
 from up_rig import RigUnavailableError
 from up_rig.sticks import read_sticks
@@ -11,7 +12,6 @@ from up_simulator.aircraft import FlightDynamics, Weather, load_airframe
 from up_simulator.firmware.build import BoardUnavailableError, choose_board
 from up_simulator.firmware.line_monitor import LineMonitor
 from up_simulator.firmware.preparation import cached_eeprom
-from up_simulator.harness.virtual_aircraft import MODE_NAMES
 from up_simulator.harness.world import World
 from up_simulator.radio.choice import ScriptedRadio
 from up_simulator.radio.circling_pilot import CirclingPilot
@@ -56,7 +56,7 @@ def test_it_flies_by_the_mode_that_the_board_says(airframe, mode, switch):
     except (BoardUnavailableError, RigUnavailableError) as error:
         unavailable(str(error))
     tap = LineMonitor()
-    pilot = CirclingPilot(switch=switch, mode=lambda: MODE_NAMES.get(tap.mode or "", ""))
+    pilot = CirclingPilot(switch=switch, mode=lambda: FLIGHT_MODES.get(tap.mode or "", ""))
     world, transmitter = World(flight, board), Transmitter(board)
     world.boot(arms=True)
     board.write(tap.start_bytes())
@@ -71,7 +71,7 @@ def test_it_flies_by_the_mode_that_the_board_says(airframe, mode, switch):
             assert 90 < flight.state.height_m < 150, world.time_s
             assert abs(flight.state.roll_deg) < 60
             if step > 6 * 500:
-                assert MODE_NAMES[tap.mode] == mode
+                assert FLIGHT_MODES[tap.mode] == mode
 
 
 def test_a_board_that_is_not_armed_gets_its_edge_first_and_throttle_later():

@@ -34,7 +34,7 @@ def test_a_folder_that_is_not_writable_is_reported_before_the_flight(
     words, output, capsys, monkeypatch
 ):
     monkeypatch.setattr("up_simulator.verbs.fly.fly_scenario", never)
-    monkeypatch.setattr("up_simulator.verbs.all.Fleet", never)
+    monkeypatch.setattr("up_simulator.verbs.all.Batch", never)
     assert main([*words, "--output", output]) == 2
     printed = capsys.readouterr().err
     assert printed.startswith(f"up-sim: --output {output}: ")

@@ -4,8 +4,11 @@ import os
 import signal
 import subprocess
 import sys
+from pathlib import Path
 
 import pytest
+
+ROOT = Path(__file__).parents[3]
 
 # The signal comes when the first worker's process exists, to the parent alone; or, to the whole
 # group as from a terminal, when that process has Python's handler.
@@ -61,5 +64,7 @@ def test_a_signal_during_the_start_of_a_worker_leaves_no_traceback(tmp_path, num
         check=False,
         start_new_session=True,
         cwd=os.fspath(tmp_path),
+        # The tools are not installed; they are imported from the root.
+        env={**os.environ, "PYTHONPATH": os.fspath(ROOT)},
     )
     assert (ended.stderr, ended.returncode) == ("", 128 + number)
