@@ -30,6 +30,7 @@ FBW, OUTPUT = (
     "board: FBW, the Arduino holds the attitude",
     "board: OUTPUT, Raspilot moves the servos",
 )
+ENDED = "aircraft ended unexpectedly with signal 9; the end of its log "
 
 
 @pytest.fixture(scope="module")
@@ -106,7 +107,7 @@ def test_what_breaks_ends_the_run_and_by_hand_the_others_bear_it(tmp_path):
         assert flight.process.wait(LIMIT_S) == 1
         assert not list(aircraft.parent.glob("*.pid"))
         said = flight.said.read_text()
-        assert "aircraft ended by itself with signal 9; its log " in said
+        assert ENDED in TEXT and ENDED in said
         _look_at_the_flight(flight, said)
         proxy, simulator, daemon, _watch = lines_of(PAGE, "by hand")
         general, orientation = re.findall(

@@ -13,13 +13,13 @@ from dataclasses import replace
 from pathlib import Path
 
 from up_simulator.radio.rc_override import PERIOD_S, RadioLink
-from up_simulator.radio.remote_messages import SEEN, write_sticks
+from up_simulator.radio.remote_messages import STATE_FIELDS, write_sticks
 
 
 def main(path):
     link = RadioLink(Path(path))
     sticks = None
-    base = link.seen.sticks
+    base = link.snapshot.sticks
     told = None
     watched = selectors.DefaultSelector()
     watched.register(sys.stdin, selectors.EVENT_READ)
@@ -31,11 +31,13 @@ def main(path):
                     return
                 moved = json.loads(line)
                 sticks = None if moved is None else replace(sticks or base, **moved)
-            seen = link.exchange(write_sticks(sticks))
-            if seen is not told:
-                told = seen
-                values = {name: getattr(seen.state, name) for name in SEEN}
-                print(json.dumps({"unix_s": time.time(), "mode": seen.mode, **values}), flush=True)
+            snapshot = link.exchange(write_sticks(sticks))
+            if snapshot is not told:
+                told = snapshot
+                values = {name: getattr(snapshot.state, name) for name in STATE_FIELDS}
+                print(
+                    json.dumps({"unix_s": time.time(), "mode": snapshot.mode, **values}), flush=True
+                )
     finally:
         link.close()
 

@@ -1,4 +1,4 @@
-"""ClientHub that read slowly or not at all, over real sockets."""
+"""Pages that read slowly or not at all, over real sockets."""
 
 import base64
 import json
@@ -8,6 +8,7 @@ import struct
 import time
 from itertools import pairwise
 
+from tests.ground import aircraft as flying
 from tests.ground.aircraft import Aircraft, frame, until
 from tests.ground.web.page import Serve
 
@@ -33,7 +34,7 @@ class SlowPage:
         while self.file.readline() != b"\r\n":
             pass
         self.send(type="hello", name="slow")
-        self.send(type="watch")
+        self.send(type="watch", aircraft=flying.NAME)
 
     def __enter__(self):
         return self
