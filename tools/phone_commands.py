@@ -8,6 +8,7 @@ bytes.
 
 from __future__ import annotations
 
+import argparse
 import json
 import sys
 from pathlib import Path
@@ -36,7 +37,11 @@ def asset_text(catalogue: Catalogue) -> str:
 
 def main(arguments: list[str]) -> int:
     """Write the file and report it; 1 if it was left unchanged, with the reason."""
-    path = Path(arguments[0]) if arguments else ASSET
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument(
+        "path", nargs="?", type=Path, default=ASSET, help="default: the app's asset"
+    )
+    path = parser.parse_args(arguments).path
     try:
         text = asset_text(Catalogue.installed())
         path.parent.mkdir(parents=True, exist_ok=True)
