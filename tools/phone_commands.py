@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Writes the forms of the Commands that the app shows: ``android/raspilot/assets/commands.json``.
 
-``tools/phone_commands.py [FILE]``. The forms equal those of the ground station's page: every
+The forms equal those of the ground station's page: every
 Command that a ground may send, of Up and of every installed cog. The same Commands give the same
 bytes.
 """
