@@ -13,6 +13,7 @@ from up.base_module import BaseModule
 from up.base_started_module import BaseStartedModule, StartFailedError, StartResult
 from up.config import ConfigErrors
 from up.errors import UserError
+from up.system.clock import cancel
 from up.up import Up
 
 START_LIMIT_S = 10.0
@@ -179,8 +180,7 @@ class LifeCycle:
         outcome: Deferred[Any] = Deferred(lambda _: task.cancel())
 
         def settle(result: Any) -> None:
-            if limit.active():
-                limit.cancel()
+            cancel(limit)
             if not outcome.called:
                 outcome.callback(result)
 

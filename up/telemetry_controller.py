@@ -15,7 +15,7 @@ from up.commands.system_commands import LinkStateCommand
 from up.commands.telemetry_commands import TelemetryCommand, TelemetryFrequencyCommand
 from up.log.limits import Once
 from up.merge import merge
-from up.system.clock import Timer
+from up.system.clock import Timer, cancel
 
 DEFAULT_PERIOD_MS = 100.0
 IDLE_POLL_S = 2.0
@@ -78,8 +78,7 @@ class TelemetryController(BaseStartedModule):
         return True
 
     def on_stop(self) -> None:
-        if self._timer is not None and self._timer.active():
-            self._timer.cancel()
+        cancel(self._timer)
 
     def _on_period(self, command: TelemetryFrequencyCommand) -> None:
         if command.period_ms < self.panic_delay_ms:

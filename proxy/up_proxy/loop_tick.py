@@ -3,7 +3,7 @@
 from collections import deque
 from collections.abc import Callable
 
-from up.system.clock import Clock, Timer
+from up.system.clock import Clock, Timer, cancel
 
 TICK_S = 0.25
 """Period of the checks of silence, idleness and leases."""
@@ -47,8 +47,7 @@ class LoopTick:
     def stop(self) -> None:
         """Stop ticking."""
         timer, self._timer = self._timer, None
-        if timer is not None and timer.active():
-            timer.cancel()
+        cancel(timer)
 
     def _arm(self) -> None:
         self._due_s = self._clock.seconds() + TICK_S

@@ -12,7 +12,7 @@ from twisted.web.resource import Resource
 from twisted.web.server import Request as SiteRequest
 from twisted.web.server import Site
 
-from up.system.clock import Clock
+from up.system.clock import Clock, cancel
 from up.system.http_host import names_this_machine
 from up_proxy.listener import cannot_listen
 from up_proxy.metrics import CONTENT_TYPE
@@ -92,8 +92,7 @@ class MetricsConnection(ProtocolWrapper):
 
     def connectionLost(self, reason: Failure = connectionDone) -> None:  # noqa: N802
         """Stop the time limit."""
-        if self._limit.active():
-            self._limit.cancel()
+        cancel(self._limit)
         super().connectionLost(reason)  # type: ignore[no-untyped-call]
 
 

@@ -6,7 +6,7 @@ from typing import Any
 
 from up.base_started_module import BaseStartedModule
 from up.commands.system_commands import LinkStateCommand
-from up.system.clock import Timer
+from up.system.clock import Timer, cancel
 from up.system.notify import Notifier
 
 PHONE_LINK = "android"
@@ -34,8 +34,7 @@ class PhoneWatch(BaseStartedModule):
         return True
 
     def on_stop(self) -> None:
-        if self._timer is not None and self._timer.active():
-            self._timer.cancel()
+        cancel(self._timer)
 
     def _on_link(self, command: LinkStateCommand) -> None:
         if command.link == PHONE_LINK:

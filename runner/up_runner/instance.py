@@ -9,7 +9,7 @@ from twisted.internet.defer import Deferred
 from twisted.logger import Logger
 from twisted.python.failure import Failure
 
-from up.system.clock import Clock, Timer
+from up.system.clock import Clock, Timer, cancel
 from up_runner.instance_config import ConfigurationRefused
 from up_runner.instance_host import InstanceHost
 from up_runner.instance_machine import TRANSITIONS, Input, State
@@ -370,8 +370,7 @@ class Instance:
         for watchdog in (self._start_limit, self._watchdog, self._exit_delay):
             watchdog.stop()
         timer, self._timer = self._timer, None
-        if timer is not None and timer.active():
-            timer.cancel()
+        cancel(timer)
 
     def _drain(self) -> None:
         if self._listener is not None:

@@ -11,6 +11,7 @@ from typing import Any
 from twisted.logger import Logger
 from twisted.python.failure import Failure
 
+from up.system.clock import cancel
 from up_runner.instance_host import InstanceHost
 from up_runner.log_keeper import LogKeeper
 from up_runner.request import NAME
@@ -41,8 +42,7 @@ class LogMaintenance:
     def stop(self) -> None:
         """Stop."""
         timer, self._timer = self._timer, None
-        if timer is not None and timer.active():
-            timer.cancel()
+        cancel(timer)
 
     def prune(self) -> None:
         """Remove the files of the oldest ended instances."""

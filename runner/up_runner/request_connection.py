@@ -10,7 +10,7 @@ from twisted.internet.protocol import Protocol, connectionDone
 from twisted.python.failure import Failure
 from zope.interface import implementer
 
-from up.system.clock import Timer
+from up.system.clock import Timer, cancel
 from up_runner.request import MAX_LINE, MalformedRequest, Request, parse
 from up_runner.response import BUG, Problem, Response
 from up_runner.watchdog import Watchdog
@@ -232,5 +232,4 @@ class RequestConnection(Protocol):
 
     def _cancel_silence(self) -> None:
         silence, self._silence = self._silence, None
-        if silence is not None and silence.active():
-            silence.cancel()
+        cancel(silence)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from up.system.clock import Clock, Timer
+from up.system.clock import Clock, Timer, cancel
 
 
 class Watchdog:
@@ -35,8 +35,7 @@ class Watchdog:
     def stop(self) -> None:
         """Stop until the next reset."""
         timer, self._timer = self._timer, None
-        if timer is not None and timer.active():
-            timer.cancel()
+        cancel(timer)
 
     def _check(self) -> None:
         self._timer = None

@@ -14,7 +14,7 @@ from up.protocols.general_message import GeneralMessage, MalformedMessage, decod
 from up.protocols.line_decoder import MAX_LINE_BYTES, LineDecoder
 from up.protocols.link_output import LinkOutput
 from up.protocols.tcp_options import watch_peer, why_lost
-from up.system.clock import Clock, Timer
+from up.system.clock import Clock, Timer, cancel
 from up.system.token_bucket import TokenBucket
 
 USER_TIMEOUT_MS = 1500
@@ -171,6 +171,5 @@ class GeneralMessageProtocol(Protocol):
     def connectionLost(self, reason: Failure = connectionDone) -> None:  # noqa: N802 - Twisted's name
         self._is_open = False
         self._lines.reset()
-        if self._timer is not None and self._timer.active():
-            self._timer.cancel()
+        cancel(self._timer)
         self._on_lost(self, self._why_given_up or why_lost(reason))

@@ -17,7 +17,7 @@ from up.protocols.general_message_link import (
     OnMessage,
     permits,
 )
-from up.system.clock import Clock, Timer
+from up.system.clock import Clock, Timer, cancel
 from up.system.token_bucket import TokenBucket
 
 SILENCE_TIMEOUT_S = 1.5
@@ -129,8 +129,7 @@ class GeneralMessageDatagrams(DatagramProtocol):
             self._lose(f"nothing heard for {self._idle_timeout_s:g} s")
 
     def _lose(self, why: str) -> None:
-        if self._timer is not None and self._timer.active():
-            self._timer.cancel()
+        cancel(self._timer)
         if self._address is not None:
             self._address = None
             self._on_lost(self, why)

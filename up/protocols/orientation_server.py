@@ -17,7 +17,7 @@ from up.protocols.orientation_forward import (
     decode_datagram,
 )
 from up.protocols.tcp_options import watch_peer, why_lost
-from up.system.clock import Clock, Timer
+from up.system.clock import Clock, Timer, cancel
 from up.system.token_bucket import TokenBucket
 
 TAKEOVER_SILENCE_S = 1.0
@@ -214,8 +214,7 @@ class OrientationDatagrams(DatagramProtocol):
             self._timer = self._clock.callLater(remaining, self._check_silence)
 
     def _lose(self, why: str) -> None:
-        if self._timer is not None and self._timer.active():
-            self._timer.cancel()
+        cancel(self._timer)
         if self._address is not None:
             self._address = None
             self._on_lost(self._source, why)

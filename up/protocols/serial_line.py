@@ -9,7 +9,7 @@ from typing import Any, Protocol
 
 from up.protocols.serial_descriptor import SerialDescriptor
 from up.protocols.serial_port import close_serial
-from up.system.clock import Timer
+from up.system.clock import Timer, cancel
 
 INITIAL_DELAY_S = 0.2
 MAX_DELAY_S = 1.6
@@ -87,8 +87,7 @@ class SerialLine:
     def stop(self) -> None:
         """Close the port immediately and keep it closed; does not call `on_lost`."""
         self._is_started = False
-        if self._timer is not None and self._timer.active():
-            self._timer.cancel()
+        cancel(self._timer)
         if self._descriptor is not None:
             self._descriptor.stop()
             self._close()

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import gc
 
-from up.system.clock import Clock, Timer
+from up.system.clock import Clock, Timer, cancel
 
 PERIOD_S = 1.0
 FULL_COLLECTION_EVERY = 300
@@ -31,8 +31,7 @@ class GcScheduler:
         self._schedule()
 
     def stop(self) -> None:
-        if self._call is not None and self._call.active():
-            self._call.cancel()
+        cancel(self._call)
         gc.enable()
         gc.unfreeze()
 

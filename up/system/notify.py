@@ -4,7 +4,7 @@ import os
 import socket
 from collections.abc import Callable, Mapping
 
-from up.system.clock import Clock, Timer
+from up.system.clock import Clock, Timer, cancel
 
 
 class Notifier:
@@ -95,8 +95,7 @@ class WatchdogPinger:
 
     def stop(self) -> None:
         call, self._call = self._call, None
-        if call is not None and call.active():
-            call.cancel()
+        cancel(call)
 
     def _ping(self) -> None:
         assert self.interval_s is not None

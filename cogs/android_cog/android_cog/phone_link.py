@@ -21,7 +21,7 @@ from up.protocols.general_message_link import (
 )
 from up.protocols.general_message_udp import SILENCE_TIMEOUT_S, GeneralMessageDatagrams
 from up.protocols.line_decoder import MAX_LINE_BYTES
-from up.system.clock import Clock, Timer
+from up.system.clock import Clock, Timer, cancel
 from up.system.peer_filter import PeerFilter
 from up.system.token_bucket import TokenBucket
 
@@ -183,8 +183,7 @@ class PhoneLink:
 
     def _decide(self, link: GeneralMessageProtocol, message: GeneralMessage | None = None) -> None:
         timer = self._undecided.pop(link)
-        if timer.active():
-            timer.cancel()
+        cancel(timer)
         address, identity = host_of(link.peer), _identity_of(message)
         if self._may_own(identity, address):
             self._own(link, address, identity)
@@ -220,8 +219,7 @@ class PhoneLink:
             self._open.discard(link)
             self.dropped_too_long += link.dropped_too_long
             timer = self._undecided.pop(link, None)
-            if timer is not None and timer.active():
-                timer.cancel()
+            cancel(timer)
         if link is self._owner:
             self._owner = None
             self._on_lost(link, why)

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from twisted.internet.defer import Deferred
 
 from up.commands.refusal import Code, CommandRefusedError
-from up.system.clock import Clock, Timer
+from up.system.clock import Clock, Timer, cancel
 
 TIMEOUT_S = 0.5
 
@@ -110,8 +110,7 @@ class RequestTracker:
 
     def _finish(self, request: _Request) -> Deferred[bytes]:
         self._waiting.remove(request)
-        if request.timer is not None and request.timer.active():
-            request.timer.cancel()
+        cancel(request.timer)
         return request.done
 
     def _cancelled(self, done: Deferred[bytes]) -> None:

@@ -10,6 +10,8 @@ from typing import Any
 
 from twisted.internet.defer import Deferred
 
+from up.system.clock import cancel
+
 LOOK_UP_LIMIT_S = 5.0
 LookUp = Callable[[str, int], list[str]]
 
@@ -94,8 +96,7 @@ class HostAddresses:
         try:
             await done
         finally:
-            if limit.active():
-                limit.cancel()
+            cancel(limit)
 
 
 def _is_literal(host: str) -> bool:

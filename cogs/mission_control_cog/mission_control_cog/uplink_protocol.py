@@ -10,7 +10,7 @@ from twisted.python.failure import Failure
 
 from up.protocols.general_message_link import GeneralMessageProtocol
 from up.protocols.proxy_lines import HELLO_MAX_BYTES, Accepted, Hello, Refused, parse_line
-from up.system.clock import Clock, Timer
+from up.system.clock import Clock, Timer, cancel
 
 HEARTBEAT_S = 1.0
 ANSWER_LIMIT_S = 5.0
@@ -73,8 +73,7 @@ class UplinkProtocol(GeneralMessageProtocol):
     def connectionLost(self, reason: Failure = connectionDone) -> None:  # noqa: N802 - Twisted's name
         """Stop the heartbeat and report the loss."""
         self.is_ready = False
-        if self._pulse is not None and self._pulse.active():
-            self._pulse.cancel()
+        cancel(self._pulse)
         super().connectionLost(reason)
 
     def close(self) -> None:

@@ -19,6 +19,7 @@ from twisted.internet.interfaces import (
 )
 from zope.interface import implementer
 
+from up.system.clock import cancel
 from up_simulator.in_process.tcp_ports import Connector, TcpPort
 from up_simulator.in_process.udp_port import UdpPort
 
@@ -193,8 +194,7 @@ class SimulatedHost:
         """Kill the program: its system closes all that it leaves behind."""
         self.running = False
         for call in self._calls:
-            if call.active():
-                call.cancel()
+            cancel(call)
         for calls in (self._calls, self._late_calls, self._missed, self._suspended_descriptors):
             calls.clear()
         self.is_frozen = False

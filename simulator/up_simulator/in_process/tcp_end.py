@@ -10,6 +10,7 @@ from typing import Any, Protocol
 from twisted.internet.base import DelayedCall
 from twisted.internet.error import ConnectionLost
 
+from up.system.clock import cancel
 from up_simulator.in_process.network import Route
 
 HEADER = 40
@@ -295,11 +296,9 @@ class TcpEnd:
         self._stop_probing()
 
     def _cancel_retry(self) -> None:
-        if self._retry is not None and self._retry.active():
-            self._retry.cancel()
+        cancel(self._retry)
         self._retry = None
 
     def _stop_probing(self) -> None:
-        if self._probe is not None and self._probe.active():
-            self._probe.cancel()
+        cancel(self._probe)
         self._probe = None

@@ -13,6 +13,7 @@ from twisted.internet.interfaces import IConnector, IListeningPort
 from twisted.python.failure import Failure
 from zope.interface import implementer
 
+from up.system.clock import cancel
 from up_simulator.in_process.network import ADDRESS
 from up_simulator.in_process.tcp_end import HEADER, TcpEnd
 from up_simulator.in_process.tcp_transport import TcpTransport
@@ -94,8 +95,7 @@ class _Attempt:
 
     def end(self) -> None:
         self.is_over = True
-        if self._retry is not None and self._retry.active():
-            self._retry.cancel()
+        cancel(self._retry)
 
     def _on_syn(self) -> None:
         port = self._network.tcp.get(self._port)
@@ -210,6 +210,5 @@ class Connector:
         if self._attempt is not None:
             self._attempt.end()
         for timer in self._timers:
-            if timer.active():
-                timer.cancel()
+            cancel(timer)
         self._timers.clear()

@@ -14,6 +14,7 @@ from twisted.protocols.basic import LineOnlyReceiver
 from twisted.python.failure import Failure
 
 from up.system.addresses import is_private
+from up.system.clock import cancel
 
 ANSWER_S = 1.5
 SPAWN_S = 20.0
@@ -54,8 +55,7 @@ async def discover(reactor: Any, host: str, port: int) -> str:
     try:
         return await question.answer
     finally:
-        if limit.active():
-            limit.cancel()
+        cancel(limit)
         await listening.stopListening()
 
 
@@ -85,8 +85,7 @@ async def ask_runner(reactor: Any, runner: Runner, request: bytes) -> bytes:
     try:
         answer: bytes = await protocol.answer
     finally:
-        if limit.active():
-            limit.cancel()
+        cancel(limit)
         protocol.transport.loseConnection()
     return answer
 

@@ -35,7 +35,7 @@ from up.commands.system_commands import LinkStateCommand
 from up.config import ConfigErrors, ConfigProblem
 from up.mode import WITH_ARDUINO
 from up.needs import needs
-from up.system.clock import Timer
+from up.system.clock import Timer, cancel
 
 LINK = "arduino"
 ORIGIN = Origin(LINK, Role.BOARD, priority=10)
@@ -195,8 +195,7 @@ class ArduinoProvider(BaseStartedModule):
         self.requests.fail_all("Raspilot stops")
 
     def _stop_alive(self) -> None:
-        if self._alive is not None and self._alive.active():
-            self._alive.cancel()
+        cancel(self._alive)
         self._alive = None
 
     def _subscribe(self) -> None:

@@ -12,7 +12,7 @@ from load_guard_cog.config import LOAD_GUARD
 from up.base_started_module import BaseStartedModule
 from up.commands.panic_command import PanicCommand
 from up.commands.system_commands import LinkStateCommand
-from up.system.clock import Timer
+from up.system.clock import Timer, cancel
 
 MEMORY_EVERY_S = 5.0
 """Memory is only displayed, and measuring it costs more than measuring the load."""
@@ -71,8 +71,7 @@ class LoadGuard(BaseStartedModule):
         return True
 
     def on_stop(self) -> None:
-        if self._timer is not None and self._timer.active():
-            self._timer.cancel()
+        cancel(self._timer)
 
     def _schedule(self) -> None:
         self._timer = self.context.reactor.callLater(self.config.interval, self._poll)

@@ -12,7 +12,7 @@ from up.mode_monitor import BOARD_LINK, ModeMonitor
 from up.needs import needs, wants
 from up.providers.base_mission_control_provider import BaseMissionControlProvider
 from up.providers.base_provider import BaseProvider
-from up.system.clock import Timer
+from up.system.clock import Timer, cancel
 
 PERIOD_S = 1.0
 
@@ -49,8 +49,7 @@ class SystemStateProvider(BaseStartedModule):
         return True
 
     def on_stop(self) -> None:
-        if self._timer is not None and self._timer.active():
-            self._timer.cancel()
+        cancel(self._timer)
 
     def _on_link(self, command: LinkStateCommand) -> None:
         if command.link == BOARD_LINK:

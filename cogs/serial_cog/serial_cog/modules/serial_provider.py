@@ -17,7 +17,7 @@ from up.protocols.frame import UNFINISHED_TIMEOUT_S, Frame
 from up.protocols.framing import FrameDecoder, FrameEncoder, make_framing
 from up.protocols.serial_line import SerialLine
 from up.protocols.serial_port import open_serial
-from up.system.clock import Timer
+from up.system.clock import Timer, cancel
 
 TRY_ANOTHER_AFTER_S = 5.0
 
@@ -163,9 +163,7 @@ class SerialProvider(BaseStartedModule):
         return True
 
     def on_stop(self) -> None:
-        for timer in (self._expiry, self._silence):
-            if timer is not None and timer.active():
-                timer.cancel()
+        cancel(self._expiry, self._silence)
         self._expiry = self._silence = None
         if self._line is not None:
             self._line.stop()
