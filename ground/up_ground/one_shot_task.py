@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import json
-import os
 import signal
 import sys
 from collections.abc import Callable, Mapping
@@ -11,7 +9,7 @@ from typing import Any, TextIO
 
 from twisted.internet.defer import Deferred
 
-from up.log.setup import FORMAT_VARIABLE
+from up.log.json_lines import program_line
 from up.protocols.general_message import GeneralMessage
 from up.system.clock import cancel, use_monotonic_time
 from up.system.pid_file import service
@@ -114,9 +112,8 @@ def print_error(text: str, code: str, **fields: object) -> None:
 def _write(
     stream: TextIO, line: str, level: str, text: str, code: str, fields: Mapping[str, object]
 ) -> None:
-    if code and os.environ.get(FORMAT_VARIABLE) == "json":
-        line = json.dumps({"level": level, "text": text, "fields": {"code": code, **fields}})
-    stream.write(line + "\n")
+    as_json = program_line(text, code, fields, level) if code else None
+    stream.write(f"{as_json or line}\n")
     stream.flush()
 
 

@@ -7,7 +7,7 @@ import json
 import math
 import os
 import threading
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
@@ -19,6 +19,8 @@ from zope.interface import implementer
 from up.log.levels import level_of, word_of
 from up.log.text import source_of, text_of, traceback_of
 
+FORMAT_VARIABLE = "UP_LOG_FORMAT"
+"""In the environment of a program: ``json`` for output and log that another program reads."""
 _MAX_FIELD = 1000
 
 
@@ -152,6 +154,16 @@ def fields_of(event: LogEvent) -> dict[str, str | int | float | None]:
         for name, value in event.items()
         if not name.startswith("log_") and isinstance(value, str | int | float | None)
     }
+
+
+def program_line(
+    text: str, code: str, fields: Mapping[str, object], level: str = "info"
+) -> str | None:
+    """Return a line of a program's own output as JSON with its code; None if text is wanted."""
+    if os.environ.get(FORMAT_VARIABLE) != "json":
+        return None
+    record = {"level": level, "text": text, "fields": {"code": code, **fields}}
+    return json.dumps(record, default=str)
 
 
 def _plain(value: str | int | float | None) -> str | int | float | None:

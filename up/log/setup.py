@@ -21,11 +21,9 @@ from twisted.logger import (
     globalLogPublisher,
 )
 
-from up.log.json_lines import JsonLinesObserver, RotatingFile, line_of
+from up.log.json_lines import FORMAT_VARIABLE, JsonLinesObserver, RotatingFile, line_of
 from up.log.levels import level_named
 from up.log.text import TextObserver, is_journal, journal_lines, terminal_lines
-
-FORMAT_VARIABLE = "UP_LOG_FORMAT"
 
 
 class Logging:

@@ -181,7 +181,7 @@ class Alarm:
     kind: str
     level: str
     text: str
-    code: str = ""
+    code: str
 
 
 @dataclass(frozen=True, slots=True)
@@ -213,14 +213,15 @@ def faults(telemetry: Telemetry, link: LinkSnapshot, was_low: bool, had_board: b
     elif flag("arduino", "connected") is False:
         found.append(Alarm("board", ALARM, "the Arduino is disconnected", "board_lost"))
     if phone_state(telemetry) is False:
-        found.append(Alarm("phone", WARNING, "the phone is disconnected"))
+        found.append(Alarm("phone", WARNING, "the phone is disconnected", "phone_lost"))
     level_percent = telemetry.number("android", "batteryLevel")
     if level_percent is not None:
         bound = BATTERY_LOW + (_BATTERY_BACK if was_low else 0.0)
         if level_percent < bound:
             is_empty = level_percent < BATTERY_EMPTY
             text = f"the phone's battery is {'nearly empty' if is_empty else 'low'}"
-            found.append(Alarm("battery", ALARM if is_empty else WARNING, text))
+            code = "battery_empty" if is_empty else "battery_low"
+            found.append(Alarm("battery", ALARM if is_empty else WARNING, text, code))
     return found
 
 

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import json
-import os
 import sys
 from collections.abc import Callable, Mapping
 from contextlib import suppress
 from dataclasses import dataclass, field
 from typing import Any, Protocol
 
-from up.log.setup import FORMAT_VARIABLE
+from up.log.json_lines import FORMAT_VARIABLE, program_line
 
 JSON_ENVIRONMENT = {FORMAT_VARIABLE: "json"}
 """Makes a program of the project log JSON lines, which ``read_line`` reads."""
@@ -38,11 +37,10 @@ def text_log(write: Callable[[str], None]) -> Log:
 
 def print_line(text: str, /, *, code: str = "", **fields: Any) -> None:
     """Print a line, or JSON with its code and fields if ``UP_LOG_FORMAT=json``."""
-    if os.environ.get(FORMAT_VARIABLE) == "json":
-        text = json.dumps({"text": text, "fields": {**fields, "code": code}}, default=str)
+    line = program_line(text, code, fields) or text
     # The terminal may be closed already.
     with suppress(OSError):
-        sys.stdout.write(f"{text}\n")
+        sys.stdout.write(f"{line}\n")
         sys.stdout.flush()
 
 
