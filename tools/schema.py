@@ -52,7 +52,9 @@ class Status:
             self.modes = [_item(MODE, each) for each in data["modes"]]
             self.refusals = [_item(REFUSAL, each) for each in data["refusals"]]
             self.fields = [_row(each, "") for each in data["fields"]]
-        except (yaml.YAMLError, KeyError, OSError, SchemaError) as error:
+        except KeyError as error:
+            raise SchemaError(f"{path}: {error} is missing") from None
+        except (yaml.YAMLError, TypeError, AttributeError, OSError, SchemaError) as error:
             raise SchemaError(f"{path}: {error}") from None
         self.format = ">" + "".join(FORMATS[each.type] for each in self.fields)
         self.size = struct.calcsize(self.format)
@@ -278,8 +280,8 @@ def documents(status: Status, text: str) -> str:
         content = "".join("| " + " | ".join(map(str, line)) + " |\n" for line in lines)
         text = _region(text, content, f"<!-- schema {name} begin -->", "<!-- schema end -->")
     text = re.sub(r"(?m)^(\| `x` \| 78 \| )\d+", rf"\g<1>{status.size}", text)
-    told = ", ".join(f"`{each.name}`" for each in status.rows if each.in_telemetry)
-    line = f"| `arduino.<field>` | as in 2.7 | of the Arduino's status: {told} |"
+    names = ", ".join(f"`{each.name}`" for each in status.rows if each.in_telemetry)
+    line = f"| `arduino.<field>` | as in 2.7 | of the Arduino's status: {names} |"
     return re.sub(r"(?m)^\| `arduino\.<field>`.*$", line, text)
 
 

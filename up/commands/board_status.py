@@ -64,8 +64,8 @@ def refusal_text(code: int) -> str:
 
 def telemetry_of(status: Mapping[str, Any] | None) -> dict[str, Any]:
     """Return the part of ``arduino`` in telemetry that a status determines; None if it has none."""
-    told = (each for each in DATA if each.in_telemetry)
-    return {each.name: None if status is None else _telemetry(status, each) for each in told}
+    shown = (each for each in DATA if each.in_telemetry)
+    return {each.name: None if status is None else _telemetry(status, each) for each in shown}
 
 
 def _telemetry(status: Mapping[str, Any], datum: Datum) -> Any:

@@ -15,11 +15,11 @@ function store(texts, profile = null) {
 
 test("sticks and rates hold no attitude", () => {
   const plain = store({});
-  assert.equal(holderText("ACRO", plain), "nobody: the sticks");
-  assert.equal(holderText("RATE", plain), "nobody: rates only");
+  assert.equal(holderText("ACRO", plain), "the pilot");
+  assert.equal(holderText("RATE", plain), "the pilot; the Arduino holds the rates");
   assert.equal(holderText("FBW", plain), "Arduino");
   assert.equal(holderText("OUTPUT", plain), "Raspberry Pi");
-  assert.equal(holderText("OUTPUT", store({ "flight_control.mode": "ACRO" })), "nobody: the sticks");
+  assert.equal(holderText("OUTPUT", store({ "flight_control.mode": "ACRO" })), "the pilot");
   assert.equal(holderText("constructor", plain), "--");
 });
 

@@ -4,11 +4,11 @@
 export const MODES = {
   "ACRO": {
     "about": "the sticks move the surfaces",
-    "holder": "nobody: the sticks"
+    "holder": "the pilot"
   },
   "RATE": {
     "about": "the sticks ask for rotation",
-    "holder": "nobody: rates only"
+    "holder": "the pilot; the Arduino holds the rates"
   },
   "FBW": {
     "about": "the sticks ask for attitude, within limits",
