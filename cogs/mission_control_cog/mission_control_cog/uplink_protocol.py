@@ -117,8 +117,7 @@ class UplinkProtocol(GeneralMessageProtocol):
         self.abort()
 
     def _ready(self) -> None:
-        if self._pulse is not None:
-            self._pulse.cancel()
+        cancel(self._pulse)
         self.is_ready = True
         self._sent_s = self._clock.seconds()
         if self._hello is not None:
