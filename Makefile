@@ -78,12 +78,13 @@ check: $(VENV)/.dev-ready
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
 	$(BIN)/mypy main.py tools/import_contracts.py tools/phone_commands.py \
-		tools/plain_english.py tools/schema.py tools/tuning $(PACKAGES)
+		tools/plain_english.py tools/schema.py tools/sentence_assertions.py tools/tuning $(PACKAGES)
 	@for cog in $(COGS); do echo "mypy $$cog"; \
 		MYPYPATH=$(MYPY_ROOTS) $(BIN)/mypy $$cog/$$(basename $$cog) || exit 1; done
 	MYPYPATH=android/tools $(BIN)/mypy android/tools/*.py
 	$(PY) tools/import_contracts.py
 	$(PY) tools/plain_english.py --max 1
+	$(PY) tools/sentence_assertions.py --max 489
 	$(PY) tools/schema.py --check
 	@android/tools/where_ready check
 
