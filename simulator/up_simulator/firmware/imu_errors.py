@@ -13,7 +13,7 @@ ImuFault = Literal["well", "frozen", "unplugged", "stuck", "garbage"]
 Vector = tuple[float, float, float]
 ZERO: Vector = (0.0, 0.0, 0.0)
 DRAWN_BIAS_DEG_S = (2.0, 4.0)
-DRAWN_DRIFT_DEG_S = 4.0
+DRAWN_DRIFT_DEG_S = 1.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,9 +41,10 @@ class ImuErrors:
 def drawn_errors(seed: int, **known: Any) -> ImuErrors:
     """Return the errors of one individual sensor: those not ``known`` are drawn by the seed.
 
-    An MPU6050 may read 20 deg/s at rest (PS-MPU-6000A-00, 6.1). Drawn on each axis: a bias of 2 to
-    4 deg/s with either sign, and a drift of up to 4 deg/s with the time constant ``warm_up_s``:
-    never faster than 4 deg/s in 10 minutes.
+    An MPU6050 may read 20 deg/s at rest, and 20 deg/s more or less between -40 and 85 degrees
+    Celsius: 0.16 deg/s for each degree (PS-MPU-6000A-00, 6.1). Drawn on each axis: a bias of 2 to
+    4 deg/s with either sign, and a drift of up to 1 deg/s, of a sensor that becomes 6 degrees
+    warmer with the time constant ``warm_up_s``.
     """
     chance = random.Random(f"imu bias {seed}")
     bias = tuple(chance.choice((-1, 1)) * chance.uniform(*DRAWN_BIAS_DEG_S) for _ in range(3))

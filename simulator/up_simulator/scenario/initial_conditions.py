@@ -114,7 +114,7 @@ class ImuPart:
     )
     gyro_drift_deg_s: tuple[float, ...] = items(
         _RATE,
-        "Change of the bias until the IMU is warm. Empty: up to 4 deg/s each, drawn by the seed.",
+        "Change of the bias until the IMU is warm. Empty: up to 1 deg/s each, drawn by the seed.",
         max_length=3,
     )
     warm_up_s: float = key(
