@@ -158,9 +158,9 @@ public final class Airborne {
         }
 
         @Override
-        public void onClosed(String reason) {
+        public void onClosed(String code, String reason) {
             providers().linkClosed();
-            listener.onDisconnected(reason);
+            listener.onDisconnected(code, reason);
         }
 
         @Override

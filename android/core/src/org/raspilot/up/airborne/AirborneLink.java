@@ -35,8 +35,8 @@ final class AirborneLink implements MessageSink, AnswerSink, UpSocketListener {
 
         void onLine(byte[] line, int length);
 
-        /** Called when the link is lost, with the reason. */
-        void onClosed(String reason);
+        /** Called when the link is lost, with the reason as a word and as a sentence. */
+        void onClosed(String code, String reason);
 
         /** Called with the reason for a missing link, once until it changes. */
         void onTrouble(String sentence);
@@ -54,7 +54,7 @@ final class AirborneLink implements MessageSink, AnswerSink, UpSocketListener {
                                 : OrientationSender.Transport.TCP,
                         random);
         watch = new LinkWatchdog(loop, Integer.toHexString(random.nextInt()) + ".", () ->
-                socket.drop(DEAD));
+                socket.drop("silent", DEAD));
     }
 
     void start() {
@@ -151,7 +151,7 @@ final class AirborneLink implements MessageSink, AnswerSink, UpSocketListener {
         watch.closed();
         wasLost = true;
         reported = lost.status().sentence;
-        owner.onClosed(reason);
+        owner.onClosed(lost.status().code, reason);
     }
 
     @Override

@@ -20,6 +20,9 @@ public final class GroundStatus {
     public final LinkState link;
     /** Since when the link is so, by the loop's clock, ms. */
     public final long sinceMs;
+    /** The reason for a missing link as a stable word: {@code closed silent hello_timeout ...}. */
+    public final String code;
+
     /** The reason for a missing link, without a full stop; empty when it is open. */
     public final String reason;
     /** The code with which the proxy refused the hello (docs/protocols.md 9), or empty. */
@@ -57,6 +60,7 @@ public final class GroundStatus {
         final LinkStatus facts = draft.link;
         link = facts.state;
         sinceMs = facts.sinceMs;
+        code = facts.code;
         reason = facts.reason;
         rejection = facts.rejection;
         isDirect = draft.isDirect;

@@ -86,7 +86,7 @@ public final class OrientationSender {
      */
     public void replaceConnection(String reason) {
         if (isStarted && socket != null && socket.isConnected()) {
-            socket.drop(reason);
+            socket.drop("replaced", reason);
         }
         reconnectNow();
     }

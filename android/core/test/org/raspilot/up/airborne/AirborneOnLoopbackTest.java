@@ -138,8 +138,8 @@ public final class AirborneOnLoopbackTest {
     }
 
     private static OrientationFrame frame(Socket socket) throws IOException {
-        byte[] bytes = new byte[OrientationFrame.SIZE];
-        new DataInputStream(socket.getInputStream()).readFully(bytes);
-        return OrientationFrame.read(bytes, 0, bytes.length);
+        DataInputStream in = new DataInputStream(socket.getInputStream());
+        return new OrientationFrame(in.readFloat(), in.readFloat(), in.readFloat(),
+                in.readFloat(), in.readFloat(), in.readFloat());
     }
 }

@@ -2,8 +2,8 @@ package org.raspilot.up.loop;
 
 import static org.junit.Assert.assertEquals;
 import static org.junit.Assert.assertFalse;
+import static org.junit.Assert.assertThrows;
 import static org.junit.Assert.assertTrue;
-import static org.junit.Assert.fail;
 
 import java.util.ArrayList;
 import java.util.Arrays;
@@ -79,12 +79,7 @@ public final class ManualLoopTest {
 
     @Test
     public void timeDoesNotGoBack() {
-        try {
-            loop.advance(-1);
-            fail("it went back");
-        } catch (IllegalArgumentException expected) {
-            assertEquals("time does not go back: -1", expected.getMessage());
-        }
+        assertThrows(IllegalArgumentException.class, () -> loop.advance(-1));
     }
 
     @Test

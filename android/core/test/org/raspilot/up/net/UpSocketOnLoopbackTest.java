@@ -68,7 +68,7 @@ public final class UpSocketOnLoopbackTest {
         assertTrue("held " + mostWaiting, mostWaiting <= 2 * FRAME);
         final UpSocketCounters stalled = counters(socket);
         final int held = (int) (stalled.bytesOut / FRAME);
-        assertTrue("the system held " + held + " frames", held < 10000);
+        assertTrue(held < 10000);
         assertTrue("replaced " + stalled.replaced, stalled.replaced > frames - 10000 - 2);
         long last = -1;
         int read = 0;
@@ -172,17 +172,6 @@ public final class UpSocketOnLoopbackTest {
         assertEquals(0, counters(socket).failedAttempts);
         assertEquals("[]", diary.told.toString());
         hole.close();
-    }
-
-    @Test
-    public void anOldConnectionsSilenceIsNotTheNewOnes() throws Exception {
-        final UpSocket socket = start(peer.place(), quick().withSilenceLimitMs(100));
-        peer.accept();
-        awaitConnects(socket, 1);
-        awaitTold("lost: 127.0.0.1:" + peer.place().generalPort + " said nothing for 100 ms");
-        assertEquals("it hung up", -1, peer.read());
-        peer.accept();
-        awaitConnects(socket, 2);
     }
 
     private static UpSocketSettings quick() {

@@ -1,8 +1,8 @@
 package org.raspilot.up.providers;
 
 import static org.junit.Assert.assertEquals;
+import static org.junit.Assert.assertThrows;
 import static org.junit.Assert.assertTrue;
-import static org.junit.Assert.fail;
 
 import java.util.Random;
 import org.junit.Test;
@@ -177,7 +177,7 @@ public final class MountingTest {
                 }
             }
         }
-        assertTrue("sides that pointed up or down: " + refused, refused > 50);
+        assertTrue(refused > 50);
     }
 
     @Test
@@ -208,12 +208,9 @@ public final class MountingTest {
         String[] texts = {"", "1 0 0", "1 0 0 0 0", "a b c d", "0 0 0 0", "NaN 0 0 1",
             "Infinity 0 0 0", "1e400 0 0 0"};
         for (String text : texts) {
-            try {
-                Mounting.fromText(text);
-                fail(text);
-            } catch (IllegalArgumentException error) {
-                assertTrue(error.getMessage(), error.getMessage().startsWith("the mounting "));
-            }
+            IllegalArgumentException error = assertThrows(IllegalArgumentException.class, () ->
+                    Mounting.fromText(text));
+            assertTrue(error.getMessage(), error.getMessage().startsWith("the mounting "));
         }
     }
 

@@ -206,7 +206,7 @@ final class AirborneRun {
         }
 
         @Override
-        public void onDisconnected(String reason) {
+        public void onDisconnected(String code, String reason) {
             reportStatus();
             reportEvent(reason);
         }

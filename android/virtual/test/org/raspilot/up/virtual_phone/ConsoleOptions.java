@@ -80,11 +80,11 @@ final class ConsoleOptions {
                 throw OptionParser.unknown(name, false);
             }
         }
-        String fault = GroundSettings.fault(host, port, aircraft);
-        if (fault != null) {
-            throw new OptionException(fault);
+        try {
+            return new ConsoleOptions(new GroundSettings(host, port, aircraft, seat, isDirect),
+                    values, wantsHelp);
+        } catch (IllegalArgumentException wrong) {
+            throw new OptionException(wrong.getMessage());
         }
-        GroundSettings settings = new GroundSettings(host, port, aircraft, seat, isDirect);
-        return new ConsoleOptions(settings, values, wantsHelp);
     }
 }
