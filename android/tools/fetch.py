@@ -108,7 +108,7 @@ def maven(group: str, jars: list[Jar], folder: Path, options: list[str]) -> None
     pom = folder / "pom.xml"
     pom.write_text(POM.format(
         plugin=element(groupId=PLUGIN.split(":")[0], artifactId=PLUGIN.split(":")[1]),
-        folder=folder,
+        folder=folder.resolve(),
         items="".join(
             "<artifactItem>" + element(
                 groupId=jar.group, artifactId=jar.artifact, version=jar.version, type=jar.kind

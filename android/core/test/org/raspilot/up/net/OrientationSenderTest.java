@@ -9,6 +9,7 @@ import java.util.Arrays;
 import java.util.Random;
 import org.junit.After;
 import org.junit.Test;
+import org.raspilot.up.loop.Cancellable;
 import org.raspilot.up.loop.Faults;
 import org.raspilot.up.loop.ManualLoop;
 import org.raspilot.up.loop.ScriptedNetwork;
@@ -24,7 +25,7 @@ public final class OrientationSenderTest {
         } else {
             listener.onFound(answer);
         }
-        return Search.DONE;
+        return Cancellable.DONE;
     });
     private final OrientationSender tcp = sender(OrientationSender.Transport.TCP);
     private final OrientationSender udp = sender(OrientationSender.Transport.UDP);

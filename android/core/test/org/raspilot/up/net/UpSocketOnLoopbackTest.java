@@ -13,6 +13,7 @@ import java.util.concurrent.Callable;
 import org.junit.After;
 import org.junit.Rule;
 import org.junit.Test;
+import org.raspilot.up.loop.Cancellable;
 import org.raspilot.up.loop.BlackHole;
 import org.raspilot.up.loop.RunningLoop;
 
@@ -149,7 +150,7 @@ public final class UpSocketOnLoopbackTest {
         final UpSocket socket = make(listener -> {
             listener.onFound(asked[0]++ == 0 ? new Endpoint("127.0.0.1", hole.port(), 0)
                     : peer.place());
-            return Search.DONE;
+            return Cancellable.DONE;
         }, quick().withConnectTimeoutMs(100));
         running.call(start(socket));
         peer.accept();
