@@ -16,50 +16,23 @@ public final class MountingTest {
     private static final Rotation SCREEN_DOWN = new Rotation(0, 0, 1, 0, 0);
 
     @Test
-    public void aPhoneFlatWithItsTopEdgeToTheNorthIsLevelAndHeadsNorth() {
+    public void attitudesByHand() {
         // Android: the identity is the screen up and the top edge (y) to the north.
-        assertAttitude(0, 0, 0, Mounting.FLAT.attitude(new Rotation(1, 0, 0, 0, 0), 0));
-    }
-
-    @Test
-    public void turningThePhoneToTheEastTurnsTheNoseToTheEast() {
+        assertAttitude(0, 0, 0, Mounting.FLAT.attitude(turned(0, 0, 0, 1), 0));
         assertAttitude(0, 0, 90, Mounting.FLAT.attitude(turned(-90, 0, 0, 1), 0));
         assertAttitude(0, 0, 270, Mounting.FLAT.attitude(turned(90, 0, 0, 1), 0));
-    }
-
-    @Test
-    public void raisingTheTopEdgeRaisesTheNose() {
-        // About the axis to the right edge, right-handed: the top edge goes up.
+        // Right-handed about the axis to the right edge: the top edge goes up.
         assertAttitude(0, 30, 0, Mounting.FLAT.attitude(turned(30, 1, 0, 0), 0));
-    }
-
-    @Test
-    public void loweringTheRightEdgeLowersTheRightWing() {
-        // About the axis to the top edge, right-handed: the right edge goes down.
+        // About the axis to the top edge: the right edge goes down.
         assertAttitude(40, 0, 0, Mounting.FLAT.attitude(turned(40, 0, 1, 0), 0));
-    }
-
-    @Test
-    public void aPhoneOnItsLongSideHasItsRightEdgeAhead() {
-        Mounting mounting = Mounting.of(Side.RIGHT, Side.SCREEN);
-        // The screen up and the top edge to the north: the right edge, the nose, is to the east.
-        assertAttitude(0, 0, 90, mounting.attitude(new Rotation(1, 0, 0, 0, 0), 0));
-        // The right edge goes down: now that is the nose.
-        assertAttitude(0, -20, 90, mounting.attitude(turned(20, 0, 1, 0), 0));
-    }
-
-    @Test
-    public void aPhoneWithItsScreenDownIsLevelWhenItIsMountedSo() {
-        Mounting mounting = Mounting.of(Side.TOP, Side.BACK);
-        assertAttitude(0, 0, 0, mounting.attitude(SCREEN_DOWN, 0));
+        Mounting onItsSide = Mounting.of(Side.RIGHT, Side.SCREEN);
+        assertAttitude(0, 0, 90, onItsSide.attitude(turned(0, 0, 0, 1), 0));
+        assertAttitude(0, -20, 90, onItsSide.attitude(turned(20, 0, 1, 0), 0));
+        assertAttitude(0, 0, 0, Mounting.of(Side.TOP, Side.BACK).attitude(SCREEN_DOWN, 0));
         assertAttitude(180, 0, 0, Mounting.FLAT.attitude(SCREEN_DOWN, 0));
-    }
-
-    @Test
-    public void aPhoneStandingWithItsScreenAheadIsLevelWhenItIsMountedSo() {
-        Mounting mounting = Mounting.of(Side.SCREEN, Side.TOP);
-        // A quarter about the axis to the right edge: the top edge up, the screen to the south.
-        assertAttitude(0, 0, 180, mounting.attitude(turned(90, 1, 0, 0), 0));
+        // The top edge up, the screen to the south.
+        assertAttitude(0, 0, 180,
+                Mounting.of(Side.SCREEN, Side.TOP).attitude(turned(90, 1, 0, 0), 0));
     }
 
     @Test
