@@ -4,11 +4,11 @@ LIBRARY ?= library
 RASPILOT ?= raspilot
 MANIFEST := $(RASPILOT)/AndroidManifest.xml
 
-# The levels with their own classes, and the framework of each level.
+# The levels with their own classes. All are compiled against one framework; Animal Sniffer holds
+# each class to what is public in its own level.
 LEVELS := $(sort $(patsubst src-%,%,$(notdir $(wildcard $(LIBRARY)/src-* $(RASPILOT)/src-*))))
-FRAMEWORK_23 := $(JARS)/android-all-6.0.1_r3-robolectric-r1.jar
-FRAMEWORK_26 := $(JARS)/android-all-8.0.0_r4-robolectric-r1.jar
-FRAMEWORK_29 := $(JARS)/android-all-10-robolectric-5803371.jar
+FRAMEWORK := $(JARS)/android-all-10-robolectric-5803371.jar
+FRAMEWORK_16 := $(JARS)/android-all-4.1.2_r1-robolectric-0.jar
 STUBS := $(JARS)/android-4.1.1.4.jar
 BOOT := $(BUILD)/boot-$(LEAST).jar
 
@@ -37,7 +37,7 @@ $(BUILD)/debian-tools: tools/app.mk
 
 # The public stubs have android.* only: the rest of what API 16 offers is taken from its framework.
 $(BOOT): tools/boot.py tools/pack.py $(JARS)/.stubs
-	@$(PYTHON) tools/boot.py $(JARS)/android-all-4.1.2_r1-robolectric-0.jar $@
+	@$(PYTHON) tools/boot.py $(FRAMEWORK_16) $@
 
 # The manifest's package is that of R; the application's name is shorter. Our PNGs are small
 # already (tools/icons.py): aapt's own packing makes them larger. Nine-patches it would have to.
@@ -52,12 +52,12 @@ $(RESOURCES) $(R_JAVA) &: $(RES) $(MANIFEST) $(BUILD)/RES.list ../up/version.py 
 		--version-name $(VERSION) --version-code $(shell $(PYTHON) tools/verify.py code $(VERSION))
 	@touch $(RESOURCES) $(R_JAVA)
 
-# Classes for a newer Android know the framework of exactly that level, and the core. How its own
-# annotations are written is not linted.
+# Classes for a newer Android know a newer framework, and the core. How its own annotations are
+# written is not linted.
 define level
 NEWER_$(1) := $$(call newer,$(1))
-$(BUILD)/newer-$(1).jar: $$(NEWER_$(1)) $(CORE_JAR) $(BUILD)/NEWER_$(1).list $(JARS)/.level-$(1)
-	$$(call compile,$$@,$$(NEWER_$(1)),$(CORE_JAR):$$(FRAMEWORK_$(1)),-Xlint:-classfile)
+$(BUILD)/newer-$(1).jar: $$(NEWER_$(1)) $(CORE_JAR) $(BUILD)/NEWER_$(1).list $(JARS)/.framework
+	$$(call compile,$$@,$$(NEWER_$(1)),$(CORE_JAR):$(FRAMEWORK),-Xlint:-classfile)
 endef
 $(foreach each,$(LEVELS),$(eval $(call level,$(each))))
 
@@ -72,12 +72,12 @@ $(APP_JAR): $(APP_CODE) $(CORE_JAR) $(NEWER_JARS) $(BOOT) $(BUILD)/APP_CODE.list
 JAVA7 := $(BUILD)/java7
 COMPILED := $(CORE_JAR) $(APP_JAR) $(NEWER_JARS)
 BACKPORTED := $(COMPILED:$(BUILD)/%=$(JAVA7)/%)
-$(JAVA7)/.done: $(COMPILED) $(BOOT) $(JARS)/.proguard $(JARS)/.level-29
+$(JAVA7)/.done: $(COMPILED) $(BOOT) $(JARS)/.proguard $(JARS)/.framework
 	@echo 'translate to Java 7'
 	@rm -rf $(JAVA7) && mkdir -p $(JAVA7)
 	@$(JVM) -jar $(JARS)/proguard-base-6.2.2.jar \
 		$(foreach each,$(COMPILED),-injars $(each) -outjars $(JAVA7)/$(notdir $(each))) \
-		-libraryjars $(BOOT) -libraryjars $(FRAMEWORK_29) -target 1.7 -dontshrink -dontoptimize -dontobfuscate \
+		-libraryjars $(BOOT) -libraryjars $(FRAMEWORK) -target 1.7 -dontshrink -dontoptimize -dontobfuscate \
 		-dontpreverify -keepattributes '*' -dontwarn '**' -dontnote '**' \
 		> $@.log || { grep -v "^Note" $@.log | head -9 >&2; exit 1; }
 	@touch $@

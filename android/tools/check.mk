@@ -18,7 +18,7 @@ $(BUILD)/api-$(LEAST).signature: $(JARS)/.stubs $(BOOT) $(BUILD)/signatures.jar
 # which keep to what is public in theirs. Those are reached behind the check of the version only.
 # Names in resources are checked against the same level.
 $(BUILD)/.guarded: $(BACKPORTED) $(MANIFEST) $(BUILD)/api-$(LEAST).signature \
-		tools/guards.py tools/resources.py $(RES) $(LEVELS:%=$(JARS)/.level-%) \
+		tools/guards.py tools/resources.py $(RES) $(filter-out %-29,$(LEVELS:%=$(JARS)/.level-%)) \
 		$(wildcard tools/newer-*.list)
 	@echo 'check that no call is newer than its guard'
 	@$(SNIFF) check $(BUILD)/api-$(LEAST).signature $(OURS) - $(filter-out $(JAVA7)/newer-%,$(BACKPORTED)) \
@@ -31,8 +31,7 @@ $(BUILD)/.guarded: $(BACKPORTED) $(MANIFEST) $(BUILD)/api-$(LEAST).signature \
 
 SPOTBUGS_PATH = $(subst $(empty) $(empty),:,$(patsubst %,$(JARS)/%,$(shell \
 	$(PYTHON) tools/fetch.py --list $(JARS) spotbugs)))
-SPOTBUGS_KNOWN = $(subst $(empty) $(empty),:,$(STUBS) $(foreach each,$(LEVELS),\
-	$(FRAMEWORK_$(each))))
+SPOTBUGS_KNOWN = $(STUBS):$(FRAMEWORK)
 SPOTTED := $(CORE_JAR) $(VIRTUAL_JAR) $(APP_JAR) $(NEWER_JARS)
 
 # It reads the classes of the JDK that it runs on.

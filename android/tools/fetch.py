@@ -1,8 +1,8 @@
-"""Fetches by Maven the missing jars of pom.xml's groups, and checks their sums.
+"""Fetches by Maven the missing jars of jars.list's groups, and checks their sums.
 
-``fetch.py FOLDER GROUP...``: a group is an execution of pom.xml. Every jar must have its SHA-256 in
-jars.sha256; one that differs is removed. ``--offline`` as Maven's own; ``--list`` only prints the
-file names.
+``fetch.py FOLDER GROUP...``: every jar has its coordinates and its SHA-256 in jars.list; one that
+differs is removed. ``--offline`` as Maven's own; ``--list`` only prints the file names. Exits with
+1 for a wrong jar or list, and reports the code ``fetch_failed`` if Maven brought none.
 """
 
 from __future__ import annotations
@@ -13,91 +13,111 @@ import shutil
 import subprocess
 import sys
 import tempfile
-import xml.etree.ElementTree as ElementTree
 from pathlib import Path
+from typing import NamedTuple
 
-HERE = Path(__file__).resolve().parent.parent
-POM = HERE / "pom.xml"
-SUMS = HERE / "jars.sha256"
-SPACE = "{http://maven.apache.org/POM/4.0.0}"
-PLUGIN = "org.apache.maven.plugins:maven-dependency-plugin"
+LIST = Path(__file__).resolve().parent.parent / "jars.list"
+PLUGIN = "org.apache.maven.plugins:maven-dependency-plugin:3.6.1"
 PACKAGES = "maven default-jdk-headless"
 LONGEST_REASON = 300
 PROGRESS = re.compile(r"(Downloading|Downloaded) from \S+ \S+/([^/\s]+\.jar)(?: \(([^)]+)\))?")
+POM = """<project xmlns="http://maven.apache.org/POM/4.0.0">
+<modelVersion>4.0.0</modelVersion>
+<groupId>org.raspilot</groupId><artifactId>jars</artifactId><version>1</version>
+<packaging>pom</packaging>
+<build><plugins><plugin>{plugin}<configuration><outputDirectory>{folder}</outputDirectory>
+<artifactItems>{items}</artifactItems></configuration></plugin></plugins></build>
+</project>
+"""
 
 
 class FetchError(Exception):
     """Jars are missing or wrong: the message is one sentence."""
 
 
-def groups(pom: Path) -> dict[str, list[str]]:
-    """Return the file names of every group of ``pom``, in its order."""
-    found: dict[str, list[str]] = {}
-    for execution in ElementTree.parse(pom).iter(f"{SPACE}execution"):
-        files = []
-        for item in execution.iter(f"{SPACE}artifactItem"):
-            text = {each.tag.removeprefix(SPACE): each.text or "" for each in item}
-            classifier = f"-{text['classifier']}" if "classifier" in text else ""
-            kind = text.get("type", "jar")
-            files.append(f"{text['artifactId']}-{text['version']}{classifier}.{kind}")
-        found[execution.findtext(f"{SPACE}id", "")] = files
+class Jar(NamedTuple):
+    """One jar of the list: its Maven coordinates and its SHA-256."""
+
+    group: str
+    artifact: str
+    version: str
+    kind: str
+    sha256: str
+
+    @property
+    def name(self) -> str:
+        return f"{self.artifact}-{self.version}.{self.kind}"
+
+
+def groups(listed: Path) -> dict[str, list[Jar]]:
+    """Return the jars of every group of a list, in its order. Raises ``FetchError``."""
+    found: dict[str, list[Jar]] = {}
+    for number, line in enumerate(listed.read_text(encoding="utf-8").splitlines(), 1):
+        words = line.split("#", 1)[0].replace(":", " ").split()
+        if len(words) == 1:
+            found[words[0].strip("[]")] = []
+        elif len(words) == 5 and found:
+            found[list(found)[-1]].append(Jar(*words))
+        elif words:
+            raise FetchError(f"{listed.name}:{number}: a jar is GROUP:ARTIFACT:VERSION:TYPE SHA256")
     return found
 
 
-def sums(listed: Path) -> dict[str, str]:
-    """Return the SHA-256 of every file that ``listed`` names, as sha256sum writes them."""
-    lines = listed.read_text(encoding="utf-8").splitlines()
-    return {name: digest for digest, name in (line.split(maxsplit=1) for line in lines)}
-
-
-def check(file: Path, expected: dict[str, str], source: str) -> None:
+def check(file: Path, jar: Jar, source: str) -> None:
     """Raise ``FetchError`` unless ``file`` has its listed sum; remove it then."""
-    if file.name not in expected:
-        raise FetchError(f"{source} has no SHA-256 of {file.name}, which pom.xml names")
     with file.open("rb") as opened:
         digest = hashlib.file_digest(opened, "sha256").hexdigest()
-    if digest != expected[file.name]:
+    if digest != jar.sha256:
         file.unlink()
         raise FetchError(
             f"{file.name} is not what it should be: its SHA-256 is {digest}, "
-            f"{source} says {expected[file.name]}; it was removed"
+            f"{source} has {jar.sha256}; it was removed"
         )
 
 
-def fetch(folder: Path, wanted: list[str], pom: Path, listed: Path, options: list[str]) -> None:
+def fetch(folder: Path, wanted: list[str], listed: Path, options: list[str]) -> None:
     """Fetch every missing jar of the groups ``wanted`` into ``folder``, and check its sum.
 
     Raises ``FetchError``.
     """
-    known = groups(pom)
-    expected = sums(listed)
+    known = groups(listed)
     folder.mkdir(parents=True, exist_ok=True)
     for group in wanted:
         if group not in known:
-            raise FetchError(f"{pom.name} has no group {group!r}: it has {', '.join(known)}")
-        missing = [name for name in known[group] if not (folder / name).is_file()]
+            raise FetchError(f"{listed.name} has no group {group!r}: it has {', '.join(known)}")
+        missing = [jar for jar in known[group] if not (folder / jar.name).is_file()]
         if missing:
             print(f"fetch {group}: {len(missing)} jars by Maven", flush=True)
             # Maven's files appear complete or not at all.
             with tempfile.TemporaryDirectory(dir=folder, prefix=".new-") as work:
-                maven(group, known[group], Path(work), pom, options)
-                for name in known[group]:
-                    if not (Path(work) / name).is_file():
-                        raise FetchError(f"Maven did not bring {name}")
-                    check(Path(work) / name, expected, listed.name)
-                    (Path(work) / name).replace(folder / name)
-        else:
-            for name in known[group]:
-                check(folder / name, expected, listed.name)
+                maven(group, missing, Path(work), options)
+                for jar in missing:
+                    if not (Path(work) / jar.name).is_file():
+                        raise FetchError(f"Maven did not bring {jar.name}")
+                    check(Path(work) / jar.name, jar, listed.name)
+                    (Path(work) / jar.name).replace(folder / jar.name)
+        for jar in known[group]:
+            check(folder / jar.name, jar, listed.name)
 
 
-def maven(group: str, names: list[str], folder: Path, pom: Path, options: list[str]) -> None:
-    """Let Maven copy the jars of a group into ``folder``; print their names during that."""
+def maven(group: str, jars: list[Jar], folder: Path, options: list[str]) -> None:
+    """Let Maven copy jars into ``folder``; print their names during that."""
     program = shutil.which("mvn")
     if program is None:
         raise FetchError(f"fetching jars needs mvn (Debian packages {PACKAGES})")
-    command = [program, "-B", *options, "-f", str(pom), f"-Dmdep.outputDirectory={folder}"]
-    command += ["-DoutputDirectory=" + str(folder), f"{PLUGIN}:copy@{group}"]
+    pom = folder / "pom.xml"
+    pom.write_text(POM.format(
+        plugin=element(groupId=PLUGIN.split(":")[0], artifactId=PLUGIN.split(":")[1]),
+        folder=folder.resolve(),
+        items="".join(
+            "<artifactItem>" + element(
+                groupId=jar.group, artifactId=jar.artifact, version=jar.version, type=jar.kind
+            ) + "</artifactItem>"
+            for jar in jars
+        ),
+    ))  # fmt: skip
+    command = [program, "-B", *options, "-f", str(pom), f"{PLUGIN}:copy"]
+    names = {jar.name for jar in jars}
     errors = []
     last = ""
     told = False
@@ -120,7 +140,12 @@ def maven(group: str, names: list[str], folder: Path, pom: Path, options: list[s
             last = line.strip() or last
     if running.returncode != 0:
         said = reason(errors) or last or f"exit status {running.returncode}"
-        raise FetchError(f"Maven could not fetch the jars of {group}: {said}")
+        raise FetchError(f"Maven could not fetch the jars of {group}: {said} (fetch_failed)")
+
+
+def element(**texts: str) -> str:
+    """Return one XML element of each text."""
+    return "".join(f"<{name}>{text}</{name}>" for name, text in texts.items())
 
 
 def reason(errors: list[str]) -> str:
@@ -143,11 +168,11 @@ def main(arguments: list[str]) -> int:
     """Run with command line ``arguments``; return the exit status."""
     options = [each for each in arguments if each.startswith("-")]
     folder, *wanted = [each for each in arguments if not each.startswith("-")]
-    if "--list" in options:
-        print(*(name for group in wanted for name in groups(POM)[group]))
-        return 0
     try:
-        fetch(Path(folder), wanted, POM, SUMS, options)
+        if "--list" in options:
+            print(*(jar.name for group in wanted for jar in groups(LIST)[group]))
+        else:
+            fetch(Path(folder), wanted, LIST, options)
     except FetchError as failure:
         print(f"android: {failure}", file=sys.stderr)
         return 1

@@ -15,7 +15,7 @@ ROBO_AAR_JARS := $(ROBO_AARS:$(JARS)/%.aar=$(ROBO_SET)/%.jar)
 
 join := $(empty) $(empty)
 ROBO_PATH = $(subst $(join),:,$(strip $(BACKPORTED) $(ROBO_LIBS) \
-	$(ROBO_AAR_JARS))):$(JUNIT):$(FRAMEWORK_29):$(NEWEST)
+	$(ROBO_AAR_JARS))):$(JUNIT):$(FRAMEWORK):$(NEWEST)
 
 $(ROBO_SET)/%.jar: $(JARS)/.robolectric
 	@mkdir -p $(@D)
@@ -35,7 +35,7 @@ $(ROBO_SET)/com/android/tools/test_config.properties: tools/robolectric.mk
 		'android_resource_apk=$(abspath $(RESOURCES))' > $@
 
 $(ROBO_JAR): $(ROBO_TESTS) $(BACKPORTED) $(ROBO_AAR_JARS) $(BUILD)/ROBO_TESTS.list \
-		$(JARS)/.junit $(JARS)/.robolectric $(JARS)/.platforms $(JARS)/.level-29
+		$(JARS)/.junit $(JARS)/.robolectric $(JARS)/.platforms $(JARS)/.framework
 	@echo 'compile $@'
 	@out=$$(mktemp -d $@.XXXXXX) && trap 'rm -rf "$$out"' EXIT && \
 		javac -J-XX:TieredStopAtLevel=1 -J-XX:+UseSerialGC --release 8 -Werror -proc:none -encoding UTF-8 -g \

@@ -14,6 +14,7 @@ import xml.etree.ElementTree as ElementTree
 import zipfile
 from collections.abc import Iterator
 from pathlib import Path
+from typing import NamedTuple
 
 PACKAGE = "org.raspilot"
 LEAST_SDK = "16"
@@ -21,6 +22,14 @@ TARGET_SDK = "29"
 NAME = "{http://schemas.android.com/apk/res/android}name"
 # aapt implies a touch screen for every app unless its manifest declares it optional.
 HARMLESS = {"android.hardware.faketouch", "android.hardware.touchscreen"}
+
+
+class Fault(NamedTuple):
+    """One error: a code, what it concerns, and the sentence to print."""
+
+    code: str
+    subject: str
+    text: str
 
 
 def version_code(version: str) -> int:
@@ -41,8 +50,8 @@ def badging(apk: Path) -> str:
     return subprocess.run(command, check=True, capture_output=True, text=True).stdout
 
 
-def faults(said: str, asked: list[str], version: str) -> Iterator[str]:
-    """Yield one sentence for every error in the badging."""
+def faults(said: str, asked: list[str], version: str) -> Iterator[Fault]:
+    """Yield every error in the badging."""
     expected = {
         f"package: name='{PACKAGE}'": rf"package: name='{re.escape(PACKAGE)}' ",
         f"versionCode='{version_code(version)}'": rf" versionCode='{version_code(version)}' ",
@@ -53,28 +62,32 @@ def faults(said: str, asked: list[str], version: str) -> Iterator[str]:
     }
     for words, pattern in expected.items():
         if not re.search(pattern, said):
-            yield f"the APK does not say {words}"
+            yield Fault("badging", words, f"the APK does not say {words}")
     given = sorted(re.findall(r"(?m)^uses-permission(?:-sdk-23)?: name='([^']*)'", said))
     if given != asked:
         differing = ", ".join(sorted(set(given) ^ set(asked))) or "one is asked for twice"
-        yield f"the permissions are not those of the manifest: {differing}"
+        text = f"the permissions are not those of the manifest: {differing}"
+        yield Fault("permissions", differing, text)
     for implied in re.findall(r"(?m)^\s*uses-implied-permission: name='([^']*)'", said):
-        yield f"the permission {implied} is asked for by implication: name it, or do without"
+        text = f"the permission {implied} is asked for by implication: name it, or do without"
+        yield Fault("implied", implied, text)
     for kind, feature in re.findall(r"(?m)^\s*(uses(?:-implied)?-feature): name='([^']*)'", said):
         if feature not in HARMLESS:
-            yield f'a phone must have {feature} ({kind}): say android:required="false"'
+            text = f'a phone must have {feature} ({kind}): say android:required="false"'
+            yield Fault("feature", feature, text)
     if "native-code" in said:
-        yield "the APK holds native code"
+        yield Fault("native_code", "", "the APK holds native code")
 
 
-def dex_fault(apk: Path) -> str | None:
-    """Return the faults that ``dexdump`` finds in the code's checksum and structure, or None."""
+def dex_fault(apk: Path) -> Fault | None:
+    """Return the fault that ``dexdump`` finds in the code's checksum and structure, or None."""
     checked = subprocess.run(["dexdump", "-c", str(apk)], capture_output=True, text=True)
     read = subprocess.run(["dexdump", "-f", str(apk)], capture_output=True, text=True)
     if checked.returncode != 0 or "Checksum verified" not in checked.stdout:
-        return f"dexdump does not verify the code: {(checked.stderr or checked.stdout).strip()}"
+        said = (checked.stderr or checked.stdout).strip()
+        return Fault("dex", apk.name, f"dexdump does not verify the code: {said}")
     if read.returncode != 0:
-        return f"dexdump cannot read the code: {read.stderr.strip()}"
+        return Fault("dex", apk.name, f"dexdump cannot read the code: {read.stderr.strip()}")
     return None
 
 
@@ -88,7 +101,7 @@ def main(arguments: list[str]) -> int:
     with zipfile.ZipFile(apk) as opened:
         native = [each for each in opened.namelist() if each.endswith(".so")]
         code = opened.getinfo("classes.dex")
-    found += [f"the APK holds native code: {each}" for each in native]
+    found += [Fault("native_code", each, f"the APK holds native code: {each}") for each in native]
     if fault := dex_fault(apk):
         found.append(fault)
     size = apk.stat().st_size
@@ -96,9 +109,9 @@ def main(arguments: list[str]) -> int:
         f"{apk.name} {size} bytes of {limit} (code {code.compress_size}, {code.file_size} unpacked)"
     )
     if size > int(limit):
-        found.append(f"the APK has {size} bytes: over its target of {limit}")
+        found.append(Fault("size", limit, f"the APK has {size} bytes: over its target of {limit}"))
     for each in found:
-        print(f"{apk}: {each}", file=sys.stderr)
+        print(f"{apk}: {each.text}", file=sys.stderr)
     return 1 if found else 0
 
 

@@ -66,7 +66,7 @@ def test_it_is_signed_in_three_ways_and_told_with_its_size(built):
 def test_what_is_built_is_not_built_again(app):
     said = make(f"JARS={JARS}", folder=app)
     assert "compile" not in said and "sign with" not in said
-    assert "Verified using v2 scheme" in said
+    assert "v2 scheme" in said
 
 
 def test_the_same_sources_give_the_same_bytes(app):
@@ -93,13 +93,7 @@ def test_the_code_of_the_core_jar_is_in_the_apk(built):
 def test_the_compiler_stops_a_call_that_api_16_does_not_have(app):
     mutate(app, ACTIVITY, "Asking.isGiven(this, ", "0 == checkSelfPermission(")
     said = fails(app, "build/app.jar")
-    assert "cannot find symbol" in said and "checkSelfPermission" in said
-
-
-def test_the_compiler_stops_a_call_that_the_level_of_a_class_does_not_have(app):
-    mutate(app, ASKING, "return", "new android.app.NotificationChannel(null, null, 0);\n  return")
-    said = fails(app, "build/newer-23.jar")
-    assert "cannot find symbol" in said and "NotificationChannel" in said
+    assert "checkSelfPermission" in said
 
 
 def test_animal_sniffer_stops_what_the_compiler_takes(app):
@@ -107,23 +101,22 @@ def test_animal_sniffer_stops_what_the_compiler_takes(app):
     mutate(app, GREETING, '"Hello " + name', objects)
     mutate(app, ASKING, "permission) ==", f"{objects.replace('name', 'permission')}) ==")
     mutate(app, ASKING, "return", "android.os.SystemProperties.get(permission);\n        return")
+    mutate(app, ASKING, "return", "new android.app.NotificationChannel(null, null, 0);\n  return")
     for _ in "failed", "fails again":
         said = fails(app, "build/.guarded")
         assert said.count("String java.util.Objects.toString(Object)") == 2
         assert "String android.os.SystemProperties.get(String)" in said
+        assert "android.app.NotificationChannel" in said
 
 
 def test_a_guard_that_is_too_old_stops_it(app):
     mutate(app, ACTIVITY, "SDK_INT >= 23", "SDK_INT >= 22")
-    assert "api23.Asking without Build.VERSION.SDK_INT >= 23" in fails(app, "build/.guarded")
+    assert "api23.Asking" in fails(app, "build/.guarded")
 
 
-def test_what_resources_must_not_name_stops_it(app):
-    folder = app / "raspilot" / "res" / "drawable"
-    folder.mkdir()
-    space = 'xmlns:android="http://schemas.android.com/apk/res/android"'
-    (folder / "touched.xml").write_text(f'<ripple {space} android:color="#fff" />\n')
-    assert "touched.xml: Android 16 draws no <ripple>" in fails(app, "build/.guarded")
+def test_what_resources_must_not_name_is_checked_with_the_code(app):
+    (app / "raspilot" / "res" / "values" / "strings.xml").touch()
+    assert "tools/resources.py raspilot/res" in make("-n", "build/.guarded", folder=app)
 
 
 def test_a_missing_string_fails(app):
@@ -143,7 +136,7 @@ def test_a_warning_about_resources_fails(app):
     (folder / "strings.xml").write_text(
         '<resources><string name="lone">Allein</string></resources>'
     )
-    assert "A warning of aapt is an error here" in fails(app, "build/resources.apk")
+    assert "lone" in fails(app, "build/resources.apk")
 
 
 def test_a_broken_dex_is_found(built, tmp_path):
@@ -153,21 +146,21 @@ def test_a_broken_dex_is_found(built, tmp_path):
     assert verify.dex_fault(broken) is None
     content[len(content) // 2] ^= 1
     broken.write_bytes(content)
-    assert "dexdump does not verify the code" in verify.dex_fault(broken)
+    assert verify.dex_fault(broken).code == "dex"
 
 
 def test_an_apk_over_its_size_fails(app):
-    assert "over its target of 5000" in fails(app, "LIMIT=5000")
+    assert " 5000\n" in fails(app, "LIMIT=5000")
 
 
 def test_a_size_that_is_no_number_is_a_sentence(app):
     said = fails(app, "LIMIT=abc")
-    assert "LIMIT=abc must be a number of bytes" in said and "Traceback" not in said
+    assert "LIMIT=abc" in said and "Traceback" not in said
 
 
 def test_a_level_of_which_nothing_is_known_is_a_sentence(app):
     shutil.copytree(app / "library" / "src-23", app / "library" / "src-77")
-    assert "pom.xml has no group 'level-77'" in fails(app)
+    assert "level-77" in fails(app)
 
 
 def test_a_release_key_signs(app, tmp_path):
@@ -183,7 +176,7 @@ def test_a_release_key_signs(app, tmp_path):
         "ANDROID_KEY_ALIAS": "mine",
         "ANDROID_KEYSTORE_PASSWORD": "secret1",
     }
-    assert "sign with the key mine" in make(f"JARS={JARS}", folder=app, env=key)
+    assert "key mine" in make(f"JARS={JARS}", folder=app, env=key)
     apk = str(app / "build" / "raspilot.apk")
     shown = subprocess.run(["apksigner", "verify", "--print-certs", apk], capture_output=True)
     assert b"CN=Somebody" in shown.stdout
@@ -191,7 +184,7 @@ def test_a_release_key_signs(app, tmp_path):
 
 def test_a_release_key_is_looked_for_from_where_make_was_typed(app, tmp_path):
     key = {"ANDROID_KEYSTORE": "mine.jks", "PWD": str(tmp_path)}
-    assert f"names {tmp_path}/mine.jks, which does not exist" in fails(app, env=key)
+    assert f"{tmp_path}/mine.jks" in fails(app, env=key)
 
 
 def test_a_file_that_is_no_keystore_is_a_sentence(app):
@@ -201,20 +194,20 @@ def test_a_file_that_is_no_keystore_is_a_sentence(app):
         "ANDROID_KEYSTORE_PASSWORD": "secret1",
     }
     said = fails(app, env=key)
-    assert "the key mine of " in said and "does not sign: is the password right" in said
+    assert f"mine of {__file__}" in said
     assert "\tat " not in said
 
 
 @pytest.mark.parametrize(
-    ("key", "sentence"),
+    ("key", "named"),
     [
-        ({"ANDROID_KEYSTORE": "/nowhere/x"}, "names /nowhere/x, which does not exist"),
-        ({"ANDROID_KEYSTORE": __file__}, "ANDROID_KEY_ALIAS is not"),
+        ({"ANDROID_KEYSTORE": "/nowhere/x"}, "/nowhere/x"),
+        ({"ANDROID_KEYSTORE": __file__}, "ANDROID_KEY_ALIAS"),
         (
             {"ANDROID_KEYSTORE": __file__, "ANDROID_KEY_ALIAS": "mine"},
-            "ANDROID_KEYSTORE_PASSWORD is not",
+            "ANDROID_KEYSTORE_PASSWORD",
         ),
     ],
 )
-def test_a_release_key_that_is_half_named_is_a_sentence(app, key, sentence):
-    assert sentence in fails(app, env=key)
+def test_a_release_key_that_is_half_named_is_named(app, key, named):
+    assert named in fails(app, env=key)

@@ -26,7 +26,8 @@ def faults(folder, old="", new="", version="0.1.0", asked=None):
     build = folder / "build"
     make(f"RASPILOT={folder / 'raspilot'}", f"BUILD={build}", f"{build}/resources.apk")
     promised = verify.promised(manifest) if asked is None else asked
-    return list(verify.faults(verify.badging(build / "resources.apk"), promised, version))
+    found = verify.faults(verify.badging(build / "resources.apk"), promised, version)
+    return [(each.code, each.subject) for each in found]
 
 
 def test_the_fixture_is_as_promised(tmp_path):
@@ -34,40 +35,34 @@ def test_the_fixture_is_as_promised(tmp_path):
 
 
 def test_another_version_is_found(tmp_path):
-    assert "the APK does not say versionCode='10203'" in faults(tmp_path, version="1.2.3")
+    assert ("badging", "versionCode='10203'") in faults(tmp_path, version="1.2.3")
 
 
 def test_a_permission_that_is_not_promised_is_found(tmp_path):
-    found = faults(tmp_path, asked=[])
-    assert found == ["the permissions are not those of the manifest: android.permission.INTERNET"]
+    assert faults(tmp_path, asked=[]) == [("permissions", "android.permission.INTERNET")]
 
 
 def test_a_permission_that_is_missing_is_found(tmp_path):
     found = faults(tmp_path, asked=["android.permission.INTERNET", "android.permission.VIBRATE"])
-    assert found == ["the permissions are not those of the manifest: android.permission.VIBRATE"]
+    assert found == [("permissions", "android.permission.VIBRATE")]
 
 
 def test_an_implied_permission_is_found(tmp_path):
     found = faults(tmp_path, "<application", PERMISSION.format("WRITE_EXTERNAL_STORAGE"))
-    assert any("READ_EXTERNAL_STORAGE is asked for by implication" in each for each in found)
+    assert ("implied", "android.permission.READ_EXTERNAL_STORAGE") in found
 
 
 def test_a_feature_that_a_phone_must_have_is_found(tmp_path):
     found = faults(tmp_path, "<application", PERMISSION.format("ACCESS_FINE_LOCATION"))
-    assert any("a phone must have android.hardware.location" in each for each in found)
+    assert ("feature", "android.hardware.location") in found
 
 
 def test_a_manifest_that_says_other_levels_is_found(tmp_path):
     sdk = '<uses-sdk android:minSdkVersion="21" android:targetSdkVersion="28" />\n    <application'
     found = faults(tmp_path, "<application", sdk)
-    assert "the APK does not say sdkVersion:'16'" in found
-    assert "the APK does not say targetSdkVersion:'29'" in found
+    assert {("badging", "sdkVersion:'16'"), ("badging", "targetSdkVersion:'29'")} <= set(found)
 
 
 def test_the_version_is_a_number_that_rises():
-    assert [verify.version_code(each) for each in ("0.1.0", "0.1.1", "0.2.0", "1.0.0")] == [
-        100,
-        101,
-        200,
-        10000,
-    ]
+    codes = [verify.version_code(each) for each in ("0.1.0", "0.1.1", "0.2.0", "1.0.0")]
+    assert codes == [100, 101, 200, 10000]

@@ -17,7 +17,7 @@ ANDROID = ROOT / "android"
 BUILD = ANDROID / "build"
 JARS = BUILD / "jars"
 LONGEST_S = 600
-# 800 MB by a slow network.
+# 700 MB by a slow network.
 LONGEST_FETCH_S = 1500
 TOOLS = ("aapt", "zipalign", "apksigner", "dexdump")
 # What `make test TEST=...` hands down is not meant for the phone's Makefile.
@@ -87,7 +87,7 @@ def need_jars(*groups):
     except AndroidBuildLateError:
         unavailable(f"the network did not bring the jars within {LONGEST_FETCH_S / 60:g} min")
     except AndroidBuildError as failure:
-        if "Maven could not fetch" in str(failure):
+        if "fetch_failed" in str(failure):
             unavailable(str(failure).strip().splitlines()[0])
         raise
 
@@ -98,14 +98,14 @@ def need_android():
         need_tool(each)
     if not Path("/usr/share/android-framework-res/framework-res.apk").exists():
         unavailable("there is no framework-res.apk (Debian package android-framework-res)")
-    need_jars("stubs", "dx", "sniffer", "level-23", "level-26", "level-29")
+    need_jars("stubs", "framework", "dx", "proguard", "sniffer", "level-23", "level-26")
 
 
 def lay_out(folder, app):
     """Lay out the build beside the sources of another app; return where to make it."""
     made = folder / "android"
     made.mkdir(parents=True)
-    for name in ("Makefile", "pom.xml", "jars.sha256"):
+    for name in ("Makefile", "jars.list"):
         shutil.copy2(ANDROID / name, made / name)
     shutil.copytree(ANDROID / "tools", made / "tools", ignore=shutil.ignore_patterns("__pycache__"))
     shutil.copytree(app, made, dirs_exist_ok=True)

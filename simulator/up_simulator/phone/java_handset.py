@@ -100,7 +100,7 @@ class JavaHandset:
         self._program = program
         self._address_options = address_options
         mounting = " ".join(map(str, MOUNTING))
-        self._options = ["--orientation", orientation, "--seed", str(seed), "--mounting", mounting]
+        self._options = ["--orientation", orientation, "--mounting", mounting]
         if record is not None:
             self._options.append("--record")
 

@@ -3,6 +3,7 @@ package org.raspilot.up;
 import static org.junit.Assert.assertEquals;
 import static org.junit.Assert.assertNotSame;
 import static org.junit.Assert.assertSame;
+import static org.junit.Assert.assertThrows;
 import static org.junit.Assert.assertTrue;
 import static org.junit.Assert.fail;
 
@@ -28,23 +29,13 @@ public final class UpTest {
         Up.setInstance(up);
         assertSame(up, Up.getInstance());
         Up.setInstance(up);
-        try {
-            Up.setInstance(newUp());
-            fail("a second one was set");
-        } catch (IllegalStateException fault) {
-            assertEquals("this process has an Up already", fault.getMessage());
-        }
+        assertThrows(IllegalStateException.class, () -> Up.setInstance(newUp()));
         assertSame(up, Up.getInstance());
     }
 
     @Test
     public void beforeItIsSetUpThereIsNone() {
-        try {
-            Up.getInstance();
-            fail("there is one");
-        } catch (IllegalStateException fault) {
-            assertEquals("no Up was set up in this process", fault.getMessage());
-        }
+        assertThrows(IllegalStateException.class, () -> Up.getInstance());
     }
 
     @Test

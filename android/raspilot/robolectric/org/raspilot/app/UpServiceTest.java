@@ -147,7 +147,7 @@ public final class UpServiceTest extends AppBench {
         String all = board.heard().toString();
         mustSay("49.74747", all);
         mustSay("83", all);
-        assertFalse("orientation is off by default", status.orientationHz() > 0);
+        assertFalse(status.orientationHz() > 0);
         handset.battery(41);
         Wait.until("the current battery level", () -> board.heard().toString().contains("41"));
     }
@@ -180,7 +180,7 @@ public final class UpServiceTest extends AppBench {
                 android.Manifest.permission.ACCESS_COARSE_LOCATION);
         find(R.id.run_switch).performClick();
         assertNotNull(shadowOf(handset.window.get()).getLastRequestedPermission());
-        assertFalse("it started before the answer", handset.startWished());
+        assertFalse(handset.startWished());
         handset.window.get().onRequestPermissionsResult(1, new String[0], new int[0]);
         assertTrue(handset.startWished());
         Wait.pass(0);

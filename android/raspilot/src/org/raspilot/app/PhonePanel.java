@@ -12,7 +12,7 @@ import android.widget.CheckBox;
 import java.util.ArrayList;
 import java.util.List;
 import org.raspilot.up.android.Permissions;
-import org.raspilot.up.android.api23.RuntimePermissions;
+import org.raspilot.up.android.api23.Api23;
 
 /** The phone's settings that the app needs, links to them, and whether the screen stays on. */
 final class PhonePanel {
@@ -46,7 +46,7 @@ final class PhonePanel {
 
     void show() {
         location.setVisibility(isLocationPermitted() ? View.GONE : View.VISIBLE);
-        boolean isSpared = Build.VERSION.SDK_INT < 23 || RuntimePermissions.isSpared(activity);
+        boolean isSpared = Build.VERSION.SDK_INT < 23 || Api23.isSpared(activity);
         battery.setVisibility(isSpared ? View.GONE : View.VISIBLE);
     }
 
@@ -61,7 +61,7 @@ final class PhonePanel {
         if (Build.VERSION.SDK_INT < 23 || missing.isEmpty()) {
             return false;
         }
-        RuntimePermissions.forPermissions(activity, missing.toArray(new String[0]), REQUEST);
+        Api23.requestPermissions(activity, missing.toArray(new String[0]), REQUEST);
         return true;
     }
 
@@ -84,7 +84,7 @@ final class PhonePanel {
     void onAnswered() {
         show();
         boolean isRefusedForGood = Build.VERSION.SDK_INT >= 23 && !isLocationPermitted()
-                && !RuntimePermissions.isReasonDue(activity,
+                && !Api23.isReasonDue(activity,
                         Manifest.permission.ACCESS_FINE_LOCATION);
         if (isPermitting && isRefusedForGood) {
             open(new Intent(Settings.ACTION_APPLICATION_DETAILS_SETTINGS,

@@ -1,6 +1,5 @@
 package org.raspilot.app;
 
-import android.app.Activity;
 import android.content.SharedPreferences;
 import android.preference.PreferenceManager;
 import org.raspilot.up.airborne.AirborneSettings.AirborneMode;
@@ -75,41 +74,9 @@ public final class RaspilotUpService extends BaseUpService {
 
     @Override
     protected NotificationTexts noticeTexts() {
-        return new NotificationTexts() {
-            @Override
-            public int icon() {
-                return R.drawable.ic_notification;
-            }
-
-            @Override
-            public int stopIcon() {
-                return android.R.drawable.ic_menu_close_clear_cancel;
-            }
-
-            @Override
-            public String channel() {
-                return CHANNEL;
-            }
-
-            @Override
-            public String channelName() {
-                return getString(R.string.notice_channel);
-            }
-
-            @Override
-            public String title() {
-                return getString(R.string.notice_title);
-            }
-
-            @Override
-            public String stop() {
-                return getString(R.string.stop);
-            }
-
-            @Override
-            public Class<? extends Activity> screen() {
-                return MainActivity.class;
-            }
-        };
+        return new NotificationTexts(R.drawable.ic_notification,
+                android.R.drawable.ic_menu_close_clear_cancel, CHANNEL,
+                getString(R.string.notice_channel), getString(R.string.notice_title),
+                getString(R.string.stop), MainActivity.class);
     }
 }

@@ -1,14 +1,15 @@
 package org.raspilot.app;
 
 import java.util.regex.Pattern;
+import org.raspilot.up.net.SettingRules;
 import org.raspilot.up.providers.AltitudeProvider;
 import org.raspilot.up.providers.OrientationProvider;
 import org.raspilot.up.wire.Hello;
 
 /** The rule for a setting, and the sentence that states it. */
 enum SettingRule {
-    HOST(R.string.rule_host, value -> isHost(value)),
-    HOST_OR_NOTHING(R.string.rule_host, value -> value.isEmpty() || isHost(value)),
+    HOST(R.string.rule_host, value -> SettingRules.isHost(value)),
+    HOST_OR_NOTHING(R.string.rule_host, value -> value.isEmpty() || SettingRules.isHost(value)),
     PORT(R.string.rule_port, value -> isWhole(value, 1, 65535)),
     AIRCRAFT(R.string.rule_aircraft, value -> Hello.isAircraftName(value)),
     PROFILE(R.string.rule_profile, value -> value.isEmpty() || Hello.isAircraftName(value)),
@@ -23,7 +24,6 @@ enum SettingRule {
         boolean holds(String value);
     }
 
-    private static final Pattern HOSTS = Pattern.compile("[A-Za-z0-9_.:%-]+");
     private static final Pattern WHOLES = Pattern.compile("[0-9]{1,9}");
     private static final Pattern NUMBERS = Pattern.compile("[0-9]{1,5}([.,][0-9]{1,6})?");
 
@@ -52,10 +52,6 @@ enum SettingRule {
         }
         int number = Integer.parseInt(value);
         return number >= least && number <= greatest;
-    }
-
-    private static boolean isHost(String value) {
-        return value.length() <= 253 && HOSTS.matcher(value).matches();
     }
 
     private static boolean isNumber(String value) {

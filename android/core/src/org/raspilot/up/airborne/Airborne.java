@@ -3,14 +3,10 @@ package org.raspilot.up.airborne;
 import java.util.Random;
 import org.raspilot.up.Up;
 import org.raspilot.up.airborne.AirborneStatus.AirborneCounters;
-import org.raspilot.up.commands.BaseCommand;
-import org.raspilot.up.commands.CommandExecutor.HandlerFaultListener;
-import org.raspilot.up.commands.CommandHandler;
 import org.raspilot.up.loop.Loop;
 import org.raspilot.up.net.Endpoint;
 import org.raspilot.up.providers.MessageSink;
 import org.raspilot.up.providers.Mounting;
-import org.raspilot.up.providers.ProvidersController.ProvidersListener;
 import org.raspilot.up.providers.ProvidersController;
 import org.raspilot.up.providers.Sensors;
 import org.raspilot.up.providers.Side;
@@ -46,15 +42,17 @@ public final class Airborne {
             AirborneListener listener, Random random) {
         this.settings = settings;
         this.listener = listener;
-        up = new Up(loop, new Faults());
+        up = new Up(loop, (handler, command, fault) -> listener.onEvent("handler_failed",
+                "the handler of " + command.name() + " failed: " + fault));
         link = new AirborneLink(loop, settings, random, new LinkOwner());
         handlers = new AirborneHandlers(providers().panic(), speaker, new SentAnswers());
         handlers.register(up.commandExecutor());
         basics = new BasicProviders(settings, sensors);
         basics.register(providers());
         silence = new SensorSilenceMonitor(loop, providers(), listener);
-        providers().addListener(new Problems());
-        providers().panic().addListener(panic -> Airborne.this.listener.onPanic(panic.delayMs()));
+        providers().addListener((name, sentence) ->
+                listener.onEvent("provider_problem", name + ": " + sentence));
+        providers().panic().addListener(panic -> listener.onPanic(panic.delayMs()));
     }
 
     /** Starts to read, to connect and to send. */
@@ -158,9 +156,9 @@ public final class Airborne {
         }
 
         @Override
-        public void onClosed(String reason) {
+        public void onClosed(String code, String reason) {
             providers().linkClosed();
-            listener.onDisconnected(reason);
+            listener.onDisconnected(code, reason);
         }
 
         @Override
@@ -182,22 +180,6 @@ public final class Airborne {
             link.onAnswer(id);
             listener.onEvent("nack_received", "the Raspberry Pi refused a message: "
                     + SafeText.of(reason, MAX_REASON_LENGTH));
-        }
-    }
-
-    private final class Problems implements ProvidersListener {
-        @Override
-        public void onProvider(String name, String sentence) {
-            listener.onEvent("provider_problem", name + ": " + sentence);
-        }
-    }
-
-    private final class Faults implements HandlerFaultListener {
-        @Override
-        public void onHandlerFailed(CommandHandler handler, BaseCommand command,
-                Throwable fault) {
-            listener.onEvent("handler_failed",
-                    "the handler of " + command.name() + " failed: " + fault);
         }
     }
 }

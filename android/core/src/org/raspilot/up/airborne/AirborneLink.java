@@ -5,9 +5,16 @@ import org.raspilot.up.airborne.AirborneSettings.OrientationTransport;
 import org.raspilot.up.commands.BaseCommand;
 import org.raspilot.up.commands.CommandReceiver.AnswerSink;
 import org.raspilot.up.loop.Loop;
+import org.raspilot.up.net.DiscoveryClient.BroadcastAddresses;
+import org.raspilot.up.net.DiscoveryClient;
 import org.raspilot.up.net.Endpoint;
+import org.raspilot.up.net.EndpointDiscovery;
+import org.raspilot.up.net.FixedEndpoint;
+import org.raspilot.up.net.InterfaceBroadcasts;
 import org.raspilot.up.net.LastEndpoint;
 import org.raspilot.up.net.OrientationSender;
+import org.raspilot.up.net.RunnerClient;
+import org.raspilot.up.net.RunnerRequest;
 import org.raspilot.up.net.UpSocket;
 import org.raspilot.up.net.UpSocketListener;
 import org.raspilot.up.net.UpSocketSettings;
@@ -18,6 +25,8 @@ import org.raspilot.up.wire.OrientationFrame;
 
 /** The two links to the Raspberry Pi: one for Commands and, if enabled, one for orientation. */
 final class AirborneLink implements MessageSink, AnswerSink, UpSocketListener {
+    /** The name that nameless clients of a runner share (protocols 8). */
+    private static final String NAMELESS = "default";
     private static final String DEAD = "the Raspberry Pi stopped answering";
 
     private final Owner owner;
@@ -35,8 +44,8 @@ final class AirborneLink implements MessageSink, AnswerSink, UpSocketListener {
 
         void onLine(byte[] line, int length);
 
-        /** Called when the link is lost, with the reason. */
-        void onClosed(String reason);
+        /** Called when the link is lost, with the reason as a word and as a sentence. */
+        void onClosed(String code, String reason);
 
         /** Called with the reason for a missing link, once until it changes. */
         void onTrouble(String sentence);
@@ -44,7 +53,7 @@ final class AirborneLink implements MessageSink, AnswerSink, UpSocketListener {
 
     AirborneLink(Loop loop, AirborneSettings settings, Random random, Owner owner) {
         this.owner = owner;
-        known = new LastEndpoint(EndpointDiscoveries.by(loop, settings));
+        known = new LastEndpoint(discovery(loop, settings));
         socket = new UpSocket(loop, known, this, UpSocketSettings.lines(), random);
         OrientationTransport transport = settings.orientationTransport();
         orientation = transport == OrientationTransport.OFF ? null
@@ -54,7 +63,7 @@ final class AirborneLink implements MessageSink, AnswerSink, UpSocketListener {
                                 : OrientationSender.Transport.TCP,
                         random);
         watch = new LinkWatchdog(loop, Integer.toHexString(random.nextInt()) + ".", () ->
-                socket.drop(DEAD));
+                socket.drop("silent", DEAD));
     }
 
     void start() {
@@ -151,7 +160,7 @@ final class AirborneLink implements MessageSink, AnswerSink, UpSocketListener {
         watch.closed();
         wasLost = true;
         reported = lost.status().sentence;
-        owner.onClosed(reason);
+        owner.onClosed(lost.status().code, reason);
     }
 
     @Override
@@ -162,5 +171,29 @@ final class AirborneLink implements MessageSink, AnswerSink, UpSocketListener {
             reported = status.sentence;
             owner.onTrouble(reported);
         }
+    }
+
+    /** Returns the runner in Black Box Mode, otherwise the configured host, otherwise Discovery. */
+    private static EndpointDiscovery discovery(Loop loop, final AirborneSettings settings) {
+        if (settings.isByRunner()) {
+            RunnerRequest request = new RunnerRequest(
+                    settings.aircraft.isEmpty() ? NAMELESS : settings.aircraft,
+                    settings.profile.isEmpty() ? null : settings.profile,
+                    null);
+            return new RunnerClient(loop, settings.runnerHost, settings.runnerPort, request);
+        }
+        if (!settings.host.isEmpty()) {
+            return new FixedEndpoint(new Endpoint(
+                    settings.host, settings.generalPort, settings.orientationPort));
+        }
+        return new DiscoveryClient(loop, asked(settings), settings.discoveryPort,
+                settings.generalPort, settings.orientationPort);
+    }
+
+    private static BroadcastAddresses asked(final AirborneSettings settings) {
+        if (settings.discoveryHosts.isEmpty()) {
+            return new InterfaceBroadcasts();
+        }
+        return () -> settings.discoveryHosts;
     }
 }

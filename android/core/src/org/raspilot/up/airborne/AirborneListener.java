@@ -1,14 +1,15 @@
 package org.raspilot.up.airborne;
 
 import org.raspilot.up.net.Endpoint;
+import org.raspilot.up.net.UpSocketStatus;
 
 /** Receives the events of the airborne side, on the loop. */
 public interface AirborneListener {
     /** Called when the link for Commands is open. */
     void onConnected(Endpoint place);
 
-    /** Called when the link is lost; the reason is a sentence without a full stop. */
-    void onDisconnected(String reason);
+    /** Called when the link is lost; the code is that of {@link UpSocketStatus}. */
+    void onDisconnected(String code, String reason);
 
     /** Called when Panic Mode starts, changes or ends (0). */
     void onPanic(long delayMs);

@@ -3,7 +3,10 @@ package org.raspilot.up.airborne;
 import java.util.ArrayList;
 import java.util.Collections;
 import java.util.List;
+import org.raspilot.up.net.SettingRules;
+import org.raspilot.up.providers.AltitudeProvider;
 import org.raspilot.up.providers.Mounting;
+import org.raspilot.up.providers.OrientationProvider;
 
 /**
  * Settings of the airborne side, created by its {@link Builder}, which validates them.
@@ -12,6 +15,7 @@ import org.raspilot.up.providers.Mounting;
  * discovery.yml} and {@code runner.yml}.
  */
 public final class AirborneSettings {
+    private static final int MAX_PERIOD_MS = 10000;
     public final AirborneMode mode;
     /** The Raspberry Pi's host; empty: Discovery, in Black Box Mode the runner. */
     public final String host;
@@ -82,6 +86,45 @@ public final class AirborneSettings {
         return isWanted ? orientation : OrientationTransport.OFF;
     }
 
+    private void check() {
+        SettingRules.present("mode", mode);
+        SettingRules.present("way of orientation", orientation);
+        SettingRules.present("mounting", mounting);
+        SettingRules.present("profile", profile);
+        hostOrNothing("host", host);
+        hostOrNothing("runner's host", runnerHost);
+        for (String each : discoveryHosts) {
+            SettingRules.host("address of Discovery", each);
+        }
+        SettingRules.port("port of the Raspberry Pi", generalPort);
+        SettingRules.port("port for orientation", orientationPort);
+        SettingRules.port("port of Discovery", discoveryPort);
+        SettingRules.port("runner's port", runnerPort);
+        SettingRules.present("aircraft's name", aircraft);
+        if (!aircraft.isEmpty()) {
+            SettingRules.aircraft("aircraft's name", aircraft);
+        }
+        SettingRules.range("length of the profile's name", profile.length(), 0, 64);
+        SettingRules.range("rate of orientation (Hz)", orientationHz,
+                OrientationProvider.MIN_HZ, OrientationProvider.MAX_HZ);
+        SettingRules.range("period of the location (ms)", locationPeriodMs, 20, MAX_PERIOD_MS);
+        SettingRules.range("period of the altitude (ms)", altitudePeriodMs, 20, MAX_PERIOD_MS);
+        SettingRules.range("period of the heading (ms)", headingPeriodMs, 20, MAX_PERIOD_MS);
+        SettingRules.range("declination (deg)", declinationDeg, -180, 180);
+        SettingRules.range("reference pressure (hPa)", referencePressureHPa,
+                AltitudeProvider.MIN_REFERENCE_HPA, AltitudeProvider.MAX_REFERENCE_HPA);
+        if (mode == AirborneMode.BLACK_BOX && runnerHost.isEmpty()) {
+            SettingRules.host("host of the runner, or of a running server", host);
+        }
+    }
+
+    private static void hostOrNothing(String setting, String host) {
+        SettingRules.present(setting, host);
+        if (!host.isEmpty()) {
+            SettingRules.host(setting, host);
+        }
+    }
+
     /** Builds settings; a value that is not set keeps its default. Names and units as above. */
     public static final class Builder {
         private AirborneMode mode = AirborneMode.FLIGHT_CONTROLLER;
@@ -127,7 +170,7 @@ public final class AirborneSettings {
         /** Returns the settings; raises IllegalArgumentException with a sentence for the user. */
         public AirborneSettings build() {
             AirborneSettings settings = new AirborneSettings(this);
-            SettingsRules.check(settings);
+            settings.check();
             return settings;
         }
     }

@@ -15,7 +15,8 @@ final class CatalogueEntry {
     /** Creates an entry from an element of a list. */
     static CatalogueEntry of(Object value) throws MalformedException {
         if (!(value instanceof Map)) {
-            throw new MalformedException("an entry of the catalogue must be an object");
+            throw new MalformedException("catalogue",
+                    "an entry of the catalogue must be an object");
         }
         return new CatalogueEntry((Map<?, ?>) value);
     }
@@ -44,7 +45,8 @@ final class CatalogueEntry {
     FieldType type(String key) throws MalformedException {
         FieldType type = FieldType.ofWord(text(key));
         if (type == null) {
-            throw new MalformedException("the catalogue has an unknown type " + text(key));
+            throw new MalformedException("catalogue",
+                    "the catalogue has an unknown type " + text(key));
         }
         return type;
     }
@@ -58,7 +60,7 @@ final class CatalogueEntry {
             throws MalformedException {
         Object value = description.get(key);
         if (value == null ? !isNullable : !wanted.isInstance(value)) {
-            throw new MalformedException("the catalogue has no good " + key + " in "
+            throw new MalformedException("catalogue", "the catalogue has no good " + key + " in "
                     + description.get("name"));
         }
         return value;

@@ -59,13 +59,11 @@ public final class CommandField {
         return required;
     }
 
-    /** Returns the error of a JSON value, a sentence that names the field, or null. */
-    public String validate(Object value) {
-        if (value == null && nullable) {
-            return null;
+    /** Throws InvalidCommandException unless a JSON value is valid. */
+    public void check(Object value) {
+        if (value != null || !nullable) {
+            rule.check(name, value);
         }
-        String complaint = rule.error(value);
-        return complaint == null ? null : name + " " + complaint;
     }
 
     /**
@@ -77,13 +75,9 @@ public final class CommandField {
     public Object parse(String input) {
         Object value = type == FieldType.TEXT ? input : TypedValue.of(input.trim(), type);
         if (value == TypedValue.NONE) {
-            throw new InvalidCommandException(
-                    name + " must be " + text + ", not " + FieldRule.shown(input));
+            throw rule.refusal("wrong_type", name, FieldRule.shown(input));
         }
-        String complaint = validate(value);
-        if (complaint != null) {
-            throw new InvalidCommandException(complaint);
-        }
+        check(value);
         return value;
     }
 }

@@ -80,7 +80,8 @@ public final class CommandFields {
     public String filledText(String key, int longest) {
         String text = text(key, longest);
         if (text.isEmpty()) {
-            throw new InvalidCommandException(key + " must have 1 to " + longest + " characters");
+            throw new InvalidCommandException("empty", key,
+                    "must have 1 to " + longest + " characters");
         }
         return text;
     }
@@ -94,28 +95,24 @@ public final class CommandFields {
                 return text;
             }
         }
-        throw new InvalidCommandException(key + " must not be blank");
+        throw new InvalidCommandException("empty", key, "must not be blank");
     }
 
     /** Returns the topic of a record: words of {@code a-z 0-9 _} joined by dots, at most 64. */
     public String topic(String key) {
         String topic = text(key, 64);
         if (!TOPIC.matcher(topic).matches()) {
-            throw new InvalidCommandException(key
-                    + " must be words of a to z, 0 to 9 and _, joined by dots: companion.airspeed");
+            throw new InvalidCommandException("malformed", key,
+                    "must be words of a to z, 0 to 9 and _, joined by dots: companion.airspeed");
         }
         return topic;
     }
 
     private Object checked(String key, FieldRule rule) {
         if (!data.containsKey(key)) {
-            throw new InvalidCommandException(key + " is missing");
+            throw new InvalidCommandException("missing", key, "is missing");
         }
-        Object value = data.get(key);
-        String complaint = rule.error(value);
-        if (complaint != null) {
-            throw new InvalidCommandException(key + " " + complaint);
-        }
-        return value;
+        rule.check(key, data.get(key));
+        return data.get(key);
     }
 }

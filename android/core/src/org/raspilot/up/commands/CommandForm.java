@@ -52,24 +52,21 @@ public final class CommandForm {
         return fields.get(fieldName);
     }
 
-    /** Returns the error of JSON data, a sentence that names the field, or null. */
-    public String validate(Map<String, ?> data) {
+    /** Throws InvalidCommandException unless JSON data are valid. */
+    public void check(Map<String, ?> data) {
         for (Map.Entry<String, ?> given : data.entrySet()) {
             CommandField field = fields.get(given.getKey());
             if (field == null) {
-                return name + " has no field " + given.getKey();
+                throw new InvalidCommandException("unknown", given.getKey(),
+                        "is not a field of " + name);
             }
-            String complaint = field.validate(given.getValue());
-            if (complaint != null) {
-                return complaint;
-            }
+            field.check(given.getValue());
         }
         for (CommandField field : fields.values()) {
             if (field.isRequired() && !data.containsKey(field.name)) {
-                return field.name + " is missing";
+                throw new InvalidCommandException("missing", field.name, "is missing");
             }
         }
-        return null;
     }
 
     /**
@@ -86,10 +83,7 @@ public final class CommandForm {
                 data.put(input.getKey(), field == null ? typed : field.parse(typed));
             }
         }
-        String complaint = validate(data);
-        if (complaint != null) {
-            throw new InvalidCommandException(complaint);
-        }
+        check(data);
         return data;
     }
 

@@ -82,7 +82,7 @@ public final class Commands {
             boolean isRequest = Boolean.TRUE.equals(fields.optionalFlag("request"));
             Map<String, Object> pids = fields.optionalObject("pids");
             if (!isRequest && pids == null) {
-                throw new InvalidCommandException("either request or pids is needed");
+                throw new InvalidCommandException("missing", "pids", "or request is needed");
             }
             if (!isRequest) {
                 GainSet.ofData(pids);

@@ -66,13 +66,19 @@ final class FieldRule {
                 Integer.MAX_VALUE, description.toString());
     }
 
-    /** Returns the error of a value, worded to follow the field's name, or null if it is valid. */
-    String error(Object value) {
-        if (!isOfType(value) || !isChosen(value)) {
-            return "must be " + description + ", not " + shown(value);
+    /** Throws InvalidCommandException unless a value is valid. */
+    void check(String field, Object value) {
+        String code = !isOfType(value) ? "wrong_type" : !isInRange(value) ? "out_of_range"
+                : !isChosen(value) ? "not_a_choice" : length(value) > maxLength ? "too_long" : "";
+        if (!code.isEmpty()) {
+            throw refusal(code, field,
+                    code.equals("too_long") ? "of " + length(value) : shown(value));
         }
-        int length = length(value);
-        return length > maxLength ? "must be " + description + ", not of " + length : null;
+    }
+
+    InvalidCommandException refusal(String code, String field, String not) {
+        return new InvalidCommandException(code, field,
+                "must be " + description + ", not " + not);
     }
 
     private boolean isOfType(Object value) {
@@ -80,9 +86,9 @@ final class FieldRule {
             case BOOLEAN:
                 return value instanceof Boolean;
             case INTEGER:
-                return value instanceof Long && isInRange((Long) value);
+                return value instanceof Long;
             case NUMBER:
-                return value instanceof Number && isInRange(((Number) value).doubleValue());
+                return value instanceof Number;
             case TEXT:
                 return value instanceof String;
             case LIST:
@@ -92,9 +98,13 @@ final class FieldRule {
         }
     }
 
-    private boolean isInRange(double value) {
+    private boolean isInRange(Object value) {
+        if (!(value instanceof Number)) {
+            return true;
+        }
+        double number = ((Number) value).doubleValue();
         // NaN compares as false.
-        return minimum <= value && value <= maximum;
+        return minimum <= number && number <= maximum;
     }
 
     private boolean isChosen(Object value) {

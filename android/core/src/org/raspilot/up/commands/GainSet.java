@@ -37,7 +37,8 @@ public final class GainSet {
         LoopGains rate = loop(data.get("ratePIDs"), "ratePIDs");
         LoopGains stabilize = loop(data.get("stabPIDs"), "stabPIDs");
         if ((rate.rudder == null) != (stabilize.rudder == null)) {
-            throw new InvalidCommandException("pids must have a rudder in both loops or in none");
+            throw new InvalidCommandException("incomplete", "pids",
+                    "must have a rudder in both loops or in none");
         }
         Object navigation = data.get("navPIDs");
         return new GainSet(rate, stabilize,
@@ -47,11 +48,9 @@ public final class GainSet {
     /** Returns the set in the form of the wire; nothing is rounded. */
     public Map<String, Object> toData() {
         Map<String, Object> data = new LinkedHashMap<>();
-        data.put("ratePIDs", loopData(rate));
-        data.put("stabPIDs", loopData(stabilize));
-        if (navigation != null) {
-            data.put("navPIDs", loopData(navigation));
-        }
+        put(data, "ratePIDs", loopData(rate));
+        put(data, "stabPIDs", loopData(stabilize));
+        put(data, "navPIDs", loopData(navigation));
         return data;
     }
 
@@ -71,44 +70,50 @@ public final class GainSet {
     }
 
     private static double gain(Map<?, ?> data, String key, String place) {
-        Object value = data.get(key);
-        String complaint = FieldRule.number(0, Gains.MAX).error(value);
-        if (complaint != null) {
-            throw new InvalidCommandException(place + "." + key + " " + complaint);
-        }
-        return ((Number) value).doubleValue();
+        FieldRule.number(0, Gains.MAX).check(place + "." + key, data.get(key));
+        return ((Number) data.get(key)).doubleValue();
     }
 
     private static Map<?, ?> only(Object value, List<String> required, List<String> optional,
             String place) {
         if (!(value instanceof Map)) {
-            throw new InvalidCommandException(place + " must be an object");
+            throw new InvalidCommandException("wrong_type", place, "must be an object");
         }
         Map<?, ?> data = (Map<?, ?>) value;
         for (String key : required) {
             if (!data.containsKey(key)) {
-                throw new InvalidCommandException(place + "." + key + " is missing");
+                throw new InvalidCommandException("missing", place + "." + key, "is missing");
             }
         }
         for (Object key : data.keySet()) {
             if (!required.contains(key) && !optional.contains(key)) {
-                throw new InvalidCommandException(place + "." + key + " is not known");
+                throw new InvalidCommandException("unknown", place + "." + key, "is not known");
             }
         }
         return data;
     }
 
     private static Map<String, Object> loopData(LoopGains loop) {
-        Map<String, Object> data = new LinkedHashMap<>();
-        data.put("ailerons", gainsData(loop.ailerons));
-        data.put("elevator", gainsData(loop.elevator));
-        if (loop.rudder != null) {
-            data.put("rudder", gainsData(loop.rudder));
+        if (loop == null) {
+            return null;
         }
+        Map<String, Object> data = new LinkedHashMap<>();
+        put(data, "ailerons", gainsData(loop.ailerons));
+        put(data, "elevator", gainsData(loop.elevator));
+        put(data, "rudder", gainsData(loop.rudder));
         return data;
     }
 
+    private static void put(Map<String, Object> data, String key, Map<String, Object> value) {
+        if (value != null) {
+            data.put(key, value);
+        }
+    }
+
     private static Map<String, Object> gainsData(Gains gains) {
+        if (gains == null) {
+            return null;
+        }
         Map<String, Object> data = new LinkedHashMap<>();
         data.put("p", gains.p);
         data.put("i", gains.i);

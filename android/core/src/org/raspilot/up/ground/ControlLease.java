@@ -45,7 +45,7 @@ final class ControlLease {
     }
 
     /** Returns the hello that requests the seat. */
-    Hello hello() {
+    byte[] hello() {
         return Hello.ofGround(settings.aircraft, wanted, wanted == ProxyRole.COMMAND
                 ? token : null);
     }
@@ -58,33 +58,27 @@ final class ControlLease {
         }
     }
 
-    /** Takes a line of the proxy; returns false for one that only a ground sends. */
-    boolean onControl(ControlLine said) {
+    /** Takes a line of the proxy. */
+    void onControl(ControlLine said) {
         switch (said.kind) {
             case SEAT_COMMAND:
                 setRole(ProxyRole.COMMAND);
                 storeToken(said.token);
-                return true;
+                break;
             case SEAT_LISTEN:
                 setRole(ProxyRole.LISTEN);
                 facts.requestedBy = null;
                 dropToken();
-                return true;
+                break;
             case SEAT_ASKED:
                 facts.requestedBy = said.number;
-                return true;
+                break;
             case SEAT_HOLDER:
                 facts.owner = said.number;
                 facts.isOwnerKnown = true;
-                return true;
-            case AIRCRAFT_ONLINE:
-                facts.isAircraftOnline = true;
-                return true;
-            case AIRCRAFT_OFFLINE:
-                facts.isAircraftOnline = false;
-                return true;
+                break;
             default:
-                return false;
+                facts.isAircraftOnline = said.kind == ControlLine.Kind.AIRCRAFT_ONLINE;
         }
     }
 

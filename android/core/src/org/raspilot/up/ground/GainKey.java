@@ -18,9 +18,6 @@ public final class GainKey {
     /** All 27 gains: loops, in them axes, in them terms. */
     public static final List<GainKey> ALL = all();
 
-    /** How many gains a loop has. */
-    static final int IN_LOOP = 9;
-
     private static final String[] LOOP_WORDS = {"rate", "stabilize", "navigation"};
     private static final String[] AXIS_WORDS = {"roll", "pitch", "yaw"};
 
@@ -62,16 +59,6 @@ public final class GainKey {
     /** Returns whether a controller uses it; none holds a yaw angle or navigates yet. */
     public boolean isUsed() {
         return loop == 0 || loop == 1 && axis < 2;
-    }
-
-    /** Returns whether it belongs to the rudder, which a set may leave out. */
-    boolean isRudder() {
-        return axis == 2;
-    }
-
-    /** Returns whether a set has its loop. */
-    boolean isIn(GainSet set) {
-        return loopOf(set) != null;
     }
 
     /** Returns this gain of a set; null: the set has none or is null. */

@@ -132,7 +132,7 @@ public final class GainsService {
             return null;
         }
         if (!(pids instanceof Map)) {
-            throw new InvalidCommandException("pids is missing");
+            throw new InvalidCommandException("missing", "pids", "is missing");
         }
         @SuppressWarnings("unchecked")
         final Map<String, Object> data = (Map<String, Object>) pids;
@@ -167,13 +167,15 @@ public final class GainsService {
 
     private void transmit(final GainSet gains, Long shownBeacon, final AnswerListener listener,
             final boolean isUndo) {
-        final String fault = GainsForm.fault(gains);
-        if (fault != null) {
-            listener.onAnswer(Answer.refused(Commands.PIDS, "invalid", fault));
+        final BaseCommand command;
+        try {
+            command = Commands.pids(gains);
+        } catch (InvalidCommandException fault) {
+            listener.onAnswer(Answer.refused(Commands.PIDS, "invalid", fault.getMessage()));
             return;
         }
         final GainSet before = flying;
-        sender.send(Commands.pids(gains), shownBeacon, answer -> {
+        sender.send(command, shownBeacon, answer -> {
             if (answer.outcome != Answer.Outcome.REFUSED) {
                 record(before, gains, answer, isUndo);
             }

@@ -82,7 +82,7 @@ final class GroundLink implements UpSocketListener {
         claim.reset();
         facts.failures = 0;
         facts.rejection = "";
-        facts.enter(LinkState.CONNECTING, loop.nowMs(), "");
+        facts.enter(LinkState.CONNECTING, loop.nowMs(), "", "");
         socket.start();
         listener.onLink();
     }
@@ -90,7 +90,7 @@ final class GroundLink implements UpSocketListener {
     void stop() {
         if (facts.state != LinkState.STOPPED) {
             socket.stop();
-            close(LinkState.STOPPED, "stopped");
+            close(LinkState.STOPPED, "stopped", "stopped");
             listener.onLink();
         }
     }
@@ -124,7 +124,7 @@ final class GroundLink implements UpSocketListener {
             // Only a new hello gives the seat of an aircraft's own listener.
             return reconnectWithHello();
         }
-        return send(ControlLine.of(ControlLine.Kind.SEAT_REQUEST).toLine());
+        return send(ControlLine.seatRequest());
     }
 
     void dismissRequest() {
@@ -135,8 +135,7 @@ final class GroundLink implements UpSocketListener {
     }
 
     boolean giveControl(int to) {
-        return ownsControl() && to >= 0
-                && send(ControlLine.of(ControlLine.Kind.SEAT_GIVE, to).toLine());
+        return ownsControl() && to >= 0 && send(ControlLine.seatGive(to));
     }
 
     boolean releaseControl() {
@@ -148,7 +147,7 @@ final class GroundLink implements UpSocketListener {
             claim.dropToken();
             return reconnectWithHello();
         }
-        facts.isReleased = send(ControlLine.of(ControlLine.Kind.SEAT_RELEASE).toLine());
+        facts.isReleased = send(ControlLine.seatRelease());
         listener.onLink();
         return facts.isReleased;
     }
@@ -165,11 +164,11 @@ final class GroundLink implements UpSocketListener {
         }
         helloMs = nowMs;
         helloTimer = loop.schedule(HELLO_TIMEOUT_MS, () -> {
-            socket.drop("no answer to the hello within " + HELLO_TIMEOUT_MS / 1000
+            socket.drop("hello_timeout", "no answer to the hello within " + HELLO_TIMEOUT_MS / 1000
                     + " s: is this the ground port of a Ground Station Proxy?"
                     + " (a direct link says no hello)");
         });
-        socket.send(claim.hello().toLine());
+        socket.send(claim.hello());
     }
 
     @Override
@@ -184,8 +183,8 @@ final class GroundLink implements UpSocketListener {
                 onHelloAnswer(HelloAnswer.read(bytes, length));
             }
         } else if (!isGreeted) {
-            socket.drop("the other side does not answer a hello: not a Ground Station Proxy of"
-                    + " this version (a direct link says no hello)");
+            socket.drop("not_a_proxy", "the other side does not answer a hello: not a Ground"
+                    + " Station Proxy of this version (a direct link says no hello)");
         } else {
             onLine(bytes, length);
         }
@@ -196,7 +195,7 @@ final class GroundLink implements UpSocketListener {
         final boolean wasOpen = isOpen();
         final LinkState next =
                 facts.state == LinkState.STOPPED ? LinkState.STOPPED : LinkState.WAITING;
-        close(next, reason);
+        close(next, lost.status().code, reason);
         if (wasOpen) {
             listener.onLost(reason);
         }
@@ -212,7 +211,7 @@ final class GroundLink implements UpSocketListener {
         if (status.state == UpSocketStatus.State.WAITING) {
             facts.failures++;
             if (facts.state != LinkState.WAITING) {
-                close(LinkState.WAITING, status.sentence);
+                close(LinkState.WAITING, status.code, status.sentence);
             }
         } else if (status.state == UpSocketStatus.State.CONNECTING
                 || status.state == UpSocketStatus.State.FINDING) {
@@ -227,7 +226,7 @@ final class GroundLink implements UpSocketListener {
     }
 
     private boolean reconnectWithHello() {
-        socket.drop("another role is requested");
+        socket.drop("role_changed", "another role is requested");
         socket.reconnectNow();
         return true;
     }
@@ -237,8 +236,8 @@ final class GroundLink implements UpSocketListener {
             facts.strangeControl++;
         } else if (!answer.isAccepted()) {
             facts.rejection = answer.code;
-            socket.drop("the proxy refuses: " + SafeText.of(answer.reason, 300) + " ("
-                    + answer.code + ")");
+            socket.drop("hello_refused", "the proxy refuses: "
+                    + SafeText.of(answer.reason, 300) + " (" + answer.code + ")");
         } else if (answer.role == ProxyRole.AIR) {
             facts.strangeControl++;
         } else {
@@ -251,9 +250,10 @@ final class GroundLink implements UpSocketListener {
     }
 
     private void onControl(ControlLine said) {
-        if (said == null || !claim.onControl(said)) {
+        if (said == null) {
             facts.strangeControl++;
         } else {
+            claim.onControl(said);
             listener.onLink();
         }
     }
@@ -272,7 +272,7 @@ final class GroundLink implements UpSocketListener {
 
     private void opened(long roundTripMs) {
         endHello();
-        facts.enter(LinkState.OPEN, loop.nowMs(), "");
+        facts.enter(LinkState.OPEN, loop.nowMs(), "", "");
         facts.roundTripMs = settings.isDirect ? null : Double.valueOf(roundTripMs);
         facts.rejection = "";
         facts.failures = 0;
@@ -289,12 +289,12 @@ final class GroundLink implements UpSocketListener {
         }
     }
 
-    private void close(LinkState state, String reason) {
+    private void close(LinkState state, String code, String reason) {
         endHello();
         quiet.stop();
         isGreeted = false;
         facts.roundTripMs = null;
-        facts.enter(state, loop.nowMs(), reason);
+        facts.enter(state, loop.nowMs(), code, reason);
     }
 
     private final class Quiet implements SilenceWatchdog.Owner {
@@ -305,7 +305,7 @@ final class GroundLink implements UpSocketListener {
 
         @Override
         public void onQuiet(long forMs) {
-            socket.drop("nothing came for " + Math.round(forMs / 1000.0) + " s");
+            socket.drop("silent", "nothing came for " + Math.round(forMs / 1000.0) + " s");
         }
     }
 

@@ -94,19 +94,11 @@ public final class GroundSide implements TelemetrySource {
     public GroundStatus status() {
         final long nowMs = loop.nowMs();
         final Telemetry newest = stream.newest();
-        final GroundStatus.Draft draft = new GroundStatus.Draft();
-        draft.link = link.facts();
-        draft.isDirect = settings.isDirect;
-        draft.rateHz = stream.rateHz(nowMs);
-        draft.isSilent = newest.isSilent(nowMs);
-        draft.isLate = newest.age.isLate(nowMs);
-        draft.role = newest.text("ground.role");
-        draft.tuneInFlight = newest.flag("ground.tune_in_flight");
-        draft.home = home.home();
-        draft.counters = new GroundCounters(draft.link.connections, stream.frames(),
-                stream.lost(), draft.link.malformed, link.tooLong(), draft.link.strangeControl,
-                answers.unmatched());
-        return new GroundStatus(draft);
+        final LinkStatus facts = link.facts();
+        return new GroundStatus(facts, settings.isDirect, stream.rateHz(nowMs), newest, nowMs,
+                home.home(), new GroundCounters(facts.connections, stream.frames(),
+                        stream.lost(), facts.malformed, link.tooLong(), facts.strangeControl,
+                        answers.unmatched()));
     }
 
     @Override

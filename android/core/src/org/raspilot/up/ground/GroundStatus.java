@@ -4,22 +4,12 @@ import org.raspilot.up.wire.ProxyRole;
 
 /** A snapshot of link, seat and aircraft. Immutable. */
 public final class GroundStatus {
-    /** The values that a {@link GroundSide} fills in before it creates a status. */
-    static final class Draft {
-        LinkStatus link = new LinkStatus();
-        boolean isDirect;
-        Double rateHz;
-        boolean isSilent = true;
-        boolean isLate;
-        String role;
-        Boolean tuneInFlight;
-        Home home;
-        GroundCounters counters = new GroundCounters(0, 0, 0, 0, 0, 0, 0);
-    }
-
     public final LinkState link;
     /** Since when the link is so, by the loop's clock, ms. */
     public final long sinceMs;
+    /** The reason for a missing link as a stable word: {@code closed silent hello_timeout ...}. */
+    public final String code;
+
     /** The reason for a missing link, without a full stop; empty when it is open. */
     public final String reason;
     /** The code with which the proxy refused the hello (docs/protocols.md 9), or empty. */
@@ -53,27 +43,28 @@ public final class GroundStatus {
     public final Home home;
     public final GroundCounters counters;
 
-    GroundStatus(Draft draft) {
-        final LinkStatus facts = draft.link;
+    GroundStatus(LinkStatus facts, boolean isDirect, Double rateHz, Telemetry newest, long nowMs,
+            Home home, GroundCounters counters) {
         link = facts.state;
         sinceMs = facts.sinceMs;
+        code = facts.code;
         reason = facts.reason;
         rejection = facts.rejection;
-        isDirect = draft.isDirect;
+        this.isDirect = isDirect;
         role = facts.role;
         owner = facts.owner;
-        control = ControlStatus.of(facts, draft.isDirect);
+        control = ControlStatus.of(facts, isDirect);
         requestedBy = facts.requestedBy;
         isAircraftOnline = facts.isAircraftOnline;
         roundTripMs = facts.roundTripMs;
         failures = facts.failures;
-        rateHz = draft.rateHz;
-        isSilent = draft.isSilent;
-        isLate = draft.isLate;
-        commandRole = draft.role;
-        tuneInFlight = draft.tuneInFlight;
-        home = draft.home;
-        counters = draft.counters;
+        this.rateHz = rateHz;
+        isSilent = newest.isSilent(nowMs);
+        isLate = newest.age.isLate(nowMs);
+        commandRole = newest.text("ground.role");
+        tuneInFlight = newest.flag("ground.tune_in_flight");
+        this.home = home;
+        this.counters = counters;
     }
 
     /** Returns whether messages can be sent. */

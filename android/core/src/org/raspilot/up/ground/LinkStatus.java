@@ -7,6 +7,7 @@ import org.raspilot.up.wire.ProxyRole;
 final class LinkStatus {
     LinkState state = LinkState.STOPPED;
     long sinceMs;
+    String code = "stopped";
     String reason = "not started";
     String rejection = "";
     ProxyRole role;
@@ -23,9 +24,10 @@ final class LinkStatus {
     long strangeControl;
 
     /** Clears the state that needs a connection. */
-    void enter(LinkState now, long nowMs, String why) {
+    void enter(LinkState now, long nowMs, String whyCode, String why) {
         state = now;
         sinceMs = nowMs;
+        code = whyCode;
         reason = why;
         role = null;
         owner = null;

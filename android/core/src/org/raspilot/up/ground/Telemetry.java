@@ -5,6 +5,7 @@ import java.util.Collections;
 import java.util.LinkedHashMap;
 import java.util.List;
 import java.util.Map;
+import org.raspilot.up.wire.ImmutableCopy;
 import org.raspilot.up.wire.SafeText;
 
 /**
@@ -48,7 +49,7 @@ public final class Telemetry {
      * @param wayMs the known part of the transit time
      */
     public static Telemetry of(Map<String, ?> data, Long beacon, long receivedMs, long wayMs) {
-        final Map<String, Object> tree = frozen(data);
+        final Map<String, Object> tree = ImmutableCopy.map(data);
         final Telemetry bare = new Telemetry(tree, beacon, receivedMs, Age.unknown());
         final Map<String, Double> ages = new LinkedHashMap<>();
         final Map<String, Object> told = bare.object("age_ms");
@@ -189,27 +190,5 @@ public final class Telemetry {
         final double value = ((Number) found).doubleValue();
         // Written so that NaN is refused, too.
         return Math.abs(value) < MAX_NUMBER ? Double.valueOf(value) : null;
-    }
-
-    private static Map<String, Object> frozen(Map<?, ?> given) {
-        final Map<String, Object> copy = new LinkedHashMap<>();
-        for (Map.Entry<?, ?> each : given.entrySet()) {
-            copy.put(String.valueOf(each.getKey()), frozenValue(each.getValue()));
-        }
-        return Collections.unmodifiableMap(copy);
-    }
-
-    private static Object frozenValue(Object value) {
-        if (value instanceof Map) {
-            return frozen((Map<?, ?>) value);
-        }
-        if (value instanceof List) {
-            final List<Object> copy = new ArrayList<>();
-            for (Object each : (List<?>) value) {
-                copy.add(frozenValue(each));
-            }
-            return Collections.unmodifiableList(copy);
-        }
-        return value;
     }
 }

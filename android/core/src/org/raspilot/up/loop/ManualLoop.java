@@ -3,7 +3,7 @@ package org.raspilot.up.loop;
 import java.util.ArrayDeque;
 
 /**
- * A loop whose time advances only on request: for tests and for a stepped program.
+ * A loop whose time advances only on request: for tests.
  *
  * <p>Calls run inside {@link #advance}, on the thread that called it. {@link #post} may be called
  * on any thread, everything else only on the one that advances. The network is passed in; when it
@@ -48,20 +48,6 @@ public final class ManualLoop implements Loop {
             timer = timers.take(untilMs, Long.MAX_VALUE);
         }
         nowMs = untilMs;
-    }
-
-    /**
-     * Returns when something is to be done next, by {@link #nowMs}: now when a call was posted; -1
-     * when nothing waits.
-     */
-    public long nextDueMs() {
-        synchronized (lock) {
-            if (!posted.isEmpty()) {
-                return nowMs;
-            }
-        }
-        final TimerQueue.Timer first = timers.first();
-        return first == null ? -1 : first.time();
     }
 
     public long faults() {

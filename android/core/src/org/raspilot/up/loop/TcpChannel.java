@@ -135,10 +135,7 @@ final class TcpChannel implements TcpConnection, SelectorHandler, NameLookup.Ask
             isConnected = channel.connect(address);
             key = loop.register(channel,
                     isConnected ? SelectionKey.OP_READ : SelectionKey.OP_CONNECT, this);
-        } catch (IOException error) {
-            connectNext(refused(error));
-            return;
-        } catch (RuntimeException error) {
+        } catch (IOException | RuntimeException error) {
             // Android throws SecurityException without the permission to use the network.
             connectNext(refused(error));
             return;

@@ -62,10 +62,8 @@ final class UdpChannel implements UdpPort, SelectorHandler {
             // 0: the system has no room now. The next datagram will be newer.
             return channel.send(buffer, new InetSocketAddress(address, port)) > 0
                     || datagram.length == 0;
-        } catch (IOException error) {
+        } catch (IOException | SecurityException error) {
             return false; // No network, as when a phone changes it: reported to the caller.
-        } catch (SecurityException error) {
-            return false;
         }
     }
 

@@ -17,14 +17,10 @@ public final class Endpoint {
      */
     public Endpoint(String host, int generalPort, int orientationPort) {
         if (host == null || host.isEmpty()) {
-            throw new IllegalArgumentException("the host is empty");
+            throw new SettingRules.InvalidSettingException("host", "is empty");
         }
-        if (generalPort < 1 || generalPort > 65535) {
-            throw new IllegalArgumentException("no port: " + generalPort);
-        }
-        if (orientationPort < 0 || orientationPort > 65535) {
-            throw new IllegalArgumentException("no port: " + orientationPort);
-        }
+        SettingRules.port("port", generalPort);
+        SettingRules.range("orientation port", orientationPort, 0, 65535);
         this.host = host;
         this.generalPort = generalPort;
         this.orientationPort = orientationPort;

@@ -15,6 +15,6 @@ public final class FixedEndpoint implements EndpointDiscovery {
     @Override
     public Cancellable find(DiscoveryListener listener) {
         listener.onFound(place);
-        return Search.DONE;
+        return Cancellable.DONE;
     }
 }

@@ -50,7 +50,7 @@ public final class LastEndpoint implements EndpointDiscovery {
             } else {
                 listener.onFound(endpoint);
             }
-            return Search.DONE;
+            return Cancellable.DONE;
         };
     }
 }

@@ -3,7 +3,6 @@ package org.raspilot.up.net;
 import java.io.IOException;
 import java.util.Random;
 import org.raspilot.up.loop.Loop;
-import org.raspilot.up.loop.UdpPort.UdpListener;
 import org.raspilot.up.loop.UdpPort;
 
 /**
@@ -41,7 +40,7 @@ public final class OrientationSender {
         this.loop = loop;
         this.known = known;
         socket = transport == Transport.UDP ? null : new UpSocket(loop, known.follower(),
-                new Silent(), UpSocketSettings.raw(), random);
+                new UpSocketListener() { }, UpSocketSettings.raw(), random);
     }
 
     /** Starts to connect, or opens the socket; no effect when started already. */
@@ -86,7 +85,7 @@ public final class OrientationSender {
      */
     public void replaceConnection(String reason) {
         if (isStarted && socket != null && socket.isConnected()) {
-            socket.drop(reason);
+            socket.drop("replaced", reason);
         }
         reconnectNow();
     }
@@ -168,7 +167,9 @@ public final class OrientationSender {
 
     private void openUdp() {
         try {
-            udp = loop.network().openUdp(new Deaf());
+            udp = loop.network().openUdp((bytes, length, host, port) -> {
+                // Whatever comes is not for us.
+            });
             problem = "";
         } catch (IOException error) {
             problem = "no socket for datagrams: " + error.getMessage();
@@ -192,32 +193,6 @@ public final class OrientationSender {
             } else {
                 replaceConnection("the Raspberry Pi is now at " + place.host);
             }
-        }
-    }
-
-    private static final class Deaf implements UdpListener {
-        @Override
-        public void onDatagram(byte[] bytes, int length, String host, int port) {
-            // Whatever comes is not for us.
-        }
-    }
-
-    /** Its status is polled, not reported. */
-    private static final class Silent implements UpSocketListener {
-        @Override
-        public void onConnected(UpSocket socket) {
-        }
-
-        @Override
-        public void onReceived(UpSocket socket, byte[] bytes, int length) {
-        }
-
-        @Override
-        public void onLost(UpSocket socket, String reason) {
-        }
-
-        @Override
-        public void onStatus(UpSocket socket) {
         }
     }
 }

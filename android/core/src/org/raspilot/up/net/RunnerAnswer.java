@@ -39,36 +39,43 @@ public final class RunnerAnswer {
      * @throws RefusedException with a sentence when no instance runs or the line is not an answer
      */
     static RunnerAnswer read(String line, String host) throws RefusedException {
-        final Object value;
-        try {
-            value = Json.parse(line);
-        } catch (MalformedException malformed) {
-            throw new RefusedException("the runner's answer is not understood: "
-                    + malformed.reason());
-        }
-        if (!(value instanceof Map)) {
-            throw new RefusedException("the runner's answer is not understood: no object");
-        }
-        final Map<?, ?> answer = (Map<?, ?>) value;
+        final Map<?, ?> answer = parse(line);
         final Object isRunning = answer.get("running");
         if (!(isRunning instanceof Boolean)) {
-            throw new RefusedException("the runner's answer is not understood: running is neither"
-                    + " true nor false");
+            throw notUnderstood("running is neither true nor false");
         }
         if (!(Boolean) isRunning) {
             final String error = text(answer, "error");
             final String message = text(answer, "message");
-            throw new RefusedException("the runner says: "
+            throw new RefusedException("refused", "the runner says: "
                     + (error != null ? error : message != null ? message : "nothing runs"));
         }
         final Map<?, ?> ports = object(answer, "ports");
         final int general = ports == null ? 0 : port(ports, "general");
         final int orientation = ports == null ? 0 : port(ports, "orientation");
         if (general == 0 || orientation == 0) {
-            throw new RefusedException("the runner's answer names no ports of 1 to 65535");
+            throw new RefusedException("no_ports",
+                    "the runner's answer names no ports of 1 to 65535");
         }
         return new RunnerAnswer(answer, new Endpoint(host, general, orientation),
                 object(answer, "proxy"));
+    }
+
+    private static Map<?, ?> parse(String line) throws RefusedException {
+        try {
+            final Object value = Json.parse(line);
+            if (value instanceof Map) {
+                return (Map<?, ?>) value;
+            }
+            throw notUnderstood("no object");
+        } catch (MalformedException malformed) {
+            throw notUnderstood(malformed.reason());
+        }
+    }
+
+    private static RefusedException notUnderstood(String why) {
+        return new RefusedException("not_understood",
+                "the runner's answer is not understood: " + why);
     }
 
     private static Map<?, ?> object(Map<?, ?> from, String key) {
@@ -98,9 +105,12 @@ public final class RunnerAnswer {
     /** No place is to be had; the message is a sentence without a full stop. */
     static final class RefusedException extends Exception {
         private static final long serialVersionUID = 1L;
+        /** {@code refused no_ports not_understood}. */
+        final String code;
 
-        RefusedException(String sentence) {
+        RefusedException(String code, String sentence) {
             super(sentence);
+            this.code = code;
         }
     }
 }

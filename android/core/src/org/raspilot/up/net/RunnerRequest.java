@@ -3,7 +3,6 @@ package org.raspilot.up.net;
 import java.nio.charset.Charset;
 import java.util.LinkedHashMap;
 import java.util.Map;
-import org.raspilot.up.wire.Hello;
 import org.raspilot.up.wire.Json;
 
 /** A request to a runner (protocols 8): an aircraft, a profile, a configuration. */
@@ -23,10 +22,7 @@ public final class RunnerRequest {
      *     configuration cannot be written as JSON, or the request is longer than 64 KiB
      */
     public RunnerRequest(String aircraft, String profile, Map<String, ?> configuration) {
-        if (!Hello.isAircraftName(aircraft)) {
-            throw new IllegalArgumentException("the aircraft's name must be 1 to 32 of A-Z a-z 0-9"
-                    + " _ . - and not begin with a dot: " + aircraft);
-        }
+        SettingRules.aircraft("aircraft's name", aircraft);
         final Map<String, Object> request = new LinkedHashMap<>();
         request.put("aircraft", aircraft);
         if (profile != null) {

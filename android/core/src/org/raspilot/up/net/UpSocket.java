@@ -25,7 +25,7 @@ public final class UpSocket {
     private final LineDispatcher lines;
     private final SendQueue queue;
     private UpSocketStatus status =
-            new UpSocketStatus(UpSocketStatus.State.STOPPED, null, "not started");
+            new UpSocketStatus(UpSocketStatus.State.STOPPED, null, "stopped", "not started");
     private Endpoint place;
     private Attempt current;
     private Cancellable retry;
@@ -50,17 +50,8 @@ public final class UpSocket {
         queue = new SendQueue(settings.isRaw);
         backOff = new BackOff(settings.initialRetryMs, settings.maxRetryMs, random);
         lines = new LineDispatcher(loop, line -> receive(line, line.length));
-        watch = new ConnectionWatchdog(loop, settings, new ConnectionWatchdog.Owner() {
-            @Override
-            public void onBeat() {
-                beat();
-            }
-
-            @Override
-            public void onTimeout(String what) {
-                drop(current.peer + " " + what);
-            }
-        });
+        watch = new ConnectionWatchdog(loop, settings, () -> beat(), () -> drop("stalled",
+                current.peer + " took nothing for " + settings.stallLimitMs + " ms"));
     }
 
     /** Starts to connect; no effect when started already. */
@@ -75,7 +66,7 @@ public final class UpSocket {
     public void stop() {
         if (status.state != UpSocketStatus.State.STOPPED) {
             final boolean wasConnected = end();
-            setState(UpSocketStatus.State.STOPPED, "stopped");
+            setState(UpSocketStatus.State.STOPPED, "stopped", "stopped");
             if (wasConnected) {
                 listener.onLost(this, "stopped");
             }
@@ -97,8 +88,8 @@ public final class UpSocket {
         }
     }
 
-    /** Ends this connection, or attempt, for {@code reason} and retries after the wait. */
-    public void drop(String reason) {
+    /** Ends this connection, or attempt, and retries; the code is the status's. */
+    public void drop(String code, String reason) {
         if (current == null) {
             return;
         }
@@ -116,7 +107,7 @@ public final class UpSocket {
         }
         final boolean wasConnected = end();
         retry = loop.schedule(backOff.nextWaitMs(tookMs), () -> attempt());
-        setState(UpSocketStatus.State.WAITING, reason + "; trying again");
+        setState(UpSocketStatus.State.WAITING, code, reason + "; trying again");
         if (wasConnected) {
             listener.onLost(this, reason);
         }
@@ -165,7 +156,7 @@ public final class UpSocket {
     private void attempt() {
         final Attempt attempt = new Attempt();
         current = attempt;
-        setState(UpSocketStatus.State.FINDING, "looking for the peer");
+        setState(UpSocketStatus.State.FINDING, "", "looking for the peer");
         boolean isBegun = false;
         try {
             attempt.search = discovery.find(attempt);
@@ -173,7 +164,7 @@ public final class UpSocket {
         } finally {
             if (!isBegun && current == attempt) {
                 // A finder that throws is called again too.
-                drop("the search failed");
+                drop("search_failed", "the search failed");
             }
         }
     }
@@ -195,8 +186,8 @@ public final class UpSocket {
         return wasConnected;
     }
 
-    private void setState(UpSocketStatus.State state, String sentence) {
-        status = new UpSocketStatus(state, place, sentence);
+    private void setState(UpSocketStatus.State state, String code, String sentence) {
+        status = new UpSocketStatus(state, place, code, sentence);
         // Posted, because a listener may throw, and may stop this in the middle of a change.
         loop.post(() -> listener.onStatus(UpSocket.this));
     }
@@ -255,7 +246,7 @@ public final class UpSocket {
             place = found;
             final int port = settings.isRaw ? found.orientationPort : found.generalPort;
             peer = found.host + ":" + port;
-            setState(UpSocketStatus.State.CONNECTING, "connecting to " + peer);
+            setState(UpSocketStatus.State.CONNECTING, "", "connecting to " + peer);
             connection = loop.network().connectTcp(found.host, port,
                     settings.connectTimeoutMs, this);
         }
@@ -263,7 +254,7 @@ public final class UpSocket {
         @Override
         public void onNotFound(String reason) {
             if (current == this) {
-                drop(reason);
+                drop("not_found", reason);
             }
         }
 
@@ -272,7 +263,7 @@ public final class UpSocket {
             connectedMs = loop.nowMs();
             connects++;
             lines.begin(this);
-            setState(UpSocketStatus.State.CONNECTED, "connected to " + peer);
+            setState(UpSocketStatus.State.CONNECTED, "", "connected to " + peer);
             watch.start();
             listener.onConnected(UpSocket.this);
         }
@@ -280,7 +271,6 @@ public final class UpSocket {
         @Override
         public void onBytes(byte[] bytes, int length) {
             bytesIn += length;
-            watch.onReceived();
             if (settings.isRaw) {
                 receive(bytes, length);
             } else {
@@ -295,7 +285,7 @@ public final class UpSocket {
 
         @Override
         public void onClosed(String reason) {
-            drop(reason);
+            drop("closed", reason);
         }
     }
 }

@@ -3,22 +3,26 @@ package org.raspilot.up.net;
 /** Receives the data and events of an {@link UpSocket}. Called on the loop. */
 public interface UpSocketListener {
     /** Called when a connection is open: a message sent now is the first on it. */
-    void onConnected(UpSocket socket);
+    default void onConnected(UpSocket socket) {
+    }
 
     /**
      * Takes what arrived: in line mode the first {@code length} bytes of {@code bytes} are one line
      * that is not empty, without its end; in raw mode whatever came. The array may be reused
      * afterwards.
      */
-    void onReceived(UpSocket socket, byte[] bytes, int length);
+    default void onReceived(UpSocket socket, byte[] bytes, int length) {
+    }
 
     /**
      * Called when an open connection is lost; a new attempt follows unless the socket was stopped.
      *
      * @param reason a sentence without a full stop
      */
-    void onLost(UpSocket socket, String reason);
+    default void onLost(UpSocket socket, String reason) {
+    }
 
     /** Called shortly after {@link UpSocket#status} has changed: for a screen. */
-    void onStatus(UpSocket socket);
+    default void onStatus(UpSocket socket) {
+    }
 }

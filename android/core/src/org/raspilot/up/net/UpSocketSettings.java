@@ -10,20 +10,17 @@ public final class UpSocketSettings {
     public final int connectTimeoutMs;
     /** The period of the heartbeat; 0: none. */
     public final int heartbeatMs;
-    /** The limit of the peer's silence; 0: none. */
-    public final int silenceLimitMs;
     /** How long the peer may accept no waiting data; 0: no limit. */
     public final int stallLimitMs;
     /** The wait after the first failure. */
     public final int initialRetryMs;
     public final int maxRetryMs;
 
-    private UpSocketSettings(boolean isRaw, int connectTimeoutMs, int heartbeatMs,
-            int silenceLimitMs, int stallLimitMs, int initialRetryMs, int maxRetryMs) {
+    private UpSocketSettings(boolean isRaw, int connectTimeoutMs, int heartbeatMs, int stallLimitMs,
+            int initialRetryMs, int maxRetryMs) {
         this.isRaw = isRaw;
         this.connectTimeoutMs = atLeast(1, connectTimeoutMs);
         this.heartbeatMs = atLeast(0, heartbeatMs);
-        this.silenceLimitMs = atLeast(0, silenceLimitMs);
         this.stallLimitMs = atLeast(0, stallLimitMs);
         this.initialRetryMs = atLeast(1, initialRetryMs);
         this.maxRetryMs = atLeast(initialRetryMs, maxRetryMs);
@@ -34,45 +31,39 @@ public final class UpSocketSettings {
 
     /**
      * Returns lines to the General Message port: 2 s to connect, retries after 0.5 to 2 s, no
-     * heartbeat, no limit of silence, 3 s in which the peer may take nothing of what waits.
+     * heartbeat, 3 s in which the peer may take nothing of what waits.
      */
     public static UpSocketSettings lines() {
-        return new UpSocketSettings(false, 2000, 0, 0, 3000, 500, 2000);
+        return new UpSocketSettings(false, 2000, 0, 3000, 500, 2000);
     }
 
     /** Returns raw frames to the orientation port; otherwise as {@link #lines}. */
     public static UpSocketSettings raw() {
-        return new UpSocketSettings(true, 2000, 0, 0, 3000, 500, 2000);
+        return new UpSocketSettings(true, 2000, 0, 3000, 500, 2000);
     }
 
     /** Returns these settings with a timeout of each attempt, including name lookup. */
     public UpSocketSettings withConnectTimeoutMs(int timeoutMs) {
-        return new UpSocketSettings(isRaw, timeoutMs, heartbeatMs, silenceLimitMs, stallLimitMs,
+        return new UpSocketSettings(isRaw, timeoutMs, heartbeatMs, stallLimitMs,
                 initialRetryMs, maxRetryMs);
     }
 
     /** Returns these with an empty line after each {@code periodMs} of own silence; 0: none. */
     public UpSocketSettings withHeartbeatMs(int periodMs) {
-        return new UpSocketSettings(isRaw, connectTimeoutMs, periodMs, silenceLimitMs,
-                stallLimitMs, initialRetryMs, maxRetryMs);
-    }
-
-    /** Returns these settings with a timeout of connections without received bytes; 0: none. */
-    public UpSocketSettings withSilenceLimitMs(int limitMs) {
-        return new UpSocketSettings(isRaw, connectTimeoutMs, heartbeatMs, limitMs, stallLimitMs,
+        return new UpSocketSettings(isRaw, connectTimeoutMs, periodMs, stallLimitMs,
                 initialRetryMs, maxRetryMs);
     }
 
     /** Returns these with the end of a connection that took nothing of what waits; 0: never. */
     public UpSocketSettings withStallLimitMs(int limitMs) {
-        return new UpSocketSettings(isRaw, connectTimeoutMs, heartbeatMs, silenceLimitMs, limitMs,
+        return new UpSocketSettings(isRaw, connectTimeoutMs, heartbeatMs, limitMs,
                 initialRetryMs, maxRetryMs);
     }
 
     /** Returns these with waits between attempts that double from the first to the last. */
     public UpSocketSettings withRetryMs(int firstMs, int lastMs) {
-        return new UpSocketSettings(isRaw, connectTimeoutMs, heartbeatMs, silenceLimitMs,
-                stallLimitMs, firstMs, lastMs);
+        return new UpSocketSettings(isRaw, connectTimeoutMs, heartbeatMs, stallLimitMs,
+                firstMs, lastMs);
     }
 
     private static int atLeast(int least, int value) {

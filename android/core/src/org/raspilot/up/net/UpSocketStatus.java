@@ -18,12 +18,19 @@ public final class UpSocketStatus {
     public final State state;
     /** The last place found; null: none so far. */
     public final Endpoint endpoint;
+    /**
+     * Why it is not connected, as a stable word: {@code not_found closed stopped silent ...};
+     * otherwise empty.
+     */
+    public final String code;
+
     /** A sentence without a full stop: the peer's address, or why it is not connected. */
     public final String sentence;
 
-    UpSocketStatus(State state, Endpoint place, String sentence) {
+    UpSocketStatus(State state, Endpoint place, String code, String sentence) {
         this.state = state;
         this.endpoint = place;
+        this.code = code;
         this.sentence = sentence;
     }
 

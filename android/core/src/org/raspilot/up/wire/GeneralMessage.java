@@ -1,5 +1,6 @@
 package org.raspilot.up.wire;
 
+import java.math.BigInteger;
 import java.util.Collections;
 import java.util.LinkedHashMap;
 import java.util.Map;
@@ -56,17 +57,18 @@ public final class GeneralMessage {
      */
     public static GeneralMessage read(byte[] line, int length) throws MalformedException {
         if (length > LineSplitter.MAX_LINE_BYTES) {
-            throw new MalformedException("longer than " + LineSplitter.MAX_LINE_BYTES + " bytes");
+            throw new MalformedException("too_long",
+                    "longer than " + LineSplitter.MAX_LINE_BYTES + " bytes");
         }
         String text = Utf8.decode(line, length);
         Object read;
         try {
             read = Json.parse(text);
         } catch (MalformedException fault) {
-            throw new MalformedException(fault.reason(), MessageId.despiteFault(text));
+            throw new MalformedException(fault.code, fault.reason(), idDespiteFault(text));
         }
         if (!(read instanceof Map)) {
-            throw new MalformedException("not a JSON object");
+            throw new MalformedException("not_object", "not a JSON object");
         }
         return ofFields((Map<?, ?>) read);
     }
@@ -99,26 +101,59 @@ public final class GeneralMessage {
 
     @SuppressWarnings("unchecked")
     private static GeneralMessage ofFields(Map<?, ?> fields) throws MalformedException {
-        String id = MessageId.read(fields.get("id"));
+        String id = readId(fields.get("id"));
         Object name = fields.get("name");
         if (!(name instanceof String) || !hasLength((String) name, MAX_NAME_LENGTH)) {
-            throw new MalformedException(
+            throw new MalformedException("name",
                     "name must be text of 1 to " + MAX_NAME_LENGTH + " characters", id);
         }
         Object data = fields.get("data");
         if (data != null && !(data instanceof Map)) {
-            throw new MalformedException("data must be an object", id);
+            throw new MalformedException("data", "data must be an object", id);
         }
         Object beacon = fields.get("beacon");
         if (beacon != null && !(beacon instanceof Long)) {
-            throw new MalformedException("beacon must be an integer of 64 bits", id);
+            throw new MalformedException("beacon", "beacon must be an integer of 64 bits",
+                    id);
         }
         return new GeneralMessage((String) name, (Map<String, Object>) data, id, (Long) beacon);
     }
 
     /** Returns whether a text has 1 to {@code longest} characters. */
-    static boolean hasLength(String text, int longest) {
+    private static boolean hasLength(String text, int longest) {
         int length = text.codePointCount(0, text.length());
         return length >= 1 && length <= longest;
+    }
+
+    /** Returns the id of a field, a text or a number that is taken as its text, or null. */
+    private static String readId(Object value) throws MalformedException {
+        if (value == null) {
+            return null;
+        }
+        String text = null;
+        if (value instanceof String) {
+            text = (String) value;
+        } else if (value instanceof Long || value instanceof BigInteger) {
+            text = value.toString();
+        } else if (value instanceof Double) {
+            text = ShortestNumber.text((Double) value);
+        }
+        if (text == null || !hasLength(text, MAX_ID_LENGTH)) {
+            throw new MalformedException("id",
+                    "id must be text of 1 to " + MAX_ID_LENGTH + " characters");
+        }
+        return text;
+    }
+
+    /** Returns the id of an object that breaks a rule but is JSON, so that it can be refused. */
+    private static String idDespiteFault(String text) {
+        try {
+            Object fields = new JsonReader(text, false).read();
+            String id = fields instanceof Map ? readId(((Map<?, ?>) fields).get("id")) : null;
+            return id == null || Json.loneSurrogate(id) >= 0 ? null : id;
+        } catch (MalformedException noJson) {
+            // The error is already reported; the message merely has no id.
+            return null;
+        }
     }
 }

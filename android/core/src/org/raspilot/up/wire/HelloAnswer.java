@@ -31,16 +31,6 @@ public final class HelloAnswer {
         this.reason = reason;
     }
 
-    /** Creates the answer that accepts a peer. */
-    public static HelloAnswer accepted(String aircraft, ProxyRole seat, String token) {
-        return new HelloAnswer(aircraft, seat, token, null, null);
-    }
-
-    /** Creates the answer that refuses, with one of the codes of the protocol and a sentence. */
-    public static HelloAnswer refused(String code, String reason) {
-        return new HelloAnswer(null, null, null, code, reason);
-    }
-
     /** Returns whether the hello was accepted. */
     public boolean isAccepted() {
         return code == null;
@@ -57,22 +47,13 @@ public final class HelloAnswer {
         }
         Matcher refused = REFUSED.matcher(text);
         if (refused.matches()) {
-            return refused(refused.group(1), refused.group(2));
+            return new HelloAnswer(null, null, null, refused.group(1), refused.group(2));
         }
         ProxyLine words = new ProxyLine(text);
         ProxyRole seat = ProxyRole.ofWord(words.value("seat"));
         if (!words.word(1).equals("ok") || seat == null || !Hello.isToken(words.value("token"))) {
             return null;
         }
-        return accepted(words.value("aircraft"), seat, words.value("token"));
-    }
-
-    /** Returns the line with its LF. */
-    public byte[] toLine() {
-        if (isAccepted()) {
-            return Utf8.encode("UP1 ok aircraft=" + aircraft + " seat=" + role.word() + " token="
-                    + token + "\n");
-        }
-        return Utf8.encode("UP1 error code=" + code + " reason=\"" + reason + "\"\n");
+        return new HelloAnswer(words.value("aircraft"), seat, words.value("token"), null, null);
     }
 }

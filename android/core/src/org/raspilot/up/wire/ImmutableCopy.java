@@ -8,12 +8,12 @@ import java.util.List;
 import java.util.Map;
 
 /** Deeply immutable copies of JSON values. */
-final class ImmutableCopy {
+public final class ImmutableCopy {
     private ImmutableCopy() {
     }
 
     /** Returns a copy of an object. */
-    static Map<String, Object> map(Map<String, ?> fields) {
+    public static Map<String, Object> map(Map<String, ?> fields) {
         Map<String, Object> copy = new LinkedHashMap<>();
         for (Map.Entry<String, ?> field : fields.entrySet()) {
             copy.put(field.getKey(), value(field.getValue()));

@@ -8,17 +8,21 @@ package org.raspilot.up.wire;
 public final class MalformedException extends Exception {
     private static final long serialVersionUID = 1L;
 
+    /** What is wrong, as a stable word: {@code not_json too_long repeated_key ...}. */
+    public final String code;
+
     /** The id of the message if it was readable, otherwise null. */
     public final String id;
 
-    /** Creates it with the reason, without an id. */
-    public MalformedException(String reason) {
-        this(reason, null);
+    /** Creates it with a code and the reason, without an id. */
+    public MalformedException(String code, String reason) {
+        this(code, reason, null);
     }
 
-    /** Creates it with the reason and the id to refuse it under; null if the id is unreadable. */
-    public MalformedException(String reason, String id) {
+    /** Creates it with the id to refuse the message under; null if the id is unreadable. */
+    public MalformedException(String code, String reason, String id) {
         super(reason);
+        this.code = code;
         this.id = id;
     }
 

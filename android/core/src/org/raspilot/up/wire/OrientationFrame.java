@@ -50,20 +50,6 @@ public final class OrientationFrame {
                 .array();
     }
 
-    /**
-     * Returns the frame of a datagram or of 24 bytes of a stream; null: another length than 24,
-     * or a value that is not finite or out of range.
-     */
-    public static OrientationFrame read(byte[] bytes, int offset, int length) {
-        if (length != SIZE) {
-            return null;
-        }
-        ByteBuffer in = ByteBuffer.wrap(bytes, offset, length);
-        OrientationFrame frame = new OrientationFrame(in.getFloat(), in.getFloat(), in.getFloat(),
-                in.getFloat(), in.getFloat(), in.getFloat());
-        return frame.isInRange() ? frame : null;
-    }
-
     private static boolean isWithin(float value, float limit) {
         // NaN compares as false.
         return -limit <= value && value <= limit;

@@ -21,7 +21,7 @@ final class Utf8 {
                     .decode(ByteBuffer.wrap(bytes, 0, length))
                     .toString();
         } catch (CharacterCodingException fault) {
-            throw new MalformedException("not UTF-8");
+            throw new MalformedException("not_utf8", "not UTF-8");
         }
     }
 

@@ -156,8 +156,8 @@ final class AirborneBench implements Speaker, AirborneListener {
     }
 
     @Override
-    public void onDisconnected(String reason) {
-        events.add("lost: " + reason);
+    public void onDisconnected(String code, String reason) {
+        events.add("lost: " + code);
     }
 
     @Override

@@ -35,40 +35,6 @@ public final class AirborneCommandsTest {
     }
 
     @Test
-    public void theSameTextUnderTheSameIdIsSaidOnce() {
-        String line = "{\"name\": \"android.speak\", \"data\": {\"text\": \"hm\"}, \"id\": \"7\"}";
-        bench.hear(line);
-        bench.hear(line);
-        assertEquals("[hm]", bench.said.toString());
-        assertEquals(2, AirborneBench.count(bench.lines(), "up.ack"));
-    }
-
-    @Test
-    public void aTextHas1To200Characters() {
-        StringBuilder longest = new StringBuilder();
-        for (int at = 0; at < 200; at++) {
-            longest.append('x');
-        }
-        for (String text : new String[] {"", longest + "x"}) {
-            bench.hear("{\"name\": \"android.speak\", \"data\": {\"text\": \"" + text
-                    + "\"}, \"id\": \"" + text.length() + "\"}");
-            String answer = bench.lines().toString();
-            assertTrue(answer, answer.contains("\"code\": \"invalid\""));
-        }
-        assertEquals("[]", bench.said.toString());
-        bench.hear("{\"name\": \"android.speak\", \"data\": {\"text\": \"" + longest + "\"}}");
-        assertEquals(1, bench.said.size());
-    }
-
-    @Test
-    public void whatThePhoneDoesNotKnowIsRefused() {
-        bench.hear("{\"name\": \"up.loop.the.loop\", \"data\": {}, \"id\": \"9\"}");
-        String answer = bench.lines().toString();
-        assertTrue(answer, answer.contains("\"up.nack\""));
-        assertTrue(answer, answer.contains("\"code\": \"unknown\""));
-    }
-
-    @Test
     public void telemetryIsCountedAndGoesToWhoRegisters() {
         final List<BaseCommand> frames = new ArrayList<>();
         airborne.up().commandExecutor().registerCommand("up.telemetry.update",

@@ -28,7 +28,7 @@ public final class AirborneOrientationTest {
             assertEquals(OrientationTransport.OFF, other.airborne.status().orientation);
             assertEquals(0, other.airborne.status().orientationHz(), 0);
             assertEquals(null, other.airborne.providers().provider("orientation"));
-            assertEquals("the gyroscope is not read in vain", 0, other.gyroscope.periodsMs.size());
+            assertEquals(0, other.gyroscope.periodsMs.size());
         }
     }
 
@@ -82,9 +82,9 @@ public final class AirborneOrientationTest {
         bench.general().end("gone");
         bench.loop.advance(1000);
         bench.accept(50001);
-        assertTrue("the old one is closed", first.isClosed);
+        assertTrue(first.isClosed);
         ScriptedNetwork.Connection second = bench.accept(50000);
-        assertTrue("there is another one", second != first);
+        assertTrue(second != first);
         bench.fly(20, 1000);
         assertEquals(50, bench.frames(), 1);
     }
@@ -97,6 +97,6 @@ public final class AirborneOrientationTest {
         bench.fly(20, 1000);
         orientation.makeRoom(AirborneBench.ROOM - 10);
         bench.loop.advance(0);
-        assertEquals("the frame that had begun, and the newest", 2, bench.frames());
+        assertEquals(2, bench.frames());
     }
 }

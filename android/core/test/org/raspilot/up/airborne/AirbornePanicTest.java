@@ -91,7 +91,7 @@ public final class AirbornePanicTest {
         assertEquals(20, bench.frames(), 1);
         assertEquals(0, bench.airborne.status().panicDelayMs);
         assertTrue(bench.events.toString(),
-                bench.events.toString().endsWith("panic 1000, panic 0, lost: gone]"));
+                bench.events.toString().endsWith("panic 1000, panic 0, lost: closed]"));
     }
 
     @Test

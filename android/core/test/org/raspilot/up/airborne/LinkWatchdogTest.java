@@ -25,7 +25,7 @@ public final class LinkWatchdogTest {
         assertTrue(bench.airborne.status().isConnected);
         bench.fly(20, 1500);
         assertFalse(bench.airborne.status().isConnected);
-        assertTrue(bench.events.contains("lost: the Raspberry Pi stopped answering"));
+        assertTrue(bench.events.contains("lost: silent"));
     }
 
     @Test

@@ -3,8 +3,8 @@ package org.raspilot.up.commands;
 import static org.junit.Assert.assertEquals;
 import static org.junit.Assert.assertNull;
 import static org.junit.Assert.assertSame;
+import static org.junit.Assert.assertThrows;
 import static org.junit.Assert.assertTrue;
-import static org.junit.Assert.fail;
 
 import java.io.File;
 import java.util.ArrayList;
@@ -15,6 +15,7 @@ import java.util.List;
 import java.util.Map;
 import org.junit.Before;
 import org.junit.Test;
+import org.junit.function.ThrowingRunnable;
 import org.raspilot.up.wire.GeneralMessage;
 import org.raspilot.up.wire.MalformedException;
 import org.raspilot.up.wire.Vectors;
@@ -79,8 +80,9 @@ public final class CommandFormTest {
                     for (CommandField other : form.fields()) {
                         data.put(other.name, other == field ? value : good(other));
                     }
-                    assertEquals(form.name + " " + data, form.validate(data) == null,
-                            takes(registry, form.name, data));
+                    assertEquals(form.name + " " + data, isValid(() -> form.check(data)),
+                            isValid(() -> registry.read(
+                                    new GeneralMessage(form.name, data))));
                     compared++;
                 }
             }
@@ -101,31 +103,29 @@ public final class CommandFormTest {
     }
 
     @Test
-    public void eachErrorIsASentenceThatNamesTheField() {
-        assertRefused("must is missing");
+    public void eachErrorHasACodeAndNamesTheField() {
+        assertRefused("missing must");
         assertParsed("{must=1.5}", "must", "1,5");
         assertParsed("{must=-0.125}", "must", "-0,125");
         assertParsed("{must=48.1481}", "must", "48,1481");
-        assertRefused("must must be a number (s), not \"1,5,5\"", "must", "1,5,5");
-        assertRefused("must must be a number (s), not \"1,000\"", "must", "1,000");
-        assertRefused("must must be a number (s), not \"1,000.5\"", "must", "1,000.5");
-        assertRefused("must must be a number (s), not \"NaN\"", "must", "NaN");
-        assertRefused("must must be a number (s), not null", "must", "null");
-        assertRefused("must must be a number (s), not \"1e999\"", "must", "1e999");
-        assertRefused("must must be a number (s), not \"0x10\"", "must", "0x10");
-        assertRefused("flag must be true or false, not \"maybe\"", "flag", "maybe", "must", "1");
-        assertRefused("count must be a whole number from 1 to 9, not 10", "count", "10");
-        assertRefused("count must be a whole number from 1 to 9, not 2.5", "count", "2.5");
-        assertRefused("count must be a whole number from 1 to 9, not \"99999999999999999999\"",
-                "count", "99999999999999999999");
-        assertRefused("size must be a number of at least -1 m, not -1.01", "size", "-1.01");
-        assertRefused("gear must be one of 1, 2, not 3", "gear", "3");
-        assertRefused("word must be text of at most 3 characters, not of 4", "word", "abcd");
-        assertRefused("tree must be a map of at most 1 keys, not \"{a: 1}\"", "tree", "{a: 1}");
-        assertRefused("tree must be a map of at most 1 keys, not a list", "tree", "[1]");
-        assertRefused("tree must be a map of at most 1 keys, not of 2", "tree",
-                "{\"a\": 1, \"b\": 2}");
-        assertRefused("app.all has no field wing", "wing", "1", "must", "1");
+        for (String typed : Arrays.asList("1,5,5", "1,000", "1,000.5", "NaN", "null", "1e999",
+                "0x10")) {
+            assertRefused("wrong_type must", "must", typed);
+        }
+        assertRefused("wrong_type flag", "flag", "maybe", "must", "1");
+        assertRefused("out_of_range count", "count", "10");
+        assertRefused("wrong_type count", "count", "2.5");
+        assertRefused("wrong_type count", "count", "99999999999999999999");
+        assertRefused("out_of_range size", "size", "-1.01");
+        assertRefused("not_a_choice gear", "gear", "3");
+        assertRefused("too_long word", "word", "abcd");
+        assertRefused("wrong_type tree", "tree", "{a: 1}");
+        assertRefused("wrong_type tree", "tree", "[1]");
+        assertRefused("too_long tree", "tree", "{\"a\": 1, \"b\": 2}");
+        assertRefused("unknown wing", "wing", "1", "must", "1");
+        InvalidCommandException fault = assertThrows(InvalidCommandException.class, () ->
+                all.parse(inputs("count", "10")));
+        assertEquals("count must be a whole number from 1 to 9, not 10", fault.getMessage());
     }
 
     @Test
@@ -134,8 +134,8 @@ public final class CommandFormTest {
         assertEquals("FBW", mode.data().get("mode"));
         CommandForm gains = installed.form("arduino.pids.tunings");
         assertEquals(true, gains.command(inputs("request", "true")).data().get("request"));
-        assertCommandRefused("either request or pids is needed", gains, inputs());
-        assertCommandRefused("pids.ratePIDs is missing", gains, inputs("pids", "{}"));
+        assertRefused("missing pids", () -> gains.command(inputs()));
+        assertRefused("missing pids.ratePIDs", () -> gains.command(inputs("pids", "{}")));
         assertEquals("app.all", all.command(inputs("must", "3")).name());
     }
 
@@ -144,12 +144,7 @@ public final class CommandFormTest {
         for (String text : Arrays.asList("", "[]", "{}", "{\"commands\": [1]}",
                 "{\"commands\": [{\"name\": \"a\"}]}", ALL_TYPES.replace("\"list\"", "\"tuple\""),
                 ALL_TYPES.replace("\"unit\": \"s\"", "\"unit\": 5"))) {
-            try {
-                CommandCatalogue.read(text);
-                fail("read: " + text);
-            } catch (MalformedException fault) {
-                assertTrue(fault.reason().length() > 0);
-            }
+            assertThrows(text, MalformedException.class, () -> CommandCatalogue.read(text));
         }
     }
 
@@ -165,21 +160,13 @@ public final class CommandFormTest {
         assertEquals(wanted, all.parse(inputs(typed)).toString());
     }
 
-    private void assertRefused(String sentence, String... typed) {
-        try {
-            fail("taken: " + all.parse(inputs(typed)));
-        } catch (InvalidCommandException fault) {
-            assertEquals(sentence, fault.getMessage());
-        }
+    private void assertRefused(String codeAndField, String... typed) {
+        assertRefused(codeAndField, () -> all.parse(inputs(typed)));
     }
 
-    private static void assertCommandRefused(String sentence, CommandForm form,
-            Map<String, String> typed) {
-        try {
-            fail("taken: " + form.command(typed));
-        } catch (InvalidCommandException fault) {
-            assertEquals(sentence, fault.getMessage());
-        }
+    static void assertRefused(String codeAndField, ThrowingRunnable call) {
+        InvalidCommandException fault = assertThrows(InvalidCommandException.class, call);
+        assertEquals(codeAndField, fault.code + " " + fault.field);
     }
 
     private static Map<String, String> inputs(String... typed) {
@@ -190,9 +177,9 @@ public final class CommandFormTest {
         return inputs;
     }
 
-    private static boolean takes(CommandRegistry registry, String name, Map<String, Object> data) {
+    private static boolean isValid(Runnable check) {
         try {
-            registry.read(new GeneralMessage(name, data));
+            check.run();
             return true;
         } catch (InvalidCommandException fault) {
             return false;

@@ -1,6 +1,7 @@
 package org.raspilot.up.commands;
 
 import static org.junit.Assert.assertEquals;
+import static org.junit.Assert.assertFalse;
 import static org.junit.Assert.assertTrue;
 
 import java.nio.charset.Charset;
@@ -67,13 +68,15 @@ public final class CommandReceiverTest {
 
     @Test
     public void aHandlersRefusalAndFaultAreAnswered() {
-        speaker.refusal = new CommandRefusedException(NackCode.UNAVAILABLE, "the phone is mute");
+        speaker.refusal = new CommandRefusedException(NackCode.UNAVAILABLE, "mute");
         receive(speak("1", "a"));
         speaker.refusal = null;
         speaker.fault = new IllegalStateException("secret");
         receive(speak("2", "a"));
-        assertEquals(Arrays.asList("nack 1 unavailable the phone is mute",
-                "nack 2 failed carrying it out failed; the log says where"), answers.heard());
+        List<String> heard = answers.heard();
+        assertEquals("nack 1 unavailable mute", heard.get(0));
+        assertTrue(heard.get(1).startsWith("nack 2 failed "));
+        assertFalse(heard.get(1).contains("secret"));
         assertEquals(1, faults.faults.size());
     }
 
@@ -164,8 +167,9 @@ public final class CommandReceiverTest {
         });
         receive("{\"name\": \"app.broken\", \"id\": 1}");
         receive(speak("2", "hello"));
-        assertEquals(Arrays.asList("nack 1 failed carrying it out failed; the log says where",
-                "ack 2"), answers.heard());
+        List<String> heard = answers.heard();
+        assertTrue(heard.get(0).startsWith("nack 1 failed "));
+        assertEquals("ack 2", heard.get(1));
         loop.advance(0);
         assertEquals("broken", loopFaults.get(0).getMessage());
     }
@@ -195,12 +199,12 @@ public final class CommandReceiverTest {
                 + "\"}}");
         receive("{\"name\": \"" + nearlyForty + "xxxxxxxxxxxxxxxxxxxxxxxx" + face
                 + "\", \"id\": 3}");
-        speaker.refusal = new CommandRefusedException("half a letter: \ud83d\nand\u202e more");
+        speaker.refusal = new CommandRefusedException("half: \ud83d\nand\u202e more");
         receive(speak("4", "a"));
         List<String> heard = answers.heard();
         assertEquals(4, heard.size());
         assertTrue(heard.get(1), heard.get(1).contains("\"" + nearlyForty + "\u2026\""));
-        assertEquals("nack 4 refused half a letter:  and more", heard.get(3));
+        assertTrue(heard.get(3).endsWith(" refused half:  and more"));
     }
 
     private void receive(String line) {

@@ -2,7 +2,8 @@ package org.raspilot.up.ground;
 
 import static org.junit.Assert.assertEquals;
 import static org.junit.Assert.assertNull;
-import static org.junit.Assert.fail;
+import static org.junit.Assert.assertThrows;
+import static org.junit.Assert.assertTrue;
 
 import java.util.Map;
 import org.junit.Test;
@@ -13,14 +14,11 @@ import org.raspilot.up.commands.InvalidCommandException;
 public final class GainsFormTest {
     private final Map<String, String> cells = GainsForm.cells(GainsServiceTest.set(3));
 
-    private void refused(String path, String typed, String sentence) {
+    private void refused(String path, String typed, String code, String field) {
         cells.put(path, typed);
-        try {
-            GainsForm.read(cells);
-            fail("taken: " + typed);
-        } catch (InvalidCommandException fault) {
-            assertEquals(sentence, fault.getMessage());
-        }
+        InvalidCommandException fault =
+                assertThrows(InvalidCommandException.class, () -> GainsForm.read(cells));
+        assertEquals(code + " " + field, fault.code + " " + fault.field);
     }
 
     @Test
@@ -51,28 +49,25 @@ public final class GainsFormTest {
 
     @Test
     public void whatIsNoGainIsNamed() {
-        refused("ratePIDs.ailerons.p", "x", "rate roll P must be a number, 0 to 50, not x");
-        refused("ratePIDs.ailerons.p", "NaN", "rate roll P must be a number, 0 to 50, not NaN");
-        refused("ratePIDs.ailerons.p", "1e1", "rate roll P must be a number, 0 to 50, not 1e1");
-        refused("ratePIDs.ailerons.p", "-1", "rate roll P must be a number, 0 to 50, not -1");
-        refused("ratePIDs.ailerons.p", "51", "rate roll P must be a number, 0 to 50, not 51");
-        refused("ratePIDs.ailerons.p", "1.2.3",
-                "rate roll P must be a number, 0 to 50, not 1.2.3");
+        for (String typed : new String[] {"x", "NaN", "1e1", "-1", "51", "1.2.3"}) {
+            refused("ratePIDs.ailerons.p", typed, "out_of_range", "ratePIDs.ailerons.p");
+        }
+        InvalidCommandException fault =
+                assertThrows(InvalidCommandException.class, () -> GainsForm.read(cells));
+        assertTrue(fault.getMessage().startsWith("rate roll P"));
     }
 
     @Test
     public void aFormThatIsNotWholeIsNoSet() {
-        refused("ratePIDs.ailerons.p", "", "the set is not whole: rate roll P is missing");
+        refused("ratePIDs.ailerons.p", "", "missing", "ratePIDs.ailerons.p");
         cells.put("ratePIDs.ailerons.p", "3");
-        refused("stabPIDs.rudder.i", null, "the set is not whole: stabilize yaw I is missing");
+        refused("stabPIDs.rudder.i", null, "missing", "stabPIDs.rudder.i");
         cells.put("stabPIDs.rudder.p", "");
-        refused("stabPIDs.rudder.d", "", "the set is not whole: yaw must be in the rate and in the"
-                + " stabilize loop, or in neither");
+        refused("stabPIDs.rudder.d", "", "incomplete", "pids");
         for (String term : GainKey.TERMS) {
             cells.put("ratePIDs.rudder." + term, "");
         }
         assertNull(GainsForm.read(cells).rate.rudder);
-        refused("navPIDs.elevator.p", "1",
-                "the set is not whole: navigation roll P is missing");
+        refused("navPIDs.elevator.p", "1", "missing", "navPIDs.ailerons");
     }
 }

@@ -60,7 +60,7 @@ public final class GainsServiceTest {
     public void theyAreAskedForAsSoonAsTheSeatAndTelemetryAreHere() {
         bench.open(ProxyRole.LISTEN);
         bench.fly(1, 3);
-        assertTrue("a listener asks nothing", bench.sent().isEmpty());
+        assertTrue(bench.sent().isEmpty());
         bench.say("UP1 seat command token=" + GroundBench.TOKEN);
         bench.fly(4, 1);
         assertNull(flyingP());
@@ -100,7 +100,7 @@ public final class GainsServiceTest {
         assertTrue(bench.events().contains("gains_ack"));
         bench.fly(2, 1);
         answerRequest(set(2.5));
-        assertEquals("active gains are those that the aircraft reports", 2.5, flyingP(), 0);
+        assertEquals(2.5, flyingP(), 0);
     }
 
     @Test
@@ -120,7 +120,7 @@ public final class GainsServiceTest {
         bench.answer();
         bench.ground.gains().undo(1L, bench.keeping());
         final GeneralMessage again = bench.sent(Commands.PIDS);
-        assertEquals("refused, it is still to be undone", first.data, again.data);
+        assertEquals(first.data, again.data);
         bench.ack(again.id);
         bench.answer();
         bench.ground.gains().undo(1L, bench.keeping());
@@ -141,8 +141,7 @@ public final class GainsServiceTest {
         bench.loop.advance(3000);
         assertEquals(Answer.Outcome.TIMEOUT, bench.answer().outcome);
         assertEquals(3, flyingP(), 0);
-        assertNull("unknown whether there is something to undo",
-                bench.ground.gains().snapshot().undo);
+        assertNull(bench.ground.gains().snapshot().undo);
         bench.fly(2, 1);
         answerRequest(set(9));
         assertEquals(9, flyingP(), 0);
@@ -151,31 +150,26 @@ public final class GainsServiceTest {
     @Test
     public void whatIsPartialOrOutOfRangeIsNotSent() {
         flyWith(set(3));
-        refused(set(50.001), "rate roll P must be 0 to 50, not 50.001");
-        refused(set(-0.1), "rate roll P must be 0 to 50, not -0.1");
-        refused(set(Double.NaN), "rate roll P must be 0 to 50, not NaN");
-        refused(set(Double.POSITIVE_INFINITY), "rate roll P must be 0 to 50, not Infinity");
+        for (double wrong : new double[] {50.001, -0.1, Double.NaN, Double.POSITIVE_INFINITY}) {
+            refused(set(wrong), "ratePIDs.ailerons.p");
+        }
         final LoopGains whole = set(3).rate;
         final LoopGains noRudder = new LoopGains(whole.ailerons, whole.elevator, null);
         final LoopGains noPitch = new LoopGains(whole.ailerons, null, whole.rudder);
-        refused(new GainSet(whole, null, null),
-                "the set is not whole: the stabilize loop is missing");
-        refused(new GainSet(whole, noRudder, null), "the set is not whole: yaw must be in the rate"
-                + " and in the stabilize loop, or in neither");
-        refused(new GainSet(noPitch, whole, null),
-                "the set is not whole: rate pitch P is missing");
-        refused(new GainSet(whole, whole, noPitch),
-                "the set is not whole: navigation pitch P is missing");
+        refused(new GainSet(whole, null, null), "pids.stabPIDs");
+        refused(new GainSet(whole, noRudder, null), "pids");
+        refused(new GainSet(noPitch, whole, null), "ratePIDs.elevator");
+        refused(new GainSet(whole, whole, noPitch), "navPIDs.elevator");
         assertTrue(bench.ground.gains().snapshot().history.isEmpty());
         setGains(new GainSet(noRudder, noRudder, noRudder));
     }
 
-    private void refused(GainSet gains, String reason) {
+    private void refused(GainSet gains, String place) {
         bench.ground.gains().set(gains, 1L, bench.keeping());
         final Answer answer = bench.answer();
         assertEquals(Answer.Outcome.REFUSED, answer.outcome);
         assertEquals("invalid", answer.code);
-        assertEquals(reason, answer.reason);
+        assertTrue(answer.reason, answer.reason.startsWith(place + " "));
         assertTrue(bench.sent().isEmpty());
     }
 
@@ -193,8 +187,7 @@ public final class GainsServiceTest {
         bench.ground.send(Commands.pids(set(2)), 1L, bench.keeping());
         bench.ack(bench.sent(Commands.PIDS).id);
         bench.answer();
-        assertEquals("it can be undone", 3,
-                GainKey.ALL.get(0).of(bench.ground.gains().snapshot().undo), 0);
+        assertEquals(3, GainKey.ALL.get(0).of(bench.ground.gains().snapshot().undo), 0);
     }
 
     @Test

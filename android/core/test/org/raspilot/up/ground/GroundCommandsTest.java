@@ -33,8 +33,7 @@ public final class GroundCommandsTest {
         final Answer answer = bench.answer();
         assertEquals(Answer.Outcome.REFUSED, answer.outcome);
         assertEquals(code, answer.code);
-        assertTrue(answer.sentence(), answer.sentence().contains(" was not sent: "));
-        assertTrue("something was sent", bench.sent().isEmpty());
+        assertTrue(bench.sent().isEmpty());
     }
 
     @Test
@@ -52,10 +51,10 @@ public final class GroundCommandsTest {
         final Answer answer = bench.answer();
         assertEquals(Answer.Outcome.ACK, answer.outcome);
         assertEquals(Long.valueOf(120), answer.roundTripMs);
-        assertEquals("up.flight_mode.set carried out after 120 ms", answer.sentence());
+        assertEquals(Commands.FLIGHT_MODE, answer.name);
         assertTrue(bench.events().contains("command_ack"));
         bench.loop.advance(5000);
-        assertTrue("never sent again", bench.sent().isEmpty());
+        assertTrue(bench.sent().isEmpty());
     }
 
     @Test
@@ -79,8 +78,7 @@ public final class GroundCommandsTest {
         flySeen(1, 1);
         bench.fly(2, 20);
         send(new BaseCommand(Commands.DISARM));
-        assertEquals("2 s are not too long", Long.valueOf(1),
-                bench.sent(Commands.DISARM).beacon);
+        assertEquals(Long.valueOf(1), bench.sent(Commands.DISARM).beacon);
         bench.fly(22, 1);
         send(new BaseCommand(Commands.DISARM));
         mustBeRefused("stale");
@@ -190,8 +188,7 @@ public final class GroundCommandsTest {
         bench.open(ProxyRole.COMMAND);
         bench.say("{\"name\": \"up.telemetry.update\", \"data\": {}}");
         send(Commands.flightMode("FBW"));
-        assertNull("a thesis aircraft tells no beacons",
-                bench.sent(Commands.FLIGHT_MODE).beacon);
+        assertNull(bench.sent(Commands.FLIGHT_MODE).beacon);
         for (BaseCommand command : new BaseCommand[] {new BaseCommand(Commands.ARM),
                 new BaseCommand(Commands.DISARM)}) {
             send(command);
@@ -210,13 +207,12 @@ public final class GroundCommandsTest {
         bench.say("{\"name\": \"up.ack\", \"data\": {}}");
         assertTrue(bench.answers.isEmpty());
         assertEquals(3, bench.ground.status().counters.strangeAnswers);
-        bench.nack(id, "refused", "armed by the transmitter\\u0007");
+        bench.nack(id, "refused", "transmitter\\u0007");
         final Answer answer = bench.answer();
         assertEquals(Answer.Outcome.NACK, answer.outcome);
-        assertEquals("the aircraft refused up.disarm: armed by the transmitter",
-                answer.sentence());
+        assertEquals("refused transmitter", answer.code + " " + answer.reason);
         bench.ack(id);
-        assertTrue("it ended once", bench.answers.isEmpty());
+        assertTrue(bench.answers.isEmpty());
     }
 
     @Test
@@ -245,8 +241,6 @@ public final class GroundCommandsTest {
         bench.loop.advance(1);
         final Answer answer = bench.answer();
         assertEquals(Answer.Outcome.TIMEOUT, answer.outcome);
-        assertEquals("up.disarm: no answer within 3 s; it is not known whether it was carried out",
-                answer.sentence());
         bench.ack(id);
         assertTrue(bench.answers.isEmpty());
         assertTrue(bench.sent().isEmpty());
@@ -315,7 +309,7 @@ public final class GroundCommandsTest {
         send(new BaseCommand("arduino.profile.request", null));
         final String id = bench.sent("arduino.profile.request").id;
         bench.ack(id);
-        assertTrue("the profile has yet to come", bench.answers.isEmpty());
+        assertTrue(bench.answers.isEmpty());
         bench.say("{\"name\": \"arduino.profile.values\", \"data\": {\"mix\": \"elevon\"}}");
         assertEquals("elevon", bench.answer().data.get("mix"));
     }

@@ -1,51 +1,41 @@
 package org.raspilot.up.ground;
 
 import static org.junit.Assert.assertEquals;
-import static org.junit.Assert.assertNull;
-import static org.junit.Assert.fail;
+import static org.junit.Assert.assertThrows;
 
 import org.junit.Test;
+import org.junit.function.ThrowingRunnable;
+import org.raspilot.up.net.SettingRules.InvalidSettingException;
 import org.raspilot.up.wire.ProxyRole;
 
 /** Settings are valid or not there. */
 public final class GroundSettingsTest {
     @Test
-    public void whatIsWrongIsSaidInASentence() {
-        assertNull(GroundSettings.fault("proxy.example", 3004, "glider-1"));
-        assertNull(GroundSettings.fault("fe80::1%wlan0", 3004, "glider-1"));
-        assertEquals("the host is empty", GroundSettings.fault(" ", 3004, "a"));
-        assertEquals("the host is empty", GroundSettings.fault(null, 3004, "a"));
-        assertEquals("the host is neither a name nor an address: a b",
-                GroundSettings.fault("a b", 3004, "a"));
-        assertEquals("the port must be 1 to 65535, not 0", GroundSettings.fault("h", 0, "a"));
-        assertEquals("the port must be 1 to 65535, not 65536",
-                GroundSettings.fault("h", 65536, "a"));
-        final String name = "the aircraft's name must be 1 to 32 letters, digits, '_', '.' or '-'";
-        assertEquals(name, GroundSettings.fault("h", 1, ""));
-        assertEquals(name, GroundSettings.fault("h", 1, null));
-        assertEquals(name, GroundSettings.fault("h", 1, "a seat=command"));
-    }
-
-    @Test
-    public void wrongOnesCannotBeMade() {
-        try {
-            new GroundSettings("h", 70000, "a", ProxyRole.LISTEN, false);
-            fail("made with that port");
-        } catch (IllegalArgumentException fault) {
-            assertEquals("the port must be 1 to 65535, not 70000", fault.getMessage());
+    public void whatIsWrongIsNamed() {
+        assertEquals("fe80::1%wlan0", settings("fe80::1%wlan0", 3004, "glider-1").host);
+        for (String host : new String[] {" ", null, "a b", "h/x"}) {
+            refused("host", () -> settings(host, 3004, "a"));
         }
-        try {
-            new GroundSettings("h", 1, "a", ProxyRole.AIR, false);
-            fail("made with that seat");
-        } catch (IllegalArgumentException fault) {
-            assertEquals("a ground commands or listens", fault.getMessage());
+        for (int port : new int[] {0, 65536, 70000}) {
+            refused("port", () -> settings("h", port, "a"));
         }
+        for (String name : new String[] {"", null, "a seat=command"}) {
+            refused("aircraft's name", () -> settings("h", 1, name));
+        }
+        refused("seat", () -> new GroundSettings("h", 1, "a", ProxyRole.AIR, false));
     }
 
     @Test
     public void theAddressIsWrittenAsPeopleDo() {
-        assertEquals("h:1", new GroundSettings(" h ", 1, "a", ProxyRole.LISTEN, false).address());
-        assertEquals("[::1]:1",
-                new GroundSettings("::1", 1, "a", ProxyRole.LISTEN, false).address());
+        assertEquals("h:1", settings(" h ", 1, "a").address());
+        assertEquals("[::1]:1", settings("::1", 1, "a").address());
+    }
+
+    private static GroundSettings settings(String host, int port, String aircraft) {
+        return new GroundSettings(host, port, aircraft, ProxyRole.LISTEN, false);
+    }
+
+    private static void refused(String setting, ThrowingRunnable call) {
+        assertEquals(setting, assertThrows(InvalidSettingException.class, call).setting);
     }
 }

@@ -38,7 +38,7 @@ public final class GroundTelemetryTest {
         assertEquals(730, held.readingAgeMs("orientation", bench.loop.nowMs()), 1);
         assertFalse(bench.status.isSilent);
         bench.loop.advance(300);
-        assertTrue("900 ms after it was made", bench.status.isSilent);
+        assertTrue(bench.status.isSilent);
     }
 
     @Test
@@ -64,11 +64,9 @@ public final class GroundTelemetryTest {
         }
         assertTrue(bench.status.isSilent);
         assertTrue(bench.status.isLate);
-        assertEquals("telemetry comes too late", bench.status.linkText());
         assertEquals(Freshness.STALE, bench.ground.telemetry()
                 .freshness("orientation.roll", bench.loop.nowMs()));
-        assertEquals("telemetry comes too late",
-                bench.ground.alarms().snapshot().active.get(0).text);
+        assertEquals(Alarm.Kind.SILENT, bench.ground.alarms().snapshot().active.get(0).kind);
     }
 
     @Test
@@ -76,11 +74,9 @@ public final class GroundTelemetryTest {
         bench.open(ProxyRole.LISTEN);
         stamped(1, 900000);
         bench.loop.advance(100);
-        assertEquals("its clock went back", Long.valueOf(0),
-                stamped(2, 100).ageMs(bench.loop.nowMs()));
+        assertEquals(Long.valueOf(0), stamped(2, 100).ageMs(bench.loop.nowMs()));
         bench.loop.advance(100);
-        assertEquals("its beacons are others", Long.valueOf(0),
-                stamped(5000000, 150).ageMs(bench.loop.nowMs()));
+        assertEquals(Long.valueOf(0), stamped(5000000, 150).ageMs(bench.loop.nowMs()));
         assertEquals(0, bench.ground.status().counters.lostFrames);
     }
 
@@ -93,7 +89,7 @@ public final class GroundTelemetryTest {
         assertFalse(bench.status.isSilent);
         bench.loop.advance(1);
         assertTrue(bench.status.isSilent);
-        assertEquals("the aircraft is silent", bench.status.linkText());
+        assertFalse(bench.status.isLate);
         assertTrue(bench.ground.alarms().snapshot().has(Alarm.Kind.SILENT));
         assertTrue(bench.events().contains("telemetry_lost"));
         bench.frame(6, "{}");
@@ -112,7 +108,7 @@ public final class GroundTelemetryTest {
         assertEquals(5, bench.ground.telemetry().number("altitude"), 0);
         bench.loop.advance(700);
         bench.accept(ProxyRole.LISTEN);
-        assertTrue("an open link alone makes nothing live", bench.ground.status().isSilent);
+        assertTrue(bench.ground.status().isSilent);
         bench.frame(2, "{\"altitude\": 6}");
         assertEquals(Freshness.LIVE,
                 bench.ground.telemetry().freshness("altitude", bench.loop.nowMs()));

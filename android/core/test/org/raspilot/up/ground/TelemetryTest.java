@@ -4,8 +4,8 @@ import static org.junit.Assert.assertEquals;
 import static org.junit.Assert.assertFalse;
 import static org.junit.Assert.assertNull;
 import static org.junit.Assert.assertSame;
+import static org.junit.Assert.assertThrows;
 import static org.junit.Assert.assertTrue;
-import static org.junit.Assert.fail;
 
 import java.math.BigInteger;
 import java.util.Arrays;
@@ -85,12 +85,10 @@ public final class TelemetryTest {
         assertEquals(Freshness.LIVE, frame.freshness("orientation.roll", 10000));
         assertEquals(Freshness.LIVE, frame.freshness("orientation.roll", 10600));
         assertEquals(Freshness.STALE, frame.freshness("orientation.roll", 10601));
-        assertEquals("places come once a second", Freshness.LIVE,
-                frame.freshness("location.latitude", 10500));
+        assertEquals(Freshness.LIVE, frame.freshness("location.latitude", 10500));
         assertEquals(Freshness.STALE, frame.freshness("location.latitude", 10501));
         assertEquals(Freshness.LIVE, frame.freshness("android.batteryLevel", 10700));
-        assertEquals("without an age it is as its frame", Freshness.LIVE,
-                frame.freshness("altitude", 10700));
+        assertEquals(Freshness.LIVE, frame.freshness("altitude", 10700));
         assertEquals(Freshness.NONE, frame.freshness("orientation.pitch", 10000));
         assertEquals(Freshness.NONE, frame.freshness("rx.throttle", 10000));
     }
@@ -110,7 +108,7 @@ public final class TelemetryTest {
         assertEquals(Freshness.STALE, lost.freshness("altitude", 10000));
         assertTrue(lost.isSilent(10000));
         assertTrue(lost.age.isLinkLost);
-        assertEquals("it is shown all the same", 12, lost.number("altitude"), 0);
+        assertEquals(12, lost.number("altitude"), 0);
     }
 
     @Test
@@ -136,12 +134,9 @@ public final class TelemetryTest {
         final Telemetry made = Telemetry.of(data, 1L, 0, 0);
         data.put("altitude", 99L);
         assertEquals(12, made.number("altitude"), 0);
-        try {
-            made.object("location").put("latitude", 1.0);
-            fail("the tree could be changed");
-        } catch (UnsupportedOperationException expected) {
-            assertSame(Double.class, made.number("location.latitude").getClass());
-        }
+        assertThrows(UnsupportedOperationException.class, () ->
+                made.object("location").put("latitude", 1.0));
+        assertSame(Double.class, made.number("location.latitude").getClass());
     }
 
     @Test

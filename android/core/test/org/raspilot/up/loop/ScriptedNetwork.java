@@ -25,7 +25,7 @@ public final class ScriptedNetwork implements Network {
     @Override
     public UdpPort openUdp(UdpListener listener) throws IOException {
         if (hasNoSockets) {
-            throw new IOException("too many open files");
+            throw new IOException("too many");
         }
         final Port port = new Port(listener);
         ports.add(port);

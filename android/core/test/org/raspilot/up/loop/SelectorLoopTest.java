@@ -2,8 +2,8 @@ package org.raspilot.up.loop;
 
 import static org.junit.Assert.assertEquals;
 import static org.junit.Assert.assertFalse;
+import static org.junit.Assert.assertThrows;
 import static org.junit.Assert.assertTrue;
-import static org.junit.Assert.fail;
 
 import java.util.ArrayList;
 import java.util.Arrays;
@@ -142,18 +142,8 @@ public final class SelectorLoopTest {
 
     @Test
     public void timeAndSocketsAreForTheLoopAlone() {
-        try {
-            loop.schedule(0, note("never"));
-            fail("a timer from elsewhere");
-        } catch (IllegalStateException expected) {
-            assertTrue(expected.getMessage().startsWith("only on the loop"));
-        }
-        try {
-            loop.connectTcp("127.0.0.1", 1, 1, null);
-            fail("a connection from elsewhere");
-        } catch (IllegalStateException expected) {
-            assertTrue(expected.getMessage().startsWith("only on the loop"));
-        }
+        assertThrows(IllegalStateException.class, () -> loop.schedule(0, note("never")));
+        assertThrows(IllegalStateException.class, () -> loop.connectTcp("127.0.0.1", 1, 1, null));
     }
 
     @Test
@@ -169,12 +159,7 @@ public final class SelectorLoopTest {
         loop.stop();
         loop.post(note("never"));
         assertTrue(done.isEmpty());
-        try {
-            loop.start();
-            fail("started again");
-        } catch (IllegalStateException expected) {
-            assertEquals("a loop is started once", expected.getMessage());
-        }
+        assertThrows(IllegalStateException.class, () -> loop.start());
     }
 
     @Test

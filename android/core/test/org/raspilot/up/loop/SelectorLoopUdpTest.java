@@ -69,7 +69,7 @@ public final class SelectorLoopUdpTest implements UdpListener {
 
     @Test
     public void aNameIsLookedUpAsideAndThenUsed() throws Exception {
-        assertFalse("the first is lost", send("localhost"));
+        assertFalse(send("localhost"));
         running.await("the name", () ->
                 port.send("where?".getBytes(ASCII), "localhost", peer.getLocalPort()));
         assertEquals("where?", text(receive()));

@@ -90,7 +90,7 @@ public final class SocketSelectorTest {
         }, new SystemResolver());
         loop[0].start();
         try {
-            assertTrue("the call was not carried out", called.await(20, TimeUnit.SECONDS));
+            assertTrue(called.await(20, TimeUnit.SECONDS));
         } finally {
             loop[0].stop();
         }
@@ -125,7 +125,7 @@ public final class SocketSelectorTest {
                     }
                 }
             });
-            assertTrue("the loop's thread is gone", latch.await(20, TimeUnit.SECONDS));
+            assertTrue(latch.await(20, TimeUnit.SECONDS));
             assertEquals(throwing, loop.faults());
             assertTrue(faults.all().get(0) instanceof CancelledKeyException);
         } finally {

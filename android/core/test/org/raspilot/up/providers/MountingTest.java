@@ -1,8 +1,8 @@
 package org.raspilot.up.providers;
 
 import static org.junit.Assert.assertEquals;
+import static org.junit.Assert.assertThrows;
 import static org.junit.Assert.assertTrue;
-import static org.junit.Assert.fail;
 
 import java.util.Random;
 import org.junit.Test;
@@ -16,50 +16,23 @@ public final class MountingTest {
     private static final Rotation SCREEN_DOWN = new Rotation(0, 0, 1, 0, 0);
 
     @Test
-    public void aPhoneFlatWithItsTopEdgeToTheNorthIsLevelAndHeadsNorth() {
+    public void attitudesByHand() {
         // Android: the identity is the screen up and the top edge (y) to the north.
-        assertAttitude(0, 0, 0, Mounting.FLAT.attitude(new Rotation(1, 0, 0, 0, 0), 0));
-    }
-
-    @Test
-    public void turningThePhoneToTheEastTurnsTheNoseToTheEast() {
+        assertAttitude(0, 0, 0, Mounting.FLAT.attitude(turned(0, 0, 0, 1), 0));
         assertAttitude(0, 0, 90, Mounting.FLAT.attitude(turned(-90, 0, 0, 1), 0));
         assertAttitude(0, 0, 270, Mounting.FLAT.attitude(turned(90, 0, 0, 1), 0));
-    }
-
-    @Test
-    public void raisingTheTopEdgeRaisesTheNose() {
-        // About the axis to the right edge, right-handed: the top edge goes up.
+        // Right-handed about the axis to the right edge: the top edge goes up.
         assertAttitude(0, 30, 0, Mounting.FLAT.attitude(turned(30, 1, 0, 0), 0));
-    }
-
-    @Test
-    public void loweringTheRightEdgeLowersTheRightWing() {
-        // About the axis to the top edge, right-handed: the right edge goes down.
+        // About the axis to the top edge: the right edge goes down.
         assertAttitude(40, 0, 0, Mounting.FLAT.attitude(turned(40, 0, 1, 0), 0));
-    }
-
-    @Test
-    public void aPhoneOnItsLongSideHasItsRightEdgeAhead() {
-        Mounting mounting = Mounting.of(Side.RIGHT, Side.SCREEN);
-        // The screen up and the top edge to the north: the right edge, the nose, is to the east.
-        assertAttitude(0, 0, 90, mounting.attitude(new Rotation(1, 0, 0, 0, 0), 0));
-        // The right edge goes down: now that is the nose.
-        assertAttitude(0, -20, 90, mounting.attitude(turned(20, 0, 1, 0), 0));
-    }
-
-    @Test
-    public void aPhoneWithItsScreenDownIsLevelWhenItIsMountedSo() {
-        Mounting mounting = Mounting.of(Side.TOP, Side.BACK);
-        assertAttitude(0, 0, 0, mounting.attitude(SCREEN_DOWN, 0));
+        Mounting onItsSide = Mounting.of(Side.RIGHT, Side.SCREEN);
+        assertAttitude(0, 0, 90, onItsSide.attitude(turned(0, 0, 0, 1), 0));
+        assertAttitude(0, -20, 90, onItsSide.attitude(turned(20, 0, 1, 0), 0));
+        assertAttitude(0, 0, 0, Mounting.of(Side.TOP, Side.BACK).attitude(SCREEN_DOWN, 0));
         assertAttitude(180, 0, 0, Mounting.FLAT.attitude(SCREEN_DOWN, 0));
-    }
-
-    @Test
-    public void aPhoneStandingWithItsScreenAheadIsLevelWhenItIsMountedSo() {
-        Mounting mounting = Mounting.of(Side.SCREEN, Side.TOP);
-        // A quarter about the axis to the right edge: the top edge up, the screen to the south.
-        assertAttitude(0, 0, 180, mounting.attitude(turned(90, 1, 0, 0), 0));
+        // The top edge up, the screen to the south.
+        assertAttitude(0, 0, 180,
+                Mounting.of(Side.SCREEN, Side.TOP).attitude(turned(90, 1, 0, 0), 0));
     }
 
     @Test
@@ -177,7 +150,7 @@ public final class MountingTest {
                 }
             }
         }
-        assertTrue("sides that pointed up or down: " + refused, refused > 50);
+        assertTrue(refused > 50);
     }
 
     @Test
@@ -208,12 +181,9 @@ public final class MountingTest {
         String[] texts = {"", "1 0 0", "1 0 0 0 0", "a b c d", "0 0 0 0", "NaN 0 0 1",
             "Infinity 0 0 0", "1e400 0 0 0"};
         for (String text : texts) {
-            try {
-                Mounting.fromText(text);
-                fail(text);
-            } catch (IllegalArgumentException error) {
-                assertTrue(error.getMessage(), error.getMessage().startsWith("the mounting "));
-            }
+            IllegalArgumentException error = assertThrows(IllegalArgumentException.class, () ->
+                    Mounting.fromText(text));
+            assertTrue(error.getMessage(), error.getMessage().startsWith("the mounting "));
         }
     }
 

@@ -48,7 +48,7 @@ public final class OrientationProviderTest {
         bench.feed(rotation, mounting.rotation(new Attitude(1, 2, 3), 0), 5, 3000);
         assertEquals(200, bench.status().rateHz, 1);
         assertEquals("roll 1.0, pitch 2.0, yaw 3.0", bench.status().lastText);
-        assertEquals("rotation vector and gyroscope", bench.status().sensor);
+        assertTrue(bench.status().sensor.contains("gyroscope"));
         bench.loop.advance(501);
         assertEquals(ProviderState.SILENT, bench.status().state);
         bench.loop.advance(500);
@@ -59,7 +59,7 @@ public final class OrientationProviderTest {
     public void withoutAGyroscopeTheRatesAreThoseOfTheAttitude() {
         gyroscope.isPresent = false;
         bench.run(new OrientationProvider(rotation, gyroscope, mounting, 50));
-        assertEquals("rotation vector and no gyroscope", bench.status().sensor);
+        assertTrue(bench.status().sensor.contains("no gyroscope"));
         assertEquals(0, gyroscope.periodsMs.size());
         for (int at = 0; at < 20; at++) {
             bench.loop.advance(20);

@@ -2,8 +2,8 @@ package org.raspilot.up.providers;
 
 import static org.junit.Assert.assertEquals;
 import static org.junit.Assert.assertFalse;
+import static org.junit.Assert.assertThrows;
 import static org.junit.Assert.assertTrue;
-import static org.junit.Assert.fail;
 
 import org.junit.Test;
 import org.raspilot.up.providers.BatteryProvider.BatteryLevel;
@@ -20,18 +20,15 @@ public final class PanicTest {
     @Test
     public void itTakesDelaysOfUpTo10SecondsAndNothingElse() {
         panic.apply(0.2);
-        assertEquals("a fraction is not quicker than it says", 1, panic.delayMs());
+        assertEquals(1, panic.delayMs());
         panic.apply(10000);
         assertEquals(10000, panic.delayMs());
         for (double bad : new double[] {-1, 10000.5, Double.NaN, Double.POSITIVE_INFINITY}) {
-            try {
-                panic.apply(bad);
-                fail("taken: " + bad);
-            } catch (IllegalArgumentException error) {
-                assertEquals("delay_ms: 0 to 10000", error.getMessage());
-            }
+            IllegalArgumentException error = assertThrows(IllegalArgumentException.class, () ->
+                    panic.apply(bad));
+            assertEquals("delay_ms: 0 to 10000", error.getMessage());
         }
-        assertEquals("a refused value changes nothing", 10000, panic.delayMs());
+        assertEquals(10000, panic.delayMs());
     }
 
     @Test
@@ -88,7 +85,7 @@ public final class PanicTest {
         bench.sink.timesMs.clear();
         long endMs = bench.loop.nowMs();
         panic.clear();
-        assertEquals("what waited leaves", endMs, (long) bench.sink.timesMs.get(0));
+        assertEquals(endMs, (long) bench.sink.timesMs.get(0));
         bench.feed(gps, HERE, 50, 2000);
         assertEquals(11, bench.sink.timesMs.size(), 1);
     }

@@ -2,8 +2,8 @@ package org.raspilot.up.providers;
 
 import static org.junit.Assert.assertEquals;
 import static org.junit.Assert.assertFalse;
+import static org.junit.Assert.assertThrows;
 import static org.junit.Assert.assertTrue;
-import static org.junit.Assert.fail;
 
 import java.util.ArrayList;
 import java.util.List;
@@ -41,20 +41,16 @@ public final class ProvidersControllerTest {
     @Test
     public void aNameIsGivenOnce() {
         bench.controller.register(new Named("one", new Noted("one")));
-        try {
-            bench.controller.register(new Named("one", new Noted("other")));
-            fail("two of one name");
-        } catch (IllegalArgumentException error) {
-            assertEquals("a provider 'one' is registered already", error.getMessage());
-        }
+        assertThrows(IllegalArgumentException.class, () ->
+                bench.controller.register(new Named("one", new Noted("other"))));
     }
 
     @Test
     public void anAbsentSensorIsToldAndIsNoError() {
-        TestSource<Fix> absent = new TestSource<>("this phone has no GPS");
+        TestSource<Fix> absent = new TestSource<>("no GPS");
         absent.isPresent = false;
         bench.run(new LocationProvider(absent, 500));
-        assertEquals("[location: this phone has no GPS]", bench.told.toString());
+        assertEquals("[location: no GPS]", bench.told.toString());
         assertEquals(ProviderState.ABSENT, bench.status().state);
         assertEquals("", bench.status().problem);
         assertEquals(0, absent.periodsMs.size());
@@ -84,7 +80,7 @@ public final class ProvidersControllerTest {
         barometer.give(new Pressure(1000));
         assertEquals(1, bench.sink.commands.size());
         assertEquals(ProviderState.STOPPED, bench.status().state);
-        assertEquals("the sensor cannot be read: no permission", bench.status().problem);
+        assertTrue(bench.status().problem.endsWith(": no permission"));
         gps.fault = null;
         assertTrue(bench.controller.restart("location"));
         gps.give(new Fix(1, 2, null, null, null, null));
@@ -104,7 +100,8 @@ public final class ProvidersControllerTest {
         bench.controller.start(bench.sink);
         bench.controller.stop();
         assertEquals("[+first, +bad, -first]", calls.toString());
-        assertEquals("[bad: the sensor cannot be left: stuck]", bench.told.toString());
+        assertEquals(1, bench.told.size());
+        assertTrue(bench.told.get(0).endsWith(": stuck"));
     }
 
     @Test
@@ -118,7 +115,8 @@ public final class ProvidersControllerTest {
         });
         gps.give(new Fix(1, 2, null, null, null, null));
         gps.give(new Fix(1, 2, null, null, null, null));
-        assertEquals("[broken: its reading cannot be used: a mistake]", bench.told.toString());
+        assertEquals(1, bench.told.size());
+        assertTrue(bench.told.get(0).endsWith(": a mistake"));
     }
 
     @Test

@@ -1,7 +1,7 @@
 package org.raspilot.up.providers;
 
 import static org.junit.Assert.assertEquals;
-import static org.junit.Assert.fail;
+import static org.junit.Assert.assertThrows;
 
 import java.util.ArrayList;
 import java.util.List;
@@ -40,12 +40,9 @@ public final class SharedSourceTest {
     @Test
     public void aSensorThatRefusedIsAskedAgain() {
         sensor.fault = new SecurityException("no permission");
-        try {
-            slow.subscribe(200, listener("slow"));
-            fail("subscribed");
-        } catch (SecurityException error) {
-            slow.unsubscribe();
-        }
+        SecurityException error = assertThrows(SecurityException.class, () ->
+                slow.subscribe(200, listener("slow")));
+        slow.unsubscribe();
         sensor.fault = null;
         slow.subscribe(200, listener("slow"));
         sensor.give("a");

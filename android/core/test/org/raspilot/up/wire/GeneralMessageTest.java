@@ -2,8 +2,8 @@ package org.raspilot.up.wire;
 
 import static org.junit.Assert.assertArrayEquals;
 import static org.junit.Assert.assertEquals;
+import static org.junit.Assert.assertThrows;
 import static org.junit.Assert.assertTrue;
-import static org.junit.Assert.fail;
 
 import java.util.Arrays;
 import java.util.Collections;
@@ -77,12 +77,8 @@ public final class GeneralMessageTest {
                 new byte[] {(byte) 0xed, (byte) 0xa0, (byte) 0x80}, new byte[] {(byte) 0xe2})) {
             byte[] line = Vectors.bytes("{\"name\": \"####\"}");
             System.arraycopy(wrong, 0, line, 10, wrong.length);
-            try {
-                GeneralMessage.read(line, line.length);
-                fail("read");
-            } catch (MalformedException fault) {
-                assertEquals("not UTF-8", fault.reason());
-            }
+            assertEquals("not_utf8", assertThrows(MalformedException.class, () ->
+                    GeneralMessage.read(line, line.length)).code);
         }
     }
 
@@ -94,32 +90,20 @@ public final class GeneralMessageTest {
         byte[] line = longest.toLine();
         assertEquals(LineSplitter.MAX_LINE_BYTES, line.length);
         assertEquals(longest.data, GeneralMessage.read(line, line.length).data);
-        try {
-            new GeneralMessage("a", Collections.singletonMap("x",
-                    repeated("y", LineSplitter.MAX_LINE_BYTES - frame + 1))).toLine();
-            fail("written");
-        } catch (IllegalArgumentException fault) {
-            assertEquals("a: a line of 16385 bytes, at most 16384", fault.getMessage());
-        }
+        GeneralMessage tooLong = new GeneralMessage("a", Collections.singletonMap("x",
+                repeated("y", LineSplitter.MAX_LINE_BYTES - frame + 1)));
+        assertThrows(IllegalArgumentException.class, () -> tooLong.toLine());
         byte[] longer = Arrays.copyOf(line, line.length + 1);
         longer[line.length] = ' ';
-        try {
-            GeneralMessage.read(longer, longer.length);
-            fail("read");
-        } catch (MalformedException fault) {
-            assertEquals("longer than 16384 bytes", fault.reason());
-        }
+        assertEquals("too_long", assertThrows(MalformedException.class, () ->
+                GeneralMessage.read(longer, longer.length)).code);
     }
 
     @Test
     public void dataCannotBeChangedAtAnyDepth() throws Exception {
         GeneralMessage message = read("{\"name\": \"a\", \"data\": {\"x\": [{}]}}");
-        try {
-            fields(((List<?>) message.data.get("x")).get(0)).put("y", 1);
-            fail("changed");
-        } catch (UnsupportedOperationException expected) {
-            assertEquals("{x=[{}]}", message.data.toString());
-        }
+        assertThrows(UnsupportedOperationException.class, () ->
+                fields(((List<?>) message.data.get("x")).get(0)).put("y", 1));
     }
 
     @Test
@@ -167,11 +151,7 @@ public final class GeneralMessageTest {
     }
 
     private static void assertMalformed(String line, String id) {
-        try {
-            fail(line + " was read as " + read(line).name);
-        } catch (MalformedException fault) {
-            assertEquals(line, id, fault.id);
-        }
+        assertEquals(line, id, assertThrows(MalformedException.class, () -> read(line)).id);
     }
 
     private static GeneralMessage read(String line) throws MalformedException {

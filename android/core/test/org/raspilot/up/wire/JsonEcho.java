@@ -14,7 +14,7 @@ import org.raspilot.up.commands.InvalidCommandException;
  *
  * <p>Each line of stdin is the bytes of a General Message line in hex. Each line of stdout is an
  * object: {@code line}, the message written again (null: it would be too long), and {@code
- * invalid}, the error of the Command (null: valid); or {@code malformed}, why it is not a message,
+ * invalid}, the code of the Command's error (null: valid); or {@code malformed}, the code,
  * and {@code id}.
  */
 public final class JsonEcho {
@@ -38,7 +38,7 @@ public final class JsonEcho {
             answer.put("line", written(message));
             answer.put("invalid", complaint(message, registry));
         } catch (MalformedException fault) {
-            answer.put("malformed", fault.reason());
+            answer.put("malformed", fault.code);
             answer.put("id", fault.id);
         }
         return answer;
@@ -57,7 +57,7 @@ public final class JsonEcho {
             registry.read(message);
             return null;
         } catch (InvalidCommandException fault) {
-            return fault.getMessage();
+            return fault.code;
         }
     }
 

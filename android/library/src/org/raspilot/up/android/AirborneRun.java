@@ -1,6 +1,5 @@
 package org.raspilot.up.android;
 
-import android.content.Context;
 import android.os.Handler;
 import android.os.HandlerThread;
 import android.os.Looper;
@@ -24,25 +23,11 @@ import org.raspilot.up.providers.Sensors;
  * keep the phone awake. Created, started and ended on the main thread; it is not restarted.
  */
 final class AirborneRun {
-    /** Receives the events of a run until its end; on the main thread, except {@link #onUp}. */
-    interface Host {
-        /** Registers handlers and providers; on the loop, before the start. */
-        void onUp(Up up);
-
-        void onStatus(AirborneStatus status);
-
-        /** Takes a line of the log. */
-        void onEvent(String sentence);
-
-        /** Takes the pressure by which the altitude is zero here, hPa. */
-        void onReferencePressure(double hPa);
-    }
-
     private static final String TAG = "Up";
     private static final long STATUS_MS = 500;
 
     private final Handler main = new Handler(Looper.getMainLooper());
-    private final Host host;
+    private final BaseUpService service;
     private final SelectorLoop loop;
     private final HandlerThread sensorsThread;
     private final AndroidSpeaker speaker;
@@ -57,20 +42,22 @@ final class AirborneRun {
      *
      * @throws IllegalStateException when this process has another Up: nothing runs then
      */
-    AirborneRun(Context context, AirborneSettings settings, boolean isOnWifi, SensorTexts texts,
-            Host host) throws IOException {
-        this.host = host;
-        loop = new SelectorLoop("up", new Faults("up"), new SleepClock());
+    AirborneRun(BaseUpService service) throws IOException {
+        this.service = service;
+        AirborneSettings settings = service.readSettings();
+        SensorTexts texts = service.sourceTexts();
+        loop = new SelectorLoop("up", fault ->
+                Log.e(TAG, "up failed in a call", fault), new SleepClock());
         loop.start();
         sensorsThread = new HandlerThread("up sensors", Process.THREAD_PRIORITY_FOREGROUND);
         sensorsThread.start();
         ProblemListener problems = sentence -> reportEvent(sentence);
-        Sensors sensors = AndroidSources.find(context, sensorsThread.getLooper(), loop,
+        Sensors sensors = AndroidSources.find(service, sensorsThread.getLooper(), loop,
                 texts, problems, new Declination(deg -> setDeclination(deg)));
-        speaker = new AndroidSpeaker(context, texts, problems);
-        locks = new AwakeLocks(context);
-        way = new WifiBinding(new ProcessWifi(context), isOnWifi, settings.host);
-        network = new NetworkWatch(context, () -> onNetworkChanged());
+        speaker = new AndroidSpeaker(service, texts, problems);
+        locks = new AwakeLocks(service);
+        way = new WifiBinding(new ProcessWifi(service), service.isOnWifi(), settings.host);
+        network = new NetworkWatch(service, () -> onNetworkChanged());
         airborne = new Airborne(loop, settings, sensors, speaker, new Listener(), new Random());
         begin();
     }
@@ -96,7 +83,7 @@ final class AirborneRun {
     /** Runs the application's own setup; a failure there does not stop the rest. */
     private void setUp() {
         try {
-            host.onUp(airborne.up());
+            service.onUp(airborne.up());
         } catch (RuntimeException fault) {
             Log.e(TAG, "the application's own set-up failed", fault);
             reportEvent("The application's own set-up failed: " + fault);
@@ -177,15 +164,15 @@ final class AirborneRun {
     }
 
     private void reportStatus(final AirborneStatus status) {
-        runOnMain(() -> host.onStatus(status));
+        runOnMain(() -> service.report(status));
     }
 
     private void reportEvent(final String sentence) {
-        runOnMain(() -> host.onEvent(sentence));
+        runOnMain(() -> service.onEvent(sentence));
     }
 
     private void reportPressure(final double hPa) {
-        runOnMain(() -> host.onReferencePressure(hPa));
+        runOnMain(() -> service.onReferencePressure(hPa));
     }
 
     /** Runs a call on the main thread, unless the run has ended by then. */
@@ -206,7 +193,7 @@ final class AirborneRun {
         }
 
         @Override
-        public void onDisconnected(String reason) {
+        public void onDisconnected(String code, String reason) {
             reportStatus();
             reportEvent(reason);
         }

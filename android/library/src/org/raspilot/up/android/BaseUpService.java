@@ -136,13 +136,9 @@ public abstract class BaseUpService extends Service {
 
     private boolean begin() {
         try {
-            run = new AirborneRun(this, readSettings(), isOnWifi(), sourceTexts(), new Host());
+            run = new AirborneRun(this);
             return true;
-        } catch (IllegalArgumentException wrong) {
-            onEvent(wrong.getMessage());
-        } catch (IllegalStateException another) {
-            onEvent(another.getMessage());
-        } catch (IOException failure) {
+        } catch (IllegalArgumentException | IllegalStateException | IOException failure) {
             onEvent(failure.getMessage());
         }
         return false;
@@ -153,29 +149,12 @@ public abstract class BaseUpService extends Service {
                 || Permissions.has(this, Manifest.permission.ACCESS_COARSE_LOCATION);
     }
 
-    private final class Host implements AirborneRun.Host {
-        @Override
-        public void onUp(Up up) {
-            BaseUpService.this.onUp(up);
-        }
-
-        @Override
-        public void onStatus(AirborneStatus status) {
-            newest = status;
-            notice.show(noticeText(status));
-            for (UpWatcher watcher : new ArrayList<>(watchers)) {
-                watcher.onStatus(status);
-            }
-        }
-
-        @Override
-        public void onEvent(String sentence) {
-            BaseUpService.this.onEvent(sentence);
-        }
-
-        @Override
-        public void onReferencePressure(double hPa) {
-            BaseUpService.this.onReferencePressure(hPa);
+    /** Takes the newest status of the run. */
+    final void report(AirborneStatus status) {
+        newest = status;
+        notice.show(noticeText(status));
+        for (UpWatcher watcher : new ArrayList<>(watchers)) {
+            watcher.onStatus(status);
         }
     }
 

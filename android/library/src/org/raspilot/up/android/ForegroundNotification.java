@@ -7,7 +7,7 @@ import android.app.Service;
 import android.content.Context;
 import android.content.Intent;
 import android.os.Build;
-import org.raspilot.up.android.api23.Pending;
+import org.raspilot.up.android.api23.Api23;
 import org.raspilot.up.android.api26.Foreground;
 import org.raspilot.up.android.api29.TypedForeground;
 
@@ -46,11 +46,11 @@ final class ForegroundNotification {
 
     private Notification notification(String text) {
         return builder()
-                .setSmallIcon(texts.icon())
-                .setContentTitle(texts.title())
+                .setSmallIcon(texts.icon)
+                .setContentTitle(texts.title)
                 .setContentText(text)
                 .setContentIntent(screen())
-                .addAction(texts.stopIcon(), texts.stop(), stop())
+                .addAction(texts.stopIcon, texts.stop, stop())
                 .setOngoing(true)
                 .setOnlyAlertOnce(true)
                 .build();
@@ -59,13 +59,13 @@ final class ForegroundNotification {
     @SuppressWarnings("deprecation")
     private Notification.Builder builder() {
         if (Build.VERSION.SDK_INT >= 26) {
-            return Foreground.builder(service, texts.channel(), texts.channelName());
+            return Foreground.builder(service, texts.channel, texts.channelName);
         }
         return new Notification.Builder(service).setPriority(Notification.PRIORITY_LOW);
     }
 
     private PendingIntent screen() {
-        Intent intent = new Intent(service, texts.screen())
+        Intent intent = new Intent(service, texts.screen)
                 .addFlags(Intent.FLAG_ACTIVITY_SINGLE_TOP);
         return PendingIntent.getActivity(service, 0, intent, flags());
     }
@@ -78,6 +78,6 @@ final class ForegroundNotification {
 
     private static int flags() {
         int flags = PendingIntent.FLAG_UPDATE_CURRENT;
-        return Build.VERSION.SDK_INT >= 23 ? flags | Pending.immutable() : flags;
+        return Build.VERSION.SDK_INT >= 23 ? flags | Api23.immutableFlag() : flags;
     }
 }

@@ -52,7 +52,8 @@ final class GroundRun implements GroundListener, HandlerFaultListener {
     GroundRun(Context context, GroundSettings settings, boolean isOnWifi, GroundView view,
             final Setup setup) throws IOException {
         this.view = view;
-        loop = new SelectorLoop("up ground", new Faults("up ground"), new SleepClock());
+        loop = new SelectorLoop("up ground", fault ->
+                Log.e(TAG, "up ground failed in a call", fault), new SleepClock());
         loop.start();
         up = new Up(loop, this);
         side = new GroundSide(loop, settings, new PreferencesTokenStore(context),

@@ -11,7 +11,7 @@ import android.os.Looper;
 import java.util.concurrent.Executor;
 import org.raspilot.up.android.AndroidSources.FixListener;
 import org.raspilot.up.android.SensorProblem.SensorTexts;
-import org.raspilot.up.android.api23.FixTime;
+import org.raspilot.up.android.api23.Api23;
 import org.raspilot.up.providers.Fix;
 import org.raspilot.up.providers.SensorListener;
 import org.raspilot.up.providers.SensorSource;
@@ -115,7 +115,7 @@ final class LocationSource implements SensorSource<Fix>, LocationListener {
     }
 
     private static long ageMs(Location location) {
-        return Build.VERSION.SDK_INT >= 23 ? FixTime.ageMs(location) : 0;
+        return Build.VERSION.SDK_INT >= 23 ? Api23.ageMs(location) : 0;
     }
 
     private SensorProblem problem() {

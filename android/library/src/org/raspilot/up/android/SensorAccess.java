@@ -7,7 +7,7 @@ import android.hardware.SensorManager;
 import android.os.Build;
 import android.os.Handler;
 import android.os.Looper;
-import org.raspilot.up.android.api23.SensorRates;
+import org.raspilot.up.android.api23.Api23;
 
 /** The phone's built-in sensors: finds them and listens to them, at 200 Hz at most. */
 final class SensorAccess {
@@ -35,7 +35,7 @@ final class SensorAccess {
     boolean register(SensorEventListener listener, Sensor sensor, long periodMs) {
         int periodUs = periodUs(periodMs);
         if (Build.VERSION.SDK_INT >= 23) {
-            return SensorRates.listen(sensors, listener, sensor, periodUs, handler);
+            return Api23.listen(sensors, listener, sensor, periodUs, handler);
         }
         return sensors.registerListener(listener, sensor, periodUs, handler);
     }

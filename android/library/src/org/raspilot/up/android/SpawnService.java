@@ -8,7 +8,16 @@ import android.os.Messenger;
 import android.os.RemoteException;
 import android.util.Log;
 import java.io.IOException;
+import java.util.concurrent.ArrayBlockingQueue;
+import java.util.concurrent.BlockingQueue;
+import java.util.concurrent.TimeUnit;
+import org.raspilot.up.loop.Loop;
 import org.raspilot.up.loop.SelectorLoop;
+import org.raspilot.up.net.Endpoint;
+import org.raspilot.up.net.EndpointDiscovery.DiscoveryListener;
+import org.raspilot.up.net.RunnerAnswer;
+import org.raspilot.up.net.RunnerClient;
+import org.raspilot.up.net.RunnerRequest;
 
 /**
  * Requests an instance from a runner and ends (thesis 3.5.1, "Intent Service"): requests run one
@@ -17,6 +26,8 @@ import org.raspilot.up.loop.SelectorLoop;
  */
 public final class SpawnService extends IntentService {
     private static final String TAG = "Up";
+    /** Longer than the runner's own 20 s. */
+    private static final long MAX_S = 30;
     private static final String HOST = "host";
     private static final String PORT = "port";
     private static final String AIRCRAFT = "aircraft";
@@ -56,24 +67,58 @@ public final class SpawnService extends IntentService {
         if (intent == null) {
             return;
         }
-        SpawnRequest request = new SpawnRequest(intent.getStringExtra(HOST),
-                intent.getIntExtra(PORT, 0), intent.getStringExtra(AIRCRAFT),
-                intent.getStringExtra(PROFILE));
         Messenger answer = intent.getParcelableExtra(ANSWER);
-        reply(answer, run(request));
+        reply(answer, run(intent));
     }
 
-    private static SpawnResult run(SpawnRequest request) {
-        SelectorLoop loop = new SelectorLoop("up spawn loop", new Faults("up spawn"),
-                new SleepClock());
+    private static SpawnResult run(Intent intent) {
+        SelectorLoop loop = new SelectorLoop("up spawn loop", fault ->
+                Log.e(TAG, "up spawn failed in a call", fault), new SleepClock());
+        BlockingQueue<SpawnResult> results = new ArrayBlockingQueue<>(1);
         try {
             loop.start();
-            return request.run(loop);
+            loop.post(() -> send(intent, loop, results));
+            SpawnResult result = results.poll(MAX_S, TimeUnit.SECONDS);
+            return result == null ? SpawnResult.refused("the runner does not answer") : result;
         } catch (IOException failure) {
             return SpawnResult.refused(failure.getMessage());
+        } catch (InterruptedException interruption) {
+            Thread.currentThread().interrupt();
+            return SpawnResult.refused("the request was interrupted");
         } finally {
             loop.stop();
         }
+    }
+
+    private static void send(Intent intent, Loop loop, BlockingQueue<SpawnResult> results) {
+        final RunnerClient client;
+        try {
+            String profile = intent.getStringExtra(PROFILE);
+            client = new RunnerClient(loop, intent.getStringExtra(HOST),
+                    intent.getIntExtra(PORT, 0), new RunnerRequest(intent.getStringExtra(AIRCRAFT),
+                            profile == null || profile.isEmpty() ? null : profile, null));
+        } catch (IllegalArgumentException wrong) {
+            results.add(SpawnResult.refused(wrong.getMessage()));
+            return;
+        }
+        client.find(new DiscoveryListener() {
+            @Override
+            public void onFound(Endpoint place) {
+                results.add(result(client.lastAnswer(), place));
+            }
+
+            @Override
+            public void onNotFound(String reason) {
+                results.add(SpawnResult.refused(reason));
+            }
+        });
+    }
+
+    private static SpawnResult result(RunnerAnswer answer, Endpoint place) {
+        String sentence = answer.error == null ? answer.message
+                : answer.message + ": " + answer.error;
+        return SpawnResult.running(answer.isSpawned, sentence, place.toString(),
+                answer.proxyHost, answer.proxyGroundPort);
     }
 
     private static void reply(Messenger answer, SpawnResult result) {

@@ -73,9 +73,7 @@ public abstract class TelemetryService extends Service {
         try {
             run = new GroundRun(this, readSettings(), isOnWifi(), view, (up, telemetry) ->
                     TelemetryService.this.onUp(up, telemetry));
-        } catch (IllegalArgumentException wrong) {
-            fault = wrong.getMessage();
-        } catch (IOException failure) {
+        } catch (IllegalArgumentException | IOException failure) {
             fault = failure.getMessage();
         }
     }

@@ -2,8 +2,8 @@ package org.raspilot.app.commands;
 
 import static org.junit.Assert.assertEquals;
 import static org.junit.Assert.assertFalse;
+import static org.junit.Assert.assertThrows;
 import static org.junit.Assert.assertTrue;
-import static org.junit.Assert.fail;
 
 import java.util.Collections;
 import org.junit.Test;
@@ -65,7 +65,7 @@ public final class GainsEditorTest {
         editor.setActive(set(3));
         editor.write(RATE_ROLL_P, "2.4");
         editor.setActive(null);
-        assertTrue("during a new request edits wait", editor.hasEdits());
+        assertTrue(editor.hasEdits());
         editor.setActive(set(2.4));
         assertFalse(editor.hasEdits());
     }
@@ -90,12 +90,9 @@ public final class GainsEditorTest {
         editor.setActive(set(3));
         for (String written : new String[] {"x", "-1", "50.1", "NaN", "1e999", ""}) {
             editor.write(RATE_ROLL_P, written);
-            try {
-                editor.wanted();
-                fail("taken: " + written);
-            } catch (InvalidCommandException wrong) {
-                assertTrue(wrong.getMessage(), wrong.getMessage().contains("rate"));
-            }
+            InvalidCommandException wrong = assertThrows(InvalidCommandException.class, () ->
+                    editor.wanted());
+            assertTrue(wrong.getMessage(), wrong.getMessage().contains("rate"));
             assertTrue(editor.changes().isEmpty());
             assertEquals(!written.isEmpty(), editor.isWrong(RATE_ROLL_P));
         }
@@ -137,11 +134,6 @@ public final class GainsEditorTest {
     @Test
     public void withoutGainsThatFlyThereIsNoSet() {
         editor.write(RATE_ROLL_P, "2.4");
-        try {
-            editor.wanted();
-            fail("a set with one gain");
-        } catch (InvalidCommandException wrong) {
-            assertTrue(wrong.getMessage(), wrong.getMessage().length() > 0);
-        }
+        assertThrows(InvalidCommandException.class, () -> editor.wanted());
     }
 }

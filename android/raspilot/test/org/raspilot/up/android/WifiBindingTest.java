@@ -104,7 +104,7 @@ public final class WifiBindingTest {
         look(way, CABLE);
         assertFalse(wifi.isBound);
         pass(way, WifiBinding.TURN_MS - 500, null);
-        assertFalse("a lost cable is asked first", wifi.isBound);
+        assertFalse(wifi.isBound);
     }
 
     @Test

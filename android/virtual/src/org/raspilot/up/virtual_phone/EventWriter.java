@@ -13,16 +13,10 @@ final class EventWriter {
     private static final Charset ASCII = Charset.forName("US-ASCII");
 
     private final OutputStream out;
-    private final boolean isPrompt;
 
-    /**
-     * Prints everything to {@code out}, which has no other writer.
-     *
-     * @param isPrompt whether each line is flushed immediately
-     */
-    EventWriter(OutputStream out, boolean isPrompt) {
+    /** Prints everything to {@code out}, which has no other writer. */
+    EventWriter(OutputStream out) {
         this.out = new BufferedOutputStream(out, 16384);
-        this.isPrompt = isPrompt;
     }
 
     /** Starts an event of that name; more fields may be put into it. */
@@ -39,14 +33,12 @@ final class EventWriter {
         return fields;
     }
 
-    /** Prints it; the reader may receive it only after {@link #flush}. */
+    /** Prints it immediately. */
     synchronized void write(Map<String, Object> fields) {
         try {
             out.write(Json.write(fields).getBytes(ASCII));
             out.write('\n');
-            if (isPrompt) {
-                out.flush();
-            }
+            out.flush();
         } catch (IOException error) {
             // The reader is gone: standard input ends, and so does the program.
             return;
@@ -63,14 +55,5 @@ final class EventWriter {
     void fault(Throwable fault) {
         StackTraceElement[] trace = fault.getStackTrace();
         notice("fault", "a fault: " + fault + (trace.length > 0 ? " at " + trace[0] : ""));
-    }
-
-    synchronized void flush() {
-        try {
-            out.flush();
-        } catch (IOException error) {
-            // As above.
-            return;
-        }
     }
 }

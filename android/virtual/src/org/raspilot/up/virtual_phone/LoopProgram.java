@@ -11,6 +11,8 @@ import org.raspilot.up.loop.FaultListener;
 import org.raspilot.up.loop.Loop;
 import org.raspilot.up.loop.SelectorLoop;
 import org.raspilot.up.virtual_phone.OptionParser.OptionException;
+import org.raspilot.up.wire.Json;
+import org.raspilot.up.wire.MalformedException;
 
 /** A program in real time with its own sockets: it runs until its standard input ends. */
 final class LoopProgram implements FaultListener {
@@ -49,7 +51,7 @@ final class LoopProgram implements FaultListener {
         String text = lines.readLine();
         for (int wrong = 0; text != null && wrong < MAX_WRONG; text = lines.readLine()) {
             try {
-                handle(part, InputLine.read(text));
+                handle(part, parse(text));
                 wrong = 0;
             } catch (OptionException error) {
                 words.notice("invalid_input", error.getMessage());
@@ -68,14 +70,26 @@ final class LoopProgram implements FaultListener {
         words.fault(fault);
     }
 
-    private void handle(final Part part, final InputLine line) {
+    private void handle(Part part, Map<?, ?> line) {
         loop.post(() -> {
             try {
-                part.onLine(line.fields);
+                part.onLine(line);
             } catch (OptionException error) {
                 words.notice("invalid_input", error.getMessage());
             }
         });
+    }
+
+    private static Map<?, ?> parse(String text) throws OptionException {
+        try {
+            Object value = Json.parse(text);
+            if (value instanceof Map) {
+                return (Map<?, ?>) value;
+            }
+        } catch (MalformedException error) {
+            throw new OptionException("a line is not JSON: " + error.getMessage());
+        }
+        throw new OptionException("a line must be a JSON object");
     }
 
     private void end(final Part part) {
@@ -93,6 +107,5 @@ final class LoopProgram implements FaultListener {
             Thread.currentThread().interrupt();
         }
         loop.stop();
-        words.flush();
     }
 }

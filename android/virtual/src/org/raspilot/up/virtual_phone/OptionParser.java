@@ -1,9 +1,9 @@
 package org.raspilot.up.virtual_phone;
 
+import java.util.Iterator;
+
 /** Reads the values of options; each raises OptionException with a sentence. */
 final class OptionParser {
-    private static final int MAX_PORT = 65535;
-
     private OptionParser() {}
 
     /** Splits at the last colons: the part before them may contain colons too. */
@@ -23,32 +23,35 @@ final class OptionParser {
         return found;
     }
 
+    /** Returns the value that follows an option. */
+    static String value(String name, Iterator<String> words) throws OptionException {
+        if (!words.hasNext()) {
+            throw new OptionException(
+                    name + ": no such option, or its value is missing; see --help");
+        }
+        return words.next();
+    }
+
     /** Returns a port, 1 to 65535. */
     static int port(String name, String value) throws OptionException {
-        return (int) number(name + ": a port", value, 1, MAX_PORT);
+        return number(name + ": a port", value, 1, 65535);
     }
 
     /** Returns a whole number in its range. */
-    static long number(String what, String value, long least, long most) throws OptionException {
+    static int number(String what, String value, int least, int most) throws OptionException {
         try {
-            long found = Long.parseLong(value);
+            int found = Integer.parseInt(value);
             if (found >= least && found <= most) {
                 return found;
             }
         } catch (NumberFormatException error) {
-            throw outOfRange(what, value, least, most);
+            // As one that is out of range.
         }
-        throw outOfRange(what, value, least, most);
+        throw new OptionException(what + " is " + least + " to " + most + ", not '" + value + "'");
     }
 
-    /** Returns the exception for an unknown option, or one without a value. */
-    static OptionException unknown(String name, boolean isLast) {
-        String why = isLast ? ": no such option, or its value is missing" : ": no such option";
-        return new OptionException(name + why + "; see --help");
-    }
-
-    private static OptionException outOfRange(String what, String value, long least, long most) {
-        return new OptionException(what + " is " + least + " to " + most + ", not '" + value + "'");
+    static OptionException unknown(String name) {
+        return new OptionException(name + ": no such option; see --help");
     }
 
     /** Invalid input of a program: one sentence for the user. */

@@ -25,8 +25,10 @@ final class PhoneEvents implements AirborneListener, Speaker, FaultListener {
     }
 
     @Override
-    public void onDisconnected(String reason) {
-        words.write(EventWriter.event("lost", "reason", reason));
+    public void onDisconnected(String code, String reason) {
+        Map<String, Object> event = EventWriter.event("lost", "code", code);
+        event.put("reason", reason);
+        words.write(event);
     }
 
     @Override

@@ -31,9 +31,8 @@ final class PhoneSide implements LoopProgram.Part {
     @Override
     public void start(Loop loop) {
         sensors = new SimulatedSensors(loop, words);
-        // Two phones with one seed are two phones, but a stepped one repeats its run.
-        Random random = options.isStepped ? new Random(options.seed) : new Random();
-        airborne = new Airborne(loop, options.settings, sensors.sensors(), events, events, random);
+        airborne = new Airborne(loop, options.settings, sensors.sensors(), events, events,
+                new Random());
         if (options.isRecording) {
             record = new SimulatedSource<>("record", words);
             airborne.providers().register(new RecordProvider(record));
@@ -68,9 +67,7 @@ final class PhoneSide implements LoopProgram.Part {
         try {
             words.notice("mounting", "mounting: "
                     + airborne.calibrate(Side.valueOf(nose)).toText());
-        } catch (IllegalArgumentException error) {
-            throw new OptionException("not calibrated: " + error.getMessage());
-        } catch (IllegalStateException error) {
+        } catch (IllegalArgumentException | IllegalStateException error) {
             throw new OptionException("not calibrated: " + error.getMessage());
         }
     }

@@ -29,30 +29,12 @@ import org.raspilot.up.virtual_phone.OptionParser.OptionException;
  *                          immediately; 0: stop. The sensors are named as the keys above;
  *                          "record" is wanted while there is a link
  * {"event": "connected", "host", "general", "orientation"}
- * {"event": "lost", "reason"}                    the link for Commands is lost, or failed
+ * {"event": "lost", "code", "reason"}                   the link for Commands is lost, or failed
  * {"event": "says", "text"}                      android.speak
  * {"event": "panic", "delay_ms"}                 0: it is over
  * {"event": "notice", "code", "text"}            anything else to report, in a sentence
  * {"event": "counters", "connections", ...}      the last line
  * </pre>
- *
- * <p><b>Stepped</b> ({@code --stepped}): time and network are the simulator's. Every line in has
- * {@code "t"}, ms, never decreasing; the first one starts the phone. The phone advances its time to
- * it, takes the readings, then the events of the network, and answers: events as above, and finally
- * one line {@code {"due": ms or null, "net": [...]}}. Nothing changes before {@code due} without
- * readings or events, so no step is needed before it. {@code "net"} of a line in lists the events
- * of the network, {@code "net"} of an answer the requests to it, both in order. Bytes are texts of
- * ISO 8859-1; an id is a number that is never reused.
- *
- * <pre>
- * requests: ["connect", id, host, port, timeout_ms]  ["write", id, bytes]  ["full", id]
- *        ["close", id]  ["open", id]  ["send", id, bytes, host, port]  ["shut", id]
- * events: ["connected", id]  ["bytes", id, bytes]  ["room", id, count]  ["closed", id, reason]
- *        ["datagram", id, bytes, host, port]
- * </pre>
- *
- * <p>A connection has room for {@link PipedConnection#ROOM_BYTES}; {@code room} returns the room of
- * sent bytes. It may wait for the next line, except for a connection that reported {@code full}.
  */
 public final class VirtualPhone {
     private static final int WRONG_INPUT = 2;
@@ -73,12 +55,7 @@ public final class VirtualPhone {
             System.out.print(PhoneOptions.HELP);
             return;
         }
-        EventWriter words = new EventWriter(System.out, !options.isStepped);
-        PhoneSide phone = new PhoneSide(options, words);
-        if (options.isStepped) {
-            new SteppedRun(phone, words).run(System.in);
-        } else {
-            new LoopProgram("virtual phone", words).run(System.in, phone);
-        }
+        EventWriter words = new EventWriter(System.out);
+        new LoopProgram("virtual phone", words).run(System.in, new PhoneSide(options, words));
     }
 }

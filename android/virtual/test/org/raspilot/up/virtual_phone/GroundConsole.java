@@ -39,16 +39,12 @@ public final class GroundConsole {
         ConsoleOptions options;
         try {
             options = ConsoleOptions.read(arguments);
-        } catch (OptionException error) {
+        } catch (OptionException | IllegalArgumentException error) {
             System.err.println("ground console: " + error.getMessage());
             System.exit(WRONG_INPUT);
             return;
         }
-        if (options.wantsHelp) {
-            System.out.print(ConsoleOptions.HELP);
-            return;
-        }
-        EventWriter words = new EventWriter(System.out, true);
+        EventWriter words = new EventWriter(System.out);
         new LoopProgram("ground console", words).run(System.in, new ConsoleSide(options, words));
     }
 }

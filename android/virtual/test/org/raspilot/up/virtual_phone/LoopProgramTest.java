@@ -60,6 +60,6 @@ public final class LoopProgramTest {
     }
 
     private void run(InputStream input) throws IOException {
-        new LoopProgram("test program", new EventWriter(said, false)).run(input, part);
+        new LoopProgram("test program", new EventWriter(said)).run(input, part);
     }
 }
