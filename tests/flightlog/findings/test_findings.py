@@ -244,7 +244,6 @@ def test_panic(maker, only):
         maker.put(time_s, command)
     finding = only()
     assert (finding.code, finding.length_s, finding.fields) == ("panic", 1.0, {"load": 97.5})
-    assert finding.text == "Panic Mode for 1.0 s, at 97.5 percent of load"
 
 
 def test_gains_changed_in_flight(maker, tmp_path):
@@ -380,7 +379,7 @@ def test_findings_are_bounded(maker, tmp_path):
     found = findings(maker.log(tmp_path))
     codes = [each.code for each in found]
     assert codes.count("failsafe") == codes.count("command_refused") == 51
-    assert found[50].text.endswith("(and 149 more of this kind)")
+    assert found[50].fields["more"] == 149
     assert max(len(each.text) for each in found) < 600
 
 
