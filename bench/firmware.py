@@ -86,8 +86,8 @@ class Flight:
         self.mix = mix
         self.run(LULL_US)
         receiver.sent.clear()
-        self.rig.servo.forget()
-        self.rig.forget_measures()
+        self.rig.servo.clear()
+        self.rig.clear_measures()
         self.late_us = self.bytes_to_board = self.bytes_from_board = 0
 
     def send(self, letter: str) -> None:

@@ -13,25 +13,19 @@ struct Flight {
   Calibration calibration = DEFAULT_CALIBRATION;
   AttitudeFilter filter{calibration};
   MovingImu imu;
-  uint32_t now_us = 0xFFFF0000;  // the clock wraps on the way
 
   void slot(double p = 0, double q = 0, double r = 0) {
     imu.turn(p, q, r);
-    now_us += 2000;
-    filter.on_sample(imu.sample(), now_us);
+    filter.on_sample(imu.sample());
   }
   void slot_with_force(double p, double q, double r, const double* force_g) {
     imu.turn(p, q, r);
-    now_us += 2000;
-    filter.on_sample(imu.sample(force_g), now_us);
+    filter.on_sample(imu.sample(force_g));
   }
   void fly(double seconds, double p = 0, double q = 0, double r = 0) {
     for (int slots = static_cast<int>(seconds * 500); slots > 0; --slots) slot(p, q, r);
   }
-  void miss() {
-    now_us += 2000;
-    filter.on_missing(now_us);
-  }
+  void miss() { filter.on_missing(); }
   void miss(double seconds) {
     for (int slots = static_cast<int>(seconds * 500); slots > 0; --slots) miss();
   }

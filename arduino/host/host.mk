@@ -8,8 +8,9 @@ HOST_CXX ?= g++
 PARTS ?= core protocol protocol/commands pilot control store
 TESTS ?=
 RUN ?=
+WERROR ?= -Werror
 
-HOST_FLAGS := -std=gnu++11 -O1 -g -Wall -Wextra -Wconversion -Wshadow -Werror \
+HOST_FLAGS := -std=gnu++11 -O1 -g -Wall -Wextra -Wconversion -Wshadow $(WERROR) \
 	-fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer
 HOST_DEFINES := -DVECTORS='"$(abspath ../tests/vectors)"'
 

@@ -88,7 +88,7 @@ TEST_CASE("a bias of the yaw gyro locks nothing out: level and still, attitude c
     AttitudeState state = flight.filter.state();
     state.gravity_q30[1] = static_cast<int32_t>(std::sin(39 * DEG) * (1L << 30));
     state.gravity_q30[2] = static_cast<int32_t>(std::cos(39 * DEG) * (1L << 30));
-    flight.filter.restore(state, flight.now_us);
+    flight.filter.restore(state);
     flight.fly(60);
     CHECK(flight.tilt_error_deg() <= 8.0);
     flight.fly(240);
@@ -181,15 +181,14 @@ TEST_CASE("after a reset in flight attitude, yaw and bias are restored immediate
   const AttitudeState state = flight.filter.state();
 
   AttitudeFilter next(flight.calibration);
-  uint32_t now_us = 5000;
-  next.restore(state, now_us);
+  next.restore(state);
   CHECK_FALSE(next.is_valid());
   CHECK_FALSE(next.is_calibrating());
   CHECK(next.state().speed_m_s == state.speed_m_s);
   CHECK(std::abs(next.attitude().roll_cdeg - flight.filter.attitude().roll_cdeg) <= 5);
   CHECK(std::abs(next.attitude().yaw_cdeg - flight.filter.attitude().yaw_cdeg) <= 5);
   flight.imu.turn(0, 0, 0);
-  for (int slot = 0; slot < 15; ++slot) next.on_sample(flight.imu.sample(), now_us += 2000);
+  for (int slot = 0; slot < 15; ++slot) next.on_sample(flight.imu.sample());
   CHECK(next.is_valid());
   CHECK(std::abs(next.attitude().roll_cdeg - flight.filter.attitude().roll_cdeg) <= 50);
   CHECK(std::abs(next.attitude().roll_rate_16) <= 5);
@@ -204,11 +203,9 @@ TEST_CASE("no input makes numbers overflow or the direction of gravity lose its 
     calibration.level_pitch_cdeg = static_cast<int16_t>(any(random) / 8);
     for (int16_t& bias : calibration.gyro_bias_16) bias = static_cast<int16_t>(any(random));
     AttitudeFilter filter(calibration);
-    uint32_t now_us = static_cast<uint32_t>(random());
     const bool is_extreme = round % 2 != 0;
     int rates[3] = {0, 0, 0};
     for (int slot = 0; slot < 2000; ++slot) {
-      now_us += 2000;
       ImuSample sample;
       for (int axis = 0; axis < 3; ++axis) {
         sample.accel[axis] = static_cast<int16_t>(is_extreme ? (random() % 2 ? 32767 : -32768)
@@ -221,9 +218,9 @@ TEST_CASE("no input makes numbers overflow or the direction of gravity lose its 
       if (slot % 7 == 0) {
         for (int axis = 0; axis < 3; ++axis) sample.accel[axis] /= 8;
       }
-      filter.on_sample(sample, now_us);
-      if (random() % 16 == 0) filter.on_missing(now_us);
-      if (random() % 512 == 0) filter.restore(filter.state(), now_us);
+      filter.on_sample(sample);
+      if (random() % 16 == 0) filter.on_missing();
+      if (random() % 512 == 0) filter.restore(filter.state());
     }
     const AttitudeState state = filter.state();
     double square = 0;

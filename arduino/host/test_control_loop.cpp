@@ -49,7 +49,7 @@ class Glider {
     const double per_deg_s = SPEED_M_S * DEG / GRAVITY_M_S2;
     const double force[3] = {-imu.down[0], -imu.down[1] + rate_deg_s_[2] * per_deg_s,
                              -imu.down[2] - rate_deg_s_[1] * per_deg_s};
-    filter_.on_sample(imu.sample(force), 0);
+    filter_.on_sample(imu.sample(force));
     demand.is_imu_valid = filter_.is_valid();
     const Outputs& outputs = controller_.update(demand, filter_.attitude());
     if (++slots_ % 10 != 0) return;

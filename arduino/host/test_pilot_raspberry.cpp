@@ -115,6 +115,8 @@ TEST_CASE("pilot Raspberry Pi: the throttle is the stick's unless a living deman
   CHECK(bench.throttle_us() == 1444);
   bench.run(52);
   CHECK(bench.throttle_us() == 1300);
+  CHECK(bench.demand(0, 0, 50) == Reason::NONE);
+  CHECK(bench.throttle_us() == 1300);
 }
 
 TEST_CASE("pilot Raspberry Pi: another mode from the ground ends Outputs until it requests them") {
@@ -162,6 +164,9 @@ TEST_CASE("pilot Raspberry Pi: of Output and Setpoint the newer counts") {
   REQUIRE(bench.output(1600, 1700) == Reason::NONE);
   CHECK(bench.authority.flown_mode() == Mode::OUTPUT);
   CHECK(bench.throttle_us() == 1700);
+  REQUIRE(bench.ask('s') == Reason::NONE);
+  CHECK(bench.authority.flown_mode() == Mode::FBW);
+  CHECK(bench.throttle_us() == 1000);
 }
 
 TEST_CASE("pilot Raspberry Pi: OUTPUT is not reported when it cannot be active") {

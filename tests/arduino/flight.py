@@ -126,7 +126,7 @@ class Flight:
 
     def servo_us(self, channel, wait_ms=60):
         """Return the width of a channel's newest pulse, after a while."""
-        self.rig.servo.forget()
+        self.rig.servo.clear()
         self.run_ms(wait_ms)
         newest = self.rig.servo.newest_us(channel)
         assert newest is not None, f"{channel} gets no pulses"

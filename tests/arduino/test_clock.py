@@ -24,7 +24,7 @@ def test_the_wrap_of_the_microseconds_is_not_felt(near_wrap):
     flight.send("s")
     flight.run_ms(100)
     del flight.messages[:]
-    flight.rig.servo.forget()
+    flight.rig.servo.clear()
     flight.run_ms(1500)
     for letter in "iOr":
         stamps = [each.cycle for each in flight.messages if each.type == letter]

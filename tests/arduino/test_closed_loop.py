@@ -61,7 +61,7 @@ def fly(flight, aircraft, seconds, watch=None):
         for channel in widths:
             newest = flight.rig.servo.newest_us(channel)
             widths[channel] = widths[channel] if newest is None else newest
-        flight.rig.servo.forget()
+        flight.rig.servo.clear()
         flight.rig.imu.motion = aircraft.step(*widths.values())
         flight.run(STEP_S * 1e6)
         if watch is not None:

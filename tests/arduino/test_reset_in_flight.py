@@ -10,7 +10,7 @@ import math
 
 import pytest
 
-from tests.arduino.flight import AUTO, BIAS_FROM_EEPROM, HIGH, IMU, LOW, MIDDLE, Flight
+from tests.arduino.flight import BIAS_FROM_EEPROM, IMU, LOW, MIDDLE, Flight
 from tests.support.tools import unavailable
 from up_rig import Reset, RigUnavailableError, build_optiboot
 from up_rig.imu import GRAVITY_M_S2, Motion
@@ -99,7 +99,7 @@ def assert_flies_on(flight, since):
 
 def test_a_loop_that_stands_still_is_reset_and_flies_on(bootloader):
     flight = aloft(bootloader)
-    flight.rig.servo.forget()
+    flight.rig.servo.clear()
     before = flight.rig.cycle
     hang(flight)
     reset = flight.rig.cycle
@@ -111,7 +111,7 @@ def test_a_loop_that_stands_still_is_reset_and_flies_on(bootloader):
 
 def test_a_loop_that_stands_still_with_interrupts_off_flies_on_without_bootloader():
     flight = aloft()
-    flight.rig.servo.forget()
+    flight.rig.servo.clear()
     before = flight.rig.cycle
     hang_deaf(flight)
     flight.run(before / 16 + 1_000_000 - flight.rig.now_us)
@@ -124,7 +124,7 @@ def test_with_optiboot_a_deaf_stop_gives_the_surfaces_back_and_no_motor():
         flight = aloft(build_optiboot())
     except RigUnavailableError as error:
         unavailable(str(error))
-    flight.rig.servo.forget()
+    flight.rig.servo.clear()
     before = flight.rig.cycle
     hang_deaf(flight)
     flight.run(before / 16 + 1_500_000 - flight.rig.now_us)
@@ -140,7 +140,7 @@ def test_a_reset_at_any_moment_of_a_slot_flies_on(offset_us):
     """Also in the middle of a byte of the IMU's: it hangs with data low, and is freed."""
     flight = aloft()
     flight.run(offset_us)
-    flight.rig.servo.forget()
+    flight.rig.servo.clear()
     before = flight.rig.cycle
     flight.rig.force_watchdog_reset()
     flight.run_ms(1000)
@@ -151,80 +151,11 @@ def test_a_second_reset_flies_on_too():
     flight = aloft()
     hang(flight)
     flight.run_ms(150)
-    flight.rig.servo.forget()
+    flight.rig.servo.clear()
     before = flight.rig.cycle
     hang(flight)
     flight.run_ms(900)
     assert_flies_on(flight, before)
-
-
-def test_what_the_ground_asked_for_at_auto_comes_back():
-    flight = aloft(aux1=HIGH)
-    flight.send("s")
-    assert flight.ask("M", b"r") == "K"
-    flight.run_ms(100)
-    hang(flight)
-    flight.run_ms(600)
-    status = flight.status()
-    assert (status.mode_letter, status.switch) == ("r", 2)
-    assert status.flags & AUTO and status.is_armed
-
-
-def test_a_throttle_that_was_taken_away_stays_away():
-    flight = aloft()
-    flight.rig.receiver.stop()
-    flight.run_ms(5800)
-    flight.rig.receiver.start()
-    flight.run_ms(200)
-    assert flight.servo_us("throttle") == pytest.approx(1000, abs=1)
-    hang(flight)
-    flight.run_ms(600)
-    assert flight.status().is_armed
-    assert flight.servo_us("throttle") == pytest.approx(1000, abs=1)
-    flight.sticks(throttle=LOW)
-    flight.sticks(throttle=1500)
-    assert flight.servo_us("throttle") == pytest.approx(1500, abs=1)
-
-
-def test_a_receiver_lost_before_the_reset_is_a_failsafe_after_it():
-    flight = aloft()
-    flight.rig.receiver.stop()
-    flight.run_ms(800)
-    assert flight.status().is_failsafe
-    flight.rig.servo.forget()
-    hang(flight)
-    # Silence alone is a failsafe only after 600 ms.
-    flight.run_ms(200)
-    status = flight.status()
-    assert status.is_failsafe and status.is_armed
-    flight.run_ms(600)
-    throttle = flight.rig.servo.pulses("throttle")
-    assert len(throttle) >= 30
-    assert all(each.width_us <= 1001 for each in throttle)
-
-
-def test_a_disarmed_aircraft_comes_back_disarmed():
-    flight = Flight()
-    flight.run_ms(1000)
-    flight.may_be_cut = True
-    flight.sticks(100, throttle=1600)
-    flight.rig.servo.forget()
-    hang(flight)
-    flight.run_ms(1000)
-    status = flight.status()
-    assert not status.is_armed
-    throttle = flight.rig.servo.pulses("throttle")
-    assert len(throttle) >= 40
-    assert all(each.width_us <= 1001 for each in throttle)
-
-
-def test_a_pilot_can_disarm_after_a_reset():
-    flight = aloft()
-    hang(flight)
-    flight.run_ms(600)
-    flight.sticks(400, aux2=LOW)
-    assert not flight.status().is_armed
-    assert flight.servo_us("throttle") == pytest.approx(1000, abs=1)
 
 
 def power_on(flight):
@@ -250,7 +181,7 @@ def test_no_other_reset_ever_arms(bootloader, how):
     how(flight)
     # Optiboot listens for a second after the reset pin before it starts the program.
     flight.run_ms(3500)
-    flight.rig.servo.forget()
+    flight.rig.servo.clear()
     flight.run_ms(200)
     throttles = [each.width_us for each in flight.rig.servo.pulses("throttle")]
     assert throttles == pytest.approx([1000] * len(throttles), abs=1)

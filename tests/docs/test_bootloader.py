@@ -25,7 +25,7 @@ def rig_with(bootloader):
 
 
 def pulses_after_a_watchdog_reset(rig, duration_us):
-    rig.servo.forget()
+    rig.servo.clear()
     rig.force_watchdog_reset()
     rig.run_us(duration_us)
     return rig.servo.pulses("ailerons")

@@ -83,9 +83,9 @@ def test_make_knows_what_the_page_says(page):
 
 
 def test_command_lines_are_found():
-    assert command_lines("`up modules`, `up create cog -n X`") == [
+    assert command_lines("`up modules`, `up create -n X`") == [
         ["up", "modules"],
-        ["up", "create", "cog", "-n", "X"],
+        ["up", "create", "-n", "X"],
     ]
     assert command_lines("    up check --config DIR     the same\n") == [
         ["up", "check", "--config", "DIR"]

@@ -47,7 +47,7 @@ def test_ten_lines_with_the_official_package(run, tmp_path):
 @pytest.mark.parametrize("is_finished", [True, False])
 def test_ours_reads_what_was_cut_off_too(run, tmp_path, is_finished):
     done = run("rolls.py", write_flight(tmp_path, 1, is_finished=is_finished))
-    assert done.stdout == "200 attitudes in 19.9 s, at most 1.0 deg of roll\n", done.stderr
+    assert re.findall(r"[\d.]+", done.stdout) == ["200", "19.9", "1.0"], done.stderr
 
 
 def test_the_official_package_refuses_what_was_cut_off(run, tmp_path):

@@ -200,6 +200,6 @@ def test_the_cog_is_gathered_and_loaded(tmp_path):
     environment = VirtualEnvironment(tmp_path / "environment")
     environment.up("gather", cwd=tmp_path / "plane")
     assert "BeaconModule" in environment.up("modules", cwd=tmp_path / "plane").stdout
-    assert "tell who the beacon says it is" in environment.up("--help", cwd=tmp_path).stdout
+    assert " beacon " in environment.up("--help", cwd=tmp_path).stdout
     assert environment.up("beacon", cwd=tmp_path).stdout == "this is OK-UAV\n"
     assert environment.up("beacon", "--loud", cwd=tmp_path).stdout == "OK-UAV\n"

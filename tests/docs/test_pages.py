@@ -22,7 +22,7 @@ PAGES = sorted(
     ]
 )
 FILES = {file.filename: file for file in configuration_page.configuration_files()}
-PICTURE_MOST = 200_000
+MAX_PICTURE_BYTES = 200_000
 _FENCE = re.compile(r"^```.*?^```", re.DOTALL | re.MULTILINE)
 _LINK = re.compile(r"\[[^\]]*\]\(([^)\s]+)\)")
 _TEST = re.compile(r"`(tests/[\w/]+\.py)::(\w+)`")
@@ -66,7 +66,7 @@ def test_links_lead_somewhere(page):
 
 def test_pictures_are_small():
     pictures = list((REPOSITORY / "docs" / "pictures").iterdir())
-    too_large = [each.name for each in pictures if each.stat().st_size > PICTURE_MOST]
+    too_large = [each.name for each in pictures if each.stat().st_size > MAX_PICTURE_BYTES]
     assert not too_large and len(pictures) > 5
 
 

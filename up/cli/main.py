@@ -8,9 +8,8 @@ from collections.abc import Sequence
 from up.cli.cli_error import CliError
 from up.cli.option_parser import EXIT_FAILED, EXIT_INTERRUPTED, EXIT_USAGE
 from up.cli.parser import make_parser
-from up.cogs.cog import CogError
 from up.config import ConfigErrors
-from up.loading.application import NoApplicationError
+from up.errors import UserError
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -30,7 +29,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return _fail(str(errors), EXIT_USAGE)
     except CliError as error:
         return _fail(str(error), error.status)
-    except (CogError, NoApplicationError) as error:
+    except UserError as error:
         return _fail(str(error), EXIT_FAILED)
     except BrokenPipeError:
         # The reader, such as 'head', has closed the pipe.

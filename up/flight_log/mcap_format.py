@@ -5,20 +5,19 @@ from __future__ import annotations
 from enum import IntEnum
 from struct import Struct
 
+from up.errors import UserError
+from up.fields import printable
+
 MAGIC = b"\x89MCAP0\r\n"
 JSON = "json"
 JSON_SCHEMA = "jsonschema"
 
 
-class FlightLogError(Exception):
-    """A flight log cannot be read or written.
-
-    The text is one sentence that names the file, ``code`` is its kind.
-    """
+class FlightLogError(UserError):
+    """A flight log cannot be read or written; the text is one sentence that names the file."""
 
     def __init__(self, text: str, code: str) -> None:
-        super().__init__(text)
-        self.code = code
+        super().__init__(printable(text), code)
 
 
 class Opcode(IntEnum):

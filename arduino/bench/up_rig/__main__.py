@@ -10,12 +10,12 @@ from pathlib import Path
 
 from up_rig.bootloader import build_optiboot
 from up_rig.eeprom import SIZE
-from up_rig.elf import FirmwareError
-from up_rig.library import RigUnavailableError, build_library
+from up_rig.errors import FirmwareError, RigError
+from up_rig.library import build_library
 from up_rig.pins import DEFAULT, PROTOTYPE
-from up_rig.pty_line import PtyLine, PtyLineError
+from up_rig.pty_line import PtyLine
 from up_rig.real_time import RealTime, rocking
-from up_rig.rig import CrashError, Rig
+from up_rig.rig import Rig
 from up_rig.sticks import BEFORE, StickMove, SticksError, read_sticks
 
 DESCRIPTION = """\
@@ -44,12 +44,12 @@ def main(arguments: list[str] | None = None) -> int:
     line: PtyLine | None = None
     try:
         if options.build:
-            _say(str(build_library()))
+            _echo(str(build_library()))
             return 0
         rig = _make_rig(options)
         line = PtyLine(options.pty_link)
-        _say(f"board on {line.path}")
-        real_time = RealTime(rig, line, [*read_sticks(BEFORE), *options.sticks], _say)
+        _echo(f"board on {line.path}")
+        real_time = RealTime(rig, line, [*read_sticks(BEFORE), *options.sticks], _echo)
 
         def end(_number: int, _frame: object) -> None:
             real_time.is_ending = True
@@ -59,7 +59,7 @@ def main(arguments: list[str] | None = None) -> int:
         real_time.run()
         if options.eeprom is not None:
             _save(options.eeprom, rig.eeprom.read())
-    except (CrashError, FirmwareError, RigUnavailableError, PtyLineError, OSError) as error:
+    except (RigError, OSError) as error:
         sys.stderr.write(f"up_rig: {error}\n")
         return 1
     finally:
@@ -72,10 +72,11 @@ def _load(path: Path) -> bytes:
     """Return the content of an EEPROM file; only such a file, or a new one, is ever written."""
     if not path.exists():
         if not path.parent.is_dir():
-            raise FirmwareError(f"the folder {path.parent} for the EEPROM file does not exist")
+            raise FirmwareError(f"no folder {path.parent} for the EEPROM file", "no_folder")
         return b""
     if not path.is_file() or path.stat().st_size != SIZE:
-        raise FirmwareError(f"{path} is not an EEPROM file: these have {SIZE} bytes")
+        text = f"{path} is not an EEPROM file: these have {SIZE} bytes"
+        raise FirmwareError(text, "not_eeprom")
     return path.read_bytes()
 
 
@@ -147,7 +148,7 @@ def _baud(text: str) -> int:
     return int(text)
 
 
-def _say(text: str) -> None:
+def _echo(text: str) -> None:
     """Write one line for the user; a closed standard output is ignored."""
     with suppress(BrokenPipeError):
         sys.stdout.write(f"{text}\n")

@@ -11,7 +11,8 @@ import subprocess
 import tempfile
 from pathlib import Path
 
-from up_rig.library import RigUnavailableError, library_path
+from up_rig.errors import RigUnavailableError
+from up_rig.library import library_path
 
 SOURCE = Path("/usr/share/arduino/hardware/arduino/avr/bootloaders/optiboot/optiboot.c")
 START, VERSION = 0x7E00, 0x7FFE

@@ -9,18 +9,22 @@ import subprocess
 from collections.abc import Iterator
 from pathlib import Path
 
-from up_rig.library import SOURCES, RigUnavailableError
+from up_rig.errors import RigError, RigUnavailableError
+from up_rig.library import SOURCES
 
 ARDUINO = SOURCES.parents[2]
 CORE = Path("/usr/share/arduino/hardware/arduino/avr/cores/arduino/Arduino.h")
 AVR_LIBC = Path("/usr/lib/avr/include/avr/io.h")
 PACKAGES = "make gcc-avr avr-libc arduino-core-avr"
-LONGEST_S = 900.0
+MAX_BUILD_S = 900.0
 NO_SOURCES = f"the firmware's sources are not here: there is no {ARDUINO / 'raspilot'}"
 
 
-class BuildError(Exception):
-    """The firmware does not compile: the message is make's output."""
+class BuildError(RigError):
+    """The firmware does not compile; the text is make's output."""
+
+    def __init__(self, text: str, code: str = "make_failed") -> None:
+        super().__init__(text, code)
 
 
 def has_sources() -> bool:
@@ -40,7 +44,7 @@ def missing_toolchain() -> str | None:
     return f"building the firmware needs {lacking} (Debian packages {PACKAGES})"
 
 
-def make(*arguments: str, timeout_s: float = LONGEST_S, lock_name: str = ".lock") -> str:
+def make(*arguments: str, timeout_s: float = MAX_BUILD_S, lock_name: str = ".lock") -> str:
     """Run make in ``arduino/`` and return its output.
 
     Of several processes one builds, the others wait, also for compilers that outlive a killed
@@ -64,7 +68,7 @@ def make(*arguments: str, timeout_s: float = LONGEST_S, lock_name: str = ".lock"
                 pass_fds=(lock,),
             )
         except subprocess.TimeoutExpired as error:
-            raise BuildError(f"make needs more than {timeout_s:g} s") from error
+            raise BuildError(f"make needs more than {timeout_s:g} s", "timeout") from error
     said = done.stdout + done.stderr
     if done.returncode:
         raise BuildError(said)

@@ -6,15 +6,13 @@ import struct
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from up_rig.errors import FirmwareError
+
 FLASH_SIZE = 32768
 _DATA_SPACE = 0x800000
 _EEPROM_SPACE = 0x810000
 _AVR = 83
 _LOAD, _SYMBOLS = 1, 2
-
-
-class FirmwareError(Exception):
-    """A file is not a program for the chip: the message is one sentence for the user."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,14 +43,15 @@ def read_firmware(path: Path) -> Firmware:
     try:
         data = path.read_bytes()
     except OSError as error:
-        raise FirmwareError(f"cannot read {path}: {error.strerror}") from error
+        raise FirmwareError(f"cannot read {path}: {error.strerror}", "unreadable") from error
     try:
         firmware = _read_elf(data) if data[:4] == b"\x7fELF" else read_hex(data.decode("ascii"))
     except (struct.error, ValueError, IndexError) as error:
-        raise FirmwareError(f"{path} is not a firmware: {error}") from error
+        raise FirmwareError(f"{path} is not a firmware: {error}", "not_firmware") from error
     for address, part in firmware.flash:
         if not 0 <= address <= FLASH_SIZE - len(part):
-            raise FirmwareError(f"{path} does not fit into {FLASH_SIZE} bytes of flash")
+            text = f"{path} does not fit into {FLASH_SIZE} bytes of flash"
+            raise FirmwareError(text, "too_large")
     return firmware
 
 
@@ -66,7 +65,7 @@ def read_hex(text: str) -> Firmware:
         record = bytes.fromhex(line[1:])
         size, address, kind = struct.unpack(">BHB", record[:4])
         if len(record) != size + 5 or sum(record) % 256:
-            raise ValueError(f"the check of {line!r} is wrong")
+            raise ValueError(f"the checksum of {line!r} is wrong")
         if kind == 0:
             parts.append((base + address, record[4:-1]))
         elif kind == 2:

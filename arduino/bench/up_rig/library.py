@@ -11,16 +11,14 @@ from collections.abc import Callable
 from functools import cache
 from pathlib import Path
 
+from up_rig.errors import RigUnavailableError
+
 SOURCES = Path(__file__).with_name("shim")
 HEADER = Path("/usr/include/simavr/sim_avr.h")
 FLAGS = ["-std=gnu11", "-O2", "-Wall", "-Wextra", "-fPIC", "-shared"]
 NEEDS = "the bench rig needs simavr and gcc (Debian packages gcc, libsimavr-dev and libelf-dev)"
 
 SampleFunction = ctypes.CFUNCTYPE(None, ctypes.c_uint64, ctypes.POINTER(ctypes.c_int16))
-
-
-class RigUnavailableError(Exception):
-    """The rig cannot be built or loaded here: the message is one sentence for the user."""
 
 
 class Edge(ctypes.Structure):
@@ -89,7 +87,7 @@ def build_library() -> Path:
         return path
     compiler = shutil.which("gcc") or shutil.which("cc")
     if compiler is None or not HEADER.exists():
-        raise RigUnavailableError(NEEDS)
+        raise RigUnavailableError(NEEDS, "missing_packages")
     path.parent.mkdir(parents=True, exist_ok=True)
     # Several processes may build in parallel: each to its own file, the last one stays.
     with tempfile.TemporaryDirectory(dir=path.parent) as folder:
@@ -133,19 +131,20 @@ def _declare(library: ctypes.CDLL) -> None:
     declare("preload", None, rig, u32, u16, text, u16)
     declare("start_up", None, rig, u64)
     declare("run", text, rig, u64)
+    declare("crash_code", text, rig)
     declare("reset", None, rig, u8)
     declare("cycle", u64, rig)
     declare("data", ctypes.POINTER(u8), rig)
     declare("meter", ctypes.POINTER(Meter), rig)
-    declare("forget_measures", None, rig)
+    declare("clear_measures", None, rig)
     declare("pin_edge", None, rig, u64, u8, u8)
     declare("pin_level", u8, rig, u8)
     declare("edges", ctypes.POINTER(Edge), rig, count)
     declare("sent", ctypes.POINTER(Sent), rig, count)
     declare("pulses", ctypes.POINTER(PinPulse), rig)
     declare("drop_edges", None, rig, ctypes.c_bool)
-    declare("forget_edges", None, rig)
-    declare("forget_sent", None, rig)
+    declare("clear_edges", None, rig)
+    declare("clear_sent", None, rig)
     declare("uart_baud", None, rig, number)
     declare("uart_write", None, rig, text, u32, u8)
     declare("uart_waiting", u32, rig)

@@ -13,11 +13,13 @@ from collections.abc import Callable
 from contextlib import suppress
 from pathlib import Path
 
-UNREAD_MOST = 2048
+from up_rig.errors import RigError
+
+MAX_UNREAD_BYTES = 2048
 
 
-class PtyLineError(Exception):
-    """The symbolic link cannot be made: the message is one sentence for the user."""
+class PtyLineError(RigError):
+    """The symbolic link cannot be made."""
 
 
 class PtyLine:
@@ -69,7 +71,7 @@ class PtyLine:
         if self._is_unread and unread == 0:
             self._is_unread = False
             self.returned()
-        elif self._is_unread or unread > UNREAD_MOST:
+        elif self._is_unread or unread > MAX_UNREAD_BYTES:
             self._is_unread = True
             self.dropped += 1
             termios.tcflush(self._other, termios.TCIFLUSH)
@@ -103,9 +105,11 @@ class PtyLine:
     def _make_link(self, link: Path) -> None:
         """Point ``link`` here in one step; an old link is replaced, any other file is kept."""
         if link.exists() and not link.is_symlink():
-            raise PtyLineError(f"{link} exists and is not a symbolic link: left unchanged")
+            text = f"{link} exists and is not a symbolic link: left unchanged"
+            raise PtyLineError(text, "not_a_link")
         if _is_live(link):
-            raise PtyLineError(f"{link} is the line of another board that runs: end it first")
+            text = f"{link} is the line of another board that runs: end it first"
+            raise PtyLineError(text, "in_use")
         temporary = link.with_name(f".{link.name}.{os.getpid()}")
         try:
             temporary.symlink_to(self.name)
@@ -113,7 +117,8 @@ class PtyLine:
         except OSError as error:
             with suppress(OSError):
                 temporary.unlink()
-            raise PtyLineError(f"cannot make the link {link}: {error.strerror}") from error
+            text = f"cannot make the link {link}: {error.strerror}"
+            raise PtyLineError(text, "no_link") from error
         self._link = link
 
 

@@ -12,9 +12,9 @@ from up_rig.rig import Rig
 from up_rig.sticks import StickMove
 
 STEP_S = 0.002
-LATEST_S = 0.25
-SAY_AGAIN_S = 5.0
-LINE_BYTES_MOST = 1024
+MAX_LATE_S = 0.25
+REPORT_PERIOD_S = 5.0
+MAX_LINE_BYTES = 1024
 ROCKING_DEG, ROCKING_PERIOD_S = 10.0, 6.0
 
 
@@ -28,7 +28,7 @@ def rocking(time_s: float) -> Motion:
 class RealTime:
     """Keeps a rig in step with a monotonic clock.
 
-    A delay beyond 250 ms is skipped, not flown in a burst. ``say`` takes one line for the user.
+    A delay beyond 250 ms is skipped, not flown in a burst. ``echo`` takes one line for the user.
     """
 
     def __init__(
@@ -36,17 +36,17 @@ class RealTime:
         rig: Rig,
         line: PtyLine,
         moves: list[StickMove],
-        say: Callable[[str], None],
+        echo: Callable[[str], None],
         clock: Callable[[], float] = time.monotonic,
     ) -> None:
         self._rig = rig
         self._line = line
         self._moves = sorted(moves, key=lambda move: move.time_s)
-        self._say = say
+        self._echo = echo
         self._clock = clock
         self._start_s = clock()
         self._skipped_s = 0.0
-        self._said_s = -SAY_AGAIN_S
+        self._reported_s = -REPORT_PERIOD_S
         self.is_ending = False
         rig.receiver.start()
 
@@ -59,20 +59,20 @@ class RealTime:
         """Run for a step and pass on the bytes, in both directions."""
         time_s = self._rig.now_us / 1e6
         wait_s = time_s + STEP_S - self._elapsed_s()
-        room = LINE_BYTES_MOST - self._rig.serial.waiting
+        room = MAX_LINE_BYTES - self._rig.serial.waiting
         data = self._line.read(wait_s, room)
         if data:
             self._rig.serial.write(data)
         late_s = self._elapsed_s() - time_s
-        if late_s > LATEST_S:
-            self._skip(late_s - LATEST_S)
+        if late_s > MAX_LATE_S:
+            self._skip(late_s - MAX_LATE_S)
         if late_s < STEP_S - 1e-6:
             # Woken by bytes: the step is not over.
             return
         while self._moves and self._moves[0].time_s <= time_s + STEP_S:
             self._move(self._moves.pop(0))
         # Unused here, and they would grow without a bound.
-        self._rig.servo.forget()
+        self._rig.servo.clear()
         self._rig.receiver.sent.clear()
         self._rig.run_us(STEP_S * 1e6)
         sent = self._rig.serial.read()
@@ -84,9 +84,9 @@ class RealTime:
 
     def _skip(self, missed_s: float) -> None:
         self._skipped_s += missed_s
-        if self._clock() - self._said_s >= SAY_AGAIN_S:
-            self._said_s = self._clock()
-            self._say(f"late by {missed_s + LATEST_S:.2f} s: the missed time is skipped")
+        if self._clock() - self._reported_s >= REPORT_PERIOD_S:
+            self._reported_s = self._clock()
+            self._echo(f"late by {missed_s + MAX_LATE_S:.2f} s: the missed time is skipped")
 
     def _move(self, move: StickMove) -> None:
         receiver = self._rig.receiver

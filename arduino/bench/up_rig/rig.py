@@ -8,7 +8,8 @@ import random
 from pathlib import Path
 
 from up_rig.eeprom import Eeprom
-from up_rig.elf import Firmware, FirmwareError, Symbol, read_firmware
+from up_rig.elf import Firmware, Symbol, read_firmware
+from up_rig.errors import CrashError, FirmwareError
 from up_rig.imu import Imu
 from up_rig.library import Handle, load_library
 from up_rig.meter import Measures, read_measures
@@ -20,10 +21,6 @@ from up_rig.servo import Servo
 CYCLES_PER_US = 16
 RAM_START, RAM_SIZE = 0x100, 2048
 STACK_PATTERN = 0xC5
-
-
-class CrashError(Exception):
-    """The program used a feature that the chip lacks or the rig does not model."""
 
 
 class Reset(enum.IntFlag):
@@ -100,10 +97,11 @@ class Rig:
     def run_until_cycle(self, cycle: int) -> None:
         """Run to a cycle. Raises ``CrashError``."""
         self.receiver.feed(cycle)
-        trouble = self._library.rig_run(self._handle, max(cycle, 0))
+        crash = self._library.rig_run(self._handle, max(cycle, 0))
         self.imu.raise_failure()
-        if trouble:
-            raise CrashError(f"{trouble.decode()} at {self.now_us:.1f} us")
+        if crash:
+            code = self._library.rig_crash_code(self._handle).decode()
+            raise CrashError(f"{crash.decode()} at {self.now_us:.1f} us", code)
 
     def power_on(self, *, ram: bytes | None = None) -> None:
         """Switch power on: random RAM (or ``ram`` repeated), the IMU asleep, MCUSR PORF."""
@@ -143,7 +141,8 @@ class Rig:
         place, start = self._symbol(symbol), self._symbol(at)
         is_inside = place.address + len(value) <= RAM_START + RAM_SIZE
         if not (place.is_data and is_inside and 0 < len(value) <= max(place.size, 1)):
-            raise FirmwareError(f"{symbol} is not a variable of {len(value)} bytes")
+            text = f"{symbol} is not a variable of {len(value)} bytes"
+            raise FirmwareError(text, "not_a_variable")
         self._library.rig_preload(self._handle, start.address, place.address, value, len(value))
 
     def write_flash(self, address: int, code: bytes) -> None:
@@ -151,12 +150,12 @@ class Rig:
         self._library.rig_load(self._handle, code, len(code), address)
 
     def measures(self) -> Measures:
-        """Return the measurements since the last ``forget_measures``."""
+        """Return the measurements since the last ``clear_measures``."""
         return read_measures(self._library, self._handle)
 
-    def forget_measures(self) -> None:
+    def clear_measures(self) -> None:
         """Restart the measurements."""
-        self._library.rig_forget_measures(self._handle)
+        self._library.rig_clear_measures(self._handle)
 
     def mark_stack(self) -> None:
         """Fill the RAM with a pattern, so that ``untouched_ram`` finds unused bytes."""
@@ -179,7 +178,7 @@ class Rig:
         try:
             return self.firmware.symbols[name]
         except KeyError:
-            raise FirmwareError(f"the firmware has no symbol {name}") from None
+            raise FirmwareError(f"the firmware has no symbol {name}", "no_symbol") from None
 
     def _load(self, firmware: Firmware) -> None:
         for address, part in firmware.flash:

@@ -53,5 +53,5 @@ class Serial:
         count = ctypes.c_uint64()
         sent = self._library.rig_sent(self._handle, ctypes.byref(count))
         fresh = [SentByte(sent[at].cycle, sent[at].value) for at in range(count.value)]
-        self._library.rig_forget_sent(self._handle)
+        self._library.rig_clear_sent(self._handle)
         return fresh

@@ -33,7 +33,7 @@ class Servo:
         self._newest = library.rig_pulses(handle)
 
     def edges(self, channel: str) -> list[tuple[int, int]]:
-        """Return (cycle, level) of every edge of a channel since the last ``forget``."""
+        """Return (cycle, level) of every edge of a channel since the last ``clear``."""
         return list(self.pin_edges(self._pins[channel]))
 
     def pin_edges(self, pin: int) -> list[tuple[int, int]]:
@@ -42,7 +42,7 @@ class Servo:
         return self._edges.get(pin, [])
 
     def pulses(self, channel: str) -> list[Pulse]:
-        """Return the pulses of a channel that have ended since the last ``forget``."""
+        """Return the pulses of a channel that have ended since the last ``clear``."""
         edges = self.edges(channel)
         return [
             Pulse(rise, fall - rise)
@@ -56,7 +56,7 @@ class Servo:
         return pulses[-1].width_us if pulses else None
 
     def last_pulse(self, channel: str) -> Pulse | None:
-        """Return the newest pulse of a channel that has ended, forgotten or not."""
+        """Return the newest pulse of a channel that has ended, cleared or not."""
         newest = self._newest[self._pins[channel]]
         fall = newest.fall
         return Pulse(newest.rise, fall - newest.rise) if fall else None
@@ -65,8 +65,8 @@ class Servo:
         """Record edges, or keep only ``last_pulse``."""
         self._library.rig_drop_edges(self._handle, not is_recording)
 
-    def forget(self) -> None:
-        """Forget all edges but the ones of pulses that are still high."""
+    def clear(self) -> None:
+        """Discard all edges but the ones of pulses that are still high."""
         self._drain()
         for edges in self._edges.values():
             del edges[: -1 if edges and edges[-1][1] else None]
@@ -77,4 +77,4 @@ class Servo:
         for at in range(count.value):
             edge = recorded[at]
             self._edges.setdefault(edge.pin, []).append((edge.cycle, edge.level))
-        self._library.rig_forget_edges(self._handle)
+        self._library.rig_clear_edges(self._handle)

@@ -10,9 +10,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 
 from up.cli.cli_error import CliError
-from up.fields import printable
-from up.flight_log.mcap_format import FlightLogError
-from up_flightlog.cli.open_flight import flight_of, read, unknown_topic
+from up_flightlog.cli.open_flight import flight_of, unknown_topic
 from up_flightlog.cli.terminal import echo, warn
 from up_flightlog.export.csv_table import columns_of, topic_rows, wide_rows
 from up_flightlog.export.gpx import gpx_lines
@@ -36,17 +34,15 @@ def run(values: argparse.Namespace) -> int:
     if values.format != "csv" and (values.topic or values.rate):
         raise CliError(f"--topic and --rate apply to csv, not to {values.format}", status=2)
     flight = flight_of(values)
-    try:
-        _export(read(flight), flight, values)
-    except FlightLogError as error:
-        raise CliError(printable(str(error))) from error
+    log = FlightLog.read(flight.paths)
+    if values.format == "csv":
+        _export_csv(log, flight, values)
+    else:
+        _export_track(log, flight, values)
     return 0
 
 
-def _export(log: FlightLog, flight: Flight, values: argparse.Namespace) -> None:
-    if values.format == "csv":
-        _export_csv(log, flight, values)
-        return
+def _export_track(log: FlightLog, flight: Flight, values: argparse.Namespace) -> None:
     track = track_of(log, *_names(log, flight))
     if not track.segments:
         raise CliError(f"{flight.paths[0].name} has no positions")

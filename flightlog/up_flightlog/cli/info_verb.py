@@ -5,16 +5,15 @@ from __future__ import annotations
 import argparse
 from collections.abc import Iterable, Iterator, Sequence
 
-from up.cli.cli_error import CliError
 from up.fields import printable
-from up.flight_log.mcap_format import FlightLogError
-from up_flightlog.cli.open_flight import flight_of, read
+from up_flightlog.cli.open_flight import flight_of
 from up_flightlog.cli.terminal import echo, table
 from up_flightlog.findings.flight_context import FlightContext
 from up_flightlog.findings.summary import Finding, FlightSummary, findings, summarise
 from up_flightlog.read.flight_log import FlightLog
 from up_flightlog.read.flights import Flight
 from up_flightlog.read.spans import duration_text
+from up_flightlog.report.figures import TOPIC_HEAD, figures_of, gap_rows, topic_rows
 from up_flightlog.report.finding_groups import groups_of
 from up_flightlog.report.formatting import clock_text, size_text, start_text
 
@@ -22,22 +21,25 @@ from up_flightlog.report.formatting import clock_text, size_text, start_text
 def run(values: argparse.Namespace) -> int:
     """Print the summary of a flight."""
     flight = flight_of(values)
-    log = read(flight)
-    try:
-        context = FlightContext(log)
-        summary, found = summarise(log, context), findings(log, context)
-    except FlightLogError as error:
-        raise CliError(printable(str(error))) from error
+    log = FlightLog.read(flight.paths)
+    context = FlightContext(log)
+    summary, found = summarise(log, context), findings(log, context)
     echo(_title(flight, log, summary))
     _section("faults", _findings(found))
     _section("flight", _pairs(_figures(summary)))
-    _section("modes", _modes(summary))
-    _section("longest gap of each source", _gaps(summary))
-    _section("topics", _topics(log))
+    modes = [
+        (clock_text(each.begin_s), each.mode, duration_text(each.end_s - each.begin_s))
+        for each in summary.modes
+    ]
+    _section("modes", _table(("from", "mode", "for"), modes, (0, 2)))
+    _section(
+        "longest gap of each source", _table(("source", "silent for"), gap_rows(summary), (1,))
+    )
+    _section("topics", _table(TOPIC_HEAD, topic_rows(log), (1, 2)))
     _section("configuration", sorted(log.attachments))
     _section("versions", _pairs(log.metadata.get("versions", {}).items()))
     _section("files", [str(path) for path in flight.paths])
-    _section("problems of the files", [each.text for each in log.problems])
+    _section("file problems", [each.text for each in log.problems])
     return 0
 
 
@@ -68,27 +70,13 @@ def _findings(found: Sequence[Finding]) -> list[str]:
 
 
 def _figures(summary: FlightSummary) -> Iterator[tuple[str, str]]:
-    yield "armed", duration_text(summary.armed_s) if summary.armed else "never"
-    if summary.highest_m is not None and summary.lowest_m is not None:
-        yield "altitude", f"{summary.lowest_m:.0f} to {summary.highest_m:.0f} m"
-    for name, value, unit in (
-        ("top speed", summary.top_speed_m_s, "m/s"),
-        ("track", summary.track_m, "m"),
-        ("farthest from home", summary.farthest_m, "m"),
-        ("lowest battery", summary.lowest_battery_percent, "percent"),
-    ):
-        if value is not None:
-            yield name, f"{value:.{1 if unit == 'm/s' else 0}f} {unit}"
+    yield from figures_of(summary)
     for error in summary.estimate_errors:
         worst = f"{error.worst_deg:.1f} at worst, at {clock_text(error.worst_s)}"
         yield f"error in {error.axis}", f"{error.rms_deg:.1f} deg rms, {worst}"
     if summary.failsafes:
-        yield (
-            "failsafe",
-            ", ".join(
-                f"{clock_text(each.begin_s)} {each.length_text}" for each in summary.failsafes
-            ),
-        )
+        spans = (f"{clock_text(each.begin_s)} {each.length_text}" for each in summary.failsafes)
+        yield "failsafe", ", ".join(spans)
     for mark in summary.marks:
         yield "mark", f"{clock_text(mark.time_s)} {mark.text}"
     for veto in summary.vetoes:
@@ -102,26 +90,8 @@ def _figures(summary: FlightSummary) -> Iterator[tuple[str, str]]:
         yield "version", summary.version
 
 
-def _modes(summary: FlightSummary) -> list[str]:
-    rows = [
-        (clock_text(each.begin_s), each.mode, duration_text(each.end_s - each.begin_s))
-        for each in summary.modes
-    ]
-    return [table(("from", "mode", "for"), rows, right=(0, 2))] if rows else []
-
-
-def _gaps(summary: FlightSummary) -> list[str]:
-    rows = [(name, duration_text(gap_s)) for name, gap_s in summary.gaps_s.items()]
-    return [table(("source", "silent for"), rows, right=(1,))] if rows else []
-
-
-def _topics(log: FlightLog) -> list[str]:
-    seconds = max(log.length_s, 1e-9)
-    rows = [
-        (topic, str(count), f"{count / seconds:.1f}" if log.length_s else "-")
-        for topic, count in sorted(log.topics.items())
-    ]
-    return [table(("topic", "messages", "per second"), rows, right=(1, 2))] if rows else []
+def _table(head: Sequence[str], rows: Sequence[Sequence[str]], right: Sequence[int]) -> list[str]:
+    return [table(head, rows, right)] if rows else []
 
 
 def _pairs(pairs: Iterable[tuple[str, str]]) -> list[str]:

@@ -12,7 +12,6 @@ from typing import Any
 
 from up.cli.cli_error import CliError
 from up.fields import printable
-from up.flight_log.mcap_format import FlightLogError
 from up_flightlog.cli.open_flight import flights_folder
 from up_flightlog.cli.overview import (
     Overview,
@@ -55,10 +54,7 @@ def run(values: argparse.Namespace) -> int:
     folder = flights_folder(values)
     if not folder.is_dir() and values.folder is not None:
         raise CliError(f"{folder} is not a folder")
-    try:
-        flights = flights_in(folder) if folder.is_dir() else []
-    except FlightLogError as error:
-        raise CliError(str(error)) from error
+    flights = flights_in(folder) if folder.is_dir() else []
     lines = lines_of(flights, OverviewCache(cache_path(os.environ)))
     if values.json:
         echo(json.dumps(document(folder, lines), indent=2))

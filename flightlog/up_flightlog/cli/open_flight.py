@@ -14,7 +14,6 @@ from up.cli.cli_error import CliError
 from up.cli.locate import application_of
 from up.fields import printable
 from up.flight_log.flights_folder import default_folder, folder_of
-from up.flight_log.mcap_format import FlightLogError
 from up.loading.application import NoApplicationError
 from up_flightlog.read.flight_log import FlightLog
 from up_flightlog.read.flights import Flight, find_flight
@@ -45,23 +44,12 @@ def flights_folder(values: argparse.Namespace) -> Path:
 
 
 def flight_of(values: argparse.Namespace) -> Flight:
-    """Return the flight that FLIGHT names; raises CliError and ConfigErrors."""
+    """Return the flight that FLIGHT names; raises FlightLogError and ConfigErrors."""
     # Only a name that is not a path needs the folder, and so a valid configuration.
-    try:
-        flight = find_flight(values.flight, lambda: flights_folder(values))
-    except FlightLogError as error:
-        raise CliError(str(error)) from error
+    flight = find_flight(values.flight, lambda: flights_folder(values))
     if sys.stderr.isatty() and flight.size > _LARGE:
         sys.stderr.write(f"reading {len(flight.paths)} files, {flight.size / 1e6:.0f} MB ...\n")
     return flight
-
-
-def read(flight: Flight) -> FlightLog:
-    """Return its log; raises CliError with the reader's sentence."""
-    try:
-        return FlightLog.read(flight.paths)
-    except FlightLogError as error:
-        raise CliError(printable(str(error))) from error
 
 
 def unknown_topic(topic: str, log: FlightLog) -> CliError:

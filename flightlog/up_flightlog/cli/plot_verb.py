@@ -9,13 +9,12 @@ from pathlib import Path
 
 from up.cli.cli_error import CliError
 from up.fields import printable
-from up.flight_log.mcap_format import FlightLogError
-from up_flightlog.cli.open_flight import flight_of, read, unknown_field
+from up_flightlog.cli.open_flight import flight_of, unknown_field
 from up_flightlog.cli.terminal import echo
 from up_flightlog.export.csv_table import flat
 from up_flightlog.export.output import file_exists, write_file
 from up_flightlog.findings.flight_context import FlightContext
-from up_flightlog.plots.canvas import MISSING, PictureError, Sheet, has_matplotlib, png_of
+from up_flightlog.plots.canvas import MISSING, Sheet, has_matplotlib, png_of
 from up_flightlog.plots.chart import Background, Curve, Panel
 from up_flightlog.plots.theme import DAYLIGHT
 from up_flightlog.plots.timeline import draw_timeline, timeline_height_in
@@ -40,16 +39,13 @@ def run(values: argparse.Namespace) -> int:
     if not has_matplotlib():
         raise CliError(MISSING)
     flight = flight_of(values)
-    log = read(flight)
+    log = FlightLog.read(flight.paths)
     path = values.output or Path(f"{flight.name}.png")
     if path.suffix.lower() != ".png":
         raise CliError(f"{path}: the name of a picture must end in .png", status=2)
     if not values.force and path.exists():
         raise file_exists(path)
-    try:
-        png = _fields(log, values.field) if values.field else _overview(log, flight.name)
-    except (FlightLogError, PictureError) as error:
-        raise CliError(printable(str(error))) from error
+    png = _fields(log, values.field) if values.field else _overview(log, flight.name)
     write_file(path, png, may_overwrite=values.force)
     echo(f"{path}  {len(png) / 1000:.0f} kB")
     return 0

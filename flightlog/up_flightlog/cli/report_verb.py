@@ -7,13 +7,12 @@ import os
 from collections.abc import Callable
 from pathlib import Path
 
-from up.cli.cli_error import CliError
 from up.fields import printable
-from up.flight_log.mcap_format import FlightLogError
-from up_flightlog.cli.open_flight import flight_of, read
+from up_flightlog.cli.open_flight import flight_of
 from up_flightlog.cli.terminal import echo, warn
 from up_flightlog.export.output import file_exists, make_folder, write_file
 from up_flightlog.plots.canvas import PictureError
+from up_flightlog.read.flight_log import FlightLog
 from up_flightlog.read.flights import Flight
 from up_flightlog.report.content import ReportContent, report_content
 from up_flightlog.report.finding_groups import verdict_of
@@ -26,13 +25,9 @@ PAGE = "report.html"
 def run(values: argparse.Namespace) -> int:
     """Write the report of a flight."""
     flight = flight_of(values)
-    log = read(flight)
     folder = values.output or default_folder(flight)
-    try:
-        content = report_content(log, flight.name, flight.number)
-        files = write_report(content, folder, may_overwrite=values.force, on_missing=warn)
-    except FlightLogError as error:
-        raise CliError(printable(str(error))) from error
+    content = report_content(FlightLog.read(flight.paths), flight.name, flight.number)
+    files = write_report(content, folder, may_overwrite=values.force, on_missing=warn)
     _, sentence = verdict_of(content.summary, content.findings)
     echo(printable(sentence))
     echo(str(files[0]))

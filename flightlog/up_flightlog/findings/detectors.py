@@ -39,7 +39,8 @@ def _bounded(found: Iterable[Finding]) -> Iterator[Finding]:
             more = _one_line(each)
     if more is not None:
         rest = count - _MAX_PER_DETECTOR - 1
-        yield replace(more, detail=f"{more.detail} (and {rest} more of this kind)")
+        detail = f"{more.detail} (and {rest} more of this kind)"
+        yield replace(more, detail=detail, fields={**more.fields, "more": rest})
 
 
 def _one_line(finding: Finding) -> Finding:

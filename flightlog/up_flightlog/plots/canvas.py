@@ -8,6 +8,7 @@ import io
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
+from up.errors import UserError
 from up_flightlog.plots.theme import Theme
 
 if TYPE_CHECKING:
@@ -19,7 +20,7 @@ _COLOURS = 128
 """A line drawing has few colours; a palette makes its file a third as large."""
 
 
-class PictureError(Exception):
+class PictureError(UserError):
     """A picture cannot be drawn; the text is one sentence for the user."""
 
 
@@ -86,7 +87,7 @@ def png_of(
         agg = importlib.import_module("matplotlib.backends.backend_agg")
         images = importlib.import_module("PIL.Image")
     except ImportError as error:
-        raise PictureError(MISSING) from error
+        raise PictureError(MISSING, "no_matplotlib") from error
     with matplotlib.rc_context():
         matplotlib.rcdefaults()
         matplotlib.rcParams.update(_style(theme))

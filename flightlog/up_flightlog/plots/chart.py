@@ -27,7 +27,6 @@ class Curve:
     colour: str
     style: str = "-"
     width: float = 1.3
-    is_right: bool = False
     is_step: bool = False
     gap_s: float | None = None
 
@@ -39,7 +38,6 @@ class Panel:
     title: str
     unit: str
     curves: Sequence[Curve]
-    right_unit: str = ""
     about: float | None = None
     """A value marked by a thin line."""
     min_range: float = 0.0

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 STRIP_IN, PANEL_IN, FOOT_IN = 0.22, 1.45, 0.42
 HEAD_IN, NARROW_HEAD_IN, NARROW_IN = 0.4, 0.58, 6.0
 """Space above a panel for its title and its legend, stacked where it is narrow."""
-LEFT_IN, RIGHT_IN, RIGHT_AXIS_IN = 0.62, 0.22, 0.5
+LEFT_IN, RIGHT_IN = 0.62, 0.22
 _NAME_PT = 8.0
 _STEPS_S = (0.1, 0.2, 0.5, 1, 2, 5, 10, 15, 30, 60, 120, 300, 600, 900, 1800, 3600, 7200)
 _LABEL_IN = 0.8
@@ -29,8 +29,7 @@ def timeline_height_in(panels: Sequence[Panel], background: Background, width_in
 
 def draw_timeline(sheet: Sheet, panels: Sequence[Panel], background: Background) -> None:
     """Draw the panels onto a sheet of `timeline_height_in`."""
-    has_right = any(curve.is_right for panel in panels for curve in panel.curves)
-    width_in = sheet.width - LEFT_IN - (RIGHT_AXIS_IN if has_right else RIGHT_IN)
+    width_in = sheet.width - LEFT_IN - RIGHT_IN
     top_in = 0.0
     if background.bands:
         _draw_strip(sheet, background, width_in)
@@ -56,19 +55,13 @@ def time_text(seconds: float) -> str:
     return f"{whole // 60}:{whole % 60:02d}"
 
 
-def limits(panel: Panel, is_right: bool) -> tuple[float, float] | None:
-    """Return the limits of an axis: all values, some margin, never less than the least range."""
-    known = [
-        value
-        for curve in panel.curves
-        if curve.is_right == is_right
-        for value in curve.values
-        if is_drawable(value)
-    ]
+def limits(panel: Panel) -> tuple[float, float] | None:
+    """Return the limits of the axis: all values and a margin, at least the minimum range."""
+    known = [value for curve in panel.curves for value in curve.values if is_drawable(value)]
     if not known:
         return None
     low, high = min(known), max(known)
-    min_range = (5.0 if is_right else panel.min_range) or abs(high) * 0.02 or 1.0
+    min_range = panel.min_range or abs(high) * 0.02 or 1.0
     extra = max(0.0, min_range - (high - low)) / 2 + 0.06 * max(high - low, min_range)
     # Limits that floating point cannot distinguish are not an axis.
     extra = max(extra, 1e-9 * max(abs(low), abs(high)))
@@ -108,23 +101,13 @@ def _draw_background(axes: Axes, background: Background, sheet: Sheet) -> None:
 
 
 def _draw_panel(axes: Axes, panel: Panel, sheet: Sheet) -> None:
-    right = None
-    if any(curve.is_right for curve in panel.curves):
-        right = axes.twinx()
-        right.grid(False)
-        right.set_ylabel(panel.right_unit)
-        right.spines["right"].set_visible(True)
-    handles = []
-    for curve in panel.curves:
-        into = right if curve.is_right and right is not None else axes
-        handles += _draw_curve(into, curve, sheet)
+    handles = [line for curve in panel.curves for line in _draw_curve(axes, curve, sheet)]
     if panel.about is not None:
         axes.axhline(panel.about, color=sheet.theme.muted, lw=0.6, zorder=1)
-    for each, is_right in ((axes, False), (right, True)):
-        ends = limits(panel, is_right)
-        if each is not None and ends is not None:
-            each.set_ylim(*ends)
-            each.locator_params(axis="y", nbins=5)
+    ends = limits(panel)
+    if ends is not None:
+        axes.set_ylim(*ends)
+        axes.locator_params(axis="y", nbins=5)
     axes.set_ylabel(panel.unit)
     is_narrow = sheet.width < NARROW_IN
     axes.set_title(panel.title, loc="left", size=9.5, weight="bold", pad=19 if is_narrow else 6)

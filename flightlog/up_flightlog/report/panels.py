@@ -153,7 +153,7 @@ def _loops(data: ReportData) -> Picture:
         (
             Panel("Period of the control loop", "us", period, min_range=40.0, share=0.6),
             Panel("Lateness of the control loop", "us", late, min_range=50.0, share=0.8),
-            Panel("Blocked event loop of the Raspberry Pi", "times", blocked, "", None, 2.0, 0.6),
+            Panel("Blocked event loop of the Raspberry Pi", "times", blocked, None, 2.0, 0.6),
         ),
     )
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from itertools import pairwise
 
 from up.flight_log.gain_changes import Key
@@ -10,6 +9,7 @@ from up.flight_log.origin_text import link_and_role
 from up_flightlog.read.series import error_of
 from up_flightlog.read.spans import duration_text
 from up_flightlog.report.content import ReportContent
+from up_flightlog.report.figures import TOPIC_HEAD, figures_of, gap_rows, topic_rows
 from up_flightlog.report.finding_groups import LEVELS, FindingGroup, groups_of
 from up_flightlog.report.formatting import clock_text
 from up_flightlog.report.gains import GainSet, changes, gain_sets, requested_sets
@@ -22,7 +22,11 @@ _NAMES = {"alarm": "alarm", "warning": "warning", "info": "note"}
 
 def figures(content: ReportContent) -> Markup:
     """Return the numbers of the flight."""
-    cells = [tag("div", tag("dt", name), tag("dd", value)) for name, value in _figures(content)]
+    summary = content.summary
+    shown = [("recorded", duration_text(summary.length_s)), *figures_of(summary)]
+    if summary.flight_controller:
+        shown.append(("flight controller", summary.flight_controller))
+    cells = [tag("div", tag("dt", name), tag("dd", value)) for name, value in shown]
     return tag("dl", *cells, class_="figures")
 
 
@@ -53,12 +57,11 @@ def _all_times(group: FindingGroup) -> Markup | None:
 
 def modes(content: ReportContent) -> Markup:
     """Return the modes with their times, and the silences with their lengths."""
-    summary = content.summary
     rows = [
         [clock_text(band.begin_s), band.name, duration_text(band.end_s - band.begin_s)]
         for band in content.data.bands
     ]
-    gaps = [[name, duration_text(gap_s)] for name, gap_s in summary.gaps_s.items()]
+    gaps = gap_rows(content.summary)
     parts: list[Markup] = []
     if rows:
         parts += [tag("h3", "Modes"), table(["from", "mode", "for"], rows, right=(2,))]
@@ -132,48 +135,19 @@ def _changed(gains: GainSet, verb: str) -> str:
 def record(content: ReportContent) -> Markup:
     """Return the log's metadata: files, versions, topics, damage."""
     log = content.log
-    seconds = max(log.length_s, 1e-9)
     facts = [
         [f"{record} {key}", value.strip()]
         for record, values in log.metadata.items()
         for key, value in values.items()
     ]
-    topics = [
-        [topic, str(count), f"{count / seconds:.1f}" if log.length_s else ""]
-        for topic, count in sorted(log.topics.items())
-    ]
     problems = log.problems
     return join(
-        tag("h3", "Problems of the files") if problems else None,
+        tag("h3", "File problems") if problems else None,
         tag("ul", *(tag("li", problem.text) for problem in problems)) if problems else None,
         table(["", ""], [*facts, *(["file", path.name] for path in log.paths)]),
         tag("h3", "Topics"),
-        table(["topic", "messages", "per second"], topics, right=(1, 2)),
+        table(TOPIC_HEAD, topic_rows(log), right=(1, 2)),
     )
-
-
-def _figures(content: ReportContent) -> Iterator[tuple[str, str]]:
-    summary = content.summary
-    yield "recorded", duration_text(summary.length_s)
-    yield "armed", duration_text(summary.armed_s) if summary.armed else "never"
-    if summary.highest_m is not None and summary.lowest_m is not None:
-        yield "highest above sea level", f"{summary.highest_m:.0f} m"
-        yield "altitude range", f"{summary.highest_m - summary.lowest_m:.0f} m"
-    if summary.top_speed_m_s is not None:
-        yield "top speed", f"{summary.top_speed_m_s:.1f} m/s"
-    if summary.track_m is not None:
-        yield "track", _distance(summary.track_m)
-    if summary.farthest_m is not None:
-        yield "farthest from home", _distance(summary.farthest_m)
-    if summary.lowest_battery_percent is not None:
-        yield "phone's battery, lowest", f"{summary.lowest_battery_percent:.0f} %"
-    controller = summary.flight_controller
-    if controller:
-        yield "flight controller", controller
-
-
-def _distance(metres: float) -> str:
-    return f"{metres / 1000:.2f} km" if metres >= 1000 else f"{metres:.0f} m"
 
 
 def _gain_table(gains: GainSet) -> Markup:

@@ -100,7 +100,7 @@ def test_a_file_in_the_links_place_is_left_alone(echo, tmp_path):
     with program(echo, "--pty", "--pty-link", place) as process:
         _output, errors = process.communicate(timeout=DEADLINE_S)
         assert process.returncode == 1
-        assert "not a symbolic link: left unchanged" in errors
+        assert str(place) in errors
         assert place.read_text() == "mine"
 
 
@@ -169,7 +169,7 @@ def test_missed_time_is_skipped_and_said(real_time):
     made.step()
     clock.now_s += 3.0
     made.step()
-    assert len(said) == 1 and "missed time is skipped" in said[0]
+    assert len(said) == 1 and "3.0" in said[0]
     for _ in range(300):
         made.step()
     assert rig.now_us / 1e6 == pytest.approx(clock.now_s - 100.0 - 2.75, abs=0.01)
@@ -215,6 +215,6 @@ def test_a_file_that_is_no_eeproms_is_never_written(tmp_path, contents):
     command = [sys.executable, "-m", "up_rig", str(elf), "--pty", "--eeprom", str(other)]
     done = subprocess.run(command, capture_output=True, text=True, check=False, timeout=60)
     assert done.returncode == 1
-    assert "is not an EEPROM file" in done.stderr
+    assert str(other) in done.stderr
     assert "Traceback" not in done.stderr
     assert other.read_bytes() == contents

@@ -147,14 +147,16 @@ def test_a_link_that_another_board_has_taken_stays(tmp_path):
 def test_a_file_in_the_way_is_left_alone(tmp_path):
     link = tmp_path / "board"
     link.write_text("precious")
-    with pytest.raises(PtyLineError, match="left unchanged"):
+    with pytest.raises(PtyLineError) as caught:
         PtyLine(link)
+    assert caught.value.code == "not_a_link"
     assert link.read_text() == "precious"
 
 
-def test_a_link_that_cannot_be_made_is_one_sentence(tmp_path):
-    with pytest.raises(PtyLineError, match="No such file"):
+def test_a_link_that_cannot_be_made(tmp_path):
+    with pytest.raises(PtyLineError) as caught:
         PtyLine(tmp_path / "missing" / "board")
+    assert caught.value.code == "no_link"
 
 
 def test_the_line_of_another_process_that_runs_is_left_alone(tmp_path):
@@ -168,8 +170,9 @@ def test_the_line_of_another_process_that_runs_is_left_alone(tmp_path):
     ) as other:
         assert other.stdout.readline() == "open\n"
         name = link.readlink()
-        with pytest.raises(PtyLineError, match="another board"):
+        with pytest.raises(PtyLineError) as caught:
             PtyLine(link)
+        assert caught.value.code == "in_use"
         assert link.readlink() == name
         # What ends without a word leaves a link that leads nowhere.
         other.kill()

@@ -46,7 +46,7 @@ def test_outputs_that_the_program_leaves_alone_have_no_edge(rig):
 def test_a_stick_that_moves_is_seen_in_the_next_frame(rig):
     rig.receiver.start(at_us=100_000)
     rig.run_until_us(200_000)
-    rig.servo.forget()
+    rig.servo.clear()
     rig.receiver.set("ailerons", 1723.5)
     rig.run_us(100_000)
     assert rig.servo.newest_us("ailerons") == 1723.5
@@ -58,7 +58,7 @@ def test_the_last_pulse_is_known_whether_edges_are_recorded_or_not(rig):
     rig.receiver.start(at_us=100_000)
     rig.run_until_us(300_000)
     last = rig.servo.pulses("ailerons")[-1]
-    rig.servo.forget()
+    rig.servo.clear()
     assert rig.servo.last_pulse("ailerons") == last
     rig.servo.record(False)
     rig.receiver.set("ailerons", 1723.5)

@@ -156,12 +156,14 @@ def test_a_variable_can_be_set_before_the_program_begins(case):
     assert said[said.index(0xEE) + 1 :][:3] == b"\xfe\xff\x00"
 
 
-def test_what_cannot_be_preloaded_is_said(case):
-    rig = case(5)
-    with pytest.raises(FirmwareError, match="no symbol missing"):
-        rig.preload("missing", b"\0")
-    with pytest.raises(FirmwareError, match="counter is not a variable of 2 bytes"):
-        rig.preload("counter", b"\0\0")
+@pytest.mark.parametrize(
+    ("name", "value", "code"),
+    [("missing", b"\0", "no_symbol"), ("counter", b"\0\0", "not_a_variable")],
+)
+def test_only_a_variable_that_fits_can_be_preloaded(case, name, value, code):
+    with pytest.raises(FirmwareError, match=name) as caught:
+        case(5).preload(name, value)
+    assert caught.value.code == code
 
 
 def test_a_write_of_the_eeprom_takes_its_time(case):

@@ -10,7 +10,7 @@ from up.cli.verb import add_verb
 
 
 def add(verbs):
-    again = add_verb(verbs, "again", "again_verbs.run", "fly it again")
+    again = add_verb(verbs, "again", "again_verbs.run", "replay")
     again.add_argument("--speed", type=float)
 """,
     "broken": "raise RuntimeError('not today')\n",
@@ -42,7 +42,7 @@ def install(tmp_path, monkeypatch):
 
 def test_a_verb_of_another_distribution(log, install):
     install(CODE["good"])
-    assert "fly it again" in log("--help").out
+    assert "again  " in log("--help").out
     outcome = log("again", "--speed", "2")
     assert (outcome.status, outcome.out) == (4, "2.0\n")
 

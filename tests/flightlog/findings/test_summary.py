@@ -13,6 +13,7 @@ from tests.flightlog.flights import (
     status,
 )
 from tests.flightlog.logs import START_NS
+from up.commands.board_schema import VETOES
 from up.earth import distance_m
 from up_flightlog.findings.summary import Mark, ModeSpan, summarise
 from up_flightlog.read.spans import Span, duration_text, joined, spans_of
@@ -29,7 +30,7 @@ def test_a_flight_on_one_page(tmp_path):
     maker.put(1, AndroidBatteryCommand(80.0), PHONE)
     maker.put(11, AndroidBatteryCommand(71.0), PHONE)
     maker.put(2, status(vetoes=0b1), BOARD)
-    maker.put(2, TelemetryCommand({"vetoes": ["gains: cannot be read"]}, 1))
+    maker.put(2, TelemetryCommand({"vetoes": ["gains: unreadable"]}, 1))
     maker.add(7, "black_box.mark", text="thermal")
     maker.line(1, 3, "LoadGuard", "a warning")
     maker.line(2, 4, "Up", "an error")
@@ -44,7 +45,7 @@ def test_a_flight_on_one_page(tmp_path):
     assert found.armed_s == pytest.approx(10.0, abs=0.21)
     assert (found.highest_m, found.lowest_m) == (319.0, 300.0)
     assert found.lowest_battery_percent == 71.0
-    assert found.vetoes == ["gains: cannot be read", "arduino: the throttle is not low"]
+    assert found.vetoes == ["gains: unreadable", f"arduino: {VETOES[0]}"]
     assert found.marks == [Mark(7.0, "thermal")]
     assert (found.warnings, found.errors) == (1, 1)
     assert found.failsafes == []

@@ -29,7 +29,7 @@ def test_a_slow_source_is_not_silent_between_its_words():
 def test_what_no_axis_can_show_is_left_open():
     curve = Curve("x", [0, 0.1, 0.2, 0.3], [1.0, 1e300, -math.inf, 2.0], "blue")
     assert [value for value in drawable(curve)[1] if not math.isnan(value)] == [1.0, 2.0]
-    assert limits(Panel("", "", [curve]), False)[1] < 3
+    assert limits(Panel("", "", [curve]))[1] < 3
 
 
 @settings(deadline=None)
@@ -50,7 +50,7 @@ def test_thinning_keeps_order_peaks_and_silences(values, limit):
 @given(st.lists(st.floats(-1e15, 1e15), min_size=1, max_size=20))
 def test_an_axis_shows_every_value(values):
     panel = Panel("", "", [Curve("x", list(range(len(values))), values, "blue")])
-    low, high = limits(panel, False)
+    low, high = limits(panel)
     assert low <= min(values) and max(values) <= high and low < high
 
 

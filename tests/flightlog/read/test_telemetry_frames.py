@@ -26,6 +26,7 @@ from tests.flightlog.flights import (
     status,
 )
 from tests.up.flight_log.test_command_schema import fault_of
+from up.commands.board_schema import VETOES
 from up.earth import bearing_deg, distance_m
 from up.flight_log.command_schema import schema_of
 from up_flightlog.read.frame_state import TOPICS
@@ -87,7 +88,7 @@ def test_without_telemetry_the_tree_is_put_together(tmp_path):
     assert first["arduino"]["failsafe"] is True
     assert first["arduino"]["switch"] == "middle"
     assert first["arduino"]["reset_cause"] == "power-on"
-    assert first["vetoes"] == ["arduino: the throttle is not low", "arduino: AUX2 is low"]
+    assert first["vetoes"] == [f"arduino: {VETOES[bit]}" for bit in (0, 3)]
     assert fourth["orientation"]["roll"] == 2.5
     assert fourth["home"] == {
         "distance": distance_m(50.001, 14.0, 50.0, 14.0),

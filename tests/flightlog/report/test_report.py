@@ -178,7 +178,7 @@ def test_the_same_flight_is_the_same_picture(report):
 
 def test_without_matplotlib(tmp_path, monkeypatch):
     def missing(*_):
-        raise PictureError(MISSING)
+        raise PictureError(MISSING, "no_matplotlib")
 
     monkeypatch.setattr("up_flightlog.report.images.png_of", missing)
     told = []
@@ -187,7 +187,7 @@ def test_without_matplotlib(tmp_path, monkeypatch):
     assert len(told) == 1
     assert [path.name for path in files] == ["report.html"]
     assert not page.wrong and not page.images
-    assert MISSING in page.text and "Measured against the truth" in page.text
+    assert MISSING in page.text and "18.50 m" in page.text
 
 
 @pytest.mark.parametrize(
@@ -225,7 +225,7 @@ def test_the_verdict_of_a_quiet_flight(tmp_path):
     content = report_content(FlightLog.read(flight.paths), flight.name)
     level, text = verdict_of(content.summary, content.findings)
     assert (level, content.findings) == ("good", [])
-    assert "20 s were recorded, 10 s of it armed, up to 211 m" in text
+    assert all(value in text for value in ("20 s", "10 s", "211 m"))
 
 
 @settings(deadline=None)

@@ -6,12 +6,13 @@
 uint64_t rig_cycle(const rig_t *rig) { return rig->avr->cycle; }
 uint8_t *rig_data(rig_t *rig) { return rig->avr->data; }
 const meter_t *rig_meter(const rig_t *rig) { return &rig->meter; }
+const char *rig_crash_code(const rig_t *rig) { return rig->crash_code; }
 uint64_t rig_overruns(const rig_t *rig) { return rig->uart.overruns; }
 void rig_start_up(rig_t *rig, uint64_t cycles) { rig->start_up = cycles ? cycles : 1; }
 
 void rig_load(rig_t *rig, const uint8_t *bytes, uint32_t size, uint32_t address) {
     memcpy(rig->avr->flash + address, bytes, size);
-    quick_forget(rig);
+    quick_discard(rig);
 }
 
 void rig_measure(rig_t *rig, bool is_measuring) { rig->is_measuring = is_measuring; }
@@ -27,7 +28,7 @@ void rig_preload(rig_t *rig, uint32_t break_pc, uint16_t address, const uint8_t 
     rig->break_pc = break_pc;
 }
 
-void rig_forget_measures(rig_t *rig) {
+void rig_clear_measures(rig_t *rig) {
     uint64_t resets[4];
     memcpy(resets, rig->meter.resets, sizeof resets);
     memset(&rig->meter, 0, sizeof rig->meter);
@@ -54,7 +55,7 @@ uint8_t rig_pin_level(const rig_t *rig, uint8_t pin) {
     return rig->ports[pin / 8].level >> pin % 8 & 1;
 }
 
-/* The records since the last forgetting; the pointer holds until the chip runs on. */
+/* The records since the last clearing; the pointer holds until the chip runs on. */
 const edge_t *rig_edges(const rig_t *rig, uint64_t *count) {
     *count = rig->edges.count;
     return rig->edges.items;
@@ -68,5 +69,5 @@ const sent_t *rig_sent(const rig_t *rig, uint64_t *count) {
 /* The newest whole pulse of each pin; the pointer holds as long as the rig. */
 const pulse_t *rig_pulses(const rig_t *rig) { return rig->pulses; }
 void rig_drop_edges(rig_t *rig, bool is_dropping) { rig->drops_edges = is_dropping; }
-void rig_forget_edges(rig_t *rig) { rig->edges.count = 0; }
-void rig_forget_sent(rig_t *rig) { rig->sent.count = 0; }
+void rig_clear_edges(rig_t *rig) { rig->edges.count = 0; }
+void rig_clear_sent(rig_t *rig) { rig->sent.count = 0; }

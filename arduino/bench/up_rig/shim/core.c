@@ -49,10 +49,10 @@ void hook_write(rig_t *rig, uint16_t address, avr_io_write_t function) {
     rig->avr->io[AVR_DATA_TO_IO(address)].w.param = rig;
 }
 
-void in_trouble(rig_t *rig, const char *format, unsigned value) {
-    if (rig->trouble) return;
-    snprintf(rig->trouble_text, sizeof rig->trouble_text, format, value);
-    rig->trouble = rig->trouble_text;
+void crash(rig_t *rig, const char *code, const char *format, unsigned value) {
+    if (rig->crash_code) return;
+    snprintf(rig->crash_text, sizeof rig->crash_text, format, value);
+    rig->crash_code = code;
 }
 
 uint32_t next_random(rig_t *rig) {
@@ -65,7 +65,7 @@ uint32_t next_random(rig_t *rig) {
 static void on_log(avr_t *avr, const int level, const char *format, va_list arguments) {
     (void)format, (void)arguments;
     if (avr && avr->custom.data && level <= LOG_ERROR)
-        in_trouble(avr->custom.data, "the program went wild at address 0x%04x", avr->pc);
+        crash(avr->custom.data, "wild_program", "the program went wild at address 0x%04x", avr->pc);
 }
 
 /* ---- events ---- */
@@ -165,7 +165,7 @@ static void run_one(rig_t *rig) {
     bool writes_flash = opcode(rig->avr) == SPM;
     rig->avr->run_cycle_count = 1;
     rig->avr->pc = avr_run_one(rig->avr);
-    if (writes_flash) quick_forget(rig);
+    if (writes_flash) quick_discard(rig);
 }
 
 static void step(rig_t *rig, cycle_t until) {
@@ -190,7 +190,7 @@ static void step(rig_t *rig, cycle_t until) {
         note_stack(rig, code);
     }
     if (avr->state == cpu_Crashed || avr->state == cpu_Stopped)
-        in_trouble(rig, "the program went wild at address 0x%04x", avr->pc);
+        crash(rig, "wild_program", "the program went wild at address 0x%04x", avr->pc);
     if (avr->cycle >= rig->next_due || !rig->is_planned) run_events(rig, avr->cycle);
     /* The instruction after the one that allows interrupts always runs (7.7); simavr marks that
      * one by its own state. */
@@ -215,7 +215,7 @@ static void sleep(rig_t *rig, cycle_t until) {
 
 const char *rig_run(rig_t *rig, cycle_t until) {
     avr_t *avr = rig->avr;
-    while (avr->cycle < until && !rig->trouble) {
+    while (avr->cycle < until && !rig->crash_code) {
         if (rig->reset_wanted) reset(rig);
         if (rig->reset_until) {
             avr->cycle = least(rig->reset_until, until);
@@ -230,7 +230,7 @@ const char *rig_run(rig_t *rig, cycle_t until) {
             step(rig, until);
         }
     }
-    return rig->trouble;
+    return rig->crash_code ? rig->crash_text : NULL;
 }
 
 /* ---- making ---- */

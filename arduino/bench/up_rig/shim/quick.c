@@ -8,9 +8,9 @@
  */
 #include "quick.h"
 
-enum { LONGEST_RUN = 1 << 24 };
+enum { MAX_RUN = 1 << 24 };
 
-void quick_forget(rig_t *rig) { rig->is_decoded = false; }
+void quick_discard(rig_t *rig) { rig->is_decoded = false; }
 
 static inline unsigned pair_at(const uint8_t *data, unsigned at) {
     return data[at] | (unsigned)data[at + 1] << 8;
@@ -83,7 +83,7 @@ bool quick_run(rig_t *rig, cycle_t end) {
     const quick_op_t *at = program + avr->pc / 2;
     quick_op_t in;
     unsigned address;
-    int left = end - avr->cycle < LONGEST_RUN ? (int)(end - avr->cycle) : LONGEST_RUN, all = left;
+    int left = end - avr->cycle < MAX_RUN ? (int)(end - avr->cycle) : MAX_RUN, all = left;
     bool asks = false;
     unsigned c = flags[S_C], zero = !flags[S_Z], minus = flags[S_N] << 7, over = flags[S_V] << 7;
     unsigned sign = flags[S_S] << 7, half = flags[S_H] << 4, t = flags[S_T], i = flags[S_I];

@@ -153,8 +153,8 @@ struct rig {
     avr_t *avr;
     quick_op_t *quick;       /* of each word that the program counter can point to */
     bool is_decoded;         /* it matches the present flash */
-    const char *trouble;     /* why the chip stopped, permanently */
-    char trouble_text[96];
+    const char *crash_code;  /* why the chip stopped, permanently; NULL while it runs */
+    char crash_text[96];
     cycle_t next_due;
     bool is_planned;
     bool is_measuring;       /* interrupts off and stack: needs one instruction at a time */
@@ -194,14 +194,14 @@ uint8_t bits_written(const rig_t *rig, uint8_t value); /* SBI writes one bit alo
 void run_events(rig_t *rig, cycle_t now);
 void replan(rig_t *rig);
 void want_reset(rig_t *rig, uint8_t cause);
-void in_trouble(rig_t *rig, const char *format, unsigned value);
+void crash(rig_t *rig, const char *code, const char *format, unsigned value);
 uint32_t next_random(rig_t *rig);
 void hook_read(rig_t *rig, uint16_t address, avr_io_read_t function);
 void hook_write(rig_t *rig, uint16_t address, avr_io_write_t function);
 
 /* ---- quick.c ---- */
 bool quick_run(rig_t *rig, cycle_t end);
-void quick_forget(rig_t *rig);
+void quick_discard(rig_t *rig);
 
 /* ---- interrupts.c ---- */
 void interrupts_hook(rig_t *rig);

@@ -101,7 +101,7 @@ static void set_clock(rig_t *rig, rig_timer_t *timer, cycle_t now) {
     timer->origin = now;
     if (timer->divider)
         timer->origin -= (now - rig->prescaler_zero[is_two]) % timer->divider;
-    if (!is_two && select >= 6) in_trouble(rig, "timer clock %u is not modelled", select);
+    if (!is_two && select >= 6) crash(rig, "not_modelled", "timer clock %u is not modelled", select);
     plan(rig, timer, now);
 }
 
@@ -132,7 +132,7 @@ static void on_control_a(avr_t *avr, avr_io_addr_t address, uint8_t value, void 
     run_events(rig, now);
     avr->data[address] = value;
     if (value & 3 && value & 0xF0)
-        in_trouble(rig, "pulse width modes are not modelled (TCCRnA = 0x%02x)", value);
+        crash(rig, "not_modelled", "pulse width modes are not modelled (TCCRnA = 0x%02x)", value);
     for (int side = 0; side < 2; side++)
         show(rig, timer, side, latch_of(rig, timer, side), now);
 }

@@ -2,14 +2,14 @@
 #include "rig.h"
 
 enum { WDIF = 0x80, WDIE = 0x40, WDCE = 0x10, WDE = 0x08, PRESCALER = 0x27, WDRF = 8 };
-enum { SHORTEST_US = 16000 };
+enum { MIN_US = 16000 };
 
 static void restart(rig_t *rig, cycle_t now) {
     uint8_t control = rig->avr->data[R_WDTCSR];
     unsigned scale = (control & 7) | (control & 0x20 ? 8 : 0);
     rig->watchdog.due = NEVER;
     if (control & (WDE | WDIE))
-        rig->watchdog.due = now + (cycle_t)(rig->watchdog.factor * SHORTEST_US * CYCLES_PER_US *
+        rig->watchdog.due = now + (cycle_t)(rig->watchdog.factor * MIN_US * CYCLES_PER_US *
                                             (double)(1u << scale));
     rig->is_planned = false;
 }

@@ -30,14 +30,11 @@ constexpr int32_t BIAS_PER_16TH = 149923;
 constexpr int16_t MAX_BIAS_16 = 32 * 16;
 constexpr int32_t MAX_BIAS = MAX_BIAS_16 * BIAS_PER_16TH;
 constexpr uint8_t BIAS_FRACTION = 4;
-// A sixteenth of a count in sixteenths of a deg/s, Q15.
-constexpr int16_t COUNT_TO_DEG_S = 999;
 // Angles of a slot leave as Q19; one of them a slot is 0.87427 sixteenths of a degree per second.
 constexpr int32_t TURN_TO_UPPER_HALF = 1 << 3;
 constexpr int16_t ANGLE_REST = (1 << 13) - 1;
 constexpr int16_t RATE_Q15 = 28648;
 
-constexpr int32_t ONE_Q30 = 1L << 30;
 constexpr int32_t ONE_Q28 = 1L << 28;
 constexpr int16_t ONE_Q14 = 1 << 14;
 constexpr int16_t MIN_COSINE_SQUARED_Q14 = 820;  // pitch of 77 degrees: yaw means little above
@@ -68,9 +65,6 @@ constexpr uint8_t KEPT_BIAS = 3;
 constexpr uint8_t STORED_BIAS = 10;
 constexpr uint8_t UNKNOWN_BIAS = 50;
 
-// EEPROM lasts 100,000 writes: a new bias is stored when it differs by half a deg/s.
-constexpr int16_t BIAS_CHANGE_16 = 8;
-
 }  // namespace
 
 AttitudeFilter::AttitudeFilter(Calibration& calibration)
@@ -88,9 +82,9 @@ void AttitudeFilter::begin() {
   tilt_.begin(FOUND_TILT, state_.has_bias ? STORED_BIAS : UNKNOWN_BIAS, 0);
 }
 
-OUT_OF_LINE void AttitudeFilter::on_sample(const ImuSample& sample, uint32_t) {
+OUT_OF_LINE void AttitudeFilter::on_sample(const ImuSample& sample) {
   if (is_senseless(sample) || is_copy(sample)) {
-    miss();
+    on_missing();
     return;
   }
   if (!has_begun_) begin();
@@ -123,9 +117,7 @@ OUT_OF_LINE void AttitudeFilter::on_sample(const ImuSample& sample, uint32_t) {
   }
 }
 
-void AttitudeFilter::on_missing(uint32_t) { miss(); }
-
-OUT_OF_LINE void AttitudeFilter::miss() {
+OUT_OF_LINE void AttitudeFilter::on_missing() {
   if (missing_slots_ < MAX_AGE_SLOTS) ++missing_slots_;
   if (missing_slots_ < STALE_SLOTS) return;
   is_fresh_ = false;
@@ -205,30 +197,6 @@ OUT_OF_LINE void AttitudeFilter::use_own_bias() {
   tilt_.begin(STILL_TILT, MEASURED_BIAS, tilt_.speed_m_s());
   // Until now the bias turned the attitude: gravity is what the still accelerometer shows.
   found_groups_ = 0;
-}
-
-/** The still second that was searched for: its bias also flies after a reset with lost memory. */
-void AttitudeFilter::on_still() {
-  use_own_bias();
-  for (uint8_t axis = 0; axis < 3; ++axis) {
-    const int16_t change_16 = difference_of(mean_16(axis), calibration_.gyro_bias_16[axis]);
-    if (clamped16(change_16, BIAS_CHANGE_16) != change_16) has_new_bias_ = true;
-  }
-  if (has_new_bias_) keep_bias();
-}
-
-int16_t AttitudeFilter::mean_16(uint8_t axis) const {
-  return times_q15(stillness_.mean_q4()[axis], COUNT_TO_DEG_S);
-}
-
-OUT_OF_LINE void AttitudeFilter::keep_bias() {
-  for (uint8_t axis = 0; axis < 3; ++axis) calibration_.gyro_bias_16[axis] = mean_16(axis);
-}
-
-bool AttitudeFilter::take_new_bias() {
-  const bool has_new_bias = has_new_bias_;
-  has_new_bias_ = false;
-  return has_new_bias;
 }
 
 /** The measured up direction, inverted: the chip's x forward, y left, z up. */
@@ -351,48 +319,12 @@ OUT_OF_LINE void AttitudeFilter::find_angles() {
   find_pitch();
 }
 
-uint16_t AttitudeFilter::age_ms(uint32_t) const {
+uint16_t AttitudeFilter::age_ms() const {
   if (!has_sample_ || missing_slots_ == MAX_AGE_SLOTS) return 65535;
   return static_cast<uint16_t>(missing_slots_ * 2);
 }
 
 bool AttitudeFilter::has_searched_long() const { return searched_slots_ == SEARCH_SLOTS; }
-
-bool AttitudeFilter::is_calibrating() const {
-  return !state_.has_bias || !(state_.has_ended_search || has_searched_long());
-}
-
-Reason AttitudeFilter::refusal() const {
-  if (!is_valid()) return Reason::IMU_INVALID;
-  return is_still() ? Reason::NONE : Reason::NOT_STILL;
-}
-
-Reason AttitudeFilter::calibrate_gyro() {
-  if (refusal() != Reason::NONE) return refusal();
-  use_own_bias();
-  keep_bias();
-  return Reason::NONE;
-}
-
-Reason AttitudeFilter::calibrate_level() {
-  if (refusal() != Reason::NONE) return refusal();
-  // The sensor's own angles: as if nothing had been level before.
-  level_.tilt(down_);
-  find_angles();
-  const bool is_in_range =
-      clamped16(attitude_.roll_cdeg, Level::MAX_CDEG) == attitude_.roll_cdeg &&
-      clamped16(attitude_.pitch_cdeg, Level::MAX_CDEG) == attitude_.pitch_cdeg;
-  if (is_in_range) {
-    calibration_.level_roll_cdeg = attitude_.roll_cdeg;
-    calibration_.level_pitch_cdeg = attitude_.pitch_cdeg;
-    level_.set(attitude_.roll_cdeg, attitude_.pitch_cdeg);
-    state_.gravity_q30[0] = state_.gravity_q30[1] = 0;
-    state_.gravity_q30[2] = ONE_Q30;
-  }
-  find_down();
-  find_angles();
-  return is_in_range ? Reason::NONE : Reason::OUT_OF_RANGE;
-}
 
 AttitudeState AttitudeFilter::state() const {
   AttitudeState state = state_;
@@ -400,7 +332,7 @@ AttitudeState AttitudeFilter::state() const {
   return state;
 }
 
-void AttitudeFilter::restore(const AttitudeState& state, uint32_t) {
+void AttitudeFilter::restore(const AttitudeState& state) {
   begin();
   state_ = state;
   tilt_.begin(KEPT_TILT, state.has_bias ? KEPT_BIAS : UNKNOWN_BIAS, state.speed_m_s);

@@ -66,17 +66,15 @@ class AttitudeFilter : private AttitudeMemory {
   void begin();
 
   /** Takes the sample of a slot; each slot of 2000 us has this or on_missing(). */
-  void on_sample(const ImuSample& sample, uint32_t now_us);
+  void on_sample(const ImuSample& sample);
   /** A slot without a sample. */
-  void on_missing(uint32_t now_us);
+  void on_missing();
 
   const Attitude& attitude() const { return attitude_; }
-  /**
-   * Samples arrive, differ within 50 ms, are plausible, and gravity has been found.
-   */
+  /** Samples arrive, differ within 50 ms, are plausible, and gravity has been found. */
   bool is_valid() const { return is_fresh_ && has_gravity_; }
   /** Age of the newest sample, ms, counted in slots, at most 65535. */
-  uint16_t age_ms(uint32_t now_us) const;
+  uint16_t age_ms() const;
 
   /**
    * Against arming: no bias is known, or the search for a still second is younger than 10 s. The
@@ -99,10 +97,9 @@ class AttitudeFilter : private AttitudeMemory {
   void stop_calibrating() { state_.has_ended_search = true; }
 
   AttitudeState state() const;
-  void restore(const AttitudeState& state, uint32_t now_us);
+  void restore(const AttitudeState& state);
 
  private:
-  void miss();
   bool is_copy(const ImuSample& sample);
   bool is_senseless(const ImuSample& sample);
   bool has_saturated_long(const ImuSample& sample);

@@ -20,7 +20,7 @@ void Autopilot::begin(const SavedState* kept, uint8_t cause, uint32_t now_us) {
   const bool may_fly = cause != 0 && !(cause & RESET_POWER_ON);
   if (may_fly && attitude.has_bias()) attitude.stop_calibrating();
   if (kept == nullptr) return;
-  attitude.restore(kept->attitude, now_us);
+  attitude.restore(kept->attitude);
   if (cause != RESET_WATCHDOG) return;
   reset_cause |= RESET_RESTORED;
   authority.restore(kept->authority, now_us);
@@ -32,9 +32,9 @@ void Autopilot::control(const ImuSample* sample, uint32_t now_us) {
     attitude.stop_calibrating();
   }
   if (sample != nullptr) {
-    attitude.on_sample(*sample, now_us);
+    attitude.on_sample(*sample);
   } else {
-    attitude.on_missing(now_us);
+    attitude.on_missing();
   }
   const bool is_calibrating = attitude.is_calibrating() || receiver.is_learning();
   authority.update(attitude.is_valid(), is_calibrating, settings.is_broken(), now_us);

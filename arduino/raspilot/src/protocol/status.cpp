@@ -42,7 +42,7 @@ void write_status(const Autopilot& autopilot, uint32_t now_us, uint8_t* payload)
   put_u16(payload + AT_FRAMES_LOST, autopilot.link.missing());
   put_u16(payload + AT_UPTIME_S, autopilot.meter.seconds());
   put_u16(payload + AT_RX_AGE_MS, autopilot.receiver.age_ms(now_us));
-  put_u16(payload + AT_IMU_AGE_MS, autopilot.attitude.age_ms(now_us));
+  put_u16(payload + AT_IMU_AGE_MS, autopilot.attitude.age_ms());
 }
 
 }  // namespace raspilot
