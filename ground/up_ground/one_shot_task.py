@@ -9,6 +9,7 @@ from typing import Any, TextIO
 
 from twisted.internet.defer import Deferred
 
+from up.cli.option_parser import EXIT_FAILED, EXIT_INTERRUPTED, EXIT_OK
 from up.log.json_lines import program_line
 from up.protocols.general_message import GeneralMessage
 from up.system.clock import cancel, use_monotonic_time
@@ -19,11 +20,8 @@ from up_ground.sanitize_text import sanitize_text
 from up_ground.settings import Settings
 from up_ground.token_store import TokenStore
 
-EXIT_DONE = 0
-EXIT_REFUSED = 1
-EXIT_USAGE = 2
 EXIT_NO_ANSWER = 3
-EXIT_INTERRUPTED = 130
+"""No connection, no aircraft or no answer."""
 
 
 class OneShotTask:
@@ -44,7 +42,7 @@ class OneShotTask:
         try:
             echo(text, code, **fields)
         except OSError:
-            self.finish(EXIT_DONE)
+            self.finish(EXIT_OK)
 
     def fail(self, text: str, code: str, status: int, **fields: object) -> None:
         """Print an error and end."""
@@ -85,7 +83,7 @@ class LinkTask(OneShotTask):
         if self.is_finished:
             return
         if status.state is LinkState.WAITING:
-            exit_status = EXIT_REFUSED if status.rejection else EXIT_NO_ANSWER
+            exit_status = EXIT_FAILED if status.rejection else EXIT_NO_ANSWER
             code = status.rejection or status.code
             self.fail(status.reason, code, exit_status)
         elif status.is_open:
@@ -143,7 +141,7 @@ def run(make: MakeTask) -> int:
 
     def _crash(failure: Any) -> None:
         print_error(f"error in the program: {failure.getErrorMessage()}", "internal")
-        status[0] = EXIT_REFUSED
+        status[0] = EXIT_FAILED
         loop.stop()
 
     loop.callWhenRunning(begin)

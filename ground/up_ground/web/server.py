@@ -8,8 +8,9 @@ from typing import Any
 
 from twisted.internet.error import CannotListenError
 
+from up.cli.option_parser import EXIT_OK
 from up_ground.catalogue import Catalogue, catalogue_message
-from up_ground.one_shot_task import EXIT_DONE, EXIT_NO_ANSWER, OneShotTask
+from up_ground.one_shot_task import EXIT_NO_ANSWER, OneShotTask
 from up_ground.web.access import Access
 from up_ground.web.aircraft_source import AircraftSource, Subscribers
 from up_ground.web.client_hub import ClientHub
@@ -77,7 +78,7 @@ class Server(OneShotTask):
 
     def finish(self, status: int) -> None:
         """End; an interrupt is how a server ends."""
-        super().finish(EXIT_DONE if self._port is not None else status)
+        super().finish(EXIT_OK if self._port is not None else status)
 
     async def stop(self) -> None:
         """Close the port, the pages' links and the aircraft's."""
