@@ -4,9 +4,12 @@ import select
 import socket
 from collections.abc import Callable
 
-from up_proxy.buffers import LINE_MAX_BYTES, LineBuffer, SendBuffer
+from up.protocols.line_decoder import LineBuffer
 from up_proxy.poller import PAUSED, READ, WRITE, Poller
+from up_proxy.send_buffer import SendBuffer
 
+LINE_MAX_BYTES = 65536
+"""A connection that sends a longer line is closed."""
 IDLE_S = 15.0
 """A connection without a byte in either direction for this long is closed."""
 HIGH_WATER_BYTES = 65536

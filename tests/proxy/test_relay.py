@@ -3,7 +3,7 @@
 import pytest
 
 from tests.proxy.virtual import Bench
-from up_proxy.buffers import LINE_MAX_BYTES
+from up_proxy.connection import LINE_MAX_BYTES
 from up_proxy.connection import HIGH_WATER_BYTES
 from up_proxy.listener import SEND_BUFFER_BYTES
 

@@ -1,33 +1,4 @@
-"""The buffers of a connection: a partial line received, whole lines to send."""
-
-LINE_MAX_BYTES = 65536
-"""A connection that sends a longer line is closed."""
-
-
-class LineBuffer:
-    """Cuts a stream of chunks at its last LF, so that only whole lines pass."""
-
-    __slots__ = ("_partial",)
-
-    def __init__(self) -> None:
-        self._partial = bytearray()
-
-    def __len__(self) -> int:
-        return len(self._partial)
-
-    def starts_with(self, prefix: bytes) -> bool:
-        """Return whether the partial line begins with `prefix`."""
-        return self._partial.startswith(prefix)
-
-    def feed(self, chunk: bytes) -> bytes:
-        """Return the whole lines that `chunk` completes, or empty bytes."""
-        cut = chunk.rfind(b"\n") + 1
-        if not cut:
-            self._partial += chunk
-            return b""
-        whole = bytes(self._partial) + chunk[:cut] if self._partial else chunk[:cut]
-        self._partial = bytearray(chunk[cut:])
-        return whole
+"""The lines that wait for a slow peer."""
 
 
 class SendBuffer:
