@@ -80,7 +80,6 @@ class LeaveControl(ControlTask):
             self.fail(f"this ground has no control: {state}", "no_control", EXIT_FAILED)
 
     def on_limit(self) -> None:
-        """Report the most likely cause."""
         if self._has_requested and self._to is not None:
             text = f"no ground {self._to} listens to this aircraft"
             self.fail(text, "unknown_ground", EXIT_FAILED)

@@ -126,7 +126,6 @@ class GroundLink:
             self._connection.abort("reconnecting to request control", "reconnect")
 
     def measure(self) -> None:
-        """Read the link's own delay and drops."""
         if self._connection is not None and self.status.is_open:
             self.status.round_trip_ms = self._connection.round_trip_ms()
 

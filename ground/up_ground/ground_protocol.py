@@ -45,7 +45,6 @@ class GroundProtocol(Protocol):
 
     @property
     def dropped_too_long(self) -> int:
-        """Count of lines of more than 16 KiB."""
         return self._lines.dropped_too_long
 
     def send(self, line: bytes) -> bool:

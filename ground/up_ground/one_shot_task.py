@@ -45,7 +45,6 @@ class OneShotTask:
             self.finish(EXIT_OK)
 
     def fail(self, text: str, code: str, status: int, **fields: object) -> None:
-        """Print an error and end."""
         print_error(sanitize_text(text, 600), code, **fields)
         self.finish(status)
 

@@ -58,7 +58,6 @@ class Send(LinkTask):
         self.link.start()
 
     def on_message(self, message: GeneralMessage) -> None:
-        """Take telemetry for its beacon, and the answers to us."""
         if self.is_finished:
             return
         if self._telemetry.update(message, self._reactor.seconds()):

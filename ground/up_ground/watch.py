@@ -76,11 +76,9 @@ class Watch(LinkTask):
         """Show the present state."""
 
     def on_time_over(self) -> None:
-        """End when the requested time is over."""
         self.finish(EXIT_OK)
 
     def shown_one(self) -> None:
-        """Count a shown message and end after the last."""
         if self._left is not None:
             self._left -= 1
             if self._left <= 0:
@@ -145,7 +143,6 @@ class OnceWatch(Watch):
         self.finish(EXIT_OK)
 
     def on_time_over(self) -> None:
-        """Print the reason for the missing telemetry."""
         status = self.link.status
         reason, code = status.reason or "no telemetry", status.code or "no_telemetry"
         if status.is_aircraft_online is False:
@@ -169,7 +166,6 @@ class ScreenWatch(Watch):
         super().start()
 
     def finish(self, status: int) -> None:
-        """Leave the keys alone and end."""
         self._reactor.removeReader(self)
         super().finish(status)
 
@@ -184,7 +180,6 @@ class ScreenWatch(Watch):
             self.shown_one()
 
     def fileno(self) -> int:
-        """Return the descriptor of the keys, for the reactor."""
         return self._terminal.fileno()
 
     def logPrefix(self) -> str:  # noqa: N802 - Twisted's name

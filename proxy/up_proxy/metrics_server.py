@@ -51,7 +51,6 @@ class OnlyRequest(SiteRequest):
     channel: Any
 
     def gotLength(self, length: int | None) -> None:  # noqa: N802 - Twisted's name
-        """Close the connection after the answer."""
         self.channel.persistent = 0
         self.responseHeaders.setRawHeaders(b"Connection", [b"close"])
         super().gotLength(length)  # type: ignore[no-untyped-call]
@@ -70,7 +69,6 @@ class MetricsConnection(ProtocolWrapper):
     _left_bytes = MAX_REQUEST_BYTES
 
     def makeConnection(self, transport: Any) -> None:  # noqa: N802 - Twisted's name
-        """Start the time limit."""
         clock: Clock = self.factory.clock
         self._limit = clock.callLater(CONNECTION_LIMIT_S, transport.abortConnection)
         super().makeConnection(transport)  # type: ignore[no-untyped-call]
@@ -91,7 +89,6 @@ class MetricsConnection(ProtocolWrapper):
         self.transport.loseWriteConnection()
 
     def connectionLost(self, reason: Failure = connectionDone) -> None:  # noqa: N802
-        """Stop the time limit."""
         cancel(self._limit)
         super().connectionLost(reason)  # type: ignore[no-untyped-call]
 
@@ -121,7 +118,6 @@ class MetricsFactory(WrappingFactory):
         super().registerProtocol(p)  # type: ignore[no-untyped-call]
 
     def unregisterProtocol(self, p: ProtocolWrapper) -> None:  # noqa: N802 - Twisted's name
-        """Remove a connection."""
         self.protocols.pop(p, None)
 
 

@@ -23,7 +23,6 @@ class SendBuffer:
 
     @property
     def kept_bytes(self) -> int:
-        """Length of the head that must not be dropped."""
         return self._kept
 
     def put_rest(self, rest: bytes) -> None:
@@ -33,7 +32,6 @@ class SendBuffer:
         self._kept = rest.find(b"\n") + 1
 
     def put(self, lines: bytes) -> None:
-        """Append whole lines."""
         buffer = self._buffer
         buffer += lines
         if not self.limit_bytes or len(buffer) <= self.limit_bytes:
@@ -50,11 +48,9 @@ class SendBuffer:
         self._kept += len(line)
 
     def head(self, size: int = 65536) -> bytes:
-        """Return the next bytes to send."""
         return bytes(self._buffer[:size])
 
     def sent(self, count: int) -> None:
-        """Remove bytes that the socket took."""
         buffer = self._buffer
         if count < self._kept:
             self._kept -= count

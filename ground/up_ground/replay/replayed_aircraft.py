@@ -128,11 +128,9 @@ class ReplayedAircraft:
             self._player.pause()
 
     def on_control(self, page: ClientSession, action: str, to: int | None) -> None:
-        """Refuse: a recorded flight cannot be controlled."""
         raise PageFault(REPLAY, "replay")
 
     def on_command(self, page: ClientSession, message: Reader) -> None:
-        """Refuse: a recorded flight takes no Commands."""
         page.send(
             {
                 "type": "answer",

@@ -133,7 +133,6 @@ class AircraftSession:
         return self._frame
 
     def past(self) -> Iterable[dict[str, Any]]:
-        """Return the messages for a page that starts to watch."""
         yield track_message(self.name, self._track.points())
         yield from self.monitor.past(self._reactor.seconds())
         yield self.commands.gains_message()
@@ -177,7 +176,6 @@ class AircraftSession:
         }
 
     def on_control(self, page: ClientSession, action: str, to: int | None) -> None:
-        """Let a page request, give, deny or release control."""
         if action == "give":
             taker = None if to is None else self._subscribers.get(to)
             if to is not None and taker is None:
@@ -194,7 +192,6 @@ class AircraftSession:
         self.commands.on_command(page, message)
 
     def on_replay(self, page: ClientSession, action: str, message: Reader) -> None:
-        """Refuse: the aircraft is live, not a replay."""
         raise PageFault("this is not a replay", "not_a_replay")
 
     def on_away(self, page: ClientSession) -> None:

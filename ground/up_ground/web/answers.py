@@ -63,7 +63,6 @@ class Answers:
         return id_
 
     def on_message(self, message: GeneralMessage) -> None:
-        """Take a message of the aircraft, if it is an answer."""
         if message.name in ("up.ack", "up.nack"):
             id_ = message.data.get("id")
             sent = self._sent.get(id_) if isinstance(id_, str) else None

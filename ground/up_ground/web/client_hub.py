@@ -273,7 +273,6 @@ class ClientHub:
         self._drop(page)
 
     def _reject(self, link: ClientConnection, reason: str) -> None:
-        """Close a link without a page."""
         connection = self._connections.pop(link)
         cancel(connection.timer)
         link.close(LATER, reason)

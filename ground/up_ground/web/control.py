@@ -157,7 +157,6 @@ class Control:
         self._poll_ground_request()
 
     def describe(self, page: ClientSession) -> dict[str, Any]:
-        """Return the control part of the status of ``page``."""
         holder, holder_name = "unknown", ""
         status = self._lease.status
         if self.holder is not None:
@@ -245,7 +244,6 @@ class Control:
             self._lease.release()
 
     def _request_next(self) -> None:
-        """Request the seat for the first page in the queue."""
         page = next(iter(self._askers))
         cancel(self._askers.pop(page))
         self.request(page)

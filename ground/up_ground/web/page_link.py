@@ -34,7 +34,6 @@ class PageSendBuffer(BaseOutput):
         return self._size
 
     def send(self, message: bytes) -> None:
-        """Send ``message`` after those before it."""
         if self._transport is None:
             return
         self._put(message)
