@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from up.protocols.general_message import GeneralMessage
 from up.system.clock import Timer
@@ -13,7 +13,7 @@ from up_ground.link_status import LinkState
 from up_ground.settings import Settings
 from up_ground.telemetry import NAME, Telemetry
 from up_ground.token_store import TokenStore
-from up_ground.web.aircraft_source import Subscribers
+from up_ground.web.aircraft_source import AircraftSource
 from up_ground.web.client_session import ClientSession
 from up_ground.web.command_checks import Checks
 from up_ground.web.command_service import CommandService
@@ -24,11 +24,14 @@ from up_ground.web.messages import FrameMessage, PageFault, Reader
 from up_ground.web.proxy_lease import ProxyLease
 from up_ground.web.track import Home, Track, track_message
 
+if TYPE_CHECKING:
+    from up_ground.web.client_hub import ClientHub
+
 TICK_S = 0.25
 """Period of the checks for changes by time alone."""
 
 
-class AircraftSession:
+class AircraftSession(AircraftSource):
     """Forwards telemetry without delay, and keeps the state that a page needs when it joins."""
 
     def __init__(
@@ -38,7 +41,7 @@ class AircraftSession:
         settings: Settings,
         tokens: TokenStore,
         checks: Checks,
-        subscribers: Subscribers,
+        subscribers: ClientHub,
     ) -> None:
         self.name = name
         self.link = GroundLink(reactor, settings, self, tokens)
@@ -46,7 +49,6 @@ class AircraftSession:
         self._reactor = reactor
         self._settings = settings
         self._subscribers = subscribers
-        self._frame: FrameMessage | None = None
         self._lease = ProxyLease(self.link, settings.direct)
         self.control = Control(reactor, self._lease, self._report, self._send_status)
         self.commands = CommandService(
@@ -97,7 +99,7 @@ class AircraftSession:
                 lambda now_s: now_s - made_s,
                 self._reactor.seconds,
             )
-            self._frame = frame
+            self.newest_frame = frame
             self._subscribers.send_latest(self.name, "frame", frame)
             self._process(came_s)
         elif message.name != NAME:
@@ -128,9 +130,6 @@ class AircraftSession:
         self.control.on_lease()
         self.commands.on_moment()
         self._send_status()
-
-    def frame(self) -> FrameMessage | None:
-        return self._frame
 
     def past(self) -> Iterable[dict[str, Any]]:
         yield track_message(self.name, self._track.points())
@@ -195,7 +194,6 @@ class AircraftSession:
         raise PageFault("this is not a replay", "not_a_replay")
 
     def on_away(self, page: ClientSession) -> None:
-        """Handle the loss of a page's link; the page may return."""
         self.control.on_away(page)
 
     def on_gone(self, page: ClientSession) -> None:

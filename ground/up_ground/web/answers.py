@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import secrets
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from typing import Any
 
 from up.flight_log.gain_changes import changes_text
@@ -29,6 +29,10 @@ class Answer:
     reason: str = ""
     round_trip_ms: float | None = None
     data: dict[str, Any] | None = None
+
+    def message(self, ask: int) -> dict[str, Any]:
+        """Return the message for the page that sent the Command as its number ``ask``."""
+        return {"type": "answer", "ask": ask, **asdict(self)}
 
 
 Notify = Callable[[Answer], object]

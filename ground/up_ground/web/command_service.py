@@ -86,15 +86,7 @@ class CommandService:
         asks = page.asks
 
         def notify(answer: Answer) -> None:
-            ask.answer = {
-                "type": "answer",
-                "ask": number,
-                "outcome": answer.outcome,
-                "code": answer.code,
-                "reason": answer.reason,
-                "round_trip_ms": answer.round_trip_ms,
-                "data": answer.data,
-            }
+            ask.answer = answer.message(number)
             # A page that was reloaded since then uses the same numbers for other Commands.
             if page.asks is asks:
                 page.send(ask.answer)

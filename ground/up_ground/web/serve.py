@@ -18,15 +18,16 @@ from up_ground.settings import Seat, Settings
 from up_ground.token_store import TokenStore, state_folder
 from up_ground.web.access import Access, machine_names
 from up_ground.web.aircraft_session import AircraftSession
-from up_ground.web.aircraft_source import AircraftSource, Subscribers
+from up_ground.web.aircraft_source import AircraftSource
 from up_ground.web.command_checks import Checks
 from up_ground.web.listen_address import ListenAddress, parse_listen
 from up_ground.web.tile_cache import TileCache, cache_folder
 
 if TYPE_CHECKING:
-    from up_ground.web.site import Tiles
+    from up_ground.web.client_hub import ClientHub
+    from up_ground.web.tiles import TileSource
 
-MakeTiles = Callable[[Any], "Tiles"]
+MakeTiles = Callable[[Any], "TileSource"]
 AIRCRAFT_LIMIT = 16
 _ONE = re.compile(
     rf"(?P<name>{AIRCRAFT_NAME.pattern})"
@@ -130,7 +131,7 @@ def make_sessions(
     reactor: Any,
     chosen: Iterable[Settings],
     environ: Mapping[str, str],
-    subscribers: Subscribers,
+    subscribers: ClientHub,
     catalogue: Catalogue,
 ) -> Iterable[AircraftSource]:
     """Yield an aircraft for each of the settings."""

@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
-from typing import Any
-from typing import Protocol as Interface
+from typing import TYPE_CHECKING, Any
 
 from twisted.web import http
 from twisted.web.resource import Resource
-from twisted.web.server import NOT_DONE_YET, Request, Site
+from twisted.web.server import Request, Site
 
 from up_ground.web.access import Access
 from up_ground.web.static_files import StaticFiles
+
+if TYPE_CHECKING:
+    from up_ground.web.tiles import TileSource
 
 IDLE_S = 20.0
 """A connection without a line for this time is closed, as are incomplete requests."""
@@ -36,14 +38,6 @@ TILES = b"/tiles/"
 _PLAIN = b"text/plain; charset=utf-8"
 
 
-class Tiles(Interface):
-    """Source of the map tiles."""
-
-    def render(self, request: Any) -> Any: ...
-
-    def stop(self) -> None: ...
-
-
 class GroundResource(Resource):
     """The one resource of the site: every request passes its checks and gets its headers."""
 
@@ -54,7 +48,7 @@ class GroundResource(Resource):
         access: Access,
         files: StaticFiles,
         link: Any,
-        tiles: Tiles | None = None,
+        tiles: TileSource | None = None,
     ) -> None:
         super().__init__()  # type: ignore[no-untyped-call]
         self._access = access
@@ -166,6 +160,3 @@ def _only(request: Any, name: bytes) -> str | None:
         return str(values[0].decode("ascii").strip())
     except UnicodeDecodeError:
         return None
-
-
-__all__ = ["NOT_DONE_YET", "GroundResource", "finish", "make_site", "refuse", "send"]
