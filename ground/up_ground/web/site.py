@@ -35,6 +35,10 @@ _WORDS = {MISDIRECTED_REQUEST: b"Misdirected Request", UPGRADE_REQUIRED: b"Upgra
 """Those that Twisted has no words for."""
 LINK = b"/link"
 TILES = b"/tiles/"
+_BODY_REFUSED = (
+    b"HTTP/1.1 413 Content Too Large\r\nServer: up-ground\r\nConnection: close\r\n"
+    b"Content-Type: text/plain; charset=utf-8\r\n\r\na request here has no body\n"
+)
 _PLAIN = b"text/plain; charset=utf-8"
 
 
@@ -98,19 +102,22 @@ class GroundResource(Resource):
 
 
 class GroundRequest(Request):
-    """A request without a body: a longer one is cut off before it is stored anywhere."""
+    """A request without a body: one with a body is refused before anything of it is stored."""
+
+    channel: Any
+    _has_body = False
 
     def gotLength(self, length: int | None) -> None:  # noqa: N802 - Twisted's name
         if length != 0:
-            channel: Any = self.channel
-            channel.transport.abortConnection()
-            length = 0
-        super().gotLength(length)  # type: ignore[no-untyped-call]
+            self._has_body = True
+            self.channel.transport.refuse(_BODY_REFUSED)
+        super().gotLength(0)  # type: ignore[no-untyped-call]
 
     def process(self) -> None:
         """Let the resource answer; Twisted itself answers ``*`` with its own name."""
-        channel: Any = self.channel
-        channel.transport.on_request()
+        if self._has_body:
+            return
+        self.channel.transport.on_request()
         if self.path == b"*":
             self.path = b"/*"
         super().process()  # type: ignore[no-untyped-call]

@@ -14,6 +14,7 @@ from up_ground.web.access import (
     Access,
     KeyAttempts,
 )
+from up_ground.web.aircraft_source import AircraftSource
 from up_ground.web.client_hub import (
     FAULTS_LIMIT,
     GREETING_LIMIT,
@@ -66,7 +67,7 @@ class Link:
         return [each["type"] for each in self.told]
 
 
-class Kite:
+class Kite(AircraftSource):
     """An aircraft that records its requests."""
 
     name, summary = "kite", "kite"
@@ -74,11 +75,14 @@ class Kite:
     def __init__(self):
         self.heard = []
 
+    def start(self):
+        pass
+
+    async def stop(self):
+        pass
+
     def past(self):
         return []
-
-    def frame(self):
-        return None
 
     def status(self, page):
         return {"type": "status", "aircraft": "kite"}
@@ -99,9 +103,6 @@ class Kite:
 
     def on_gone(self, page):
         self.heard.append(("gone", page.number))
-
-    def on_second(self):
-        pass
 
 
 class Bench:
