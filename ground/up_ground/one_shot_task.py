@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import signal
 import sys
-from collections.abc import Callable, Mapping
-from typing import Any, TextIO
+from collections.abc import Callable
+from typing import Any
 
 from twisted.internet.defer import Deferred
 
 from up.cli.option_parser import EXIT_FAILED, EXIT_INTERRUPTED, EXIT_OK
-from up.log.json_lines import program_line
+from up.log.json_lines import program_error, program_line
 from up.protocols.general_message import GeneralMessage
 from up.system.clock import cancel, use_monotonic_time
 from up.system.pid_file import service
@@ -98,20 +98,14 @@ class LinkTask(OneShotTask):
 
 def echo(text: str, code: str = "", **fields: object) -> None:
     """Write a line for the user; with UP_LOG_FORMAT=json one that has a code is JSON."""
-    _write(sys.stdout, text, "info", text, code, fields)
+    line = program_line(text, code, fields) if code else None
+    sys.stdout.write(f"{line or text}\n")
+    sys.stdout.flush()
 
 
 def print_error(text: str, code: str, **fields: object) -> None:
     """Write a line to stderr, as JSON with UP_LOG_FORMAT=json."""
-    _write(sys.stderr, f"up-ground: {text}", "error", text, code, fields)
-
-
-def _write(
-    stream: TextIO, line: str, level: str, text: str, code: str, fields: Mapping[str, object]
-) -> None:
-    as_json = program_line(text, code, fields, level) if code else None
-    stream.write(f"{as_json or line}\n")
-    stream.flush()
+    sys.stderr.write(f"{program_error('up-ground', text, code, **fields)}\n")
 
 
 MakeTask = Callable[[Any], Any]

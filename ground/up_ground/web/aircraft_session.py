@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 from up.protocols.general_message import GeneralMessage
 from up.system.clock import Timer
 from up.system.token_bucket import TokenBucket
+from up_ground.catalogue import Catalogue
 from up_ground.ground_link import GroundLink
 from up_ground.link_status import LinkState
 from up_ground.settings import Settings
@@ -15,7 +16,7 @@ from up_ground.telemetry import NAME, Telemetry
 from up_ground.token_store import TokenStore
 from up_ground.web.aircraft_source import AircraftSource
 from up_ground.web.client_session import ClientSession
-from up_ground.web.command_checks import Checks
+from up_ground.web.command_gate import CommandGate
 from up_ground.web.command_service import CommandService
 from up_ground.web.control import Control
 from up_ground.web.event_monitor import EventMonitor
@@ -40,7 +41,7 @@ class AircraftSession(AircraftSource):
         name: str,
         settings: Settings,
         tokens: TokenStore,
-        checks: Checks,
+        catalogue: Catalogue,
         subscribers: ClientHub,
     ) -> None:
         self.name = name
@@ -49,16 +50,15 @@ class AircraftSession(AircraftSource):
         self._reactor = reactor
         self._settings = settings
         self._subscribers = subscribers
-        self._lease = ProxyLease(self.link, settings.direct)
-        self.control = Control(reactor, self._lease, self._report, self._send_status)
+        lease = ProxyLease(self.link, settings.direct)
+        self.control = Control(reactor, lease, self._report, self._send_status)
         self.commands = CommandService(
             reactor,
             name,
             self.link,
-            self._lease,
             self.control,
             self.telemetry,
-            checks,
+            CommandGate(reactor, name, catalogue, self.link, lease, self.control, self.telemetry),
             lambda message: subscribers.notify(name, message),
             self._report,
         )

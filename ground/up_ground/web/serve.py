@@ -19,7 +19,6 @@ from up_ground.token_store import TokenStore, state_folder
 from up_ground.web.access import Access, machine_names
 from up_ground.web.aircraft_session import AircraftSession
 from up_ground.web.aircraft_source import AircraftSource
-from up_ground.web.command_checks import Checks
 from up_ground.web.listen_address import ListenAddress, parse_listen
 from up_ground.web.tile_cache import TileCache, cache_folder
 
@@ -135,7 +134,6 @@ def make_sessions(
     catalogue: Catalogue,
 ) -> Iterable[AircraftSource]:
     """Yield an aircraft for each of the settings."""
-    checks = Checks(catalogue)
     for settings in chosen:
         tokens = TokenStore(state_folder(environ), settings)
-        yield AircraftSession(reactor, settings.aircraft, settings, tokens, checks, subscribers)
+        yield AircraftSession(reactor, settings.aircraft, settings, tokens, catalogue, subscribers)
