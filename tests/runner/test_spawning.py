@@ -210,22 +210,6 @@ def test_base_profile_and_request_make_the_configuration(runner):
     assert runner.ask()["error"] is None
 
 
-@pytest.mark.parametrize(
-    ("request_", "code"),
-    [
-        ({"profile": "ufo"}, "unknown_profile"),
-        ({"profile": "../blackbox"}, "malformed_request"),
-        ({"configuration": {"../runner.yml": {"python": "x"}}}, "not_settable"),
-        ({"configuration": {"load_guard.yml": {"interval": "/bin/sh"}}}, "malformed_request"),
-        ({"aircraft": ".."}, "malformed_request"),
-    ],
-)
-def test_a_forbidden_request_is_refused(runner, request_, code):
-    response = runner.ask(**request_)
-    assert response["code"] == code and response["spawned"] is False
-    assert runner.instances() == []
-
-
 def test_files_of_an_instance_are_kept_until_the_profile_changes(runner):
     runner.write("blackbox/pids.yml", {"p": 1.0})
     runner.write("profiles/cub/pids.yml", {"p": 5.0})

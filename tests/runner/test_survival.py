@@ -133,16 +133,6 @@ def test_a_reused_process_number_is_not_adopted(runners):
         stranger.wait()
 
 
-def test_a_runner_killed_repeatedly_starts_nothing_twice(runners):
-    runner = runners(**QUICK).start()
-    first = runner.spawn()
-    for _ in range(5):
-        runner.kill()
-        runner.start()
-    assert runner.spawn()["pid"] == first["pid"]
-    assert runner.instances() == [first["pid"]]
-
-
 def test_killed_at_any_moment_of_a_start_it_starts_nothing_twice(runners):
     runner = runners(**QUICK, **{"start limit": 2.0})
     for delay_s in (0.0, 0.002, 0.004, 0.008, 0.016, 0.032, 0.064):

@@ -25,7 +25,6 @@ from up_ground.web.client_hub import (
     ClientHub,
 )
 from up_ground.web.client_session import PAGES_LIMIT, WATCHERS_LIMIT
-from up_ground.web.messages import PageFault, read_message
 
 
 class Output:
@@ -235,17 +234,6 @@ def test_whatever_a_page_says_is_answered_or_done(said):
     assert link.closed is None
     for message in link.told:
         json.dumps(message, allow_nan=False)
-
-
-@settings(max_examples=120, deadline=None)
-@given(st.binary(max_size=300))
-def test_whatever_bytes_come_are_read_or_refused(payload):
-    try:
-        kind, _ = read_message(payload)
-    except PageFault as fault:
-        assert str(fault)
-    else:
-        assert isinstance(kind, str)
 
 
 def test_a_page_that_was_away_is_itself_again(bench):
