@@ -219,6 +219,6 @@ def test_files_of_an_instance_are_kept_until_the_profile_changes(runner):
     for profile, expected in ((None, 2.5), ("cub", 5.0)):
         os.kill(runner.status()["pid"], signal.SIGTERM)
         wait_until(lambda: not runner.instances(), "it ended")
-        wait_until(lambda: runner.status()["error"] is None, "it is removed")
+        wait_until(lambda: not runner.status()["running"], "it is removed")
         runner.spawn(**({"profile": profile} if profile else {}))
         assert runner.config("pids.yml") == {"p": expected}

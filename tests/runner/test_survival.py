@@ -61,6 +61,8 @@ def test_an_instance_that_exited_cleanly_is_not_restarted(runners):
     first = runner.spawn()
     os.kill(first["pid"], signal.SIGTERM)
     runner.logs("ended", cause="exited")
+    record = runner.run_folder / "glider-1" / "state.json"
+    wait_until(lambda: not record.exists(), "it is forgotten")
     runner.kill()
     runner.start()
     assert runner.status()["error"] is None and runner.instances() == []
