@@ -61,9 +61,7 @@ export class Readout {
   }
 }
 
-/**
- * One line of a list: its name, its value, its age while its reading is old.
- */
+/** One line of a list: its name, its value, its age while its reading is old. */
 export class Row {
   #readout;
   #validate;

@@ -4,9 +4,7 @@ import { numberText, plainNumber } from "../state/format.js";
 
 const HEIGHT_PX = 104;
 
-/**
- * One chart of the last minute by uPlot, with its newest values in words above it.
- */
+/** One chart of the last minute by uPlot, with its newest values in words above it. */
 export class LineChart {
   #UPlot;
   #lines;
