@@ -4,139 +4,134 @@ from __future__ import annotations
 
 import argparse
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
+from typing import Any
 
+from up.cli.option_parser import OptionParser
+from up.cli.server_parser import port_number
+from up.cli.verb import add_verb
 from up.system.aircraft_name import AIRCRAFT_NAME, AIRCRAFT_NAME_RULE
 from up.version import VERSION
 from up_ground.page_options import add_page_options
-from up_ground.replay.verb import EPILOG, add_arguments
+from up_ground.replay.verb import add_replay
 from up_ground.settings import DEFAULT_AIRCRAFT, DEFAULT_HOST, DEFAULT_PORT, Seat, Settings
 
 _MAX_S = 1e7
 
 _EPILOG = """\
 examples
-  up-ground watch                                      live picture; q quits
-  up-ground --aircraft glider-1 watch --once           one picture, then exit
-  up-ground watch --json --count 10                    ten telemetry messages for a script
-  up-ground commands                                   Commands that can be sent
+  up-ground watch                                   live picture; q quits
+  up-ground --aircraft glider-1 watch --once        one picture, then exit
+  up-ground watch --json --count 10                 ten messages for a script
+  up-ground commands                                Commands that can be sent
   up-ground send up.flight_mode.set mode=FBW
-  up-ground send arduino.pids.tunings request=true     prints the active gains
-  up-ground serve                                      the page for browsers, on this machine
-  up-ground replay last                                a recorded flight in that page
-  up-ground control request                            requests control of its owner
+  up-ground send arduino.pids.tunings request=true  prints the active gains
+  up-ground serve                                   the page for browsers
+  up-ground replay last                             a recorded flight, there
+  up-ground control request                         requests it of its owner
 
 environment
-  UP_GROUND_HOST, UP_GROUND_PORT, UP_GROUND_AIRCRAFT, UP_GROUND_DIRECT=1 stand for the options
+  UP_GROUND_HOST, UP_GROUND_PORT, UP_GROUND_AIRCRAFT, UP_GROUND_DIRECT=1 stand
+  for the options
 """
 _WATCH_EPILOG = """\
-On a terminal: a picture of the aircraft, at most ten times a second. Stale numbers are dim,
-with their age beside them; when the aircraft is silent everything is dim. '--' is unknown.
-Keys: q quits, c requests control, g hands it to the listener that requests it, r releases it.
+On a terminal: a picture of the aircraft, at most ten times a second. Stale
+numbers are dim, with their age beside them; when the aircraft is silent
+everything is dim. '--' is unknown.
+Keys: q quits, c requests control, g hands it to the listener that requests it,
+r releases it.
 Elsewhere (a pipe, a file): one line a second.
 """
 _SEND_EPILOG = """\
-A value is parsed as JSON if possible (2, true, null, "2"), otherwise as text; dots open an object.
-The newest beacon is echoed, so that a Command delayed by a bad link is refused.
+A value is parsed as JSON if possible (2, true, null, "2"), otherwise as text;
+dots open an object. The newest beacon is echoed, so that a Command delayed by a
+bad link is refused.
 
 examples
   up-ground send up.telemetry.frequency frequency=200
   up-ground send up.arm
 
 exit status
-  0 carried out; 1 refused, with the reason; 2 error in the command line, nothing was sent;
-  3 no connection, no aircraft or no answer
+  0 carried out; 1 refused, with the reason; 2 error in the command line,
+  nothing was sent; 3 no connection, no aircraft or no answer
 """
-
-
+_CONTROL_EPILOG = """\
+One ground has control of an aircraft, the others listen. This requests control,
+hands it to the listener with a number, or releases it.
+"""
 _SERVE_EPILOG = """\
-The page shows everything that 'watch' shows, and a map, charts, events and gains; a page that has
-control sends Commands. One page controls an aircraft, the others watch. The page selects one of
-several aircraft. An unreachable proxy is retried without end.
+The page shows everything that 'watch' shows, and a map, charts, events and
+gains; a page that has control sends Commands. One page controls an aircraft,
+the others watch. The page selects one of several aircraft. An unreachable proxy is
+retried without end.
 
-On an address other than loopback only a page opened with the key, which is printed as part of the
-address, can control; without the key it only watches.
+On an address other than loopback only a page opened with the key, which is
+printed as part of the address, can control; without the key it only watches.
 
 examples
-  up-ground serve                                        the aircraft 'default' of a proxy here
+  up-ground serve                              the aircraft 'default' of a proxy
   up-ground --host proxy.example serve --aircraft glider-1 --aircraft glider-2
   up-ground serve --aircraft glider-1@192.168.1.5:50002/direct
-  up-ground serve --listen 0.0.0.0:8080                  for the phones on this network
-  up-ground serve --listen 0.0.0.0:8080 --watch-only     for spectators
+  up-ground serve --listen 0.0.0.0:8080        for the phones on this network
+  up-ground serve --listen 0.0.0.0:8080 --watch-only  for spectators
 """
 
 
-class _Parser(argparse.ArgumentParser):
-    def __init__(self, *args: object, **more: object) -> None:
-        more.setdefault("formatter_class", argparse.RawDescriptionHelpFormatter)
-        super().__init__(*args, **more)  # type: ignore[arg-type]
-
-
-def make_parser(environ: Mapping[str, str]) -> argparse.ArgumentParser:
+def make_parser(environ: Mapping[str, str]) -> OptionParser:
     """Return the parser; the environment's values become defaults."""
-    parser = _Parser(
+    parser = OptionParser(
         prog="up-ground",
         description="The terminal ground station: watches an aircraft and sends it Commands.",
         epilog=_EPILOG,
     )
-    _add_connection(
-        parser,
-        environ.get("UP_GROUND_HOST") or DEFAULT_HOST,
-        environ.get("UP_GROUND_PORT") or DEFAULT_PORT,
-        environ.get("UP_GROUND_DIRECT", "") not in ("", "0"),
-        environ.get("UP_GROUND_AIRCRAFT") or DEFAULT_AIRCRAFT,
-    )
+    _add_connection(parser, environ)
     parser.add_argument("--version", action="version", version=f"up-ground {VERSION}")
-    verbs = parser.add_subparsers(dest="verb", metavar="VERB", parser_class=_Parser)
+    verbs = parser.add_subparsers(title="verbs", metavar="VERB")
     _add_watch(verbs)
     _add_send(verbs)
     _add_control(verbs)
     for verb in dict.fromkeys(verbs.choices.values()):
-        # People write them behind the verb as well; there an absent one must change nothing.
-        _add_connection(verb, *(argparse.SUPPRESS,) * 4)
+        _add_connection(verb)
     _add_serve(verbs)
-    _add_replay(verbs)
-    commands = verbs.add_parser("commands", help="list the Commands that a ground may send")
+    add_replay(verbs)
+    text = "list the Commands that a ground may send"
+    commands = add_verb(verbs, "commands", "up_ground.main:commands", text)
     commands.add_argument("name", nargs="?", help="only this one")
+    commands.add_argument("--json", action="store_true", help="print one JSON document")
     return parser
 
 
 def _add_connection(
     parser: argparse.ArgumentParser,
-    host: object,
-    port: object,
-    direct: object,
-    aircraft: object = None,
+    environ: Mapping[str, str] | None = None,
+    *,
+    aircraft: bool = True,
 ) -> None:
-    """Add the options for the peer's address and the names, with their defaults."""
-    now = "" if host is argparse.SUPPRESS else " (default %(default)s)"
+    """Add the options for the peer's address and the names.
+
+    Without ``environ`` it is the parser of a verb: an absent option changes nothing there.
+    """
     group = parser.add_argument_group("peer")
-    group.add_argument(
-        "--host",
-        default=host,
-        help=f"the Ground Station Proxy, or the aircraft itself{now}",
-    )
-    group.add_argument(
-        "--port",
-        type=_port,
-        default=port,
-        metavar="N",
-        help=f"its port: 3004 of a proxy, 50002 of an aircraft{now}",
-    )
-    if aircraft is not None:
-        group.add_argument(
-            "--aircraft",
-            type=_aircraft,
-            default=aircraft,
-            metavar="NAME",
-            help=f"which aircraft of the proxy{now}",
-        )
-    group.add_argument(
-        "--direct",
-        action="store_true",
-        default=direct,
-        help="send no hello: for a legacy proxy or an old aircraft on the same LAN",
-    )
+
+    def add(option: str, text: str, default: object, **more: Any) -> None:
+        if environ is None:
+            default = argparse.SUPPRESS
+        elif "action" not in more:
+            text += " (default %(default)s)"
+        group.add_argument(option, help=text, default=default, **more)
+
+    given = environ or {}
+    host = given.get("UP_GROUND_HOST") or DEFAULT_HOST
+    add("--host", "the Ground Station Proxy, or the aircraft itself", host)
+    port = given.get("UP_GROUND_PORT") or DEFAULT_PORT
+    text = "its port: 3004 of a proxy, 50002 of an aircraft"
+    add("--port", text, port, type=_port, metavar="N")
+    if aircraft:
+        name = given.get("UP_GROUND_AIRCRAFT") or DEFAULT_AIRCRAFT
+        add("--aircraft", "which aircraft of the proxy", name, type=_aircraft, metavar="NAME")
+    direct = given.get("UP_GROUND_DIRECT", "") not in ("", "0")
+    text = "send no hello: for a legacy proxy or an old aircraft on the same LAN"
+    add("--direct", text, direct, action="store_true")
 
 
 def settings_of(options: argparse.Namespace, seat: Seat) -> Settings:
@@ -144,21 +139,9 @@ def settings_of(options: argparse.Namespace, seat: Seat) -> Settings:
     return Settings(options.host, options.port, options.aircraft, seat, options.direct)
 
 
-def parse_arguments(
-    arguments: Sequence[str] | None, environ: Mapping[str, str]
-) -> tuple[argparse.ArgumentParser, argparse.Namespace]:
-    """Return the parser and the arguments; prints one sentence and exits with 2 on a mistake."""
-    parser = make_parser(environ)
-    return parser, parser.parse_args(arguments)
-
-
-def _add_watch(verbs: argparse._SubParsersAction[_Parser]) -> None:
-    watch = verbs.add_parser(
-        "watch",
-        help="show live telemetry",
-        description="Show live telemetry, the age of every reading and the state of the link.",
-        epilog=_WATCH_EPILOG,
-    )
+def _add_watch(verbs: Any) -> None:
+    text = "show live telemetry, the age of every reading and the state of the link"
+    watch = add_verb(verbs, "watch", "up_ground.main:watch", text, epilog=_WATCH_EPILOG)
     form = watch.add_mutually_exclusive_group()
     form.add_argument("--once", action="store_true", help="print one picture and exit")
     form.add_argument("--json", action="store_true", help="print the telemetry messages")
@@ -175,13 +158,9 @@ def _add_watch(verbs: argparse._SubParsersAction[_Parser]) -> None:
     )
 
 
-def _add_send(verbs: argparse._SubParsersAction[_Parser]) -> None:
-    send = verbs.add_parser(
-        "send",
-        help="send one Command and show its answer",
-        description="Send one Command to the aircraft and show its answer.",
-        epilog=_SEND_EPILOG,
-    )
+def _add_send(verbs: Any) -> None:
+    text = "send one Command and show its answer"
+    send = add_verb(verbs, "send", "up_ground.main:send", text, epilog=_SEND_EPILOG)
     send.add_argument("name", metavar="NAME", help="see 'up-ground commands'")
     fields = send.add_argument(
         "fields", nargs="*", metavar="key=value", default=[], help="the Command's fields"
@@ -193,13 +172,10 @@ def _add_send(verbs: argparse._SubParsersAction[_Parser]) -> None:
     )
 
 
-def _add_control(verbs: argparse._SubParsersAction[_Parser]) -> None:
-    control = verbs.add_parser(
-        "control",
-        aliases=["seat"],
-        help="request, hand over or release control",
-        description="One ground has control of an aircraft, the others listen. This requests"
-        " control, hands it to the listener with a number, or releases it.",
+def _add_control(verbs: Any) -> None:
+    text = "request, hand over or release control"
+    control = add_verb(
+        verbs, "control", "up_ground.main:control", text, aliases=("seat",), epilog=_CONTROL_EPILOG
     )
     actions = control.add_subparsers(dest="action", metavar="ACTION", required=True)
     request = actions.add_parser("request", help="request control of its owner; free: granted")
@@ -213,15 +189,13 @@ def _add_control(verbs: argparse._SubParsersAction[_Parser]) -> None:
     give = actions.add_parser("give", help="hand control to a listener")
     give.add_argument("to", type=_count, metavar="N", help="the listener's number")
     actions.add_parser("release", help="release control")
+    for name, action in actions.choices.items():
+        action.set_defaults(parser=action, action=name)
 
 
-def _add_serve(verbs: argparse._SubParsersAction[_Parser]) -> None:
-    serve = verbs.add_parser(
-        "serve",
-        help="serve the ground station as a page for browsers",
-        description="Serve the ground station as a page for browsers.",
-        epilog=_SERVE_EPILOG,
-    )
+def _add_serve(verbs: Any) -> None:
+    text = "serve the ground station as a page for browsers"
+    serve = add_verb(verbs, "serve", "up_ground.main:serve", text, epilog=_SERVE_EPILOG)
     serve.add_argument(
         "--aircraft",
         action="append",
@@ -230,26 +204,12 @@ def _add_serve(verbs: argparse._SubParsersAction[_Parser]) -> None:
         help="an aircraft, of the proxy that --host and --port name or at the given address;"
         " again for each one",
     )
-    _add_connection(serve, *(argparse.SUPPRESS,) * 3)
+    _add_connection(serve, aircraft=False)
     add_page_options(serve)
 
 
-def _add_replay(verbs: argparse._SubParsersAction[_Parser]) -> None:
-    add_arguments(
-        verbs.add_parser(
-            "replay",
-            help="play a recorded flight in the page",
-            description="Play a recorded flight in the page of the ground station.",
-            epilog=EPILOG,
-        )
-    )
-
-
 def _port(text: str) -> int:
-    port = int(text) if text.isascii() and text.isdigit() and len(text) < 6 else 0
-    if not 1 <= port <= 65535:
-        raise argparse.ArgumentTypeError(f"a port is a number from 1 to 65535, not {text!r}")
-    return port
+    return port_number(text, minimum=1)
 
 
 def _aircraft(text: str) -> str:

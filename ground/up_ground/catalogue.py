@@ -172,7 +172,7 @@ def catalogue_message(catalogue: Catalogue) -> dict[str, Any]:
     commands: list[dict[str, Any]] = []
     size = 0
     for cls in catalogue.sendable():
-        told = _command(cls)
+        told = command_fields(cls)
         size += len(json.dumps(told))
         if size > BYTES_LIMIT:
             break
@@ -180,7 +180,8 @@ def catalogue_message(catalogue: Catalogue) -> dict[str, Any]:
     return {"type": "catalogue", "commands": commands}
 
 
-def _command(cls: type[BaseCommand]) -> dict[str, Any]:
+def command_fields(cls: type[BaseCommand]) -> dict[str, Any]:
+    """Return a Command with its fields and their bounds, for programs."""
     hints = typing.get_type_hints(cls)
     return {
         "name": cls.NAME,

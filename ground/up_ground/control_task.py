@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from typing import Any
 
+from up.cli.option_parser import EXIT_FAILED, EXIT_OK
 from up_ground.link_status import ControlStatus
-from up_ground.one_shot_task import EXIT_DONE, EXIT_NO_ANSWER, EXIT_REFUSED, LinkTask
+from up_ground.one_shot_task import EXIT_NO_ANSWER, LinkTask
 
 ANSWER_LIMIT_S = 3.0
 
@@ -35,7 +36,7 @@ class RequestControl(ControlTask):
         """Accept control, or request it and name its owner."""
         if control is ControlStatus.OURS:
             self.echo("this ground has control", "control_granted")
-            self.finish(EXIT_DONE)
+            self.finish(EXIT_OK)
         elif control in (ControlStatus.FREE, ControlStatus.HELD) and not self._has_requested:
             self._has_requested = True
             if control is ControlStatus.HELD:
@@ -67,7 +68,7 @@ class LeaveControl(ControlTask):
                     self.echo("control is free", "control_released")
                 else:
                     self.echo(f"ground {owner} has control", "control_given", owner=owner)
-                self.finish(EXIT_DONE)
+                self.finish(EXIT_OK)
         elif control is ControlStatus.OURS:
             self._has_requested = True
             if self._to is None:
@@ -76,12 +77,11 @@ class LeaveControl(ControlTask):
                 self.link.give_seat(self._to)
         elif control in (ControlStatus.HELD, ControlStatus.FREE):
             state = "it is free" if owner is None else f"ground {owner} has it"
-            self.fail(f"this ground has no control: {state}", "no_control", EXIT_REFUSED)
+            self.fail(f"this ground has no control: {state}", "no_control", EXIT_FAILED)
 
     def on_limit(self) -> None:
-        """Report the most likely cause."""
         if self._has_requested and self._to is not None:
             text = f"no ground {self._to} listens to this aircraft"
-            self.fail(text, "unknown_ground", EXIT_REFUSED)
+            self.fail(text, "unknown_ground", EXIT_FAILED)
         else:
             super().on_limit()

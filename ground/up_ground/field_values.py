@@ -6,22 +6,20 @@ import json
 from collections.abc import Iterable
 from typing import Any, NoReturn
 
-
-class FieldError(ValueError):
-    """An argument that does not fit its field; the text is one sentence."""
+from up.cli.cli_error import UsageError
 
 
 def parse_fields(words: Iterable[str]) -> dict[str, Any]:
     """Return the data of a Command; a dot in a key opens an object.
 
     A value is taken as JSON where it is JSON (``2``, ``true``, ``null``, ``"2"``, ``{...}``) and
-    as text otherwise. Raises FieldError.
+    as text otherwise. Raises UsageError.
     """
     data: dict[str, Any] = {}
     for word in words:
         key, equals, text = word.partition("=")
         if not equals or not key:
-            raise FieldError(f"{word!r} is not a field: write key=value")
+            raise UsageError(f"{word!r} is not a field: write key=value", "invalid_field")
         _put(data, key, _value(text))
     return data
 
@@ -43,10 +41,12 @@ def _put(data: dict[str, Any], key: str, value: Any) -> None:
     for name in path:
         inner = place.setdefault(name, {})
         if not isinstance(inner, dict):
-            raise FieldError(f"{key}: {name} already has a value and can hold no fields")
+            raise UsageError(
+                f"{key}: {name} already has a value and can hold no fields", "invalid_field"
+            )
         place = inner
     if not last or not all(path):
-        raise FieldError(f"{key!r} is not a key: a part between its dots is empty")
+        raise UsageError(f"{key!r} is not a key: a part between its dots is empty", "invalid_field")
     if last in place:
-        raise FieldError(f"{key} is given twice")
+        raise UsageError(f"{key} is given twice", "invalid_field")
     place[last] = value

@@ -5,11 +5,14 @@ from __future__ import annotations
 from typing import Any
 from typing import Protocol as Interface
 
+from twisted.application.internet import ClientService
 from twisted.internet.defer import Deferred
 from twisted.internet.endpoints import HostnameEndpoint
 from twisted.internet.error import ConnectionRefusedError, TimeoutError
+from twisted.internet.interfaces import IProtocolFactory, IStreamClientEndpoint
 from twisted.internet.protocol import Factory
 from twisted.python.failure import Failure
+from zope.interface import implementer
 
 from up.protocols.general_message import GeneralMessage, MalformedMessage, decode
 from up.protocols.proxy_lines import (
@@ -30,7 +33,6 @@ from up.protocols.proxy_lines import (
     parse_line,
 )
 from up.system.backoff import Backoff
-from up.system.clock import Timer, cancel
 from up_ground.ground_protocol import GroundProtocol
 from up_ground.link_status import LinkState, LinkStatus
 from up_ground.settings import Seat, Settings
@@ -47,6 +49,7 @@ class LinkListener(Interface):
     def on_link(self) -> None: ...
 
 
+@implementer(IStreamClientEndpoint)
 class GroundLink:
     """Reconnects after each loss until it is stopped, and takes its seat back.
 
@@ -70,28 +73,27 @@ class GroundLink:
         self._token: str | None = None
         self._backoff = backoff or Backoff()
         self._connection: GroundProtocol | None = None
-        self._attempt: Deferred[Any] | None = None
-        self._timer: Timer | None = None
-        self._gone: Deferred[None] | None = None
         self._too_long = 0
         self._is_greeted = False
+        factory: Any = Factory.forProtocol(self._build)
+        factory.noisy = False
+        make: Any = ClientService
+        self._service = make(
+            self, factory, retryPolicy=lambda _: self._backoff.pause_s(), clock=reactor
+        )
 
     def start(self) -> None:
         if self._wanted is Seat.COMMAND and not self._settings.direct:
             self._tokens.hold()
             self._token = self._tokens.load()
-        self._connect()
+        self._service.startService()
 
     async def stop(self) -> None:
         """Close the link permanently; returns when the connection is closed."""
         self.status.disconnected(LinkState.STOPPED, self._reactor.seconds())
-        cancel(self._timer)
-        if self._attempt is not None:
-            self._attempt.cancel()
         if self._connection is not None:
-            self._gone = Deferred()
             self._connection.close()
-            await self._gone
+        await self._service.stopService()
         self._tokens.close()
 
     def send(self, line: bytes) -> bool:
@@ -124,7 +126,6 @@ class GroundLink:
             self._connection.abort("reconnecting to request control", "reconnect")
 
     def measure(self) -> None:
-        """Read the link's own delay and drops."""
         if self._connection is not None and self.status.is_open:
             self.status.round_trip_ms = self._connection.round_trip_ms()
 
@@ -165,12 +166,16 @@ class GroundLink:
     def on_lost(self, connection: GroundProtocol, reason: str, code: str) -> None:
         self._too_long += connection.dropped_too_long
         self.status.too_long = self._too_long
-        if connection is self._connection:
-            self._connection = None
-            gone, self._gone = self._gone, None
-            if gone is not None:
-                gone.callback(None)
-            self._retry(reason, code)
+        self._connection = None
+        self._on_no_link(reason, code)
+
+    def connect(self, protocolFactory: IProtocolFactory) -> Deferred[Any]:  # noqa: N803
+        """Make one attempt; the service calls it as its endpoint."""
+        self.status.state = LinkState.CONNECTING
+        endpoint = HostnameEndpoint(
+            self._reactor, self._settings.host, self._settings.port, timeout=CONNECT_TIMEOUT_S
+        )
+        return endpoint.connect(protocolFactory).addErrback(self._on_failed)
 
     def _obey(self, connection: GroundProtocol, said: ProxyLine) -> None:
         status = self.status
@@ -212,36 +217,22 @@ class GroundLink:
         status.connections += 1
         self._backoff.reset()
 
-    def _connect(self) -> None:
-        self.status.state = LinkState.CONNECTING
+    def _build(self) -> GroundProtocol:
         hello = None
         if not self._settings.direct:
             token = self._token if self._wanted is Seat.COMMAND else None
-            access = Access(self._wanted.value)
-            hello = Hello(self._settings.aircraft, access, token).encode()
-        factory: Any = Factory.forProtocol(lambda: GroundProtocol(self._reactor, self, hello))
-        factory.noisy = False
-        endpoint = HostnameEndpoint(
-            self._reactor, self._settings.host, self._settings.port, timeout=CONNECT_TIMEOUT_S
-        )
-        self._attempt = endpoint.connect(factory)
-        self._attempt.addCallbacks(lambda _: self._connected(), self._failed)
+            hello = Hello(self._settings.aircraft, Access(self._wanted.value), token).encode()
+        return GroundProtocol(self._reactor, self, hello)
 
-    def _connected(self) -> None:
-        self._attempt = None
+    def _on_failed(self, failure: Failure) -> Failure:
+        self._on_no_link(f"cannot reach {self._settings.address}: {_why(failure)}", "unreachable")
+        return failure
 
-    def _failed(self, failure: Failure) -> None:
-        self._attempt = None
+    def _on_no_link(self, reason: str, code: str) -> None:
         if self.status.state is not LinkState.STOPPED:
-            self._retry(f"cannot reach {self._settings.address}: {_why(failure)}", "unreachable")
-
-    def _retry(self, reason: str, code: str) -> None:
-        if self.status.state is LinkState.STOPPED:
-            return
-        self.status.disconnected(LinkState.WAITING, self._reactor.seconds(), reason, code)
-        self.status.failures += 1
-        self._timer = self._reactor.callLater(self._backoff.pause_s(), self._connect)
-        self._listener.on_link()
+            self.status.disconnected(LinkState.WAITING, self._reactor.seconds(), reason, code)
+            self.status.failures += 1
+            self._listener.on_link()
 
 
 def _why(failure: Failure) -> str:

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import socket
 import struct
-from typing import Any
-from typing import Protocol as Interface
+from typing import TYPE_CHECKING, Any
 
 from twisted.internet.protocol import Protocol, connectionDone
 from twisted.python.failure import Failure
@@ -15,24 +14,13 @@ from up.protocols.proxy_lines import PREFIX
 from up.protocols.tcp_options import watch_peer
 from up.system.clock import Clock, Timer, cancel
 
+if TYPE_CHECKING:
+    from up_ground.ground_link import GroundLink
+
 USER_TIMEOUT_MS = 1500
 HEARTBEAT_S = 1.0
 HELLO_TIMEOUT_S = 5.0
 _TCPI_RTT_OFFSET = 68
-
-
-class ConnectionOwner(Interface):
-    """Receiver of the connection's events."""
-
-    def on_line(self, connection: GroundProtocol, line: bytes) -> None: ...
-
-    def on_control(self, connection: GroundProtocol, line: bytes) -> None:
-        """Take a line of the proxy, without its end."""
-
-    def on_made(self, connection: GroundProtocol) -> None: ...
-
-    def on_lost(self, connection: GroundProtocol, reason: str, code: str) -> None:
-        """Handle the loss of the connection, with its reason and the reason's code."""
 
 
 class GroundProtocol(Protocol):
@@ -45,7 +33,7 @@ class GroundProtocol(Protocol):
 
     transport: Any
 
-    def __init__(self, clock: Clock, owner: ConnectionOwner, hello: bytes | None) -> None:
+    def __init__(self, clock: Clock, owner: GroundLink, hello: bytes | None) -> None:
         self._clock = clock
         self._owner = owner
         self._hello = hello
@@ -57,7 +45,6 @@ class GroundProtocol(Protocol):
 
     @property
     def dropped_too_long(self) -> int:
-        """Count of lines of more than 16 KiB."""
         return self._lines.dropped_too_long
 
     def send(self, line: bytes) -> bool:

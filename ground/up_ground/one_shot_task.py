@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import signal
 import sys
-from collections.abc import Callable, Mapping
-from typing import Any, TextIO
+from collections.abc import Callable
+from typing import Any
 
 from twisted.internet.defer import Deferred
 
-from up.log.json_lines import program_line
+from up.cli.option_parser import EXIT_FAILED, EXIT_INTERRUPTED, EXIT_OK
+from up.log.json_lines import program_error, program_line
 from up.protocols.general_message import GeneralMessage
 from up.system.clock import cancel, use_monotonic_time
 from up.system.pid_file import service
@@ -19,11 +20,8 @@ from up_ground.sanitize_text import sanitize_text
 from up_ground.settings import Settings
 from up_ground.token_store import TokenStore
 
-EXIT_DONE = 0
-EXIT_REFUSED = 1
-EXIT_USAGE = 2
 EXIT_NO_ANSWER = 3
-EXIT_INTERRUPTED = 130
+"""No connection, no aircraft or no answer."""
 
 
 class OneShotTask:
@@ -44,10 +42,9 @@ class OneShotTask:
         try:
             echo(text, code, **fields)
         except OSError:
-            self.finish(EXIT_DONE)
+            self.finish(EXIT_OK)
 
     def fail(self, text: str, code: str, status: int, **fields: object) -> None:
-        """Print an error and end."""
         print_error(sanitize_text(text, 600), code, **fields)
         self.finish(status)
 
@@ -85,7 +82,7 @@ class LinkTask(OneShotTask):
         if self.is_finished:
             return
         if status.state is LinkState.WAITING:
-            exit_status = EXIT_REFUSED if status.rejection else EXIT_NO_ANSWER
+            exit_status = EXIT_FAILED if status.rejection else EXIT_NO_ANSWER
             code = status.rejection or status.code
             self.fail(status.reason, code, exit_status)
         elif status.is_open:
@@ -101,20 +98,14 @@ class LinkTask(OneShotTask):
 
 def echo(text: str, code: str = "", **fields: object) -> None:
     """Write a line for the user; with UP_LOG_FORMAT=json one that has a code is JSON."""
-    _write(sys.stdout, text, "info", text, code, fields)
+    line = program_line(text, code, fields) if code else None
+    sys.stdout.write(f"{line or text}\n")
+    sys.stdout.flush()
 
 
 def print_error(text: str, code: str, **fields: object) -> None:
     """Write a line to stderr, as JSON with UP_LOG_FORMAT=json."""
-    _write(sys.stderr, f"up-ground: {text}", "error", text, code, fields)
-
-
-def _write(
-    stream: TextIO, line: str, level: str, text: str, code: str, fields: Mapping[str, object]
-) -> None:
-    as_json = program_line(text, code, fields, level) if code else None
-    stream.write(f"{as_json or line}\n")
-    stream.flush()
+    sys.stderr.write(f"{program_error('up-ground', text, code, **fields)}\n")
 
 
 MakeTask = Callable[[Any], Any]
@@ -143,7 +134,7 @@ def run(make: MakeTask) -> int:
 
     def _crash(failure: Any) -> None:
         print_error(f"error in the program: {failure.getErrorMessage()}", "internal")
-        status[0] = EXIT_REFUSED
+        status[0] = EXIT_FAILED
         loop.stop()
 
     loop.callWhenRunning(begin)

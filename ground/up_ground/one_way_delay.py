@@ -27,7 +27,6 @@ class OneWayDelayEstimator:
         self._now_s = 0.0
 
     def reset(self) -> None:
-        """Reset, for another clock or another path."""
         self._least_s = None
 
     def update(self, stamp_ms: float | None, now_s: float) -> float | None:

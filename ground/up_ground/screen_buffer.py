@@ -39,7 +39,6 @@ class ScreenBuffer:
         self._style = [[Style.PLAIN] * self.columns for _ in range(self.rows)]
 
     def put(self, row: int, column: int, text: str, style: Style = Style.PLAIN) -> int:
-        """Write a text and return the column after it."""
         if 0 <= row < self.rows:
             for place, character in enumerate(text, column):
                 if 0 <= place < self.columns:

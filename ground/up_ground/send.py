@@ -6,11 +6,12 @@ import json
 import secrets
 from typing import Any
 
+from up.cli.option_parser import EXIT_FAILED, EXIT_OK
 from up.commands.telemetry_commands import MAX_PERIOD_MS
 from up.protocols.general_message import GeneralMessage, encode
 from up_ground.catalogue import requested_content
 from up_ground.link_status import KEPT_S, ControlStatus, control_status
-from up_ground.one_shot_task import EXIT_DONE, EXIT_NO_ANSWER, EXIT_REFUSED, LinkTask
+from up_ground.one_shot_task import EXIT_NO_ANSWER, LinkTask
 from up_ground.sanitize_text import sanitize_text
 from up_ground.settings import Settings
 from up_ground.telemetry import NAME as TELEMETRY
@@ -57,7 +58,6 @@ class Send(LinkTask):
         self.link.start()
 
     def on_message(self, message: GeneralMessage) -> None:
-        """Take telemetry for its beacon, and the answers to us."""
         if self.is_finished:
             return
         if self._telemetry.update(message, self._reactor.seconds()):
@@ -69,7 +69,7 @@ class Send(LinkTask):
         status = self.link.status
         if control is ControlStatus.HELD:
             text = f"ground {status.holder} has control; 'up-ground control request' requests it"
-            self.fail(text, "control_held", EXIT_REFUSED, owner=status.holder)
+            self.fail(text, "control_held", EXIT_FAILED, owner=status.holder)
         elif control is ControlStatus.FREE:
             # Reserved for a token for a moment; then the first request gets it.
             self.after(self._reactor, "connect", KEPT_S, self._on_no_control)
@@ -92,7 +92,7 @@ class Send(LinkTask):
         self.cancel_timer("telemetry")
         if self._needs_beacon and self._telemetry.beacon is None:
             text = f"{self._name} needs a beacon, and this aircraft's telemetry has none"
-            self.fail(text, "no_beacon", EXIT_REFUSED)
+            self.fail(text, "no_beacon", EXIT_FAILED)
             return
         self.link.send(encode(self._name, self._data, self._id, self._telemetry.beacon))
         self._sent_s = self._reactor.seconds()
@@ -105,13 +105,13 @@ class Send(LinkTask):
             self._is_acked = True
             self.cancel_timer("answer")
             if not self._awaited:
-                self.finish(EXIT_DONE)
+                self.finish(EXIT_OK)
                 return
             self.after(self._reactor, "content", CONTENT_LIMIT_S, self._on_no_content)
         elif message.name == "up.nack" and data.get("id") == self._id:
             reason = sanitize_text(data.get("reason") or "no reason given", 500)
             code = sanitize_text(data.get("code"), 32)
-            self.fail(f"refused: {reason} ({code})", code, EXIT_REFUSED)
+            self.fail(f"refused: {reason} ({code})", code, EXIT_FAILED)
         elif message.name not in (*_QUIET, "up.ack", "up.nack"):
             shown = json.dumps(data).replace("\x7f", "\\u007f")
             name = sanitize_text(message.name, 128)
@@ -119,7 +119,7 @@ class Send(LinkTask):
             if message.name == self._awaited:
                 self._awaited = ""
                 if self._is_acked:
-                    self.finish(EXIT_DONE)
+                    self.finish(EXIT_OK)
 
     def _on_no_control(self) -> None:
         text = "no control: another ground has just released it or is taking it"

@@ -5,9 +5,10 @@ from __future__ import annotations
 import os
 from typing import Any
 
+from up.cli.option_parser import EXIT_OK
 from up.protocols.general_message import GeneralMessage, encode
 from up_ground.link_status import LinkState
-from up_ground.one_shot_task import EXIT_DONE, EXIT_NO_ANSWER, LinkTask, print_error
+from up_ground.one_shot_task import EXIT_NO_ANSWER, LinkTask, print_error
 from up_ground.sanitize_text import sanitize_text
 from up_ground.screen import State, draw, render
 from up_ground.settings import Settings
@@ -75,15 +76,13 @@ class Watch(LinkTask):
         """Show the present state."""
 
     def on_time_over(self) -> None:
-        """End when the requested time is over."""
-        self.finish(EXIT_DONE)
+        self.finish(EXIT_OK)
 
     def shown_one(self) -> None:
-        """Count a shown message and end after the last."""
         if self._left is not None:
             self._left -= 1
             if self._left <= 0:
-                self.finish(EXIT_DONE)
+                self.finish(EXIT_OK)
 
     def _tick(self) -> None:
         now_s = self._reactor.seconds()
@@ -141,10 +140,9 @@ class OnceWatch(Watch):
     def on_frame(self, message: GeneralMessage) -> None:
         self.link.measure()
         self.echo(draw(self.state, self._reactor.seconds(), PRINTED_SIZE).plain())
-        self.finish(EXIT_DONE)
+        self.finish(EXIT_OK)
 
     def on_time_over(self) -> None:
-        """Print the reason for the missing telemetry."""
         status = self.link.status
         reason, code = status.reason or "no telemetry", status.code or "no_telemetry"
         if status.is_aircraft_online is False:
@@ -168,7 +166,6 @@ class ScreenWatch(Watch):
         super().start()
 
     def finish(self, status: int) -> None:
-        """Leave the keys alone and end."""
         self._reactor.removeReader(self)
         super().finish(status)
 
@@ -177,13 +174,12 @@ class ScreenWatch(Watch):
             painted = self._terminal.paint(render(self.state, now_s, self._terminal.size))
         except OSError:
             # The terminal was closed.
-            self.finish(EXIT_DONE)
+            self.finish(EXIT_OK)
             return
         if painted and self._left is not None and self.state.telemetry.frames:
             self.shown_one()
 
     def fileno(self) -> int:
-        """Return the descriptor of the keys, for the reactor."""
         return self._terminal.fileno()
 
     def logPrefix(self) -> str:  # noqa: N802 - Twisted's name
@@ -195,14 +191,14 @@ class ScreenWatch(Watch):
     def doRead(self) -> None:  # noqa: N802 - Twisted's name
         keys = self._terminal.keys()
         if not keys:
-            self.finish(EXIT_DONE)
+            self.finish(EXIT_OK)
         for key in keys:
             self._on_key(key)
 
     def _on_key(self, key: str) -> None:
         status = self.link.status
         if key in "qQ":
-            self.finish(EXIT_DONE)
+            self.finish(EXIT_OK)
         elif key == "c":
             asked = self.link.request_seat()
             self.state.notice = "requested control" if asked else "no link to request control"

@@ -53,11 +53,9 @@ class Acceptor:
 
     @property
     def port(self) -> int:
-        """The port that is listened on."""
         return int(self._listener.getsockname()[1])
 
     def open(self) -> None:
-        """Start accepting."""
         self._poller.watch(self._listener.fileno(), self)
         _log.info(
             "{side} side listens on port {port}",
@@ -67,7 +65,6 @@ class Acceptor:
         )
 
     def close(self) -> None:
-        """Stop accepting and end every connection."""
         if self._retry is not None:
             self._retry.cancel()
             self._retry = None
@@ -76,7 +73,6 @@ class Acceptor:
             connection.fail("the proxy is stopping")
 
     def on_ready(self, events: int) -> None:
-        """Accept the waiting peers."""
         for _ in range(_ACCEPT_BATCH):
             try:
                 peer, address = self._listener.accept()
@@ -94,7 +90,6 @@ class Acceptor:
         self._pause()
 
     def end(self) -> None:
-        """Close the listening socket."""
         self._poller.discard(self._listener.fileno())
         self._listener.close()
 

@@ -43,7 +43,6 @@ class AircraftSession(Owner):
         self._shown_owner: int | None = None
 
     def is_online(self, now_s: float) -> bool:
-        """Return whether the airborne side is connected and alive."""
         return self.air_lease.live_owner(now_s) is not None
 
     def is_deserted(self, now_s: float) -> bool:
@@ -82,7 +81,6 @@ class AircraftSession(Owner):
                 self.dropped_lines += dropped
 
     def on_drained(self, connection: Connection) -> None:
-        """Resume the grounds that filled the queue."""
         if self.air_lease.owner is connection:
             self._resume_grounds()
 

@@ -4,9 +4,12 @@ import select
 import socket
 from collections.abc import Callable
 
-from up_proxy.buffers import LINE_MAX_BYTES, LineBuffer, SendBuffer
+from up.protocols.line_decoder import LineBuffer
 from up_proxy.poller import PAUSED, READ, WRITE, Poller
+from up_proxy.send_buffer import SendBuffer
 
+LINE_MAX_BYTES = 65536
+"""A connection that sends a longer line is closed."""
 IDLE_S = 15.0
 """A connection without a byte in either direction for this long is closed."""
 HIGH_WATER_BYTES = 65536
@@ -90,11 +93,9 @@ class Connection:
 
     @property
     def waiting_bytes(self) -> int:
-        """Bytes that wait for the peer in this process."""
         return 0 if self._queue is None else len(self._queue)
 
     def is_idle(self, now_s: float) -> bool:
-        """Return whether neither direction has carried a byte for IDLE_S."""
         return now_s - self.last_rx_s > IDLE_S and now_s - self.last_tx_s > IDLE_S
 
     def on_ready(self, events: int) -> None:
@@ -197,7 +198,6 @@ class Connection:
             self.fail("does not read")
 
     def _keep(self, rest: bytes, sent: int) -> None:
-        """Queue the bytes that the socket did not take."""
         if self.failure is None:
             if sent:
                 self.last_tx_s = self._poller.now_s
@@ -228,7 +228,6 @@ class Connection:
             self._watch()
 
     def resume(self) -> None:
-        """Resume reading."""
         if self.paused_s is not None:
             self.paused_s = None
             self._watch()
@@ -261,7 +260,6 @@ class Connection:
             self._poller.end_later(self)
 
     def end(self) -> None:
-        """Close the socket and notify the owner."""
         self._poller.discard(self._socket.fileno())
         self._socket.close()
         self._queue = None

@@ -47,7 +47,6 @@ class Handshake(Owner):
         self.refused = dict.fromkeys(CODES, 0)
 
     def begin(self, connection: Connection) -> None:
-        """Take a new connection."""
         connection.owner = self
         self._since_s[connection] = self._poller.now_s
 
@@ -80,7 +79,6 @@ class Handshake(Owner):
             self._refuse(connection, HelloError(MALFORMED, reason))
 
     def on_end(self, connection: Connection, reason: str) -> None:
-        """Remove the connection."""
         self._since_s.pop(connection, None)
 
     def sweep(self, now_s: float) -> None:
@@ -155,7 +153,6 @@ class LegacyClientAdapter(Owner):
         self._handshake = handshake
 
     def on_lines(self, connection: Connection, lines: bytes) -> None:
-        """Continue according to the first line."""
         if lines.startswith(PREFIX):
             self._owner.on_end(connection, "late hello")
             self._handshake.begin(connection)
@@ -164,9 +161,7 @@ class LegacyClientAdapter(Owner):
         connection.owner.on_lines(connection, lines)
 
     def on_drained(self, connection: Connection) -> None:
-        """Forward the call."""
         self._owner.on_drained(connection)
 
     def on_end(self, connection: Connection, reason: str) -> None:
-        """Forward the call."""
         self._owner.on_end(connection, reason)

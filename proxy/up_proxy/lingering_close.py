@@ -16,28 +16,23 @@ class LingeringClose(Owner):
         self._rx_bytes: dict[Connection, int] = {}
 
     def begin(self, connection: Connection, now_s: float) -> None:
-        """Take a refused connection."""
         connection.owner = self
         connection.partial = None
         self._since_s[connection] = now_s
         self._rx_bytes[connection] = 0
 
     def on_lines(self, connection: Connection, lines: bytes) -> None:
-        """Discard the lines."""
         self._discard(connection, len(lines))
 
     def on_partial_line(self, connection: Connection) -> None:
-        """Discard the partial line."""
         partial, connection.partial = connection.partial, None
         self._discard(connection, len(partial or b""))
 
     def on_end(self, connection: Connection, reason: str) -> None:
-        """Remove the connection."""
         self._since_s.pop(connection, None)
         self._rx_bytes.pop(connection, None)
 
     def sweep(self, now_s: float) -> None:
-        """Close the connections whose time is over."""
         for connection, since_s in self._since_s.items():
             if now_s - since_s >= LINGER_S:
                 connection.fail("refused")

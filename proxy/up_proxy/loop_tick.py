@@ -26,12 +26,10 @@ class LoopTick:
 
     @property
     def uptime_s(self) -> float:
-        """Time since the start, in seconds."""
         return self._clock.seconds() - self._started_s
 
     @property
     def lag_s(self) -> float:
-        """Lateness of the last tick, in seconds."""
         return self._lags_s[-1]
 
     @property
@@ -40,12 +38,10 @@ class LoopTick:
         return max(self._lags_s)
 
     def start(self) -> None:
-        """Start ticking."""
         self._started_s = self._clock.seconds()
         self._arm()
 
     def stop(self) -> None:
-        """Stop ticking."""
         timer, self._timer = self._timer, None
         cancel(timer)
 

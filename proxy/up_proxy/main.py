@@ -10,6 +10,7 @@ from typing import Any
 
 from up.cli.server_parser import ServerParser
 from up.log import UpLogger, start_logging
+from up.log.json_lines import program_error
 from up.system.clock import use_monotonic_time
 from up.system.notify import Notifier, WatchdogPinger
 from up.system.pid_file import service
@@ -45,7 +46,7 @@ def run(reactor: Any, config: ProxyConfig) -> int:
     try:
         proxy.start()
     except StartError as error:
-        sys.stderr.write(f"up-proxy: {error}\n")
+        sys.stderr.write(f"{program_error('up-proxy', str(error), error.code)}\n")
         return error.status
     notifier = Notifier.from_environment()
     pinger = WatchdogPinger(reactor, proxy.is_healthy, notifier)

@@ -14,6 +14,7 @@ from twisted.web.server import Site
 
 from up.system.clock import Clock, cancel
 from up.system.http_host import names_this_machine
+from up.system.lingering_connection import LingeringConnection
 from up_proxy.listener import cannot_listen
 from up_proxy.metrics import CONTENT_TYPE
 
@@ -51,47 +52,31 @@ class OnlyRequest(SiteRequest):
     channel: Any
 
     def gotLength(self, length: int | None) -> None:  # noqa: N802 - Twisted's name
-        """Close the connection after the answer."""
         self.channel.persistent = 0
         self.responseHeaders.setRawHeaders(b"Connection", [b"close"])
         super().gotLength(length)  # type: ignore[no-untyped-call]
 
 
-class MetricsConnection(ProtocolWrapper):
-    """Bounds the size and the time of a request, and closes without losing the answer.
-
-    A close while input is unread resets the connection, and the peer loses the answer. A lingering
-    close ends the output, discards input until the peer closes, and is bounded by the same time.
-    """
+class MetricsConnection(LingeringConnection):
+    """Bounds the size of a request and the time until the peer has closed."""
 
     factory: Any
-    transport: Any
-    disconnecting = False
     _left_bytes = MAX_REQUEST_BYTES
 
     def makeConnection(self, transport: Any) -> None:  # noqa: N802 - Twisted's name
-        """Start the time limit."""
         clock: Clock = self.factory.clock
         self._limit = clock.callLater(CONNECTION_LIMIT_S, transport.abortConnection)
         super().makeConnection(transport)  # type: ignore[no-untyped-call]
 
     def dataReceived(self, data: bytes) -> None:  # noqa: N802 - Twisted's name
         """Pass on a request of bounded size; discard excess data."""
-        if self.disconnecting:
-            return
-        super().dataReceived(data[: self._left_bytes])  # type: ignore[no-untyped-call]
+        super().dataReceived(data[: max(0, self._left_bytes)])
         self._left_bytes -= len(data)
         if self._left_bytes < 0 and not self.disconnecting:
             self.transport.write(_TOO_LARGE)
             self.loseConnection()
 
-    def loseConnection(self) -> None:  # noqa: N802 - Twisted's name
-        """Send written data, then close; the peer closes its own side."""
-        self.disconnecting = True
-        self.transport.loseWriteConnection()
-
     def connectionLost(self, reason: Failure = connectionDone) -> None:  # noqa: N802
-        """Stop the time limit."""
         cancel(self._limit)
         super().connectionLost(reason)  # type: ignore[no-untyped-call]
 
@@ -121,7 +106,6 @@ class MetricsFactory(WrappingFactory):
         super().registerProtocol(p)  # type: ignore[no-untyped-call]
 
     def unregisterProtocol(self, p: ProtocolWrapper) -> None:  # noqa: N802 - Twisted's name
-        """Remove a connection."""
         self.protocols.pop(p, None)
 
 

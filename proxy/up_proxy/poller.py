@@ -52,7 +52,6 @@ class Poller:
         self.now_s = seconds()
 
     def start(self) -> None:
-        """Start handling events."""
         self._reactor.addReader(self)
 
     def stop(self) -> None:
@@ -66,7 +65,6 @@ class Poller:
         self._epoll.register(descriptor, events)
 
     def change(self, descriptor: int, events: int) -> None:
-        """Watch a descriptor for other events."""
         self._epoll.modify(descriptor, events)
 
     def discard(self, descriptor: int) -> None:
@@ -83,7 +81,6 @@ class Poller:
         self._ending.append(handler)
 
     def tick(self) -> float:
-        """Refresh `now_s` and return it."""
         self.now_s = self._seconds()
         return self.now_s
 
@@ -94,11 +91,9 @@ class Poller:
             handler.end()
 
     def fileno(self) -> int:
-        """Return the epoll's descriptor, for the reactor."""
         return self._epoll.fileno()
 
     def logPrefix(self) -> str:  # noqa: N802 - Twisted's name
-        """Return the name that the reactor logs."""
         return "proxy"
 
     def connectionLost(self, reason: object) -> None:  # noqa: N802 - Twisted's name

@@ -33,12 +33,10 @@ class Proxy:
 
     @property
     def airborne_port(self) -> int:
-        """The port that aircraft connect to."""
         return self._acceptors[0].port
 
     @property
     def ground_port(self) -> int:
-        """The port that grounds connect to."""
         return self._acceptors[1].port
 
     def start(self) -> None:
@@ -77,7 +75,6 @@ class Proxy:
         self._loop_tick.start()
 
     def stop(self) -> None:
-        """Close every port and connection."""
         self._loop_tick.stop()
         if self._metrics_port is not None:
             self._metrics_port.stopListening()
@@ -88,11 +85,9 @@ class Proxy:
         self.registry.stop()
 
     def is_healthy(self) -> bool:
-        """Return whether both ports are open."""
         return len(self._acceptors) == 2 and all(acceptor.is_open() for acceptor in self._acceptors)
 
     def page(self) -> str:
-        """Return the metrics page."""
         air, ground = self._acceptors
         return render(air, ground, self.registry, self._loop_tick, self._poller.tick())
 

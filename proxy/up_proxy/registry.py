@@ -24,7 +24,6 @@ class Totals:
     rejected_lines: int = 0
 
     def add(self, counted: "AircraftSession | Totals") -> None:
-        """Add the counters of one aircraft, or other sums."""
         self.air_bytes += counted.air_bytes
         self.ground_bytes += counted.ground_bytes
         self.dropped_lines += counted.dropped_lines
@@ -46,7 +45,6 @@ class AircraftRegistry:
         return len(self._sessions)
 
     def aircraft(self) -> list[AircraftSession]:
-        """Return every known aircraft."""
         return list(self._sessions.values())
 
     def totals(self) -> Totals:
@@ -91,5 +89,4 @@ class AircraftRegistry:
                 del self._sessions[name]
 
     def stop(self) -> None:
-        """Log the suppressed events."""
         self._log.stop()

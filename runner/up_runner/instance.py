@@ -70,7 +70,6 @@ class Instance:
 
     @property
     def pid(self) -> int | None:
-        """Return the process number, None without a process."""
         return None if self._child is None else self._child.pid
 
     def start(self) -> Deferred[Problem | None]:
@@ -100,7 +99,6 @@ class Instance:
         return waiter
 
     def when_ended(self) -> Deferred[None]:
-        """Fire when it has ended permanently."""
         waiter: Deferred[None] = Deferred()
         self._exit_waiters.append(waiter)
         return waiter
@@ -115,11 +113,9 @@ class Instance:
             self._feed(Input.STOP)
 
     def detach(self) -> None:
-        """Leave the process to the next runner."""
         self._feed(Input.DETACH)
 
     def response(self, *, spawned: bool, error: Problem | None = None) -> Response:
-        """Return the current state for a client."""
         if self.state is State.RUNNING:
             return Response(self.name, self.pid, self.ports, spawned and error is None, error)
         return Response(self.name, error=error)
@@ -129,7 +125,6 @@ class Instance:
         return Problem("restarting", f"{self.last_end}; it is being restarted")
 
     def on_notification(self, pid: int, notification: Notification) -> None:
-        """Handle a notification of process `pid`."""
         if self._child is None or pid != self._child.pid:
             self.rejected += 1
             return
@@ -331,7 +326,6 @@ class Instance:
         self._on_failure(Problem("start_failed", f"Raspilot {how} while starting{cause}"))
 
     def _on_failure(self, problem: Problem) -> None:
-        """Handle a failed start."""
         if self.state is State.STARTING and self._is_kept:
             self._retry(problem)
         else:

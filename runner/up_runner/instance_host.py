@@ -108,11 +108,9 @@ class InstanceHost:
             os.close(log)
 
     def open_ports(self, pid: int) -> Deferred[frozenset[int] | None]:
-        """Return the ports that a process has open, from the kernel."""
         return self.in_thread(listening_ports, pid)
 
     def last_log_line(self, name: str) -> Deferred[str | None]:
-        """Read the end of the instance's log."""
         return self.in_thread(self.logs.last_log_line, name)
 
     def save(self, state: InstanceState) -> None:
@@ -131,7 +129,6 @@ class InstanceHost:
             self._pid_path(name).unlink(missing_ok=True)
 
     def load(self, name: str) -> InstanceState | None:
-        """Return the state that the previous runner saved."""
         return instance_state.load(self.run_folder.instance(name))
 
     def running(self) -> Iterator[tuple[str, int]]:
@@ -149,7 +146,6 @@ class InstanceHost:
         return self._disk.run(self.in_thread, function, *arguments)
 
     def in_thread(self, function: Callable[..., Any], *arguments: Any) -> Deferred[Any]:
-        """Run a blocking function in a thread."""
         return deferToThreadPool(self.reactor, self.reactor.getThreadPool(), function, *arguments)
 
     def _prepare(self, request: Request) -> tuple[Path, int]:

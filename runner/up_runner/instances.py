@@ -50,7 +50,6 @@ class Instances:
         return len(self._instances)
 
     def summary(self) -> str:
-        """Return one line about all instances."""
         shown = [
             f"{each.name} {each.state.value}" + (f" ({each.pid})" if each.pid else "")
             for each in self._instances.values()

@@ -38,7 +38,6 @@ class LogKeeper:
         self._begins: dict[str, int] = {}
 
     def path(self, name: str) -> Path:
-        """Return the path of an instance's log."""
         return self.folder / f"{name}.log"
 
     def open(self, name: str) -> int:

@@ -36,16 +36,13 @@ class LogMaintenance:
         self._log = Logger(namespace="runner")
 
     def start(self) -> None:
-        """Start maintaining the logs."""
         self._timer = self._host.reactor.callLater(PERIOD_S, self._run)
 
     def stop(self) -> None:
-        """Stop."""
         timer, self._timer = self._timer, None
         cancel(timer)
 
     def prune(self) -> None:
-        """Remove the files of the oldest ended instances."""
         self._host.on_disk(self._prune).addErrback(self._on_error)
 
     def _prune(self) -> None:

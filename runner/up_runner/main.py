@@ -12,6 +12,7 @@ from typing import Any
 from up.cli.option_parser import EXIT_FAILED
 from up.cli.server_parser import ServerParser
 from up.log import start_logging
+from up.log.json_lines import program_error
 from up.system.clock import use_monotonic_time
 from up.system.pid_file import service
 from up_runner.config import RUNNER
@@ -42,7 +43,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     try:
         runner.start()
     except CannotStart as error:
-        sys.stderr.write(f"up-runner: {error}\n")
+        sys.stderr.write(f"{program_error('up-runner', str(error), error.code)}\n")
         return EXIT_FAILED
     _serve(reactor, runner)
     return 0

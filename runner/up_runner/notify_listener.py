@@ -124,15 +124,12 @@ class NotifyListener:
                 return
 
     def fileno(self) -> int:
-        """Return the socket's descriptor."""
         return -1 if self._socket is None else self._socket.fileno()
 
     def logPrefix(self) -> str:  # noqa: N802 - Twisted's name
-        """Return the name for Twisted's log."""
         return f"notify {self.path.parent.name}"
 
     def doRead(self) -> None:  # noqa: N802 - Twisted's name
-        """Receive a batch of datagrams."""
         self.drain()
 
     def connectionLost(self, reason: object) -> None:  # noqa: N802 - Twisted's name

@@ -28,7 +28,6 @@ class Paths:
     def of(
         cls, config: RunnerConfig, config_folder: Path, environ: Mapping[str, str], uid: int
     ) -> Paths:
-        """Return the paths for a configuration read from `config_folder`."""
         config_folder = config_folder.absolute()
         root = Path(config.application_root or own_root()).absolute()
         black_box = config.mode == "black box"

@@ -134,7 +134,6 @@ class Process:
         return process
 
     def terminate(self) -> None:
-        """Request its end."""
         self._signal(signal.SIGTERM)
 
     def kill(self) -> None:
@@ -144,22 +143,18 @@ class Process:
         self._signal(signal.SIGKILL)
 
     def close(self) -> None:
-        """Stop watching it; it keeps running."""
         if self._open:
             self._open = False
             self._reactor.removeReader(self)
             os.close(self._descriptor)
 
     def fileno(self) -> int:
-        """Return the descriptor that becomes readable when the process ends."""
         return self._descriptor if self._open else -1
 
     def logPrefix(self) -> str:  # noqa: N802 - Twisted's name
-        """Return the name for Twisted's log."""
         return f"process {self.pid}"
 
     def doRead(self) -> None:  # noqa: N802 - Twisted's name
-        """Note the end of the process."""
         status = None
         if self._child is not None:
             # Its children must not keep its ports; its number stays ours until it is reaped.

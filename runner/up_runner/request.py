@@ -38,11 +38,9 @@ class Request:
 
     @property
     def wants_configuration(self) -> bool:
-        """Return whether it has a profile or settings."""
         return self.profile is not None or bool(self.configuration)
 
     def same_configuration(self, other: Request) -> bool:
-        """Return whether both have the same profile and settings."""
         return self.profile == other.profile and self.configuration == other.configuration
 
 

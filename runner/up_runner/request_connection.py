@@ -56,7 +56,6 @@ class RequestConnection(Protocol):
         self._input_ended = False
 
     def connectionMade(self) -> None:  # noqa: N802 - Twisted's name
-        """Start waiting for the first byte."""
         self.transport.setTcpNoDelay(True)
         self.transport.registerProducer(self, True)
         self._on_activity()
@@ -70,7 +69,6 @@ class RequestConnection(Protocol):
         self._server.on_gone(self)
 
     def dataReceived(self, data: bytes) -> None:  # noqa: N802 - Twisted's name
-        """Handle received data."""
         if self._closing:
             return
         self._on_activity()
@@ -105,7 +103,6 @@ class RequestConnection(Protocol):
         self._set_reading()
 
     def resumeProducing(self) -> None:  # noqa: N802 - Twisted's name
-        """Resume reading."""
         self._output_full = False
         self._set_reading()
 
@@ -113,7 +110,6 @@ class RequestConnection(Protocol):
         """Do nothing: the connection is lost."""
 
     def drop(self) -> None:
-        """Abort the connection."""
         self._closing = True
         self.transport.abortConnection()
 

@@ -77,7 +77,6 @@ class RequestServer(Factory):
         return connection
 
     def handle(self, connection: RequestConnection, request: Request) -> Deferred[Response]:
-        """Start handling a request."""
         self._limited.log(
             self.log.info,
             "{host} requests {action} of {aircraft}",
@@ -90,11 +89,9 @@ class RequestServer(Factory):
         return self._handle(request)
 
     def encode(self, answer: Response, host: str) -> bytes:
-        """Return the line for the client at `host`."""
         return self._encode(answer, host)
 
     def on_gone(self, connection: RequestConnection) -> None:
-        """Remove a connection."""
         if connection in self._connections:
             self._connections.discard(connection)
             source = neighbourhood(connection.host)
@@ -103,7 +100,6 @@ class RequestServer(Factory):
                 del self._by_source[source]
 
     def close(self) -> None:
-        """End every connection."""
         for connection in list(self._connections):
             connection.drop()
         self._limited.stop()

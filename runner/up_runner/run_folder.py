@@ -71,7 +71,6 @@ class RunFolder:
         return self.path / name
 
     def names(self) -> list[str]:
-        """Return the instances that have a folder, sorted."""
         return sorted(
             each.name
             for each in self.path.iterdir()
@@ -79,7 +78,6 @@ class RunFolder:
         )
 
     def release(self) -> None:
-        """Release the folder for the next runner."""
         self._pid_file.release()
 
     def _check_owner(self) -> None:

@@ -81,7 +81,6 @@ class Runner:
 
     @property
     def port(self) -> int:
-        """Return the TCP port that it listens on."""
         return int(self._port.getHost().port)
 
     def start(self) -> None:

@@ -23,17 +23,14 @@ class Watchdog:
 
     @property
     def running(self) -> bool:
-        """Return whether it waits for a reset."""
         return self._timer is not None
 
     def reset(self) -> None:
-        """Restart the timeout."""
         self._due_s = self._clock.seconds() + self._limit_s
         if self._timer is None:
             self._timer = self._clock.callLater(self._limit_s, self._check)
 
     def stop(self) -> None:
-        """Stop until the next reset."""
         timer, self._timer = self._timer, None
         cancel(timer)
 

@@ -86,9 +86,9 @@ test("a cut link is greyed out within a second, and only fresh data return", asy
       "no news for 6 s",
     );
     const shown = (await ground.values()).filter(({ text }) => text !== "--");
-    assert.ok(shown.length > 20, "values stay to be read");
+    assert.ok(shown.length > 20);
     const wrong = shown.filter(({ key, freshness }) => freshness === "live" && !OF_THE_PAGE.includes(key));
-    assert.deepEqual(wrong, [], "shown as live while silent");
+    assert.deepEqual(wrong, []);
   } finally {
     process.kill(proxy, "SIGCONT");
   }
@@ -98,7 +98,7 @@ test("a cut link is greyed out within a second, and only fresh data return", asy
   const [gone] = silence.changes;
   assert.equal(gone.state, "silent");
   const late_s = (gone.age_ms - silence.longestStall_ms) / 1000;
-  assert.ok(late_s <= WITHIN_S, `${gone.age_ms} ms, of which ${silence.longestStall_ms} of the machine`);
+  assert.ok(late_s <= WITHIN_S, JSON.stringify(silence));
   assert.deepEqual([...new Set(silence.liveWhileSilent)], []);
   t.diagnostic(`silent when the newest frame was ${Math.round(gone.age_ms)} ms old`);
 

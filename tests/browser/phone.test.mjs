@@ -82,11 +82,11 @@ test("a phone shows all of it without scrolling sideways, large enough for finge
   await ground.page.tap("#control-request");
   await ground.untilHolder("you");
   await ground.page.tap('[data-mode="FBW"]');
-  assert.deepEqual(await tooSmall(ground), [], "with a question open");
-  assert.deepEqual(await tooWide(ground), [], "with a question open");
+  assert.deepEqual(await tooSmall(ground), []);
+  assert.deepEqual(await tooWide(ground), []);
   await ground.page.tap("#confirm-no");
   await ground.page.setViewportSize({ width: 320, height: 568 });
-  assert.deepEqual(await tooWide(ground), [], "on the smallest phone");
+  assert.deepEqual(await tooWide(ground), []);
   ground.assertClean();
 });
 
@@ -121,12 +121,12 @@ test("a keyboard is enough: control, theme, a mode, disarm and arm", async () =>
         const isSeen = here === document.body || style.outlineStyle !== "none" || style.boxShadow !== "none";
         return { isThere: here.matches(s), isSeen, name: here.id || here.outerHTML.slice(0, 80) };
       }, selector);
-      assert.ok(found.isSeen, `the focus is not seen on ${found.name}`);
+      assert.ok(found.isSeen, found.name);
       if (found.isThere) {
         return;
       }
     }
-    assert.fail(`no way to ${selector} by Tab`);
+    assert.fail(selector);
   };
   const held = (key) => ({ down: () => keyboard.down(key), up: () => keyboard.up(key) });
   const theme = await ground.attribute("html", "data-theme");

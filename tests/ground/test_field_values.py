@@ -6,7 +6,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from up_ground.field_values import FieldError, parse_fields
+from up.cli.cli_error import UsageError
+from up_ground.field_values import parse_fields
 
 
 def test_values_are_json_where_they_are_json_and_text_otherwise():
@@ -38,7 +39,7 @@ def test_what_json_has_no_number_for_stays_text(word):
     "words", [["a"], ["=1"], ["a.=1"], [".a=1"], ["a..b=1"], ["a=1", "a=2"], ["a=1", "a.b=2"]]
 )
 def test_what_is_no_field_is_refused(words):
-    with pytest.raises(FieldError):
+    with pytest.raises(UsageError):
         parse_fields(words)
 
 
@@ -46,7 +47,7 @@ def test_what_is_no_field_is_refused(words):
 def test_no_words_break_it(words):
     try:
         data = parse_fields(words)
-    except FieldError as error:
+    except UsageError as error:
         assert str(error)
     else:
         json.dumps(data)

@@ -1,10 +1,7 @@
 """One connection on a virtual clock."""
 
 import socket
-from itertools import pairwise
 
-from hypothesis import given
-from hypothesis import strategies as st
 from twisted.internet.error import ConnectionLost
 from twisted.internet.task import Clock
 from twisted.internet.testing import StringTransportWithDisconnection
@@ -133,14 +130,3 @@ def test_lines_that_are_too_long_are_dropped_and_counted():
         bench.protocol.dataReceived(b"x" * 20000 + b"\nshort\n")
         assert bench.owner.lines == [b"short"]
         assert bench.protocol.dropped_too_long == 1
-
-
-@given(st.binary(max_size=300), st.lists(st.integers(0, 300), max_size=5))
-def test_how_the_bytes_are_cut_makes_no_difference(data, cuts):
-    with Bench() as whole, Bench() as pieces:
-        whole.protocol.dataReceived(data)
-        places = [0, *sorted(cuts), len(data)]
-        for start, end in pairwise(places):
-            pieces.protocol.dataReceived(data[start:end])
-        assert pieces.owner.lines == whole.owner.lines
-        assert pieces.owner.controls == whole.owner.controls

@@ -132,20 +132,20 @@ def test_a_second_phone_that_is_refused_is_shown():
     competed = state(frame(android={"connected": True, "competitor": "192.0.2.7"}))
     assert style_at(render(competed, 100.0, (80, 24)), "2nd phone refused") == "\x1b[0;33m"
     line = plain_line(competed.status, competed.telemetry, 100.0)
-    assert "a second phone is refused: 192.0.2.7" in line.split(" | ")
+    assert "192.0.2.7" in line
     for android in ({"connected": True}, {"connected": True, "competitor": None}):
         single = state(frame(android=android))
         assert "phone connected" in text_of(single)
-        assert "second phone" not in plain_line(single.status, single.telemetry, 100.0)
+        assert "192.0.2.7" not in plain_line(single.status, single.telemetry, 100.0)
 
 
 def test_a_broken_link_says_why_and_since_when():
     broken = state(frame())
     broken.status.failures = 3
-    broken.status.disconnected(LinkState.WAITING, 100.0, "cannot reach proxy:1: refused")
+    broken.status.disconnected(LinkState.WAITING, 100.0, "unreachable: proxy:1")
     picture = text_of(broken, 107.0)
     assert "down for 7.00 s, attempt 4" in picture
-    assert "cannot reach proxy:1: refused" in picture.splitlines()[-1]
+    assert "unreachable: proxy:1" in picture.splitlines()[-1]
 
 
 def test_the_seat_and_who_asks_for_it():

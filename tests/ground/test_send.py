@@ -34,14 +34,14 @@ def test_an_ack_is_shown_and_the_next_send_regains_control_with_its_token(proxy,
 
 def test_a_nack_is_shown_with_its_reason_and_cannot_paint_the_terminal(proxy, tmp_path):
     def refuse(message):
-        data = {"id": message["id"], "code": "refused", "reason": "throttle \x1b[31mis not low\x07"}
+        data = {"id": message["id"], "code": "refused", "reason": "throttle \x1b[31mlow\x07"}
         return [("up.nack", data)]
 
     with Aircraft(proxy.airborne_port, {"up.arm": refuse}):
         command = ["send", "up.arm"]
         status, said, stderr = ground(tmp_path, proxy.ground_port, *command, UP_LOG_FORMAT="")
     assert (status, said) == (1, "")
-    assert stderr == "up-ground: refused: throttle \\x1b[31mis not low\\x07 (refused)\n"
+    assert stderr == "up-ground: refused: throttle \\x1b[31mlow\\x07 (refused)\n"
 
 
 @pytest.mark.parametrize(
@@ -101,7 +101,8 @@ def test_mistakes_are_found_before_a_connection(tmp_path, words, code):
 def test_only_the_name_is_required(tmp_path):
     status, said, stderr = ground(tmp_path, 1, "send")
     assert (status, said) == (2, "")
-    assert stderr.endswith(": NAME\n")
+    assert "NAME" in stderr
+    assert "key=value" not in stderr
 
 
 def test_an_unknown_name_is_sent_when_forced(proxy, tmp_path):
@@ -161,7 +162,7 @@ def test_two_programs_of_one_user_do_not_take_control_from_each_other(proxy, tmp
         lines = watching.said.count("\n")
         until(lambda: watching.said.count("\n") > lines + 1, "more lines")
         assert "link down" not in watching.said
-        assert "control not ours" not in watching.said
+        assert "not ours" not in watching.said
 
 
 def test_a_legacy_proxy_gets_no_hello(tmp_path):

@@ -30,6 +30,11 @@ def wait_until(condition, what, limit_s=LIMIT_S):
     return value
 
 
+def same_instance(answer, first):
+    """Return whether an answer is that of the running instance, which it did not start."""
+    return answer == first | {"spawned": False, "message": answer["message"]}
+
+
 def is_alive(pid):
     try:
         text = Path(f"/proc/{pid}/stat").read_text()

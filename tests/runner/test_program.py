@@ -98,8 +98,8 @@ def test_a_port_in_use_is_one_sentence_and_exit_1(runners):
         port = taken.getsockname()[1]
         runner = runners(port=port).launch()
         assert runner.wait() == 1
-    last = runner.printed.splitlines()[-1]
-    assert last.startswith("up-runner: ") and f"port {port}" in last and "--port" in last
+    assert runner.events()[-1]["code"] == "cannot_listen"
+    assert f"port {port}" in runner.printed.splitlines()[-1]
     assert "Traceback" not in runner.printed
     # It released the run folder.
     runner.settings["port"] = 0

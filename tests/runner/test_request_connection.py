@@ -262,4 +262,4 @@ def test_no_bytes_break_it(chunks):
         port.clock.advance(0.3)
     port.clock.advance(1)
     for answer in answers(connection):
-        assert answer["message"] == "Raspilot not running"
+        assert answer["running"] is False

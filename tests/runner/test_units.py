@@ -8,6 +8,7 @@ from pathlib import Path
 
 import pytest
 
+from tests.support.sandbox import verify
 from tests.support.tools import need_tool
 
 FOLDER = Path(__file__).parents[2] / "runner"
@@ -27,15 +28,7 @@ def service():
 
 def test_systemd_finds_no_fault(tmp_path):
     need_tool("systemd-analyze", "systemd")
-    # Verification looks at the program, so the unit names the one that is installed here.
-    text = UNIT.read_text(encoding="utf-8").replace("/opt/raspilot/bin/up-runner", str(PROGRAM))
-    assert str(PROGRAM) in text
-    unit = tmp_path / UNIT.name
-    unit.write_text(text, encoding="utf-8")
-    verified = subprocess.run(
-        ["systemd-analyze", "verify", str(unit)], capture_output=True, text=True
-    )
-    assert (verified.returncode, verified.stderr) == (0, "")
+    verify("runner/up-runner.service", PROGRAM, tmp_path)
 
 
 def test_it_is_supervised_and_restarted_for_ever(service):

@@ -121,13 +121,6 @@ def test_the_exit_delay_begins_when_the_phone_goes(runners):
     assert runner.spawn()["spawned"] is True
 
 
-def test_an_instance_without_a_phone_stops(runners):
-    runner = runners(**{"exit delay": 0.5}).start()
-    runner.spawn()
-    runner.logs("ended", cause="phone_gone")
-    wait_until(lambda: not runner.instances(), "it ended")
-
-
 def test_a_process_that_ignores_sigterm_is_killed_and_a_request_waits_for_that(runners):
     runner = runners(**{"exit delay": 1.0}).start()
     runner.write("blackbox/behaviour.yml", {"deaf": True})
@@ -156,21 +149,6 @@ def test_a_gone_phone_never_stops_a_flight_controller(runners, mode):
     talk.order("phone 0")
     talk.order("nap 1")
     assert runner.status()["pid"] == first["pid"]
-
-
-def test_exit_on_connection_lost_can_be_switched_off(runners):
-    runner = runners(**{"exit delay": 0.2, "exit on connection lost": False}).start()
-    first = runner.spawn()
-    runner.talk(first["ports"]["general"]).order("nap 1")
-    assert runner.status()["pid"] == first["pid"]
-
-
-def test_notifications_of_another_process_are_ignored(runner):
-    first = runner.spawn()
-    talk = runner.talk(first["ports"]["general"])
-    talk.order("phone 1")
-    assert talk.order("stranger X_UP_PORTS=general:1") == "done"
-    assert runner.status()["ports"] == first["ports"]
 
 
 def test_logs_are_bounded_while_the_instance_writes(runners):

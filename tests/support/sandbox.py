@@ -29,6 +29,19 @@ def service(unit):
     return parser["Service"]
 
 
+def verify(unit, program, folder):
+    """Let systemd verify a unit of the tree, with the program that is installed here."""
+    text = (ROOT / unit).read_text(encoding="utf-8")
+    installed = text.replace(f"/opt/raspilot/bin/{Path(program).name}", str(program))
+    assert f"ExecStart={program}" in installed
+    path = folder / Path(unit).name
+    path.write_text(installed, encoding="utf-8")
+    verified = subprocess.run(
+        ["systemd-analyze", "verify", str(path)], capture_output=True, text=True
+    )
+    assert (verified.returncode, verified.stderr) == (0, "")
+
+
 def calls(filter_set):
     """Return the names of the system calls in a set such as @network-io."""
     command = ["systemd-analyze", "syscall-filter", "--no-pager", filter_set]

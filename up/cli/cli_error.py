@@ -11,3 +11,10 @@ class CliError(UserError):
     def __init__(self, text: str, status: int = 1, code: str = "") -> None:
         super().__init__(text, code)
         self.status = status
+
+
+class UsageError(CliError):
+    """A mistake in the arguments, which the parser cannot see: exit status 2."""
+
+    def __init__(self, text: str, code: str = "") -> None:
+        super().__init__(text, 2, code)

@@ -22,7 +22,9 @@ class ServerParser(OptionParser):
         text = f"folder of {file.filename} (default: config)"
         self.add_argument("--config", type=Path, metavar="DIR", help=text)
         for option in ports:
-            self.add_argument(option, type=_port, metavar="N", help="TCP port; 0: any free port")
+            self.add_argument(
+                option, type=port_number, metavar="N", help="TCP port; 0: any free port"
+            )
         self.add_argument("--log-level", choices=("debug", "info", "warning", "error"))
         self.add_argument("--version", action="version", version=f"{self.prog} {VERSION}")
 
@@ -46,8 +48,11 @@ class ServerParser(OptionParser):
         return options, folder, replace(config, **{name: given[name] for name in keys})
 
 
-def _port(text: str) -> int:
+def port_number(text: str, minimum: int = 0) -> int:
+    """Return a TCP port; raises ArgumentTypeError."""
     port = int(text) if text.isascii() and text.isdigit() and len(text) < 6 else -1
-    if not 0 <= port <= 65535:
-        raise argparse.ArgumentTypeError(f"a port is a number from 0 to 65535, not {text[:60]!r}")
+    if not minimum <= port <= 65535:
+        raise argparse.ArgumentTypeError(
+            f"a port is a number from {minimum} to 65535, not {text[:60]!r}"
+        )
     return port

@@ -166,6 +166,11 @@ def program_line(
     return json.dumps(record, default=str)
 
 
+def program_error(program: str, text: str, code: str, **fields: object) -> str:
+    """Return the line with which a program reports an error: JSON, or its name and the text."""
+    return program_line(text, code, fields, "error") or f"{program}: {text}"
+
+
 def _plain(value: str | int | float | None) -> str | int | float | None:
     if isinstance(value, str):
         return value[:_MAX_FIELD]

@@ -6,6 +6,39 @@ MAX_LINE_BYTES = 16384
 """Bytes of a General Message line with its LF (docs/protocols.md 4)."""
 
 
+class LineBuffer:
+    """Cuts a stream at its last LF, so that only whole lines pass; holds the partial line."""
+
+    __slots__ = ("_partial",)
+
+    def __init__(self) -> None:
+        self._partial = bytearray()
+
+    def __len__(self) -> int:
+        return len(self._partial)
+
+    def starts_with(self, prefix: bytes) -> bool:
+        """Return whether the partial line begins with `prefix`."""
+        return self._partial.startswith(prefix)
+
+    def feed(self, data: bytes) -> bytes:
+        """Return the whole lines that `data` completes, or empty bytes."""
+        cut = data.rfind(b"\n") + 1
+        if not cut:
+            self._partial += data
+            return b""
+        whole = data[:cut]
+        if self._partial:
+            whole = bytes(self._partial) + whole
+            self._partial.clear()
+        if cut < len(data):
+            self._partial += data[cut:]
+        return whole
+
+    def clear(self) -> None:
+        self._partial.clear()
+
+
 class LineDecoder:
     """Splits a stream at LF and removes a CR before it.
 
@@ -16,48 +49,27 @@ class LineDecoder:
     def __init__(self, max_length: int = MAX_LINE_BYTES) -> None:
         self.dropped_too_long = 0
         self._max_content = max_length - 1
-        self._parts: list[bytes] = []
-        self._held = 0
+        self._buffer = LineBuffer()
         self._is_skipping = False
 
     def feed(self, data: bytes) -> list[bytes]:
         """Return the lines that `data` completes, without their line ends."""
-        pieces = data.split(b"\n")
-        tail = pieces.pop()
+        if self._is_skipping:
+            _, end, data = data.partition(b"\n")
+            self._is_skipping = not end
         lines: list[bytes] = []
-        if pieces:
-            first = pieces[0]
-            if self._is_skipping:
-                self._is_skipping = False
-                first = b""
-            elif self._parts:
-                first = b"".join((*self._parts, first))
-            pieces[0] = first
-            self._parts.clear()
-            self._held = 0
-            for line in pieces:
-                if len(line) > self._max_content:
-                    self.dropped_too_long += 1
-                    continue
-                content = line.removesuffix(b"\r")
-                if content:
-                    lines.append(content)
-        if tail and not self._is_skipping:
-            self._hold(tail)
+        for line in self._buffer.feed(data).split(b"\n")[:-1]:
+            if len(line) > self._max_content:
+                self.dropped_too_long += 1
+            elif content := line.removesuffix(b"\r"):
+                lines.append(content)
+        if len(self._buffer) > self._max_content:
+            self.dropped_too_long += 1
+            self._buffer.clear()
+            self._is_skipping = True
         return lines
 
     def reset(self) -> None:
         """Discard an unfinished line: the next byte belongs to another connection."""
-        self._parts.clear()
-        self._held = 0
+        self._buffer.clear()
         self._is_skipping = False
-
-    def _hold(self, tail: bytes) -> None:
-        self._held += len(tail)
-        if self._held > self._max_content:
-            self.dropped_too_long += 1
-            self._parts.clear()
-            self._held = 0
-            self._is_skipping = True
-        else:
-            self._parts.append(tail)

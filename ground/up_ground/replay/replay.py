@@ -7,33 +7,33 @@ import os
 from pathlib import Path
 from typing import Any
 
-from up.cli.cli_error import CliError
+from up.cli.cli_error import UsageError
 from up.fields import printable
 from up.flight_log.flights_folder import folder_of
 from up.flight_log.mcap_format import FlightLogError
 from up_flightlog.cli.parser import PLACE
 from up_flightlog.read.flight_log import FlightLog
 from up_flightlog.read.flights import find_flight_of
-from up_ground.one_shot_task import EXIT_USAGE, echo, print_error
+from up_ground.one_shot_task import echo, print_error
 from up_ground.one_shot_task import run as run_task
 from up_ground.replay.replayed_aircraft import ReplayedAircraft
 from up_ground.replay.timeline import ReplayTimeline
 from up_ground.sanitize_text import sanitize_text
-from up_ground.web.serve import PageOptions, ServeError
+from up_ground.web.serve import PageOptions
 
 
 def run(options: argparse.Namespace) -> int:
-    """Serve the page with a flight; returns the exit status. Raises CliError."""
+    """Serve the page with a flight; returns the exit status. Raises UsageError."""
+    page = PageOptions.of(options, os.environ)
     try:
-        page = PageOptions.of(options, os.environ)
         paths = find_flight_of(options.flight, lambda: _folder(options)).paths
         echo(f"reading {printable(', '.join(path.name for path in paths))} ...")
         log = FlightLog.read(paths)
         timeline = ReplayTimeline(log, aircraft_of(log))
-    except (ServeError, FlightLogError) as error:
-        raise CliError(printable(str(error)), EXIT_USAGE) from None
+    except FlightLogError as error:
+        raise UsageError(printable(str(error)), error.code) from None
     if not log.topics:
-        raise CliError(f"{printable(paths[0].name)} holds no message", EXIT_USAGE)
+        raise UsageError(f"{printable(paths[0].name)} holds no message", "empty_flight")
     for problem in log.problems[:5]:
         print_error(printable(problem.text), "log_damaged")
     title = sanitize_text(paths[0].name.removesuffix(".mcap"), 100)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from up.flight_log.mcap_format import FlightLogError
 from up.system.clock import Clock, Timer
@@ -12,10 +12,14 @@ from up_flightlog.read.flight_log import FlightLog
 from up_flightlog.read.telemetry_frames import Frame, frames
 from up_ground.replay.player import Player
 from up_ground.replay.timeline import ReplayTimeline, past
-from up_ground.web.aircraft_source import Subscribers
+from up_ground.web.aircraft_source import AircraftSource
+from up_ground.web.answers import Answer
 from up_ground.web.client_session import ClientSession
 from up_ground.web.gains_history import GainsHistory
 from up_ground.web.messages import FrameMessage, PageFault, Reader, message_bytes
+
+if TYPE_CHECKING:
+    from up_ground.web.client_hub import ClientHub
 
 REPLAY = "this is a replay"
 REPEAT_S = 0.25
@@ -23,7 +27,7 @@ _BEFORE_S = 0.5
 """Frames that are made lie elsewhere, by less than this, when they are made from elsewhere on."""
 
 
-class ReplayedAircraft:
+class ReplayedAircraft(AircraftSource):
     """Shows a flight to the pages; any page that could control an aircraft plays and pauses it."""
 
     def __init__(
@@ -32,7 +36,7 @@ class ReplayedAircraft:
         log: FlightLog,
         timeline: ReplayTimeline,
         title: str,
-        subscribers: Subscribers,
+        subscribers: ClientHub,
     ) -> None:
         self.name = timeline.aircraft
         self._clock = clock
@@ -40,7 +44,6 @@ class ReplayedAircraft:
         self._timeline = timeline
         self._title = title
         self._subscribers = subscribers
-        self._frame: FrameMessage | None = None
         self._frames = 0
         self._timer: Timer | None = None
         self._player = Player(
@@ -64,9 +67,6 @@ class ReplayedAircraft:
         self._player.stop()
         if self._timer is not None:
             self._timer.cancel()
-
-    def frame(self) -> FrameMessage | None:
-        return self._frame
 
     def past(self) -> Iterable[dict[str, Any]]:
         now_s = self._player.time_s
@@ -128,31 +128,10 @@ class ReplayedAircraft:
             self._player.pause()
 
     def on_control(self, page: ClientSession, action: str, to: int | None) -> None:
-        """Refuse: a recorded flight cannot be controlled."""
         raise PageFault(REPLAY, "replay")
 
     def on_command(self, page: ClientSession, message: Reader) -> None:
-        """Refuse: a recorded flight takes no Commands."""
-        page.send(
-            {
-                "type": "answer",
-                "ask": message.whole("ask"),
-                "outcome": "refused",
-                "code": "replay",
-                "reason": REPLAY,
-                "round_trip_ms": None,
-                "data": None,
-            }
-        )
-
-    def on_second(self) -> None:
-        """Handle the end of a second."""
-
-    def on_away(self, page: ClientSession) -> None:
-        """Handle the loss of a page's link; the page may return."""
-
-    def on_gone(self, page: ClientSession) -> None:
-        """Handle the final loss of a page."""
+        page.send(Answer("refused", "replay", REPLAY).message(message.whole("ask")))
 
     def _seek(self, time_s: float) -> None:
         self._player.seek(time_s)
@@ -174,10 +153,10 @@ class ReplayedAircraft:
         def age_s(now_s: float) -> float:
             return max(0.0, self._player.time_s - frame.time_s)
 
-        self._frame = FrameMessage(
+        self.newest_frame = FrameMessage(
             self.name, frame.beacon, frame.data, age_s, self._clock.seconds, frame.time_s
         )
-        self._subscribers.send_latest(self.name, "frame", self._frame)
+        self._subscribers.send_latest(self.name, "frame", self.newest_frame)
 
     def _on_moved(self, before_s: float, now_s: float) -> None:
         for event in self._timeline.events_between(before_s, now_s):

@@ -3,19 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from up.protocols.general_message import GeneralMessage
 from up.system.clock import Timer
 from up.system.token_bucket import TokenBucket
+from up_ground.catalogue import Catalogue
 from up_ground.ground_link import GroundLink
 from up_ground.link_status import LinkState
 from up_ground.settings import Settings
 from up_ground.telemetry import NAME, Telemetry
 from up_ground.token_store import TokenStore
-from up_ground.web.aircraft_source import Subscribers
+from up_ground.web.aircraft_source import AircraftSource
 from up_ground.web.client_session import ClientSession
-from up_ground.web.command_checks import Checks
+from up_ground.web.command_gate import CommandGate
 from up_ground.web.command_service import CommandService
 from up_ground.web.control import Control
 from up_ground.web.event_monitor import EventMonitor
@@ -24,11 +25,14 @@ from up_ground.web.messages import FrameMessage, PageFault, Reader
 from up_ground.web.proxy_lease import ProxyLease
 from up_ground.web.track import Home, Track, track_message
 
+if TYPE_CHECKING:
+    from up_ground.web.client_hub import ClientHub
+
 TICK_S = 0.25
 """Period of the checks for changes by time alone."""
 
 
-class AircraftSession:
+class AircraftSession(AircraftSource):
     """Forwards telemetry without delay, and keeps the state that a page needs when it joins."""
 
     def __init__(
@@ -37,8 +41,8 @@ class AircraftSession:
         name: str,
         settings: Settings,
         tokens: TokenStore,
-        checks: Checks,
-        subscribers: Subscribers,
+        catalogue: Catalogue,
+        subscribers: ClientHub,
     ) -> None:
         self.name = name
         self.link = GroundLink(reactor, settings, self, tokens)
@@ -46,17 +50,15 @@ class AircraftSession:
         self._reactor = reactor
         self._settings = settings
         self._subscribers = subscribers
-        self._frame: FrameMessage | None = None
-        self._lease = ProxyLease(self.link, settings.direct)
-        self.control = Control(reactor, self._lease, self._report, self._send_status)
+        lease = ProxyLease(self.link, settings.direct)
+        self.control = Control(reactor, lease, self._report, self._send_status)
         self.commands = CommandService(
             reactor,
             name,
             self.link,
-            self._lease,
             self.control,
             self.telemetry,
-            checks,
+            CommandGate(reactor, name, catalogue, self.link, lease, self.control, self.telemetry),
             lambda message: subscribers.notify(name, message),
             self._report,
         )
@@ -97,7 +99,7 @@ class AircraftSession:
                 lambda now_s: now_s - made_s,
                 self._reactor.seconds,
             )
-            self._frame = frame
+            self.newest_frame = frame
             self._subscribers.send_latest(self.name, "frame", frame)
             self._process(came_s)
         elif message.name != NAME:
@@ -129,11 +131,7 @@ class AircraftSession:
         self.commands.on_moment()
         self._send_status()
 
-    def frame(self) -> FrameMessage | None:
-        return self._frame
-
     def past(self) -> Iterable[dict[str, Any]]:
-        """Return the messages for a page that starts to watch."""
         yield track_message(self.name, self._track.points())
         yield from self.monitor.past(self._reactor.seconds())
         yield self.commands.gains_message()
@@ -177,7 +175,6 @@ class AircraftSession:
         }
 
     def on_control(self, page: ClientSession, action: str, to: int | None) -> None:
-        """Let a page request, give, deny or release control."""
         if action == "give":
             taker = None if to is None else self._subscribers.get(to)
             if to is not None and taker is None:
@@ -194,11 +191,9 @@ class AircraftSession:
         self.commands.on_command(page, message)
 
     def on_replay(self, page: ClientSession, action: str, message: Reader) -> None:
-        """Refuse: the aircraft is live, not a replay."""
         raise PageFault("this is not a replay", "not_a_replay")
 
     def on_away(self, page: ClientSession) -> None:
-        """Handle the loss of a page's link; the page may return."""
         self.control.on_away(page)
 
     def on_gone(self, page: ClientSession) -> None:

@@ -1,57 +1,52 @@
-"""The interface between pages and the aircraft that they watch."""
+"""An aircraft as the server knows it: a real one, or a flight of the past."""
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from collections.abc import Iterable
-from typing import Any, Protocol
+from typing import Any
 
-from up.protocols.link_output import Make
 from up_ground.web.client_session import ClientSession
 from up_ground.web.messages import FrameMessage, Reader
 
 
-class AircraftSource(Protocol):
-    """An aircraft as the server knows it: a real one, or a flight of the past."""
+class AircraftSource(ABC):
+    """What `ClientHub` calls; pages watch it by its name."""
 
     name: str
+    newest_frame: FrameMessage | None = None
 
     @property
+    @abstractmethod
     def summary(self) -> str: ...
 
+    @abstractmethod
     def start(self) -> None: ...
 
+    @abstractmethod
     async def stop(self) -> None: ...
 
-    def past(self) -> Iterable[dict[str, Any]]: ...
+    @abstractmethod
+    def past(self) -> Iterable[dict[str, Any]]:
+        """Return the messages for a page that starts to watch."""
 
-    def frame(self) -> FrameMessage | None: ...
-
+    @abstractmethod
     def status(self, page: ClientSession) -> dict[str, Any]: ...
 
-    def on_second(self) -> None: ...
-
+    @abstractmethod
     def on_control(self, page: ClientSession, action: str, to: int | None) -> None: ...
 
+    @abstractmethod
     def on_command(self, page: ClientSession, message: Reader) -> None: ...
 
+    @abstractmethod
     def on_replay(self, page: ClientSession, action: str, message: Reader) -> None: ...
 
-    def on_away(self, page: ClientSession) -> None:
+    def on_second(self) -> None:  # noqa: B027 - a replay has nothing to do
+        """Measure the link, once a second."""
+
+    def on_away(self, page: ClientSession) -> None:  # noqa: B027
         """Handle the loss of a page's link; the page may return."""
 
-    def on_gone(self, page: ClientSession) -> None:
+    def on_gone(self, page: ClientSession) -> None:  # noqa: B027
         """Handle the final loss of a page."""
-
-
-class Subscribers(Protocol):
-    """The pages, as an aircraft sees them."""
-
-    def send_latest(self, aircraft: str, kind: str, make: Make) -> None: ...
-
-    def notify(self, aircraft: str, message: dict[str, Any]) -> None: ...
-
-    def send_status(self, aircraft: str) -> None: ...
-
-    def all(self) -> list[ClientSession]: ...
-
-    def get(self, number: int) -> ClientSession | None: ...

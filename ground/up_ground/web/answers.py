@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import secrets
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from typing import Any
 
 from up.flight_log.gain_changes import changes_text
@@ -29,6 +29,10 @@ class Answer:
     reason: str = ""
     round_trip_ms: float | None = None
     data: dict[str, Any] | None = None
+
+    def message(self, ask: int) -> dict[str, Any]:
+        """Return the message for the page that sent the Command as its number ``ask``."""
+        return {"type": "answer", "ask": ask, **asdict(self)}
 
 
 Notify = Callable[[Answer], object]
@@ -63,7 +67,6 @@ class Answers:
         return id_
 
     def on_message(self, message: GeneralMessage) -> None:
-        """Take a message of the aircraft, if it is an answer."""
         if message.name in ("up.ack", "up.nack"):
             id_ = message.data.get("id")
             sent = self._sent.get(id_) if isinstance(id_, str) else None

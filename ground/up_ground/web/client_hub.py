@@ -5,7 +5,7 @@ from __future__ import annotations
 import hmac
 import secrets
 from collections.abc import Mapping
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from twisted.internet.defer import Deferred
 
@@ -20,11 +20,13 @@ from up_ground.web.client_session import (
     PAGES_LIMIT,
     WATCHERS_LIMIT,
     AdmissionError,
-    ClientConnection,
     ClientSession,
     admit_page,
 )
 from up_ground.web.messages import PageFault, Reader, message_bytes, read_message
+
+if TYPE_CHECKING:
+    from up_ground.web.page_link import PageLink
 
 GREETING_LIMIT = 16
 """Maximum number of links without a hello; beyond it the oldest is closed."""
@@ -67,7 +69,7 @@ class ClientHub:
         self._tiles = tiles
         self._catalogue = None if catalogue is None else message_bytes(catalogue)
         self._is_replay = is_replay
-        self._connections: dict[ClientConnection, _Connection] = {}
+        self._connections: dict[PageLink, _Connection] = {}
         self._pages: dict[int, ClientSession] = {}
         self._timers: dict[int, Timer] = {}
         self._number = 0
@@ -115,7 +117,7 @@ class ClientHub:
 
     # Called by a page's link.
 
-    def on_opened(self, link: ClientConnection) -> None:
+    def on_opened(self, link: PageLink) -> None:
         """Wait for the page's hello, which shows whether it has a reserved place."""
         greeting = [
             each for each, connection in self._connections.items() if connection.page is None
@@ -126,7 +128,7 @@ class ClientHub:
         timer = self._clock.callLater(HELLO_S, link.close, VIOLATION, "no hello")
         self._connections[link] = _Connection(self._clock, timer)
 
-    def on_message(self, link: ClientConnection, payload: bytes) -> None:
+    def on_message(self, link: PageLink, payload: bytes) -> None:
         """Handle a message of a page; bad ones get an error, and too many close the link."""
         connection = self._connections.get(link)
         if connection is None or self._all_closed is not None:
@@ -144,7 +146,7 @@ class ClientHub:
             if connection.faults >= FAULTS_LIMIT:
                 link.close(VIOLATION, "too many faults")
 
-    def on_closed(self, link: ClientConnection) -> None:
+    def on_closed(self, link: PageLink) -> None:
         connection = self._connections.pop(link, None)
         if connection is None:
             return
@@ -161,7 +163,7 @@ class ClientHub:
                 aircraft.on_away(page)
 
     def _dispatch(
-        self, link: ClientConnection, connection: _Connection, kind: str, message: Reader
+        self, link: PageLink, connection: _Connection, kind: str, message: Reader
     ) -> None:
         page = connection.page
         if kind == "hello":
@@ -197,7 +199,7 @@ class ClientHub:
             raise PageFault("unknown aircraft", "unknown_aircraft")
         return found
 
-    def _on_hello(self, link: ClientConnection, connection: _Connection, message: Reader) -> None:
+    def _on_hello(self, link: PageLink, connection: _Connection, message: Reader) -> None:
         name = " ".join(sanitize_text(message.optional_text("name") or "", 40).split())
         key = message.optional_text("key", 200)
         token = message.optional_text("token", 64) or ""
@@ -228,7 +230,7 @@ class ClientHub:
             old.is_alive(ALIVE_S, decide)
 
     def _denial(
-        self, link: ClientConnection, key: str | None, former: ClientSession | None
+        self, link: PageLink, key: str | None, former: ClientSession | None
     ) -> Denial | None:
         denial = self._access.denial(key)
         # A page that may control has shown before that it knows the key.
@@ -248,7 +250,7 @@ class ClientHub:
                 found = page
         return found
 
-    def _welcome_new(self, link: ClientConnection, name: str, denial: Denial | None) -> None:
+    def _welcome_new(self, link: PageLink, name: str, denial: Denial | None) -> None:
         limit = PAGES_LIMIT if self._access.is_watch_only else WATCHERS_LIMIT
         try:
             leaving = admit_page(self._pages.values(), denial is None, limit)
@@ -272,14 +274,13 @@ class ClientHub:
                 aircraft.on_away(page)
         self._drop(page)
 
-    def _reject(self, link: ClientConnection, reason: str) -> None:
-        """Close a link without a page."""
+    def _reject(self, link: PageLink, reason: str) -> None:
         connection = self._connections.pop(link)
         cancel(connection.timer)
         link.close(LATER, reason)
 
     def _welcome_back(
-        self, link: ClientConnection, page: ClientSession, name: str, denial: Denial | None
+        self, link: PageLink, page: ClientSession, name: str, denial: Denial | None
     ) -> None:
         cancel(self._timers.pop(page.number, None))
         page.name = name or page.name
@@ -287,7 +288,7 @@ class ClientHub:
         page.watched = ""
         self._welcome(link, page)
 
-    def _welcome(self, link: ClientConnection, page: ClientSession) -> None:
+    def _welcome(self, link: PageLink, page: ClientSession) -> None:
         link.admit()
         page.link = link
         # A reloaded page restarts its numbers at one; its old numbers are void.
@@ -320,9 +321,8 @@ class ClientHub:
             page.link.output.discard("frame")
         for message in aircraft.past():
             page.send(message)
-        frame = aircraft.frame()
-        if frame is not None:
-            page.send_latest("frame", frame)
+        if aircraft.newest_frame is not None:
+            page.send_latest("frame", aircraft.newest_frame)
         self._send_status(page, aircraft)
 
     def _send_status(self, page: ClientSession, aircraft: AircraftSource) -> None:

@@ -5,29 +5,12 @@ from __future__ import annotations
 from collections.abc import Collection
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
-from typing import Protocol as Interface
 
 from up_ground.web.access import Denial
 from up_ground.web.messages import message_bytes
 
 if TYPE_CHECKING:
-    from up_ground.web.page_link import PageSendBuffer
-
-
-class ClientConnection(Interface):
-    """The WebSocket of a page."""
-
-    output: PageSendBuffer
-    host: str
-    """Its remote address."""
-
-    def admit(self) -> None: ...
-
-    def close(self, code: int, reason: str) -> None:
-        """Close it; ``code`` is 4000 to 4999, as RFC 6455 leaves them to us."""
-
-    def is_alive(self, within_s: float, notify: Any) -> None:
-        """Ping the page; ``notify`` gets whether the answer came in time."""
+    from up_ground.web.page_link import PageLink
 
 
 @dataclass(slots=True)
@@ -50,7 +33,7 @@ class ClientSession:
         self.token = token
         self.denial = denial
         self.watched = ""
-        self.link: ClientConnection | None = None
+        self.link: PageLink | None = None
         self.asks: dict[int, Ask] = {}
 
     @property

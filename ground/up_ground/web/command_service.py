@@ -10,19 +10,16 @@ from up.protocols.general_message import GeneralMessage, encode
 from up.system.clock import Clock
 from up_ground.catalogue import GAINS
 from up_ground.ground_link import GroundLink
-from up_ground.link_status import ControlStatus
 from up_ground.telemetry import Telemetry
 from up_ground.web.answers import Answer, Answers, outcome_event
 from up_ground.web.client_session import Ask, ClientSession
-from up_ground.web.command_checks import Checked, Checks, RecentBeacons
+from up_ground.web.command_gate import CommandGate
 from up_ground.web.control import Control
 from up_ground.web.event_rules import Report
 from up_ground.web.gains_history import GainsHistory
 from up_ground.web.messages import PageFault, Reader
-from up_ground.web.proxy_lease import ProxyLease
 
 ASKS_KEPT = 256
-UNANSWERED_LIMIT = 32
 _VALUES = "arduino.pids.values"
 _PROFILE = "arduino.profile.values"
 
@@ -39,10 +36,9 @@ class CommandService:
         clock: Clock,
         name: str,
         link: GroundLink,
-        lease: ProxyLease,
         control: Control,
         telemetry: Telemetry,
-        checks: Checks,
+        gate: CommandGate,
         notify_all: Callable[[dict[str, Any]], object],
         report: Callable[[str, Report], object],
     ) -> None:
@@ -51,14 +47,12 @@ class CommandService:
         self._clock = clock
         self._name = name
         self._link = link
-        self._lease = lease
         self._control = control
         self._telemetry = telemetry
-        self._checks = checks
+        self._gate = gate
         self._notify_all = notify_all
         self._report = report
         self._answers = Answers(clock)
-        self._beacons = RecentBeacons(clock, telemetry)
         self._are_gains_due = True
         self._gains_holder: ClientSession | None = None
 
@@ -86,15 +80,7 @@ class CommandService:
         asks = page.asks
 
         def notify(answer: Answer) -> None:
-            ask.answer = {
-                "type": "answer",
-                "ask": number,
-                "outcome": answer.outcome,
-                "code": answer.code,
-                "reason": answer.reason,
-                "round_trip_ms": answer.round_trip_ms,
-                "data": answer.data,
-            }
+            ask.answer = answer.message(number)
             # A page that was reloaded since then uses the same numbers for other Commands.
             if page.asks is asks:
                 page.send(ask.answer)
@@ -121,13 +107,13 @@ class CommandService:
 
     def on_moment(self) -> None:
         """Take a frame; request the gains when they are due and a page here has control."""
-        self._beacons.poll()
+        self._gate.beacons.poll()
         holder = self._control.holder
         if holder is not self._gains_holder:
             # Another ground may have changed them since.
             self._gains_holder = holder
             self._are_gains_due = self._are_gains_due or holder is not None
-        if not self._are_gains_due or self._control.holder is None or self._unsent():
+        if not self._are_gains_due or self._control.holder is None or self._gate.unsent():
             return
         if self._telemetry.is_silent(self._clock.seconds()):
             return
@@ -149,10 +135,8 @@ class CommandService:
         is_forced: bool,
         notify: Callable[[Answer], object],
     ) -> None:
-        role = self._telemetry.text("ground", "role")
-        checked = self._checks.check(name, data, beacon, role, is_forced)
-        refused = (
-            checked if isinstance(checked, Answer) else self._refusal(page, checked, name, beacon)
+        refused = self._gate.refusal(
+            page, name, data, beacon, is_forced=is_forced, unanswered=len(self._answers)
         )
         if refused is not None:
             notify(refused)
@@ -166,37 +150,6 @@ class CommandService:
             notify(answer)
 
         self._send(name, data, beacon, on_answer)
-
-    def _refusal(
-        self, page: ClientSession, checked: Checked, name: str, beacon: int | None
-    ) -> Answer | None:
-        if checked.needs_control and page is not self._control.holder:
-            reason = "this page has no control: request it first"
-            if not page.may_control:
-                reason = f"this page may only watch: {page.denial}"
-            return Answer("refused", "no_control", reason)
-        if len(self._answers) >= UNANSWERED_LIMIT:
-            return Answer("refused", "busy", "too many Commands wait for their answer")
-        unsent = self._unsent()
-        if unsent is None and checked.needs_control:
-            # The page may hang or show late data: a Command needs a page that sees fresh data.
-            fault = self._beacons.fault(name, beacon)
-            return None if fault is None else Answer("refused", *fault)
-        return unsent
-
-    def _unsent(self) -> Answer | None:
-        """Return why no Command can be sent now."""
-        status = self._link.status
-        if not status.is_open:
-            reason = status.reason or "no link to the proxy"
-            return Answer("unsent", "no_link", reason)
-        if status.is_aircraft_online is False:
-            reason = f"the aircraft {self._name} is not connected to the proxy"
-            return Answer("unsent", "no_aircraft", reason)
-        if self._lease.status is not ControlStatus.OURS:
-            reason = "this ground only listens: request control first"
-            return Answer("unsent", "no_seat", reason)
-        return None
 
     def _send(
         self,

@@ -10,6 +10,7 @@ from twisted.python.failure import Failure
 
 from up.system.addresses import neighbourhood
 from up.system.clock import cancel
+from up.system.lingering_connection import LingeringConnection
 
 WAITING_LIMIT = 128
 """Connections that are not a welcomed page's."""
@@ -21,10 +22,9 @@ HTTP_LIMIT_S = 60.0
 """A connection that is not a page's link by then is closed, which bounds slow requests."""
 
 
-class Connection(ProtocolWrapper):
+class Connection(LingeringConnection):
     """One connection; its protocol is replaced when it becomes a WebSocket."""
 
-    transport: Any
     factory: Any
     peer = ""
     has_asked = False
@@ -39,6 +39,18 @@ class Connection(ProtocolWrapper):
         if not self.has_asked:
             self.has_asked = True
             self._timer.reset(HTTP_LIMIT_S - HEADER_S)
+
+    def refuse(self, answer: bytes) -> None:
+        """Send an answer and read nothing more."""
+        self.transport.write(answer)
+        self.loseConnection()
+
+    def loseConnection(self) -> None:  # noqa: N802 - Twisted's name
+        """Linger after a request; a WebSocket has its own closing handshake."""
+        if self.wrappedProtocol is self._http:
+            super().loseConnection()
+        else:
+            self.transport.loseConnection()
 
     def admit(self) -> None:
         """Exclude it from the limits: its page is welcomed."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any, Protocol
+from typing import Any
 
 from up.system.clock import Clock, Timer, cancel
 from up_ground.link_status import ASK_INTERVAL_S, ControlStatus
@@ -11,30 +11,12 @@ from up_ground.sanitize_text import sanitize_text
 from up_ground.web.client_session import ClientSession
 from up_ground.web.event_rules import INFO, Report
 from up_ground.web.messages import PageFault
+from up_ground.web.proxy_lease import ProxyLease
 
 ASK_LIMIT_S = 30.0
 """A request for control lasts this long."""
 DENIED_S = 5.0
 """A denied ground may request again after it has been quiet for this time."""
-
-
-class Lease(Protocol):
-    """The seat of the proxy, as far as it concerns control."""
-
-    @property
-    def status(self) -> ControlStatus: ...
-
-    @property
-    def holder(self) -> int | None: ...
-
-    def pop_request(self) -> int | None:
-        """Return which ground has requested it since the last call."""
-
-    def request(self) -> None: ...
-
-    def give(self, to: int) -> None: ...
-
-    def release(self) -> None: ...
 
 
 class Control:
@@ -46,7 +28,7 @@ class Control:
     def __init__(
         self,
         clock: Clock,
-        lease: Lease,
+        lease: ProxyLease,
         report: Callable[[str, Report], object],
         on_change: Callable[[], object],
     ) -> None:
@@ -157,7 +139,6 @@ class Control:
         self._poll_ground_request()
 
     def describe(self, page: ClientSession) -> dict[str, Any]:
-        """Return the control part of the status of ``page``."""
         holder, holder_name = "unknown", ""
         status = self._lease.status
         if self.holder is not None:
@@ -245,7 +226,6 @@ class Control:
             self._lease.release()
 
     def _request_next(self) -> None:
-        """Request the seat for the first page in the queue."""
         page = next(iter(self._askers))
         cancel(self._askers.pop(page))
         self.request(page)

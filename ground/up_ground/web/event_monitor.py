@@ -190,7 +190,6 @@ class EventMonitor:
             self._notify(self._alarms.message(self._aircraft))
 
     def past(self, now_s: float) -> Iterator[dict[str, Any]]:
-        """Yield the messages for a page that joins later."""
         for event in self._events:
             yield event.message(self._aircraft, now_s, is_past=True)
         yield self._alarms.message(self._aircraft)

@@ -3,21 +3,9 @@
 from __future__ import annotations
 
 from collections import deque
-from dataclasses import dataclass
 from typing import Any
 
 KEPT = 50
-
-
-@dataclass(frozen=True, slots=True)
-class _Change:
-    number: int
-    at_s: float
-    by: str
-    before: dict[str, Any] | None
-    after: dict[str, Any]
-    outcome: str
-    reason: str
 
 
 class GainsHistory:
@@ -26,7 +14,7 @@ class GainsHistory:
     def __init__(self) -> None:
         self.flying: dict[str, Any] | None = None
         self._reported_s: float | None = None
-        self._changes: deque[_Change] = deque(maxlen=KEPT)
+        self._changes: deque[tuple[float, dict[str, Any]]] = deque(maxlen=KEPT)
         self._number = 0
 
     def on_values(self, values: dict[str, Any], now_s: float) -> None:
@@ -43,8 +31,8 @@ class GainsHistory:
         now_s: float,
     ) -> None:
         self._number += 1
-        change = _Change(self._number, now_s, by, before, after, outcome, reason)
-        self._changes.append(change)
+        sent = {"by": by, "before": before, "after": after, "outcome": outcome, "reason": reason}
+        self._changes.append((now_s, {"number": self._number, **sent}))
 
     def message(self, aircraft: str, now_s: float) -> dict[str, Any]:
         age_ms = None if self._reported_s is None else round((now_s - self._reported_s) * 1000)
@@ -54,15 +42,6 @@ class GainsHistory:
             "flying": self.flying,
             "age_ms": age_ms,
             "history": [
-                {
-                    "number": each.number,
-                    "age_s": round(now_s - each.at_s, 1),
-                    "by": each.by,
-                    "before": each.before,
-                    "after": each.after,
-                    "outcome": each.outcome,
-                    "reason": each.reason,
-                }
-                for each in self._changes
+                {**change, "age_s": round(now_s - at_s, 1)} for at_s, change in self._changes
             ],
         }

@@ -64,7 +64,6 @@ class FrameMessage:
         self._now_s = now_s
 
     def __call__(self) -> bytes:
-        """Return the message with its present age."""
         now_s = self._now_s()
         age_ms, sent_ms = self._age_s(now_s) * 1000, now_s * 1000
         return text_frame(b'%b%.1f,"sent_ms":%.1f}' % (self._body, age_ms, sent_ms))

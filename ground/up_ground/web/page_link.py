@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any
-from typing import Protocol as Interface
+from typing import TYPE_CHECKING, Any
 
 from autobahn.twisted.resource import WebSocketResource
 from autobahn.twisted.websocket import WebSocketServerFactory, WebSocketServerProtocol
@@ -13,6 +12,9 @@ from twisted.internet.interfaces import IAddress
 from up.protocols.link_output import BaseOutput, Make
 from up.protocols.tcp_options import watch_peer
 from up_ground.web.messages import MAX_MESSAGE_BYTES
+
+if TYPE_CHECKING:
+    from up_ground.web.client_hub import ClientHub
 
 PENDING_LIMIT = 1 << 20
 """Bytes in order that wait for a page that does not read; more, and it is given up."""
@@ -34,7 +36,6 @@ class PageSendBuffer(BaseOutput):
         return self._size
 
     def send(self, message: bytes) -> None:
-        """Send ``message`` after those before it."""
         if self._transport is None:
             return
         self._put(message)
@@ -59,23 +60,14 @@ NOT_TEXT = 4003
 TOO_LONG = 4008
 
 
-class LinkOwner(Interface):
-    """Receiver of the events of the pages' links."""
-
-    def on_opened(self, link: PageLink) -> None: ...
-
-    def on_message(self, link: PageLink, payload: bytes) -> None: ...
-
-    def on_closed(self, link: PageLink) -> None: ...
-
-
 class PageLink(WebSocketServerProtocol):
     """Text messages both ways; output goes through ``output``, past the library's own queue."""
 
     transport: Any
     host: str
+    """Its remote address."""
 
-    def __init__(self, owner: LinkOwner, clock: Any) -> None:
+    def __init__(self, owner: ClientHub, clock: Any) -> None:
         super().__init__()
         self.output = PageSendBuffer(self._on_overrun)
         self._owner = owner
@@ -130,6 +122,7 @@ class PageLink(WebSocketServerProtocol):
         self.sendPing(mark)
 
     def close(self, code: int, reason: str) -> None:
+        """Close it; ``code`` is 4000 to 4999, as RFC 6455 leaves them to us."""
         self.output.finish()
         self.sendClose(code, reason)
 
@@ -147,7 +140,7 @@ class PageLink(WebSocketServerProtocol):
 class _Factory(WebSocketServerFactory):
     noisy = False
 
-    def __init__(self, reactor: Any, owner: LinkOwner) -> None:
+    def __init__(self, reactor: Any, owner: ClientHub) -> None:
         super().__init__(  # type: ignore[no-untyped-call]
             reactor=reactor, server="up-ground"
         )
@@ -171,6 +164,6 @@ class _Factory(WebSocketServerFactory):
         return link
 
 
-def link_resource(reactor: Any, owner: LinkOwner) -> WebSocketResource:
+def link_resource(reactor: Any, owner: ClientHub) -> WebSocketResource:
     """Return the resource that upgrades a request; Host and Origin are checked before."""
     return WebSocketResource(_Factory(reactor, owner))

@@ -11,21 +11,22 @@ from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
+from up.cli.cli_error import UsageError
 from up.system.aircraft_name import AIRCRAFT_NAME
 from up_ground.catalogue import Catalogue
 from up_ground.settings import Seat, Settings
 from up_ground.token_store import TokenStore, state_folder
 from up_ground.web.access import Access, machine_names
 from up_ground.web.aircraft_session import AircraftSession
-from up_ground.web.aircraft_source import AircraftSource, Subscribers
-from up_ground.web.command_checks import Checks
+from up_ground.web.aircraft_source import AircraftSource
 from up_ground.web.listen_address import ListenAddress, parse_listen
 from up_ground.web.tile_cache import TileCache, cache_folder
 
 if TYPE_CHECKING:
-    from up_ground.web.site import Tiles
+    from up_ground.web.client_hub import ClientHub
+    from up_ground.web.tiles import TileSource
 
-MakeTiles = Callable[[Any], "Tiles"]
+MakeTiles = Callable[[Any], "TileSource"]
 AIRCRAFT_LIMIT = 16
 _ONE = re.compile(
     rf"(?P<name>{AIRCRAFT_NAME.pattern})"
@@ -35,16 +36,8 @@ _ONE = re.compile(
 )
 
 
-class ServeError(ValueError):
-    """An invalid option; the text is one sentence."""
-
-    def __init__(self, text: str, code: str) -> None:
-        super().__init__(text)
-        self.code = code
-
-
 def parse_aircraft(text: str, usual: Settings) -> Settings:
-    """Return the peer of ``NAME[@HOST:PORT[/direct]]``; raises ServeError.
+    """Return the peer of ``NAME[@HOST:PORT[/direct]]``; raises UsageError.
 
     Without an address it is an aircraft of ``usual``'s proxy. Names must be unique: pages select
     an aircraft by its name.
@@ -52,7 +45,7 @@ def parse_aircraft(text: str, usual: Settings) -> Settings:
     match = _ONE.fullmatch(text)
     port = int(match["port"] or usual.port) if match else 0
     if match is None or not 1 <= port <= 65535:
-        raise ServeError(
+        raise UsageError(
             f"{text!r} is not NAME[@HOST:PORT[/direct]], such as glider-1@192.168.1.5:50002/direct",
             "invalid_aircraft",
         )
@@ -63,15 +56,15 @@ def parse_aircraft(text: str, usual: Settings) -> Settings:
 
 
 def fleet_of(options: argparse.Namespace) -> list[Settings]:
-    """Return the aircraft to watch; raises ServeError."""
+    """Return the aircraft to watch; raises UsageError."""
     usual = Settings(options.host, options.port, options.aircraft, Seat.LISTEN, options.direct)
     chosen = [parse_aircraft(text, usual) for text in options.fleet or [options.aircraft]]
     names = [each.aircraft for each in chosen]
     for name in names:
         if names.count(name) > 1:
-            raise ServeError(f"the aircraft {name} is given twice", "duplicate_aircraft")
+            raise UsageError(f"the aircraft {name} is given twice", "duplicate_aircraft")
     if len(chosen) > AIRCRAFT_LIMIT:
-        raise ServeError(f"at most {AIRCRAFT_LIMIT} aircraft", "too_many_aircraft")
+        raise UsageError(f"at most {AIRCRAFT_LIMIT} aircraft", "too_many_aircraft")
     return chosen
 
 
@@ -90,7 +83,7 @@ class PageOptions:
             # Its further dependencies are an extra; every other verb starts without them.
             importlib.import_module("up_ground.web.server")
         except ModuleNotFoundError as error:
-            raise ServeError(
+            raise UsageError(
                 f"the page needs the Python package {error.name}, which is not installed:"
                 " pip install 'raspilot[ground]'",
                 "package_missing",
@@ -98,7 +91,7 @@ class PageOptions:
         try:
             listen = parse_listen(options.listen)
         except ValueError as error:
-            raise ServeError(str(error), "invalid_listen") from None
+            raise UsageError(str(error), "invalid_listen") from None
         # On loopback a key is needed only if one is given.
         key = options.key or (None if listen.is_loopback else secrets.token_urlsafe(12))
         access = Access(machine_names(options.name or ()), key, options.watch_only)
@@ -128,7 +121,7 @@ def _tiles_of(source: str, environ: Mapping[str, str]) -> MakeTiles | None:
     if not fault and source.startswith("https:") and importlib.util.find_spec("OpenSSL") is None:
         fault = "https needs the Python package pyOpenSSL: pip install 'twisted[tls]'"
     if fault:
-        raise ServeError(f"--tiles: {fault}", "invalid_tiles")
+        raise UsageError(f"--tiles: {fault}", "invalid_tiles")
     cache = TileCache(cache_folder(environ), source)
     return lambda reactor: TileSource(reactor, source, cache)
 
@@ -137,11 +130,10 @@ def make_sessions(
     reactor: Any,
     chosen: Iterable[Settings],
     environ: Mapping[str, str],
-    subscribers: Subscribers,
+    subscribers: ClientHub,
     catalogue: Catalogue,
 ) -> Iterable[AircraftSource]:
     """Yield an aircraft for each of the settings."""
-    checks = Checks(catalogue)
     for settings in chosen:
         tokens = TokenStore(state_folder(environ), settings)
-        yield AircraftSession(reactor, settings.aircraft, settings, tokens, checks, subscribers)
+        yield AircraftSession(reactor, settings.aircraft, settings, tokens, catalogue, subscribers)

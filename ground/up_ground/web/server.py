@@ -4,24 +4,28 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from twisted.internet.error import CannotListenError
 
+from up.cli.option_parser import EXIT_OK
 from up_ground.catalogue import Catalogue, catalogue_message
-from up_ground.one_shot_task import EXIT_DONE, EXIT_NO_ANSWER, OneShotTask
+from up_ground.one_shot_task import EXIT_NO_ANSWER, OneShotTask
 from up_ground.web.access import Access
-from up_ground.web.aircraft_source import AircraftSource, Subscribers
+from up_ground.web.aircraft_source import AircraftSource
 from up_ground.web.client_hub import ClientHub
 from up_ground.web.connections import Connections
 from up_ground.web.listen_address import ListenAddress, authority
 from up_ground.web.page_link import link_resource
-from up_ground.web.site import GroundResource, Tiles, make_site
+from up_ground.web.site import GroundResource, make_site
 from up_ground.web.static_files import StaticFiles
+
+if TYPE_CHECKING:
+    from up_ground.web.tiles import TileSource
 
 STATIC = Path(__file__).with_name("static")
 
-MakeSources = Callable[[Subscribers], Iterable[AircraftSource]]
+MakeSources = Callable[[ClientHub], Iterable[AircraftSource]]
 
 
 class Server(OneShotTask):
@@ -34,7 +38,7 @@ class Server(OneShotTask):
         access: Access,
         make_sources: MakeSources,
         *,
-        tiles: Tiles | None = None,
+        tiles: TileSource | None = None,
         attribution: str = "",
         catalogue: Catalogue | None = None,
         is_replay: bool = False,
@@ -77,7 +81,7 @@ class Server(OneShotTask):
 
     def finish(self, status: int) -> None:
         """End; an interrupt is how a server ends."""
-        super().finish(EXIT_DONE if self._port is not None else status)
+        super().finish(EXIT_OK if self._port is not None else status)
 
     async def stop(self) -> None:
         """Close the port, the pages' links and the aircraft's."""

@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
-from typing import Any
-from typing import Protocol as Interface
+from typing import TYPE_CHECKING, Any
 
 from twisted.web import http
 from twisted.web.resource import Resource
-from twisted.web.server import NOT_DONE_YET, Request, Site
+from twisted.web.server import Request, Site
 
 from up_ground.web.access import Access
 from up_ground.web.static_files import StaticFiles
+
+if TYPE_CHECKING:
+    from up_ground.web.tiles import TileSource
 
 IDLE_S = 20.0
 """A connection without a line for this time is closed, as are incomplete requests."""
@@ -33,15 +35,11 @@ _WORDS = {MISDIRECTED_REQUEST: b"Misdirected Request", UPGRADE_REQUIRED: b"Upgra
 """Those that Twisted has no words for."""
 LINK = b"/link"
 TILES = b"/tiles/"
+_BODY_REFUSED = (
+    b"HTTP/1.1 413 Content Too Large\r\nServer: up-ground\r\nConnection: close\r\n"
+    b"Content-Type: text/plain; charset=utf-8\r\n\r\na request here has no body\n"
+)
 _PLAIN = b"text/plain; charset=utf-8"
-
-
-class Tiles(Interface):
-    """Source of the map tiles."""
-
-    def render(self, request: Any) -> Any: ...
-
-    def stop(self) -> None: ...
 
 
 class GroundResource(Resource):
@@ -54,7 +52,7 @@ class GroundResource(Resource):
         access: Access,
         files: StaticFiles,
         link: Any,
-        tiles: Tiles | None = None,
+        tiles: TileSource | None = None,
     ) -> None:
         super().__init__()  # type: ignore[no-untyped-call]
         self._access = access
@@ -104,19 +102,22 @@ class GroundResource(Resource):
 
 
 class GroundRequest(Request):
-    """A request without a body: a longer one is cut off before it is stored anywhere."""
+    """A request without a body: one with a body is refused before anything of it is stored."""
+
+    channel: Any
+    _has_body = False
 
     def gotLength(self, length: int | None) -> None:  # noqa: N802 - Twisted's name
         if length != 0:
-            channel: Any = self.channel
-            channel.transport.abortConnection()
-            length = 0
-        super().gotLength(length)  # type: ignore[no-untyped-call]
+            self._has_body = True
+            self.channel.transport.refuse(_BODY_REFUSED)
+        super().gotLength(0)  # type: ignore[no-untyped-call]
 
     def process(self) -> None:
         """Let the resource answer; Twisted itself answers ``*`` with its own name."""
-        channel: Any = self.channel
-        channel.transport.on_request()
+        if self._has_body:
+            return
+        self.channel.transport.on_request()
         if self.path == b"*":
             self.path = b"/*"
         super().process()  # type: ignore[no-untyped-call]
@@ -166,6 +167,3 @@ def _only(request: Any, name: bytes) -> str | None:
         return str(values[0].decode("ascii").strip())
     except UnicodeDecodeError:
         return None
-
-
-__all__ = ["NOT_DONE_YET", "GroundResource", "finish", "make_site", "refuse", "send"]

@@ -18,8 +18,8 @@ from up_ground.web.client_hub import ClientHub
 
 @dataclass(frozen=True, slots=True)
 class BannerCommand(BaseCommand):
-    """Lets the banner
-    out.
+    """Drops
+    it.
 
     In a gust it tears.
     """
@@ -48,7 +48,7 @@ def test_a_command_is_told_with_all_that_a_form_needs():
         "name": "tow.banner",
         "aliases": ["tow.rag"],
         "role": "pilot",
-        "text": "Lets the banner out.",
+        "text": "Drops it.",
         "needs_beacon": True,
     }
     length, side, lamps, words = fields

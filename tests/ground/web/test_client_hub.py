@@ -14,6 +14,7 @@ from up_ground.web.access import (
     Access,
     KeyAttempts,
 )
+from up_ground.web.aircraft_source import AircraftSource
 from up_ground.web.client_hub import (
     FAULTS_LIMIT,
     GREETING_LIMIT,
@@ -24,7 +25,6 @@ from up_ground.web.client_hub import (
     ClientHub,
 )
 from up_ground.web.client_session import PAGES_LIMIT, WATCHERS_LIMIT
-from up_ground.web.messages import PageFault, read_message
 
 
 class Output:
@@ -66,7 +66,7 @@ class Link:
         return [each["type"] for each in self.told]
 
 
-class Kite:
+class Kite(AircraftSource):
     """An aircraft that records its requests."""
 
     name, summary = "kite", "kite"
@@ -74,11 +74,14 @@ class Kite:
     def __init__(self):
         self.heard = []
 
+    def start(self):
+        pass
+
+    async def stop(self):
+        pass
+
     def past(self):
         return []
-
-    def frame(self):
-        return None
 
     def status(self, page):
         return {"type": "status", "aircraft": "kite"}
@@ -99,9 +102,6 @@ class Kite:
 
     def on_gone(self, page):
         self.heard.append(("gone", page.number))
-
-    def on_second(self):
-        pass
 
 
 class Bench:
@@ -234,17 +234,6 @@ def test_whatever_a_page_says_is_answered_or_done(said):
     assert link.closed is None
     for message in link.told:
         json.dumps(message, allow_nan=False)
-
-
-@settings(max_examples=120, deadline=None)
-@given(st.binary(max_size=300))
-def test_whatever_bytes_come_are_read_or_refused(payload):
-    try:
-        kind, _ = read_message(payload)
-    except PageFault as fault:
-        assert str(fault)
-    else:
-        assert isinstance(kind, str)
 
 
 def test_a_page_that_was_away_is_itself_again(bench):

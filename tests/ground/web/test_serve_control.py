@@ -5,22 +5,6 @@ from tests.ground.web.page import FBW, MODE, Page, with_pages
 from tests.support.reactor import until as soon
 
 
-def test_a_page_asks_another_for_control(aircraft, server):
-    async def fly(first, second):
-        await first.control()
-        second.send("control", action="request")
-        status = await first.status(lambda each: each["control"]["asks_you"])
-        assert status["control"]["asked_by"]["name"] == "second"
-        assert [each["name"] for each in status["control"]["pages"]] == ["first", "second"]
-        first.send("control", action="give")
-        await second.status(lambda each: each["control"]["holder"] == "you")
-        status = await first.status(lambda each: each["control"]["holder"] == "page")
-        assert status["control"]["holder_name"] == "second"
-        assert (await second.command(MODE, FBW))["outcome"] == "ack"
-
-    with_pages(server, fly, "first", "second")
-
-
 def test_a_page_that_vanishes_keeps_control_for_a_moment(aircraft, server):
     async def fly(page, other):
         await page.control()

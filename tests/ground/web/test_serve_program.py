@@ -7,7 +7,6 @@ import pytest
 from tests.ground.aircraft import coded, ground
 from tests.ground.web.page import FBW, MODE, Page, Serve, get, with_pages
 from tests.support.reactor import until as soon
-from up_ground.web.client_session import WATCHERS_LIMIT
 
 
 @pytest.mark.parametrize("arguments", [("--listen", "0.0.0.0:0"), ("--key", "a-good-key")])
@@ -33,22 +32,6 @@ def test_who_has_no_key_only_watches(aircraft, proxy, tmp_path, arguments):
             await pilot.leave()
 
         with_pages(server, look, "guest")
-
-
-def test_who_has_the_key_gets_in_where_watchers_have_filled_the_house(proxy, tmp_path):
-    with Serve(tmp_path, proxy.ground_port, "--key", "a-good-key") as server:
-
-        async def look(*watchers):
-            late = await Page(server.port).open()
-            late.send("hello", name="late")
-            await soon(lambda: late.is_closed, what="the end of a page too many")
-            assert late.code == 4013
-            pilot = Page(server.port)
-            assert (await pilot.hello("pilot", key="a-good-key"))["may_control"] is True
-            assert not any(watcher.is_closed for watcher in watchers)
-            await pilot.leave()
-
-        with_pages(server, look, *(f"watcher {number}" for number in range(WATCHERS_LIMIT)))
 
 
 def test_watch_only_is_for_everybody(aircraft, proxy, tmp_path):
@@ -112,11 +95,3 @@ def test_a_port_that_is_taken_is_a_sentence(server, tmp_path):
     listen = f"127.0.0.1:{server.port}"
     status, _, stderr = ground(tmp_path, 1, "serve", "--listen", listen)
     assert (status, coded(stderr)) == (3, [{"code": "listen_failed", "address": listen}])
-
-
-def test_help_teaches(tmp_path):
-    for verb in ("serve", "replay"):
-        status, said, _ = ground(tmp_path, 1, verb, "--help")
-        assert status == 0
-        assert "examples" in said
-        assert "--listen" in said

@@ -1,6 +1,7 @@
 """The server's answers over HTTP, to a browser and to others."""
 
 import socket
+import struct
 
 import pytest
 
@@ -161,17 +162,33 @@ def test_refusals_have_the_standards_words_and_the_sites_headers(server, request
 @pytest.mark.parametrize(
     "request_bytes",
     [
-        b"POST / HTTP/1.1\r\nHost: 127.0.0.1\r\nContent-Length: 99999999\r\n\r\n" + b"x" * 4096,
-        b"GET / HTTP/1.1\r\nHost: 127.0.0.1\r\nTransfer-Encoding: chunked\r\n\r\n5\r\nxxxxx\r\n",
         b"GET / HTTP/1.1\r\n" + b"X: " + b"y" * 70000,
         b"GET / HTTP/1.1\r\n" + b"A: b\r\n" * 600 + b"\r\n",
         b"\x00\x01\x02\r\n\r\n",
         b"GET\r\n\r\n",
     ],
 )
-def test_nonsense_and_bodies_are_cut_off(server, request_bytes):
+def test_nonsense_is_cut_off(server, request_bytes):
     said = raw(server.port, request_bytes)
     assert b"200 OK" not in said
     assert b"Traceback" not in said
     assert b"twisted" not in said.lower()
     assert get(server.port, "/")[0] == 200
+
+
+@pytest.mark.parametrize(
+    "request_bytes",
+    [
+        b"POST / HTTP/1.1\r\nHost: 127.0.0.1\r\nContent-Length: 99999999\r\n\r\n" + b"x" * 4096,
+        b"GET / HTTP/1.1\r\nHost: 127.0.0.1\r\nTransfer-Encoding: chunked\r\n\r\n5\r\nxxxxx\r\n",
+    ],
+)
+def test_a_request_with_a_body_is_answered_and_may_be_reset(server, request_bytes):
+    said = raw(server.port, request_bytes)
+    assert said.startswith(b"HTTP/1.1 413 ")
+    assert said.count(b"HTTP/1.1") == 1
+    with socket.create_connection(("127.0.0.1", server.port)) as peer:
+        peer.setsockopt(socket.SOL_SOCKET, socket.SO_LINGER, struct.pack("ii", 1, 0))
+        peer.sendall(request_bytes)
+    assert get(server.port, "/")[0] == 200
+    assert server.stderr == ""

@@ -4,7 +4,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.up.protocols.golden import cut, places
-from up.protocols.line_decoder import LineDecoder
+from up.protocols.line_decoder import LineBuffer, LineDecoder
 
 
 def test_lines_end_at_lf_and_lose_a_cr():
@@ -43,7 +43,7 @@ def test_many_small_pieces_are_bounded_too():
     lines = LineDecoder(1024)
     for _ in range(5000):
         assert lines.feed(b"x") == []
-        assert len(lines._parts) <= 1023
+        assert len(lines._buffer) <= 1023
     assert lines.feed(b"\nnext\n") == [b"next"]
 
 
@@ -64,3 +64,21 @@ def test_any_chunking_gives_the_same_lines(contents, cuts, max_length):
     complete = data.split(b"\n")[:-1]
     short = [line.removesuffix(b"\r") for line in complete if len(line) < max_length]
     assert expected == [line for line in short if line]
+
+
+CHUNKS = st.lists(st.sampled_from([b"\n", b"a", b"bc\n", b"d\ne", b"\n\n"]) | st.binary(min_size=1))
+
+
+@given(CHUNKS)
+def test_only_whole_lines_pass_and_unchanged(chunks):
+    buffer = LineBuffer()
+    whole = []
+    for chunk in chunks:
+        lines = buffer.feed(chunk)
+        assert not lines or lines.endswith(b"\n")
+        whole.append(lines)
+    text = b"".join(chunks)
+    cut = text.rfind(b"\n") + 1
+    assert b"".join(whole) == text[:cut]
+    assert len(buffer) == len(text) - cut
+    assert buffer.starts_with(text[cut:])

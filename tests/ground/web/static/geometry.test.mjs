@@ -73,9 +73,9 @@ test("a pulled elevator is a stick drawn down, more throttle one drawn up", () =
 test("a label of the ladder is drawn whole or not at all", () => {
   // The labels of 10 and 20 degrees stand 50 and 100 above the horizon.
   assert.equal(isWhole(47, -50, 0, 0), true);
-  assert.equal(isWhole(47, -100, 0, 0), false, "behind the bank arc");
-  assert.equal(isWhole(47, -100, 0, 10), true, "the nose up moves it down");
+  assert.equal(isWhole(47, -100, 0, 0), false); // behind the bank arc
+  assert.equal(isWhole(47, -100, 0, 10), true); // the nose up moves it down
   assert.equal(isWhole(47, 100, 0, 0), true);
-  assert.equal(isWhole(47, 100, 180, 0), false, "on the back the ground is above");
-  assert.equal(isWhole(47, 150, 0, 0), false, "below the picture");
+  assert.equal(isWhole(47, 100, 180, 0), false); // on the back the ground is above
+  assert.equal(isWhole(47, 150, 0, 0), false); // below the picture
 });

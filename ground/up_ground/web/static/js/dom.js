@@ -70,6 +70,25 @@ export function short(value) {
   return value.toFixed(2);
 }
 
+/** Shows why the content of an input is wrong; problem: empty: it is right. */
+export function showProblem(input, note, problem) {
+  input.setAttribute("aria-invalid", String(problem !== ""));
+  note.setAttribute("data-look", problem ? "bad" : "plain");
+  setText(note, problem);
+}
+
+/** The present colours of the style sheet's variables: a canvas does not support light-dark(). */
+export function coloursOf(place, names) {
+  const probe = html("span");
+  place.append(probe);
+  const colours = names.map((name) => {
+    probe.style.setProperty("color", `var(${name})`);
+    return getComputedStyle(probe).color;
+  });
+  probe.remove();
+  return colours;
+}
+
 /** Show once on the page that a library is not installed. */
 export function showMissing(code, text) {
   const place = document.getElementById("missing");

@@ -1,3 +1,5 @@
+import { html } from "./dom.js";
+
 const KEYS = [
   ["?", "this list"],
   ["1 2 3 4 5", "go to instruments, map, control, charts, events"],
@@ -16,11 +18,7 @@ export function mountHelp() {
   const dialog = document.getElementById("help");
   const list = document.getElementById("help-keys");
   for (const [key, meaning] of KEYS) {
-    const term = document.createElement("dt");
-    const text = document.createElement("dd");
-    term.textContent = key;
-    text.textContent = meaning;
-    list.append(term, text);
+    list.append(html("dt", {}, key), html("dd", {}, meaning));
   }
   const open = () => dialog.open || dialog.showModal();
   document.getElementById("help-button").addEventListener("click", open);
@@ -29,12 +27,11 @@ export function mountHelp() {
     if (!isForPage(event)) {
       return;
     }
+    const button = { t: "theme-button", s: "sound-button" }[event.key.toLowerCase()];
     if (event.key === "?") {
       open();
-    } else if (event.key === "t" || event.key === "T") {
-      document.getElementById("theme-button").click();
-    } else if (event.key === "s" || event.key === "S") {
-      document.getElementById("sound-button").click();
+    } else if (button !== undefined) {
+      document.getElementById(button).click();
     } else if (event.key >= "1" && event.key <= String(PLACES.length)) {
       goTo(PLACES[Number(event.key) - 1]);
     }

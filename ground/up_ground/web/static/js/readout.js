@@ -18,6 +18,11 @@ export class Pace {
   }
 }
 
+/** The freshness of a value of a reading; null: there is no value. */
+export function freshnessOf(store, value, reading) {
+  return value === null ? "none" : store.freshness(reading);
+}
+
 /** otherwise: text while the reading is not stale. Returns age of a stale reading. */
 export function oldText(store, reading, freshness, otherwise = "") {
   return freshness === "stale" ? ageText(store.age_s(reading) ?? store.age_s(null)) : otherwise;
@@ -46,7 +51,7 @@ export class Readout {
 
   update(store) {
     const value = store[this.#kind](this.#path);
-    const freshness = value === null ? "none" : store.freshness(this.#reading);
+    const freshness = freshnessOf(store, value, this.#reading);
     setText(this.element, freshness === "none" ? UNKNOWN : this.#format(value));
     setAttribute(this.element, "data-freshness", freshness);
     if (this.ageElement !== null) {
@@ -56,9 +61,7 @@ export class Readout {
   }
 }
 
-/**
- * One line of a list: its name, its value, its age while its reading is old.
- */
+/** One line of a list: its name, its value, its age while its reading is old. */
 export class Row {
   #readout;
   #validate;
@@ -70,7 +73,7 @@ export class Row {
   constructor(list, name, path, kind, format = String, validate = () => "") {
     const value = html("span", { class: "row-value" });
     const age = html("span", { class: "age" });
-    list.append(html("div", { class: "row" }, html("dt", {}, name), html("dd", {}, value, age)));
+    list.append(rowOf(name, value, age));
     const ownAge = readingOf(path) === null ? null : age;
     this.#readout = new Readout(value, path, format, ownAge, kind);
     this.#validate = validate;
@@ -89,7 +92,7 @@ export class PlainRow {
 
   constructor(list, name, key) {
     this.#value = html("span", { class: "row-value", "data-key": key });
-    list.append(html("div", { class: "row" }, html("dt", {}, name), html("dd", {}, this.#value)));
+    list.append(rowOf(name, this.#value));
   }
 
   /** The value's code, for programs and tests. */
@@ -103,4 +106,8 @@ export class PlainRow {
     setAttribute(this.#value, "data-level", text === null ? "" : level);
     setAttribute(this.#value, "data-freshness", text === null ? "none" : isOld ? "stale" : "live");
   }
+}
+
+function rowOf(name, ...values) {
+  return html("div.row", {}, html("dt", {}, name), html("dd", {}, ...values));
 }

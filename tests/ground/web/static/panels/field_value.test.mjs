@@ -42,7 +42,7 @@ test("a number is taken within its bounds, and refused in the words of the aircr
   assert.equal(value(length, "0"), 0);
   assert.equal(value(length, "40"), 40);
   for (const wrong of ["", "40.01", "-1", "x", "NaN", "Infinity", "1e999"]) {
-    assert.equal(problem(length, wrong), "must be a number between 0 and 40 m", wrong);
+    assert.equal(problem(length, wrong), `must be ${length.text}`, wrong);
   }
 });
 

@@ -1,12 +1,10 @@
 import { WINDOW_S } from "./history.js";
-import { html, setText } from "../dom.js";
+import { coloursOf, html, setText } from "../dom.js";
 import { numberText, plainNumber } from "../state/format.js";
 
 const HEIGHT_PX = 104;
 
-/**
- * One chart of the last minute by uPlot, with its newest values in words above it.
- */
+/** One chart of the last minute by uPlot, with its newest values in words above it. */
 export class LineChart {
   #UPlot;
   #lines;
@@ -67,7 +65,7 @@ export class LineChart {
   }
 
   #make(width, columns) {
-    const colour = (name) => colourOf(this.element, name);
+    const colour = (name) => coloursOf(this.element, [name])[0];
     const axis = {
       stroke: colour("--dim"),
       grid: { stroke: colour("--line"), width: 1 },
@@ -135,14 +133,4 @@ export function span(least, most, leastSpan) {
   const margin = (most - least) * 0.08;
   const missing = Math.max(0, narrowest - (most - least) - 2 * margin) / 2;
   return [least - margin - missing, most + margin + missing];
-}
-
-// A canvas does not support light-dark(): read the present colour from the element.
-function colourOf(place, name) {
-  const probe = html("span");
-  probe.style.setProperty("color", `var(${name})`);
-  place.append(probe);
-  const colour = getComputedStyle(probe).color;
-  probe.remove();
-  return colour;
 }

@@ -1,5 +1,5 @@
 import { html, setAttribute } from "../dom.js";
-import { Readout, Row } from "../readout.js";
+import { freshnessOf, Readout, Row } from "../readout.js";
 import { numberText } from "../state/format.js";
 
 const LOW_PERCENT = 20;
@@ -28,7 +28,7 @@ export function mount(element, store) {
       const level = readout.update(store);
       phone.update(store);
       const percent = Math.max(0, Math.min(100, level ?? 0));
-      const freshness = level === null ? "none" : store.freshness("battery");
+      const freshness = freshnessOf(store, level, "battery");
       setAttribute(cell, "data-freshness", freshness);
       const judged = freshness === "none" ? "" : batteryLevel(percent);
       setAttribute(cell, "data-level", judged);

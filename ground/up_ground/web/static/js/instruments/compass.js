@@ -1,7 +1,8 @@
 import { drawing, hatch, setAttribute, setText, short, svg } from "../dom.js";
 import { onCircle } from "./geometry.js";
-import { oldText } from "../readout.js";
-import { headingText, numberText, UNKNOWN } from "../state/format.js";
+import { freshnessOf, oldText } from "../readout.js";
+import { distanceText } from "../state/earth.js";
+import { headingText, UNKNOWN } from "../state/format.js";
 
 const RADIUS = 84;
 const LETTERS = { 0: "N", 90: "E", 180: "S", 270: "W" };
@@ -42,43 +43,22 @@ export function mount(element, store) {
   return {
     update() {
       const actual = store.number("heading.actual");
-      const freshness = freshnessOf(store, "heading.actual", "heading");
+      const freshness = freshnessOf(store, actual, "heading");
       setAttribute(element, "data-freshness", freshness);
       setAttribute(heading, "data-freshness", freshness);
       setText(age, oldText(store, "heading", freshness));
       setText(heading, actual === null ? UNKNOWN : `${headingText(actual)}°`);
       setAttribute(turning, "transform", `rotate(${short(-(actual ?? 0))})`);
-      showMark(store, home, "home.bearing", "location");
+      const bearing_deg = store.number("home.bearing");
+      setAttribute(home, "data-freshness", freshnessOf(store, bearing_deg, "location"));
+      if (bearing_deg !== null) {
+        setAttribute(home, "transform", `rotate(${short(bearing_deg)})`);
+      }
       const away_m = store.number("home.distance");
-      showSide(distance, distanceText(away_m), freshnessOf(store, "home.distance", "location"));
+      setText(distance, away_m === null ? UNKNOWN : distanceText(away_m));
+      setAttribute(distance, "data-freshness", freshnessOf(store, away_m, "location"));
     },
   };
-}
-
-export function distanceText(distance_m) {
-  if (distance_m === null) {
-    return UNKNOWN;
-  }
-  return distance_m < 9999.5
-    ? `${numberText(distance_m)} m`
-    : `${numberText(distance_m / 1000, 1)} km`;
-}
-
-function freshnessOf(store, path, reading) {
-  return store.number(path) === null ? "none" : store.freshness(reading);
-}
-
-function showMark(store, mark, path, reading) {
-  const bearing = store.number(path);
-  setAttribute(mark, "data-freshness", freshnessOf(store, path, reading));
-  if (bearing !== null) {
-    setAttribute(mark, "transform", `rotate(${short(bearing)})`);
-  }
-}
-
-function showSide(element, text, freshness) {
-  setText(element, text);
-  setAttribute(element, "data-freshness", freshness);
 }
 
 function homeOf() {

@@ -1,6 +1,6 @@
 import { html, setAttribute, setText } from "../dom.js";
 import { beyond, share } from "./geometry.js";
-import { oldText, Readout } from "../readout.js";
+import { freshnessOf, oldText, Readout } from "../readout.js";
 import { readingOf } from "../state/ages.js";
 import { numberText } from "../state/format.js";
 
@@ -60,9 +60,7 @@ class Cell {
 
   update(store) {
     const pulse_us = this.#readout.update(store);
-    const reading = readingOf(this.#path);
-    const freshness = pulse_us === null ? "none" : store.freshness(reading);
-    setAttribute(this.#bar, "data-freshness", freshness);
+    setAttribute(this.#bar, "data-freshness", freshnessOf(store, pulse_us, readingOf(this.#path)));
     if (pulse_us === null) {
       return;
     }

@@ -1,6 +1,7 @@
 import { drawing, hatch, html, setAttribute, setText, svg } from "../dom.js";
 import { stickPlace } from "./geometry.js";
 import { storageOf } from "../link/storage.js";
+import { freshnessOf } from "../readout.js";
 
 /** Which channel moves which way: [across, along] of the left and of the right stick. */
 const MODES = {
@@ -53,8 +54,7 @@ function gimbalOf(side) {
       const x_us = store.number(`rx.${x}`);
       const y_us = store.number(`rx.${y}`);
       const place = stickPlace(x_us, y_us, y);
-      const freshness = place === null ? "none" : store.freshness("rx");
-      setAttribute(element, "data-freshness", freshness);
+      setAttribute(element, "data-freshness", freshnessOf(store, place, "rx"));
       setAttribute(element, "data-across", x);
       setAttribute(element, "data-along", y);
       setText(name, `${y}, ${x}`);

@@ -2,7 +2,7 @@ import { drawing, setAttribute, setText, short, svg } from "../dom.js";
 import { rootScale } from "./geometry.js";
 import { VIEW } from "./horizon.js";
 import { Tape } from "./tape.js";
-import { oldText } from "../readout.js";
+import { freshnessOf, oldText } from "../readout.js";
 import { numberText } from "../state/format.js";
 import { distance_m } from "../state/earth.js";
 import { number } from "../state/validate.js";
@@ -53,10 +53,6 @@ export function mount(element, store) {
       climb.show(store.motion.climb_m_s, freshnessOf(store, store.motion.climb_m_s, "altitude"));
     },
   };
-}
-
-function freshnessOf(store, value, reading) {
-  return value === null ? "none" : store.freshness(reading);
 }
 
 function showSpeed(tape, store) {

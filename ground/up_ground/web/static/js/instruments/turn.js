@@ -1,5 +1,5 @@
 import { drawing, html, setAttribute, short, svg } from "../dom.js";
-import { Readout } from "../readout.js";
+import { freshnessOf, Readout } from "../readout.js";
 import { numberText } from "../state/format.js";
 
 const MAX_DEG_S = 60;
@@ -40,11 +40,7 @@ export function mount(element, store) {
       const share = Math.max(-1, Math.min(1, (rate ?? 0) / MAX_DEG_S));
       setAttribute(bar, "x", short(Math.min(0, share * LENGTH)));
       setAttribute(bar, "width", short(Math.abs(share * LENGTH)));
-      setAttribute(
-        element,
-        "data-freshness",
-        rate === null ? "none" : store.freshness("orientation"),
-      );
+      setAttribute(element, "data-freshness", freshnessOf(store, rate, "orientation"));
     },
   };
 }

@@ -1,6 +1,4 @@
-/**
- * Data that this tab keeps over a reload; without storage in the browser nothing is kept.
- */
+/** Data that this tab keeps over a reload; without storage in the browser nothing is kept. */
 export class Storage {
   #storage;
   #here = new Map();

@@ -1,3 +1,4 @@
+import { coloursOf } from "../dom.js";
 import { linesBetween, offsetOf, placeAt, stepOf, stepText } from "../state/earth.js";
 
 const METRES_AROUND = 40075016.7;
@@ -45,7 +46,8 @@ export function metreGrid(L, origin) {
       };
       const [northWest, southEast] = [place(corner), place(corner.add(size))];
       const step = this.step_m(coords.z);
-      const ink = inkOf(document.documentElement);
+      const [lines, axis, text] = coloursOf(document.documentElement, ["--line", "--line-strong", "--dim"]);
+      const ink = { line: lines, axis, text };
       pen.font = "11px system-ui, sans-serif";
       for (const east_m of linesBetween(northWest.east_m, southEast.east_m, step)) {
         const x = Math.round(pixel({ east_m, north_m: 0 }).x) + 0.5;
@@ -92,17 +94,4 @@ function line(pen, ink, [x0, y0, x1, y1], isAxis) {
   pen.moveTo(x0, y0);
   pen.lineTo(x1, y1);
   pen.stroke();
-}
-
-function inkOf(root) {
-  // A canvas does not support light-dark(): read the present colours from an element.
-  const probe = document.createElement("span");
-  root.append(probe);
-  const colour = (name) => {
-    probe.style.setProperty("color", `var(${name})`);
-    return getComputedStyle(probe).color;
-  };
-  const ink = { line: colour("--line"), axis: colour("--line-strong"), text: colour("--dim") };
-  probe.remove();
-  return ink;
 }

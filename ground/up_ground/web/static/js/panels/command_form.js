@@ -1,4 +1,4 @@
-import { html, setText } from "../dom.js";
+import { html, showProblem } from "../dom.js";
 import { fieldValue, jsonFields, wanted } from "./field_value.js";
 
 /** One field of any Command: its input, its type and bounds, and the error of its content. */
@@ -47,9 +47,7 @@ export class CommandField {
   }
 
   say(problem) {
-    this.#input.setAttribute("aria-invalid", String(problem !== ""));
-    this.#note.setAttribute("data-look", problem ? "bad" : "plain");
-    setText(this.#note, problem);
+    showProblem(this.#input, this.#note, problem);
   }
 
   focus() {
@@ -154,9 +152,7 @@ export class UnknownFields {
   }
 
   #say(problem) {
-    this.#input.setAttribute("aria-invalid", String(problem !== ""));
-    this.#note.setAttribute("data-look", problem ? "bad" : "plain");
-    setText(this.#note, problem);
+    showProblem(this.#input, this.#note, problem);
   }
 }
 

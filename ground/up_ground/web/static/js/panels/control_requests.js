@@ -37,9 +37,7 @@ export class ControlRequests {
     this.#notes.clear();
   }
 
-  /**
-   * control: of its status; page: this page's number. Returns whether this page waits for control.
-   */
+  /** control: of its status; page: this page's number. Returns whether this page waits for control. */
   isWaiting(aircraft, control, page, now_s) {
     const request = this.#requests.get(aircraft);
     if (control?.holder === "you") {

@@ -1,4 +1,4 @@
-import { html, setText } from "../dom.js";
+import { html, showProblem } from "../dom.js";
 
 /** A field with its label, its button, and the error of its content. */
 export class Field {
@@ -61,9 +61,7 @@ export class Field {
   }
 
   #say(problem) {
-    this.input.setAttribute("aria-invalid", String(problem !== ""));
-    this.note.setAttribute("data-look", problem ? "bad" : "plain");
-    setText(this.note, problem);
+    showProblem(this.input, this.note, problem);
   }
 }
 

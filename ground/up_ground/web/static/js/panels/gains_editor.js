@@ -104,9 +104,7 @@ export class GainsEditor {
   }
 }
 
-/**
- * The set that flew before the one that flies now. history: oldest first. Returns null: not known.
- */
+/** The set that flew before the one that flies now. history: oldest first. Returns null: not known. */
 export function setBefore(history, flying) {
   for (const entry of [...history].reverse()) {
     if (entry.outcome !== "ack" || !entry.before || !entry.after) {

@@ -17,7 +17,7 @@ const JUMP_S = 1.5;
  * Fields to read: `aircraft` (the name watched), `names` (all), `data` (the newest frame's tree,
  * not validated), `frames`, `beacon`, `shownBeacon`, `status` (of the aircraft watched), `statuses`
  * (by name), `catalogue` (the Commands that the server knows), `alarms` ([{kind, level, text}]),
- * `gains`, `profile`, `replay`, `fault` (text), `track` (points, version, startAltitude_m),
+ * `gains`, `profile`, `replay`, `track` (points, version, startAltitude_m),
  * `motion` (groundSpeed_m_s, climb_m_s), `events` (list, the newest last), `eventsVersion`.
  */
 export class Store extends NewestFrame {
@@ -38,7 +38,6 @@ export class Store extends NewestFrame {
   gains = null;
   profile = null;
   replay = null;
-  fault = "";
   track = new Track();
   motion = new Motion();
 
@@ -131,8 +130,6 @@ export class Store extends NewestFrame {
       this.#takeReplay(message);
     } else if (message.type === "catalogue") {
       this.catalogue = new Catalogue(message.commands);
-    } else if (message.type === "fault") {
-      this.fault = validate.text(message.text) ?? "";
     } else if (message.aircraft !== this.aircraft || this.aircraft === null) {
       return;
     } else if (!this.#takeOfAircraft(message)) {
@@ -204,7 +201,6 @@ export class Store extends NewestFrame {
   #opened(welcome) {
     this.names = validate.texts(welcome.aircraft) ?? [];
     this.replay = null;
-    this.fault = "";
     const kept = this.names.includes(this.aircraft) ? this.aircraft : this.names[0];
     if (kept !== undefined) {
       this.watch(kept);

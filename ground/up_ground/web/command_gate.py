@@ -1,10 +1,9 @@
-"""The checks of a page's Command before it is sent."""
+"""Whether a page's Command is sent, and why not."""
 
 from __future__ import annotations
 
 import re
 from collections import deque
-from dataclasses import dataclass
 from typing import Any
 
 from up.commands.beacon import fresh_s
@@ -12,68 +11,118 @@ from up.commands.command import BaseCommand
 from up.commands.roles import Role
 from up.system.clock import Clock
 from up_ground.catalogue import Catalogue, fault_of, role_of
+from up_ground.ground_link import GroundLink
+from up_ground.link_status import ControlStatus
 from up_ground.telemetry import Telemetry
 from up_ground.web.answers import Answer
+from up_ground.web.client_session import ClientSession
+from up_ground.web.control import Control
+from up_ground.web.proxy_lease import ProxyLease
 
+UNANSWERED_LIMIT = 32
 _NAME = re.compile(r"[A-Za-z0-9_.-]{1,128}", re.ASCII)
 _ROLES = {role.value: role for role in (Role.OBSERVER, Role.OPERATOR, Role.PILOT, Role.ADMIN)}
 
 
-@dataclass(frozen=True, slots=True)
-class Checked:
-    """A Command that can be sent; ``needs_control``: only by the page that has control."""
+class CommandGate:
+    """The one place of the server that decides whether a Command to an aircraft is sent.
 
-    needs_control: bool
+    It refuses what no aircraft of this version accepts, what the page may not send, what was made
+    with old telemetry, and what cannot leave now. The aircraft decides again.
+    """
 
-
-class Checks:
-    """Refuses Commands that no aircraft of this version accepts, with the reason."""
-
-    def __init__(self, catalogue: Catalogue) -> None:
-        self._catalogue = catalogue
-
-    def check(
+    def __init__(
         self,
+        clock: Clock,
+        aircraft: str,
+        catalogue: Catalogue,
+        link: GroundLink,
+        lease: ProxyLease,
+        control: Control,
+        telemetry: Telemetry,
+    ) -> None:
+        self.beacons = RecentBeacons(clock, telemetry)
+        self._aircraft = aircraft
+        self._catalogue = catalogue
+        self._link = link
+        self._lease = lease
+        self._control = control
+        self._telemetry = telemetry
+
+    def refusal(
+        self,
+        page: ClientSession,
         name: str,
         data: dict[str, Any],
         beacon: int | None,
-        role: str | None,
-        is_forced: bool = False,
-    ) -> Checked | Answer:
-        """Return a warning about a Command, or why it is not sent.
+        *,
+        is_forced: bool,
+        unanswered: int,
+    ) -> Answer | None:
+        """Return why a page's Command is not sent; None if it may be.
 
-        ``role`` is the role that the aircraft's link permits; None: not known, the aircraft
-        decides. A name unknown here, which an aircraft may know all the same, is only sent when
+        A name unknown here, which an aircraft may know all the same, is only sent when
         ``is_forced``.
         """
+        needs_control = True
         cls = self._catalogue.get(name)
-        if cls is None:
-            if is_forced and _NAME.fullmatch(name):
-                return Checked(needs_control=True)
+        if cls is not None:
+            refused = self._invalid(cls, name, data, beacon)
+            if refused is not None:
+                return refused
+            needs_control = Role.OBSERVER not in cls.from_data(data).roles()
+        elif not is_forced or not _NAME.fullmatch(name):
             near = self._catalogue.suggestions(name)
             more = f"; did you mean {' or '.join(near)}?" if near else ""
             return Answer("refused", "unknown", f"no Command is called {name[:60]}{more}")
+        if needs_control and page is not self._control.holder:
+            reason = "this page has no control: request it first"
+            if not page.may_control:
+                reason = f"this page may only watch: {page.denial}"
+            return Answer("refused", "no_control", reason)
+        if unanswered >= UNANSWERED_LIMIT:
+            return Answer("refused", "busy", "too many Commands wait for their answer")
+        unsent = self.unsent()
+        if unsent is None and needs_control:
+            # The page may hang or show late data: a Command needs a page that sees fresh data.
+            fault = self.beacons.fault(name, beacon)
+            return None if fault is None else Answer("refused", *fault)
+        return unsent
+
+    def unsent(self) -> Answer | None:
+        """Return why no Command can leave now."""
+        status = self._link.status
+        if not status.is_open:
+            return Answer("unsent", "no_link", status.reason or "no link to the proxy")
+        if status.is_aircraft_online is False:
+            reason = f"the aircraft {self._aircraft} is not connected to the proxy"
+            return Answer("unsent", "no_aircraft", reason)
+        if self._lease.status is not ControlStatus.OURS:
+            reason = "this ground only listens: request control first"
+            return Answer("unsent", "no_seat", reason)
+        return None
+
+    def _invalid(
+        self, cls: type[BaseCommand], name: str, data: dict[str, Any], beacon: int | None
+    ) -> Answer | None:
+        """Return why no aircraft takes it; the role of its link is checked if it is known."""
         if cls.UNSUPPORTED:
             return Answer("refused", "not_supported", cls.UNSUPPORTED)
         if cls not in self._catalogue.sendable():
             return Answer("refused", "forbidden", f"no ground may send {name}")
-        fault = fault_of(cls, data)
-        if fault:
+        if fault := fault_of(cls, data):
             return Answer("refused", "invalid", fault[:500])
         if cls.NEEDS_BEACON and beacon is None:
             reason = f"{name} needs a fresh beacon, and no telemetry was received"
             return Answer("refused", "no_beacon", reason)
-        roles = _roles(cls, data)
+        roles = cls.from_data(data).roles()
+        role = self._telemetry.text("ground", "role")
         given = _ROLES.get(role or "")
         if given is not None and not roles & given.includes:
             least = role_of(cls) if len(roles) != 1 else next(iter(roles)).value
             reason = f"{name} takes the role {least}, and this aircraft's link is {role}"
             return Answer("refused", "forbidden", f"{reason} (mission_control.yml: role)")
-        return Checked(Role.OBSERVER not in roles)
-
-
-def _roles(cls: type[BaseCommand], data: dict[str, Any]) -> frozenset[Role]:
-    return cls.from_data(data).roles()
+        return None
 
 
 KEPT = 512

@@ -1,26 +1,9 @@
-"""Partial lines received, and lines waiting for a slow peer."""
+"""Lines waiting for a slow peer."""
 
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from up_proxy.buffers import LineBuffer, SendBuffer
-
-CHUNKS = st.lists(st.sampled_from([b"\n", b"a", b"bc\n", b"d\ne", b"\n\n"]) | st.binary(min_size=1))
-
-
-@given(CHUNKS)
-def test_only_whole_lines_pass_and_unchanged(chunks):
-    buffer = LineBuffer()
-    whole = []
-    for chunk in chunks:
-        lines = buffer.feed(chunk)
-        assert not lines or lines.endswith(b"\n")
-        whole.append(lines)
-    text = b"".join(chunks)
-    cut = text.rfind(b"\n") + 1
-    assert b"".join(whole) == text[:cut]
-    assert len(buffer) == len(text) - cut
-    assert buffer.starts_with(text[cut:])
+from up_proxy.send_buffer import SendBuffer
 
 
 def drain(queue, step=7):

@@ -1,33 +1,4 @@
-"""The buffers of a connection: a partial line received, whole lines to send."""
-
-LINE_MAX_BYTES = 65536
-"""A connection that sends a longer line is closed."""
-
-
-class LineBuffer:
-    """Cuts a stream of chunks at its last LF, so that only whole lines pass."""
-
-    __slots__ = ("_partial",)
-
-    def __init__(self) -> None:
-        self._partial = bytearray()
-
-    def __len__(self) -> int:
-        return len(self._partial)
-
-    def starts_with(self, prefix: bytes) -> bool:
-        """Return whether the partial line begins with `prefix`."""
-        return self._partial.startswith(prefix)
-
-    def feed(self, chunk: bytes) -> bytes:
-        """Return the whole lines that `chunk` completes, or empty bytes."""
-        cut = chunk.rfind(b"\n") + 1
-        if not cut:
-            self._partial += chunk
-            return b""
-        whole = bytes(self._partial) + chunk[:cut] if self._partial else chunk[:cut]
-        self._partial = bytearray(chunk[cut:])
-        return whole
+"""The lines that wait for a slow peer."""
 
 
 class SendBuffer:
@@ -52,7 +23,6 @@ class SendBuffer:
 
     @property
     def kept_bytes(self) -> int:
-        """Length of the head that must not be dropped."""
         return self._kept
 
     def put_rest(self, rest: bytes) -> None:
@@ -62,7 +32,6 @@ class SendBuffer:
         self._kept = rest.find(b"\n") + 1
 
     def put(self, lines: bytes) -> None:
-        """Append whole lines."""
         buffer = self._buffer
         buffer += lines
         if not self.limit_bytes or len(buffer) <= self.limit_bytes:
@@ -79,11 +48,9 @@ class SendBuffer:
         self._kept += len(line)
 
     def head(self, size: int = 65536) -> bytes:
-        """Return the next bytes to send."""
         return bytes(self._buffer[:size])
 
     def sent(self, count: int) -> None:
-        """Remove bytes that the socket took."""
         buffer = self._buffer
         if count < self._kept:
             self._kept -= count

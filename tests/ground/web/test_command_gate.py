@@ -5,7 +5,7 @@ from twisted.internet.task import Clock
 
 from up.protocols.general_message import GeneralMessage
 from up_ground.telemetry import Telemetry
-from up_ground.web.command_checks import KEPT, RecentBeacons
+from up_ground.web.command_gate import KEPT, RecentBeacons
 
 NAME = "up.flight_mode.set"
 
