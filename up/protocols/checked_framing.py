@@ -67,19 +67,13 @@ class CheckedEncoder:
     opening = b"\0"
 
     def __init__(self) -> None:
-        self._next_sequence = 0
-
-    @property
-    def last_sequence(self) -> int:
-        """The sequence of the newest frame; 255 before the first one."""
-        return (self._next_sequence - 1) & 0xFF
+        self.last_sequence = 255
 
     def encode(self, type_: int, payload: bytes = b"") -> bytes:
         """Return one frame with its closing zero; ValueError for more than 96 bytes."""
         if len(payload) > MAX_PAYLOAD:
             raise ValueError(f"a payload of {len(payload)} bytes, at most {MAX_PAYLOAD} fit")
-        sequence = self._next_sequence
-        self._next_sequence = (sequence + 1) & 0xFF
+        self.last_sequence = sequence = (self.last_sequence + 1) & 0xFF
         return checked_frame(sequence, type_, payload)
 
 
