@@ -7,7 +7,7 @@ from simple_pid import PID
 from bench.table import Row, compared
 from bench.timing import Limit, rounds_ns
 from raspilot.flight_controller.cascade import Cascade, Pid
-from up.flight_controller.gains import Gains
+from up.commands.gains import Gains
 
 AXES = 3
 TARGET = 0.7

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from up.flight_controller.gains import Gains
+from up.commands.gains import Gains
 
 US_PER_UNIT = 1.25
 OUTPUT_LIMIT = 400.0

@@ -15,6 +15,7 @@ from up.commands.flight_state_command import (
     FlightStateCommand,
     FlyByWireLimitsCommand,
 )
+from up.commands.gains import Gains, GainSet
 from up.commands.orientation_command import OrientationCommand
 from up.commands.origin import Origin
 from up.commands.output_command import OutputCommand
@@ -22,10 +23,9 @@ from up.commands.pid_tunings_commands import PIDTuningsCommand, PIDTuningsValues
 from up.commands.refusal import Code, CommandRefusedError
 from up.commands.roles import Role
 from up.flight_controller.base_flight_controller import BaseFlightController
-from up.flight_controller.gains import Gains, GainSet
 from up.flight_controller.gains_store import GainsStore, refuse_unused
 from up.flight_controller.pids_file import PidsFile
-from up.mode import WITH_ARDUINO, Mode
+from up.mode import WITH_BOARD, Mode
 from up.needs import wants
 from up.providers.base_mission_control_provider import BaseMissionControlProvider
 
@@ -50,7 +50,7 @@ class RaspilotFlightController(BaseFlightController):
     ``flight controller: raspberry``.
     """
 
-    MODES: ClassVar[frozenset[Mode]] = WITH_ARDUINO
+    MODES: ClassVar[frozenset[Mode]] = WITH_BOARD
     FLIGHT_MODES: ClassVar[Mapping[str, Mapping[str, float]]] = {
         "FBW": {"rx": RX_MAX_AGE_S, "orientation": ORIENTATION_MAX_AGE_S},
         "ACRO": {"rx": RX_MAX_AGE_S},

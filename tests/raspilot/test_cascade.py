@@ -19,7 +19,7 @@ from raspilot.flight_controller.cascade import (
     pitch_rate_in_turn,
 )
 from up.commands.flight_state_command import FlyByWireLimitsCommand
-from up.flight_controller.gains import Gains
+from up.commands.gains import Gains
 from up.flight_controller.pids_file import PidsConfig, gain_set_of
 
 LIMIT_US = OUTPUT_LIMIT * US_PER_UNIT
