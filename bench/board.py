@@ -10,7 +10,8 @@ from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 
 from bench.timing import percentile
-from up_simulator.firmware.wire import checked_frame, cobs_decode
+from up.protocols.checked_framing import cobs_decode
+from up_simulator.firmware.wire import checked_frame
 
 ANSWER_S = 1.0
 GENERATOR_PRIORITY = 40

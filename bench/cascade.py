@@ -6,8 +6,8 @@ from simple_pid import PID
 
 from bench.table import Row, compared
 from bench.timing import Limit, rounds_ns
-from raspilot.flight_controller.cascade import Cascade, limited_pid
-from up.flight_controller.gains import Gains
+from raspilot.flight_controller.cascade import Cascade, Pid
+from up.commands.gains import Gains
 
 AXES = 3
 TARGET = 0.7
@@ -24,11 +24,11 @@ def rows(quick: bool = False) -> Iterable[Row]:
     """Yield the cascade of three axes, and one PID."""
     cascades = [Cascade(Gains(2.1, 0.5, 0.01), Gains(2.0, 0.5, 0.0), 120.0) for _ in range(AXES)]
     bare = PID(2.1, 0.5, 0.01, sample_time=None, output_limits=(-400.0, 400.0))
-    mine = limited_pid(Gains(2.1, 0.5, 0.01), 400.0)
+    mine = Pid(Gains(2.1, 0.5, 0.01), 400.0)
     rounds, calls = (5, 200) if quick else (30, 5000)
     works = (
         lambda: update(cascades),
-        lambda: mine(3.0, dt=DT_S),
+        lambda: mine.step(0.0, 3.0, DT_S),
         lambda: bare(3.0, dt=DT_S),
     )
     cascade_ns, one_ns, bare_ns = rounds_ns(works, rounds, calls)

@@ -1,4 +1,4 @@
-"""Checks that imports between the packages point in one direction.
+"""Checks that imports between the packages point in one direction, and what Up may name.
 
 The contracts are generated: what a cog may import apart from Up is what its ``setup.py`` lists, and
 the directions between the programs are the table below.
@@ -54,13 +54,34 @@ LAYERS = (
     "system",
     "fields | version | errors",
 )
-# Imports that still go upwards, each with the change that removes it.
-EXCEPTIONS = (
-    # The gains are plain values; they move to the Commands that carry them.
-    ("commands.pid_tunings_commands", "flight_controller.gains"),
-    # `up.registrar` is the thesis's path of the old Registrar.
-    ("cogs.registration", "registrar"),
+# Up names no cog and no device: it knows roles. These texts of its files are exceptions.
+NAMES_ALLOWED = (
+    # Deprecated.
+    ("mode.py", "WITH_ARDUINO"),
+    # Words of config.yml and of the wire (docs/protocols.md).
+    ("config/application.py", '"arduino"'),
+    ("commands/board_status.py", '"arduino.status"'),
+    ("commands/pid_tunings_commands.py", '"arduino.pids.'),
+    ("commands/system_commands.py", "arduino_connected"),
+    ("flight_log/telemetry_schema.py", '"android"'),
+    ("flight_log/telemetry_schema.py", '"arduino"'),
+    # Generated: texts for users, who have an Arduino.
+    ("commands/board_schema.py", "the Arduino"),
 )
+
+
+def names_in_up(root: Path = ROOT) -> Iterator[str]:
+    """Yield ``file:line: name`` for each cog or device that Up names."""
+    in_tree = [path.name.replace("_", "[_-]") for path in ROOT.glob("cogs/*_cog")]
+    names = re.compile("|".join([*in_tree, "arduino", "android", "phone"]), re.IGNORECASE)
+    for path in sorted((root / "up").rglob("*.py")):
+        file = path.relative_to(root / "up").as_posix()
+        allowed = [text for name, text in NAMES_ALLOWED if name == file]
+        for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1):
+            for text in allowed:
+                line = line.replace(text, "")
+            for found in names.finditer(line):
+                yield f"up/{file}:{number}: {found.group()}"
 
 
 def cogs() -> dict[str, set[str]]:
@@ -114,8 +135,6 @@ def _layers() -> Iterator[str]:
     yield "layers ="
     for layer in LAYERS:
         yield "    " + re.sub(r"(?=\b[a-z])", "up.", layer)
-    yield "ignore_imports ="
-    yield from (f"    up.{importer} -> up.{imported}" for importer, imported in EXCEPTIONS)
 
 
 def _contract(name: str, forbidden: list[str]) -> list[str]:
@@ -130,14 +149,18 @@ def _contract(name: str, forbidden: list[str]) -> list[str]:
 
 
 def main() -> int:
-    """Run import-linter on the generated contracts; return its exit status."""
+    """Check the names in Up, run import-linter on the generated contracts; return the status."""
+    named = list(names_in_up())
+    if named:
+        print("Up names a cog or a device; use its role:", *named, sep="\n  ")
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder, "contracts.ini")
         path.write_text(contracts(), encoding="utf-8")
         program = Path(sys.executable).with_name("lint-imports")
-        return subprocess.run(
+        status = subprocess.run(
             [str(program), "--config", str(path), "--no-cache"], cwd=ROOT, check=False
         ).returncode
+    return status or int(bool(named))
 
 
 if __name__ == "__main__":

@@ -6,7 +6,7 @@ from enum import Enum
 
 
 class Mode(Enum):
-    """The mode of the system; ``AUTO`` is Flight Controller Mode until no Arduino answers."""
+    """The mode of the system; ``AUTO`` is Flight Controller Mode until no board answers."""
 
     AUTO = "auto"
     FLIGHT_CONTROLLER = "flight controller"
@@ -14,9 +14,11 @@ class Mode(Enum):
 
     @property
     def may_control(self) -> bool:
-        """Return whether an Arduino is expected and the aircraft can be controlled."""
+        """Return whether a board is expected and the aircraft can be controlled."""
         return self is not Mode.BLACK_BOX
 
 
 IN_EVERY_MODE = frozenset(Mode)
-WITH_ARDUINO = frozenset({Mode.AUTO, Mode.FLIGHT_CONTROLLER})
+WITH_BOARD = frozenset({Mode.AUTO, Mode.FLIGHT_CONTROLLER})
+WITH_ARDUINO = WITH_BOARD
+"""Deprecated name of WITH_BOARD."""

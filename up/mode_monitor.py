@@ -6,19 +6,19 @@ from collections.abc import Mapping
 from typing import Any
 
 from up.base_started_module import BaseStartedModule
+from up.commands.roles import Role
 from up.commands.system_commands import LinkStateCommand
 from up.mode import Mode
 from up.system.clock import Timer
 
 BOARD_TIMEOUT_S = 5.0
-BOARD_LINK = "arduino"
 
 
 class ModeMonitor(BaseStartedModule):
-    """Reports Black Box Mode provisionally while no frame of the Arduino arrives, in mode ``auto``.
+    """Reports Black Box Mode provisionally while no frame of the board arrives, in mode ``auto``.
 
-    Flight Controller Mode returns automatically when the Arduino answers. Any other
-    configured mode is constant.
+    Flight Controller Mode returns automatically when the board answers. Any other configured
+    mode is constant.
     """
 
     def __init__(self, config: Any = None, silent: bool = False) -> None:
@@ -58,7 +58,7 @@ class ModeMonitor(BaseStartedModule):
         self._cancel_timer()
 
     def _on_link(self, command: LinkStateCommand) -> None:
-        if command.link != BOARD_LINK:
+        if self.up.command_executor.origin.role is not Role.BOARD:
             return
         if not command.connected:
             self._wait()
@@ -66,9 +66,7 @@ class ModeMonitor(BaseStartedModule):
         self._cancel_timer()
         if self.is_provisional:
             self.is_provisional = False
-            self.log.warn(
-                "the Arduino answers: back in Flight Controller Mode", code="mode_restored"
-            )
+            self.log.warn("the board answers: back in Flight Controller Mode", code="mode_restored")
 
     def _wait(self) -> None:
         if self._timer is None and not self.is_provisional and not self._is_over:
@@ -83,8 +81,8 @@ class ModeMonitor(BaseStartedModule):
         self._timer = None
         self.is_provisional = True
         self.log.error(
-            "no frame from the Arduino for {patience_s:.0f} s: provisionally in Black Box Mode,"
-            " orientation from the phone; nothing is controlled from here",
+            "no frame from the board for {patience_s:.0f} s: provisionally in Black Box Mode;"
+            " nothing is controlled from here",
             patience_s=BOARD_TIMEOUT_S,
             code="mode_provisional",
         )

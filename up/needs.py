@@ -14,7 +14,10 @@ _M = TypeVar("_M")
 
 @dataclass(slots=True, eq=False)
 class Need:
-    """A declared reference to the loaded module of a class; if ``optional``, None when absent."""
+    """A declared reference to the loaded module of a class; if ``optional``, None when absent.
+
+    The loader fills the module's own attribute, which hides this one.
+    """
 
     wanted: type[BaseModule]
     optional: bool
@@ -26,12 +29,9 @@ class Need:
     def __get__(self, instance: Any, owner: type) -> Any:
         if instance is None:
             return self
-        try:
-            return instance.__dict__["_references"][self.attribute]
-        except KeyError:
-            raise AttributeError(
-                f"{owner.__name__}.{self.attribute} is available from initialization on"
-            ) from None
+        raise AttributeError(
+            f"{owner.__name__}.{self.attribute} is available from initialization on"
+        )
 
 
 def needs(module: type[_M]) -> _M:
@@ -67,7 +67,7 @@ def needed_by(module: BaseModule) -> list[BaseModule]:
 
 def discard_wanted(module: BaseModule, failed: Container[BaseModule]) -> None:
     """Clear a module's optional reference to a module that has failed."""
-    references = vars(module).get("_references", {})
+    references = vars(module)
     for need in declared_needs(type(module)):
         if need.optional and references.get(need.attribute) in failed:
             references[need.attribute] = None

@@ -10,7 +10,7 @@ from up.cleanup import add_cleanup
 class Vetoes:
     """The reasons against arming: those of this program, and those that others report.
 
-    Only this program's own go to the Arduino; the ground sees both.
+    Only this program's own go to the board; the ground sees both.
     """
 
     def __init__(self) -> None:
@@ -45,7 +45,7 @@ class Vetoes:
             self.on_changed()
 
     def report(self, who: str, reasons: tuple[str, ...]) -> None:
-        """Note the reasons against arming of another part (the Arduino)."""
+        """Note the reasons against arming of another part, such as the board."""
         self._reported[who] = reasons
 
     @property

@@ -15,21 +15,23 @@ from up.commands.flight_state_command import (
     FlightStateCommand,
     FlyByWireLimitsCommand,
 )
+from up.commands.gains import Gains, GainSet
 from up.commands.orientation_command import OrientationCommand
+from up.commands.origin import Origin
 from up.commands.output_command import OutputCommand
 from up.commands.pid_tunings_commands import PIDTuningsCommand, PIDTuningsValuesCommand
 from up.commands.refusal import Code, CommandRefusedError
 from up.commands.roles import Role
 from up.flight_controller.base_flight_controller import BaseFlightController
-from up.flight_controller.gains import Gains, GainSet
 from up.flight_controller.gains_store import GainsStore, refuse_unused
 from up.flight_controller.pids_file import PidsFile
-from up.mode import WITH_ARDUINO, Mode
+from up.mode import WITH_BOARD, Mode
 from up.needs import wants
 from up.providers.base_mission_control_provider import BaseMissionControlProvider
 
 ROLL_RATE_LIMIT_DEG_S = 120.0
 PITCH_RATE_LIMIT_DEG_S = 80.0
+RX_MAX_AGE_S, ORIENTATION_MAX_AGE_S = 0.25, 0.1
 MIN_STEP_S, MAX_STEP_S = 1e-3, 0.1
 REQUEST_PERIOD_S = 5.0
 MIN_US, MAX_US = 1000, 2000
@@ -48,10 +50,10 @@ class RaspilotFlightController(BaseFlightController):
     ``flight controller: raspberry``.
     """
 
-    MODES: ClassVar[frozenset[Mode]] = WITH_ARDUINO
+    MODES: ClassVar[frozenset[Mode]] = WITH_BOARD
     FLIGHT_MODES: ClassVar[Mapping[str, Mapping[str, float]]] = {
-        "FBW": {"rx": 0.25, "orientation": 0.1},
-        "ACRO": {"rx": 0.25},
+        "FBW": {"rx": RX_MAX_AGE_S, "orientation": ORIENTATION_MAX_AGE_S},
+        "ACRO": {"rx": RX_MAX_AGE_S},
     }
 
     mission_control = wants(BaseMissionControlProvider)
@@ -99,7 +101,9 @@ class RaspilotFlightController(BaseFlightController):
             self.log.error("{reason}", reason=problem, code="gains_invalid")
             self.up.vetoes.set("pids.yml", problem)
         self._build(self.gains)
-        executor = self.up.command_executor
+        # With its origin the bus need not search the publisher of each Output.
+        self._origin = Origin(self.class_name, Role.INTERNAL)
+        executor = self._executor = self.up.command_executor
         executor.register_command(OrientationCommand, self._on_orientation)
         executor.register_command(FlightStateCommand, self._on_flight_state)
         executor.register_command(FlightModeCommand, self._on_flight_mode)
@@ -113,16 +117,17 @@ class RaspilotFlightController(BaseFlightController):
         self._yaw = YawDamper(rate.rudder or _NO_GAINS)
 
     def _on_orientation(self, command: OrientationCommand) -> None:
-        if not self._is_board_ready or command.sequence is None:
+        executor = self._executor
+        # A phone's frame could carry a sequence too; only the board's is valid.
+        if (
+            not self._is_board_ready
+            or command.sequence is None
+            or executor.origin.role is not Role.BOARD
+        ):
             return
-        if self.up.command_executor.origin.role is not Role.BOARD:
-            # A phone's frame could carry a sequence too; only the board's is valid.
-            return
-        rx = self.rx.fresh(self.FLIGHT_MODES["ACRO"]["rx"])
-        if rx is None:
-            return
-        reading = self.orientation.fresh(self.FLIGHT_MODES["FBW"]["orientation"])
-        if reading is None or reading.value is not command:
+        rx = self.rx.fresh(RX_MAX_AGE_S)
+        reading = self.orientation.fresh(ORIENTATION_MAX_AGE_S)
+        if rx is None or reading is None or reading.value is not command:
             return
         now_s = reading.time_s
         dt_s = now_s - self._computed_at_s
@@ -138,7 +143,7 @@ class RaspilotFlightController(BaseFlightController):
             self.flight_mode = "FBW"
             output = self._fly_by_wire(command, rx.value, max(dt_s, MIN_STEP_S))
         self.outputs += 1
-        self.up.command_executor.execute_command(output)
+        executor.execute_command(output, self._origin)
 
     def _fly_by_wire(self, attitude: OrientationCommand, rx: Any, dt_s: float) -> OutputCommand:
         ailerons_us = self._roll.hold_angle(
@@ -250,4 +255,6 @@ def _pass_through(sequence: int, rx: Any) -> OutputCommand:
 
 
 def _pulse(us: float) -> int:
-    return round(min(MAX_US, max(MIN_US, us)))
+    if us >= MAX_US:
+        return MAX_US
+    return round(us) if us > MIN_US else MIN_US

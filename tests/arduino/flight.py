@@ -8,9 +8,9 @@ from dataclasses import dataclass
 from tests.arduino.rig.firmware import make_rig
 from tests.support.firmware import build_firmware
 from up.commands.board_schema import STATUS, BoardStatus
-from up.protocols.crc16 import crc16
+from up.protocols.checked_framing import cobs_decode, crc16
 from up_rig.imu import motion_at
-from up_simulator.firmware.wire import checked_frame, cobs_decode
+from up_simulator.firmware.wire import checked_frame
 
 LOW, MIDDLE, HIGH = 1000, 1500, 2000
 BOOT_US = 1_400_000

@@ -7,8 +7,8 @@ from pathlib import Path
 
 from tests.flightlog.flights import GROUND, AndroidBatteryCommand, FlightMaker
 from up.commands.altitude_command import AltitudeCommand
+from up.commands.gains import gain_set_from_data
 from up.commands.pid_tunings_commands import PIDTuningsCommand, PIDTuningsValuesCommand
-from up.flight_controller.gains import gain_set_from_data
 from up.flight_log.flight_file import FlightFile
 
 SECOND_NS = 1_000_000_000

@@ -6,6 +6,7 @@ import math
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from simple_pid import PID
 
 from raspilot.flight_controller import sticks
 from raspilot.flight_controller.cascade import (
@@ -13,11 +14,12 @@ from raspilot.flight_controller.cascade import (
     US_PER_UNIT,
     WASHOUT_S,
     Cascade,
+    Pid,
     YawDamper,
     pitch_rate_in_turn,
 )
 from up.commands.flight_state_command import FlyByWireLimitsCommand
-from up.flight_controller.gains import Gains
+from up.commands.gains import Gains
 from up.flight_controller.pids_file import PidsConfig, gain_set_of
 
 LIMIT_US = OUTPUT_LIMIT * US_PER_UNIT
@@ -65,6 +67,19 @@ def test_the_output_is_limited_whatever_comes(wanted, angle, rate, dt_s, gains):
         output = controller.hold_angle(wanted, angle, rate, dt_s)
         assert -LIMIT_US <= output <= LIMIT_US
         angle = -angle
+
+
+@given(
+    st.builds(Gains, st.floats(0, 50), st.floats(0, 50), st.floats(0, 50)),
+    st.lists(
+        st.tuples(st.floats(-400, 400), st.floats(-4000, 4000), st.floats(1e-3, 0.1)), max_size=20
+    ),
+)
+def test_a_pid_computes_the_same_as_simple_pid(gains, steps):
+    mine, peer = Pid(gains, 400.0), PID(*gains, sample_time=None, output_limits=(-400, 400))
+    for wanted, measured, dt_s in steps:
+        peer.setpoint = wanted
+        assert mine.step(wanted, measured, dt_s) == pytest.approx(peer(measured, dt=dt_s))
 
 
 def test_integrals_do_not_wind_up():

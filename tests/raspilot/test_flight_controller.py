@@ -15,6 +15,7 @@ from up.commands.flight_state_command import (
     FlightStateCommand,
     FlyByWireLimitsCommand,
 )
+from up.commands.gains import Gains, GainSet, LoopGains, gain_set_to_data
 from up.commands.orientation_command import OrientationCommand
 from up.commands.origin import Origin
 from up.commands.output_command import OutputCommand
@@ -22,7 +23,6 @@ from up.commands.pid_tunings_commands import PIDTuningsCommand, PIDTuningsValues
 from up.commands.refusal import Code, CommandRefusedError
 from up.commands.roles import Role
 from up.commands.rx_command import ALL_VALID, RXCommand
-from up.flight_controller.gains import Gains, GainSet, LoopGains, gain_set_to_data
 from up.flight_controller.gains_store import GainsStore
 from up.flight_controller.pids_file import PidsFile
 from up.mode import Mode

@@ -7,8 +7,10 @@ from twisted.internet.task import Clock
 from tests.support.system import build_up, started
 from tests.up.commands.samples import Log
 from up.base_module import BaseModule
+from up.commands.origin import Origin
+from up.commands.roles import Role
 from up.commands.system_commands import LinkStateCommand
-from up.mode import WITH_ARDUINO, Mode
+from up.mode import WITH_BOARD, Mode
 from up.mode_monitor import ModeMonitor
 
 built = []
@@ -17,7 +19,7 @@ built = []
 class ForArduino(BaseModule):
     """Built only where an Arduino may be."""
 
-    MODES = WITH_ARDUINO
+    MODES = WITH_BOARD
 
     def __init__(self):
         built.append(self)
@@ -34,8 +36,9 @@ class Rig:
         Deferred.fromCoroutine(started(self.up)).addBoth(got.append)
         self.life = got[0]
 
-    def link(self, connected, link="arduino"):
-        self.up.command_executor.execute_command(LinkStateCommand(link, connected))
+    def link(self, connected, role=Role.BOARD):
+        origin = Origin("test", role)
+        self.up.command_executor.execute_command(LinkStateCommand("test", connected), origin)
 
     @property
     def shown(self):
@@ -73,11 +76,11 @@ def test_a_link_that_is_lost_counts_from_its_loss(rig):
     assert rig.shown["mode"] == "black box (provisional)"
 
 
-def test_the_phone_is_no_arduino(rig):
-    rig.link(True, "android")
+def test_a_sensor_is_not_a_board(rig):
+    rig.link(True, Role.SENSOR)
     rig.clock.advance(6)
     assert rig.shown["mode"] == "black box (provisional)"
-    rig.link(True, "android")
+    rig.link(True, Role.SENSOR)
     assert rig.shown["mode"] == "black box (provisional)"
 
 

@@ -26,8 +26,8 @@ from tools.tuning.trial import TrialError
 from tools.tuning.tune import TuneError, try_rough_air, tune_axis, tune_yaw
 from tools.tuning.workers import MAX_PROCESSES, Workers
 from up.cli.option_parser import OptionParser
+from up.commands.gains import Gains, GainSet
 from up.config.atomic_writer import write_atomically
-from up.flight_controller.gains import Gains, GainSet
 from up.flight_controller.pids_file import PIDS, PidsConfig, gain_set_of
 from up_simulator.aircraft import DEFAULT_AIRFRAME, AirframeError, load_airframe
 from up_simulator.aircraft.flight import FlightUnavailableError

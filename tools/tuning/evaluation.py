@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from tools.tuning.experiments import STEPS, Bench, FlownSteps, fly_steps, measure_loop
 from tools.tuning.gain_set import Axis, AxisGains
 from tools.tuning.margins import LoopPoint, Margins, MarginsError, margins_of, scaled
-from up.flight_controller.gains import Gains, GainSet
+from up.commands.gains import Gains, GainSet
 
 D_FILTER_S = 0.007
 """The low-pass of the firmware's derivative (pid.h)."""

@@ -11,7 +11,7 @@ from statistics import fmean
 from tools.tuning.gain_set import CHANNELS, Axis
 from tools.tuning.margins import LoopPoint, MarginsError, Multisine, loop_response
 from tools.tuning.trial import RATE_US, Recording, StickMove, Trial
-from up.flight_controller.gains import GainSet
+from up.commands.gains import GainSet
 from up_simulator.aircraft import Airframe, Weather
 from up_simulator.firmware.board import BoardKind
 from up_simulator.harness.world import STEP_S

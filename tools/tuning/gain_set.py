@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import Any, Literal
 
-from up.flight_controller.gains import AXES, Gains, GainSet, LoopGains
+from up.commands.gains import AXES, Gains, GainSet, LoopGains
 
 Axis = Literal["roll", "pitch", "yaw"]
 CHANNELS: dict[Axis, str] = {"roll": "ailerons", "pitch": "elevator", "yaw": "rudder"}

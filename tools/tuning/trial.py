@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 
 from tools.tuning.actuators import Actuators, Mix
 from tools.tuning.gain_set import mapping_of
-from up.flight_controller.gains import GainSet
+from up.commands.gains import GainSet
 from up_rig.imu import motion_at
 from up_simulator.aircraft import Airframe, FlightDynamics, Start, Weather
 from up_simulator.firmware.board import BoardKind, FirmwareBoard

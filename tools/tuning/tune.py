@@ -19,7 +19,7 @@ from tools.tuning.experiments import (
 from tools.tuning.gain_set import Axis, AxisGains, axis_gains, with_axis
 from tools.tuning.margins import Margins
 from tools.tuning.workers import Workers
-from up.flight_controller.gains import Gains, GainSet
+from up.commands.gains import Gains, GainSet
 from up_simulator.aircraft import Weather
 from up_simulator.harness.user_log import Log, no_log
 

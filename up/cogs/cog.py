@@ -12,7 +12,7 @@ class CogError(UserError):
 
 
 def package_name(label: str) -> str:
-    """Return the Python package of a cog's label: ``android-cog`` is ``android_cog``.
+    """Return the Python package of a cog's label: ``radio-cog`` is ``radio_cog``.
 
     Raises CogError for an invalid package name.
     """

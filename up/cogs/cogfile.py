@@ -38,7 +38,7 @@ class CogSpec:
         if not self.path.isprintable():
             yield "path", "must be the path of a folder"
         if self.pypi and not is_distribution_name(self.pypi):
-            yield "pypi", "must be the name of a distribution, like raspilot-serial-cog"
+            yield "pypi", "must be the name of a distribution, like raspilot-radio-cog"
         if self.version and not _VERSION.fullmatch(self.version):
             yield "version", 'must be one version, like "1.2.3"'
         if self.url and not _URL.fullmatch(self.url):

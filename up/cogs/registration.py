@@ -11,9 +11,9 @@ from typing import Any
 from up.cogs.cog import CogError, Echo, echo
 from up.cogs.registry import Registry, Source
 from up.cogs.up_registrant import UpRegistrant
+from up.cogs.up_registrar import UpRegistrar
 from up.config import ConfigErrors
 from up.loading.application import Application
-from up.registrar import UpRegistrar
 
 REGISTRANT_MODULE = "registrar"
 REGISTRANT_CLASSES = ("Registrant", "Registrar")

@@ -11,7 +11,7 @@ from up.commands.roles import Role
 
 @dataclass(frozen=True, slots=True)
 class ArmCommand(BaseCommand):
-    """Arm; the Arduino decides, and an arming veto or a missing beacon refuses it before."""
+    """Arm; the board decides, and an arming veto or a missing beacon refuses it before."""
 
     NAME: ClassVar[str] = "up.arm"
     ROLES: ClassVar[frozenset[Role]] = frozenset({Role.PILOT})

@@ -19,7 +19,7 @@ class Datum(NamedTuple):
 
 
 class Alarm(NamedTuple):
-    """A condition of ``arduino.<name>`` in telemetry that is an event, an alarm or a finding."""
+    """A condition of the board's part of telemetry that is an event, an alarm or a finding."""
 
     name: str
     field: str

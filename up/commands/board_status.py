@@ -63,7 +63,7 @@ def refusal_text(code: int) -> str:
 
 
 def telemetry_of(status: Mapping[str, Any] | None) -> dict[str, Any]:
-    """Return the part of ``arduino`` in telemetry that a status determines; None if it has none."""
+    """Return the board's part of telemetry that a status determines; None if it has none."""
     shown = (each for each in DATA if each.in_telemetry)
     return {each.name: None if status is None else _telemetry(status, each) for each in shown}
 

@@ -49,6 +49,7 @@ class CommandExecutor:
     __slots__ = (
         "_call_from_thread",
         "_called",
+        "_controlled",
         "_faults",
         "_handlers",
         "_logged_names",
@@ -88,8 +89,9 @@ class CommandExecutor:
         self._handlers: dict[str, tuple[Handler, ...]] = {}
         self._observers: tuple[tuple[UUID, Handler], ...] = ()
         self._observing: tuple[Handler, ...] = ()
-        # Cached handlers by Command; one that needs control is absent and takes the slow path.
+        # Observers and handlers by Command, apart for those that need control.
         self._called: dict[str, tuple[Handler, ...]] = {}
+        self._controlled: dict[str, tuple[Handler, ...]] = {}
         self._waiting: deque[tuple[BaseCommand, Origin, Deferred[None] | None]] = deque()
         self._logged_names: set[str] = set()
         self._faults: Counter[tuple[str, str]] = Counter()
@@ -172,16 +174,14 @@ class CommandExecutor:
             try:
                 handlers = self._called[command.NAME]
             except KeyError:
-                handlers = self._observing
-                if command.NEEDS_CONTROL and command.NAME in self._handlers:
-                    origin = _publisher(command, origin)
-                    if self.control.refuses(origin.link, command.NAME) is not None:
-                        return
-                    handlers += self._handlers[command.NAME]
+                if command.NAME in self._controlled:
+                    self._execute_controlled(command, _publisher(command, origin))
+                    return
                 # A module may publish without subscribers; an unhandled Command from outside is
                 # an error.
-                elif origin is not INTERNAL or self.registry.get(command.NAME) is None:
+                if origin is not INTERNAL or self.registry.get(command.NAME) is None:
                     self._count_unhandled(command.NAME)
+                handlers = self._observing
                 if not handlers:
                     return
         self.origin = origin
@@ -250,8 +250,14 @@ class CommandExecutor:
             command, origin, done = waiting.popleft()
             if done is not None:
                 self._execute_awaited(command, origin, done)
+            elif command.NAME in self._controlled:
+                self._execute_controlled(command, origin)
             else:
                 self.execute_command(command, origin)
+
+    def _execute_controlled(self, command: BaseCommand, origin: Origin) -> None:
+        if self.control.refuses(origin.link, command.NAME) is None:
+            self.execute_command(command, origin, self._controlled[command.NAME])
 
     def _name_of(self, command: type[BaseCommand] | str) -> str:
         if isinstance(command, str):
@@ -286,11 +292,11 @@ class CommandExecutor:
 
     def _rebuild_called(self) -> None:
         observing = self._observing = tuple(call for _, call in self._observers)
-        self._called = {
-            name: (*observing, *handlers)
-            for name, handlers in self._handlers.items()
-            if not getattr(self.registry.get(name), "NEEDS_CONTROL", False)
-        }
+        self._called, self._controlled = {}, {}
+        for name, handlers in self._handlers.items():
+            needs_control = getattr(self.registry.get(name), "NEEDS_CONTROL", False)
+            table = self._controlled if needs_control else self._called
+            table[name] = (*observing, *handlers)
 
     def _handing_origin(self, call: Observe) -> Handler:
         def observe(command: BaseCommand) -> None:

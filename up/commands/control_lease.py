@@ -37,9 +37,9 @@ class ControlLease:
 
     def refuses(self, publisher: str, command: str) -> str | None:
         """Return why a publisher is refused; otherwise give it control and return None."""
-        owner = self.owner
-        if owner is None or owner == publisher:
-            self._owner, self._renewed_at_s = publisher, self._seconds()
+        now_s, owner = self._seconds(), self._owner
+        if owner == publisher or now_s - self._renewed_at_s > SILENCE_S:
+            self._owner, self._renewed_at_s = publisher, now_s
             return None
         self.refused[publisher] += 1
         reason = f"{publisher} may not publish {command}: {owner} has control"

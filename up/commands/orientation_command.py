@@ -13,7 +13,7 @@ from up.commands.roles import Role
 class OrientationCommand(BaseCommand):
     """An attitude and, where the source knows them, the rotation rates.
 
-    ``sequence`` is the Arduino's number of the frame, which an Output computed from it echoes.
+    ``sequence`` is the board's number of the frame, which an Output computed from it echoes.
     """
 
     NAME: ClassVar[str] = "up.orientation.update"

@@ -11,7 +11,7 @@ from up.commands.roles import Role
 class Origin:
     """The link that a Command came on.
 
-    ``link`` names it ("arduino", "android", "mission_control"); providers use the name as the
+    ``link`` names it ("mission_control", ...); providers use the name as the
     source of a reading, and ``priority`` to choose between sources (the higher wins).
     """
 

@@ -12,7 +12,7 @@ from up.commands.command import BaseCommand, value
 class OutputCommand(BaseCommand):
     """Four servo positions in microseconds, and the orientation frame they were computed from.
 
-    Throttle 0 leaves it to the stick. The Arduino refuses an Output whose frame is too old.
+    Throttle 0 leaves it to the stick. The board refuses an Output whose frame is too old.
     """
 
     NAME: ClassVar[str] = "up.output.set"
@@ -26,7 +26,7 @@ class OutputCommand(BaseCommand):
 
 @dataclass(frozen=True, slots=True)
 class SetpointCommand(BaseCommand):
-    """An attitude asked of the Arduino; after ``lifetime_ms`` it levels the aircraft."""
+    """An attitude asked of the board; after ``lifetime_ms`` it levels the aircraft."""
 
     NAME: ClassVar[str] = "up.setpoint.set"
     NEEDS_CONTROL: ClassVar[bool] = True

@@ -6,8 +6,8 @@ from dataclasses import dataclass, replace
 from typing import Any, ClassVar
 
 from up.commands.command import BaseCommand, value
+from up.commands.gains import GainSet, gain_set_from_data, gain_set_to_data
 from up.commands.roles import Role
-from up.flight_controller.gains import GainSet, gain_set_from_data, gain_set_to_data
 
 
 @dataclass(frozen=True, slots=True)

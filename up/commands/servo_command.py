@@ -11,7 +11,7 @@ from up.commands.roles import Role
 
 @dataclass(frozen=True, slots=True)
 class ServoCommand(BaseCommand):
-    """The four servo outputs that the Arduino drives now, in microseconds of pulse."""
+    """The four servo outputs that the board drives now, in microseconds of pulse."""
 
     NAME: ClassVar[str] = "up.servo.update"
     ROLES: ClassVar[frozenset[Role]] = frozenset({Role.BOARD})

@@ -25,13 +25,13 @@ class ApplicationConfig:
     )
     mode: Literal["auto", "flight controller", "black box"] = key(
         "auto",
-        "Whether an Arduino flies the aeroplane (flight controller) or the phone and the "
-        "Raspberry Pi only record the flight (black box). With auto it depends on whether an "
-        "Arduino answers. The environment variable UP_MODE takes the same words and comes first.",
+        "Whether a board flies the aeroplane (flight controller) or the Raspberry Pi only records "
+        "the flight (black box). With auto it depends on whether a board answers. The environment "
+        "variable UP_MODE takes the same words and comes first.",
     )
     flight_controller: Literal["arduino", "raspberry"] = key(
         "arduino",
-        "Where the control loop runs. The Raspberry Pi needs an Arduino that sends the receiver's "
+        "Where the control loop runs. The Raspberry Pi needs a board that sends the receiver's "
         "inputs.",
         name="flight controller",
     )
@@ -67,8 +67,8 @@ _SOURCE = Constraint(str, max_length=64)
 def _order(reading: str) -> tuple[str, ...]:
     made: tuple[str, ...] = items(
         _SOURCE,
-        f"Sources of the {reading}, the preferred first. Empty: as the links say (the Arduino "
-        "before the phone).",
+        f"Sources of the {reading}, the preferred first. Empty: as the links say (the board "
+        "before other sensors).",
         max_length=16,
     )
     return made
@@ -76,7 +76,7 @@ def _order(reading: str) -> tuple[str, ...]:
 
 @dataclass(frozen=True, slots=True)
 class ProvidersConfig:
-    """Which sources the providers prefer, by the names of their links (arduino, android, ...)."""
+    """Which sources the providers prefer, by the names of links in ``source`` of telemetry."""
 
     orientation: tuple[str, ...] = _order("orientation")
     location: tuple[str, ...] = _order("location")

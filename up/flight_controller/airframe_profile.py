@@ -1,4 +1,4 @@
-"""The keys of airframe.yml: the required profile of the Arduino; null values stay unchanged."""
+"""The keys of airframe.yml: the required profile of the board; null values stay unchanged."""
 
 from __future__ import annotations
 
@@ -29,9 +29,9 @@ class Servo:
     """One servo output."""
 
     reversed: bool | None = key(None, "Whether it turns the other way.")
-    trim_us: int | None = _pulse("Added to every pulse. Arduino default: 0.", -200, 200)
-    lowest_us: int | None = _pulse("Shortest pulse that it gets. Arduino default: 1000.")
-    highest_us: int | None = _pulse("Longest pulse that it gets. Arduino default: 2000.")
+    trim_us: int | None = _pulse("Added to every pulse. Board default: 0.", -200, 200)
+    lowest_us: int | None = _pulse("Shortest pulse that it gets. Board default: 1000.")
+    highest_us: int | None = _pulse("Longest pulse that it gets. Board default: 2000.")
 
     def problems(self) -> Iterator[tuple[str, str]]:
         if (
@@ -50,18 +50,18 @@ class Switch:
     position in which the Raspberry Pi and the ground may fly.
     """
 
-    low: str | None = _switch("Below 1300 us. Arduino default: ACRO.")
-    middle: str | None = _switch("1300 to 1700 us. Arduino default: FBW.")
-    high: str | None = _switch("Above 1700 us. Arduino default: AUTO.")
+    low: str | None = _switch("Below 1300 us. Board default: ACRO.")
+    middle: str | None = _switch("1300 to 1700 us. Board default: FBW.")
+    high: str | None = _switch("Above 1700 us. Board default: AUTO.")
 
 
 @dataclass(frozen=True, slots=True)
 class FlyByWire:
-    """How far the sticks bank and pitch the aeroplane in FBW, on the Arduino and on the Pi."""
+    """How far the sticks bank and pitch the aeroplane in FBW, on the board and on the Pi."""
 
-    roll_deg: float | None = _angle("Greatest bank. Arduino default: 50.")
-    pitch_up_deg: float | None = _angle("Greatest pitch up. Arduino default: 20.")
-    pitch_down_deg: float | None = _angle("Greatest pitch down. Arduino default: 25.")
+    roll_deg: float | None = _angle("Greatest bank. Board default: 50.")
+    pitch_up_deg: float | None = _angle("Greatest pitch up. Board default: 20.")
+    pitch_down_deg: float | None = _angle("Greatest pitch down. Board default: 25.")
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,29 +69,29 @@ class ReceiverLost:
     """What happens without the receiver: a stabilised gentle circle, else the preset surfaces."""
 
     below_us: int | None = _pulse(
-        "A throttle pulse below this is the receiver's own failsafe. Arduino default: 900.", 0
+        "A throttle pulse below this is the receiver's own failsafe. Board default: 900.", 0
     )
-    throttle_us: int | None = _pulse("The throttle output then. Arduino default: 1000.")
+    throttle_us: int | None = _pulse("The throttle output then. Board default: 1000.")
     glide_pitch_deg: float | None = _angle(
-        "Pitch of the circle, nose up positive. Arduino default: -3.", -90.0
+        "Pitch of the circle, nose up positive. Board default: -3.", -90.0
     )
     circle_bank_deg: float | None = _angle(
-        "Bank of the circle, right wing down positive. Arduino default: 20.", -90.0
+        "Bank of the circle, right wing down positive. Board default: 20.", -90.0
     )
-    ailerons_us: int | None = _pulse("The ailerons without IMU. Arduino default: 1500.")
-    elevator_us: int | None = _pulse("The elevator without IMU. Arduino default: 1500.")
-    rudder_us: int | None = _pulse("The rudder without IMU. Arduino default: 1500.")
+    ailerons_us: int | None = _pulse("The ailerons without IMU. Board default: 1500.")
+    elevator_us: int | None = _pulse("The elevator without IMU. Board default: 1500.")
+    rudder_us: int | None = _pulse("The rudder without IMU. Board default: 1500.")
     return_with_motor: bool | None = key(
-        None, "Whether returning home may use the motor. Arduino default: false."
+        None, "Whether returning home may use the motor. Board default: false."
     )
 
 
 @dataclass(frozen=True, slots=True)
 class AirframeProfile:
-    """The airframe that the Arduino flies: servos, switch, limits, failsafe.
+    """The airframe that the board flies: servos, switch, limits, failsafe.
 
-    The Arduino stores its own profile: null and missing values here leave it unchanged.
-    Every other value is compared with the Arduino's whenever it answers, and sent where it differs
+    The board stores its own profile: null and missing values here leave it unchanged.
+    Every other value is compared with the board's whenever it answers, and sent where it differs
     and only while it is disarmed; until it holds them all, arming is refused. An old firmware
     (framing: thesis) gets nothing of this.
     """
@@ -103,14 +103,14 @@ class AirframeProfile:
     mix: str | None = key(
         None,
         "How surfaces are shared: elevon mixes ailerons and elevator, V-tail elevator and rudder."
-        " Arduino default: none.",
+        " Board default: none.",
         choices=MIXES,
         ignore_case=True,
     )
     motor: bool | None = key(
         None,
         "Whether the throttle drives a motor, which needs arming. false is a glider, whose Outputs"
-        " need no arming. Arduino default: true.",
+        " need no arming. Board default: true.",
     )
     switch: Switch = section(Switch)
     fly_by_wire: FlyByWire = section(FlyByWire)

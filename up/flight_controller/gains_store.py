@@ -8,8 +8,8 @@ from typing import Any
 
 from twisted.internet.defer import Deferred
 
+from up.commands.gains import GainSet
 from up.commands.refusal import Code, CommandRefusedError
-from up.flight_controller.gains import GainSet
 from up.flight_controller.pids_file import PidsFile
 
 

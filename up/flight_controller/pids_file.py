@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from pathlib import Path
 
+from up.commands.gains import MAX_GAIN, Gains, GainSet, LoopGains
 from up.config import ConfigFile, PersistedFile, key, section
-from up.flight_controller.gains import MAX_GAIN, Gains, GainSet, LoopGains
 
 _RATE_UNIT = "1.25 us per deg/s"
 _STABILIZE_UNIT = "deg/s per deg"

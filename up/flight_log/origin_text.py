@@ -9,7 +9,7 @@ KEY = "_origin"
 
 
 def origin_text(origin: Origin) -> str:
-    """Return ``arduino (board)``: link and role; ``internal`` for a module's own Commands."""
+    """Return ``ground (pilot)``: link and role; ``internal`` for a module's own Commands."""
     if origin.link == INTERNAL.link:
         return INTERNAL.link
     return f"{origin.link} ({origin.role.value})"

@@ -48,15 +48,13 @@ def _fill(
     modules: Sequence[BaseModule],
     absent: list[tuple[BaseModule, type[BaseModule]]],
 ) -> list[BaseModule]:
-    references: dict[str, BaseModule | None] = {}
     used: list[BaseModule] = []
     for need in declared_needs(type(module)):
         matching = [each for each in modules if isinstance(each, need.wanted)]
         if not matching and not need.optional:
             absent.append((module, need.wanted))
-        references[need.attribute] = matching[0] if matching else None
+        vars(module)[need.attribute] = matching[0] if matching else None
         used.extend(matching[:1])
-    vars(module)["_references"] = references
     return [each for each in used if each is not module]
 
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 from binascii import crc_hqx
 from collections.abc import Mapping
 
-from up.protocols import cobs
-from up.protocols.crc16 import INITIAL, crc16
-from up.protocols.frame import MAX_PAYLOAD, Frame, FrameCounters, SilenceTimer
+from up.protocols.frame import MAX_PAYLOAD, UNFINISHED_TIMEOUT_S, Frame, FrameCounters
+
+INITIAL_CRC = 0xFFFF
 
 MAX_ENCODED = 101
 """Bytes of the longest frame without its closing zero."""
@@ -17,7 +17,7 @@ _MIN_ENCODED = 5
 
 def _states_before() -> tuple[int, ...]:
     """Return for each byte the CRC state that this byte turns into the initial one."""
-    zero = next(state for state in range(0x10000) if crc_hqx(b"\0", state) == INITIAL)
+    zero = next(state for state in range(0x10000) if crc_hqx(b"\0", state) == INITIAL_CRC)
     return tuple(zero ^ (byte << 8) for byte in range(256))
 
 
@@ -26,26 +26,55 @@ def _states_before() -> tuple[int, ...]:
 _STATE_BEFORE = _states_before()
 
 
+def crc16(data: bytes | bytearray) -> int:
+    """Return the CRC-16/CCITT-FALSE: polynomial 0x1021, initial 0xFFFF, not reflected.
+
+    A message followed by its own CRC, high byte first, has the CRC 0.
+    """
+    return crc_hqx(data, INITIAL_CRC)
+
+
+def cobs_encode(plain: bytes) -> bytes:
+    """Return up to 253 bytes without zeros (Cheshire and Baker 1999), without the closing zero."""
+    encoded = bytearray()
+    for run in plain.split(b"\0"):
+        encoded.append(len(run) + 1)
+        encoded += run
+    return bytes(encoded)
+
+
+def cobs_decode(encoded: bytes) -> bytes | None:
+    """Return the plain bytes of up to 254 encoded ones; None for invalid COBS."""
+    plain = bytearray(encoded)
+    position = 0
+    while position < len(encoded) and encoded[position]:
+        plain[position] = 0
+        position += encoded[position]
+    if position != len(encoded) or 0 in encoded:
+        return None
+    return bytes(plain[1:])
+
+
+def checked_frame(sequence: int, type_: int, payload: bytes = b"") -> bytes:
+    """Return one frame with its closing zero."""
+    body = bytes((sequence, type_)) + payload
+    return cobs_encode(body + crc_hqx(body, INITIAL_CRC).to_bytes(2, "big")) + b"\0"
+
+
 class CheckedEncoder:
     """Builds checked frames with the sequence of one direction."""
 
     opening = b"\0"
 
     def __init__(self) -> None:
-        self._next_sequence = 0
-
-    @property
-    def last_sequence(self) -> int:
-        """The sequence of the newest frame; 255 before the first one."""
-        return (self._next_sequence - 1) & 0xFF
+        self.last_sequence = 255
 
     def encode(self, type_: int, payload: bytes = b"") -> bytes:
         """Return one frame with its closing zero; ValueError for more than 96 bytes."""
         if len(payload) > MAX_PAYLOAD:
             raise ValueError(f"a payload of {len(payload)} bytes, at most {MAX_PAYLOAD} fit")
-        body = bytes((self._next_sequence, type_)) + payload
-        self._next_sequence = (self._next_sequence + 1) & 0xFF
-        return cobs.encode(body + crc16(body).to_bytes(2, "big")) + b"\0"
+        self.last_sequence = sequence = (self.last_sequence + 1) & 0xFF
+        return checked_frame(sequence, type_, payload)
 
 
 class CheckedDecoder:
@@ -61,13 +90,12 @@ class CheckedDecoder:
         self._tail = b""
         self._is_skipping = False
         self._expected_sequence = -1
-        self._silence = SilenceTimer()
+        self._newest_byte_s = 0.0
 
-    def feed(self, data: bytes, now: float | None = None) -> list[Frame]:
+    def feed(self, data: bytes, now: float = 0.0) -> list[Frame]:
         """Return the frames that `data` completes, in order."""
-        if now is not None and self._silence.has_expired(now):
-            self._drop_unfinished()
-        self._silence.on_bytes(now)
+        self.expire(now)
+        self._newest_byte_s = now
         pieces = (self._tail + data).split(b"\0")
         tail = pieces.pop()
         if self._is_skipping and pieces:
@@ -84,8 +112,11 @@ class CheckedDecoder:
 
     def expire(self, now: float) -> list[Frame]:
         """Drop a frame whose newest byte is 100 ms old; silence completes none."""
-        if self._silence.has_expired(now):
-            self._drop_unfinished()
+        if now >= self._newest_byte_s + UNFINISHED_TIMEOUT_S:
+            if self._tail:
+                self.counters.timeouts += 1
+            self._tail = b""
+            self._is_skipping = False
         return []
 
     def reset(self) -> None:
@@ -93,13 +124,6 @@ class CheckedDecoder:
         self._tail = b""
         self._is_skipping = False
         self._expected_sequence = -1
-        self._silence = SilenceTimer()
-
-    def _drop_unfinished(self) -> None:
-        if self._tail:
-            self.counters.timeouts += 1
-        self._tail = b""
-        self._is_skipping = False
 
     def _decode(self, pieces: list[bytes]) -> list[Frame]:
         """Return the valid frames among `pieces`; written flat because it is the hot path."""

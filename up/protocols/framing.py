@@ -34,7 +34,7 @@ class FrameDecoder(Protocol):
     def counters(self) -> FrameCounters:
         """Counters of received and dropped frames."""
 
-    def feed(self, data: bytes, now: float | None = None) -> list[Frame]:
+    def feed(self, data: bytes, now: float = 0.0) -> list[Frame]:
         """Return the frames that `data` completes; `now` is monotonic seconds."""
 
     def expire(self, now: float) -> list[Frame]:

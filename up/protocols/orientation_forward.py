@@ -1,4 +1,4 @@
-"""The Orientation Forward Protocol: frames of six floats from the phone (docs/protocols.md 3)."""
+"""The Orientation Forward Protocol: frames of six floats from a sensor (docs/protocols.md 3)."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Receives orientation from the phone, over TCP and UDP."""
+"""Receives orientation from a sensor, over TCP and UDP."""
 
 from __future__ import annotations
 

@@ -35,7 +35,7 @@ class SerialDescriptor:
     ) -> None:
         self._reactor = reactor
         self._number = number
-        self._on_bytes = on_bytes
+        self.on_bytes = on_bytes
         self._on_lost = on_lost
         self._pending_limit = pending_limit
         self._rest = b""
@@ -93,7 +93,7 @@ class SerialDescriptor:
             return self._failed(error)
         if not data:
             return CONNECTION_LOST
-        self._on_bytes(data)
+        self.on_bytes(data)
         return None
 
     def doWrite(self) -> Exception | None:  # noqa: N802 - Twisted's name

@@ -125,7 +125,7 @@ class SerialLine:
         self._descriptor = SerialDescriptor(
             self._reactor,
             number,
-            on_bytes=self._received,
+            on_bytes=self._on_first_bytes,
             on_lost=self._lost,
             pending_limit=self._pending_limit,
         )
@@ -141,9 +141,11 @@ class SerialLine:
         if is_news and self._on_open_failed is not None:
             self._on_open_failed(why)
 
-    def _received(self, data: bytes) -> None:
+    def _on_first_bytes(self, data: bytes) -> None:
         # Only received bytes prove the port: one that opens and then fails is retried slowly.
         self._delay_s = INITIAL_DELAY_S
+        if self._descriptor is not None:
+            self._descriptor.on_bytes = self._on_bytes
         self._on_bytes(data)
 
     def _lost(self, why: str) -> None:

@@ -21,8 +21,8 @@ class SerialPortError(OSError):
 def open_serial(path: str, baud: int, clear_hupcl: bool = True) -> int:
     """Return a non-blocking descriptor of the port, set up; raises SerialPortError.
 
-    With `clear_hupcl` closing the port leaves DTR unchanged, so that reopening it does not reset an
-    Arduino in flight. Input that arrived before is discarded.
+    With `clear_hupcl` closing the port leaves DTR unchanged, so that reopening it does not reset a
+    board in flight. Input that arrived before is discarded.
     """
     speed = getattr(termios, f"B{baud}", None)
     if speed is None:
@@ -91,7 +91,7 @@ def _claim(descriptor: int, path: str) -> None:
 def _not_opened(path: str, error: OSError | ValueError) -> SerialPortError:
     number = error.errno if isinstance(error, OSError) else errno.EINVAL
     if number in (errno.ENOENT, errno.ENODEV, errno.ENXIO):
-        return SerialPortError(f"{path} is missing: is the Arduino plugged in?", "port_missing")
+        return SerialPortError(f"{path} is missing: is the board plugged in?", "port_missing")
     if number == errno.EBUSY:
         return SerialPortError(f"{path} is in use by another program", "port_in_use")
     if number in (errno.EACCES, errno.EPERM):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from up.protocols.frame import Frame, FrameCounters, SilenceTimer
+from up.protocols.frame import UNFINISHED_TIMEOUT_S, Frame, FrameCounters
 
 REFUSED = 0x21
 """`!`: followed by the refused type, or by nothing (docs/protocols.md 2.4)."""
@@ -32,19 +32,17 @@ class ThesisDecoder:
         self.counters = FrameCounters()
         self._sizes = dict(sizes)
         self._tail = b""
-        self._silence = SilenceTimer()
+        self._newest_byte_s = 0.0
 
-    def feed(self, data: bytes, now: float | None = None) -> list[Frame]:
+    def feed(self, data: bytes, now: float = 0.0) -> list[Frame]:
         """Return the frames that `data` completes, in order."""
-        frames = self.expire(now) if now is not None else []
-        self._silence.on_bytes(now)
-        buffer = self._tail + data
-        frames += self._take(buffer, is_silent=False)
-        return frames
+        frames = self.expire(now)
+        self._newest_byte_s = now
+        return frames + self._take(self._tail + data, is_silent=False)
 
     def expire(self, now: float) -> list[Frame]:
         """Drop an unfinished frame after 100 ms; return a `!` that was waiting."""
-        if not self._tail or not self._silence.has_expired(now):
+        if not self._tail or now < self._newest_byte_s + UNFINISHED_TIMEOUT_S:
             return []
         frames = self._take(self._tail, is_silent=True)
         if self._tail:
@@ -54,7 +52,6 @@ class ThesisDecoder:
 
     def reset(self) -> None:
         self._tail = b""
-        self._silence = SilenceTimer()
 
     def _take(self, buffer: bytes, *, is_silent: bool) -> list[Frame]:
         """Return the frames at the front of `buffer` and keep the rest."""

@@ -48,7 +48,7 @@ class BaseProvider(BaseStartedModule, Generic[_T]):
     def fresh(self, max_age_s: float) -> Reading[_T] | None:
         """Return the newest reading when it is valid and at most ``max_age_s`` old."""
         reading = self._reading
-        if reading is None or not reading.is_fresh(self._seconds(), max_age_s):
+        if reading is None or not reading.valid or self._seconds() - reading.time_s > max_age_s:
             return None
         return reading
 
@@ -129,7 +129,3 @@ class Reading(Generic[_T]):
 
     def age_s(self, now_s: float) -> float:
         return now_s - self.time_s
-
-    def is_fresh(self, now_s: float, max_age_s: float) -> bool:
-        """Return whether the value is valid and at most ``max_age_s`` old."""
-        return self.valid and now_s - self.time_s <= max_age_s

@@ -12,7 +12,7 @@ from up.providers.base_provider import BaseProvider
 
 
 class UpOrientationProvider(BaseProvider[OrientationCommand]):
-    """Provides attitude (deg) and rates (deg/s), from the Arduino or the phone."""
+    """Provides attitude (deg) and rates (deg/s), from any link."""
 
     READING = "orientation"
     COMMAND: ClassVar[type[BaseCommand]] = OrientationCommand

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from struct import Struct, error
 
-from up.flight_controller.gains import MAX_GAIN, Gains, GainSet, LoopGains
+from up.commands.gains import MAX_GAIN, Gains, GainSet, LoopGains
 
 _F32 = Struct(">f")
 _TWO_AXES = Struct(">12f")

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from up.protocols import cobs
-from up.protocols.crc16 import crc16
+from up.protocols import checked_framing
+from up.protocols.checked_framing import cobs_decode, crc16
 
 MAX_PAYLOAD = 96
 MAX_ENCODED = 101
@@ -30,16 +30,7 @@ class Command:
 
 def checked_frame(sequence: int, type_letter: str, payload: bytes = b"") -> bytes:
     """Return one frame of checked framing with its end mark."""
-    body = bytes((sequence, ord(type_letter))) + payload
-    return cobs.encode(body + crc16(body).to_bytes(2, "big")) + b"\0"
-
-
-def cobs_decode(encoded: bytes) -> bytes | None:
-    """Return the decoded bytes; None for invalid COBS."""
-    try:
-        return cobs.decode(encoded)
-    except cobs.CobsError:
-        return None
+    return checked_framing.checked_frame(sequence, ord(type_letter), payload)
 
 
 def open_frame(encoded: bytes) -> bytes | None:

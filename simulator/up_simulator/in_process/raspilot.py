@@ -238,7 +238,7 @@ class InProcessRaspilot:
 
     def _open_port(self, path: str, baud: int) -> SerialLike:
         if not self.line.is_plugged:
-            raise SerialPortError(f"{path} is missing: is the Arduino plugged in?")
+            raise SerialPortError(f"{path} is missing: is the board plugged in?")
         return self.line.open()
 
     def _begin(self) -> None:

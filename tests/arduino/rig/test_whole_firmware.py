@@ -10,10 +10,10 @@ import pytest
 from tests.arduino.rig.firmware import make_rig
 from tests.arduino.rig.test_program import DEADLINE_S, program
 from tests.support.firmware import build_firmware
-from up.protocols.crc16 import crc16
+from up.protocols.checked_framing import cobs_decode, crc16
 from up_rig import CHANNELS, SERVOS
 from up_rig.imu import motion_at
-from up_simulator.firmware.wire import checked_frame, cobs_decode
+from up_simulator.firmware.wire import checked_frame
 
 
 @pytest.fixture(scope="module")

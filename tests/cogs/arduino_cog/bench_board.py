@@ -9,8 +9,8 @@ import tty
 from contextlib import contextmanager, suppress
 
 from tests.support.tools import unavailable
+from up.protocols.checked_framing import cobs_decode
 from up_rig import CYCLES_PER_US, Rig, RigUnavailableError
-from up_simulator.firmware.wire import cobs_decode
 
 STEP_US = 2000.0
 DEADLINE_S = 60.0

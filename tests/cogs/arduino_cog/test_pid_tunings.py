@@ -6,10 +6,10 @@ import pytest
 from arduino_cog.modules.pid_tunings_provider import PIDTuningsProvider
 
 from tests.cogs.arduino_cog.board import FACTORY, PUSHED, Ground
+from up.commands.gains import gain_set_to_data
 from up.commands.pid_tunings_commands import PIDTuningsCommand, PIDTuningsValuesCommand
 from up.commands.refusal import Code, CommandRefusedError
 from up.flight_controller import gains_store
-from up.flight_controller.gains import gain_set_to_data
 from up.flight_controller.pids_file import PIDS, PidsFile
 
 GOOD = PIDS.template()

@@ -11,7 +11,7 @@ import pytest
 from tests.cogs.arduino_cog.bench_board import BenchBoard, ms
 from tests.cogs.arduino_cog.daemon import Daemon
 from tests.support.firmware import build_firmware
-from up.flight_controller.gains import gain_set_to_data
+from up.commands.gains import gain_set_to_data
 from up.flight_controller.pids_file import PIDS, gain_set_of
 from up_rig import CYCLES_PER_US
 from up_rig.imu import motion_at

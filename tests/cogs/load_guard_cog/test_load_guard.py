@@ -78,7 +78,7 @@ def test_the_state_of_the_system_tells_providers_and_the_arduino(tmp_path):
     executor = system.up.command_executor
     executor.register_command(SystemStateCommand, states.append)
     board = Origin("arduino", Role.BOARD, 10)
-    executor.execute_command(LinkStateCommand("arduino", True))
+    executor.execute_command(LinkStateCommand("arduino", True), board)
     system.run(0.8, 10.0)
     executor.execute_command(OrientationCommand(1.0, 2.0, 3.0), board)
     system.run(0.3, 10.0)

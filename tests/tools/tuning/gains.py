@@ -1,7 +1,7 @@
 """Gains that tuning tests begin with."""
 
 from tools.tuning.gain_set import ZERO
-from up.flight_controller.gains import Gains, GainSet, LoopGains
+from up.commands.gains import Gains, GainSet, LoopGains
 
 FIRM = GainSet(
     LoopGains(Gains(6.0), Gains(3.0), Gains(1.0)), LoopGains(Gains(8.0), Gains(6.0), ZERO)

@@ -15,7 +15,7 @@ from tools.tuning.gain_set import (
 )
 from tools.tuning.margins import margins_of
 from tools.tuning.trial import StickMove
-from up.flight_controller.gains import Gains
+from up.commands.gains import Gains
 
 GAINS = FIRM
 RINGS_DEG_S, CALM_DEG_S = 5.0, 1.0

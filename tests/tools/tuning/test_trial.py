@@ -10,7 +10,7 @@ from tools.tuning.actuators import Mix
 from tools.tuning.experiments import STEPS, Bench, fly_rough, fly_steps, yaw_swing
 from tools.tuning.gain_set import ZERO, AxisGains, with_axis
 from tools.tuning.trial import StickMove
-from up.flight_controller.gains import Gains, GainSet, LoopGains
+from up.commands.gains import Gains, GainSet, LoopGains
 from up_simulator.aircraft import Weather, load_airframe
 from up_simulator.firmware.line_monitor import LineMonitor
 from up_simulator.firmware.settings_wire import SettingsError

@@ -11,14 +11,14 @@ MODULE = (
     "from dataclasses import dataclass\n"
     "from up.base_module import BaseModule\n"
     "from up.config import ConfigFile, key\n"
-    "from up.mode import WITH_ARDUINO\n"
+    "from up.mode import WITH_BOARD\n"
     "@dataclass(frozen=True, slots=True)\n"
     "class GaugeConfig:\n"
     '    """The gauge."""\n'
     '    interval_s: float = key(1.0, "Time.", minimum=0, maximum=9)\n'
     "class GaugeModule(BaseModule):\n"
     '    CONFIG = ConfigFile("gauge.yml", GaugeConfig)\n'
-    "    MODES = WITH_ARDUINO\n"
+    "    MODES = WITH_BOARD\n"
 )
 
 
@@ -76,8 +76,8 @@ def test_check_tells_everything_at_once(up, application, tmp_path):
 def test_check_of_the_module_graph(up, tmp_path):
     classes = (
         "from up.base_module import BaseModule\nfrom up.needs import needs\n"
-        "from up.mode import WITH_ARDUINO\n"
-        "class Line(BaseModule):\n    MODES = WITH_ARDUINO\n"
+        "from up.mode import WITH_BOARD\n"
+        "class Line(BaseModule):\n    MODES = WITH_BOARD\n"
         "class User(BaseModule):\n    line = needs(Line)\n"
         "class Other(BaseModule):\n    line = needs(Line)\n"
     )

@@ -3,7 +3,7 @@
 import pytest
 import yaml
 
-from up.flight_controller.gains import Gains, GainSet, LoopGains
+from up.commands.gains import Gains, GainSet, LoopGains
 from up.flight_controller.pids_file import PidsConfig, PidsFile, gain_set_of
 
 DEFAULT = gain_set_of(PidsConfig())

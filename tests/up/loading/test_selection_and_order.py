@@ -13,7 +13,7 @@ from up.up_loader import UpLoader
 HEAD = (
     "from up.base_module import BaseModule\n"
     "from up.needs import needs, wants\n"
-    "from up.mode import WITH_ARDUINO, Mode\n"
+    "from up.mode import WITH_BOARD, Mode\n"
     "from up.providers.up_altitude_provider import UpAltitudeProvider\n"
 )
 
@@ -37,7 +37,7 @@ def test_load_decides_and_may_look_at_the_mode(tmp_path):
         "class No(BaseModule):\n    def load(self): return False\n"
         "class OnlyBox(BaseModule):\n"
         "    def load(self): return self.context.mode is Mode.BLACK_BOX\n"
-        "class Flying(BaseModule):\n    MODES = WITH_ARDUINO\n"
+        "class Flying(BaseModule):\n    MODES = WITH_BOARD\n"
     )
     flying = plan(tmp_path, classes)
     assert own(flying) == ["Flying"]
@@ -50,7 +50,7 @@ def test_load_decides_and_may_look_at_the_mode(tmp_path):
 
 def test_what_is_not_for_the_mode_is_not_even_built(tmp_path):
     classes = (
-        "class Flying(BaseModule):\n    MODES = WITH_ARDUINO\n"
+        "class Flying(BaseModule):\n    MODES = WITH_BOARD\n"
         "    def __init__(self): raise RuntimeError\n"
     )
     assert not plan(tmp_path, classes, Mode.BLACK_BOX).problems
@@ -154,7 +154,7 @@ def test_every_missing_need_is_told_at_once(tmp_path):
     ("body", "mode", "disabled", "why"),
     [
         ("pass", Mode.AUTO, "Line", "all.Line: listed in disabled_modules.yml"),
-        ("MODES = WITH_ARDUINO", Mode.BLACK_BOX, "", "all.Line: not for the mode 'black box'"),
+        ("MODES = WITH_BOARD", Mode.BLACK_BOX, "", "all.Line: not for the mode 'black box'"),
         ("def load(self): return False", Mode.AUTO, "", "all.Line: its load() returned False"),
         ("def __init__(self): raise OSError('cold')", Mode.AUTO, "", "all.Line: OSError: cold"),
     ],

@@ -13,7 +13,7 @@ from up.base_started_module import BaseStartedModule
 from up.commands.altitude_command import AltitudeCommand
 from up.commands.heading_command import HeadingCommand
 from up.commands.location_command import LocationCommand
-from up.mode import WITH_ARDUINO
+from up.mode import WITH_BOARD
 from up.needs import needs
 from up.providers.base_provider import Reading
 from up.providers.up_altitude_provider import UpAltitudeProvider
@@ -28,7 +28,7 @@ class ReadingForward(BaseStartedModule):
     packing of a value.
     """
 
-    MODES = WITH_ARDUINO
+    MODES = WITH_BOARD
     COMMAND: type[Any]
     LETTER: str
 

@@ -6,7 +6,7 @@ from arduino_cog.modules.arduino_provider import ArduinoProvider
 from arduino_cog.wire import OUTPUT, pack_setpoint
 from up.base_module import BaseModule
 from up.commands.output_command import OutputCommand, SetpointCommand
-from up.mode import WITH_ARDUINO
+from up.mode import WITH_BOARD
 from up.needs import needs
 
 _pack_output = OUTPUT.pack
@@ -18,7 +18,7 @@ class ArduinoOutput(BaseModule):
     An Output that is still unsent is replaced by the next one: an old one is worthless.
     """
 
-    MODES = WITH_ARDUINO
+    MODES = WITH_BOARD
 
     arduino = needs(ArduinoProvider)
 

@@ -9,14 +9,14 @@ from arduino_cog.wire import pack_panic
 from up.base_module import BaseModule
 from up.commands.panic_command import PanicCommand
 from up.commands.refusal import CommandRefusedError
-from up.mode import WITH_ARDUINO
+from up.mode import WITH_BOARD
 from up.needs import needs
 
 
 class ArduinoPanic(BaseModule):
     """Sends the Arduino its forwarding period, on every change and after its reset."""
 
-    MODES = WITH_ARDUINO
+    MODES = WITH_BOARD
 
     arduino = needs(ArduinoProvider)
 

@@ -27,7 +27,7 @@ from up.base_module import BaseModule
 from up.commands.flight_state_command import FlyByWireLimitsCommand
 from up.commands.refusal import Code, CommandRefusedError
 from up.config.schema import plain_value
-from up.mode import WITH_ARDUINO
+from up.mode import WITH_BOARD
 from up.needs import needs, wants
 from up.providers.base_mission_control_provider import BaseMissionControlProvider
 
@@ -47,7 +47,7 @@ class ArduinoProfile(BaseModule):
     no profile.
     """
 
-    MODES = WITH_ARDUINO
+    MODES = WITH_BOARD
     CONFIG = AIRFRAME
 
     arduino = needs(ArduinoProvider)

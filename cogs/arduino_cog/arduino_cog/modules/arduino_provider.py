@@ -33,7 +33,7 @@ from up.commands.rx_command import RXCommand
 from up.commands.servo_command import ServoCommand
 from up.commands.system_commands import LinkStateCommand
 from up.config import ConfigErrors, ConfigProblem
-from up.mode import WITH_ARDUINO
+from up.mode import WITH_BOARD
 from up.needs import needs
 from up.system.clock import Timer, cancel
 
@@ -61,7 +61,7 @@ class ArduinoProvider(BaseStartedModule):
     state: it was connected, or it was reset.
     """
 
-    MODES = WITH_ARDUINO
+    MODES = WITH_BOARD
 
     serial = needs(SerialProvider)
 
@@ -234,7 +234,7 @@ class ArduinoProvider(BaseStartedModule):
         """Report that the Arduino is connected."""
         self.log.info("the Arduino answers", code="board_connected")
         self.up.vetoes.report(LINK, ())
-        self._execute(LinkStateCommand(LINK, True))
+        self._execute(LinkStateCommand(LINK, True), ORIGIN)
         self._notify_board_started()
 
     def on_line_silent(self) -> None:
@@ -243,7 +243,7 @@ class ArduinoProvider(BaseStartedModule):
         self.up.vetoes.report(LINK, (_ABSENT,))
         self.requests.fail_all(_ABSENT)
         self._execute(FlightStateCommand(None, False, False, False), ORIGIN)
-        self._execute(LinkStateCommand(LINK, False))
+        self._execute(LinkStateCommand(LINK, False), ORIGIN)
 
     def _on_orientation(self, payload: bytes) -> None:
         sequence, yaw, pitch, roll, yaw_rate, pitch_rate, roll_rate = _unpack_orientation(payload)

@@ -13,7 +13,7 @@ from up.base_module import BaseModule
 from up.commands.arming_commands import ArmCommand, DisarmCommand
 from up.commands.flight_state_command import FlightModeCommand
 from up.commands.refusal import CommandRefusedError
-from up.mode import WITH_ARDUINO
+from up.mode import WITH_BOARD
 from up.needs import needs
 
 _LETTERS = {"RATE": b"r", "FBW": b"f"}
@@ -28,7 +28,7 @@ class ArduinoArming(BaseModule):
     Refuses arming while this program has a veto, and names each.
     """
 
-    MODES = WITH_ARDUINO
+    MODES = WITH_BOARD
 
     arduino = needs(ArduinoProvider)
 
@@ -54,7 +54,7 @@ class ArduinoArming(BaseModule):
 class ArduinoFlightMode(BaseModule):
     """Passes `up.flight_mode.set` to the Arduino, which accepts it only with the switch at AUTO."""
 
-    MODES = WITH_ARDUINO
+    MODES = WITH_BOARD
 
     arduino = needs(ArduinoProvider)
 
@@ -75,7 +75,7 @@ class ArduinoCalibration(BaseModule):
     The end of the receiver calibration is always passed on: it began on the ground.
     """
 
-    MODES = WITH_ARDUINO
+    MODES = WITH_BOARD
 
     arduino = needs(ArduinoProvider)
 

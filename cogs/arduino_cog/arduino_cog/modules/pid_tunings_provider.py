@@ -13,12 +13,12 @@ from arduino_cog.mirrored_parameter import MirroredParameter
 from arduino_cog.modules.arduino_provider import ArduinoProvider
 from arduino_cog.wire import IN_FLIGHT
 from up.base_module import BaseModule
+from up.commands.gains import GainSet
 from up.commands.pid_tunings_commands import PIDTuningsCommand, PIDTuningsValuesCommand
 from up.commands.refusal import Code, CommandRefusedError
-from up.flight_controller.gains import GainSet
 from up.flight_controller.gains_store import GainsStore, refuse_unused
 from up.flight_controller.pids_file import PIDS, PidsFile
-from up.mode import WITH_ARDUINO
+from up.mode import WITH_BOARD
 from up.needs import needs, wants
 from up.providers.base_mission_control_provider import BaseMissionControlProvider
 
@@ -36,7 +36,7 @@ class PIDTuningsProvider(BaseModule):
     output is low.
     """
 
-    MODES = WITH_ARDUINO
+    MODES = WITH_BOARD
 
     arduino = needs(ArduinoProvider)
     mission_control = wants(BaseMissionControlProvider)

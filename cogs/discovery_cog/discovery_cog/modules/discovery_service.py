@@ -10,7 +10,7 @@ from twisted.internet.error import CannotListenError
 from discovery_cog.answerer import Answerer, RateLimit, own_address_towards
 from discovery_cog.config import DISCOVERY
 from up.base_started_module import BaseStartedModule, StartFailedError
-from up.mode import WITH_ARDUINO, Mode
+from up.mode import WITH_BOARD, Mode
 from up.system.udp import listen_udp
 
 
@@ -18,7 +18,7 @@ class DiscoveryService(BaseStartedModule):
     """Answers the phone's broadcast; not in Black Box Mode, where the server's address is known."""
 
     CONFIG = DISCOVERY
-    MODES: ClassVar[frozenset[Mode]] = WITH_ARDUINO
+    MODES: ClassVar[frozenset[Mode]] = WITH_BOARD
 
     def on_init(self) -> None:
         self._answerer = Answerer(RateLimit(self.context.reactor), own_address_towards)

@@ -7,8 +7,9 @@ from typing import Any
 
 from load_guard_cog.modules.load_guard import LoadGuard
 from up.base_started_module import BaseStartedModule
+from up.commands.roles import Role
 from up.commands.system_commands import LinkStateCommand, SystemStateCommand
-from up.mode_monitor import BOARD_LINK, ModeMonitor
+from up.mode_monitor import ModeMonitor
 from up.needs import needs, wants
 from up.providers.base_mission_control_provider import BaseMissionControlProvider
 from up.providers.base_provider import BaseProvider
@@ -31,7 +32,7 @@ class SystemStateProvider(BaseStartedModule):
     def __init__(self, config: Any = None, silent: bool = False) -> None:
         super().__init__(config, silent)
         self.state: SystemStateCommand | None = None
-        self._is_arduino_connected = False
+        self._is_board_connected = False
         self._reported: tuple[Any, ...] = ()
         self._timer: Timer | None = None
 
@@ -52,8 +53,8 @@ class SystemStateProvider(BaseStartedModule):
         cancel(self._timer)
 
     def _on_link(self, command: LinkStateCommand) -> None:
-        if command.link == BOARD_LINK:
-            self._is_arduino_connected = command.connected
+        if self.up.command_executor.origin.role is Role.BOARD:
+            self._is_board_connected = command.connected
 
     def _on_state(self, command: SystemStateCommand) -> None:
         self.state = command
@@ -69,7 +70,7 @@ class SystemStateProvider(BaseStartedModule):
                 utilization_percent=self.load_guard.cpu_utilization,
                 memory_percent=self.load_guard.ram,
                 providers=self._present_providers(),
-                arduino_connected=self._is_arduino_connected,
+                arduino_connected=self._is_board_connected,
                 mode=self.mode_monitor.shown,
             )
         )

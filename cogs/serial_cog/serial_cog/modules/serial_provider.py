@@ -12,7 +12,7 @@ from serial_cog.handlers import FrameHandler, FrameType, HandlerTable, type_byte
 from serial_cog.port_opener import Lister, PortOpener, list_ports
 from up.base_started_module import BaseStartedModule
 from up.commands.command_executor import owner_of
-from up.mode import WITH_ARDUINO
+from up.mode import WITH_BOARD
 from up.protocols.frame import UNFINISHED_TIMEOUT_S, Frame
 from up.protocols.framing import FrameDecoder, FrameEncoder, make_framing
 from up.protocols.serial_line import SerialLine
@@ -46,7 +46,7 @@ class SerialProvider(BaseStartedModule):
     """
 
     CONFIG = ARDUINO
-    MODES = WITH_ARDUINO
+    MODES = WITH_BOARD
     DATA_SOURCE = True
 
     def __init__(self, config: Any = None, silent: bool = False) -> None:

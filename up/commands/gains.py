@@ -89,7 +89,7 @@ def gain_set_from_data(data: Mapping[str, Any]) -> GainSet:
 
 
 def gain_set_to_data(gains: GainSet) -> dict[str, Any]:
-    """Return a set in the form of ``arduino.pids.values``, without rounding."""
+    """Return a set in the form of a PIDTuningsValuesCommand, without rounding."""
     data = {"ratePIDs": _loop_data(gains.rate), "stabPIDs": _loop_data(gains.stabilize)}
     if gains.navigation is not None:
         data["navPIDs"] = _loop_data(gains.navigation)

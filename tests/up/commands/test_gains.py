@@ -8,15 +8,15 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from up.commands.command import InvalidCommandError
-from up.commands.pid_tunings_commands import PIDTuningsCommand, PIDTuningsValuesCommand
-from up.commands.roles import Role
-from up.flight_controller.gains import (
+from up.commands.gains import (
     Gains,
     GainSet,
     LoopGains,
     gain_set_from_data,
     gain_set_to_data,
 )
+from up.commands.pid_tunings_commands import PIDTuningsCommand, PIDTuningsValuesCommand
+from up.commands.roles import Role
 
 LOOP = {
     "ailerons": {"p": 2.1, "i": 0.125, "d": 0.003},
