@@ -81,7 +81,6 @@ class ComparingLine:
         self.worst_deg: Errors = (0.0, 0.0)
 
     def read(self, timeout_s: float, most: int) -> bytes:
-        """Return a Start Command, once."""
         waiting, self._waiting = self._waiting, b""
         return waiting
 

@@ -166,7 +166,6 @@ def _all_axes(
     axes: Sequence[Axis],
     workers: Workers,
 ) -> tuple[GainSet, list[Path], bool]:
-    """Tune one axis after the other, each with the proposals for those before."""
     pictures: list[Path] = []
     is_good = True
     for axis in axes:

@@ -45,7 +45,6 @@ class Multisine:
 
     @property
     def frequencies_hz(self) -> list[float]:
-        """Return the frequencies in it."""
         return [cycle / self.period_s for cycle in self.cycles]
 
 

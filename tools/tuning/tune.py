@@ -80,7 +80,6 @@ class AxisTuning:
 
     @property
     def keeps_the_rules(self) -> bool:
-        """Return whether the proposal keeps all rules."""
         return not self.proposal.broken
 
 

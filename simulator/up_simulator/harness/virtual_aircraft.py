@@ -113,7 +113,6 @@ class VirtualAircraft:
     def _add_board(
         self, options: argparse.Namespace, airframe: Airframe, on_leave: Callable[[], None]
     ) -> Callable[[], None]:
-        """Build board, line and radio and return the object that runs them."""
         has_motor = airframe.has_motor and options.replay is None
         self._line = line = PtyLine(options.pty_link)
         board = make_board(options, airframe, self._log)
@@ -227,7 +226,6 @@ def _make_find(reactor: Any, options: argparse.Namespace) -> Callable[[], Awaita
 
 
 def _address_options(options: argparse.Namespace) -> list[str]:
-    """Return the virtual phone's options with Raspilot's addresses."""
     if options.runner:
         host, port = options.runner
         return ["--runner", f"{host}:{port}", "--aircraft", options.aircraft_name]

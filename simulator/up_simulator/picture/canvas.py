@@ -55,7 +55,6 @@ class Sheet:
         self._figure = figure
 
     def axes(self, left: float, top: float, width: float, height: float, **options: Any) -> Axes:
-        """Return new axes at a place."""
         paper_width, paper_height = self._figure.get_size_inches()
         place = (
             left / paper_width,
@@ -66,7 +65,6 @@ class Sheet:
         return self._figure.add_axes(place, **options)
 
     def text(self, left: float, top: float, words: str, **options: Any) -> None:
-        """Write words whose first line begins at a place."""
         paper_width, paper_height = self._figure.get_size_inches()
         options = {"va": "top", "ha": "left", **options}
         self._figure.text(left / paper_width, 1 - top / paper_height, words, **options)

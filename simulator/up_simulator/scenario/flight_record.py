@@ -25,7 +25,6 @@ class PendingCommand:
     answered_s: float | None = None
 
     def poll(self, ground: Ground, time_s: float) -> None:
-        """Store the answer if it has arrived."""
         if self.answer is None:
             self.answer = ground.answer(self.command_id)
             if self.answer is not None:

@@ -129,7 +129,6 @@ class DaemonParticipants(Participants, ABC):
         """Simulate this load of the Raspberry Pi; raises ParticipantError if impossible."""
 
     def start(self) -> None:
-        """Start the daemon, the ground station and, if it is plugged in, the phone."""
         self.raspilot.start()
         self._should_run = True
         if self.ground is not None:
@@ -151,7 +150,6 @@ class DaemonParticipants(Participants, ABC):
         return self.seconds() - self._ready_s >= SETTLING_S
 
     def dispatch(self, event: Event) -> None:
-        """Carry out an event that concerns the participants; raises ParticipantError."""
         phone = self.phone
         match event.kinds[0]:
             case "serial":
@@ -183,7 +181,6 @@ class DaemonParticipants(Participants, ABC):
         self.raspilot.kill()
 
     def terminate_raspilot(self) -> None:
-        """Send the daemon the signal to end, and do not wait for it."""
         self.raspilot.stop()
 
     def check_raspilot(self) -> None:

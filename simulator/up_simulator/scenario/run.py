@@ -197,7 +197,6 @@ def write_files(name: str, result: Result, output: Output, notify: Notify) -> Fi
 
 
 def _write_black_boxes(found: Mapping[str, bytes], folder: Path, files: Files) -> None:
-    """Keep a real daemon's recordings, and delete those of an earlier flight."""
     with suppress(OSError):
         for old in folder.glob("*.mcap"):
             old.unlink()

@@ -103,7 +103,6 @@ def _override(text: str) -> Override:
 
 
 def _fly(name: str, scenario: Scenario, options: argparse.Namespace) -> tuple[Result, bool]:
-    """Return the result, and whether all its files are written."""
     progress = ProgressLine(sys.stderr, is_shown=not options.quiet)
     try:
         result = fly_scenario(name, scenario, progress, _note, is_paced=options.speed == "real")
