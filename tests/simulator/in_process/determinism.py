@@ -9,7 +9,7 @@ import tempfile
 from pathlib import Path
 
 from tests.simulator.in_process.flying import CELLULAR, Flying
-from up_simulator.in_process.tcp_end import TcpEnd
+from up_simulator.in_process.tcp_connection import TcpConnection
 from up_simulator.link.model import LinkSettings
 from up_simulator.scenario.event import SerialNoise
 
@@ -20,13 +20,13 @@ NOISE = SerialNoise(3600, flipped_percent=0.2, inserted_percent=0.1, lost_percen
 def digests(folder, seed, duration_s=3.0):
     """Return the digests of the serial line, of all connections, and of the flight."""
     passed = hashlib.sha256()
-    write = TcpEnd.write
+    transmit = TcpConnection.transmit
 
-    def write_and_note(end, data):
+    def transmit_and_note(end, data):
         passed.update(b"%r %r\n" % (end._clock.seconds(), data))
-        write(end, data)
+        transmit(end, data)
 
-    TcpEnd.write = write_and_note
+    TcpConnection.transmit = transmit_and_note
     try:
         flying = Flying(folder, seed=seed, link=LOSSY, orientation="udp")
         flying.board.wires.set_noise(NOISE, 0.0)
@@ -43,7 +43,7 @@ def digests(folder, seed, duration_s=3.0):
         ended = repr((flying.state, flying.ground.telemetry, log))
         flying.raspilot.kill()
     finally:
-        TcpEnd.write = write
+        TcpConnection.transmit = transmit
     return (
         flying.board.digest.hexdigest(),
         passed.hexdigest(),
