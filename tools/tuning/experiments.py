@@ -177,7 +177,7 @@ def measure_loop(
     actuators.on_step = on_step
     recording = trial.fly(multisine.period_s * periods, sample_s=0.1)
     if trial.dynamics.crash is not None:
-        raise MarginsError(f"the aircraft {trial.dynamics.crash}")
+        raise MarginsError(f"the aircraft {trial.dynamics.crash}", "crashed")
     speed_m_s = fmean(recording["truth.airspeed_m_s"])
     return loop_response(given, moved, multisine, STEP_S), speed_m_s
 

@@ -101,7 +101,7 @@ def draw_log_steps(
     """Draw every step that was found in a log. Raises ``PictureError``."""
     shown = list(steps)[:MAX_CELLS]
     if not shown:
-        raise PictureError(f"{path}: no picture: no step to draw")
+        raise PictureError(f"{path}: no picture: no step to draw", "no_step")
     times_s = log.numbers("time_s")
     rows = math.ceil(len(shown) / COLUMNS)
     with sheet_for(path) as sheet:

@@ -153,7 +153,7 @@ class _FoundEndpoint:
         try:
             host, port = await self._find()
         except NotFoundError as error:
-            self._log(f"{error}; trying again", code="phone_not_found")
+            self._log(f"{error}; trying again", code="phone_not_found", reason=str(error))
             raise
         endpoint = TCP4ClientEndpoint(self._reactor, host, port, timeout=CONNECT_S)
         try:

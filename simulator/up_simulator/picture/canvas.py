@@ -8,6 +8,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from up.errors import UserError
 from up_simulator.picture.palette import GRID, INK, MUTED, PAPER
 
 if TYPE_CHECKING:
@@ -44,8 +45,8 @@ _STYLE: dict[str, Any] = {
 }
 
 
-class PictureError(Exception):
-    """A picture cannot be drawn: the message is one sentence for the user."""
+class PictureError(UserError):
+    """A picture cannot be drawn."""
 
 
 class Sheet:
@@ -90,14 +91,15 @@ def sheet_for(path: Path) -> Iterator[Sheet]:
     """
     suffix = path.suffix.lower()
     if suffix not in SUFFIXES:
-        raise PictureError(f"{path}: a picture ends in .png or .svg")
+        raise PictureError(f"{path}: a picture ends in .png or .svg", "unknown_format")
     try:
         matplotlib = importlib.import_module("matplotlib")
         figures = importlib.import_module("matplotlib.figure")
         agg = importlib.import_module("matplotlib.backends.backend_agg")
     except ImportError as error:
         raise PictureError(
-            "no picture: matplotlib is not installed; pip install -e '.[sim]' brings it"
+            "no picture: matplotlib is not installed; pip install -e '.[sim]' brings it",
+            "no_matplotlib",
         ) from error
     with matplotlib.rc_context():
         matplotlib.rcdefaults()
@@ -113,4 +115,5 @@ def sheet_for(path: Path) -> Iterator[Sheet]:
             with contextlib.suppress(OSError):
                 path.unlink()
             reason = error.strerror or error
-            raise PictureError(f"{path}: the picture cannot be written: {reason}") from error
+            text = f"{path}: the picture cannot be written: {reason}"
+            raise PictureError(text, "not_writable") from error

@@ -63,13 +63,13 @@ def test_panels_without_data_are_left_out(tmp_path):
     assert "Roll" in written
     for missing in ("Pitch", "Sticks", "Servo pulses", "Load factor", "estimate", "demand"):
         assert missing not in written
-    assert "the log has no positions" in written
+    assert "Track" not in written
 
 
 def test_marks_given_take_the_place_of_the_events(flight, tmp_path):
     written = words(svg(flight, tmp_path, marks=[Mark(3, "IMU unplugged", is_fault=True)]))
     assert "IMU unplugged" in written
-    assert "gust from the left" not in written
+    assert "phone unplugged" not in written
 
 
 def test_a_failed_expectation_is_shaded_on_its_signal(flight, tmp_path):
@@ -111,34 +111,37 @@ def test_a_long_flight_keeps_its_peaks_and_stays_small(tmp_path):
 
 @pytest.mark.parametrize("name", ["flight.jpg", "flight", "flight.pdf"])
 def test_another_ending_is_refused(flight, tmp_path, name):
-    with pytest.raises(PictureError, match=r"ends in .png or .svg"):
+    with pytest.raises(PictureError) as raised:
         draw_flight(flight, tmp_path / name)
+    assert raised.value.code == "unknown_format"
 
 
 def test_an_unwritable_path_is_refused(flight, tmp_path):
-    with pytest.raises(PictureError, match="cannot be written: No such file") as raised:
+    with pytest.raises(PictureError) as raised:
         draw_flight(flight, tmp_path / "nowhere" / "flight.png")
-    assert "\n" not in str(raised.value)
+    assert raised.value.code == "not_writable" and "\n" not in str(raised.value)
 
 
 def test_a_log_with_nothing_to_draw_is_refused(tmp_path):
     empty = FlightLog(COLUMNS)
-    with pytest.raises(PictureError, match="a log with 0 rows"):
+    with pytest.raises(PictureError) as raised:
         draw_flight(empty, tmp_path / "flight.png")
+    assert raised.value.code == "too_short"
     other = FlightLog(["time_s", "board.loop_us"])
     for row in range(3):
         other.append({"time_s": row, "board.loop_us": 2000})
-    with pytest.raises(PictureError, match="no signal"):
+    with pytest.raises(PictureError) as raised:
         draw_flight(other, tmp_path / "flight.png")
+    assert raised.value.code == "no_signal"
 
 
 def test_without_matplotlib_the_error_names_the_package(flight, tmp_path, monkeypatch):
     for name in [each for each in sys.modules if each.partition(".")[0] == "matplotlib"]:
         monkeypatch.delitem(sys.modules, name)
     monkeypatch.setitem(sys.modules, "matplotlib", None)
-    with pytest.raises(PictureError, match=r"pip install -e '.\[sim\]'") as raised:
+    with pytest.raises(PictureError) as raised:
         draw_flight(flight, tmp_path / "flight.png")
-    assert "\n" not in str(raised.value)
+    assert raised.value.code == "no_matplotlib" and "\n" not in str(raised.value)
     assert not (tmp_path / "flight.png").exists()
 
 

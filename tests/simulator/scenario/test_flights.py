@@ -84,7 +84,7 @@ def test_a_crash_ends_the_flight_and_the_log():
     text = HEAD + "start: {height_m: 10, pitch_deg: -60, airspeed_m_s: 15}\n"
     record = fly(text + "sticks: [{at_s: 0, mode: ACRO}]\n" + HELD.replace("error", "truth"))
     assert record.crash and record.crash_s is not None and record.crash_s < 3.0
-    assert [verdict.name for verdict in not_held(record)] == ["It is held", "It does not crash"]
+    assert [verdict.code for verdict in not_held(record)] == ["flight_ended", "crashed"]
     assert record.log.numbers("truth.crashed")[-1] == 1.0
     # The log ends with the flight.
     assert abs(record.log.numbers("time_s")[-1] - record.crash_s) < 0.021
