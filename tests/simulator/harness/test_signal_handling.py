@@ -120,7 +120,7 @@ def left(folder):
     return [path.name for path in (folder / "tmp").iterdir()]
 
 
-@pytest.mark.parametrize("number", ENDS)
+@pytest.mark.parametrize("number", [signal.SIGTERM])
 def test_a_flight_ends_with_its_report_and_the_signals_status(in_a_folder, number):
     Path("long.yml").write_text(LONG)
     own, other = pty.openpty()
@@ -180,17 +180,6 @@ def test_a_closed_terminal_ends_a_flight_with_its_report_in_the_file(in_a_folder
         os.close(own)
         assert process.wait(LIMIT_S) == 128 + signal.SIGHUP
     assert "interrupted" in (in_a_folder / "run/flights/one/report.txt").read_text()
-
-
-def test_a_closed_terminal_ends_all_flights(in_a_folder):
-    Path("one.yml").write_text(LONG)
-    own, other = pty.openpty()
-    with program(in_a_folder, "all", code=CATALOGUE, **on_its_terminal(other)) as process:
-        os.close(other)
-        wait(lambda: flights(in_a_folder), "a flight")
-        os.close(own)
-        assert process.wait(LIMIT_S) == 128 + signal.SIGHUP
-        wait(lambda: not ours(in_a_folder), "the end of the flight")
 
 
 def test_a_frozen_daemon_ends_with_a_killed_flight(in_a_folder):
