@@ -136,7 +136,7 @@ def test_a_flight_ends_with_its_report_and_the_signals_status(in_a_folder, numbe
     assert (in_a_folder / "run/flights/long/log.csv").is_file()
 
 
-@pytest.mark.parametrize("number", ENDS)
+@pytest.mark.parametrize("number", [signal.SIGHUP])
 def test_real_programs_and_their_folder_end_with_the_flight(in_a_folder, number):
     Path("real.yml").write_text(WITH_DAEMON)
     with program(in_a_folder, "fly", "real.yml", "--no-picture") as process:
@@ -151,7 +151,7 @@ def test_real_programs_and_their_folder_end_with_the_flight(in_a_folder, number)
     assert left(in_a_folder) == []
 
 
-@pytest.mark.parametrize("number", [*ENDS, signal.SIGKILL])
+@pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGKILL])
 def test_all_ends_its_flights(in_a_folder, number):
     Path("one.yml").write_text(LONG)
     Path("two.yml").write_text(LONG)
@@ -209,7 +209,7 @@ def test_the_folder_of_a_killed_flight_is_removed_by_the_next(in_a_folder):
     assert left(in_a_folder) == [other.name]
 
 
-@pytest.mark.parametrize("number", [signal.SIGINT, *ENDS, signal.SIGKILL])
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGKILL])
 def test_tuning_ends_its_workers(in_a_folder, number):
     with program(in_a_folder, "tune", "--quick", "--axis", "roll") as process:
         # Itself, what watches its semaphores, and two workers.
@@ -253,7 +253,7 @@ def test_an_aircraft_started_with_nohup_ignores_the_hangup(in_a_folder, module):
     assert left(in_a_folder) == []
 
 
-@pytest.mark.parametrize("number", [signal.SIGINT, *ENDS, signal.SIGKILL])
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGKILL])
 def test_the_demo_ends_all_its_processes(in_a_folder, number):
     words = ("--any-ports", "--no-watch", "--folder", str(in_a_folder))
     with program(in_a_folder, "-m", "up_simulator.demo", *words, python=True) as process:

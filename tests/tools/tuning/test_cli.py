@@ -6,7 +6,6 @@ import sys
 import pytest
 
 from tests.simulator.picture.flights import made_up
-from tools.tuning import response_picture
 from up.flight_controller.pids_file import PIDS
 from up_simulator.cli import main
 
@@ -124,4 +123,3 @@ def test_the_picture_of_a_log_is_the_same_each_time(log, tmp_path):
         assert tune("--log", log, "--pictures", tmp_path / name) == 0
         pictures += [each.read_bytes() for each in (tmp_path / name).iterdir()]
     assert pictures[0] == pictures[1]
-    assert response_picture.MAX_CELLS >= 4
