@@ -120,6 +120,7 @@ class InProcessGround:
         return self._newest_s
 
     def take_latency_s(self) -> float | None:
+        """Return the maximum age of the data since the last call, otherwise the newest frame's."""
         max_s, self._max_age_s = self._max_age_s, None
         found_s = self._newest_age_s if max_s is None else max_s
         return None if found_s == math.inf else found_s
@@ -154,6 +155,7 @@ class InProcessGround:
         return command_id
 
     def answer(self, command_id: str) -> str | None:
+        """Return None without an answer, an empty text for an ack, a nack's reason."""
         return self._answers.get(command_id)
 
     def on_message(self, message: GeneralMessage) -> None:

@@ -6,7 +6,6 @@ import pty
 import signal
 import subprocess
 import sys
-import time
 from pathlib import Path
 
 import pytest
@@ -200,13 +199,6 @@ def test_a_new_scenario_that_cannot_be_written_is_removed(in_a_folder):
     assert done.returncode == 1
     assert "first-flight.yml" in done.stderr and done.stderr.count("\n") == 1
     assert list(in_a_folder.iterdir()) == []
-
-
-def test_real_speed_is_at_most_real_time():
-    build_firmware()
-    began_s = time.monotonic()
-    assert main(["fly", write("good.yml", GOOD), "--speed", "real", "--no-picture"]) == 0
-    assert time.monotonic() - began_s >= 0.98
 
 
 def test_ctrl_c_ends_with_a_partial_report():
