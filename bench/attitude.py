@@ -1,11 +1,7 @@
-"""How far the firmware's attitude is from the truth, with the gyro errors that each seed draws.
-
-``python -m bench.attitude --help`` flies other flights than the table's.
-"""
+"""How far the firmware's attitude is from the truth, with the gyro errors that each seed draws."""
 
 from __future__ import annotations
 
-import argparse
 import math
 import random
 from collections.abc import Iterable
@@ -81,7 +77,6 @@ class ComparingLine:
         self.worst_deg: Errors = (0.0, 0.0)
 
     def read(self, timeout_s: float, most: int) -> bytes:
-        """Return a Start Command, once."""
         waiting, self._waiting = self._waiting, b""
         return waiting
 
@@ -130,29 +125,5 @@ def fly(
     return found
 
 
-def main() -> None:
-    """Fly the requested flights and print the worst errors, also those of each minute."""
-    parser = argparse.ArgumentParser(prog="python -m bench.attitude", description=__doc__)
-    parser.add_argument("--flights", type=int, default=FLIGHTS)
-    parser.add_argument("--minutes", type=int, default=MINUTES)
-    parser.add_argument("--first", type=int, default=1, metavar="SEED", help="of the first flight")
-    parser.add_argument("--starved", action="store_true", help="hold the process up at times")
-    parser.add_argument("--no-errors", action="store_true", help="of the gyro, but its noise")
-    options = parser.parse_args()
-    errors = ImuErrors() if options.no_errors else None
-    seeds = range(options.first, options.first + options.flights)
-    flights = [(seed, options.minutes, options.starved, errors) for seed in seeds]
-    with Workers(MAX_PROCESSES) as workers:
-        found = workers.fly(fly, flights)
-    for seed, flight in zip(seeds, found, strict=True):
-        minutes = " ".join(f"{roll_deg:.1f}/{pitch_deg:.1f}" for roll_deg, pitch_deg in flight)
-        print(f"seed {seed:3}  worst {_text(worst(flight))}  {minutes}")
-    print(f"all       worst {_text(worst(each for flight in found for each in flight))}")
-
-
 def _text(errors_deg: Errors) -> str:
     return f"roll {errors_deg[0]:.2f}, pitch {errors_deg[1]:.2f} deg"
-
-
-if __name__ == "__main__":
-    main()

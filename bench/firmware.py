@@ -157,7 +157,6 @@ class Flight:
         return Following(tuple(latencies), tuple(errors))
 
     def jitter_us(self, channel: str) -> float:
-        """Return the standard deviation of a channel's pulse widths, us."""
         return statistics.pstdev(each.width_us for each in self.rig.servo.pulses(channel))
 
 

@@ -156,6 +156,7 @@ def python(status: Status) -> str:
         f"VERSION = {status.version}", f"STATUS = Struct({status.format!r})",
         f"ALARM_HOLD_S = {status.alarm_hold_s}",
         f"FLIGHT_MODES = { {m.letter: m.name for m in status.modes if m.flown} }",
+        f"MODE_TEXTS = { {m.name: m.about for m in status.modes if m.flown} }",
         f"SWITCH_MODES = { {m.letter: m.name for m in status.modes if m.switch} }",
         f"SWITCH_POSITIONS = {positions}",
         f"VETOES = {tuple(each.text for each in status.bits['vetoes'])}",

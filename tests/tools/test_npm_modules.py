@@ -58,7 +58,7 @@ def machine(tmp_path):
 
 def test_npm_installs_what_the_lock_file_names_and_runs_nothing_of_it(machine):
     status, said = machine.set_up()
-    assert (status, said) == (0, f"Installing the modules of {machine.modules} ...")
+    assert status == 0 and str(machine.modules) in said and "\n" not in said
     assert len(machine.calls) == 1
     assert machine.calls[0].startswith("ci --ignore-scripts")
 
@@ -75,18 +75,13 @@ def test_it_does_so_once_until_the_lock_file_changes(machine):
 def test_without_npm_it_names_the_package(machine):
     machine.npm.unlink()
     status, said = machine.set_up()
-    assert status == 1
-    assert said.startswith("npm is not installed (Debian packages nodejs and npm)")
+    assert status == 3 and "nodejs" in said and "\n" not in said
 
 
 def test_a_network_that_is_down_is_one_sentence_and_leaves_no_stamp(machine):
     (machine.folder / "fault").write_text("npm error code ENOTFOUND\nnpm error syscall\n")
     status, said = machine.set_up()
-    assert status == 1
-    assert said.splitlines()[1:] == [
-        f"The modules of {machine.modules} need the network the first time, and npm's registry "
-        "cannot be reached."
-    ]
+    assert status == 4 and said.count("\n") == 1 and "ENOTFOUND" not in said
     (machine.folder / "fault").unlink()
     assert machine.set_up()[0] == 0
     assert len(machine.calls) == 2
@@ -95,5 +90,4 @@ def test_a_network_that_is_down_is_one_sentence_and_leaves_no_stamp(machine):
 def test_any_other_fault_is_told_in_npm_s_words(machine):
     (machine.folder / "fault").write_text("npm error code EINTEGRITY\n")
     status, said = machine.set_up()
-    assert status == 1
-    assert said.splitlines()[1:] == ["npm error code EINTEGRITY"]
+    assert status == 1 and said.endswith("EINTEGRITY")

@@ -29,7 +29,6 @@ class Mix:
         ]
 
     def axes(self, pulses_us: Pulses) -> dict[Axis, float]:
-        """Return the deflections of roll, pitch and yaw."""
         first, second, _, fourth = (
             sign * (pulse - NEUTRAL_US) for sign, pulse in zip(self._signs, pulses_us, strict=True)
         )
@@ -40,7 +39,6 @@ class Mix:
         return {"roll": first, "pitch": second, "yaw": fourth}
 
     def pulses(self, axes: Mapping[Axis, float], throttle_us: float) -> Pulses:
-        """Return the pulses for deflections."""
         roll, pitch, yaw = axes["roll"], axes["pitch"], axes["yaw"]
         if self._mix == "elevon":
             moves = (pitch - roll, pitch + roll, yaw)
@@ -76,26 +74,21 @@ class Actuators:
 
     @property
     def time_s(self) -> float:
-        """Return the time since the first step."""
         return self._steps * STEP_S
 
     @property
     def state(self) -> FlightState:
-        """Return the newest state."""
         return self.dynamics.state
 
     @property
     def motion(self) -> Motion:
-        """Return the present motion for the IMU."""
         return self.dynamics.motion
 
     @property
     def crash(self) -> str | None:
-        """Return the cause of the flight's end."""
         return self.dynamics.crash
 
     def set_servos(self, pulses_us: Pulses) -> None:
-        """Take the board's pulses of this step."""
         self._waiting.append(pulses_us)
         while len(self._waiting) > round(self.delay_s / STEP_S) + 1:
             self._waiting.popleft()
@@ -110,6 +103,5 @@ class Actuators:
             self.on_step(arriving, moved)
 
     def advance(self, duration_s: float) -> None:
-        """Fly on."""
         self._steps += 1
         self.dynamics.advance(duration_s)

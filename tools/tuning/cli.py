@@ -21,7 +21,7 @@ from tools.tuning.gain_set import (
 )
 from tools.tuning.log_steps import LogStepsError, steps_of
 from tools.tuning.report import log_lines, rough_lines, rules_lines, tuning_lines, yaw_lines
-from tools.tuning.response_picture import draw_log_steps, draw_tuning
+from tools.tuning.response_picture import draw_tuning
 from tools.tuning.trial import TrialError
 from tools.tuning.tune import TuneError, try_rough_air, tune_axis, tune_yaw
 from tools.tuning.workers import MAX_PROCESSES, Workers
@@ -35,7 +35,7 @@ from up_simulator.firmware.board import BoardCrashedError
 from up_simulator.firmware.build import BoardUnavailableError
 from up_simulator.firmware.preparation import PreparationError
 from up_simulator.firmware.settings_wire import SettingsError
-from up_simulator.picture.canvas import PictureError
+from up_simulator.picture.flight_picture import Mark, PictureError, draw_flight
 from up_simulator.scenario.log import LogError, read_log
 from up_simulator.scenario.run import try_folder
 from up_simulator.verbs.catalogue import HELD, NOT_HELD, UsageError
@@ -166,7 +166,6 @@ def _all_axes(
     axes: Sequence[Axis],
     workers: Workers,
 ) -> tuple[GainSet, list[Path], bool]:
-    """Tune one axis after the other, each with the proposals for those before."""
     pictures: list[Path] = []
     is_good = True
     for axis in axes:
@@ -202,7 +201,13 @@ def _look_at_log(options: argparse.Namespace) -> int:
     for line in log_lines(steps):
         _out(line)
     path = options.pictures / f"{options.log.resolve().parent.name}-{options.log.stem}-steps.png"
-    draw = partial(draw_log_steps, log, steps, title="Steps of a flight", subtitle=str(options.log))
+    marks = [
+        Mark(step.at_s, f"{step.axis} {step.mode} {step.start:.0f} to {step.end:.0f} {step.unit}")
+        for step in steps
+    ]
+    draw = partial(
+        draw_flight, log, title="Steps of a flight", subtitle=str(options.log), marks=marks
+    )
     if _is_drawn(draw, path):
         _out(f"picture: {path}")
     return HELD

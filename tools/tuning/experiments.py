@@ -34,7 +34,6 @@ class Bench:
     seed: int = 1
 
     def trial(self, gains: GainSet, weather: Weather | None = None, seed: int = 0) -> Trial:
-        """Return a trial that is in the air."""
         return Trial(
             self.airframe, gains, board=self.board, weather=weather, seed=seed or self.seed
         )
@@ -51,18 +50,15 @@ class StepPlan:
 
     @property
     def signal(self) -> str:
-        """Return the column that follows."""
         suffix = "deg" if self.mode == "FBW" else "rate_deg_s"
         return f"truth.{self.axis}_{suffix}"
 
     @property
     def unit(self) -> str:
-        """Return the unit of the demands."""
         return "deg" if self.mode == "FBW" else "deg/s"
 
     @property
     def duration_s(self) -> float:
-        """Return how long the flight takes."""
         return SETTLE_S + self.hold_s * len(self.demands)
 
 
@@ -86,7 +82,6 @@ class FlownSteps:
 
     @property
     def crash(self) -> str | None:
-        """Return the cause of the flight's end."""
         return self.recording.crash
 
     @property
@@ -101,7 +96,6 @@ class FlownSteps:
 
     @property
     def overshoot_percent(self) -> float:
-        """Return the mean overshoot."""
         return fmean([each.overshoot_percent for each in self.responses] or [math.inf])
 
     @property
@@ -183,7 +177,7 @@ def measure_loop(
     actuators.on_step = on_step
     recording = trial.fly(multisine.period_s * periods, sample_s=0.1)
     if trial.dynamics.crash is not None:
-        raise MarginsError(f"the aircraft {trial.dynamics.crash}")
+        raise MarginsError(f"the aircraft {trial.dynamics.crash}", "crashed")
     speed_m_s = fmean(recording["truth.airspeed_m_s"])
     return loop_response(given, moved, multisine, STEP_S), speed_m_s
 

@@ -23,7 +23,6 @@ class AxisGains:
     stabilize: Gains
 
     def __str__(self) -> str:
-        """Return them in a few characters."""
         return f"rate {_short(self.rate)} stabilize {_short(self.stabilize)}"
 
 

@@ -9,14 +9,16 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from statistics import fmean
 
+from up.errors import UserError
+
 MAX_SPREAD = 0.35
 """The periods of a measurement agree within this part, or the frequency is left out."""
 MAX_OWN_SHARE = 0.7
 """A servo that moves more than this part at unexcited frequencies oscillates on its own."""
 
 
-class MarginsError(ValueError):
-    """The loop cannot be judged from this: the message is one sentence with the reason."""
+class MarginsError(UserError):
+    """The loop cannot be judged from this."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,7 +47,6 @@ class Multisine:
 
     @property
     def frequencies_hz(self) -> list[float]:
-        """Return the frequencies in it."""
         return [cycle / self.period_s for cycle in self.cycles]
 
 
@@ -70,10 +71,11 @@ def loop_response(
     period = round(multisine.period_s / step_s)
     periods = len(moved) // period
     if periods < 3 or len(given) != len(moved):
-        raise MarginsError("three whole periods of excitation are needed to measure a loop")
+        text = "three whole periods of excitation are needed to measure a loop"
+        raise MarginsError(text, "too_short")
     last = slice((periods - 1) * period, periods * period)
     if _own_share(_level(moved[last], _slope(moved, last)), multisine) > MAX_OWN_SHARE:
-        raise MarginsError("the loop oscillates, or the air is rough")
+        raise MarginsError("the loop oscillates, or the air is rough", "oscillates")
     parts = [slice(number * period, (number + 1) * period) for number in range(1, periods)]
     came_level = [_level(given[part], _slope(given, part)) for part in parts]
     went_level = [_level(moved[part], _slope(moved, part)) for part in parts]
@@ -85,16 +87,17 @@ def loop_response(
             for came, went_in in zip(came_level, went_level, strict=True)
         ]
         if any(abs(went_in) < 1e-9 for _, went_in in pairs):
-            raise MarginsError(f"the servos were not moved at {frequency_hz:g} Hz")
+            raise MarginsError(f"the servos were not moved at {frequency_hz:g} Hz", "not_excited")
         single = [-came / went_in for came, went_in in pairs]
         mean = -sum(came for came, _ in pairs) / sum(went_in for _, went_in in pairs)
         spread = max(abs(each - mean) for each in single) / max(abs(mean), 1e-9)
         if spread <= MAX_SPREAD:
             points.append(LoopPoint(frequency_hz, mean))
     if all(abs(point.response) < 1e-6 for point in points):
-        raise MarginsError("nothing comes back: the axis has no gains, or no servo")
+        raise MarginsError("no response: the axis has no gains, or no servo", "no_response")
     if len(points) < len(multisine.cycles) / 2:
-        raise MarginsError("the loop cannot be measured: the air or the flight is too rough")
+        text = "the loop cannot be measured: the air or the flight is too rough"
+        raise MarginsError(text, "too_rough")
     return points
 
 
@@ -160,7 +163,8 @@ def margins_of(points: Sequence[LoopPoint]) -> Margins:
     Between two points logarithm of size and phase go straight. Raises ``MarginsError``.
     """
     if len(points) < 4:
-        raise MarginsError(f"{len(points)} frequencies are too few to judge a loop by")
+        text = f"{len(points)} frequencies are too few to judge a loop by"
+        raise MarginsError(text, "too_few_points")
     fine = list(_between(points))
     gain_db, gain_hz = None, None
     phase_deg, phase_hz, delay_ms = None, None, None

@@ -51,13 +51,11 @@ class Recording:
     crash: str | None = None
 
     def add(self, time_s: float, **values: float) -> None:
-        """Take a row."""
         self.times_s.append(time_s)
         for name, value in values.items():
             self.columns.setdefault(name, []).append(value)
 
     def __getitem__(self, column: str) -> list[float]:
-        """Return a column."""
         return self.columns[column]
 
 

@@ -20,6 +20,7 @@ from tools.tuning.gain_set import Axis, AxisGains, axis_gains, with_axis
 from tools.tuning.margins import Margins
 from tools.tuning.workers import Workers
 from up.commands.gains import Gains, GainSet
+from up.errors import UserError
 from up_simulator.aircraft import Weather
 from up_simulator.harness.user_log import Log, no_log
 
@@ -43,8 +44,8 @@ HALF = 0.5
 ROUGH_S = 15.0
 
 
-class TuneError(Exception):
-    """No gains can be proposed: the message is one sentence."""
+class TuneError(UserError):
+    """No gains can be proposed."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -80,7 +81,6 @@ class AxisTuning:
 
     @property
     def keeps_the_rules(self) -> bool:
-        """Return whether the proposal keeps all rules."""
         return not self.proposal.broken
 
 
@@ -116,7 +116,7 @@ def tune_axis(
         if not _broken_margins(rules, *_margins(cruise, dive, each))
     ]
     if not tried:
-        raise TuneError(f"{axis}: no gains keep the margins, whatever they are")
+        raise TuneError(f"{axis}: no gains keep the margins, whatever they are", "no_margins")
     log(f"{axis}: {len(tried)} sets of gains keep their margins; flying steps with each")
     candidates = _fly(bench, gains, axis, tried, (cruise, dive), rules, workers)
     best = choose(candidates)
@@ -235,7 +235,7 @@ def measure_loops(
         else:
             reason = next(each for each in (cruise, dive) if isinstance(each, str))
         own = AxisGains(Gains(own.rate.p / 2), own.stabilize)
-    raise TuneError(f"{axis}: {reason}")
+    raise TuneError(f"{axis}: {reason}", "not_measurable")
 
 
 def _grid(cruise: Loop, dive: Loop, rules: Rules, is_quick: bool) -> list[AxisGains]:

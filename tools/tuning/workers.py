@@ -37,7 +37,6 @@ class Workers:
             )
 
     def __enter__(self) -> Workers:
-        """Return itself."""
         return self
 
     def __exit__(

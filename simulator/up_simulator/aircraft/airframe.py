@@ -146,7 +146,6 @@ def _path_of(name_or_path: str | Path) -> Path:
 
 
 def _without_nulls(values: dict[str, Any]) -> dict[str, Any]:
-    """Return a nested map without its null values."""
     kept = {
         name: _without_nulls(value) if isinstance(value, dict) else value
         for name, value in values.items()

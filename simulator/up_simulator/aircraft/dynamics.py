@@ -101,21 +101,18 @@ class FlightDynamics:
 
     @property
     def state(self) -> FlightState:
-        """Return the state after the newest step."""
         if self._state is None:
             self._state = self._read_state()
         return self._state
 
     @property
     def motion(self) -> Motion:
-        """Return the motion at the airframe's place of the IMU."""
         if self._motion is None:
             self._motion = self._feel()
         return self._motion
 
     @property
     def servos(self) -> Servos:
-        """Return the servo positions, us."""
         return self._servos.rounded_us
 
     def set_servos(self, pulses_us: tuple[float, float, float, float]) -> None:
@@ -130,7 +127,6 @@ class FlightDynamics:
             self.step()
 
     def step(self) -> None:
-        """Fly one step of 2 ms."""
         self._steps += 1
         self._state = None
         if self.crash is not None:

@@ -42,7 +42,6 @@ class Battery:
 
     @property
     def percent(self) -> float:
-        """Return the state of charge, percent."""
         return 100 * self._left_c / self._capacity_c
 
     @property
@@ -102,7 +101,6 @@ class Motor:
         return self.thrust_n
 
     def _advance(self, throttle: float, airspeed_m_s: float, duration_s: float) -> float:
-        """Return the current that the battery gives, A."""
         turns = self._turns
         if turns * 60 < _OFF_RPM and (throttle < _IDLE or self._battery.is_empty):
             self._turns = self.thrust_n = 0.0

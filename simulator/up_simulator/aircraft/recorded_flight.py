@@ -53,28 +53,23 @@ class RecordedFlight:
 
     @property
     def state(self) -> FlightState:
-        """Return the state at the time flown so far."""
         return self._state
 
     @property
     def servos(self) -> Servos:
-        """Return the last commanded pulses, us."""
         return self._servos
 
     @property
     def crash(self) -> str | None:
-        """Return None."""
         return None
 
     @property
     def motion(self) -> Motion:
-        """Return an IMU's motion at this attitude."""
         state = self._state
         rates = (state.roll_rate_deg_s, state.pitch_rate_deg_s, state.yaw_rate_deg_s)
         return motion_at(state.roll_deg, state.pitch_deg, rates)
 
     def set_servos(self, pulses_us: tuple[float, float, float, float]) -> None:
-        """Store the pulses."""
         ailerons, elevator, throttle, rudder = (round(each) for each in pulses_us)
         self._servos = (ailerons, elevator, throttle, rudder)
 
@@ -85,7 +80,6 @@ class RecordedFlight:
         """Do nothing: it has none."""
 
     def advance(self, duration_s: float) -> None:
-        """Play on for ``duration_s``."""
         self._time_s += duration_s
         rounds, phase_s = divmod(self._time_s, self._round_s)
         state = self._at(phase_s)
@@ -195,5 +189,4 @@ class StateLog:
         self._file.write(",".join([*values, *map(str, servos_us)]) + "\n")
 
     def close(self) -> None:
-        """Close the file."""
         self._file.close()

@@ -38,7 +38,6 @@ class ServoRack:
         self._target_us = pulses_us
 
     def jump(self, pulses_us: tuple[float, float, float, float]) -> None:
-        """Put the servos at these pulses immediately."""
         self._target_us = pulses_us
         self._arms_us[:] = pulses_us
         self.positions_us[:] = pulses_us
@@ -68,6 +67,5 @@ class ServoRack:
 
     @property
     def rounded_us(self) -> Servos:
-        """Return their positions, in whole us."""
         ailerons, elevator, throttle, rudder = (round(each) for each in self.positions_us)
         return ailerons, elevator, throttle, rudder

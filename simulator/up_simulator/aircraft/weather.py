@@ -69,7 +69,6 @@ class Air:
             fdm["atmosphere/turbulence/milspec/severity"] = severity
 
     def apply(self, time_s: float) -> None:
-        """Set the gusts at this time."""
         if time_s > self._end_s and not self._is_blowing:
             return
         totals = [0.0, 0.0, 0.0]

@@ -17,6 +17,7 @@ from pathlib import Path
 
 from up.cli.option_parser import EXIT_USAGE as WRONG_INPUT
 from up.cli.option_parser import OptionParser
+from up_ground.web.listen_address import parse_listen
 from up_simulator.aircraft import AirframeError, airframe_names
 from up_simulator.demo.flight import DemoFlight
 from up_simulator.harness.participants import ParticipantError
@@ -26,6 +27,8 @@ from up_simulator.harness.start_options import (
     BOARDS,
     TURBULENCE,
     link_settings,
+    new_file,
+    recording,
     wind_m_s,
 )
 from up_simulator.harness.user_log import print_line
@@ -147,11 +150,12 @@ def _options(arguments: Sequence[str] | None) -> argparse.Namespace:
     parser.add_argument("--no-page", action="store_true", help="no ground station for a browser")
     parser.add_argument(
         "--page",
+        type=_text_of(parse_listen),
         metavar="ADDRESS:PORT",
         help="where the ground station for a browser listens; default 127.0.0.1:8080",
     )
-    parser.add_argument("--replay", type=Path, help="fly a recorded flight, not the model")
-    parser.add_argument("--state-log", type=Path, help="write the true state there, as CSV")
+    parser.add_argument("--replay", type=recording, help="fly a recorded flight, not the model")
+    parser.add_argument("--state-log", type=new_file, help="write the true state there, as CSV")
     parser.add_argument("--any-ports", action="store_true", help="do not try the usual ports")
     options: argparse.Namespace = parser.parse_args(arguments)
     return options
@@ -161,7 +165,10 @@ def _text_of(read: Callable[[str], object]) -> Callable[[str], str]:
     """Return a parser that keeps a text unchanged, after a check by the aircraft's own parser."""
 
     def check(text: str) -> str:
-        read(text)
+        try:
+            read(text)
+        except ValueError as error:
+            raise argparse.ArgumentTypeError(str(error)) from error
         return text
 
     return check

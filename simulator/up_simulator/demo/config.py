@@ -56,7 +56,6 @@ def write_config(
 
 
 def _quoted(path: Path) -> str:
-    """Return a path as a text of YAML, whatever signs it has."""
     return json.dumps(str(path), ensure_ascii=False)
 
 

@@ -88,7 +88,6 @@ class DemoFlight:
             log(line)
 
     def watch(self) -> None:
-        """Show the ground station and report events, until the time is over."""
         options = self._options
         end_s = None if options.seconds is None else time.monotonic() + options.seconds
         screen: Child | None = None
@@ -154,7 +153,6 @@ class DemoFlight:
         )
 
     def _log_part(self, line: LogLine) -> None:
-        """Print a line of the aircraft about one of its parts."""
         if line.code not in UNPRINTED and not line.code.startswith("phone"):
             self._log(f"  aircraft   {line.text}")
 
@@ -197,7 +195,6 @@ class DemoFlight:
 
     @property
     def _screen(self) -> str:
-        """Return the purpose of this terminal."""
         return "keyboard radio" if self._options.radio == "keyboard" else "ground station"
 
     def _open_screen(self) -> Child:
@@ -221,7 +218,6 @@ class DemoFlight:
         self._log(f"{why}The flight continues. Enter: the {self._screen} again; Ctrl-C: stop all.")
 
     def _log_news(self, aircraft: Child) -> None:
-        """Print the aircraft's new lines that matter to the user."""
         for text in self._news.select(aircraft.new_lines()):
             self._log(f"aircraft: {text}")
 

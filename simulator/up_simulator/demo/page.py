@@ -41,8 +41,8 @@ class Page:
         status = self.child.poll()
         if status is None:
             return f"no address within {LIMIT_S:.0f} s (its log: {self.child.log})"
-        texts = [line.text.strip() for line in self.child.lines() if line.text.strip()]
-        if texts and status >= 0:
-            return texts[-1].removeprefix("up-ground: ").removeprefix("error: ")
+        coded = [line.text for line in self.child.lines() if line.code]
+        if coded and status >= 0:
+            return coded[-1]
         how = f"signal {-status}" if status < 0 else f"status {status}"
         return f"it ended unexpectedly with {how} (its log: {self.child.log})"

@@ -36,11 +36,9 @@ class DirectBoard:
 
     @property
     def now_us(self) -> float:
-        """Return the time since it was made."""
         return self._now_us
 
     def run_us(self, duration_us: float) -> None:
-        """Start the receiver's pulses."""
         self._now_us += duration_us
         while self._frame_us <= self._now_us:
             self._send_frame(self._frame_us)
@@ -51,15 +49,12 @@ class DirectBoard:
             self._ended_us[channel] = end_us
 
     def set_stick(self, channel: Channel, width_us: float) -> None:
-        """Set the receiver's pulse of a channel, from its next frame on."""
         self._sticks_us[channel] = width_us
 
     def set_receiver(self, is_on: bool) -> None:
-        """Switch all channels of the receiver on or off."""
         self._silent = set() if is_on else set(CHANNELS)
 
     def set_channel(self, channel: Channel, is_on: bool) -> None:
-        """Switch the pulses of one channel of the receiver on or off."""
         if is_on:
             self._silent.discard(channel)
         else:
@@ -69,19 +64,16 @@ class DirectBoard:
         """Ignore the motion: this board has no IMU."""
 
     def pulses_us(self) -> Pulses:
-        """Return the newest whole servo pulses; ``NEUTRAL_US`` before the first."""
         ailerons, elevator, throttle, rudder = (self._pulses_us[each] for each in SERVOS)
         return ailerons, elevator, throttle, rudder
 
     def pulse_ages_us(self) -> tuple[float, float, float, float]:
-        """Return how long ago the newest pulse of each servo ended; infinite before the first."""
         ailerons, elevator, throttle, rudder = (
             self._now_us - self._ended_us[each] for each in SERVOS
         )
         return ailerons, elevator, throttle, rudder
 
     def read(self) -> bytes:
-        """Return nothing: the line is silent."""
         return b""
 
     def write(self, data: bytes) -> None:
@@ -92,7 +84,6 @@ class DirectBoard:
 
     @property
     def eeprom(self) -> bytes:
-        """Return nothing: this board has no EEPROM."""
         return b""
 
     def _send_frame(self, start_us: float) -> None:

@@ -45,12 +45,10 @@ class HostImu(BoardImu):
         self._numbers = [0] * SAMPLE_NUMBERS
 
     def set_fault(self, fault: ImuFault) -> None:
-        """Set a fault, or clear it."""
         super().set_fault(fault)
         self._library.set_imu_fault({"unplugged": 1, "stuck": 2}.get(fault, 0))
 
     def give_sample(self) -> None:
-        """Put the sample where the firmware reads it."""
         if self._fault == "garbage":
             self._numbers = [self._random.randint(-32768, 32767) for _ in range(SAMPLE_NUMBERS)]
         elif self._fault != "frozen":
@@ -99,33 +97,26 @@ class HostBoard:
 
     @property
     def now_us(self) -> float:
-        """Return the time since power-on."""
         return float(self._library.view.now_us)
 
     def run_us(self, duration_us: float) -> None:
-        """Run on."""
         self._until_us += duration_us
         while self._library.run(self._until_us):
             self.imu.give_sample()
 
     def set_stick(self, channel: Channel, width_us: float) -> None:
-        """Set the receiver's pulse of a channel, from its next frame on."""
         self._library.set_stick(_CHANNELS[channel], width_us)
 
     def set_receiver(self, is_on: bool) -> None:
-        """Switch all channels of the receiver on or off."""
         self._library.set_receiver(is_on)
 
     def set_channel(self, channel: Channel, is_on: bool) -> None:
-        """Switch the pulses of one channel of the receiver on or off."""
         self._library.set_channel(_CHANNELS[channel], is_on)
 
     def set_motion(self, motion: Motion) -> None:
-        """Set the IMU's motion from now on."""
         self.imu.motion = motion
 
     def pulses_us(self) -> Pulses:
-        """Return the newest whole servo pulses; ``NEUTRAL_US`` before the first."""
         ailerons, elevator, throttle, rudder = (
             width if width else neutral
             for width, neutral in zip(self._library.view.width_us, NEUTRAL_US, strict=True)
@@ -133,7 +124,6 @@ class HostBoard:
         return ailerons, elevator, throttle, rudder
 
     def pulse_ages_us(self) -> tuple[float, float, float, float]:
-        """Return how long ago the newest pulse of each servo ended; infinite before the first."""
         now_us = self.now_us
         ailerons, elevator, throttle, rudder = (
             now_us - each for each in self._library.view.ended_us
@@ -141,14 +131,12 @@ class HostBoard:
         return ailerons, elevator, throttle, rudder
 
     def read(self) -> bytes:
-        """Return the bytes from the serial line since the last call."""
         parts = []
         while size := self._library.read(self._into, _READ_SIZE):
             parts.append(self._into.raw[:size])
         return b"".join(parts)
 
     def write(self, data: bytes) -> None:
-        """Put bytes on the serial line, each when the one before has ended."""
         self._library.write(data, len(data))
 
     def reset(self, cause: ResetCause) -> None:
@@ -157,7 +145,6 @@ class HostBoard:
 
     @property
     def eeprom(self) -> bytes:
-        """Return the content of the EEPROM."""
         return bytes(self._library.view.eeprom)
 
 

@@ -9,6 +9,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from up.commands.board_status import refusal_text
+from up.errors import UserError
 from up_rig.imu import motion_at
 from up_simulator.firmware.board import BoardKind, FirmwareBoard
 from up_simulator.firmware.build import aboard
@@ -26,8 +27,8 @@ WRITE_STEPS = 600
 _ANSWERS = {"c": "C", "G": "G"}
 
 
-class PreparationError(Exception):
-    """The board does not take its settings: the message is one sentence."""
+class PreparationError(UserError):
+    """The board does not take its settings."""
 
 
 def cached_eeprom(
@@ -80,7 +81,8 @@ def prepare_eeprom(
     board.run_us(BOOT_US)
     talk = _Talk(board)
     if talk.ask("c") != wanted_profile or talk.ask("G") != wanted_gains:
-        raise PreparationError("the board has other settings after a power-on than it was given")
+        text = "the board has other settings after a power-on than it was given"
+        raise PreparationError(text, "not_kept")
     return board.eeprom
 
 
@@ -94,14 +96,15 @@ class _Talk:
     def command(self, letter: str, payload: bytes, what: str) -> None:
         answer = self._exchange(letter, payload, "K")
         if answer is None:
-            raise PreparationError(f"the board does not answer to {what}")
+            raise PreparationError(f"the board does not answer to {what}", "no_answer")
         if answer[0] == "!":
-            raise PreparationError(f"the board refuses {what}: {refusal_text(answer[1][2])}")
+            text = f"the board refuses {what}: {refusal_text(answer[1][2])}"
+            raise PreparationError(text, "refused")
 
     def ask(self, letter: str) -> bytes:
         answer = self._exchange(letter, b"", _ANSWERS[letter])
         if answer is None or answer[0] == "!":
-            raise PreparationError(f"the board does not answer to {letter}")
+            raise PreparationError(f"the board does not answer to {letter}", "no_answer")
         return answer[1]
 
     def _exchange(self, letter: str, payload: bytes, expected: str) -> tuple[str, bytes] | None:
@@ -125,4 +128,4 @@ def _wait_for_eeprom(board: FirmwareBoard) -> None:
         quiet, held = (quiet + 1 if fresh == held else 0), fresh
         if quiet >= QUIET_STEPS:
             return
-    raise PreparationError("the board writes its EEPROM without end")
+    raise PreparationError("the board writes its EEPROM without end", "endless_write")

@@ -30,7 +30,6 @@ class RigImu(BoardImu):
         self._imu.motion = self._measure
 
     def set_fault(self, fault: ImuFault) -> None:
-        """Set a fault, or clear it."""
         imu = self._imu
         imu.mend()
         imu.is_frozen = fault == "frozen"
@@ -70,11 +69,9 @@ class RigBoard:
 
     @property
     def now_us(self) -> float:
-        """Return the time since power-on."""
         return self._rig.now_us
 
     def run_us(self, duration_us: float) -> None:
-        """Run on; raises ``BoardCrashedError``."""
         # Not from now: a run ends with an instruction, thus a little late.
         self._until_us += duration_us
         try:
@@ -84,24 +81,19 @@ class RigBoard:
         self._rig.receiver.sent.clear()
 
     def set_stick(self, channel: Channel, width_us: float) -> None:
-        """Set the receiver's pulse of a channel, from its next frame on."""
         self._rig.receiver.set(channel, width_us)
 
     def set_receiver(self, is_on: bool) -> None:
-        """Switch all channels of the receiver on or off."""
         for channel in CHANNELS:
             self._switch(channel, is_on)
 
     def set_channel(self, channel: Channel, is_on: bool) -> None:
-        """Switch the pulses of one channel of the receiver on or off."""
         self._switch(channel, is_on)
 
     def set_motion(self, motion: Motion) -> None:
-        """Set the IMU's motion from now on."""
         self.imu.motion = motion
 
     def pulses_us(self) -> Pulses:
-        """Return the newest whole servo pulses; ``NEUTRAL_US`` before the first."""
         newest = self._rig.servo.last_pulse
         ailerons, elevator, throttle, rudder = (
             neutral_us if (pulse := newest(channel)) is None else pulse.width_us
@@ -110,16 +102,13 @@ class RigBoard:
         return ailerons, elevator, throttle, rudder
 
     def pulse_ages_us(self) -> tuple[float, float, float, float]:
-        """Return how long ago the newest pulse of each servo ended; infinite before the first."""
         ailerons, elevator, throttle, rudder = (self._age_us(channel) for channel in SERVOS)
         return ailerons, elevator, throttle, rudder
 
     def read(self) -> bytes:
-        """Return the bytes from the serial line since the last call."""
         return self._rig.serial.read()
 
     def write(self, data: bytes) -> None:
-        """Put bytes on the serial line, each when the one before has ended."""
         self._rig.serial.write(data)
 
     def reset(self, cause: ResetCause) -> None:
@@ -136,7 +125,6 @@ class RigBoard:
 
     @property
     def eeprom(self) -> bytes:
-        """Return the content of the EEPROM."""
         return self._rig.eeprom.read()
 
     def _age_us(self, channel: str) -> float:

@@ -71,19 +71,16 @@ class Child:
 
     @property
     def input(self) -> IO[bytes]:
-        """Return the standard input of one that is piped."""
         assert self._process.stdin is not None
         return self._process.stdin
 
     @property
     def output(self) -> IO[bytes]:
-        """Return the standard output of one that is piped."""
         assert self._process.stdout is not None
         return self._process.stdout
 
     @property
     def pid(self) -> int:
-        """Return its process number."""
         return self._process.pid
 
     def poll(self) -> int | None:
@@ -140,26 +137,22 @@ class Child:
             time.sleep(POLL_PERIOD_S)
 
     def exit_report(self, status: int) -> str:
-        """Return one sentence about its end, and the end of its log if it has one."""
         how = f"signal {-status}" if status < 0 else f"status {status}"
         ended = f"{self.name} ended unexpectedly with {how}"
         tail = self.tail()
         return f"{ended}; the end of its log {self.log}:\n{tail}" if tail else f"{ended}, no log"
 
     def tail(self) -> str:
-        """Return its last lines, indented."""
         lines = [f"{each.text}\n{each.traceback}".rstrip() for each in self.lines()]
         tail = "\n".join(lines).splitlines()[-TAIL_LINES:]
         return "\n".join(f"  {line}" for line in tail)
 
     def signal(self, number: int) -> None:
-        """Send a signal, unless it has ended."""
         if self._process.poll() is None:
             with contextlib.suppress(ProcessLookupError):
                 self._process.send_signal(number)
 
     def terminate(self) -> None:
-        """Send it the signal to end."""
         self.signal(signal.SIGTERM)
 
     def wait(self, limit_s: float = STOP_LIMIT_S) -> int:
@@ -174,7 +167,6 @@ class Child:
             self._pid_file.unlink(missing_ok=True)
 
     def end(self) -> int:
-        """Send it the signal to end and wait for it; returns its status."""
         self.terminate()
         return self.wait()
 

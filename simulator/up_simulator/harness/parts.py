@@ -9,12 +9,11 @@ from typing import Any
 
 import yaml
 
-from up_rig.build import ARDUINO
 from up_simulator.aircraft import Airframe, FlightDynamics, Start, Weather
 from up_simulator.aircraft.flight import FlightSource, FlightUnavailableError
 from up_simulator.aircraft.recorded_flight import read_recording
 from up_simulator.firmware.board import FirmwareBoard
-from up_simulator.firmware.build import BoardUnavailableError, choose_board
+from up_simulator.firmware.build import FIRMWARE, BoardUnavailableError, choose_board
 from up_simulator.firmware.imu_errors import drawn_errors
 from up_simulator.firmware.preparation import cached_eeprom
 from up_simulator.firmware.settings_wire import SettingsError
@@ -48,7 +47,7 @@ def make_board(options: argparse.Namespace, airframe: Airframe, log: Log) -> Fir
     ``auto`` is the firmware on its chip, or, without the AVR tools, the same sources built for
     this computer, which ``log`` reports in one sentence. Raises ``BoardUnavailableError``.
     """
-    if not (ARDUINO / "build" / "raspilot.elf").exists() and options.elf is None:
+    if not FIRMWARE.exists():
         log("building the firmware, which takes a minute the first time", code="building")
     errors = drawn_errors(
         options.seed,
@@ -62,11 +61,10 @@ def make_board(options: argparse.Namespace, airframe: Airframe, log: Log) -> Fir
             seed=options.seed,
             imu_errors=errors,
             eeprom=eeprom,
-            elf=options.elf,
             log=log,
         )
     except BoardUnavailableError as error:
-        if options.elf is not None or options.board == "auto":
+        if options.board == "auto":
             raise
         advice = "leave --board out to fly the best board that works here"
         raise BoardUnavailableError(f"--board {options.board}: {error}; or {advice}") from error

@@ -33,21 +33,17 @@ class RealProgram:
 
     @property
     def is_running(self) -> bool:
-        """Return whether it runs now."""
         return self._child is not None and self._child.poll() is None
 
     @property
     def pid(self) -> int:
-        """Return its process number; raises ``ParticipantError`` when it was never started."""
         return self._started().pid
 
     @property
     def log(self) -> Sequence[str]:
-        """Return the newest texts that its newest process logged."""
         return [] if self._child is None else [line.text for line in self._child.lines()]
 
     def start(self) -> None:
-        """Start its process; raises ``ParticipantError`` when it runs already."""
         if self.is_running:
             raise ParticipantError(f"{self.NAME} runs already")
         self._child = Child(self.NAME, self._command, self._folder, death_signal=self.DEATH_SIGNAL)
@@ -62,29 +58,24 @@ class RealProgram:
             raise ParticipantError(self._child.exit_report(status))
 
     def request_stop(self) -> None:
-        """Send it the signal to end, as systemd does."""
         if self._child is not None:
             self._child.terminate()
             self.thaw()
 
     def stop(self) -> None:
-        """Send it the signal to end and wait for it."""
         if self._child is not None:
             self.request_stop()
             self._child.wait()
 
     def kill(self) -> None:
-        """Kill it immediately in any state, by ``kill -9``."""
         if self._child is not None:
             self._child.signal(signal.SIGKILL)
             self._child.wait()
 
     def freeze(self) -> None:
-        """Suspend it: it holds its ports and does nothing, as a hung one."""
         self._started().signal(signal.SIGSTOP)
 
     def thaw(self) -> None:
-        """Resume a frozen one."""
         self._started().signal(signal.SIGCONT)
 
     def _started(self) -> Child:

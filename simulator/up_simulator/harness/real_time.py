@@ -73,7 +73,6 @@ class RealTimeFlight:
         self._flown_s = 0.0
 
     def advance(self) -> None:
-        """Fly until now."""
         late_s = self.time.skip(self._flown_s)
         self._flown_s += late_s
         self._flight.advance(late_s)

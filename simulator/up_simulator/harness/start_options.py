@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import argparse
+import os
 from collections.abc import Callable
 from pathlib import Path
 from typing import TypeVar
 
 from up.cli.option_parser import OptionParser
 from up_rig.sticks import StickMove, SticksError, read_sticks
+from up_simulator.aircraft.flight import FlightUnavailableError
+from up_simulator.aircraft.recorded_flight import read_recording
 from up_simulator.harness.uplink import UplinkError, read_link
 from up_simulator.link.model import LinkSettings
 from up_simulator.phone.java_program import KINDS
@@ -98,10 +101,13 @@ def _add_flight(group: argparse._ArgumentGroup) -> None:
     )
     group.add_argument("--seed", type=int, default=1, metavar="N", help="of wind and all noise")
     group.add_argument(
-        "--replay", type=Path, metavar="FILE", help="fly a recorded flight (a state log) in a loop"
+        "--replay",
+        type=recording,
+        metavar="FILE",
+        help="fly a recorded flight (a state log) in a loop",
     )
     group.add_argument(
-        "--state-log", type=Path, metavar="FILE", help="write the true state there, as CSV"
+        "--state-log", type=new_file, metavar="FILE", help="write the true state there, as CSV"
     )
 
 
@@ -113,9 +119,8 @@ def _add_board(group: argparse._ArgumentGroup) -> None:
         default="auto",
         help=BOARD_HELP,
     )
-    group.add_argument("--elf", type=Path, metavar="FILE", help="a built firmware")
     group.add_argument(
-        "--gains", type=Path, metavar="FILE", help="pids.yml that the Arduino's EEPROM holds"
+        "--gains", type=_file, metavar="FILE", help="pids.yml that the Arduino's EEPROM holds"
     )
     group.add_argument(
         "--pty-link", type=Path, metavar="PATH", help="symbolic link to the pty, removed at exit"
@@ -228,6 +233,29 @@ def wind_m_s(text: str) -> float:
     if not 0.0 <= speed_m_s <= 25.0:
         raise argparse.ArgumentTypeError(f"{text!r}: wind is 0 to 25 m/s")
     return speed_m_s
+
+
+def recording(text: str) -> Path:
+    """Return the path of a recorded flight that can be flown; raises ``ArgumentTypeError``."""
+    try:
+        read_recording(Path(text))
+    except FlightUnavailableError as error:
+        raise argparse.ArgumentTypeError(str(error)) from error
+    return Path(text)
+
+
+def new_file(text: str) -> Path:
+    """Return the path of a file that can be written; raises ``ArgumentTypeError``."""
+    path = Path(text)
+    if path.is_dir() or not os.access(path if path.exists() else path.parent, os.W_OK):
+        raise argparse.ArgumentTypeError(f"cannot write {text!r}")
+    return path
+
+
+def _file(text: str) -> Path:
+    if not Path(text).is_file():
+        raise argparse.ArgumentTypeError(f"no file {text!r}")
+    return Path(text)
 
 
 def _port(text: str) -> int:

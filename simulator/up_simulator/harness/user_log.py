@@ -54,7 +54,6 @@ class LogLine:
     traceback: str = ""
 
     def has(self, code: str, **fields: Any) -> bool:
-        """Return whether it has this code and these fields."""
         return self.code == code and all(
             self.fields.get(name) == value for name, value in fields.items()
         )

@@ -10,7 +10,7 @@ from typing import Any
 
 from twisted.internet.task import LoopingCall
 
-from up.commands.board_schema import FLIGHT_MODES
+from up.commands.board_schema import FLIGHT_MODES, MODE_TEXTS
 from up_rig.pty_line import PtyLine
 from up_simulator.aircraft import Airframe, load_airframe
 from up_simulator.aircraft.recorded_flight import RecordedFlight, StateLog
@@ -31,14 +31,6 @@ from up_simulator.radio.remote import RemoteRadio
 from up_simulator.radio.sticks import Radio
 
 TICK_S = 0.004
-MODE_DESCRIPTIONS = {
-    "ACRO": "ACRO, the sticks move the servos",
-    "RATE": "RATE, the Arduino holds the rates",
-    "FBW": "FBW, the Arduino holds the attitude",
-    "SETPOINT": "SETPOINT, the Arduino holds the attitude that Raspilot demands",
-    "OUTPUT": "OUTPUT, Raspilot moves the servos",
-}
-"""Printed when the board flies another mode."""
 
 
 class VirtualAircraft:
@@ -97,26 +89,24 @@ class VirtualAircraft:
             self._state_log = StateLog(options.state_log)
         if not options.no_phone:
             self._phone = self._make_phone(options)
-        if options.no_board:
-            flight = RealTimeFlight(self.flight, self._reactor, self._log)
-            self._ticks.append(flight.advance)
-        else:
-            self._ticks.append(self._add_board(options, airframe, on_leave))
         if options.link is not None:
             self._uplink = make_uplink(
                 self._reactor, options.link_port, options.link_to, options.link, options.seed
             )
             self._uplink.start()
+        if options.no_board:
+            flight = RealTimeFlight(self.flight, self._reactor, self._log)
+            self._ticks.append(flight.advance)
+        else:
+            self._ticks.append(self._add_board(options, airframe, on_leave))
         if self._phone is not None:
             self._ticks.append(self._phone.tick)
 
     def _add_board(
         self, options: argparse.Namespace, airframe: Airframe, on_leave: Callable[[], None]
     ) -> Callable[[], None]:
-        """Build board, line and radio and return the object that runs them."""
         has_motor = airframe.has_motor and options.replay is None
         self._line = line = PtyLine(options.pty_link)
-        board = make_board(options, airframe, self._log)
         monitor = LineMonitor()
 
         def mode() -> str:
@@ -149,6 +139,8 @@ class VirtualAircraft:
                 pilot = "another radio"
             return f"{mode() or 'unknown mode'}, {pilot} had the sticks"
 
+        # Last, because it may have to be built.
+        board = make_board(options, airframe, self._log)
         aircraft = FirmwareAircraft(
             self.flight, board, line, radio, self._reactor, options.radio, self._log, describe_pilot
         )
@@ -158,7 +150,7 @@ class VirtualAircraft:
             monitor.feed(data, self._reactor.seconds())
             monitor.answers.clear()
             if monitor.mode != before:
-                text = f"board: {MODE_DESCRIPTIONS.get(mode(), mode())}"
+                text = f"board: {mode()}: {MODE_TEXTS.get(mode(), 'unknown')}"
                 self._log(text, code="board_mode", mode=mode())
 
         aircraft.real_time.on_sent = on_sent
@@ -227,7 +219,6 @@ def _make_find(reactor: Any, options: argparse.Namespace) -> Callable[[], Awaita
 
 
 def _address_options(options: argparse.Namespace) -> list[str]:
-    """Return the virtual phone's options with Raspilot's addresses."""
     if options.runner:
         host, port = options.runner
         return ["--runner", f"{host}:{port}", "--aircraft", options.aircraft_name]

@@ -33,12 +33,10 @@ class World:
 
     @property
     def time_s(self) -> float:
-        """Return the time in the air."""
         return self._steps * STEP_S
 
     @property
     def state(self) -> FlightState:
-        """Return the true state of the aircraft."""
         return self.dynamics.state
 
     def boot(self, *, arms: bool = False) -> None:

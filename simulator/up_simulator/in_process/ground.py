@@ -104,7 +104,6 @@ class InProcessGround:
 
     @property
     def telemetry(self) -> Mapping[str, Any]:
-        """Return the newest frame, empty before the first."""
         return self._received.data
 
     @property
@@ -118,7 +117,6 @@ class InProcessGround:
 
     @property
     def newest_s(self) -> float | None:
-        """Return the arrival of the newest frame; None before the first."""
         return self._newest_s
 
     def take_latency_s(self) -> float | None:
@@ -134,11 +132,9 @@ class InProcessGround:
 
     @property
     def is_connected(self) -> bool:
-        """Return whether there is a connection, as far as this end knows."""
         return self._link is not None and self._link.status.is_open
 
     def start(self) -> None:
-        """Connect, and connect again after every loss."""
         if self._link is None:
             self._host = self._reactor.host("ground")
             backoff = Backoff(Random(self._seed).random)
@@ -152,7 +148,6 @@ class InProcessGround:
             Deferred.fromCoroutine(link.stop()).addErrback(lambda _: None)
 
     def send(self, name: str, **data: Any) -> str:
-        """Send a Command and return its id."""
         self._sent += 1
         command_id = f"ground-{self._sent}"
         if self._link is not None:
@@ -195,7 +190,6 @@ class _TokenInMemory(TokenStore):
         self._token: str | None = None
 
     def hold(self) -> bool:
-        """Return True: no other program shares this token."""
         return True
 
     def load(self) -> str | None:

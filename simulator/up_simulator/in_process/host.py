@@ -71,7 +71,6 @@ class SimulatedHost:
         return call
 
     def callFromThread(self, callable: Callable[..., Any], *args: object, **kw: object) -> None:  # noqa: N802
-        """Call at the next step, from any thread."""
         self.reactor.call_from_thread(partial(self.do, partial(callable, *args, **kw)))
 
     def callWhenRunning(self, callable: Callable[..., Any], *args: object, **kw: object) -> None:  # noqa: N802
@@ -89,7 +88,6 @@ class SimulatedHost:
         """Do nothing: no trigger was kept."""
 
     def addReader(self, reader: Any) -> None:  # noqa: N802 - Twisted's name
-        """Watch a descriptor of the system, as a serial port's."""
         self._descriptors[reader] = None
         self.reactor.add_reader(reader)
 
@@ -97,7 +95,6 @@ class SimulatedHost:
         self.reactor.remove_reader(reader)
 
     def addWriter(self, writer: Any) -> None:  # noqa: N802 - Twisted's name
-        """Watch when a descriptor of the system takes bytes."""
         self._descriptors[writer] = None
         self.reactor.add_writer(writer)
 
@@ -105,7 +102,6 @@ class SimulatedHost:
         self.reactor.remove_writer(writer)
 
     def removeAll(self) -> list[Any]:  # noqa: N802 - Twisted's name
-        """Stop watching all descriptors and return them."""
         descriptors, self._descriptors = list(self._descriptors), {}
         for each in descriptors:
             self.reactor.remove_reader(each)
@@ -151,7 +147,6 @@ class SimulatedHost:
         return listening
 
     def installNameResolver(self, resolver: Any) -> Any:  # noqa: N802 - Twisted's name
-        """Replace the resolver and return the one before."""
         before, self.nameResolver = self.nameResolver, resolver
         return before
 

@@ -30,11 +30,9 @@ class Route:
 
     @property
     def is_perfect(self) -> bool:
-        """Return whether the route has no simulated link."""
         return self.pipe is None
 
     def carry(self, size: int, call: Callable[..., object], *arguments: Any) -> None:
-        """Call at the other end when a packet of that size arrives there."""
         if self.pipe is None:
             self._network.next_step.append((call, arguments))
         else:

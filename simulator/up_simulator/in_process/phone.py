@@ -54,7 +54,6 @@ class InProcessPhone:
 
     @property
     def is_plugged(self) -> bool:
-        """Return whether the cable is plugged in."""
         return self._is_started and not self.up.is_black
 
     def plug(self) -> None:

@@ -61,11 +61,9 @@ class DaemonLog:
             globalLogPublisher.removeObserver(cast(ILogObserver, self))
 
     def add(self, text: str) -> None:
-        """Add a line that is not an event."""
         self.lines.append(f"{self._seconds():9.3f} {text}")
 
     def __call__(self, event: LogEvent) -> None:
-        """Keep an event that is severe enough."""
         level = self._level
         if level is not None and level_of(event) >= level:
             self.add(f"{word_of(level_of(event)):<8} {source_of(event)}: {text_of(event)}")
@@ -86,7 +84,6 @@ class SettableMeter:
         return self.load
 
     def memory_percent(self) -> float:
-        """Return the part of the memory that is used."""
         return self.memory
 
 
@@ -137,7 +134,6 @@ class InProcessRaspilot:
 
     @property
     def ports(self) -> dict[str, int]:
-        """Return the ports that it listens on, by name."""
         return {} if self.up is None else dict(self.up.ports)
 
     def start(self) -> None:
@@ -195,7 +191,6 @@ class InProcessRaspilot:
         self.up = self._life = None
 
     def freeze(self) -> None:
-        """Suspend it: it holds its ports and does nothing, as a hung one."""
         if self._host is not None:
             self._host.freeze()
 
@@ -228,7 +223,6 @@ class InProcessRaspilot:
         raise LookupError(f"no module {class_name} is loaded")
 
     def _substitute_modules(self, up: Up) -> None:
-        """Replace the parts of modules that would access the real machine."""
         for module in up.modules:
             each: Any = module
             if module.class_name == "SerialProvider":

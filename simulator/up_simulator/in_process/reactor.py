@@ -69,7 +69,6 @@ class SimulatedReactor(Clock):
         insort(self.calls, call, key=DelayedCall.getTime)
 
     def call_from_thread(self, call: Callable[[], Any]) -> None:
-        """Keep a call for the next step; safe from any thread."""
         self._handed_over.put(call)
 
     def advance(self, amount: float) -> None:

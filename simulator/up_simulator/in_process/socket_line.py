@@ -26,7 +26,6 @@ class SocketLine:
         return self._peer
 
     def read(self, timeout_s: float, max_bytes: int) -> bytes:
-        """Return the received bytes without waiting."""
         if self._end is None:
             return b""
         try:

@@ -28,7 +28,6 @@ class UdpPort:
         self._is_open = False
 
     def startListening(self) -> None:  # noqa: N802 - Twisted's name
-        """Open it; raises CannotListenError."""
         network = self._host.network
         self._number = network.bind(network.udp, self._number, self, self.interface)
         self._is_open = True
@@ -56,7 +55,6 @@ class UdpPort:
         self.write(b"".join(seq), addr)
 
     def connect(self, host: str, port: int) -> None:
-        """Send to one peer from now on."""
         self._peer = (host, port)
 
     def getHost(self) -> IPv4Address:  # noqa: N802 - Twisted's name
@@ -69,7 +67,6 @@ class UdpPort:
         return True
 
     def cut_off(self) -> None:
-        """Close it without a notification."""
         self._is_open = False
         self._host.opened.pop(self, None)
         self._host.network.udp.pop(self._number, None)

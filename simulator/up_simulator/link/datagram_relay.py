@@ -84,7 +84,6 @@ class _Socket(DatagramProtocol):
         pass
 
     def write(self, data: bytes, address: Address) -> None:
-        """Send a datagram, if the socket is still there."""
         transport: Any = self.transport
         if transport is not None:
             transport.write(data, address)
@@ -117,11 +116,9 @@ class DatagramRelay(ListeningRelay):
 
     @property
     def lost(self) -> int:
-        """Return how many datagrams vanished, both ways."""
         return self._up.total_lost + self._down.total_lost
 
     async def stop(self) -> None:
-        """Take no more and drop all datagrams in flight."""
         self._up.stop()
         self._down.stop()
         listener, self._listener = self._listener, None

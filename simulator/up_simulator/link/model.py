@@ -65,7 +65,6 @@ class LinkModel:
 
     @property
     def is_black(self) -> bool:
-        """Return whether everything vanishes."""
         return self._is_black
 
     @property
@@ -118,7 +117,6 @@ class LinkModel:
             self._blackouts += 1
 
     def restore(self) -> None:
-        """End a blackout; lost packets stay lost."""
         self._is_black = False
 
     def _retries(self) -> int | None:

@@ -24,7 +24,6 @@ class LinkPipe(Generic[_T]):
         self._waiting: deque[tuple[float, int, _T]] = deque()
 
     def __len__(self) -> int:
-        """Return how many packets are on their way."""
         return len(self._waiting)
 
     def send(self, packet: _T, size: int, now_s: float) -> bool:

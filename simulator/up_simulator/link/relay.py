@@ -109,16 +109,13 @@ class LinkRelay(ListeningRelay):
 
     @property
     def connections(self) -> int:
-        """Return how many connections it carries, those included that hang."""
         return len(self._connections)
 
     @property
     def waiting(self) -> int:
-        """Return how many bytes are on their way."""
         return sum(each.waiting for each in self._connections)
 
     async def stop(self) -> None:
-        """Listen no more and end all connections."""
         listener, self._listener = self._listener, None
         if listener is not None:
             await listener.stopListening()

@@ -80,7 +80,6 @@ class _End(Protocol):
             transport.pauseProducing()
 
     def receive(self, content: bytes | Signal) -> None:
-        """Carry out a signal from the other end."""
         transport: Any = self.transport
         if not self.is_connected:
             return
@@ -93,7 +92,6 @@ class _End(Protocol):
             transport.write(content)
 
     def close(self) -> None:
-        """Close: both ends have finished."""
         if self.is_connected:
             transport: Any = self.transport
             transport.unregisterProducer()
@@ -159,11 +157,9 @@ class RelayedConnection:
 
     @property
     def waiting(self) -> int:
-        """Return how many bytes are on their way."""
         return self.near.outgoing.waiting + self.far.outgoing.waiting
 
     def on_made(self, end: _End) -> None:
-        """One of the two has its socket."""
         if end is self.near:
             end.update_window()
             end.outgoing.send(Signal.OPEN)
@@ -173,7 +169,6 @@ class RelayedConnection:
             end.incoming.is_blocked = False
 
     def on_finished(self) -> None:
-        """Handle the half-close of one end."""
         self._finished += 1
         if self._finished == 2:
             self.near.close()

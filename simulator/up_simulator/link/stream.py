@@ -88,7 +88,6 @@ class LinkStream:
 
     @property
     def is_blocked(self) -> bool:
-        """Return whether the receiver takes no data now."""
         return self._is_blocked
 
     @is_blocked.setter
@@ -114,7 +113,6 @@ class LinkStream:
         self._run()
 
     def stop(self) -> None:
-        """Drop all packets and carry no more."""
         self._is_stopped = True
         self._clear()
         self._cancel()

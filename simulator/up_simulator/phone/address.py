@@ -122,13 +122,11 @@ class _Question(DatagramProtocol):
         self.answer: Deferred[str] = Deferred()
 
     def startProtocol(self) -> None:  # noqa: N802 - Twisted's name
-        """Send the query."""
         transport: Any = self.transport
         transport.setBroadcastAllowed(True)
         transport.write(QUESTION, self._place)
 
     def datagramReceived(self, datagram: bytes, addr: Any) -> None:  # noqa: N802
-        """Take the first answer that names its sender."""
         host = read_discovery_answer(datagram, addr[0])
         if host is None:
             self._refused = f"; refused {datagram[:40]!r} from {addr[0]}"
@@ -136,7 +134,6 @@ class _Question(DatagramProtocol):
             self.answer.callback(host)
 
     def give_up(self) -> None:
-        """Fail: no answer in time."""
         host, port = self._place
         if not self.answer.called:
             self.answer.errback(
@@ -154,11 +151,9 @@ class _Request(LineOnlyReceiver):
         self.answer: Deferred[bytes] = Deferred()
 
     def lineReceived(self, line: bytes) -> None:  # noqa: N802 - Twisted's name
-        """Take the first line."""
         if not self.answer.called:
             self.answer.callback(line)
 
     def connectionLost(self, reason: Any = None) -> None:  # noqa: N802 - Twisted's name
-        """End an unanswered request."""
         if not self.answer.called:
             self.answer.errback(Failure(NotFoundError("the runner closed the connection")))

@@ -50,9 +50,7 @@ class PythonHandset:
         self.set_battery = self._phone.set_battery
 
     def start(self) -> None:
-        """Begin to connect."""
         self._link.start()
 
     async def stop(self) -> None:
-        """Close every link."""
         await self._link.stop()

@@ -69,7 +69,6 @@ class SensorFeed:
         return found
 
     def clear(self) -> None:
-        """Cancel all sensors."""
         self._requested.clear()
 
 
@@ -106,17 +105,14 @@ class JavaHandset:
 
     @property
     def pid(self) -> int | None:
-        """Return the JVM's process number while it runs."""
         return None if self._process is None else self._process.pid
 
     def start(self) -> None:
-        """Start the JVM; it connects when it is up."""
         if self._process is None:
             options = [*self._options, *self._address_options()]
             self._process = JavaPhoneProcess(self._program, *options)
 
     def tick(self) -> None:
-        """Handle its events, and send its sensors' readings."""
         process = self._process
         if process is None:
             return
@@ -130,7 +126,6 @@ class JavaHandset:
             process.send(readings)
 
     async def stop(self) -> None:
-        """End it."""
         process, self._process = self._process, None
         if process is not None:
             process.end()

@@ -39,12 +39,10 @@ class JavaPhoneProcess:
 
     @property
     def pid(self) -> int:
-        """Return its process number."""
         return self._child.pid
 
     @property
     def is_running(self) -> bool:
-        """Return whether it still runs, as far as this end knows."""
         return self._is_open
 
     def send(self, line: Mapping[str, Any]) -> None:
@@ -56,11 +54,9 @@ class JavaPhoneProcess:
             self._write(line)
 
     def receive(self) -> list[dict[str, Any]]:
-        """Return the events since the last call."""
         return list(self._read_lines()) if self._is_open else []
 
     def end(self) -> None:
-        """End it by closing its input."""
         self._is_open = False
         if self._is_ended:
             return

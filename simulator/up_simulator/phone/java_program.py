@@ -50,7 +50,6 @@ class JavaProgram:
     jars: tuple[Path, ...]
 
     def command(self, *options: str, main: str = MAIN) -> list[str]:
-        """Return the command line of a program of the jars."""
         path = ":".join(map(str, self.jars))
         return [self.java, *QUICK_START, "-cp", path, main, *options]
 

@@ -41,22 +41,18 @@ class DroppingWriter:
         transport.registerProducer(self, True)
 
     def write(self, data: bytes) -> None:
-        """Write unless the transport is full."""
         if self._is_open:
             self._transport.write(data)
         else:
             self.dropped += 1
 
     def pauseProducing(self) -> None:  # noqa: N802 - Twisted's name
-        """Close."""
         self._is_open = False
 
     def resumeProducing(self) -> None:  # noqa: N802 - Twisted's name
-        """Open."""
         self._is_open = True
 
     def stopProducing(self) -> None:  # noqa: N802 - Twisted's name
-        """Close permanently."""
         self._is_open = False
 
 
@@ -91,7 +87,6 @@ class PhoneLink:
         self._is_udp = orientation == "udp"
 
     def start(self) -> None:
-        """Begin to connect."""
         for service in self._services:
             service.startService()
         if self._is_udp:
@@ -152,14 +147,13 @@ class _FoundEndpoint:
         self._log = log
 
     def connect(self, factory: Any) -> Deferred[Any]:
-        """Find, then connect."""
         return Deferred.fromCoroutine(self._connect(factory))
 
     async def _connect(self, factory: Any) -> Any:
         try:
             host, port = await self._find()
         except NotFoundError as error:
-            self._log(f"{error}; trying again", code="phone_not_found")
+            self._log(f"{error}; trying again", code="phone_not_found", reason=str(error))
             raise
         endpoint = TCP4ClientEndpoint(self._reactor, host, port, timeout=CONNECT_S)
         try:
@@ -181,7 +175,6 @@ class _GeneralLink(LineOnlyReceiver):
         self._link = link
 
     def connectionMade(self) -> None:  # noqa: N802 - Twisted's name
-        """Begin to send."""
         transport: Any = self.transport
         peer = transport.getPeer()
         text = f"connected to {peer.host}:{peer.port}"
@@ -190,11 +183,9 @@ class _GeneralLink(LineOnlyReceiver):
         self._phone.connected(DroppingWriter(transport).write)
 
     def lineReceived(self, line: bytes) -> None:  # noqa: N802 - Twisted's name
-        """Hand a line on."""
         self._phone.line_received(line)
 
     def connectionLost(self, reason: Any = None) -> None:  # noqa: N802 - Twisted's name
-        """Stop sending."""
         self._link.live.discard(self.transport)
         self._phone.disconnected()
         self._link.log("connection lost", code="phone_disconnected")
@@ -208,12 +199,10 @@ class _OrientationLink(Protocol):
         self._link = link
 
     def connectionMade(self) -> None:  # noqa: N802 - Twisted's name
-        """Begin to send."""
         self._link.live.add(self.transport)
         self._phone.send_orientation = DroppingWriter(self.transport).write
 
     def connectionLost(self, reason: Any = None) -> None:  # noqa: N802 - Twisted's name
-        """Stop sending."""
         self._link.live.discard(self.transport)
         self._phone.send_orientation = None
 

@@ -73,7 +73,6 @@ class Phone:
         self._orientation_due_s = 0.0
 
     def set_battery(self, percent: float) -> None:
-        """Set the battery level and report it immediately."""
         self.sensors.battery_percent = percent
         self.sensors.battery_time_s = self._flight.state.time_s
         for stream in self._streams:
@@ -94,7 +93,6 @@ class Phone:
         self.panic_s = 0.0
 
     def tick(self) -> None:
-        """Send the data that is due."""
         now_s = self._clock.seconds()
         if self.send is not None:
             for stream in self._streams:
@@ -111,7 +109,6 @@ class Phone:
             self.send_orientation(write_orientation(self._flight.state))
 
     def line_received(self, line: bytes) -> None:
-        """Take a line from the Raspberry Pi."""
         if not line.strip():
             return
         try:

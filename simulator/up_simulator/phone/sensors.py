@@ -46,11 +46,9 @@ class Quaternion(NamedTuple):
         )
 
     def conjugate(self) -> Quaternion:
-        """Return the inverse rotation."""
         return Quaternion(self.w, -self.x, -self.y, -self.z)
 
     def turn(self, x: float, y: float, z: float) -> tuple[float, float, float]:
-        """Return a rotated vector."""
         turned = self.times(Quaternion(0.0, x, y, z)).times(self.conjugate())
         return turned.x, turned.y, turned.z
 

@@ -8,6 +8,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from up.errors import UserError
 from up_simulator.picture.palette import GRID, INK, MUTED, PAPER
 
 if TYPE_CHECKING:
@@ -44,8 +45,8 @@ _STYLE: dict[str, Any] = {
 }
 
 
-class PictureError(Exception):
-    """A picture cannot be drawn: the message is one sentence for the user."""
+class PictureError(UserError):
+    """A picture cannot be drawn."""
 
 
 class Sheet:
@@ -55,7 +56,6 @@ class Sheet:
         self._figure = figure
 
     def axes(self, left: float, top: float, width: float, height: float, **options: Any) -> Axes:
-        """Return new axes at a place."""
         paper_width, paper_height = self._figure.get_size_inches()
         place = (
             left / paper_width,
@@ -66,7 +66,6 @@ class Sheet:
         return self._figure.add_axes(place, **options)
 
     def text(self, left: float, top: float, words: str, **options: Any) -> None:
-        """Write words whose first line begins at a place."""
         paper_width, paper_height = self._figure.get_size_inches()
         options = {"va": "top", "ha": "left", **options}
         self._figure.text(left / paper_width, 1 - top / paper_height, words, **options)
@@ -92,14 +91,15 @@ def sheet_for(path: Path) -> Iterator[Sheet]:
     """
     suffix = path.suffix.lower()
     if suffix not in SUFFIXES:
-        raise PictureError(f"{path}: a picture ends in .png or .svg")
+        raise PictureError(f"{path}: a picture ends in .png or .svg", "unknown_format")
     try:
         matplotlib = importlib.import_module("matplotlib")
         figures = importlib.import_module("matplotlib.figure")
         agg = importlib.import_module("matplotlib.backends.backend_agg")
     except ImportError as error:
         raise PictureError(
-            "no picture: matplotlib is not installed; pip install -e '.[sim]' brings it"
+            "no picture: matplotlib is not installed; pip install -e '.[sim]' brings it",
+            "no_matplotlib",
         ) from error
     with matplotlib.rc_context():
         matplotlib.rcdefaults()
@@ -115,4 +115,5 @@ def sheet_for(path: Path) -> Iterator[Sheet]:
             with contextlib.suppress(OSError):
                 path.unlink()
             reason = error.strerror or error
-            raise PictureError(f"{path}: the picture cannot be written: {reason}") from error
+            text = f"{path}: the picture cannot be written: {reason}"
+            raise PictureError(text, "not_writable") from error

@@ -66,10 +66,10 @@ def draw_flight(
     """
     times_s = log.numbers("time_s")
     if len(times_s) < 2:
-        raise PictureError(f"{path}: no picture of a log with {len(times_s)} rows")
+        raise PictureError(f"{path}: no picture of a log with {len(times_s)} rows", "too_short")
     chosen = [(panel, known) for panel in PANELS if (known := panel.known(log))]
     if not chosen:
-        raise PictureError(f"{path}: no picture: the log has no signal to draw")
+        raise PictureError(f"{path}: no picture: the log has no signal to draw", "no_signal")
     if marks is None:
         marks = [Mark(at_s, name) for at_s, name in log.events]
     with sheet_for(path) as sheet:

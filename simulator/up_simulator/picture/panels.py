@@ -53,7 +53,6 @@ class Panel:
     least_range: float = 0.0
 
     def known(self, log: Log) -> list[tuple[Line, list[float]]]:
-        """Return the lines of which anything is known."""
         if self.needed and numbers(log, self.needed) is None:
             return []
         found = ((line, numbers(log, line.signal)) for line in self.lines)

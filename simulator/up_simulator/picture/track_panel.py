@@ -104,7 +104,6 @@ def _frame(axes: Axes, east: Sequence[float], north: Sequence[float]) -> None:
 
 
 def _arrow(axes: Axes, wind: Wind) -> None:
-    """Draw where the wind blows to, in the upper right corner."""
     to_rad = math.radians(wind.from_deg + 180)
     dx, dy = 0.045 * math.sin(to_rad), 0.045 * math.cos(to_rad)
     centre = (0.91, 0.93)

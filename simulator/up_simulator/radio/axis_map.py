@@ -52,7 +52,6 @@ class JsEventReader:
         self._rest = b""
 
     def feed(self, data: bytes) -> list[JsEvent]:
-        """Return the events that these bytes complete."""
         data = self._rest + data
         whole = len(data) - len(data) % EVENT_SIZE
         self._rest = data[whole:]
@@ -129,7 +128,6 @@ class MappedSticks:
         self.now = start or Sticks(aux1=SWITCH_US["FBW"])
 
     def take(self, event: JsEvent) -> None:
-        """Move the channels that this event is the source of."""
         for channel, source in self._map.sources.items():
             if (source.number, source.is_axis) != (event.number, event.is_axis):
                 continue
@@ -141,7 +139,6 @@ class MappedSticks:
 
 
 def _next(channel: str, pulse_us: int) -> int:
-    """Return where a button takes a channel."""
     if channel == "aux1":
         nearest = min(MODES, key=lambda each: abs(each - pulse_us))
         return MODES[(MODES.index(nearest) + 1) % len(MODES)]

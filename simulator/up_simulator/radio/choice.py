@@ -33,7 +33,6 @@ class ScriptedRadio:
         self._is_on = True
 
     def sticks(self, time_s: float, state: FlightState) -> Sticks:
-        """Return the sticks of the script at this time."""
         while self._moves and self._moves[0].time_s <= time_s:
             move = self._moves.pop(0)
             if move.channel == "receiver":
@@ -45,7 +44,6 @@ class ScriptedRadio:
         return replace(sticks, **held)
 
     def close(self) -> None:
-        """Close the pilot, too."""
         if self._pilot is not None:
             self._pilot.close()
 

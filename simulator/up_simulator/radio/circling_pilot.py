@@ -69,7 +69,6 @@ class CirclingPilot:
         self._climb_m_s = 0.0
 
     def sticks(self, time_s: float, state: FlightState) -> Sticks:
-        """Return the sticks that keep the aircraft on its circle."""
         if self._home is None:
             self._home = state
         self._watch_climb(state)

@@ -34,7 +34,6 @@ class GameController:
         self._file: int | None = _open(device)
 
     def sticks(self, time_s: float, state: FlightState) -> Sticks:
-        """Return the present stick positions."""
         if self._file is None and time_s - self._tried_s >= RETRY_S:
             self._tried_s = time_s
             self._reopen()
@@ -42,7 +41,6 @@ class GameController:
         return self._sticks.now
 
     def close(self) -> None:
-        """Close the device."""
         if self._file is not None:
             os.close(self._file)
             self._file = None

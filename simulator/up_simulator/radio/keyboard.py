@@ -46,7 +46,6 @@ class KeyReader:
         self._sequence = bytearray()
 
     def feed(self, data: bytes) -> list[str]:
-        """Return the keys that these bytes complete."""
         keys: list[str] = []
         for byte in data:
             key = self._take(byte)
@@ -105,7 +104,6 @@ class KeyboardSticks:
         return True
 
     def sticks(self, time_s: float) -> Sticks:
-        """Return the present stick positions."""
         self._centre(time_s)
         return self._sticks
 

@@ -38,7 +38,6 @@ class KeyboardRadio:
         self.echo(HELP)
 
     def sticks(self, time_s: float, state: FlightState) -> Sticks:
-        """Handle the typed keys, and show the line."""
         for key in self._waiting():
             if key == "q":
                 self._leave()
@@ -53,11 +52,9 @@ class KeyboardRadio:
         return sticks
 
     def echo(self, text: str) -> None:
-        """Write lines above the one that changes."""
         self._terminal.echo(text)
 
     def close(self) -> None:
-        """Restore the terminal."""
         self._terminal.leave()
 
     def _waiting(self) -> list[str]:

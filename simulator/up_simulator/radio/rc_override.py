@@ -63,7 +63,6 @@ class RadioLink:
         self._last_rx_s = clock()
 
     def exchange(self, datagram: bytes) -> Snapshot:
-        """Send sticks and return the newest state."""
         self._send(datagram)
         while True:
             try:
@@ -80,7 +79,6 @@ class RadioLink:
         return self.snapshot
 
     def close(self) -> None:
-        """Give the sticks back."""
         try:
             self._send(write_sticks(None))
         except RadioError:

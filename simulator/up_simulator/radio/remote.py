@@ -66,11 +66,9 @@ class RemoteRadio:
 
     @property
     def is_taken(self) -> bool:
-        """Return whether a remote sender has the sticks."""
         return self._taken is not None
 
     def sticks(self, time_s: float, state: FlightState) -> Sticks:
-        """Return the sticks of their present owner."""
         own = self._pilot.sticks(time_s, state)
         for _ in range(MAX_DATAGRAMS):
             try:
@@ -86,7 +84,6 @@ class RemoteRadio:
         return self._now
 
     def close(self) -> None:
-        """Remove the socket."""
         self._socket.close()
         with suppress(OSError):
             self._path.unlink()

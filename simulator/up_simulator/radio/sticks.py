@@ -38,16 +38,13 @@ class Sticks:
 
     @property
     def mode(self) -> str:
-        """Return the mode that the switch selects."""
         return min(SWITCH_US, key=lambda mode: abs(SWITCH_US[mode] - self.aux1))
 
     @property
     def is_armed(self) -> bool:
-        """Return whether the arming switch (AUX2) is up."""
         return self.aux2 > CENTRE_US
 
     def moved(self, channel: str, pulse_us: int) -> Sticks:
-        """Return these with one channel elsewhere."""
         moved: dict[str, Any] = {channel: pulse_us}
         return replace(self, **moved)
 
@@ -80,7 +77,6 @@ class Transmitter:
         self._sent: Sticks | None = None
 
     def send(self, sticks: Sticks) -> None:
-        """Send these to the receiver from now on."""
         for channel in CHANNELS:
             pulse_us = getattr(sticks, channel)
             if self._sent is None or getattr(self._sent, channel) != pulse_us:

@@ -40,11 +40,9 @@ class KeyTerminal:
         termios.tcsetattr(keys, termios.TCSANOW, settings)
 
     def fileno(self) -> int:
-        """Return where keys are read."""
         return self._keys
 
     def read(self) -> bytes:
-        """Return the typed bytes; empty at the end of input."""
         try:
             return os.read(self._keys, 256)
         except OSError:

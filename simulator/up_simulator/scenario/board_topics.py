@@ -33,7 +33,6 @@ class LogRow:
         return value if isinstance(value, float) and math.isfinite(value) else None
 
     def whole(self, name: str) -> int | None:
-        """Return a number, rounded."""
         value = self.number(name)
         return None if value is None else round(value)
 
@@ -42,7 +41,6 @@ class LogRow:
         return None if value is None else bool(value)
 
     def text(self, name: str) -> str | None:
-        """Return a text that is not empty."""
         value = self._values.get(name)
         return value if isinstance(value, str) and value else None
 
@@ -92,7 +90,6 @@ class BoardTopics:
         self._state_due_s = -math.inf
 
     def messages(self, row: LogRow) -> Iterator[Message]:
-        """Yield the board's data in this row."""
         if self._orientation.is_new(row.number("board.orientation_age_s"), row.time_s):
             data: Data = {angle: row.number(f"board.{angle}_deg") for angle in _ANGLES}
             data |= {f"{each}_rate": row.number(f"board.{each}_rate_deg_s") for each in _ANGLES}

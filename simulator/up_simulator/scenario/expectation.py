@@ -45,7 +45,6 @@ class StepLimits:
 
     @property
     def limits(self) -> dict[str, float]:
-        """Return the figures that have a limit."""
         found = {name: getattr(self, name) for name in STEP_FIGURES}
         return {name: limit for name, limit in found.items() if limit is not None}
 

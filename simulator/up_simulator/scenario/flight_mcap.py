@@ -131,7 +131,6 @@ class _FlightFile:
             self._log(pending.sent_s, "warn", f"{command.name} from the ground: {answer}")
 
     def _close(self, time_s: float) -> None:
-        """Write the end of the flight and its metadata."""
         record = self._record
         for trouble in (record.failure, record.crash):
             if trouble is not None:
@@ -163,7 +162,6 @@ def _log_ns(time_s: float) -> int:
 
 
 def _schema(topic: str) -> tuple[str, dict[str, Any]]:
-    """Return name and JSON Schema of a topic."""
     for command in COMMANDS:
         if topic == command.NAME:
             return topic, schema_of(command)

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
-from up_simulator.harness.participants import Ground
+from up_simulator.in_process.ground import InProcessGround
 from up_simulator.scenario.event import CommandPart, Event
 from up_simulator.scenario.expectation import Verdict
 from up_simulator.scenario.log import FlightLog
@@ -24,8 +24,7 @@ class PendingCommand:
     answer: str | None = None
     answered_s: float | None = None
 
-    def poll(self, ground: Ground, time_s: float) -> None:
-        """Store the answer if it has arrived."""
+    def poll(self, ground: InProcessGround, time_s: float) -> None:
         if self.answer is None:
             self.answer = ground.answer(self.command_id)
             if self.answer is not None:

@@ -31,7 +31,6 @@ class FlightTopics:
         self._signals_due_s = -math.inf
 
     def messages(self, values: Mapping[str, Value]) -> Iterator[Message]:
-        """Yield topic and data of everything in this row."""
         row = LogRow(values)
         yield TOPIC, _truth(row)
         yield from self._board.messages(row)
@@ -92,7 +91,6 @@ class TruePositionTopics:
         self._due_s = -math.inf
 
     def messages(self, row: LogRow) -> Iterator[Message]:
-        """Yield position, altitude and heading when they are due."""
         if row.time_s < self._due_s - ROW_S / 2:
             return
         self._due_s = row.time_s + POSITION_S
@@ -119,7 +117,6 @@ class GroundTopics:
         self._panic: Data = {}
 
     def messages(self, row: LogRow) -> Iterator[Message]:
-        """Yield the new data of the newest telemetry."""
         frames = row.number("ground.frames")
         if frames is None or frames == self._frames:
             return

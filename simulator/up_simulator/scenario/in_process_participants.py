@@ -52,7 +52,6 @@ class InProcessParticipants(DaemonParticipants):
         return float(self._reactor.seconds())
 
     def exchange(self, step_s: float) -> None:
-        """Pass bytes and let this time go by."""
         self._daemon.pump(self.board)
         self._reactor.advance(step_s)
         self.check_raspilot()
@@ -64,10 +63,8 @@ class InProcessParticipants(DaemonParticipants):
             self._daemon.line.unplug()
 
     def load(self, percent: float) -> None:
-        """Report this load to the Load Guard."""
         self._daemon.meter.load = percent
 
     def stop(self) -> None:
-        """End all members and remove the configuration."""
         super().stop()
         self._workspace.close()

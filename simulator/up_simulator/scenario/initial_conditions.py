@@ -173,7 +173,6 @@ class LinkSettingsPart:
     )
 
     def settings(self) -> LinkSettings:
-        """Return the settings for the link's model."""
         return LinkSettings(self.delay_ms, self.jitter_ms, self.loss_percent, self.rate_bytes_s)
 
 

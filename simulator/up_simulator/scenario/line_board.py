@@ -34,7 +34,6 @@ class SerialWires:
         self._noise_until_s = now_s + noise.for_s
 
     def pass_on(self, data: bytes, direction: str, now_s: float) -> bytes:
-        """Return the bytes that arrive at the other end."""
         if not self.is_plugged:
             return b""
         noise = self._noise
@@ -111,7 +110,6 @@ class LineBoard:
         return self._board.eeprom
 
     def run_us(self, duration_us: float) -> None:
-        """Run on; raises ``BoardCrashedError``."""
         left_us = duration_us
         while left_us > 1e-6:
             slice_us = min(left_us, SLICE_US)
@@ -148,26 +146,21 @@ class LineBoard:
             self.set_stick(channel, width_us)
 
     def set_receiver(self, is_on: bool) -> None:
-        """Switch all channels of the receiver on or off."""
         self._board.set_receiver(is_on)
 
     def set_channel(self, channel: Channel, is_on: bool) -> None:
-        """Switch the pulses of one channel of the receiver on or off."""
         self._board.set_channel(channel, is_on)
 
     def set_motion(self, motion: Motion) -> None:
-        """Set the IMU's motion from now on."""
         self._board.set_motion(motion)
 
     def pulses_us(self) -> Pulses:
         return self._board.pulses_us()
 
     def pulse_ages_us(self) -> tuple[float, float, float, float]:
-        """Return how long ago the newest pulse of each servo ended."""
         return self._board.pulse_ages_us()
 
     def read(self) -> bytes:
-        """Return the bytes from the serial line as they arrive at the other end."""
         data = self._board.read()
         self.tap.feed(data, self.now_s)
         return self.wires.pass_on(data, FROM_BOARD, self.now_s)

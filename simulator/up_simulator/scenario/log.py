@@ -54,11 +54,9 @@ class FlightLog:
         return self._count
 
     def __contains__(self, column: object) -> bool:
-        """Return whether there is a column of that name."""
         return column in self._numbers or column in self._texts
 
     def append(self, values: Mapping[str, float | bool | str | None]) -> None:
-        """Append a row; signals missing in it are unknown."""
         for name, texts in self._texts.items():
             value = values.get(name)
             texts.append("" if value is None else sys.intern(str(value)))
@@ -70,7 +68,6 @@ class FlightLog:
 
     @property
     def rows(self) -> Iterator[tuple[Value, ...]]:
-        """Yield every row, its values in the order of the columns."""
         return zip(*(self._values(name) for name in self.columns), strict=True)
 
     def column(self, name: str) -> list[Value]:
@@ -92,7 +89,6 @@ class FlightLog:
 
     @property
     def events(self) -> list[tuple[float, str]]:
-        """Return time and name of every event."""
         if EVENT_COLUMN not in self:
             return []
         found: list[tuple[float, str]] = []
@@ -106,7 +102,6 @@ class FlightLog:
         return into.getvalue()
 
     def write(self, path: Path) -> None:
-        """Write the CSV file; raises OSError."""
         with path.open("w", encoding="utf-8", newline="") as file:
             self._write(file)
 

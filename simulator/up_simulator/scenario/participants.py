@@ -5,13 +5,12 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Mapping
 from types import MappingProxyType
-from typing import Protocol
 
 from up.commands.board_schema import Veto
-from up_simulator.harness.participants import Ground, ParticipantError, Raspilot
-from up_simulator.harness.participants import Phone as PluggedPhone
+from up_simulator.harness.participants import ParticipantError, Raspilot
+from up_simulator.in_process.ground import InProcessGround
+from up_simulator.in_process.phone import InProcessPhone
 from up_simulator.link.model import LinkModel
-from up_simulator.phone.sensors import PhoneSensors
 from up_simulator.scenario.event import Event
 from up_simulator.scenario.initial_conditions import LinkPart
 from up_simulator.scenario.line_board import LineBoard
@@ -27,37 +26,15 @@ class DaemonEndedError(ParticipantError):
     code = "daemon_ended"
 
 
-class Daemon(Raspilot, Protocol):
-    """A daemon that can be suspended."""
-
-    def freeze(self) -> None:
-        """Suspend it."""
-
-    def thaw(self) -> None:
-        """Resume it."""
-
-
-class AirbornePhone(PluggedPhone, Protocol):
-    """A phone whose battery and GPS can be set."""
-
-    sensors: PhoneSensors
-
-    def set_battery(self, percent: float) -> None:
-        """Set the level of its battery."""
-
-    def stop(self) -> None:
-        """Switch it off."""
-
-
 class Participants:
     """The participants as a whole; a missing one stays None.
 
     Here there is no Raspberry Pi: a listener on the serial line requests the board's streams.
     """
 
-    raspilot: Daemon | None = None
-    ground: Ground | None = None
-    phone: AirbornePhone | None = None
+    raspilot: Raspilot | None = None
+    ground: InProcessGround | None = None
+    phone: InProcessPhone | None = None
     black_boxes: Mapping[str, bytes] = MappingProxyType({})
     """The files, by name, that a real daemon has recorded; available after ``stop``."""
 
@@ -102,7 +79,7 @@ class DaemonParticipants(Participants, ABC):
     the ground, ``down`` the one back.
     """
 
-    raspilot: Daemon
+    raspilot: Raspilot
 
     def __init__(self, scenario: Scenario, board: LineBoard) -> None:
         super().__init__(board)
@@ -129,7 +106,6 @@ class DaemonParticipants(Participants, ABC):
         """Simulate this load of the Raspberry Pi; raises ParticipantError if impossible."""
 
     def start(self) -> None:
-        """Start the daemon, the ground station and, if it is plugged in, the phone."""
         self.raspilot.start()
         self._should_run = True
         if self.ground is not None:
@@ -151,7 +127,6 @@ class DaemonParticipants(Participants, ABC):
         return self.seconds() - self._ready_s >= SETTLING_S
 
     def dispatch(self, event: Event) -> None:
-        """Carry out an event that concerns the participants; raises ParticipantError."""
         phone = self.phone
         match event.kinds[0]:
             case "serial":
@@ -183,7 +158,6 @@ class DaemonParticipants(Participants, ABC):
         self.raspilot.kill()
 
     def terminate_raspilot(self) -> None:
-        """Send the daemon the signal to end, and do not wait for it."""
         self.raspilot.stop()
 
     def check_raspilot(self) -> None:

@@ -26,7 +26,6 @@ class ProgressLine:
         self._width = 0
 
     def begin(self, title: str, duration_s: float) -> None:
-        """Begin with a flight of that name and length."""
         self._title, self._duration_s = title, duration_s
         self._began_s = self._clock()
         self._shown_s = self._began_s - REFRESH_S

@@ -68,14 +68,12 @@ class RealParticipants(DaemonParticipants):
         return self._reactor.seconds()
 
     def start(self) -> None:
-        """Start the proxy first, where there is one, then the others."""
         if self._proxy is not None:
             self._proxy.start()
             self._proxy.wait_for_ports()
         super().start()
 
     def exchange(self, step_s: float) -> None:
-        """Pass the bytes of the serial line, serve the sockets until the time is over."""
         line = self._line
         if line is not None:
             data = line.read(0.0, BYTES_A_STEP)
@@ -96,7 +94,6 @@ class RealParticipants(DaemonParticipants):
             self._real.check()
 
     def dispatch(self, event: Event) -> None:
-        """Carry out an event of the participants; raises ParticipantError."""
         if event.proxy is None:
             super().dispatch(event)
         elif self._proxy is not None:
@@ -106,7 +103,6 @@ class RealParticipants(DaemonParticipants):
                 self._proxy.start()
 
     def plug_serial(self, is_in: bool) -> None:
-        """Attach the pty, or remove it with all queued bytes."""
         if self._line is not None:
             self._line.close()
             self._line = None
@@ -120,7 +116,6 @@ class RealParticipants(DaemonParticipants):
         )
 
     def stop(self) -> None:
-        """End all members, and remove the written files."""
         super().stop()
         if self._proxy is not None:
             self._proxy.stop()
@@ -134,14 +129,12 @@ class RealParticipants(DaemonParticipants):
         self._workspace.close()
 
     def kill_raspilot(self) -> None:
-        """End the daemon, or the runner and its instances."""
         if isinstance(self._real, RunnerDaemon):
             self._real.end()
         else:
             self._real.kill()
 
     def terminate_raspilot(self) -> None:
-        """Send the daemon the signal to end, and do not wait for it."""
         if isinstance(self._real, RealRaspilot):
             self._real.request_stop()
         else:
@@ -154,7 +147,6 @@ class RealParticipants(DaemonParticipants):
             raise SerialLineError(f"cannot open the serial line: {error}") from error
 
     def _make_daemon(self, files: dict[str, dict[str, Any]]) -> RealRaspilot | RunnerDaemon:
-        """Write the configuration; make the daemon, or the runner that will start it."""
         folder, changes = self._folder / "config", self.scenario.raspilot.config
         config = write_config(folder, merge(files, changes))
         self._proxy = RealProxy(config, self._folder) if self._has_proxy else None

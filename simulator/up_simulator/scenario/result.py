@@ -28,14 +28,12 @@ class Result:
 
     @property
     def is_held(self) -> bool:
-        """Return whether all expectations held."""
         records = (self.record, self.control)
         broken = any(record is not None and record.is_cut_short for record in records)
         return not broken and all(verdict.is_held for verdict in self.verdicts)
 
     @property
     def is_interrupted(self) -> bool:
-        """Return whether the user ended the flight or its control run."""
         return any(
             record is not None and record.is_interrupted for record in (self.record, self.control)
         )

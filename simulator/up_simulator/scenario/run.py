@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import tempfile
-import time
 from collections.abc import Callable, Mapping
 from contextlib import suppress
 from dataclasses import dataclass, field
@@ -101,61 +100,33 @@ def fly_scenario(
     scenario: Scenario,
     progress: ProgressLine,
     notify: Notify = lambda _text: None,
-    *,
-    is_paced: bool = False,
 ) -> Result:
-    """Fly it, and its control run unless it was interrupted, and evaluate both.
-
-    With ``is_paced`` it runs in real time at most. Raises CannotFlyError.
-    """
-    record = _fly(name, scenario, progress, notify, is_paced)
+    """Fly it and its control run, unless interrupted; evaluate both. Raises CannotFlyError."""
+    record = _fly(name, scenario, progress, notify)
     result = Result(record, verdicts_of(record))
     if scenario.control is not None and not record.is_interrupted and record.failure is None:
-        control = _fly(
-            f"{name}, control run", control_scenario(scenario), progress, notify, is_paced
-        )
+        control = _fly(f"{name}, control run", control_scenario(scenario), progress, notify)
         result.control = control
         result.verdicts += control_verdicts(scenario, control)
     return result
 
 
-def _fly(
-    name: str, scenario: Scenario, progress: ProgressLine, notify: Notify, is_paced: bool
-) -> FlightRecord:
+def _fly(name: str, scenario: Scenario, progress: ProgressLine, notify: Notify) -> FlightRecord:
     progress.begin(name, scenario.duration_s)
     try:
         flight = build_flight(scenario, notify)
     except tuple(_CODES) as error:
         raise CannotFlyError(error) from error
     else:
-        show = _Paced(progress.show) if is_paced else progress.show
         with interrupts_between_steps() as interrupt:
 
             def on_progress(time_s: float) -> None:
                 interrupt.check()
-                show(time_s)
+                progress.show(time_s)
 
             return flight.fly(on_progress)
     finally:
         progress.end()
-
-
-class _Paced:
-    """Passes the progress on, and waits where the flight is ahead of the clock."""
-
-    def __init__(self, show: Callable[[float], None]) -> None:
-        self._show = show
-        self._began_s: float | None = None
-
-    def __call__(self, time_s: float) -> None:
-        now_s = time.monotonic()
-        # Before the flight begins it is 0 again and again.
-        if self._began_s is None or time_s <= 0:
-            self._began_s = now_s - time_s
-        self._show(time_s)
-        ahead_s = self._began_s + time_s - now_s
-        if ahead_s > 0:
-            time.sleep(ahead_s)
 
 
 def try_folder(folder: Path) -> None:
@@ -197,7 +168,6 @@ def write_files(name: str, result: Result, output: Output, notify: Notify) -> Fi
 
 
 def _write_black_boxes(found: Mapping[str, bytes], folder: Path, files: Files) -> None:
-    """Keep a real daemon's recordings, and delete those of an earlier flight."""
     with suppress(OSError):
         for old in folder.glob("*.mcap"):
             old.unlink()

@@ -36,7 +36,6 @@ class RunnerDaemon:
 
     @property
     def log(self) -> Sequence[str]:
-        """Return the newest lines that it logged."""
         try:
             data = (self._folder / ".logs" / f"{AIRCRAFT}.log").read_bytes()
         except OSError:
@@ -64,11 +63,9 @@ class RunnerDaemon:
         self._signal(signal.SIGCONT)
 
     def check(self) -> None:
-        """Raise ParticipantError if the runner has ended unexpectedly."""
         self._runner.check()
 
     def end(self) -> None:
-        """End the runner, and with it the instance."""
         self._runner.stop()
 
     def _pid(self) -> int | None:

@@ -9,8 +9,8 @@ from typing import Any
 from up.commands.board_schema import DATA, FLIGHT_MODES, RESET_CAUSES, SWITCH_POSITIONS
 from up_simulator.aircraft.flight import Dynamics
 from up_simulator.firmware.line_monitor import LineMonitor
-from up_simulator.harness.participants import Ground
 from up_simulator.harness.world import World
+from up_simulator.in_process.ground import InProcessGround
 from up_simulator.scenario.demand import DemandModel
 from up_simulator.scenario.line_board import LineBoard
 from up_simulator.scenario.participants import Participants
@@ -133,7 +133,7 @@ def _board(tap: LineMonitor, now_s: float) -> Iterable[tuple[str, Any]]:
     yield "board.status_age_s", now_s - tap.status_s
 
 
-def _ground(ground: Ground, now_s: float) -> Iterable[tuple[str, Any]]:
+def _ground(ground: InProcessGround, now_s: float) -> Iterable[tuple[str, Any]]:
     yield "ground.frames", ground.frames
     yield "ground.connected", ground.is_connected
     yield "ground.age_s", None if ground.newest_s is None else now_s - ground.newest_s

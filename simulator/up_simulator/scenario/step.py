@@ -80,7 +80,7 @@ def _endpoints(
         return start, end
     demand = limits.demand or f"demand.{expectation.signal.partition('.')[2]}"
     if demand not in log:
-        raise StepError(f"the log has no {demand}: set start and end")
+        raise StepError(f"the log has no {demand}: set start and end", "no_demand")
     if start is None:
         start = _at(log, demand, window.begin_s - MARGIN_S)
     if end is None:

@@ -9,6 +9,8 @@ from dataclasses import dataclass
 from itertools import accumulate
 from statistics import fmean, median
 
+from up.errors import UserError
+
 MIN_SAMPLES = 10
 SETTLED_SHARE = 0.05
 TAIL_SHARE = 0.25
@@ -22,8 +24,8 @@ SMOOTHING_SHARE = 0.15
 """The mean that takes out noise is this part of the rise wide: it lengthens the rise by 1 %."""
 
 
-class StepError(ValueError):
-    """These samples hold no step response: the message is one sentence with the reason."""
+class StepError(UserError):
+    """These samples hold no step response."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -77,7 +79,8 @@ def analyse_step(
     if past - first < MIN_SAMPLES:
         raise StepError(
             f"only {max(0, past - first)} samples after the step at {at_s:g} s:"
-            f" {MIN_SAMPLES} are needed"
+            f" {MIN_SAMPLES} are needed",
+            "too_few_samples",
         )
     lead = bisect_left(times_s, at_s - LEAD_S)
     after_s = [time_s - at_s for time_s in times_s[first:past]]
@@ -87,7 +90,7 @@ def analyse_step(
     if max(curve) - min(curve) < STILL_SHARE * abs(end - start) and (
         abs(fmean(curve) - begin) < STILL_SHARE * abs(end - start)
     ):
-        raise StepError(f"the values do not move after the step at {at_s:g} s")
+        raise StepError(f"the values do not move after the step at {at_s:g} s", "no_response")
 
     rough = _Shape.of(after_s, curve, begin, start, end)
     width_s = SMOOTHING_SHARE * (rough.rise_time_s or 0.0)
@@ -154,17 +157,22 @@ def _check(
     until_s: float | None,
 ) -> None:
     if len(times_s) != len(values):
-        raise StepError(f"{len(times_s)} times do not go with {len(values)} values")
+        raise StepError(
+            f"{len(times_s)} times do not go with {len(values)} values", "lengths_differ"
+        )
     for name, number in (("at_s", at_s), ("start", start), ("end", end), ("until_s", until_s)):
         if number is not None and not math.isfinite(number):
-            raise StepError(f"{name} is {number}, which is no number to measure by")
+            raise StepError(f"{name} is not a finite number: {number}", "not_finite")
     if not math.isfinite(end - start) or abs(end - start) < 1e-9:
-        raise StepError(f"a step from {start:g} to {end:g} is none")
+        raise StepError(f"{start:g} to {end:g} is not a step", "no_step")
     for index, (time_s, value) in enumerate(zip(times_s, values, strict=True)):
         if not (math.isfinite(time_s) and abs(value) < 1e12):
-            raise StepError(f"sample {index} at {time_s:g} s is {value}, which is no number")
+            raise StepError(
+                f"sample {index} at {time_s:g} s is not a finite number: {value}", "not_finite"
+            )
         if index and time_s <= times_s[index - 1]:
-            raise StepError(f"the time of sample {index} ({time_s:g} s) does not rise")
+            text = f"the time of sample {index} ({time_s:g} s) does not rise"
+            raise StepError(text, "times_not_rising")
 
 
 def _without_spikes(values: Sequence[float]) -> list[float]:

@@ -136,12 +136,10 @@ class StickTimeline:
                 self._moves[channel].append(move)
 
     def pulse_us(self, channel: str, time_s: float) -> float:
-        """Return the pulse of a channel at a time."""
         for move in reversed(self._moves[channel]):
             if time_s >= move.begin_s - 1e-9:
                 return move.at_us(time_s)
         return INITIAL_US[channel]
 
     def pulses_us(self, time_s: float) -> dict[str, float]:
-        """Return the pulses of all channels at a time."""
         return {channel: self.pulse_us(channel, time_s) for channel in CHANNELS}

@@ -52,7 +52,6 @@ class Window:
         return None
 
     def steady(self) -> Window:
-        """Return the window with its angles unwrapped."""
         turns = 0.0
         before: float | None = None
         values: list[Value] = []

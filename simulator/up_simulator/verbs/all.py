@@ -61,11 +61,9 @@ class Job:
 
     @property
     def name(self) -> str:
-        """Return the scenario's name."""
         return name_of(self.path)
 
     def start(self, options: argparse.Namespace) -> None:
-        """Begin to fly."""
         # A summary of an earlier run must not be taken for this one's.
         (self.folder / SUMMARY).unlink(missing_ok=True)
         command = [sys.executable, "-m", "up_simulator.cli", "fly", str(self.path), "--quiet"]
@@ -77,7 +75,6 @@ class Job:
         )
 
     def is_over(self) -> bool:
-        """Return whether it has ended, and note how."""
         assert self.process is not None
         found, status, usage = os.wait4(self.process.pid, os.WNOHANG)
         if not found:
@@ -153,7 +150,6 @@ class Batch:
         self._shown_s = 0.0
 
     def fly(self) -> None:
-        """Fly until all have ended."""
         while self._waiting or self._flying:
             while self._waiting and self._has_room_for(self._waiting[0]):
                 job = self._waiting.pop(0)

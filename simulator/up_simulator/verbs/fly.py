@@ -90,8 +90,6 @@ def _read(path: Path, options: argparse.Namespace) -> Scenario:
     ]
     overrides += [_override(text) for text in options.set]
     scenario = read_scenario(path, overrides)
-    if options.speed == "fast" and scenario.is_real:
-        raise UsageError(f"{path}: real programs fly in real time only")
     return scenario
 
 
@@ -103,10 +101,9 @@ def _override(text: str) -> Override:
 
 
 def _fly(name: str, scenario: Scenario, options: argparse.Namespace) -> tuple[Result, bool]:
-    """Return the result, and whether all its files are written."""
     progress = ProgressLine(sys.stderr, is_shown=not options.quiet)
     try:
-        result = fly_scenario(name, scenario, progress, _note, is_paced=options.speed == "real")
+        result = fly_scenario(name, scenario, progress, _note)
     except CannotFlyError as error:
         kind = UsageError if error.is_wrong_input else FailedError
         raise kind(f"{name}: {error}") from error
@@ -150,11 +147,6 @@ def _parser() -> argparse.ArgumentParser:
     )
     parser.add_argument("--seed", metavar="N", help="of turbulence and all noise")
     parser.add_argument("--duration", metavar="SECONDS", help="how long to fly")
-    parser.add_argument(
-        "--speed",
-        choices=("fast", "real"),
-        help="fast: as fast as it goes (default); real: no faster than real time",
-    )
     parser.add_argument("--board", choices=BOARDS, help="the board (default: the scenario's)")
     parser.add_argument(
         "--set",

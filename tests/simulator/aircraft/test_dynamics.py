@@ -211,8 +211,9 @@ def test_a_vertical_gust_loads_the_wing():
 def test_the_ground_ends_the_flight():
     flight = flying(start=Start(height_m=20.0, pitch_deg=-70.0))
     flight.advance(5.0)
-    assert flight.crash.startswith("hit the ground after ")
+    assert flight.crash is not None
     state = flight.state
+    assert state.height_m < 0.5
     flight.advance(1.0)
     after = flight.state
     assert after.time_s == pytest.approx(state.time_s + 1.0)
@@ -223,7 +224,7 @@ def test_a_load_above_the_limit_breaks_the_aircraft():
     flight = flying(start=Start(height_m=300.0, airspeed_m_s=45.0, pitch_deg=-60.0))
     flight.set_servos((1500, 2000, 1000, 1500))
     flight.advance(3.0)
-    assert flight.crash.startswith("broke in the air after ")
+    assert flight.crash is not None and flight.state.height_m > 100.0
 
 
 def test_a_diverged_model_is_a_crash():
@@ -242,7 +243,7 @@ def test_an_exception_of_jsbsim_in_flight_is_a_crash(monkeypatch):
     flight = flying()
     monkeypatch.setattr(flight, "_fdm", Thrower())
     flight.advance(0.01)
-    assert flight.crash == "the flight model has given up: no answer"
+    assert "no answer" in flight.crash
 
 
 @pytest.mark.parametrize("name", NAMES)

@@ -96,7 +96,15 @@ def test_the_flight_model_leaves_nothing_in_the_working_directory(tmp_path):
 
 @pytest.mark.parametrize(
     "words",
-    [["--wind", "99"], ["--radio", "script"], ["--board", "chip"], ["--link", "dealy=5"]],
+    [
+        ["--wind", "99"],
+        ["--radio", "script"],
+        ["--board", "chip"],
+        ["--link", "dealy=5"],
+        ["--page", "nowhere"],
+        ["--replay", "missing.csv"],
+        ["--state-log", "/nowhere/x.csv"],
+    ],
 )
 def test_a_wrong_option_of_the_aircraft_is_refused_before_anything_starts(words, capsys):
     with pytest.raises(SystemExit) as end:

@@ -164,14 +164,14 @@ def test_a_refusal_names_setting_and_reason(elf):
     armed.run_us(2_000_000)
     armed.set_stick("aux2", 2000)
     armed.run_us(500_000)
-    with pytest.raises(
-        PreparationError, match="refuses the profile of the airframe: only on the ground"
-    ):
+    with pytest.raises(PreparationError) as caught:
         prepare_eeprom(armed, {"motor": False}, {})
+    assert caught.value.code == "refused"
 
 
 def test_a_board_without_an_answer_is_reported():
     silent = aboard("firmware").board()
     silent.write = lambda _data: None
-    with pytest.raises(PreparationError, match="the board does not answer to c"):
+    with pytest.raises(PreparationError) as caught:
         prepare_eeprom(silent, {}, {})
+    assert caught.value.code == "no_answer"

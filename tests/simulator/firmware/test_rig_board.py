@@ -33,15 +33,6 @@ def test_a_receiver_that_is_switched_at_any_time_never_sends_half_a_pulse(aboard
     assert max(aboard.board.pulse_ages_us()) < 1.2 * FRAME_US
 
 
-def test_a_silent_channel_alone_makes_the_receiver_invalid(aboard):
-    aboard.board.set_channel("elevator", False)
-    aboard.run_ms(1500)
-    assert not aboard.status().is_receiver_valid
-    aboard.board.set_channel("elevator", True)
-    aboard.run_ms(500)
-    assert aboard.status().is_receiver_valid
-
-
 def test_time_is_exact_to_an_instruction(aboard):
     before_us = aboard.board.now_us
     for _ in range(500):
@@ -54,17 +45,6 @@ def test_the_imu_measures_the_motion_with_its_errors(aboard):
     aboard.board.set_motion(Motion(yaw_rate_deg_s=20))
     aboard.status()
     assert aboard.tap.orientation.yaw_rate_deg_s == pytest.approx(25, abs=0.5)
-
-
-@pytest.mark.parametrize("cause", ["watchdog", "power", "button", "brown-out"])
-def test_a_reset_says_its_cause(aboard, cause):
-    bit = {"power": 1, "button": 2, "brown-out": 4, "watchdog": 8}[cause]
-    aboard.board.reset(cause)
-    aboard.run_ms(1500)
-    status = aboard.status()
-    assert status.reset_cause & bit
-    assert status.uptime_s <= 2
-    assert status.is_restored is (cause == "watchdog")
 
 
 def test_the_same_seed_has_the_same_bytes_and_another_has_not(elf):

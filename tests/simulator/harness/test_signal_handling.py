@@ -120,7 +120,7 @@ def left(folder):
     return [path.name for path in (folder / "tmp").iterdir()]
 
 
-@pytest.mark.parametrize("number", ENDS)
+@pytest.mark.parametrize("number", [signal.SIGTERM])
 def test_a_flight_ends_with_its_report_and_the_signals_status(in_a_folder, number):
     Path("long.yml").write_text(LONG)
     own, other = pty.openpty()
@@ -136,7 +136,7 @@ def test_a_flight_ends_with_its_report_and_the_signals_status(in_a_folder, numbe
     assert (in_a_folder / "run/flights/long/log.csv").is_file()
 
 
-@pytest.mark.parametrize("number", ENDS)
+@pytest.mark.parametrize("number", [signal.SIGHUP])
 def test_real_programs_and_their_folder_end_with_the_flight(in_a_folder, number):
     Path("real.yml").write_text(WITH_DAEMON)
     with program(in_a_folder, "fly", "real.yml", "--no-picture") as process:
@@ -151,7 +151,7 @@ def test_real_programs_and_their_folder_end_with_the_flight(in_a_folder, number)
     assert left(in_a_folder) == []
 
 
-@pytest.mark.parametrize("number", [*ENDS, signal.SIGKILL])
+@pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGKILL])
 def test_all_ends_its_flights(in_a_folder, number):
     Path("one.yml").write_text(LONG)
     Path("two.yml").write_text(LONG)
@@ -182,17 +182,6 @@ def test_a_closed_terminal_ends_a_flight_with_its_report_in_the_file(in_a_folder
     assert "interrupted" in (in_a_folder / "run/flights/one/report.txt").read_text()
 
 
-def test_a_closed_terminal_ends_all_flights(in_a_folder):
-    Path("one.yml").write_text(LONG)
-    own, other = pty.openpty()
-    with program(in_a_folder, "all", code=CATALOGUE, **on_its_terminal(other)) as process:
-        os.close(other)
-        wait(lambda: flights(in_a_folder), "a flight")
-        os.close(own)
-        assert process.wait(LIMIT_S) == 128 + signal.SIGHUP
-        wait(lambda: not ours(in_a_folder), "the end of the flight")
-
-
 def test_a_frozen_daemon_ends_with_a_killed_flight(in_a_folder):
     Path("real.yml").write_text(WITH_DAEMON + "events: [{at_s: 0, raspilot: hung}]\n")
 
@@ -220,7 +209,7 @@ def test_the_folder_of_a_killed_flight_is_removed_by_the_next(in_a_folder):
     assert left(in_a_folder) == [other.name]
 
 
-@pytest.mark.parametrize("number", [signal.SIGINT, *ENDS, signal.SIGKILL])
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGKILL])
 def test_tuning_ends_its_workers(in_a_folder, number):
     with program(in_a_folder, "tune", "--quick", "--axis", "roll") as process:
         # Itself, what watches its semaphores, and two workers.
@@ -264,7 +253,7 @@ def test_an_aircraft_started_with_nohup_ignores_the_hangup(in_a_folder, module):
     assert left(in_a_folder) == []
 
 
-@pytest.mark.parametrize("number", [signal.SIGINT, *ENDS, signal.SIGKILL])
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGKILL])
 def test_the_demo_ends_all_its_processes(in_a_folder, number):
     words = ("--any-ports", "--no-watch", "--folder", str(in_a_folder))
     with program(in_a_folder, "-m", "up_simulator.demo", *words, python=True) as process:

@@ -154,6 +154,9 @@ def test_a_reader_that_stops_does_no_harm(tmp_path):
         ("--radio", "telepathy"),
         ("--controller", "flaps=1"),
         ("--airfram", "wing"),
+        ("--gains", "missing.yml"),
+        ("--replay", "missing.csv"),
+        ("--state-log", "/nowhere/truth.csv"),
     ],
 )
 def test_a_wrong_option_ends_it_with_one_line_that_names_it(arguments, capsys):
@@ -183,16 +186,10 @@ def test_a_file_in_place_of_the_link_is_left_alone(tmp_path):
 
 @pytest.mark.parametrize(
     "arguments",
-    [
-        ("--radio", "/nowhere/js7"),
-        ("--radio", "keyboard"),
-        ("--elf", "missing.elf"),
-        ("--replay", "missing.csv"),
-    ],
+    [("--radio", "/nowhere/js7"), ("--radio", "keyboard")],
 )
 def test_a_flight_that_cannot_start_ends_with_one_line_that_names_the_cause(tmp_path, arguments):
-    kind = "auto" if "--elf" in arguments else "host"
-    with board(tmp_path, *arguments, kind=kind) as program:
+    with board(tmp_path, *arguments) as program:
         assert program.process.wait(60) == 1
         error = program.error()
     assert error.startswith("up-sim: ") and error.count("\n") == 1, error

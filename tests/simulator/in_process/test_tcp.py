@@ -283,14 +283,6 @@ def test_addresses_and_the_round_trip_are_available():
     assert int.from_bytes(info[68:72], "little") == pytest.approx(100_000, abs=5000)
 
 
-@pytest.mark.parametrize("bad", ["text", 3, None])
-def test_only_bytes_can_be_written(bad):
-    bench = Bench()
-    bench.connect()
-    with pytest.raises(TypeError):
-        bench.here.transport.write(bad)
-
-
 def test_a_frozen_program_receives_all_data_when_it_resumes():
     bench = Bench(SLOW)
     bench.connect()

@@ -195,8 +195,9 @@ def test_it_asks_a_runner_and_goes_where_the_answer_says(server):
         ) as program:
             with Peer(runner) as peer:
                 assert json.loads(peer.file.readline()) == {"aircraft": "glider-1"}
-                peer.send(b'{"running": false, "error": "no such aircraft", "ports": null}\n')
-                assert "no such aircraft" in program.wait_for("phone_not_found").text
+                peer.send(b'{"running": false, "error": "unknown-aircraft", "ports": null}\n')
+                refused = program.wait_for("phone_not_found")
+                assert "unknown-aircraft" in refused.fields["reason"]
             with Peer(runner) as peer:
                 peer.file.readline()
                 ports = {"general": port_of(server), "orientation": 50000}

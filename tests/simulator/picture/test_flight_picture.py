@@ -18,6 +18,12 @@ def flight():
     return made_up(20.0)
 
 
+@pytest.fixture(scope="module")
+def plain(flight, tmp_path_factory):
+    """The picture of the flight, drawn once."""
+    return svg(flight, tmp_path_factory.mktemp("plain"), title="A title", subtitle="a subtitle")
+
+
 def svg(log, tmp_path, **options):
     """Return the picture as SVG in which words are words."""
     path = tmp_path / "flight.svg"
@@ -32,20 +38,16 @@ def words(text):
 
 def test_the_same_flight_gives_the_same_bytes(flight, tmp_path):
     pictures = []
-    for name in ("a", "b"):
-        for suffix in (".png", ".svg"):
-            path = tmp_path / f"{name}{suffix}"
-            draw_flight(flight, path, title="twice", wind=Wind(4, 90))
-            pictures.append(path.read_bytes())
-    assert pictures[0] == pictures[2]
-    assert pictures[1] == pictures[3]
-    assert pictures[0].startswith(PNG)
-    assert b"tEXt" not in pictures[0]
-    assert b"<dc:date>" not in pictures[1]
+    for name in ("a.svg", "b.svg", "c.png"):
+        draw_flight(flight, tmp_path / name, title="twice", wind=Wind(4, 90))
+        pictures.append((tmp_path / name).read_bytes())
+    assert pictures[0] == pictures[1]
+    assert b"<dc:date>" not in pictures[0]
+    assert pictures[2].startswith(PNG) and b"tEXt" not in pictures[2]
 
 
-def test_all_that_the_log_tells_is_on_it(flight, tmp_path):
-    written = words(svg(flight, tmp_path, title="A title", subtitle="a subtitle"))
+def test_all_that_the_log_tells_is_on_it(plain):
+    written = words(plain)
     for each in ("A title", "a subtitle", "Roll", "Pitch", "Roll rate", "Sticks", "Servo pulses"):
         assert each in written
     for each in ("Height and airspeed", "Load factor", "Track from above", "start", "end"):
@@ -63,17 +65,16 @@ def test_panels_without_data_are_left_out(tmp_path):
     assert "Roll" in written
     for missing in ("Pitch", "Sticks", "Servo pulses", "Load factor", "estimate", "demand"):
         assert missing not in written
-    assert "the log has no positions" in written
+    assert "Track" not in written
 
 
 def test_marks_given_take_the_place_of_the_events(flight, tmp_path):
     written = words(svg(flight, tmp_path, marks=[Mark(3, "IMU unplugged", is_fault=True)]))
     assert "IMU unplugged" in written
-    assert "gust from the left" not in written
+    assert "phone unplugged" not in written
 
 
-def test_a_failed_expectation_is_shaded_on_its_signal(flight, tmp_path):
-    plain = svg(flight, tmp_path)
+def test_a_failed_expectation_is_shaded_on_its_signal(flight, plain, tmp_path):
     one = svg(flight, tmp_path, failures=[Failure("error.roll_deg", 5, 9, "roll: 8 deg, not 3")])
     homeless = Failure("ground.age_s", 5, 9, "telemetry: 5 s, not 1")
     everywhere = svg(flight, tmp_path, failures=[homeless])
@@ -94,9 +95,9 @@ def test_a_crash_is_marked_and_named(tmp_path):
     assert "end" not in written.split("\n")
 
 
-def test_wind_is_drawn_where_it_blows(flight, tmp_path):
+def test_wind_is_drawn_where_it_blows(flight, plain, tmp_path):
     assert "wind 5 m/s" in words(svg(flight, tmp_path, wind=Wind(5, 240)))
-    assert "wind" not in words(svg(flight, tmp_path, wind=Wind(0, 240)))
+    assert "wind" not in words(plain)
 
 
 def test_a_long_flight_keeps_its_peaks_and_stays_small(tmp_path):
@@ -111,34 +112,37 @@ def test_a_long_flight_keeps_its_peaks_and_stays_small(tmp_path):
 
 @pytest.mark.parametrize("name", ["flight.jpg", "flight", "flight.pdf"])
 def test_another_ending_is_refused(flight, tmp_path, name):
-    with pytest.raises(PictureError, match=r"ends in .png or .svg"):
+    with pytest.raises(PictureError) as raised:
         draw_flight(flight, tmp_path / name)
+    assert raised.value.code == "unknown_format"
 
 
 def test_an_unwritable_path_is_refused(flight, tmp_path):
-    with pytest.raises(PictureError, match="cannot be written: No such file") as raised:
+    with pytest.raises(PictureError) as raised:
         draw_flight(flight, tmp_path / "nowhere" / "flight.png")
-    assert "\n" not in str(raised.value)
+    assert raised.value.code == "not_writable" and "\n" not in str(raised.value)
 
 
 def test_a_log_with_nothing_to_draw_is_refused(tmp_path):
     empty = FlightLog(COLUMNS)
-    with pytest.raises(PictureError, match="a log with 0 rows"):
+    with pytest.raises(PictureError) as raised:
         draw_flight(empty, tmp_path / "flight.png")
+    assert raised.value.code == "too_short"
     other = FlightLog(["time_s", "board.loop_us"])
     for row in range(3):
         other.append({"time_s": row, "board.loop_us": 2000})
-    with pytest.raises(PictureError, match="no signal"):
+    with pytest.raises(PictureError) as raised:
         draw_flight(other, tmp_path / "flight.png")
+    assert raised.value.code == "no_signal"
 
 
 def test_without_matplotlib_the_error_names_the_package(flight, tmp_path, monkeypatch):
     for name in [each for each in sys.modules if each.partition(".")[0] == "matplotlib"]:
         monkeypatch.delitem(sys.modules, name)
     monkeypatch.setitem(sys.modules, "matplotlib", None)
-    with pytest.raises(PictureError, match=r"pip install -e '.\[sim\]'") as raised:
+    with pytest.raises(PictureError) as raised:
         draw_flight(flight, tmp_path / "flight.png")
-    assert "\n" not in str(raised.value)
+    assert raised.value.code == "no_matplotlib" and "\n" not in str(raised.value)
     assert not (tmp_path / "flight.png").exists()
 
 

@@ -19,9 +19,9 @@ from up_simulator.radio.sticks import Sticks, Transmitter
 
 
 @pytest.mark.parametrize(
-    ("airframe", "wind_m_s", "minutes"), [("glider", 4.0, 3), ("wing", 6.0, 1)]
+    ("airframe", "wind_m_s", "seconds"), [("glider", 4.0, 60), ("wing", 6.0, 30)]
 )
-def test_it_stays_near_and_high_in_turbulence(airframe, wind_m_s, minutes):
+def test_it_stays_near_and_high_in_turbulence(airframe, wind_m_s, seconds):
     """The firmware, built for this computer, holds the demand of the pilot's sticks."""
     flown = load_airframe(airframe)
     weather = Weather(wind_m_s=wind_m_s, turbulence="moderate")
@@ -33,7 +33,7 @@ def test_it_stays_near_and_high_in_turbulence(airframe, wind_m_s, minutes):
     world, pilot, transmitter = World(flight, board), CirclingPilot(), Transmitter(board)
     world.boot(arms=True)
     home = flight.state
-    for step in range(minutes * 60 * 500):
+    for step in range(seconds * 500):
         transmitter.send(pilot.sticks(world.time_s, world.state))
         world.step()
         if step % 500 == 0:
@@ -45,8 +45,9 @@ def test_it_stays_near_and_high_in_turbulence(airframe, wind_m_s, minutes):
             assert abs(state.roll_deg) < 60
 
 
-@pytest.mark.parametrize("airframe", ["glider", "wing"])
-@pytest.mark.parametrize(("mode", "switch"), [("RATE", "AUTO"), ("ACRO", "ACRO")])
+@pytest.mark.parametrize(
+    ("airframe", "mode", "switch"), [("wing", "RATE", "AUTO"), ("glider", "ACRO", "ACRO")]
+)
 def test_it_flies_by_the_mode_that_the_board_says(airframe, mode, switch):
     """A ground station, or a switch, may choose modes that hold no attitude."""
     flown = load_airframe(airframe)
@@ -60,7 +61,7 @@ def test_it_flies_by_the_mode_that_the_board_says(airframe, mode, switch):
     world, transmitter = World(flight, board), Transmitter(board)
     world.boot(arms=True)
     board.write(tap.start_bytes())
-    for step in range(60 * 500):
+    for step in range(20 * 500):
         if step == 5 * 500 and mode == "RATE":
             board.write(tap.command_bytes("M", b"r"))
         transmitter.send(pilot.sticks(world.time_s, world.state))

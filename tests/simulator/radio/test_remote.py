@@ -194,19 +194,6 @@ def test_the_pilot_rearms_an_aircraft_that_was_disarmed(tmp_path, disarmed_s):
     flown.radio.close()
 
 
-def test_the_pilot_leaves_the_switches_of_an_armed_aircraft(tmp_path):
-    flown = Flown(tmp_path / "radio")
-    flown.fly(1.0)
-    other = Pilot(tmp_path / "radio")
-    other.send(write_sticks(OTHER))
-    flown.fly(0.5)
-    other.send(write_sticks(None))
-    flown.fly(0.02)
-    assert flown.radio.sticks(flown.world.time_s, flown.world.state).is_armed
-    other.socket.close()
-    flown.radio.close()
-
-
 def test_the_status_line_shows_switch_and_mode_where_they_differ():
     at_auto = Sticks(aux1=2000, aux2=2000)
     assert " AUTO, flies FBW armed " in status_line(at_auto, STATE, "FBW")
@@ -251,15 +238,6 @@ def test_a_radio_without_an_aircraft_is_refused(tmp_path):
     with pytest.raises(RadioError) as error:
         RadioLink(tmp_path / "radio")
     assert error.value.code == "no_aircraft"
-
-
-@given(st.binary(max_size=300) | st.text(max_size=100).map(str.encode))
-def test_any_datagram_is_read_or_refused(datagram):
-    for read in (read_sticks_of, read_snapshot):
-        try:
-            read(datagram)
-        except ValueError:
-            continue
 
 
 @given(

@@ -123,9 +123,7 @@ def test_all_problems_are_reported_together():
         "2", "3 weather.turbulence", "5 sticks[0].ailerons", "6 sticks[1].at_s",
         "8 events[0].reset", "10 expect[0].signal", "11 expect[1].below", "12 expect[2].is",
     ]  # fmt: skip
-    # Suggestions are worth their wording.
-    assert found[0].what == "unknown key \"durations\", did you mean 'duration_s'?"
-    assert found[5].what.endswith("did you mean 'truth.roll_deg'?")
+    assert "'duration_s'" in found[0].what and "'truth.roll_deg'" in found[5].what
 
 
 @pytest.mark.parametrize(

@@ -1,5 +1,6 @@
 """A scenario's flight log by the official reader: its content, and its reproducibility."""
 
+import errno
 import json
 import math
 from itertools import pairwise
@@ -29,7 +30,7 @@ title: Flown
 duration_s: 4
 weather: {wind_m_s: 5, wind_from_deg: 270}
 sticks: [{at_s: 0, mode: FBW, arm: true, throttle: 0.5}, {at_s: 1, ailerons: 0.6}]
-events: [{at_s: 2, mark: half of it}, {at_s: 2.5, receiver: lost}]
+events: [{at_s: 2, mark: halfway}, {at_s: 2.5, receiver: lost}]
 expect: [{name: It flies, signal: truth.height_m, above: 50}]
 """
 PHONE = "raspilot: {runs: in process}\nphone: {}\nground: {}\n"
@@ -110,8 +111,8 @@ def test_a_lost_receiver_is_logged_as_the_board_reports_it(flown):
     first_s = next(time_s for time_s, data in states if data["failsafe"])
     assert 2.5 < first_s < 3.2
     events = [(round(time_s, 3), data["event"]) for time_s, data in log.messages["simulator.event"]]
-    assert events == [(2.0, "half of it"), (2.5, "receiver lost")]
-    assert "event: half of it" in log.series("log", "message")
+    assert events == [(2.0, "halfway"), (2.5, "receiver lost")]
+    assert any("halfway" in text for text in log.series("log", "message"))
     assert log.schemas["log"][0] == "foxglove.Log"
 
 
@@ -186,22 +187,23 @@ def test_only_executed_commands_of_the_ground_are_logged(tmp_path):
         command = CommandPart(name, {"mode": "FBW"})
         return PendingCommand(Event(at_s=at_s, command=command), command, "1", at_s, answer)
 
-    pending_commands = [asked("up.flight_mode.set", 0.5, ""), asked("up.arm", 0.2, "forbidden: no")]
+    pending_commands = [asked("up.flight_mode.set", 0.5, ""), asked("up.arm", 0.2, "forbidden")]
     log = read(
         tmp_path, {"truth.roll_deg": lambda _: 0.0}, PHONE, pending_commands=pending_commands
     )
     ((time_s, data),) = log.messages["up.flight_mode.set"]
     assert (round(time_s, 6), data) == (0.5, {"mode": "FBW", "_origin": "ground (pilot)"})
     assert "up.arm" not in log.messages
-    assert log.series("log", "message") == ["up.arm from the ground: refused, forbidden: no"]
+    (refused,) = log.series("log", "message")
+    assert "up.arm" in refused and "forbidden" in refused
 
 
 def test_the_end_of_the_flight_is_the_last_log_entry(tmp_path):
     columns = {"truth.roll_deg": lambda _: 0.0}
-    log = read(tmp_path, columns, crash="hit the ground", failure="raspilot died")
+    log = read(tmp_path, columns, crash="crash", failure="failure")
     assert [(data["level"], data["message"]) for _, data in log.messages["log"]] == [
-        (4, "raspilot died"),
-        (4, "hit the ground"),
+        (4, "failure"),
+        (4, "crash"),
     ]
 
 
@@ -226,5 +228,6 @@ def test_any_signals_give_a_valid_file(tmp_path_factory, rows):
 
 def test_a_full_disk_is_an_os_error():
     flown = FlightRecord(scenario(), log_of({"truth.roll_deg": lambda _: 0.0}, 5))
-    with pytest.raises(OSError, match="No space left"):
+    with pytest.raises(OSError) as caught:
         write_flight("full", Result(flown, []), Path("/dev/full"))
+    assert caught.value.errno == errno.ENOSPC

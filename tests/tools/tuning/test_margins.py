@@ -115,24 +115,28 @@ def test_an_oscillating_loop_is_not_measured():
         multisine.at(at * STEP_S) + 300 * math.sin(2 * math.pi * 9.0625 * at * STEP_S)
         for at in range(count)
     ]
-    with pytest.raises(MarginsError, match="oscillates"):
+    with pytest.raises(MarginsError) as caught:
         loop_response([-each for each in moved], moved, multisine, STEP_S)
+    assert caught.value.code == "oscillates"
 
 
 def test_an_axis_without_gains_is_reported():
     multisine = Multisine()
     moved = [multisine.at(at * STEP_S) for at in range(round(4 * multisine.period_s / STEP_S))]
-    with pytest.raises(MarginsError, match="nothing comes back"):
+    with pytest.raises(MarginsError) as caught:
         loop_response([0.0] * len(moved), moved, multisine, STEP_S)
+    assert caught.value.code == "no_response"
 
 
 def test_too_little_is_refused():
     multisine = Multisine()
     moved = [multisine.at(at * STEP_S) for at in range(round(2 * multisine.period_s / STEP_S))]
-    with pytest.raises(MarginsError, match="three whole periods"):
+    with pytest.raises(MarginsError) as caught:
         loop_response(moved, moved, multisine, STEP_S)
-    with pytest.raises(MarginsError, match="3 frequencies are too few"):
+    assert caught.value.code == "too_short"
+    with pytest.raises(MarginsError) as caught:
         margins_of([LoopPoint(1, 1j), LoopPoint(2, 1j), LoopPoint(3, 1j)])
+    assert caught.value.code == "too_few_points"
 
 
 def test_the_excitation_is_small_and_the_same_each_period():

@@ -69,8 +69,9 @@ def test_a_stricter_rule_gives_gentler_gains(bench, roll):
 
 
 def test_a_rule_without_a_solution_is_reported(bench, roll):
-    with pytest.raises(TuneError, match="roll: no gains keep the margins"):
+    with pytest.raises(TuneError) as caught:
         retune(bench, roll, Rules(gain_margin_db=200.0))
+    assert caught.value.code == "no_margins"
 
 
 def test_of_nearly_equals_the_calmest_is_chosen(roll):
