@@ -34,7 +34,7 @@ help:
 	@echo 'make bench    the performance table (BENCH="bus --quick" for some)'
 	@echo 'make pictures  the documentation'"'"'s pictures of the page, from a flight'
 	@echo 'make format   put the code into the project'"'"'s form'
-	@echo 'make schema   the tables of the board'"'"'s status, from schema/status.yml'
+	@echo 'make schema   the tables of status, telemetry, events and Commands, from schema/'
 	@echo 'make schemas  JSON Schema of every configuration file, into build/schemas'
 	@echo 'make -C arduino help  the firmware: build, upload, figures'
 	@echo 'make -C android help  the phone: the app, the Up Library, its tests'
@@ -102,7 +102,7 @@ pictures: $(VENV)/.run-ready $(WEB)
 format: $(VENV)/.dev-ready
 	$(BIN)/ruff check --fix . ; $(BIN)/ruff format .
 
-# The tables of the board's status in every language, from schema/.
+# The tables of status, telemetry, events and Commands in every language, from schema/.
 schema: $(VENV)/.dev-ready
 	$(PY) tools/schema.py
 

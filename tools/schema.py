@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
-"""Writes the tables that schema/status.yml defines, in every language: ``tools/schema.py``.
+"""Writes the tables that schema/ and the Commands define, in every language: ``tools/schema.py``.
 
-``--check`` writes nothing and fails if a table differs; ``--root FOLDER`` works on another tree.
+``--check`` writes nothing and fails if a table differs; ``--root FOLDER`` works on another tree;
+``--json FOLDER`` writes the JSON Schema of every Command, telemetry included.
 """
 
 from __future__ import annotations
@@ -18,21 +19,31 @@ from typing import Any
 
 import yaml
 
-SOURCE = "schema/status.yml"
-NOTE = f"Generated from {SOURCE} by tools/schema.py; do not edit."
+NOTE = "Generated from schema/ by tools/schema.py; do not edit."
 FORMATS = {"u8": "B", "u16": "H"}
 MAXIMUM = {"u8": 255, "u16": 65535}
 # The keys of each kind of row, with their defaults; None: required.
 MODE = {"letter": None, "name": None, "about": None, "holder": "", "switch": False,
         "flown": True, "firmware": True}  # fmt: skip
 REFUSAL = {"code": None, "name": None, "text": None}
-ALARM = {"kind": None, "when": "", "above": "", "level": "warning", "armed": "", "code": "",
-         "text": "", "end_code": "", "end": "", "event": "source", "unless": "",
-         "lasts": True, "hold_s": ""}  # fmt: skip
+ALARM: dict[str, Any] = {
+         "kind": None, "when": "", "above": "", "below": "", "back": 0, "level": "warning",
+         "armed": "", "code": "", "text": "", "end_code": "", "end": "", "event": "source",
+         "unless": "", "lasts": True, "hold_s": "", "awaited": {}}  # fmt: skip
+EVENT = {"code": None, "kind": None, "text": None, "level": "info", "first": False,
+         "end_code": "", "end": "", "alarm": ""}  # fmt: skip
+AWAITED = {"after": None, "code": None, "text": None, "level": ""}
 ROW: dict[str, Any] = {
        "name": None, "type": "", "bit": "", "about": "", "unit": "", "text": "", "values": {},
        "bits": (), "telemetry": True, "signal": True, "firmware": True, "row": {}, "alarm": {},
-       "finding": ""}  # fmt: skip
+       "second_alarm": {}, "event": {}, "finding": ""}  # fmt: skip
+FIELD: dict[str, Any] = {
+       "name": None, "of": (), "type": "number", "unit": "", "about": "", "decimals": 3,
+       "reading": "", "row": {}, "alarm": {}, "second_alarm": {}, "event": {}, "finding": "",
+       "in_telemetry": True, "rules": ()}  # fmt: skip
+READING = {"name": None, "title": "", "stale_s": 0, "source_s": None, "source_event": True}
+TYPES = {"number": "number", "flag": "boolean", "text": "string", "texts": "array",
+         "object": "object", "status": ""}  # fmt: skip
 
 Item = SimpleNamespace
 
@@ -41,28 +52,72 @@ class SchemaError(Exception):
     """The definition is invalid; the text names file and row."""
 
 
-class Status:
-    """The definition: modes, refusals, and the fields of the status with their offsets."""
+class Schema:
+    """The definitions: times, events, readings and fields of telemetry, the board's status."""
 
-    def __init__(self, path: Path) -> None:
-        """Read the file; raises SchemaError."""
-        try:
-            data = yaml.safe_load(path.read_text(encoding="utf-8"))
-            self.version, self.alarm_hold_s = data["version"], data["alarm_hold_s"]
-            self.modes = [_item(MODE, each) for each in data["modes"]]
-            self.refusals = [_item(REFUSAL, each) for each in data["refusals"]]
-            self.fields = [_row(each, "") for each in data["fields"]]
-        except KeyError as error:
-            raise SchemaError(f"{path}: {error} is missing") from None
-        except (yaml.YAMLError, TypeError, AttributeError, OSError, SchemaError) as error:
-            raise SchemaError(f"{path}: {error}") from None
-        self.format = ">" + "".join(FORMATS[each.type] for each in self.fields)
+    def __init__(self, folder: Path) -> None:
+        """Read the files; raises SchemaError."""
+        self.times: dict[str, float] = {}
+        for name in ("events", "telemetry", "status"):
+            path = folder / f"{name}.yml"
+            try:
+                getattr(self, f"_read_{name}")(yaml.safe_load(path.read_text(encoding="utf-8")))
+            except KeyError as error:
+                raise SchemaError(f"{path}: {error} is missing") from None
+            except (yaml.YAMLError, TypeError, AttributeError, OSError, SchemaError) as error:
+                raise SchemaError(f"{path}: {error}") from None
+        self.fields = [each for row in self.table for each in self._fields_of(row)]
+        self.rules = [rule for each in self.fields for rule in each.rules]
+        self.rules += [_source_rule(each.name) for each in self.readings if each.source_event]
+        # The alarm of the link is the first one shown.
+        hold_s = self.times["hold_s"]
+        self.holds_s = {each.alarm: hold_s for each in self.events if each.alarm}
+        for rule in self.rules:
+            if rule["alarm"]:
+                self.holds_s.setdefault(rule["alarm"], rule["hold_s"] or hold_s)
+
+    def _read_events(self, data: dict[str, Any]) -> None:
+        for name in ("hold_s", "pause_s", "max_pause_s", "quiet_s"):
+            self.times[name] = data[name]
+        self.events = [_item(EVENT, each) for each in data["events"]]
+
+    def _read_telemetry(self, data: dict[str, Any]) -> None:
+        for name in ("silent_s", "late_s", "late_for_s", "drift", "new_clock_s"):
+            self.times[name] = data[name]
+        self.readings = [_item(READING, each) for each in data["readings"]]
+        for each in self.readings:
+            each.stale_s = each.stale_s or data["silent_s"]
+        ages = {"name": "age_ms", "unit": "ms", "about": "`null`: never"}
+        sources = {"name": "source", "type": "text", "about": "which one the provider follows"}
+        names = [each.name for each in self.readings]
+        rows = [*data["fields"], *({**each, "of": names} for each in (ages, sources))]
+        self.table = [_field(each, names) for each in rows]
+
+    def _read_status(self, data: dict[str, Any]) -> None:
+        self.version = data["version"]
+        self.modes = [_item(MODE, each) for each in data["modes"]]
+        self.refusals = [_item(REFUSAL, each) for each in data["refusals"]]
+        self.status = [_row(each, "") for each in data["fields"]]
+        self.format = ">" + "".join(FORMATS[each.type] for each in self.status)
         self.size = struct.calcsize(self.format)
-        for at, each in enumerate(self.fields):
+        for at, each in enumerate(self.status):
             each.offset = struct.calcsize(self.format[: at + 1])
-        self.bits = {each.name: each.bits for each in self.fields}
-        self.rows = [row for each in self.fields for row in (each, *each.bits)]
-        self.alarms = [(each, each.alarm) for each in self.rows if each.alarm]
+        self.bits = {each.name: each.bits for each in self.status}
+        self.rows = [row for each in self.status for row in (each, *each.bits)]
+
+    def _fields_of(self, row: Item) -> Iterator[Item]:
+        """Yield the fields that a row of the table of telemetry stands for."""
+        if row.type != "status":
+            for name in row.of or ("",):
+                path = f"{row.name}.{name}".rstrip(".")
+                yield Item(**{**vars(row), "name": path, "rules": _rules(row, path)})
+            return
+        for each in self.rows:
+            if each.in_telemetry or each.alarm:
+                known = {key: getattr(each, key) for key in FIELD if hasattr(each, key)}
+                path = f"{row.name}.{each.name}"
+                own = {"name": path, "type": each.kind, "reading": row.reading}
+                yield Item(**FIELD | known | own | {"rules": _rules(each, path)})
 
 
 def _item(keys: dict[str, Any], data: dict[str, Any]) -> Item:
@@ -75,8 +130,19 @@ def _item(keys: dict[str, Any], data: dict[str, Any]) -> Item:
     return Item(**{**keys, **data})
 
 
+def _field(data: dict[str, Any], readings: list[str]) -> Item:
+    row = _item(FIELD, data)
+    if row.reading and row.reading not in readings:
+        raise SchemaError(f"{row.name}: unknown reading '{row.reading}'")
+    if row.type not in TYPES:
+        raise SchemaError(f"{row.name}: type must be one of {', '.join(TYPES)}")
+    row.kind = row.type
+    _rules(row, row.name)
+    return row
+
+
 def _row(data: dict[str, Any], field: str) -> Item:
-    """Return a field, or a bit of one, with what follows from its keys."""
+    """Return a field of the status, or a bit of one, with what follows from its keys."""
     row = _item(ROW, data)
     row.field = field or row.name
     row.bits = [_row(each, row.name) for each in row.bits]
@@ -88,18 +154,51 @@ def _row(data: dict[str, Any], field: str) -> Item:
     row.in_telemetry = row.telemetry == "text" or bool(row.telemetry and is_datum)
     row.signal = "" if not is_datum else row.name if row.signal is True else row.signal or ""
     row.has_property = is_datum and row.bit != ""
-    if row.alarm:
-        row.alarm = alarm = _item(ALARM, {"kind": row.name, **row.alarm})
-        if (alarm.when == "") == (alarm.above == ""):
-            raise SchemaError(f"{row.name}: alarm: give either 'when' or 'above'")
-        alarm.armed = alarm.armed or alarm.level
-        alarm.code = alarm.code or row.name
-        alarm.end_code = alarm.end_code or f"{alarm.code}_over"
-        row.finding = alarm.text if row.finding == "" else row.finding or ""
+    _rules(row, row.name)
     return row
 
 
-def cpp(status: Status) -> str:
+def _rules(row: Item, path: str) -> list[dict[str, Any]]:
+    """Return the rules that follow from a row's alarms and events; raises SchemaError."""
+    rules = []
+    for given in filter(None, (row.alarm, row.second_alarm)):
+        alarm = _item(ALARM, {"kind": path.rpartition(".")[2], **given})
+        if [alarm.when, alarm.above, alarm.below].count("") != 2:
+            raise SchemaError(f"{row.name}: alarm: give one of 'when', 'above' and 'below'")
+        code = alarm.code or row.name
+        finding = alarm.text if row.finding == "" else row.finding or ""
+        rule = {
+            "path": path, "type": row.kind, "event": alarm.event, "code": code,
+            "level": alarm.level, "text": alarm.text, "end": alarm.end,
+            "end_code": alarm.end_code or f"{code}_over" if alarm.end else "",
+            "alarm": alarm.kind if alarm.lasts else "", "level_armed": alarm.armed or alarm.level,
+            "unless": alarm.unless and f"{path.rpartition('.')[0]}.{alarm.unless}",
+            "when": alarm.when, "above": alarm.above, "below": alarm.below, "back": alarm.back,
+            "finding": finding, "hold_s": alarm.hold_s,
+        }  # fmt: skip
+        if alarm.awaited:
+            awaited = _item(AWAITED, alarm.awaited)
+            rule |= {"awaits": tuple(awaited.after), "awaited_code": awaited.code,
+                     "awaited_text": awaited.text, "awaited_level": awaited.level}  # fmt: skip
+        rules.append(rule)
+    if row.event:
+        rules.append(_event_rule(_item(EVENT, row.event)) | {"path": path, "type": row.kind})
+    return rules
+
+
+def _event_rule(event: Item) -> dict[str, Any]:
+    return {"event": event.kind, "code": event.code, "level": event.level, "text": event.text,
+            "end_code": event.end_code, "end": event.end, "first": event.first,
+            "alarm": event.alarm}  # fmt: skip
+
+
+def _source_rule(reading: str) -> dict[str, Any]:
+    text = f"{reading} comes from {{value}} (was {{before}})"
+    return {"path": f"source.{reading}", "type": "text", "event": "source", "level": "warning",
+            "code": "source_changed", "text": text, "alarm": ""}  # fmt: skip
+
+
+def cpp(schema: Schema) -> str:
     """Return the firmware's header: offsets, bits and codes."""
 
     def enum(head: str, about: str, rows: list[tuple[str, Any]]) -> str:
@@ -107,17 +206,17 @@ def cpp(status: Status) -> str:
         return f"/** {about} */\nenum {head} {{\n{items}\n}};\n\n"
 
     def bits(prefix: str, field: str) -> list[tuple[str, Any]]:
-        rows = (each for each in status.bits[field] if each.firmware)
+        rows = (each for each in schema.bits[field] if each.firmware)
         return [(f"{prefix}_{each.name.upper()}", 1 << each.bit) for each in rows]
 
-    modes = [(m.name, f"'{m.letter}'") for m in status.modes if m.flown and m.firmware]
-    refusals = [(each.name.upper(), each.code) for each in status.refusals]
-    offsets = [(f"AT_{each.name.upper()}", each.offset) for each in status.fields]
+    modes = [(m.name, f"'{m.letter}'") for m in schema.modes if m.flown and m.firmware]
+    refusals = [(each.name.upper(), each.code) for each in schema.refusals]
+    offsets = [(f"AT_{each.name.upper()}", each.offset) for each in schema.status]
     return (
         f"/** Codes of the serial line and layout of the status message.\n *  {NOTE} */\n"
         "#pragma once\n\n#include <stdint.h>\n\nnamespace raspilot {\n\n"
-        f"constexpr uint8_t PROTOCOL_VERSION = {status.version};\n"
-        f"constexpr uint8_t STATUS_SIZE = {status.size};\n\n"
+        f"constexpr uint8_t PROTOCOL_VERSION = {schema.version};\n"
+        f"constexpr uint8_t STATUS_SIZE = {schema.size};\n\n"
         + enum("class Mode : char", "Flight modes by their letter on the wire.", modes)
         + enum("class Reason : uint8_t", "Refusals of a Command.", [("NONE", 0), *refusals])
         + enum("Veto : uint8_t", "Veto bits of the status.", bits("VETO", "vetoes"))
@@ -128,183 +227,263 @@ def cpp(status: Status) -> str:
     )
 
 
-def python(status: Status) -> str:
-    """Return the module of tables for cog, flight log, ground station and simulator."""
+def python(schema: Schema) -> str:
+    """Return the module of the status for cog, flight log, ground station and simulator."""
 
     def enum(head: str, rows: list[tuple[str, int]]) -> list[str]:
         return ["", "", f"class {head}:", *(f"    {name.upper()} = {code}" for name, code in rows)]
 
     def bits(field: str) -> list[tuple[str, int]]:
-        return [(each.name, 1 << each.bit) for each in status.bits[field]]
+        return [(each.name, 1 << each.bit) for each in schema.bits[field]]
 
-    def call(kind: str, row: Item, *more: Any) -> str:
+    def datum(row: Item) -> str:
         bit = None if row.bit == "" else row.bit
-        return f"    {kind}{(row.name, row.field, bit, *more)!r},"
+        more = (row.kind, row.unit, row.about, row.in_telemetry, row.signal)
+        return f"    Datum{(row.name, row.field, bit, *more)!r},"
 
-    def none(value: Any) -> Any:
-        return None if value == "" else value
-
-    positions = {k: v for r in status.fields if r.name == "switch" for k, v in r.values.items()}
+    positions = {k: v for r in schema.status if r.name == "switch" for k, v in r.values.items()}
     positions.pop(255)
     return "\n".join([
-        f'"""Codes, fields and alarms of the board\'s status. {NOTE}"""',
+        f'"""Codes and fields of the board\'s status. {NOTE}"""',
         "# ruff: noqa: D101, E501, RUF100", "# fmt: off", "",
         "from __future__ import annotations", "", "from dataclasses import dataclass",
         "from enum import IntEnum, IntFlag", "from struct import Struct", "",
-        "from up.commands.board_datum import Alarm, Datum",
-        "from up.commands.command import value", "",
-        f"VERSION = {status.version}", f"STATUS = Struct({status.format!r})",
-        f"ALARM_HOLD_S = {status.alarm_hold_s}",
-        f"FLIGHT_MODES = { {m.letter: m.name for m in status.modes if m.flown} }",
-        f"MODE_TEXTS = { {m.name: m.about for m in status.modes if m.flown} }",
-        f"SWITCH_MODES = { {m.letter: m.name for m in status.modes if m.switch} }",
+        "from up.commands.command import value",
+        "from up.commands.schema_rows import Datum", "",
+        f"VERSION = {schema.version}", f"STATUS = Struct({schema.format!r})",
+        f"FLIGHT_MODES = { {m.letter: m.name for m in schema.modes if m.flown} }",
+        f"MODE_TEXTS = { {m.name: m.about for m in schema.modes if m.flown} }",
+        f"SWITCH_MODES = { {m.letter: m.name for m in schema.modes if m.switch} }",
         f"SWITCH_POSITIONS = {positions}",
-        f"VETOES = {tuple(each.text for each in status.bits['vetoes'])}",
-        f"RESET_CAUSES = { {each.bit: each.text for each in status.bits['reset_cause']} }",
-        f"REASONS = { {each.code: each.text for each in status.refusals} }",
-        *enum("Reason(IntEnum)", [(each.name, each.code) for each in status.refusals]),
+        f"VETOES = {tuple(each.text for each in schema.bits['vetoes'])}",
+        f"RESET_CAUSES = { {each.bit: each.text for each in schema.bits['reset_cause']} }",
+        f"REASONS = { {each.code: each.text for each in schema.refusals} }",
+        *enum("Reason(IntEnum)", [(each.name, each.code) for each in schema.refusals]),
         *enum("Veto(IntFlag)", bits("vetoes")), *enum("Reset(IntFlag)", bits("reset_cause")),
         *enum("Flag(IntFlag)", bits("flags")), "", "", "DATA = (",
-        *(call("Datum", r, r.kind, r.unit, r.about, r.in_telemetry, r.signal)
-          for r in status.rows),
-        ")", "ALARMS = (",
-        *(call("Alarm", r, a.kind, none(a.when), none(a.above), a.level, a.armed, a.code, a.text,
-               a.end_code, a.end, a.event, a.unless, a.lasts, none(a.hold_s), r.finding)
-          for r, a in status.alarms),
+        *(datum(r) for r in schema.rows),
         ")", "", "", "@dataclass(frozen=True, slots=True)", "class BoardStatus:",
         '    """The fields of the status message, in the order of the wire."""', "",
         *(f"    {r.name}: int = value(minimum=0, maximum={MAXIMUM[r.type]}, unit={r.unit!r})"
-          for r in status.fields),
+          for r in schema.status),
         "", "    @property", "    def mode_letter(self) -> str:",
         '        """Return the letter of the flight mode."""', "        return chr(self.mode)",
         *(f"\n    @property\n    def is_{r.name}(self) -> bool:\n"
           f'        """Return whether {r.about}."""\n'
           f"        return bool(self.{r.field} & {1 << r.bit})"
-          for r in status.rows if r.has_property), "",
+          for r in schema.rows if r.has_property), "",
     ])  # fmt: skip
 
 
-def javascript(status: Status) -> str:
-    """Return the page's module: flight modes, and the rows of the board panel."""
-    modes = {mode.name: {"about": mode.about, "holder": mode.holder} for mode in status.modes}
+def python_telemetry(schema: Schema) -> str:
+    """Return the module of telemetry for flight log, ground station and simulator."""
+
+    def rows(kind: str, items: list[dict[str, Any]]) -> list[str]:
+        columns = [", ".join(f"{key}={value!r}" for key, value in each.items()) for each in items]
+        return [f"    {kind}({each})," for each in columns]
+
+    def field(row: Item) -> dict[str, Any]:
+        names = ("type", "unit", "reading", "about")
+        return {"path": row.name} | {key: getattr(row, key) for key in names if getattr(row, key)}
+
+    events = (f"    {each.code!r}: {text}" for each in schema.events
+              for text in rows("Rule", [_given(_event_rule(each))]))  # fmt: skip
+    return "\n".join([
+        f'"""Fields, ages, events and alarms of telemetry. {NOTE}"""',
+        "# ruff: noqa: E501, RUF100", "# fmt: off", "", "from typing import Any", "",
+        "from up.commands.schema_rows import Field, Reading, Rule", "",
+        *(f"{name.upper()} = {value!r}" for name, value in schema.times.items()),
+        "READINGS = {",
+        *(f"    {r.name!r}: Reading(stale_s={r.stale_s}, source_s={r.source_s}),"
+          for r in schema.readings),
+        "}", "FIELDS = (", *rows("Field", [field(r) for r in schema.fields if r.in_telemetry]),
+        ")", "RULES = (", *rows("Rule", [_given(rule) for rule in schema.rules]),
+        ")", "EVENTS = {", *events, "}", f"ALARM_HOLDS_S = {schema.holds_s}",
+        f"PROPERTIES: dict[str, Any] = {json_tree(schema)!r}", "",
+    ])  # fmt: skip
+
+
+def json_tree(schema: Schema) -> dict[str, Any]:
+    """Return the JSON Schema of the fields of telemetry."""
+    tree: dict[str, Any] = {}
+    for each in (each for each in schema.fields if each.in_telemetry):
+        *groups, name = each.name.split(".")
+        branch = tree
+        for group in groups:
+            leaf = {"type": "object", "properties": {}, "nullable": True}
+            branch = branch.setdefault(group, leaf)["properties"]
+        more: dict[str, Any] = {"nullable": True}
+        if each.type in ("texts", "object"):
+            more = {"items": {"type": "string"}, **more} if each.type == "texts" else {}
+            more |= {} if each.type == "texts" else {"properties": {}}
+        if each.type == "number" and each.unit:
+            more |= {"x-unit": each.unit, "description": each.unit}
+        branch[name] = {"type": TYPES[each.type], **more}
+    return tree
+
+
+def _given(rule: dict[str, Any]) -> dict[str, Any]:
+    """Return the columns of a rule that differ from their defaults."""
+    return {key: value for key, value in rule.items()
+            if key != "hold_s" and value != "" and (value or key == "when")}  # fmt: skip
+
+
+def javascript(schema: Schema) -> str:
+    """Return the page's module: flight modes, rows of the board panel, ages of readings."""
     rows = []
-    for each in (each for each in status.rows if each.row):
+    for each in (each for each in schema.fields if each.row):
         style = next((key for key in ("alarm", "warning") if key in each.row), "")
         rows.append({
-            "label": each.row["label"], "path": f"arduino.{each.name}", "kind": each.kind,
+            "label": each.row["label"], "path": each.name, "kind": each.type,
             "unit": each.unit, "yes": each.row.get("yes", "yes"), "no": each.row.get("no", "no"),
             "style": style, "when": each.row.get(style),
         })  # fmt: skip
-    return (
-        f"// {NOTE}\n\n/** Effect and holder of each flight mode. */\nexport const MODES = "
-        f"{json.dumps(modes, indent=2)};\n\n/** Rows of the board panel; `style` applies to the"
-        f" value `when`. */\nexport const BOARD_ROWS = {json.dumps(rows, indent=2)};\n"
+    tables = {
+        "Effect and holder of each flight mode.": (
+            "MODES", {mode.name: {"about": mode.about, "holder": mode.holder}
+                      for mode in schema.modes}),
+        "Rows of the board panel; `style` applies to the value `when`.": ("BOARD_ROWS", rows),
+        "An older frame is shown as stale, before the second is over.": (
+            "SILENT_S", schema.times["silent_s"]),
+        "Two clocks run apart by no more than this.": ("DRIFT", schema.times["drift"]),
+        "The readings with ages in telemetry; older ones are shown as stale.": (
+            "READINGS", {each.name: {"title": each.title, "stale_s": each.stale_s}
+                         for each in schema.readings}),
+        "The reading whose age a field has.": (
+            "READING_OF", {each.name: each.reading for each in schema.fields if each.reading}),
+        "Limits of the alarms of numbers.": ("LIMITS", _limits(schema)),
+    }  # fmt: skip
+    return f"// {NOTE}\n" + "".join(
+        f"\n/** {about} */\nexport const {name} = {json.dumps(value, indent=2)};\n"
+        for about, (name, value) in tables.items()
     )
 
 
-def java(status: Status) -> str:
-    """Return the app's tables: events and alarms of the board, and units."""
-    alarms = ",\n".join(
-        f"            new BoardAlarm("
-        f"{'Alarm.Kind.' + alarm.kind.upper() if alarm.lasts else 'null'},"
-        f" {str(bool(alarm.event)).lower()},\n"
-        f"                    {_java(f'arduino.{row.name}')},"
-        f" {'null' if alarm.when == '' else 'Boolean.' + str(alarm.when).upper()},"
-        f" {float(alarm.above or 0)}, {_java(alarm.unless and f'arduino.{alarm.unless}')},\n"
-        f"                    EventLevel.{alarm.level.upper()},"
-        f" EventLevel.{alarm.armed.upper()},\n"
-        f"                    {_java(alarm.code, alarm.text)},\n"
-        f"                    {_java(alarm.end_code, alarm.end)},"
-        f" {round((alarm.hold_s or status.alarm_hold_s) * 1000)})"
-        for row, alarm in status.alarms
-        if alarm.text
-    )
-    units = "".join(
-        f"        UNITS.put({_java(f'arduino.{each.name}', each.unit)});\n"
-        for each in status.rows
-        if each.in_telemetry and each.unit
-    )
-    imports = "".join(
-        f"import java.util.{each};\n"
-        for each in ("Arrays", "Collections", "HashMap", "List", "Map")
-    )
+def _limits(schema: Schema) -> dict[str, float]:
+    limits = ((rule["code"], rule.get("above", ""), rule.get("below", "")) for rule in schema.rules)
+    return {code: above if above != "" else below
+            for code, above, below in limits if above != below}  # fmt: skip
+
+
+def java(schema: Schema) -> str:
+    """Return the app's tables: fields, ages, events and alarms of telemetry."""
+
+    def put(table: str, key: str, value: object) -> str:
+        return f"        {table}.put({json.dumps(key)}, {value});\n"
+
+    def rule(columns: dict[str, Any]) -> str:
+        texts = [(k, ",".join(v) if k == "awaits" else str(v).lower() if v in (True, False) else v)
+                 for k, v in _given(columns).items() if k != "finding"]  # fmt: skip
+        pairs = ",\n                ".join(
+            f"{json.dumps(k)}, {json.dumps(str(v))}" for k, v in texts
+        )
+        return f"new TelemetryRule(\n                {pairs})"
+
+    shown = [each for each in schema.rules if each["event"] or each["alarm"]]
+    fields = [each for each in schema.fields if each.in_telemetry]
+    imports = "".join(f"import java.util.{each};\n" for each in (
+        "ArrayList", "HashMap", "LinkedHashMap", "List", "Map"))  # fmt: skip
+    times = "".join(
+        f"    static final {kind} {name} = {value};\n"
+        for name, kind, value in (
+            *((f"{key[:-2].upper()}_MS", "long", round(1000 * value))
+              for key, value in schema.times.items() if key.endswith("_s")),
+            ("DRIFT", "double", schema.times["drift"]),
+        )
+    )  # fmt: skip
     return f"""package org.raspilot.up.ground;
 
 {imports}
-/** Tables of the board's status.
+/** Tables of telemetry.
  *  {NOTE} */
-final class BoardSchema {{
-    /** Time for which an alarm outlasts its condition, ms. */
-    static final long ALARM_HOLD_MS = {round(status.alarm_hold_s * 1000)};
-    /** Events and alarms. */
-    static final List<BoardAlarm> ALARMS = Collections.unmodifiableList(Arrays.asList(
-{alarms}));
-    /** Units by path in telemetry. */
-    static final Map<String, String> UNITS = new HashMap<String, String>();
+public final class TelemetrySchema {{
+{times}    /** Maximum age of a reading that is not stale, ms. */
+    public static final Map<String, Long> STALE_MS = new LinkedHashMap<>();
+    /** Times for which alarms outlast their conditions, ms, by kind in the order of display. */
+    static final Map<String, Long> HOLDS_MS = new LinkedHashMap<>();
+    /** The reading whose age a field has. */
+    static final Map<String, String> READING_OF = new HashMap<>();
+    static final Map<String, String> UNITS = new HashMap<>();
+    /** Decimals of fields that have other than 3. */
+    static final Map<String, Integer> DECIMALS = new HashMap<>();
+    /** Limits of the alarms of numbers. */
+    public static final Map<String, Double> LIMITS = new HashMap<>();
+    static final List<TelemetryRule> RULES = new ArrayList<>();
+    /** Events without a field, by code. */
+    static final Map<String, TelemetryRule> EVENTS = new HashMap<>();
 
     static {{
-{units}    }}
+{"".join(put("STALE_MS", r.name, f"{round(1000 * r.stale_s)}L") for r in schema.readings)}\
+{"".join(put("HOLDS_MS", k, f"{round(1000 * v)}L") for k, v in schema.holds_s.items())}\
+{"".join(put("READING_OF", r.name, json.dumps(r.reading)) for r in fields if r.reading)}\
+{"".join(put("UNITS", r.name, json.dumps(r.unit)) for r in fields if r.unit)}\
+{"".join(put("DECIMALS", r.name, r.decimals) for r in fields if r.decimals != 3)}\
+{"".join(put("LIMITS", k, float(v)) for k, v in _limits(schema).items())}\
+{"".join(f"        RULES.add({rule(each)});" + chr(10) for each in shown)}\
+{"".join(put("EVENTS", each.code, rule(_event_rule(each))) for each in schema.events)}\
+    }}
 
-    private BoardSchema() {{
+    private TelemetrySchema() {{
     }}
 }}
 """
 
 
-def _java(*texts: str) -> str:
-    return ", ".join(json.dumps(each) for each in texts)
-
-
-def java_kinds(status: Status, text: str) -> str:
-    """Return Alarm.java with a kind for each alarm of the board."""
-    kinds = [
-        f"        /** {alarm.text[0].upper()}{alarm.text[1:]}. */\n        {alarm.kind.upper()},\n"
-        for _, alarm in status.alarms
-        if alarm.lasts
-    ]
-    return _region(text, "".join(kinds), "// schema begin", "// schema end")
-
-
-def documents(status: Status, text: str) -> str:
-    """Return docs/protocols.md with the tables of modes, refusals, status and alarms."""
-    tables = {
+def documents(schema: Schema, text: str) -> str:
+    """Return docs/protocols.md with the tables that the definitions determine."""
+    tables: dict[str, list[Any]] = {
         "modes": [("letter", "mode", ""), *((f"`{m.letter}`", m.name, m.about)
-                                            for m in status.modes if m.flown)],
+                                            for m in schema.modes if m.flown)],
         "refusals": [("code", "name", "reason"), *((r.code, f"`{r.name}`", r.text)
-                                                   for r in status.refusals)],
-        "status": [("offset", "type", "field", ""), *map(_field_row, status.fields)],
-        "alarms": [("condition", "level", "code", "text", "when it is over"),
-                   *(_alarm_row(*each) for each in status.alarms if each[1].text)],
+                                                   for r in schema.refusals)],
+        "status": [("offset", "type", "field", ""), *map(_status_row, schema.status)],
+        "telemetry": [("field", "unit", "age of", "content"),
+                      *(_field_row(each, schema) for each in schema.table)],
+        "events": [("condition", "alarm", "level", "code", "text", "when it is over"),
+                   *map(_event_row, [*map(_event_rule, schema.events), *schema.rules])],
     }  # fmt: skip
     for name, (head, *rows) in tables.items():
-        lines = [head, ("---",) * len(head), *rows]
+        lines = [head, ("---",) * len(head), *filter(None, rows)]
         content = "".join("| " + " | ".join(map(str, line)) + " |\n" for line in lines)
         text = _region(text, content, f"<!-- schema {name} begin -->", "<!-- schema end -->")
-    text = re.sub(r"(?m)^(\| `x` \| 78 \| )\d+", rf"\g<1>{status.size}", text)
-    names = ", ".join(f"`{each.name}`" for each in status.rows if each.in_telemetry)
-    line = f"| `arduino.<field>` | as in 2.7 | of the Arduino's status: {names} |"
-    return re.sub(r"(?m)^\| `arduino\.<field>`.*$", line, text)
+    return re.sub(r"(?m)^(\| `x` \| 78 \| )\d+", rf"\g<1>{schema.size}", text)
 
 
-def _field_row(row: Item) -> tuple[Any, ...]:
+def _status_row(row: Item) -> tuple[Any, ...]:
     items = [f"{code} {text}" for code, text in row.values.items()]
     items += [f"bit {b.bit} `{b.name}`: {b.about or b.text}" for b in row.bits if b.firmware]
     about = row.about + (f", {row.unit}" if row.unit else "")
     return row.offset, row.type, f"`{row.name}`", about + (": " + "; ".join(items)) * bool(items)
 
 
-def _alarm_row(row: Item, alarm: Item) -> tuple[Any, ...]:
-    limit = f" above {alarm.above:g}" if alarm.above != "" else "" if alarm.when else " is false"
-    hidden = f", not `arduino.{alarm.unless}`" if alarm.unless else ""
-    level = alarm.level + (f", {alarm.armed} while armed" if alarm.armed != alarm.level else "")
-    level += "" if alarm.lasts else " (event only)"
-    return (
-        f"`arduino.{row.name}`{limit}{hidden}",
-        level,
-        f"`{alarm.code}`",
-        alarm.text,
-        alarm.end or "-",
+def _field_row(row: Item, schema: Schema) -> tuple[Any, ...]:
+    if row.type == "status":
+        names = ", ".join(f"`{each.name}`" for each in schema.rows if each.in_telemetry)
+        return (
+            f"`{row.name}.<field>`",
+            "as in 2.7",
+            row.reading,
+            f"of the Arduino's status: {names}",
+        )
+    name = row.name + "." * bool(row.of) + "/".join(row.of)
+    unit = row.unit or {"number": "", "flag": "bool", "texts": "list of text"}.get(
+        row.type, row.type
     )
+    return f"`{name}`", unit, row.reading, row.about
+
+
+def _event_row(rule: dict[str, Any]) -> tuple[Any, ...] | None:
+    if not rule["event"] and not rule["alarm"]:
+        return None
+    path, when = f"`{rule.get('path', '')}`", rule.get("when", "")
+    limits = [f" {word} {rule[word]:g}" for word in ("above", "below") if rule.get(word, "") != ""]
+    change = "" if "when" in rule else " changes"
+    condition = path + ("".join(limits) or change or ("" if when else " is false"))
+    hidden = f", not `{rule['unless']}`" if rule.get("unless") else ""
+    armed = rule.get("level_armed", rule["level"])
+    level = rule["level"] + (f", {armed} while armed" if armed != rule["level"] else "")
+    return (condition + hidden if "path" in rule else "link", rule["alarm"] or "-", level,
+            f"`{rule['code']}`", rule["text"], rule.get("end") or "-")  # fmt: skip
 
 
 def _region(text: str, content: str, begin: str, end: str) -> str:
@@ -314,28 +493,28 @@ def _region(text: str, content: str, begin: str, end: str) -> str:
     return pattern.sub(lambda found: found[1] + content + found[2], text, count=1)
 
 
-OUTPUTS: dict[str, Callable[[Status, str], str]] = {
-    "arduino/raspilot/src/core/status_schema.h": lambda status, _: cpp(status),
-    "up/commands/board_schema.py": lambda status, _: python(status),
-    "ground/up_ground/web/static/js/state/board_schema.js": lambda status, _: javascript(status),
-    "android/core/src/org/raspilot/up/ground/BoardSchema.java": lambda status, _: java(status),
-    "android/core/src/org/raspilot/up/ground/Alarm.java": java_kinds,
+OUTPUTS: dict[str, Callable[[Schema, str], str]] = {
+    "arduino/raspilot/src/core/status_schema.h": lambda schema, _: cpp(schema),
+    "up/commands/board_schema.py": lambda schema, _: python(schema),
+    "up/commands/telemetry_schema.py": lambda schema, _: python_telemetry(schema),
+    "ground/up_ground/web/static/js/state/schema.js": lambda schema, _: javascript(schema),
+    "android/core/src/org/raspilot/up/ground/TelemetrySchema.java": lambda schema, _: java(schema),
     "docs/protocols.md": documents,
 }
 
 
 def outdated(root: Path) -> Iterator[tuple[Path, str]]:
-    """Yield each output that differs from the definition, with its new content."""
-    status = Status(root / SOURCE)
+    """Yield each output that differs from the definitions, with its new content."""
+    schema = Schema(root / "schema")
     for name, make in OUTPUTS.items():
         path = root / name
         before = path.read_text(encoding="utf-8") if path.exists() else ""
-        if (after := make(status, before)) != before:
+        if (after := make(schema, before)) != before:
             yield path, after
 
 
 def main(arguments: list[str] | None = None) -> int:
-    """Write or check every output; return 1 if one differs or the definition is invalid."""
+    """Write or check every output; return 1 if one differs or a definition is invalid."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--check", action="store_true", help="write nothing; fail on a difference")
     parser.add_argument("--root", type=Path, default=Path(__file__).resolve().parent.parent)
@@ -347,7 +526,7 @@ def main(arguments: list[str] | None = None) -> int:
         return 1
     for path, content in stale:
         if options.check:
-            sys.stderr.write(f"{path} differs from {SOURCE}: run make schema\n")
+            sys.stderr.write(f"{path} differs from schema/: run make schema\n")
         else:
             path.write_text(content, encoding="utf-8")
             sys.stdout.write(f"{path}: written\n")

@@ -2,10 +2,7 @@
 
 from __future__ import annotations
 
-DRIFT = 1e-4
-"""Two clocks run apart by no more than this: 0.1 ms in a second."""
-NEW_CLOCK_S = 30.0
-"""No message is held up by so much more than the one before: links are given up sooner."""
+from up.commands.telemetry_schema import DRIFT, NEW_CLOCK_S
 
 
 class OneWayDelayEstimator:

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import textwrap
 
+from up.commands.telemetry_schema import RULES
 from up_ground.screen_buffer import PanelWriter, Style
 from up_ground.status_text import UNKNOWN, busy_text, flag_text, number_text
 
 PANEL_COLUMNS = 38
+BATTERY_LOW = next(each.below or 0.0 for each in RULES if each.code == "battery_low")
 _CHANNELS = ("ailerons", "elevator", "throttle", "rudder", "aux1", "aux2")
 _BAR_COLUMNS = 19
 _MIN_US = 1000.0
@@ -64,7 +66,7 @@ def draw_power(writer: PanelWriter, row: int, column: int) -> int:
     """Draw battery, phone and load; return the row below."""
     telemetry = writer.telemetry
     level = telemetry.number("android", "batteryLevel")
-    style = Style.BAD if level is not None and level < 20 else Style.PLAIN
+    style = Style.BAD if level is not None and level < BATTERY_LOW else Style.PLAIN
     text = f"battery {number_text(level, 0)} %"
     end = writer.value(row, column, text, "battery", style)
     connected = flag_text(telemetry.flag("android", "connected"), "connected", "absent")

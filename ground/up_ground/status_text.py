@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import re
+
+from up.commands.telemetry_schema import RULES
 from up_ground.link_status import LinkState, LinkStatus
 from up_ground.settings import Seat
 from up_ground.telemetry import Telemetry
@@ -37,11 +40,21 @@ def flag_text(value: bool | None, yes: str = "yes", no: str = "no") -> str:
     return UNKNOWN if value is None else (yes if value else no)
 
 
+def fill(text: str, telemetry: Telemetry, **known: object) -> str:
+    """Return a text of schema/ with its values: ``{value}``, ``{a.field or another}``."""
+
+    def value(found: re.Match[str]) -> str:
+        if found[1] in known:
+            return str(known[found[1]])
+        numbers = (telemetry.number(*name.split(".")) for name in found[1].split(" or "))
+        return number_text(next((each for each in numbers if each is not None), None), 0)
+
+    return re.sub(r"\{([^}]+)\}", value, text)
+
+
 def busy_text(telemetry: Telemetry) -> str:
     """Return the load and telemetry's period while the Raspberry Pi is busy (Panic Mode)."""
-    percent = number_text(telemetry.number("load", "cpu"), 0)
-    period_ms = telemetry.number("system", "period_ms") or telemetry.number("load", "delay_ms")
-    return f"Raspberry Pi busy ({percent} %): telemetry every {number_text(period_ms, 0)} ms"
+    return fill(next(each.text for each in RULES if each.code == "panic"), telemetry)
 
 
 def control_text(status: LinkStatus) -> str:

@@ -6,18 +6,12 @@ import math
 from collections import deque
 from typing import Any
 
+from up.commands.telemetry_schema import LATE_FOR_S, LATE_S, READINGS, SILENT_S
 from up.protocols.general_message import GeneralMessage
 from up_ground.one_way_delay import OneWayDelayEstimator
 from up_ground.sanitize_text import sanitize_text
 
 NAME = "up.telemetry.update"
-SILENT_S = 0.9
-"""An older frame is shown as stale, before the second is over."""
-LATE_S = 0.3
-LATE_FOR_S = 1.0
-"""Late frames followed by a newer one are dropped for this time; then the path itself is late."""
-_STALE_S = {"location": 1.9, "altitude": 1.9, "heading": 1.9, "battery": 120.0}
-"""Sources with a period of a second or more become stale later than SILENT_S."""
 _MAX_GAP = 1000
 _MAX_BEACON_STEP = 1_000_000
 """Beacons of one life of an aircraft are nearer: each life draws its first at random."""
@@ -121,7 +115,8 @@ class Telemetry:
         if self.is_silent(now_s):
             return True
         age_s = self.reading_age_s(reading, now_s)
-        return age_s is not None and age_s > _STALE_S.get(reading, SILENT_S)
+        limit_s = READINGS[reading].stale_s if reading in READINGS else SILENT_S
+        return age_s is not None and age_s > limit_s
 
     def rate_hz(self, now_s: float) -> float | None:
         """Return the frames per second; None after too few frames or in a silence."""

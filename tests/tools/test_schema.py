@@ -1,4 +1,4 @@
-"""One line in schema/status.yml: a new byte of the status, with an alarm, in every output."""
+"""One line of schema/: a new byte of the status, or field of telemetry, in every output."""
 
 import json
 import os
@@ -12,20 +12,33 @@ import pytest
 from tests.support.tools import need_tool
 
 ROOT = Path(__file__).parents[2]
-TREES = ("schema", "up", "cogs/arduino_cog", "arduino/raspilot/src", "ground/up_ground",
-         "simulator/up_simulator", "android/core/src/org/raspilot/up/ground")  # fmt: skip
-LINE = (
-    "  - {name: brown_outs, type: u8, about: brown-outs since power-on, row: {label: Brown-outs},"
-    " alarm: {above: 2, level: alarm, text: the supply of the board fails,"
-    " end: the supply of the board is stable, hold_s: 5}}\n"
-)
+TREES = ("schema", "up", "cogs/arduino_cog", "cogs/load_guard_cog", "arduino/raspilot/src",
+         "ground/up_ground", "flightlog/up_flightlog", "simulator/up_simulator",
+         "android/core/src/org/raspilot/up/ground")  # fmt: skip
+LINES = {
+    "status": (
+        "  - {name: brown_outs, type: u8, about: brown-outs since power-on,"
+        " row: {label: Brown-outs}, alarm: {above: 2, level: alarm,"
+        " text: the supply fails, end: the supply is stable, hold_s: 5}}\n"
+    ),
+    "telemetry": (
+        "  - {name: load.temperature, unit: degC, row: {label: Temperature},"
+        " about: of the processor, alarm: {above: 80, back: 5, level: alarm, code: too_hot,"
+        " text: the Raspberry Pi is too hot, end: the Raspberry Pi has cooled down, hold_s: 5}}\n"
+    ),
+}
+MEASURED = ('"ram": self.ram,', '"ram": self.ram, "temperature": self.ram,')
 USER = """
 import json, sys
+from pathlib import Path
+from load_guard_cog.modules.load_guard import LoadGuard
 from arduino_cog.commands.arduino_status_command import read_status
+from tests.flightlog.flights import FlightMaker, TelemetryCommand, status as flown
 from up.commands.board_schema import STATUS
 from up.commands.board_status import telemetry_of
-from up.flight_log.telemetry_schema import PROPERTIES
+from up.commands.telemetry_schema import PROPERTIES
 from up.protocols.general_message import GeneralMessage
+from up_flightlog.findings.detectors import findings
 from up_ground.telemetry import NAME, Telemetry
 from up_ground.web.event_monitor import EventMonitor
 from up_ground.web.event_rules import LinkSnapshot
@@ -33,27 +46,36 @@ from up_simulator.firmware.line_monitor import LineMonitor
 from up_simulator.scenario.signals import SIGNALS
 from up_simulator.firmware.wire import checked_frame
 
+class Hot(LoadGuard):
+    cpu_utilization, in_panic, delay_ms = 5.0, False, 20
+
+guard = Hot()
 told = []
 monitor = EventMonitor("kite", told.append)
 link = LinkSnapshot(True, "", True, True, False)
-def see(count, now_s):
+maker = FlightMaker()
+STEPS = ((1, 0, 40), (2, 3, 81), (3, 3, 76), (20, 0, 40), (24, 0, 40), (26, 0, 40))
+for now_s, count, degrees in STEPS:
     status = read_status(bytes(STATUS.size - 1) + bytes((count,)))
+    guard.ram = degrees
+    data = {"load": guard.telemetry_content["load"],
+            "arduino": {"brown_outs": telemetry_of(status.data)["brown_outs"]}}
     telemetry = Telemetry()
-    arduino = {"brown_outs": telemetry_of(status.data)["brown_outs"]}
-    telemetry.update(GeneralMessage(NAME, {"arduino": arduino}), now_s)
-    monitor.on_frame(telemetry, link, now_s)
-    return status
-for now_s, count in ((1, 0), (2, 3), (20, 0), (24, 0), (26, 0)):
-    status = see(count, now_s)
+    telemetry.update(GeneralMessage(NAME, data), now_s)
+    monitor.update(telemetry, link, now_s)
+    maker.put(now_s, TelemetryCommand(data, now_s))
+    maker.put(now_s, flown(brown_outs=count))
 tap = LineMonitor()
-tap.feed(checked_frame(0, "x", bytes(STATUS.size - 1) + b"\\7"), 0.0)
+tap.feed(checked_frame(0, "x", bytes(STATUS.size - 1) + b"\7"), 0.0)
 json.dump({
-    "telemetry": telemetry_of(status.data)["brown_outs"],
+    "telemetry": data,
     "events": [each["code"] for each in told if each["type"] == "event"],
-    "alarms": [[a["kind"] for a in each["active"]] for each in told if each["type"] == "alarms"],
+    "alarms": [[a["code"] for a in each["active"]] for each in told if each["type"] == "alarms"],
+    "findings": [each.code for each in findings(maker.log(Path.cwd())) if each.code != "log_gap"],
     "tap": tap.status.brown_outs,
-    "signals": [each for each in SIGNALS if "brown_outs" in each],
-    "type": PROPERTIES["arduino"]["properties"]["brown_outs"]["type"],
+    "signals": [each for each in SIGNALS if "brown_outs" in each or "temperature" in each],
+    "types": [PROPERTIES["arduino"]["properties"]["brown_outs"]["type"],
+              PROPERTIES["load"]["properties"]["temperature"]["x-unit"]],
 }, sys.stdout)
 """
 
@@ -71,8 +93,13 @@ def tree(tmp_path_factory):
         shutil.copytree(ROOT / name, root / name, ignore=ignored)
     (root / "docs").mkdir()
     shutil.copy(ROOT / "docs" / "protocols.md", root / "docs")
-    with (root / "schema" / "status.yml").open("a", encoding="utf-8") as file:
-        file.write(LINE)
+    for name, line in LINES.items():
+        with (root / "schema" / f"{name}.yml").open("a", encoding="utf-8") as file:
+            file.write(line)
+    module = root / "cogs/load_guard_cog/load_guard_cog/modules/load_guard.py"
+    text = module.read_text(encoding="utf-8")
+    assert MEASURED[0] in text
+    module.write_text(text.replace(*MEASURED), encoding="utf-8")
     assert schema(root, "--check").returncode == 1
     assert schema(root).returncode == 0
     return root
@@ -83,21 +110,24 @@ def test_the_tables_of_the_project_are_current():
     assert (result.returncode, result.stdout) == (0, "")
 
 
-def test_it_is_in_telemetry_events_alarms_and_scenarios(tree):
-    folders = (tree, tree / "cogs/arduino_cog", tree / "ground", tree / "simulator", ROOT)
-    environment = {**os.environ, "PYTHONPATH": os.pathsep.join(map(str, folders))}
+def test_they_are_in_telemetry_events_alarms_findings_and_scenarios(tree):
+    cogs = [tree / f"cogs/{name}_cog" for name in ("arduino", "load_guard")]
+    rooms = [tree / name for name in ("ground", "flightlog", "simulator")]
+    paths = os.pathsep.join(map(str, (tree, *cogs, *rooms, ROOT)))
     result = subprocess.run(
-        [sys.executable, "-c", USER], env=environment, cwd=tree, capture_output=True, text=True,
-        timeout=120, check=True,
+        [sys.executable, "-c", USER], env={**os.environ, "PYTHONPATH": paths}, cwd=tree,
+        capture_output=True, text=True, timeout=120, check=True,
     )  # fmt: skip
     found = json.loads(result.stdout)
+    load = {"cpu": 5.0, "ram": 40, "temperature": 40, "panic": False, "delay_ms": 20}
     assert found == {
-        "telemetry": 0,
-        "events": ["brown_outs", "brown_outs_over"],
-        "alarms": [["brown_outs"], []],
+        "telemetry": {"arduino": {"brown_outs": 0}, "load": load},
+        "events": ["brown_outs", "too_hot", "brown_outs_over", "too_hot_over"],
+        "alarms": [["brown_outs", "too_hot"], []],
+        "findings": ["brown_outs", "too_hot"],
         "tap": 7,
-        "signals": ["board.brown_outs", "ground.arduino.brown_outs"],
-        "type": "number",
+        "signals": ["board.brown_outs", "ground.arduino.brown_outs", "ground.load.temperature"],
+        "types": ["number", "degC"],
     }
 
 
@@ -113,45 +143,50 @@ def test_it_is_in_the_firmware(tree):
     )  # fmt: skip
 
 
-def test_it_is_on_the_page(tree):
+def test_they_are_on_the_page(tree):
     need_tool("node")
-    script = "import('./board_schema.js').then((m) => console.log(JSON.stringify(m.BOARD_ROWS)))"
+    script = "import('./schema.js').then((m) => console.log(JSON.stringify(m.BOARD_ROWS)))"
     result = subprocess.run(
         ["node", "-e", script], cwd=tree / "ground/up_ground/web/static/js/state",
         capture_output=True, text=True, timeout=60, check=True,
     )  # fmt: skip
-    row = json.loads(result.stdout)[-1]
-    assert (row["label"], row["path"]) == ("Brown-outs", "arduino.brown_outs")
+    rows = {each["path"]: each["label"] for each in json.loads(result.stdout)}
+    assert rows["arduino.brown_outs"] == "Brown-outs"
+    assert rows["load.temperature"] == "Temperature"
 
 
-def test_it_is_in_the_app_and_in_the_documents(tree):
+def test_they_are_in_the_app_and_in_the_documents(tree):
     app = tree / "android/core/src/org/raspilot/up/ground"
-    assert "        BROWN_OUTS,\n" in (app / "Alarm.java").read_text()
-    table = (app / "BoardSchema.java").read_text()
-    assert '"arduino.brown_outs", null, 2' in table and '"", 5000)' not in table
-    assert "5000)" in table
+    table = (app / "TelemetrySchema.java").read_text()
+    for path, kind in (("arduino.brown_outs", "brown_outs"), ("load.temperature", "temperature")):
+        assert f'"path", "{path}"' in table
+        assert f'HOLDS_MS.put("{kind}", 5000L);' in table
+    assert 'UNITS.put("load.temperature", "degC");' in table
     page = (tree / "docs" / "protocols.md").read_text()
-    assert "| 20 | u8 | `brown_outs` | brown-outs since power-on |" in page
-    assert (
-        "| `arduino.brown_outs` above 2 | alarm | `brown_outs` | the supply of the board fails |"
-        in page
-    )
-    assert "| `x` | 78 | 21 |" in page
-    assert "`frame_errors`, `brown_outs` |" in page
+    rows = [[cell.strip() for cell in line.split("|")[1:-1]] for line in page.splitlines()]
+    assert ["20", "u8", "`brown_outs`", "brown-outs since power-on"] in rows
+    assert ["`load.temperature`", "degC", "", "of the processor"] in rows
+    codes = {row[3]: row[0] for row in rows if len(row) == 6}
+    assert codes["`brown_outs`"] == "`arduino.brown_outs` above 2"
+    assert codes["`too_hot`"] == "`load.temperature` above 80"
+    assert ["`x`", "78", "21"] in [row[:3] for row in rows]
 
 
 @pytest.mark.parametrize(
-    ("row", "named"),
+    ("file", "row", "named"),
     [
-        ("{name: odd, type: u64}", "odd"),
-        ("{name: odd, type: u8, colour: red}", "colour"),
-        ("{name: odd, type: u8, alarm: {level: alarm}}", "alarm"),
+        ("status", "{name: odd, type: u64}", "odd"),
+        ("status", "{name: odd, type: u8, colour: red}", "colour"),
+        ("status", "{name: odd, type: u8, alarm: {level: alarm}}", "alarm"),
+        ("telemetry", "{name: odd, type: u8}", "odd"),
+        ("telemetry", "{name: odd, alarm: {above: 1, below: 2}}", "alarm"),
+        ("telemetry", "{name: odd, reading: mood}", "mood"),
     ],
 )
-def test_an_invalid_row_is_named(tmp_path, row, named):
-    (tmp_path / "schema").mkdir()
-    text = (ROOT / "schema" / "status.yml").read_text()
-    (tmp_path / "schema" / "status.yml").write_text(f"{text}  - {row}\n")
+def test_an_invalid_row_is_named(tmp_path, file, row, named):
+    shutil.copytree(ROOT / "schema", tmp_path / "schema")
+    with (tmp_path / "schema" / f"{file}.yml").open("a", encoding="utf-8") as opened:
+        opened.write(f"  - {row}\n")
     result = schema(tmp_path)
     assert result.returncode == 1
-    assert "status.yml: odd" in result.stderr and named in result.stderr
+    assert f"{file}.yml: odd" in result.stderr and named in result.stderr

@@ -1,4 +1,4 @@
-"""Codes, fields and alarms of the board's status. Generated from schema/status.yml by tools/schema.py; do not edit."""
+"""Codes and fields of the board's status. Generated from schema/ by tools/schema.py; do not edit."""
 # ruff: noqa: D101, E501, RUF100
 # fmt: off
 
@@ -8,12 +8,11 @@ from dataclasses import dataclass
 from enum import IntEnum, IntFlag
 from struct import Struct
 
-from up.commands.board_datum import Alarm, Datum
 from up.commands.command import value
+from up.commands.schema_rows import Datum
 
 VERSION = 1
 STATUS = Struct('>BBBBBBHHHHHHH')
-ALARM_HOLD_S = 2.0
 FLIGHT_MODES = {'a': 'ACRO', 'r': 'RATE', 'f': 'FBW', 's': 'SETPOINT', 'u': 'OUTPUT', 'h': 'RTH'}
 MODE_TEXTS = {'ACRO': 'the sticks move the surfaces', 'RATE': 'the sticks ask for rotation', 'FBW': 'the sticks ask for attitude, within limits', 'SETPOINT': 'the Raspberry Pi sets the attitude', 'OUTPUT': 'the Raspberry Pi sets the servo positions', 'RTH': 'return home, sent by old firmware; without behaviour'}
 SWITCH_MODES = {'a': 'ACRO', 'r': 'RATE', 'f': 'FBW', 'A': 'AUTO'}
@@ -104,13 +103,6 @@ DATA = (
     Datum('uptime_s', 'uptime_s', None, 'number', 's', 'time since reset, stays at 65535', False, 'uptime_s'),
     Datum('rx_age_ms', 'rx_age_ms', None, 'number', 'ms', "age of the receiver's newest pulses, stays at 65535", False, 'receiver_age_ms'),
     Datum('imu_age_ms', 'imu_age_ms', None, 'number', 'ms', "age of the IMU's newest sample, stays at 65535", False, 'imu_age_ms'),
-)
-ALARMS = (
-    Alarm('receiver_valid', 'flags', 2, 'receiver', False, None, 'warning', 'alarm', 'receiver_lost', 'the receiver is lost', 'receiver_back', 'the receiver is back', 'failsafe', 'failsafe', True, None, ''),
-    Alarm('imu_valid', 'flags', 3, 'imu', False, None, 'alarm', 'alarm', 'imu_invalid', 'the IMU is invalid: no stabilisation', 'imu_valid', 'the IMU is valid', 'source', '', True, None, 'the IMU was invalid'),
-    Alarm('failsafe', 'flags', 4, 'failsafe', True, None, 'alarm', 'alarm', 'failsafe', 'failsafe: the Arduino flies without a receiver', 'failsafe_over', 'the failsafe is over', 'failsafe', '', True, None, ''),
-    Alarm('pi_received', 'flags', 7, 'pi_received', False, None, 'warning', 'warning', 'raspilot_silent', '', 'raspilot_silent_over', '', '', '', False, None, 'the board received nothing from Raspilot'),
-    Alarm('restored', 'reset_cause', 7, 'restored', True, None, 'alarm', 'alarm', 'board_reset', 'the Arduino was reset in flight and restored its state', 'board_reset_over', '', 'source', '', False, None, ''),
 )
 
 

@@ -8,7 +8,6 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from up.commands.board_datum import Alarm, Datum
 from up.commands.board_schema import (
     DATA,
     FLIGHT_MODES,
@@ -18,6 +17,7 @@ from up.commands.board_schema import (
     VETOES,
     Reason,
 )
+from up.commands.schema_rows import Datum
 
 TOPIC = "arduino.status"
 
@@ -28,7 +28,7 @@ def has_bit(status: Mapping[str, Any], key: str, bit: int) -> bool | None:
     return bool(bits >> bit & 1) if type(bits) is int and 0 <= bits <= 255 else None
 
 
-def value_of(status: Mapping[str, Any], datum: Datum | Alarm) -> Any:
+def value_of(status: Mapping[str, Any], datum: Datum) -> Any:
     """Return a field, or a bit of one; None if the status has no number there."""
     if datum.bit is not None:
         return has_bit(status, datum.field, datum.bit)

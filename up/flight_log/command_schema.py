@@ -9,8 +9,8 @@ from typing import Any
 
 from up.commands.command import BaseCommand, constraint_of
 from up.commands.telemetry_commands import TelemetryCommand
+from up.commands.telemetry_schema import PROPERTIES
 from up.flight_log.origin_text import KEY
-from up.flight_log.telemetry_schema import PROPERTIES
 
 _ITEMS = {str: "string", int: "integer", float: "number", bool: "boolean"}
 _DIALECT = "https://json-schema.org/draft/2020-12/schema"

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+from collections.abc import Iterable
 from typing import Any, NoReturn
 
 MAX_DEPTH = 32
@@ -36,12 +37,18 @@ def decode(data: bytes) -> dict[str, Any]:
     return fields
 
 
-def number_at(data: Any, path: tuple[str, ...]) -> float | None:
-    """Return the finite number at a path of keys, or None (true is not a number)."""
+def value_at(data: Any, path: Iterable[str]) -> Any:
+    """Return the value at a path of keys, or None."""
     for key in path:
         if not isinstance(data, dict):
             return None
         data = data.get(key)
+    return data
+
+
+def number_at(data: Any, path: Iterable[str]) -> float | None:
+    """Return the finite number at a path of keys, or None (true is not a number)."""
+    data = value_at(data, path)
     if type(data) is float:
         return data
     if type(data) is not int:

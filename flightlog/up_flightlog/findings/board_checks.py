@@ -7,8 +7,8 @@ from collections.abc import Iterator
 from dataclasses import asdict
 from math import inf
 
-from up.commands.board_schema import ALARMS
 from up.commands.board_status import has_bit, reset_causes_of
+from up.commands.telemetry_schema import RULES
 from up.flight_log.json_message import number_at
 from up_flightlog.findings.finding import Detector, Finding, Level, lasting
 from up_flightlog.findings.flight_context import FlightContext
@@ -38,8 +38,8 @@ def receiver_lost(context: FlightContext) -> Iterator[Finding]:
     if RX in context.log.topics:
         lost = context.lost(_validity(context, bad))
     else:
-        (alarm,) = (each for each in ALARMS if each.name == "receiver_valid")
-        lost = context.alarm_spans(alarm)
+        (rule,) = (each for each in RULES if each.code == "receiver_lost")
+        lost = context.alarm_spans(rule)
     for span in joined(lost, 2 * MIN_LOSS_S):
         if span.length_s < MIN_LOSS_S:
             continue
@@ -71,11 +71,11 @@ def failsafe(context: FlightContext) -> Iterator[Finding]:
         yield lasting(span, _level(context, span), "failsafe", text)
 
 
-def status_alarms(context: FlightContext) -> Iterator[Finding]:
-    """The conditions of the status that schema/status.yml defines as findings."""
-    for alarm in ALARMS:
-        for span in context.alarm_spans(alarm) if alarm.finding else ():
-            yield lasting(span, _level(context, span), alarm.code, alarm.finding)
+def alarms(context: FlightContext) -> Iterator[Finding]:
+    """The conditions of telemetry that schema/ defines as findings."""
+    for rule in RULES:
+        for span in context.alarm_spans(rule) if rule.finding else ():
+            yield lasting(span, _level(context, span), rule.code, rule.finding)
 
 
 def board_reset(context: FlightContext) -> Iterator[Finding]:
@@ -168,7 +168,7 @@ def estimate_wrong(context: FlightContext) -> Iterator[Finding]:
 BOARD_CHECKS: tuple[Detector, ...] = (
     receiver_lost,
     failsafe,
-    status_alarms,
+    alarms,
     board_reset,
     board_silent,
     loop_late,

@@ -9,7 +9,9 @@ from functools import cached_property
 from typing import Any
 
 from up.commands import board_status
-from up.commands.board_datum import Alarm
+from up.commands.board_schema import DATA
+from up.commands.schema_rows import Rule
+from up.flight_log.json_message import number_at, value_at
 from up_flightlog.findings.estimate_error import EstimateError, estimate_errors
 from up_flightlog.read.flight_log import FlightLog, LoggedMessage
 from up_flightlog.read.spans import Span, spans_of
@@ -22,6 +24,7 @@ WARNING, ERROR = 3, 4
 """Levels of foxglove.Log."""
 _CODES = frozenset({"command_refused", "recording_resumed"})
 """Lines of level info that are read."""
+_DATA = {f"arduino.{each.name}": each for each in DATA}
 _NEAR_S = 1.0
 _ENDING_S = 2.0
 """A program that stops closes its links up to this long before the log ends."""
@@ -114,13 +117,20 @@ class FlightContext:
         """Return the spans in which a condition was false after it had been true."""
         return self.spans(_after_first(states))
 
-    def alarm_spans(self, alarm: Alarm) -> list[Span]:
-        """Return the spans in which a condition of the status held after it had not."""
-        states = (
-            (each.time_s, alarm.holds(board_status.value_of(each.data, alarm)))
-            for each in self.statuses()
-        )
-        return self.lost((time_s, None if holds is None else not holds) for time_s, holds in states)
+    def alarm_spans(self, rule: Rule) -> list[Span]:
+        """Return the spans in which a condition held after it had not."""
+        return self.lost(_negated(rule, self._values(rule)))
+
+    def _values(self, rule: Rule) -> Iterator[tuple[float, Any]]:
+        """Yield the values of a rule's field; the Arduino's are read from its status."""
+        if rule.path in _DATA:
+            for each in self.statuses():
+                yield each.time_s, board_status.value_of(each.data, _DATA[rule.path])
+            return
+        path = rule.path.split(".")
+        for each in self.log.messages(TELEMETRY):
+            value = _flag(value_at(each.data, path))
+            yield each.time_s, value if rule.type == "flag" else number_at(each.data, path)
 
     def statuses(self) -> Iterator[LoggedMessage]:
         return self.log.messages(board_status.TOPIC)
@@ -145,6 +155,15 @@ class FlightContext:
                 str(each.data.get("code", "")),
                 fields if isinstance(fields := each.data.get("fields"), dict) else {},
             )
+
+
+def _negated(
+    rule: Rule, values: Iterable[tuple[float, Any]]
+) -> Iterator[tuple[float, bool | None]]:
+    holds: bool | None = None
+    for time_s, value in values:
+        holds = rule.holds(value, holds is True)
+        yield time_s, None if holds is None else not holds
 
 
 def _after_first(states: Iterable[tuple[float, bool | None]]) -> Iterator[tuple[float, bool]]:

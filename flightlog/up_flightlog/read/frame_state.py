@@ -6,10 +6,11 @@ from collections.abc import Callable, Mapping
 from typing import Any
 
 from up.commands import board_status
+from up.commands.telemetry_schema import READINGS
 from up.earth import bearing_deg, compass_deg, distance_m
 from up.flight_log.json_message import number_at
 from up.flight_log.origin_text import KEY, link_and_role
-from up_flightlog.read.source_filter import FRESH_S, SourceFilter
+from up_flightlog.read.source_filter import SourceFilter
 
 ANGLES = ("yaw", "pitch", "roll")
 STICKS = ("ailerons", "elevator", "throttle", "rudder", "aux1", "aux2")
@@ -48,7 +49,7 @@ class FrameState:
         """Apply a logged frame of telemetry: it has more data than the Commands."""
         self._tree = {**self._tree, **tree}
         ages, sources = tree.get("age_ms"), tree.get("source")
-        for reading in FRESH_S:
+        for reading in READINGS:
             age_ms = number_at(ages, (reading,))
             if age_ms is not None:
                 self._times_s[reading] = time_s - age_ms / 1000
@@ -60,7 +61,7 @@ class FrameState:
         known = self._times_s
         ages = {
             reading: round((time_s - known[reading]) * 1000) if reading in known else None
-            for reading in FRESH_S
+            for reading in READINGS
         }
         return {**self._tree, "age_ms": ages, "source": dict(self._sources)}
 

@@ -7,22 +7,12 @@ from collections.abc import Iterator, Mapping
 from typing import Any
 
 from up.commands.roles import Role
+from up.commands.telemetry_schema import READINGS
 from up.flight_log.origin_text import KEY, link_and_role
 from up.providers.source_arbiter import SourceArbiter
 from up_flightlog.read.flight_log import FlightLog
 
 SELECTED = "up.source.selected"
-FRESH_S = {
-    "orientation": 0.5,
-    "rx": 0.5,
-    "servo": 0.5,
-    "flight": 0.5,
-    "location": 1.5,
-    "altitude": 1.5,
-    "heading": 1.5,
-    "battery": 120.0,
-}
-"""The maximum age of a fresh source, by reading."""
 _BOARD_PRIORITY = 10
 _LATER_S = 0.05
 """A selection is logged after the message that caused it."""
@@ -43,8 +33,8 @@ class SourceFilter:
             self._times_s.setdefault(reading, []).append(each.time_s)
             self._links.setdefault(reading, []).append(str(each.data.get("source")))
         self._arbiters = {
-            reading: SourceArbiter(fresh_s, lambda previous, source: None)
-            for reading, fresh_s in FRESH_S.items()
+            name: SourceArbiter(reading.source_s, lambda previous, source: None)
+            for name, reading in READINGS.items()
         }
 
     def accepts(self, reading: str, time_s: float, data: Mapping[str, Any]) -> bool:

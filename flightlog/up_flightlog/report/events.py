@@ -56,7 +56,7 @@ def _states(context: FlightContext) -> Iterator[Event]:
             if state.is_failsafe:
                 yield Event(state.time_s, "failsafe", "failsafe: the receiver is lost", "bad")
             elif is_failsafe is not None:
-                yield Event(state.time_s, "failsafe_ended", "the receiver is back")
+                yield Event(state.time_s, "failsafe_over", "the receiver is back")
             is_failsafe = state.is_failsafe
         mode = state.flight_mode
 
@@ -115,7 +115,7 @@ def _link(data: Mapping[str, Any]) -> tuple[str, ...] | None:
 def _panic(data: Mapping[str, Any]) -> tuple[str, ...] | None:
     if data.get("panic") is True:
         return "panic", f"Panic Mode: period of {_text(data.get('delay_ms'))} ms", "warning"
-    return "panic_ended", "Panic Mode ends"
+    return "panic_over", "Panic Mode ends"
 
 
 def _altitude(data: Mapping[str, Any]) -> tuple[str, ...] | None:

@@ -8,11 +8,12 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from up.commands.telemetry_schema import SILENT_S
 from up.protocols.general_message import GeneralMessage
 from up_flightlog.read.flight_log import FlightLog
 from up_flightlog.read.telemetry_frames import Frame, frames
 from up_ground.sanitize_text import sanitize_text
-from up_ground.telemetry import NAME, SILENT_S, Telemetry
+from up_ground.telemetry import NAME, Telemetry
 from up_ground.web.event_monitor import EventMonitor
 from up_ground.web.event_rules import INFO, LinkSnapshot, Report
 from up_ground.web.track import Home, Track, track_message
@@ -143,7 +144,7 @@ class ReplayTimeline:
         self._report_marks(marks, log.length_s)
         self._now_s = log.length_s
         is_silent = bool(self._frame_times_s) and log.length_s - self._frame_times_s[-1] > SILENT_S
-        self._monitor.on_moment(telemetry, _link(is_silent), log.length_s)
+        self._monitor.update(telemetry, _link(is_silent), log.length_s)
 
     def _process(self, telemetry: Telemetry, frame: Frame) -> None:
         self._now_s = frame.time_s
@@ -151,7 +152,7 @@ class ReplayTimeline:
         telemetry.update(GeneralMessage(NAME, frame.data, None, frame.beacon), frame.time_s)
         self._track.update(telemetry, frame.time_s)
         self._home.update(telemetry)
-        self._monitor.on_frame(telemetry, _link(False), frame.time_s)
+        self._monitor.update(telemetry, _link(False), frame.time_s)
 
     def _wait(self, telemetry: Telemetry, until_s: float, marks: list[tuple[float, str]]) -> None:
         """Advance the time between two frames to the events that it contains."""
@@ -163,7 +164,7 @@ class ReplayTimeline:
             self._report_marks(marks, next_s)
             self._now_s = next_s
             link = _link(self._now_s - begin_s > SILENT_S)
-            self._monitor.on_moment(telemetry, link, self._now_s)
+            self._monitor.update(telemetry, link, self._now_s)
 
     def _report_marks(self, marks: list[tuple[float, str]], until_s: float) -> None:
         while marks and marks[-1][0] <= until_s:

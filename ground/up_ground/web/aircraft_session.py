@@ -110,7 +110,7 @@ class AircraftSession(AircraftSource):
         telemetry = self.telemetry
         self._track.update(telemetry, now_s)
         self._home.update(telemetry)
-        self.monitor.on_frame(telemetry, self._snapshot(now_s), now_s)
+        self.monitor.update(telemetry, self._snapshot(now_s), now_s)
         has_board = telemetry.flag("arduino", "connected")
         if has_board and self._has_board is False:
             self.commands.want_gains()
@@ -202,7 +202,7 @@ class AircraftSession(AircraftSource):
     def _on_tick(self) -> None:
         self._tick = self._reactor.callLater(TICK_S, self._on_tick)
         now_s = self._reactor.seconds()
-        self.monitor.on_moment(self.telemetry, self._snapshot(now_s), now_s)
+        self.monitor.update(self.telemetry, self._snapshot(now_s), now_s)
 
     def _snapshot(self, now_s: float) -> LinkSnapshot:
         status = self.link.status

@@ -3,30 +3,31 @@
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from functools import partial
 from typing import Any
 
-from up.commands.board_schema import ALARM_HOLD_S
+from up.commands.schema_rows import Rule
+from up.commands.telemetry_schema import (
+    ALARM_HOLDS_S,
+    MAX_PAUSE_S,
+    PAUSE_S,
+    QUIET_S,
+    RULES,
+)
 from up_ground.telemetry import Telemetry
 from up_ground.web.event_rules import (
-    ALARM,
-    EVENT_RULES,
-    HOLDS_S,
-    INFO,
-    WARNING,
     Alarm,
-    EventRule,
     LinkSnapshot,
     Report,
-    board_state,
-    faults,
+    alarm_of,
+    event_of,
+    report_of,
+    silence,
+    state_of,
 )
 
-INITIAL_HOLD_S = 3.0
-MAX_HOLD_S = 30.0
-QUIET_S = 60.0
 EVENTS_KEPT = 200
 
 OnChange = Callable[[Any, Any], object]
@@ -38,7 +39,7 @@ class _Value:
     newest: Any
     notify: OnChange
     reported_s: float
-    hold_s: float = INITIAL_HOLD_S
+    hold_s: float = PAUSE_S
 
 
 class Debouncer:
@@ -72,7 +73,7 @@ class Debouncer:
         rest_s = now_s - known.reported_s
         if rest_s < known.hold_s:
             return
-        known.hold_s = INITIAL_HOLD_S if rest_s >= QUIET_S else min(MAX_HOLD_S, known.hold_s * 2)
+        known.hold_s = PAUSE_S if rest_s >= QUIET_S else min(MAX_PAUSE_S, known.hold_s * 2)
         before, known.reported, known.reported_s = known.reported, known.newest, now_s
         known.notify(before, known.reported)
 
@@ -80,28 +81,26 @@ class Debouncer:
 class Alarms:
     """The active alarms. One begins immediately and ends ``hold_s`` after its cause.
 
-    None: after the time that schema/status.yml gives.
+    None: after the time that schema/ gives.
     """
 
     def __init__(self, hold_s: float | None = None) -> None:
         self._hold_s = hold_s
-        self._had_board = False
         self.active: tuple[Alarm, ...] = ()
         self._seen_s: dict[str, float] = {}
         self._known: dict[str, Alarm] = {}
 
-    def update(self, telemetry: Telemetry, link: LinkSnapshot, now_s: float) -> bool:
+    def update(self, present: Iterable[Alarm], now_s: float) -> bool:
         """Update to this moment; return whether the alarms changed."""
-        self._had_board = self._had_board or board_state(telemetry) is True
-        present = faults(telemetry, link, "battery" in self._known, self._had_board)
         found = {each.kind: each for each in present}
         self._known.update(found)
         self._seen_s.update(dict.fromkeys(found, now_s))
         for kind, seen_s in list(self._seen_s.items()):
-            hold_s = HOLDS_S.get(kind, ALARM_HOLD_S) if self._hold_s is None else self._hold_s
+            hold_s = ALARM_HOLDS_S[kind] if self._hold_s is None else self._hold_s
             if kind not in found and now_s - seen_s >= hold_s:
                 del self._seen_s[kind], self._known[kind]
-        before, self.active = self.active, tuple(self._known[kind] for kind in sorted(self._known))
+        known = tuple(self._known[kind] for kind in ALARM_HOLDS_S if kind in self._known)
+        before, self.active = self.active, known
         return self.active != before
 
     def message(self, aircraft: str) -> dict[str, Any]:
@@ -153,6 +152,8 @@ class EventMonitor:
         self._events: deque[Event] = deque(maxlen=EVENTS_KEPT)
         self._debouncer = Debouncer()
         self._alarms = Alarms(hold_s)
+        self._states: dict[Rule, Any] = {}
+        self._were_there: set[Rule] = set()
         self._number = 0
 
     def report(self, kind: str, report: Report | None, now_s: float) -> None:
@@ -162,13 +163,6 @@ class EventMonitor:
             self._events.append(event)
             self._notify(event.message(self._aircraft, now_s, is_past=False))
 
-    def on_frame(self, telemetry: Telemetry, link: LinkSnapshot, now_s: float) -> None:
-        for rule in EVENT_RULES:
-            value = rule.read(telemetry)
-            if value is not None:
-                self._debouncer.update(rule.key, value, now_s, partial(self._apply, rule, now_s))
-        self.on_moment(telemetry, link, now_s)
-
     def on_link(self, link: LinkSnapshot, now_s: float) -> None:
         state: tuple[bool, bool | None] = (link.is_open, link.is_aircraft_online)
 
@@ -177,16 +171,26 @@ class EventMonitor:
 
         self._debouncer.update("link", state, now_s, on_change)
 
-    def on_moment(self, telemetry: Telemetry, link: LinkSnapshot, now_s: float) -> None:
-        """Process the changes by time alone."""
+    def update(self, telemetry: Telemetry, link: LinkSnapshot, now_s: float) -> None:
+        """Process a frame, or the changes by time alone."""
+        alarms = [silence(link)]
+        for rule in RULES:
+            state = state_of(rule, telemetry, self._states.get(rule))
+            if state is None:
+                continue
+            self._states[rule] = state
+            if state is False:
+                self._were_there.add(rule)
+            alarms.append(alarm_of(rule, state, telemetry, rule in self._were_there))
+            if rule.event:
+                notify = partial(self._apply, rule, telemetry, now_s)
+                self._debouncer.update(f"{rule.path} {rule.code}", state, now_s, notify)
         self._debouncer.on_moment(now_s)
-        if self._alarms.update(telemetry, link, now_s):
-            kinds = {each.kind for each in self._alarms.active}
-            silent = Report(ALARM, "silent", "no telemetry")
-            if link.is_late:
-                silent = Report(ALARM, "late", "telemetry arrives too late")
-            self._on_alarm("silent", "link", kinds, silent, _HEARD, now_s)
-            self._on_alarm("battery", "battery", kinds, _BATTERY_LOW, _BATTERY_CHARGED, now_s)
+        if self._alarms.update(filter(None, alarms), now_s):
+            is_silent = any(each.kind == "silent" for each in self._alarms.active)
+            self._debouncer.update(
+                "silent", is_silent, now_s, partial(self._on_silence, link, now_s)
+            )
             self._notify(self._alarms.message(self._aircraft))
 
     def past(self, now_s: float) -> Iterator[dict[str, Any]]:
@@ -194,31 +198,18 @@ class EventMonitor:
             yield event.message(self._aircraft, now_s, is_past=True)
         yield self._alarms.message(self._aircraft)
 
-    def _apply(self, rule: EventRule, now_s: float, before: Any, now: Any) -> None:
-        self.report(rule.kind, rule.describe(before, now), now_s)
+    def _apply(self, rule: Rule, telemetry: Telemetry, now_s: float, before: Any, now: Any) -> None:
+        self.report(rule.event, report_of(rule, before, now, telemetry), now_s)
 
-    def _on_alarm(
-        self, alarm: str, kind: str, active: set[str], begin: Report, end: Report, now_s: float
-    ) -> None:
-        def on_change(before: Any, now: Any) -> None:
-            self.report(kind, begin if now else None if before is None else end, now_s)
-
-        self._debouncer.update(f"alarm {alarm}", alarm in active, now_s, on_change)
-
-
-_HEARD = Report(INFO, "heard", "telemetry arrives again")
-_BATTERY_LOW = Report(WARNING, "battery_low", "the phone's battery is low")
-_BATTERY_CHARGED = Report(INFO, "battery_charged", "the phone's battery is charged")
+    def _on_silence(self, link: LinkSnapshot, now_s: float, before: Any, now: Any) -> None:
+        begin = event_of("late" if link.is_late else "silent")
+        self.report("link", begin if now else None if before is None else event_of("heard"), now_s)
 
 
 def _link_report(link: LinkSnapshot, before: Any, now: tuple[bool, bool | None]) -> Report | None:
     is_open, is_online = now
     if not is_open:
-        text = f"the link to the proxy is lost: {link.reason}"[:300]
-        return None if before is None else Report(WARNING, "link_lost", text)
+        return None if before is None else event_of("link_lost", link.reason)
     if is_online is False:
-        text = "the aircraft is not connected to the proxy"
-        return Report(WARNING, "aircraft_offline", text)
-    if is_online:
-        return Report(INFO, "aircraft_online", "the aircraft is connected")
-    return Report(INFO, "link_open", "the link is open")
+        return event_of("aircraft_offline")
+    return event_of("aircraft_online" if is_online else "link_open")

@@ -14,6 +14,7 @@ from up.commands.board_schema import (
     SWITCH_MODES,
     SWITCH_POSITIONS,
 )
+from up.commands.telemetry_schema import FIELDS
 
 _MODES = tuple(FLIGHT_MODES.values())
 _POSITIONS = tuple(SWITCH_POSITIONS.values())
@@ -175,58 +176,11 @@ def _ground() -> Iterator[Signal]:
     )
     yield Signal("ground.frames", "number of telemetry frames received")
     yield Signal("ground.connected", "it has a connection, to its knowledge", kind=_FLAG)
-    for group, unit in (("orientation", "deg"), ("rates", "deg/s")):
-        for axis in ("roll", "pitch", "yaw"):
-            yield _telemetry(f"{group}.{axis}", unit)
-    for channel in _STICKS:
-        yield _telemetry(f"rx.{channel}", "us")
-    for channel in _SERVOS:
-        yield _telemetry(f"servo.{channel}", "us")
-    for name, unit in (
-        ("location.latitude", "deg"),
-        ("location.longitude", "deg"),
-        ("location.altitude", "m"),
-        ("home.distance", "m"),
-        ("home.bearing", "deg"),
-        ("altitude", "m"),
-        ("heading.actual", "deg"),
-        ("heading.required", "deg"),
-        ("android.batteryLevel", "%"),
-        ("load.cpu", "%"),
-        ("load.ram", "%"),
-        ("load.delay_ms", "ms"),
-        ("system.uptime_s", "s"),
-    ):
-        yield _telemetry(name, unit)
-    for name in (
-        "android.connected",
-        "arduino.connected",
-        "load.panic",
-        "armed",
-    ):
-        yield _telemetry(name, kind=_FLAG)
-    for name in (
-        "arduino.framing",
-        "mode",
-        "flight_mode",
-        "flight_controller",
-        "flight_control.mode",
-        "vetoes",
-    ):
-        yield _telemetry(name, kind=_TEXT)
-    for datum in DATA:
-        if datum.in_telemetry:
-            yield _telemetry(f"arduino.{datum.name}", datum.unit, _KINDS[datum.kind])
-    for reading in _READINGS:
-        yield _telemetry(f"age_ms.{reading}", "ms")
-        yield _telemetry(f"source.{reading}", kind=_TEXT)
-
-
-_READINGS = ("orientation", "rx", "servo", "location", "altitude", "heading", "battery")
-
-
-def _telemetry(key: str, unit: str = "", kind: Kind = Kind.NUMBER) -> Signal:
-    return Signal(f"ground.{key}", f"telemetry {key} (docs/protocols.md 6)", unit, kind)
+    for field in FIELDS:
+        if field.type != "object":
+            about = f"telemetry {field.path} (docs/protocols.md 6)"
+            kind = _KINDS.get(field.type, Kind.TEXT)
+            yield Signal(f"ground.{field.path}", about, field.unit, kind)
 
 
 def _all() -> Iterator[Signal]:

@@ -28,7 +28,7 @@ def test_a_state_is_an_event_when_it_changes(codes):
         (1.0, "connected"),
         (3.0, "disconnected"),
         (4.0, "panic"),
-        (6.0, "panic_ended"),
+        (6.0, "panic_over"),
     ]
 
 
@@ -56,7 +56,7 @@ def test_modes_arming_and_failsafe(codes):
         "armed",
         "failsafe",
         "flight_mode",
-        "failsafe_ended",
+        "failsafe_over",
         "disarmed",
     ]
 

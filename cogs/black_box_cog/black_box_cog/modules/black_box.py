@@ -31,7 +31,7 @@ DEFERRED_IMPORTS = (
     "up.flight_log.flight_file",
     "black_box_cog.flight_folder",
     "black_box_cog.flight_metadata",
-    "up.flight_log.telemetry_schema",
+    "up.commands.telemetry_schema",
     "up.flight_log.command_schema",
     "up.flight_log.mcap_format",
     "up.flight_log.mcap_writer",

@@ -73,7 +73,7 @@ export class ChosenChart {
   take(store, time_s) {
     this.#follow();
     if (this.#keys !== null) {
-      const isLive = store.freshness(readingOf(this.#keys[0])) === "live";
+      const isLive = store.freshness(readingOf(this.#keys.join("."))) === "live";
       const value = validate.number(validate.atKeys(store.data, this.#keys));
       this.#history.add(time_s, { value: isLive ? value : null });
     }

@@ -1,8 +1,8 @@
 import { html, setAttribute } from "../dom.js";
 import { freshnessOf, Readout, Row } from "../readout.js";
 import { numberText } from "../state/format.js";
+import { LIMITS } from "../state/schema.js";
 
-const LOW_PERCENT = 20;
 const WARNING_PERCENT = 35;
 
 /** The battery of the phone on board: the only one that telemetry knows of. */
@@ -43,5 +43,5 @@ export function mount(element, store) {
 }
 
 export function batteryLevel(percent) {
-  return percent < LOW_PERCENT ? "alarm" : percent < WARNING_PERCENT ? "warning" : "";
+  return percent < LIMITS.battery_low ? "alarm" : percent < WARNING_PERCENT ? "warning" : "";
 }

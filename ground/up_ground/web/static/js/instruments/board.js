@@ -1,20 +1,15 @@
 import { html } from "../dom.js";
 import { Row } from "../readout.js";
-import { BOARD_ROWS } from "../state/board_schema.js";
 import { flagText, numberText } from "../state/format.js";
+import { BOARD_ROWS } from "../state/schema.js";
 
 /** The Arduino as it sees itself, and how busy the Raspberry Pi is. */
 export function mount(element, store) {
   const list = html("dl", { class: "rows" });
   element.append(list);
-  const percent = (value) => `${numberText(value)} %`;
-  const rows = [
-    ...BOARD_ROWS.map((row) => new Row(list, row.label, row.path, row.kind, formatOf(row), styleOf(row))),
-    new Row(list, "Framing", "arduino.framing", "text"),
-    new Row(list, "Processor", "load.cpu", "number", percent),
-    new Row(list, "Memory", "load.ram", "number", percent),
-    new Row(list, "Up runs for", "system.uptime_s", "number", uptimeText),
-  ];
+  const rows = BOARD_ROWS.map(
+    (row) => new Row(list, row.label, row.path, row.kind, formatOf(row), styleOf(row)),
+  );
   return {
     update() {
       for (const row of rows) {
@@ -27,6 +22,9 @@ export function mount(element, store) {
 function formatOf({ kind, unit, yes, no }) {
   if (kind === "flag") {
     return (value) => flagText(value, yes, no);
+  }
+  if (unit === "s") {
+    return uptimeText;
   }
   return kind === "number" ? (value) => `${numberText(value)} ${unit}`.trim() : String;
 }

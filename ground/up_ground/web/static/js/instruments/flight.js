@@ -1,6 +1,6 @@
 import { html, setAttribute, setText } from "../dom.js";
 import { Readout, Row } from "../readout.js";
-import { MODES } from "../state/board_schema.js";
+import { MODES } from "../state/schema.js";
 import { flagText, numberText, UNKNOWN } from "../state/format.js";
 import { switchText } from "../state/pilot_input.js";
 

@@ -1,9 +1,8 @@
 import { html, setAttribute, setText } from "../dom.js";
 import { Pace } from "../readout.js";
-import { READINGS } from "../state/ages.js";
 import { ageText, UNKNOWN } from "../state/format.js";
+import { READINGS } from "../state/schema.js";
 
-const NAMES = { rx: "receiver", servo: "servos", flight: "flight state" };
 const WORDS = { live: "live", stale: "old", none: "never came" };
 
 /** Each reading on board: its source, its age, and whether it can be trusted. */
@@ -15,14 +14,14 @@ export function mount(element, store) {
   element.append(
     html("table", { class: "readings" }, html("thead", {}, html("tr", {}, ...head)), body),
   );
-  const lines = READINGS.map((reading) => {
+  const lines = Object.entries(READINGS).map(([reading, { title }]) => {
     const source = html("td", { "data-key": `source.${reading}` });
     const age = html("td", { class: "number", "data-key": `age_ms.${reading}` });
     const state = html("td", { class: "reading-state" });
     const row = html(
       "tr",
       {},
-      html("th", { scope: "row" }, NAMES[reading] ?? reading),
+      html("th", { scope: "row" }, title),
       source,
       age,
       state,

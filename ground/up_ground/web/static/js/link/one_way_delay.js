@@ -1,6 +1,6 @@
+import { DRIFT } from "../state/schema.js";
 import { number } from "../state/validate.js";
 
-const DRIFT = 1e-4;
 const DOUBT_S = 0.1;
 const ROUNDING_S = 0.005;
 

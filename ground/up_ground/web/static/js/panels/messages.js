@@ -1,4 +1,4 @@
-import { MODES } from "../state/board_schema.js";
+import { MODES } from "../state/schema.js";
 
 /** The effect of a flight mode, in a few words; empty for an unknown one. */
 export function modeText(mode) {

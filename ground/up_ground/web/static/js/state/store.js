@@ -1,9 +1,9 @@
 import { now_s, TIMERS } from "../link/clock.js";
-import { READINGS } from "./ages.js";
 import { Catalogue } from "./catalogue.js";
 import { EventList } from "./event_list.js";
 import { Motion } from "./motion.js";
 import { NewestFrame } from "./newest_frame.js";
+import { READINGS } from "./schema.js";
 import { Track } from "./track.js";
 import * as validate from "./validate.js";
 
@@ -60,7 +60,7 @@ export class Store extends NewestFrame {
     this.#timers.each(() => this.#change(), REPAINT_S);
     let known = "";
     this.#timers.each(() => {
-      const now = [null, ...READINGS].map((reading) => this.freshness(reading)).join();
+      const now = [null, ...Object.keys(READINGS)].map((reading) => this.freshness(reading)).join();
       if (now !== known) {
         known = now;
         this.#change();

@@ -11,19 +11,6 @@ import java.util.Map;
  * thread.
  */
 public final class Age {
-    /** A frame older than this, ms, is shown as stale, before a whole second has passed. */
-    public static final long SILENT_MS = 900;
-
-    private static final Map<String, Long> STALE_MS = new HashMap<>();
-
-    static {
-        // Sources with a period of a second or longer become stale later than SILENT_MS.
-        STALE_MS.put("location", 1900L);
-        STALE_MS.put("altitude", 1900L);
-        STALE_MS.put("heading", 1900L);
-        STALE_MS.put("battery", 120000L);
-    }
-
     private final boolean isKnown;
     /** Whether the link that delivered the frame is gone. */
     public final boolean isLinkLost;
@@ -88,12 +75,12 @@ public final class Age {
     /** Returns whether the frame is too old for any of its values to be current. */
     public boolean isSilent(long nowMs) {
         final Long frame = frameMs(nowMs);
-        return isLinkLost || frame == null || frame > SILENT_MS;
+        return isLinkLost || frame == null || frame > TelemetrySchema.SILENT_MS;
     }
 
     /** Returns whether frames arrive, but so late that they count as silence. */
     public boolean isLate(long nowMs) {
-        return isKnown && !isLinkLost && transitMs > SILENT_MS && nowMs - receivedMs <= SILENT_MS;
+        return isKnown && !isLinkLost && transitMs > TelemetrySchema.SILENT_MS && nowMs - receivedMs <= TelemetrySchema.SILENT_MS;
     }
 
     /** Returns whether a reading is too old to fly by; a reading without an age has its frame's. */
@@ -102,8 +89,8 @@ public final class Age {
             return true;
         }
         final Long age = readingMs(reading, nowMs);
-        final Long limit = STALE_MS.get(reading);
-        return age != null && age > (limit == null ? SILENT_MS : limit);
+        final Long limit = TelemetrySchema.STALE_MS.get(reading);
+        return age != null && age > (limit == null ? TelemetrySchema.SILENT_MS : limit);
     }
 
     /**

@@ -2,7 +2,7 @@ package org.raspilot.up.ground;
 
 import java.util.ArrayList;
 import java.util.Collections;
-import java.util.EnumMap;
+import java.util.HashMap;
 import java.util.List;
 import java.util.Map;
 
@@ -11,13 +11,6 @@ import java.util.Map;
  * loop.
  */
 public final class Alarms {
-    /** The airborne phone's battery is low below this, percent. */
-    public static final double BATTERY_LOW = 20;
-    /** The airborne phone's battery is nearly empty below this, percent. */
-    public static final double BATTERY_EMPTY = 10;
-
-    private static final double BATTERY_BACK = 3;
-
     /** A snapshot of the alarms. Immutable. */
     public static final class Snapshot {
         /** A number that rises with each change. */
@@ -41,9 +34,9 @@ public final class Alarms {
         }
 
         /** Returns whether an alarm of that kind is active. */
-        public boolean has(Alarm.Kind kind) {
+        public boolean has(String kind) {
             for (Alarm each : active) {
-                if (each.kind == kind) {
+                if (each.kind.equals(kind)) {
                     return true;
                 }
             }
@@ -51,9 +44,8 @@ public final class Alarms {
         }
     }
 
-    private final Map<Alarm.Kind, Long> causeMs = new EnumMap<>(Alarm.Kind.class);
-    private final Map<Alarm.Kind, Alarm> known = new EnumMap<>(Alarm.Kind.class);
-    private boolean hadBoard;
+    private final Map<String, Long> causeMs = new HashMap<>();
+    private final Map<String, Alarm> known = new HashMap<>();
     private Snapshot snapshot = new Snapshot(0, Collections.emptyList());
 
     Alarms() {
@@ -67,90 +59,36 @@ public final class Alarms {
     void clear() {
         causeMs.clear();
         known.clear();
-        hadBoard = false;
         publish();
     }
 
-    /** Updates the alarms; returns whether they changed. */
-    boolean update(Telemetry telemetry, GroundStatus status, long nowMs) {
-        hadBoard = hadBoard || Boolean.TRUE.equals(EventRule.board(telemetry));
-        for (Alarm each : find(telemetry, status)) {
+    /** Updates the alarms to the present ones; returns whether they changed. */
+    boolean update(List<Alarm> present, long nowMs) {
+        for (Alarm each : present) {
             known.put(each.kind, each);
             causeMs.put(each.kind, nowMs);
         }
-        for (Alarm.Kind kind : Alarm.Kind.values()) {
-            final Long lastMs = causeMs.get(kind);
-            if (lastMs != null && nowMs - lastMs >= holdMs(kind)) {
-                causeMs.remove(kind);
-                known.remove(kind);
+        for (Map.Entry<String, Long> each : TelemetrySchema.HOLDS_MS.entrySet()) {
+            final Long lastMs = causeMs.get(each.getKey());
+            if (lastMs != null && nowMs - lastMs >= each.getValue()) {
+                causeMs.remove(each.getKey());
+                known.remove(each.getKey());
             }
         }
         return publish();
     }
 
-    private static long holdMs(Alarm.Kind kind) {
-        for (BoardAlarm each : BoardSchema.ALARMS) {
-            if (each.kind == kind) {
-                return each.holdMs;
+    private boolean publish() {
+        final List<Alarm> active = new ArrayList<>();
+        for (String kind : TelemetrySchema.HOLDS_MS.keySet()) {
+            if (known.containsKey(kind)) {
+                active.add(known.get(kind));
             }
         }
-        return BoardSchema.ALARM_HOLD_MS;
-    }
-
-    private boolean publish() {
-        final List<Alarm> active = new ArrayList<>(known.values());
         if (active.equals(snapshot.active)) {
             return false;
         }
         snapshot = new Snapshot(snapshot.version + 1, Collections.unmodifiableList(active));
         return true;
-    }
-
-    private List<Alarm> find(Telemetry telemetry, GroundStatus status) {
-        final List<Alarm> found = new ArrayList<>();
-        // Before the first frame nothing went silent.
-        if (telemetry != Telemetry.EMPTY && status.isSilent) {
-            found.add(new Alarm(Alarm.Kind.SILENT, EventLevel.ALARM, silence(status)));
-        }
-        for (BoardAlarm each : BoardSchema.ALARMS) {
-            final Alarm alarm = each.alarm(telemetry);
-            if (alarm != null) {
-                found.add(alarm);
-            }
-        }
-        if (EventRule.NOT_YET.equals(EventRule.board(telemetry)) && !hadBoard) {
-            found.add(new Alarm(Alarm.Kind.BOARD, EventLevel.WARNING,
-                    "the board is not here yet"));
-        } else if (isFalse(telemetry, "arduino.connected")) {
-            found.add(new Alarm(Alarm.Kind.BOARD, EventLevel.ALARM, "the board is gone"));
-        }
-        if (Boolean.FALSE.equals(EventRule.phone(telemetry))) {
-            found.add(new Alarm(Alarm.Kind.PHONE, EventLevel.WARNING, "the phone is gone"));
-        }
-        final Double percent = telemetry.number("android.batteryLevel");
-        final double low = BATTERY_LOW
-                + (known.containsKey(Alarm.Kind.BATTERY) ? BATTERY_BACK : 0);
-        if (percent != null && percent < low) {
-            final boolean isEmpty = percent < BATTERY_EMPTY;
-            found.add(new Alarm(Alarm.Kind.BATTERY,
-                    isEmpty ? EventLevel.ALARM : EventLevel.WARNING,
-                    "the phone's battery is " + (isEmpty ? "nearly empty" : "low")));
-        }
-        return found;
-    }
-
-    /** The text is constant while the cause lasts: an alarm must not blink with each attempt. */
-    private static String silence(GroundStatus status) {
-        if (!status.isOpen()) {
-            return "no link";
-        }
-        if (Boolean.FALSE.equals(status.isAircraftOnline)) {
-            return "the aircraft is not connected to the proxy";
-        }
-        return status.isLate ? "telemetry comes too late" : "the aircraft is silent";
-    }
-
-    private static boolean isFalse(Telemetry telemetry, String path) {
-        return Boolean.FALSE.equals(telemetry.flag(path));
     }
 }

@@ -11,10 +11,6 @@ import java.util.Map;
  * value of a key is reported with null as the previous value.
  */
 final class Debouncer {
-    private static final long INITIAL_HOLD_MS = 3000;
-    private static final long MAX_HOLD_MS = 30000;
-    private static final long QUIET_MS = 60000;
-
     interface ChangeListener {
         /** Called with the last reported value, null for the first, and the current one. */
         void onChange(Object before, Object now);
@@ -25,7 +21,7 @@ final class Debouncer {
         Object newest;
         ChangeListener teller;
         long reportedMs;
-        long holdMs = INITIAL_HOLD_MS;
+        long holdMs = TelemetrySchema.PAUSE_MS;
     }
 
     private final Map<String, Value> values = new HashMap<>();
@@ -38,7 +34,7 @@ final class Debouncer {
             first.told = value;
             first.newest = value;
             first.teller = teller;
-            first.reportedMs = nowMs - QUIET_MS;
+            first.reportedMs = nowMs - TelemetrySchema.QUIET_MS;
             values.put(key, first);
             teller.onChange(null, value);
             return;
@@ -59,8 +55,8 @@ final class Debouncer {
         if (known.newest.equals(known.told) || restMs < known.holdMs) {
             return;
         }
-        known.holdMs = restMs >= QUIET_MS
-                ? INITIAL_HOLD_MS : Math.min(MAX_HOLD_MS, known.holdMs * 2);
+        known.holdMs = restMs >= TelemetrySchema.QUIET_MS
+                ? TelemetrySchema.PAUSE_MS : Math.min(TelemetrySchema.MAX_PAUSE_MS, known.holdMs * 2);
         final Object before = known.told;
         known.told = known.newest;
         known.reportedMs = nowMs;

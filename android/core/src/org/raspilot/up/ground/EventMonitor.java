@@ -1,11 +1,19 @@
 package org.raspilot.up.ground;
 
+import java.util.ArrayList;
 import java.util.Arrays;
+import java.util.HashMap;
+import java.util.HashSet;
+import java.util.List;
+import java.util.Map;
+import java.util.Set;
 
-/** Turns frames and link states into events: each change once, in plain words; flapping rarely. */
+/** Turns frames and link states into events and alarms: each change once; flapping rarely. */
 final class EventMonitor {
     private final EventLog events;
     private final Alarms alarms;
+    private final Map<TelemetryRule, Object> states = new HashMap<>();
+    private final Set<TelemetryRule> wereThere = new HashSet<>();
     private Debouncer debouncer = new Debouncer();
 
     EventMonitor(EventLog events, Alarms alarms) {
@@ -16,72 +24,68 @@ final class EventMonitor {
     /** Resets the state at another start of the link. */
     void reset() {
         debouncer = new Debouncer();
+        states.clear();
+        wereThere.clear();
         alarms.clear();
-    }
-
-    void onFrame(Telemetry telemetry, GroundStatus status, long nowMs) {
-        for (EventRule rule : EventRule.ALL) {
-            final Object value = rule.reader.read(telemetry);
-            if (value != null) {
-                debouncer.update(rule.key, value, nowMs, (before, now) -> {
-                    final EventRule.Change change = rule.describer.describe(before, now);
-                    if (change != null) {
-                        events.add(nowMs, change.level, change.code, change.text);
-                    }
-                });
-            }
-        }
-        onTick(telemetry, status, nowMs);
     }
 
     void onLink(GroundStatus status, long nowMs) {
         final Object state = Arrays.<Object>asList(status.isOpen(), status.isAircraftOnline);
-        debouncer.update("link", state, nowMs, (before, now) ->
-                noteLink(status, before == null, nowMs));
+        debouncer.update("link", state, nowMs, (before, now) -> {
+            if (status.isOpen()) {
+                add(status.isAircraftOnline == null ? "link_open" : status.isAircraftOnline
+                        ? "aircraft_online" : "aircraft_offline", "", nowMs);
+            } else if (before != null) {
+                add("link_lost", ": " + status.reason, nowMs);
+            }
+        });
         if (!status.isDirect && status.isOpen() && status.control != ControlStatus.LATER) {
             debouncer.update("control", status.controlText(), nowMs, (before, now) ->
                     events.add(nowMs, EventLevel.INFO, "control_changed", now.toString()));
         }
     }
 
-    /** Evaluates changes due to time alone. */
-    void onTick(Telemetry telemetry, GroundStatus status, long nowMs) {
+    /** Processes a frame, or the changes by time alone. */
+    void update(Telemetry telemetry, GroundStatus status, long nowMs) {
+        final List<Alarm> present = new ArrayList<>();
+        // Before the first frame nothing went silent.
+        if (telemetry != Telemetry.EMPTY && status.isSilent) {
+            final TelemetryRule cause = TelemetrySchema.EVENTS.get(status.silenceCode());
+            present.add(new Alarm("silent", EventLevel.ALARM, cause.code, cause.text));
+        }
+        for (TelemetryRule rule : TelemetrySchema.RULES) {
+            final Object state = rule.state(telemetry, states.get(rule));
+            if (state == null) {
+                continue;
+            }
+            states.put(rule, state);
+            if (Boolean.FALSE.equals(state)) {
+                wereThere.add(rule);
+            }
+            final Alarm alarm = rule.alarm(state, telemetry, wereThere.contains(rule));
+            if (alarm != null) {
+                present.add(alarm);
+            }
+            if (rule.isEvent) {
+                debouncer.update(rule.path + " " + rule.code, state, nowMs, (before, now) ->
+                        rule.report(before, now, telemetry, events, nowMs));
+            }
+        }
         debouncer.onTick(nowMs);
-        if (alarms.update(telemetry, status, nowMs)) {
-            updateAlarm(Alarm.Kind.SILENT, EventLevel.ALARM,
-                    status.isLate ? "telemetry_late" : "telemetry_lost",
-                    status.isLate ? "telemetry comes too late" : "telemetry lost",
-                    "telemetry_received", "telemetry is received again", nowMs);
-            updateAlarm(Alarm.Kind.BATTERY, EventLevel.WARNING,
-                    "phone_battery_low", "the phone's battery is low",
-                    "phone_battery_charged", "the phone's battery is charged", nowMs);
+        if (alarms.update(present, nowMs)) {
+            debouncer.update("silent", alarms.snapshot().has("silent"), nowMs, (before, now) -> {
+                if (Boolean.TRUE.equals(now)) {
+                    add(status.isLate ? "late" : "silent", "", nowMs);
+                } else if (before != null) {
+                    add("heard", "", nowMs);
+                }
+            });
         }
     }
 
-    private void updateAlarm(Alarm.Kind alarm, EventLevel level, String onCode, String onText,
-            String offCode, String offText, long nowMs) {
-        debouncer.update("alarm " + alarm, alarms.snapshot().has(alarm), nowMs, (before, now) -> {
-            if (Boolean.TRUE.equals(now)) {
-                events.add(nowMs, level, onCode, onText);
-            } else if (before != null) {
-                events.add(nowMs, EventLevel.INFO, offCode, offText);
-            }
-        });
-    }
-
-    private void noteLink(GroundStatus status, boolean isFirst, long nowMs) {
-        if (!status.isOpen()) {
-            if (!isFirst) {
-                events.add(nowMs, EventLevel.WARNING, "link_lost",
-                        "link lost: " + status.reason);
-            }
-        } else if (Boolean.FALSE.equals(status.isAircraftOnline)) {
-            events.add(nowMs, EventLevel.WARNING, "aircraft_offline",
-                    "the aircraft is not connected to the proxy");
-        } else {
-            final boolean isKnown = status.isAircraftOnline != null;
-            events.add(nowMs, EventLevel.INFO, isKnown ? "aircraft_online" : "link_open",
-                    isKnown ? "the aircraft is connected" : "link open");
-        }
+    /** Adds an event of the link; {@code reason} follows its text. */
+    void add(String code, String reason, long nowMs) {
+        final TelemetryRule event = TelemetrySchema.EVENTS.get(code);
+        events.add(nowMs, event.level, code, event.text + reason);
     }
 }

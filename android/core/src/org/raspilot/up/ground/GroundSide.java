@@ -202,7 +202,7 @@ public final class GroundSide implements TelemetrySource {
         home.update(frame);
         track.update(frame, home.home(), nowMs);
         silence.restart(frame, nowMs);
-        judge.onFrame(frame, status(), nowMs);
+        judge.update(frame, status(), nowMs);
         executor.executeCommand(new BaseCommand(message));
         listener.onTelemetry(frame);
         if (publisher.isChanged(frame, nowMs)) {
@@ -223,7 +223,7 @@ public final class GroundSide implements TelemetrySource {
 
     /** Updates the alarms and events and reports the changes. */
     private void check(boolean isStatusDue) {
-        judge.onTick(stream.newest(), status(), loop.nowMs());
+        judge.update(stream.newest(), status(), loop.nowMs());
         if (isStatusDue) {
             reportStatus();
         }
@@ -247,8 +247,7 @@ public final class GroundSide implements TelemetrySource {
                 return;
             }
             if (message.name.equals(GainsService.VALUES) && !gains.receive(message.data)) {
-                events.add(loop.nowMs(), EventLevel.WARNING, "gains_invalid",
-                        "the aircraft sent an incomplete set of gains");
+                judge.add("gains_invalid", "", loop.nowMs());
             }
             answers.receive(message);
             executor.executeCommand(new BaseCommand(message));

@@ -106,18 +106,24 @@ public final class GroundStatus {
         }
     }
 
+    /** Returns the event that names why no current telemetry arrives. */
+    String silenceCode() {
+        if (!isOpen()) {
+            return "no_link";
+        }
+        if (Boolean.FALSE.equals(isAircraftOnline)) {
+            return "aircraft_offline";
+        }
+        return isLate ? "late" : "silent";
+    }
+
     private String openSentence() {
-        if (isAircraftOnline != null && !isAircraftOnline) {
-            return "the aircraft is not connected to the proxy";
+        if (!isSilent && !Boolean.FALSE.equals(isAircraftOnline)) {
+            return "connected";
         }
-        if (isLate) {
-            return "telemetry comes too late";
-        }
-        if (isSilent) {
-            return counters.frames == 0
-                    ? "connected, no telemetry yet" : "the aircraft is silent";
-        }
-        return "connected";
+        final String code = silenceCode();
+        return code.equals("silent") && counters.frames == 0 ? "connected, no telemetry yet"
+                : TelemetrySchema.EVENTS.get(code).text;
     }
 
     /** How far the connection to the other side is. */

@@ -4,17 +4,12 @@ package org.raspilot.up.ground;
  * Estimates how much longer than the fastest one a message was in transit, by its sender's clock.
  *
  * <p>The clocks need not be synchronized, so the transit time of the fastest message is not
- * included. The minimum rises only by {@link #DRIFT}, so a queue that stays full for minutes is
- * not taken for transit time: after a time t the estimate is too small by up to 2 t {@link #DRIFT},
- * and never too large. A clock that goes back, or falls behind by {@link #NEW_CLOCK_MS} in one
+ * included. The minimum rises only by {@link TelemetrySchema#DRIFT}, so a queue that stays full for minutes is
+ * not taken for transit time: after a time t the estimate is too small by up to 2 t {@link TelemetrySchema#DRIFT},
+ * and never too large. A clock that goes back, or falls behind by {@link TelemetrySchema#NEW_CLOCK_MS} in one
  * step, is another clock: the estimate is reset.
  */
 public final class OneWayDelay {
-    /** The maximum drift between two clocks: 0.1 ms in a second. */
-    public static final double DRIFT = 1e-4;
-    /** No message is held up by so much more than the one before: links are given up sooner. */
-    public static final double NEW_CLOCK_MS = 30000;
-
     private boolean hasMinimum;
     private boolean isReset;
     private double leastMs;
@@ -44,8 +39,8 @@ public final class OneWayDelay {
         }
         final double apartMs = arrivalMs - stamp;
         if (hasMinimum) {
-            final double least = Math.min(apartMs, leastMs + DRIFT * (arrivalMs - nowMs));
-            final boolean hasJumped = apartMs - least > excessMs + NEW_CLOCK_MS;
+            final double least = Math.min(apartMs, leastMs + TelemetrySchema.DRIFT * (arrivalMs - nowMs));
+            final boolean hasJumped = apartMs - least > excessMs + TelemetrySchema.NEW_CLOCK_MS;
             hasMinimum = stamp >= stampMs && !hasJumped;
             leastMs = least;
         }

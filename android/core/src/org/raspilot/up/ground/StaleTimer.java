@@ -18,8 +18,8 @@ final class StaleTimer {
     void restart(Telemetry frame, long nowMs) {
         cancel();
         final Long ageMs = frame.ageMs(nowMs);
-        if (ageMs != null && ageMs <= Age.SILENT_MS) {
-            timer = loop.schedule(Age.SILENT_MS + 1 - ageMs, onSilent);
+        if (ageMs != null && ageMs <= TelemetrySchema.SILENT_MS) {
+            timer = loop.schedule(TelemetrySchema.SILENT_MS + 1 - ageMs, onSilent);
         }
     }
 

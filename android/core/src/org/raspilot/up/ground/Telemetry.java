@@ -97,24 +97,9 @@ public final class Telemetry {
         return age.isStale(readingOf(path), nowMs) ? Freshness.STALE : Freshness.LIVE;
     }
 
-    /** Returns which reading's age applies to the value at a path; its frame's if it has none. */
+    /** Returns the reading whose age the value at a path has; null: it has its frame's. */
     public static String readingOf(String path) {
-        final int dot = path.indexOf('.');
-        final String first = dot < 0 ? path : path.substring(0, dot);
-        if (first.equals("rates")) {
-            return "orientation";
-        }
-        if (first.equals("home")) {
-            return "location";
-        }
-        if (first.equals("armed") || first.equals("in_flight") || first.equals("flight_mode")
-                || first.equals("arduino")) {
-            return path.equals("arduino.connected") ? path : "flight";
-        }
-        if (path.equals("android.batteryLevel")) {
-            return "battery";
-        }
-        return first;
+        return TelemetrySchema.READING_OF.get(path);
     }
 
     /** Returns the finite number at a path; null if absent, null or of another type. */

@@ -4,7 +4,6 @@ import java.math.BigDecimal;
 import java.math.RoundingMode;
 import java.util.ArrayList;
 import java.util.Collections;
-import java.util.HashMap;
 import java.util.List;
 import java.util.Map;
 import org.raspilot.up.wire.SafeText;
@@ -18,30 +17,6 @@ public final class TelemetryText {
     private static final int MAX_PATH_LENGTH = 80;
     private static final int MAX_VALUE_LENGTH = 120;
     private static final int MAX_LISTED = 16;
-    private static final Map<String, String> UNITS = new HashMap<>();
-
-    static {
-        for (String path : new String[] {"orientation", "location.latitude",
-            "location.longitude", "home.bearing", "heading"}) {
-            UNITS.put(path, "deg");
-        }
-        UNITS.put("rates", "deg/s");
-        UNITS.put("rx", "us");
-        UNITS.put("servo", "us");
-        UNITS.put("location.altitude", "m");
-        UNITS.put("home.distance", "m");
-        UNITS.put("altitude", "m");
-        UNITS.put("altitude_required", "m");
-        UNITS.put("android.batteryLevel", "%");
-        UNITS.putAll(BoardSchema.UNITS);
-        UNITS.put("load.cpu", "%");
-        UNITS.put("load.ram", "%");
-        UNITS.put("load.delay_ms", "ms");
-        UNITS.put("age_ms", "ms");
-        UNITS.put("black_box.megabytes", "MB");
-        UNITS.put("system.uptime_s", "s");
-        UNITS.put("system.clock_ms", "ms");
-    }
 
     private TelemetryText() {
     }
@@ -53,17 +28,14 @@ public final class TelemetryText {
         return Collections.unmodifiableList(rows);
     }
 
-    /**
-     * Returns the unit of the value at a path as docs/protocols.md 6 has it; empty: none is known.
-     */
-    public static String unit(String path) {
-        final String own = UNITS.get(path);
-        if (own != null) {
-            return own;
+    /** Returns the load and the period of telemetry while the Raspberry Pi is busy. */
+    public static String busy(Telemetry telemetry) {
+        for (TelemetryRule each : TelemetrySchema.RULES) {
+            if (each.code.equals("panic")) {
+                return each.filled(telemetry, null, null);
+            }
         }
-        final int dot = path.indexOf('.');
-        final String all = dot < 0 ? null : UNITS.get(path.substring(0, dot));
-        return all == null ? "" : all;
+        return "";
     }
 
     private static void add(List<TelemetryRow> rows, String path, Object value) {
@@ -76,7 +48,8 @@ public final class TelemetryText {
                 add(rows, path.isEmpty() ? key : path + "." + key, each.getValue());
             }
         } else if (!path.isEmpty()) {
-            final String unit = value instanceof Number ? unit(path) : "";
+            final String unit = value instanceof Number && TelemetrySchema.UNITS.containsKey(path)
+                    ? TelemetrySchema.UNITS.get(path) : "";
             rows.add(new TelemetryRow(SafeText.of(path, MAX_PATH_LENGTH),
                     SafeText.of(text(path, value), MAX_VALUE_LENGTH), unit));
         }
@@ -90,7 +63,8 @@ public final class TelemetryText {
             return Boolean.TRUE.equals(value) ? "yes" : "no";
         }
         if (value instanceof Number) {
-            return number((Number) value, path.startsWith("location.l") ? 6 : 3);
+            return number((Number) value, TelemetrySchema.DECIMALS.containsKey(path)
+                    ? TelemetrySchema.DECIMALS.get(path) : 3);
         }
         if (value instanceof List) {
             return list((List<?>) value);

@@ -64,9 +64,10 @@ public final class GroundTelemetryTest {
         }
         assertTrue(bench.status.isSilent);
         assertTrue(bench.status.isLate);
+        assertEquals("late", bench.status.silenceCode());
         assertEquals(Freshness.STALE, bench.ground.telemetry()
                 .freshness("orientation.roll", bench.loop.nowMs()));
-        assertEquals(Alarm.Kind.SILENT, bench.ground.alarms().snapshot().active.get(0).kind);
+        assertEquals("late", bench.ground.alarms().snapshot().active.get(0).code);
     }
 
     @Test
@@ -89,9 +90,9 @@ public final class GroundTelemetryTest {
         assertFalse(bench.status.isSilent);
         bench.loop.advance(1);
         assertTrue(bench.status.isSilent);
-        assertFalse(bench.status.isLate);
-        assertTrue(bench.ground.alarms().snapshot().has(Alarm.Kind.SILENT));
-        assertTrue(bench.events().contains("telemetry_lost"));
+        assertEquals("silent", bench.status.silenceCode());
+        assertTrue(bench.ground.alarms().snapshot().has("silent"));
+        assertTrue(bench.events().contains("silent"));
         bench.frame(6, "{}");
         assertFalse(bench.status.isSilent);
     }

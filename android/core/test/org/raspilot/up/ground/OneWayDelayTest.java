@@ -29,7 +29,7 @@ public final class OneWayDelayTest {
         for (int second = 1; second <= 300; second++) {
             held = delay.update(second * 1000.0, second * 1000 + 2000);
         }
-        assertEquals(2000, held, 2 * 300000 * OneWayDelay.DRIFT);
+        assertEquals(2000, held, 2 * 300000 * TelemetrySchema.DRIFT);
         assertTrue(held <= 2000);
     }
 

@@ -163,12 +163,8 @@ public final class TelemetryTest {
                 assertTrue(rows.size() <= TelemetryText.MAX_ROWS);
                 new Track().update(hostile, null, 0);
                 new HomeEstimator().update(hostile);
-                for (EventRule rule : EventRule.ALL) {
-                    final Object found = rule.reader.read(hostile);
-                    if (found != null) {
-                        rule.describer.describe(null, found);
-                    }
-                }
+                new EventMonitor(new EventLog(), new Alarms()).update(hostile,
+                        new GroundStatus(new GroundStatus.Draft()), 0);
             } catch (RuntimeException fault) {
                 throw new AssertionError("seed " + seed, fault);
             }

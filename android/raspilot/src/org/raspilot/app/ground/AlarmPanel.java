@@ -62,7 +62,7 @@ final class AlarmPanel implements View.OnClickListener {
         for (Alarm each : active) {
             if (each.isLoud()) {
                 boolean isAlarm = each.level == EventLevel.ALARM;
-                loud.put(each.kind.name(),
+                loud.put(each.kind,
                         isAlarm ? AlarmBell.Ring.ALARM : AlarmBell.Ring.WARNING);
             }
         }

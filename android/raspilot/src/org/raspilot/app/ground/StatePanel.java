@@ -13,17 +13,15 @@ import java.util.Locale;
 import org.raspilot.app.R;
 import org.raspilot.app.view.InstrumentColors;
 import org.raspilot.up.android.GroundSnapshot;
-import org.raspilot.up.ground.BusyState;
 import org.raspilot.up.ground.Freshness;
 import org.raspilot.up.ground.Telemetry;
+import org.raspilot.up.ground.TelemetrySchema;
+import org.raspilot.up.ground.TelemetryText;
 
 /** Control, mode, vetoes, and the state of board, phones and load. */
 final class StatePanel {
-    private static final double LOW_PERCENT = 20;
+    private static final double LOW_PERCENT = TelemetrySchema.LIMITS.get("battery_low");
     private static final long BATTERY_EACH_MS = 5000;
-    private static final String[] READINGS = {
-        "orientation", "rx", "servo", "flight", "location", "altitude", "heading", "battery"
-    };
 
     private final Context context;
     private final Resources words;
@@ -112,7 +110,7 @@ final class StatePanel {
         String text = null;
         if (isPanic != null) {
             text = isPanic
-                    ? BusyState.words(picture.telemetry) : words.getString(R.string.state_no);
+                    ? TelemetryText.busy(picture.telemetry) : words.getString(R.string.state_no);
         }
         show(panic, picture, "load.panic", text, Row.Look.PLAIN);
     }
@@ -143,7 +141,7 @@ final class StatePanel {
             return;
         }
         StringBuilder all = new StringBuilder();
-        for (String reading : READINGS) {
+        for (String reading : TelemetrySchema.STALE_MS.keySet()) {
             if (telemetry.readingAgeMs(reading, picture.nowMs) != null
                     && telemetry.age.isStale(reading, picture.nowMs)) {
                 all.append(all.length() == 0 ? "" : ", ").append(reading);
