@@ -35,7 +35,7 @@ help:
 	@echo 'make pictures  the documentation'"'"'s pictures of the page, from a flight'
 	@echo 'make format   put the code into the project'"'"'s form'
 	@echo 'make schema   the tables of status, telemetry, events and Commands, from schema/'
-	@echo 'make schemas  JSON Schema of every configuration file, into build/schemas'
+	@echo 'make schemas  JSON Schema of every configuration file and Command, into build/schemas'
 	@echo 'make -C arduino help  the firmware: build, upload, figures'
 	@echo 'make -C android help  the phone: the app, the Up Library, its tests'
 	@echo 'make clean    remove what the others made'
@@ -77,7 +77,7 @@ test-browser: $(VENV)/.dev-ready $(WEB)
 check: $(VENV)/.dev-ready
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
-	$(BIN)/mypy main.py tools/import_contracts.py tools/phone_commands.py \
+	$(BIN)/mypy main.py tools/import_contracts.py tools/command_tables.py \
 		tools/plain_english.py tools/schema.py tools/sentence_assertions.py tools/tuning $(PACKAGES)
 	@for cog in $(COGS); do echo "mypy $$cog"; \
 		MYPYPATH=$(MYPY_ROOTS) $(BIN)/mypy $$cog/$$(basename $$cog) || exit 1; done
@@ -108,6 +108,7 @@ schema: $(VENV)/.dev-ready
 
 schemas: $(VENV)/.run-ready
 	$(BIN)/up schemas build/schemas
+	$(PY) tools/schema.py --json build/schemas/commands
 
 clean:
 	rm -rf build dist run arduino/build* android/build $(VENV) .pytest_cache .mypy_cache \

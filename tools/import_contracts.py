@@ -63,10 +63,9 @@ NAMES_ALLOWED = (
     ("commands/board_status.py", '"arduino.status"'),
     ("commands/pid_tunings_commands.py", '"arduino.pids.'),
     ("commands/system_commands.py", "arduino_connected"),
-    ("flight_log/telemetry_schema.py", '"android"'),
-    ("flight_log/telemetry_schema.py", '"arduino"'),
-    # Generated: texts for users, who have an Arduino.
+    # Generated: names of telemetry, and texts for users, who have an Arduino and a phone.
     ("commands/board_schema.py", "the Arduino"),
+    *(("commands/telemetry_schema.py", word) for word in ("arduino", "Arduino", "android", "phone")),
 )
 
 

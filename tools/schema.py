@@ -8,6 +8,7 @@
 from __future__ import annotations
 
 import argparse
+import importlib
 import json
 import re
 import struct
@@ -26,6 +27,7 @@ MAXIMUM = {"u8": 255, "u16": 65535}
 MODE = {"letter": None, "name": None, "about": None, "holder": "", "switch": False,
         "flown": True, "firmware": True}  # fmt: skip
 REFUSAL = {"code": None, "name": None, "text": None}
+ANSWER = {"code": None, "text": None}
 ALARM: dict[str, Any] = {
          "kind": None, "when": "", "above": "", "below": "", "back": 0, "level": "warning",
          "armed": "", "code": "", "text": "", "end_code": "", "end": "", "event": "source",
@@ -58,7 +60,7 @@ class Schema:
     def __init__(self, folder: Path) -> None:
         """Read the files; raises SchemaError."""
         self.times: dict[str, float] = {}
-        for name in ("events", "telemetry", "status"):
+        for name in ("events", "telemetry", "status", "commands"):
             path = folder / f"{name}.yml"
             try:
                 getattr(self, f"_read_{name}")(yaml.safe_load(path.read_text(encoding="utf-8")))
@@ -104,6 +106,9 @@ class Schema:
             each.offset = struct.calcsize(self.format[: at + 1])
         self.bits = {each.name: each.bits for each in self.status}
         self.rows = [row for each in self.status for row in (each, *each.bits)]
+
+    def _read_commands(self, data: dict[str, Any]) -> None:
+        self.answers = [_item(ANSWER, each) for each in data["answers"]]
 
     def _fields_of(self, row: Item) -> Iterator[Item]:
         """Yield the fields that a row of the table of telemetry stands for."""
@@ -436,6 +441,8 @@ def documents(schema: Schema, text: str) -> str:
                                             for m in schema.modes if m.flown)],
         "refusals": [("code", "name", "reason"), *((r.code, f"`{r.name}`", r.text)
                                                    for r in schema.refusals)],
+        "answers": [("code", "meaning"), *((f"`{r.code}`", r.text) for r in schema.answers)],
+        "commands": [("name", "who may send it", "fields", ""), *_commands().rows()],
         "status": [("offset", "type", "field", ""), *map(_status_row, schema.status)],
         "telemetry": [("field", "unit", "age of", "content"),
                       *(_field_row(each, schema) for each in schema.table)],
@@ -486,6 +493,20 @@ def _event_row(rule: dict[str, Any]) -> tuple[Any, ...] | None:
             f"`{rule['code']}`", rule["text"], rule.get("end") or "-")  # fmt: skip
 
 
+def answer_codes(schema: Schema, text: str) -> str:
+    """Return up/commands/refusal.py with its codes."""
+    codes = "".join(f'    {each.code.upper()} = "{each.code}"\n' for each in schema.answers)
+    return _region(text, codes, "    # schema begin", "    # schema end")
+
+
+def _commands() -> Any:
+    """Import the Commands, when the tables that their modules import are written."""
+    try:
+        return importlib.import_module("command_tables")
+    except ImportError as error:
+        raise SchemaError(f"{error}: run tools/schema.py by make schema") from None
+
+
 def _region(text: str, content: str, begin: str, end: str) -> str:
     pattern = re.compile(f"({re.escape(begin)}\n).*?([ \t]*{re.escape(end)})", re.DOTALL)
     if not pattern.search(text):
@@ -499,6 +520,8 @@ OUTPUTS: dict[str, Callable[[Schema, str], str]] = {
     "up/commands/telemetry_schema.py": lambda schema, _: python_telemetry(schema),
     "ground/up_ground/web/static/js/state/schema.js": lambda schema, _: javascript(schema),
     "android/core/src/org/raspilot/up/ground/TelemetrySchema.java": lambda schema, _: java(schema),
+    "up/commands/refusal.py": answer_codes,
+    "android/raspilot/assets/commands.json": lambda *_: _commands().forms(),
     "docs/protocols.md": documents,
 }
 
@@ -518,19 +541,25 @@ def main(arguments: list[str] | None = None) -> int:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--check", action="store_true", help="write nothing; fail on a difference")
     parser.add_argument("--root", type=Path, default=Path(__file__).resolve().parent.parent)
+    parser.add_argument("--json", type=Path, metavar="FOLDER")
     options = parser.parse_args(arguments)
+    stale = False
     try:
-        stale = list(outdated(options.root))
-    except SchemaError as error:
-        sys.stderr.write(f"{error}\n")
-        return 1
-    for path, content in stale:
-        if options.check:
-            sys.stderr.write(f"{path} differs from schema/: run make schema\n")
-        else:
+        if options.json:
+            _commands().write_json_schemas(options.json)
+            return 0
+        for path, content in outdated(options.root):
+            stale = True
+            if options.check:
+                sys.stderr.write(f"{path} differs from its definition: run make schema\n")
+                continue
+            path.parent.mkdir(parents=True, exist_ok=True)
             path.write_text(content, encoding="utf-8")
             sys.stdout.write(f"{path}: written\n")
-    return int(bool(stale) and options.check)
+    except (SchemaError, ValueError, OSError) as error:
+        sys.stderr.write(f"{error}\n")
+        return 1
+    return int(stale and options.check)
 
 
 if __name__ == "__main__":

@@ -43,6 +43,9 @@ class Catalogue:
         problems: list[str] = []
         return cls([*BUILTIN_COMMANDS, *_cog_commands(problems)], problems)
 
+    def __iter__(self) -> Iterator[type[BaseCommand]]:
+        return iter(self._registry)
+
     def get(self, name: str) -> type[BaseCommand] | None:
         return self._registry.get(name)
 
@@ -64,19 +67,30 @@ class Catalogue:
 
 def role_of(cls: type[BaseCommand]) -> str:
     """Return the least role of a ground that may send it; empty: no ground may."""
-    if cls.roles is not BaseCommand.roles:
+    if cls.ROLES_WHERE or cls.roles is not BaseCommand.roles:
         return "depends"
     return next((role.value for role in _GROUND_ROLES if role in cls.ROLES), "")
 
 
+def roles_text(cls: type[BaseCommand]) -> str:
+    """Return who may send it from outside, in words."""
+    special = (
+        f"; {name} {json.dumps(given)}: {_words(roles)}"
+        for name, values in cls.ROLES_WHERE.items()
+        for given, roles in values.items()
+    )
+    return _words(cls.ROLES) + "".join(special)
+
+
+def _words(roles: frozenset[Role]) -> str:
+    names = sorted(f"{each.value}{' or more' * (each in _GROUND_ROLES)}" for each in roles)
+    return " or ".join(names) or "only modules"
+
+
 def describe(cls: type[BaseCommand]) -> Iterator[str]:
     """Return the lines that teach a Command: its name, its role, its fields with their bounds."""
-    role = role_of(cls)
-    if role == "depends":
-        role = _sentence(cls.roles.__doc__)
-    elif role:
-        role = f"{role} or more"
-    yield f"{cls.NAME}   [{role or 'no ground may send it'}]"
+    role = roles_text(cls) if role_of(cls) else "no ground may send it"
+    yield f"{cls.NAME}   [{role}]"
     yield f"    {about(cls)}"
     if cls.ALIASES:
         yield f"    also called {', '.join(cls.ALIASES)}"

@@ -10,6 +10,8 @@ from pathlib import Path
 import pytest
 
 from tests.support.tools import need_tool
+from tools.command_tables import forms
+from up_ground.catalogue import Catalogue
 
 ROOT = Path(__file__).parents[2]
 TREES = ("schema", "up", "cogs/arduino_cog", "cogs/load_guard_cog", "arduino/raspilot/src",
@@ -105,9 +107,24 @@ def tree(tmp_path_factory):
     return root
 
 
-def test_the_tables_of_the_project_are_current():
+@pytest.mark.parametrize("seed", ["1", "2"])
+def test_the_tables_of_the_project_are_current_and_the_same_each_time(seed, monkeypatch):
+    monkeypatch.setenv("PYTHONHASHSEED", seed)
     result = schema(ROOT, "--check")
-    assert (result.returncode, result.stdout) == (0, "")
+    assert (result.returncode, result.stdout, result.stderr) == (0, "", "")
+
+
+def test_forms_without_the_commands_of_a_broken_cog_are_not_written():
+    with pytest.raises(ValueError, match="broken_cog"):
+        forms(Catalogue([], ["the Commands of broken_cog are left out"]))
+
+
+def test_each_command_has_a_json_schema(tmp_path):
+    assert schema(ROOT, "--json", str(tmp_path)).returncode == 0
+    gains = json.loads((tmp_path / "arduino.pids.tunings.json").read_text())
+    assert gains["properties"]["request"]["type"] == "boolean"
+    telemetry = json.loads((tmp_path / "up.telemetry.update.json").read_text())
+    assert telemetry["properties"]["load"]["properties"]["cpu"]["x-unit"] == "%"
 
 
 def test_they_are_in_telemetry_events_alarms_findings_and_scenarios(tree):

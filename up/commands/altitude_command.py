@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import ClassVar
 
-from up.commands.command import BaseCommand, value
+from up.commands.command import BaseCommand, RolesWhere, value
 from up.commands.refusal import NO_NAVIGATION
 from up.commands.roles import Role
 
@@ -15,10 +15,8 @@ class AltitudeCommand(BaseCommand):
     """An altitude above sea level, measured (``actual``) or asked for (``required``)."""
 
     NAME: ClassVar[str] = "up.altitude.change"
+    ROLES: ClassVar[frozenset[Role]] = frozenset({Role.SENSOR})
+    ROLES_WHERE: ClassVar[RolesWhere] = {"mode": {"required": frozenset({Role.OPERATOR})}}
     UNSUPPORTED: ClassVar[str] = NO_NAVIGATION
     altitude_m: float = value(key="altitude", minimum=-1000, maximum=30000, unit="m")
     mode: str = value("actual", choices=("actual", "required"))
-
-    def roles(self) -> frozenset[Role]:
-        """Sensors send measurements; an operator's request is refused (``UNSUPPORTED``)."""
-        return frozenset({Role.OPERATOR if self.mode == "required" else Role.SENSOR})

@@ -12,6 +12,8 @@ from up.commands.roles import Role
 from up.fields import Constraint
 
 _T = TypeVar("_T", bound="BaseCommand")
+RolesWhere = Mapping[str, Mapping[Any, frozenset[Role]]]
+"""The roles that may send a Command whose field of that name has that value."""
 
 
 class InvalidCommandError(ValueError):
@@ -23,8 +25,8 @@ class BaseCommand:
     """The base of every Command: subclass it as a frozen, slotted dataclass.
 
     ``NAME`` is the name on the wire, ``ALIASES`` its older names, ``ROLES`` the roles that may send
-    it from outside (empty: none), ``ROUTE`` the link to which it is forwarded instead of being
-    handled here, ``NEEDS_BEACON`` whether it must echo a fresh beacon, ``NEEDS_CONTROL`` whether
+    it from outside (empty: none), ``ROLES_WHERE`` those for a value of a field, ``ROUTE`` the link
+    to which it is forwarded instead of being handled here, ``NEEDS_BEACON`` whether it must echo a fresh beacon, ``NEEDS_CONTROL`` whether
     only one module at a time may publish it (``ControlLease``), ``UNSUPPORTED`` why a ground's
     request for it cannot be carried out (empty: it can).
     """
@@ -32,13 +34,17 @@ class BaseCommand:
     NAME: ClassVar[str] = ""
     ALIASES: ClassVar[tuple[str, ...]] = ()
     ROLES: ClassVar[frozenset[Role]] = frozenset()
+    ROLES_WHERE: ClassVar[RolesWhere] = types.MappingProxyType({})
     ROUTE: ClassVar[str] = ""
     NEEDS_BEACON: ClassVar[bool] = False
     NEEDS_CONTROL: ClassVar[bool] = False
     UNSUPPORTED: ClassVar[str] = ""
 
     def roles(self) -> frozenset[Role]:
-        """Return the roles that may send this instance; override if they depend on a field."""
+        """Return the roles that may send this instance."""
+        for name, roles in self.ROLES_WHERE.items():
+            if (given := getattr(self, name)) in roles:
+                return roles[given]
         return self.ROLES
 
     @property

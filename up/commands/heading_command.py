@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import ClassVar
 
-from up.commands.command import BaseCommand, value
+from up.commands.command import BaseCommand, RolesWhere, value
 from up.commands.refusal import NO_NAVIGATION
 from up.commands.roles import Role
 
@@ -15,10 +15,8 @@ class HeadingCommand(BaseCommand):
     """A heading clockwise from north, measured (``actual``) or asked for (``required``)."""
 
     NAME: ClassVar[str] = "up.heading.change"
+    ROLES: ClassVar[frozenset[Role]] = frozenset({Role.SENSOR})
+    ROLES_WHERE: ClassVar[RolesWhere] = {"mode": {"required": frozenset({Role.OPERATOR})}}
     UNSUPPORTED: ClassVar[str] = NO_NAVIGATION
     heading_deg: float = value(key="heading", minimum=-360, maximum=360, unit="deg")
     mode: str = value(choices=("actual", "required"))
-
-    def roles(self) -> frozenset[Role]:
-        """Sensors send measurements; an operator's request is refused (``UNSUPPORTED``)."""
-        return frozenset({Role.OPERATOR if self.mode == "required" else Role.SENSOR})

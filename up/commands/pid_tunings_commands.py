@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from typing import Any, ClassVar
 
-from up.commands.command import BaseCommand, value
+from up.commands.command import BaseCommand, RolesWhere, value
 from up.commands.gains import GainSet, gain_set_from_data, gain_set_to_data
 from up.commands.roles import Role
 
@@ -15,6 +15,8 @@ class PIDTuningsCommand(BaseCommand):
     """Asks for the gains (``request``) or sets all of them (``pids``); a request wins."""
 
     NAME: ClassVar[str] = "arduino.pids.tunings"
+    ROLES: ClassVar[frozenset[Role]] = frozenset({Role.PILOT})
+    ROLES_WHERE: ClassVar[RolesWhere] = {"request": {True: frozenset({Role.OBSERVER})}}
     request: bool | None = value(None)
     pids: dict[str, Any] | None = value(None)
 
@@ -24,10 +26,6 @@ class PIDTuningsCommand(BaseCommand):
         if self.pids is None:
             raise ValueError("either request or pids is needed")
         gain_set_from_data(self.pids)
-
-    def roles(self) -> frozenset[Role]:
-        """Observers may read the gains, pilots may set them."""
-        return frozenset({Role.OBSERVER if self.request else Role.PILOT})
 
     @property
     def gains(self) -> GainSet | None:

@@ -8,6 +8,7 @@ from enum import Enum
 class Code(Enum):
     """The codes of ``up.nack`` (protocols page, section 4)."""
 
+    # schema begin
     MALFORMED = "malformed"
     UNKNOWN = "unknown"
     INVALID = "invalid"
@@ -15,13 +16,14 @@ class Code(Enum):
     STALE = "stale"
     NO_BEACON = "no_beacon"
     UNKNOWN_BEACON = "unknown_beacon"
+    NOT_SUPPORTED = "not_supported"
     REFUSED = "refused"
     UNAVAILABLE = "unavailable"
     TAKEN = "taken"
     OVERLOADED = "overloaded"
     TIMEOUT = "timeout"
     FAILED = "failed"
-    NOT_SUPPORTED = "not_supported"
+    # schema end
 
 
 NO_NAVIGATION = "nothing navigates yet: no module flies to a heading or an altitude"

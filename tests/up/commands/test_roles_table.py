@@ -1,7 +1,4 @@
-"""Every Command and every role, as in the protocols page."""
-
-import re
-from pathlib import Path
+"""Every Command and every role."""
 
 import pytest
 from android_cog.commands.android_battery_command import (
@@ -25,7 +22,6 @@ from up.commands.command_registry import CommandRegistry
 from up.commands.origin import INTERNAL
 from up.commands.roles import Role
 
-ROOT = Path(__file__).parents[3]
 COGS = (
     AndroidBatteryCommand,
     AndroidBatteryLowCommand,
@@ -38,8 +34,28 @@ COGS = (
     RecordCommand,
 )
 REGISTRY = CommandRegistry((*BUILTIN_COMMANDS, *COGS))
-NOBODY = "\N{EN DASH}"
 LADDER = ("observer", "operator", "pilot", "admin")
+WHO = {
+    "observer": ("arduino.profile.request", "up.ack", "up.nack"),
+    "operator": (
+        "android.speak", "black_box.mark", "up.flight_mode.set", "up.telemetry.frequency",
+    ),
+    "pilot": ("arduino.calibrate", "arduino.pids.tunings", "up.arm", "up.disarm"),
+    "sensor": (
+        "android.battery", "black_box.record", "up.altitude.change", "up.heading.change",
+        "up.location.change", "up.location.update", "up.orientation.update",
+    ),
+    "board": (
+        "arduino.status", "up.flight.state", "up.orientation.update", "up.rx.update",
+        "up.servo.update",
+    ),
+}  # fmt: skip
+"""Who may send which Command from outside, beside those that include the role."""
+SPECIAL = (
+    ("up.altitude.change", {"mode": "required"}, "operator"),
+    ("up.heading.change", {"mode": "required"}, "operator"),
+    ("arduino.pids.tunings", {"request": True}, "observer"),
+)
 GAINS = {axis: {"p": 1, "i": 0, "d": 0} for axis in ("ailerons", "elevator")}
 STICKS = {name: 1500 for name in ("ailerons", "elevator", "throttle", "rudder")}
 SAMPLES = {
@@ -84,59 +100,29 @@ SAMPLES = {
 }  # fmt: skip
 
 
-def rows():
-    """Return (names, role) of every line of the page's table of Commands."""
-    page = (ROOT / "docs" / "protocols.md").read_text(encoding="utf-8")
-    section = page.split("\n## 5 ")[1].split("\n## 6 ")[0]
-    found = []
-    for line in section.splitlines():
-        cells = [cell.strip() for cell in line.strip("|").split("|")]
-        if line.startswith("| `") and len(cells) == 4:
-            found.append((re.findall(r"`([^`]+)`", cells[0]), cells[2]))
-    return found
-
-
-def allowed(words):
-    """Return the roles that a cell means: those that it names, and those that include them."""
-    if words == "any":
-        return set(Role)
-    if words == NOBODY:
-        return set()
-    found = {Role.INTERNAL}
-    for word in re.findall(r"[a-z]+", words.removesuffix(", with a beacon")):
-        found.add(Role(word))
+def allowed(*words):
+    """Return the roles that may: the named ones, and those that include them."""
+    found = {Role(word) for word in words}
+    for word in words:
         if word in LADDER:
             found.update(Role(each) for each in LADDER[LADDER.index(word) :])
         if word == "observer":
             found.add(Role.SENSOR)
-    return found
+    return found | {Role.INTERNAL} if found else found
 
 
 def cases():
-    """Return (name, data, the roles that may) for every Command and every variant of it."""
-    found = []
-    for names, words in rows():
-        plain, _, special = words.partition("; ")
-        for name in names:
-            sample = SAMPLES[REGISTRY.primary_name(name)]
-            found.append((name, sample, allowed(plain)))
-            if special.startswith("`mode` `required`: "):
-                found.append((name, {**sample, "mode": "required"}, allowed(special.split()[-1])))
-            elif special.startswith("`request`: "):
-                found.append((name, {"request": True}, allowed(special.split()[-1])))
-            else:
-                assert not special
-    return found
-
-
-def test_the_page_and_the_program_know_the_same_commands():
-    on_page = {name for names, _ in rows() for name in names}
-    ours = {name for cls in REGISTRY for name in (cls.NAME, *cls.ALIASES)}
-    assert on_page == ours
+    """Yield (name, data, the roles that may) for every Command and every variant of it."""
+    for cls in REGISTRY:
+        for name in (cls.NAME, *cls.ALIASES):
+            words = [word for word, names in WHO.items() if name in names]
+            yield name, SAMPLES[cls.NAME], allowed(*words)
+    for name, data, word in SPECIAL:
+        yield name, {**SAMPLES[name], **data}, allowed(word)
 
 
 @pytest.mark.parametrize("role", Role)
-@pytest.mark.parametrize(("name", "data", "roles"), cases())
+@pytest.mark.parametrize(("name", "data", "roles"), list(cases()))
 def test_who_may_send_what(name, data, roles, role):
     border = Border(role, *COGS)
     heard = []

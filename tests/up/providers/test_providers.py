@@ -1,9 +1,7 @@
 """Values of providers, their sources and ages, and their form in telemetry."""
 
 import math
-import re
 import time
-from pathlib import Path
 
 import pytest
 from twisted.internet.task import Clock
@@ -17,6 +15,7 @@ from up.commands.orientation_command import OrientationCommand
 from up.commands.origin import Origin
 from up.commands.roles import Role
 from up.commands.rx_command import ALL_VALID, RXCommand
+from up.commands.telemetry_schema import FIELDS
 from up.providers.base_rx_provider import UpRXProvider
 from up.providers.up_altitude_provider import UpAltitudeProvider
 from up.providers.up_heading_provider import UpHeadingProvider
@@ -176,26 +175,17 @@ def test_home_is_the_first_place_and_the_way_back_is_computed_here(rig):
     assert (provider.latitude, provider.longitude, provider.altitude) == (49.001, 16.0, 230.0)
 
 
-def page_keys():
-    """Return the names in the page's table of telemetry keys: key -> its parts."""
-    page = (Path(__file__).parents[3] / "docs" / "protocols.md").read_text(encoding="utf-8")
-    section = page.split("\n## 6 ")[1].split("\n## 7 ")[0]
-    found = {}
-    for cell in re.findall(r"^\| (`[^|]+`) \|", section, re.MULTILINE):
-        for name in re.findall(r"`([^`]+)`", cell):
-            key, _, parts = name.partition(".")
-            found[key] = set(parts.split("/")) - {""}
-    return found
-
-
-def test_telemetry_has_exactly_the_keys_of_the_page(rig):
-    page = page_keys()
+def test_telemetry_has_exactly_the_fields_of_the_schema(rig):
+    fields = {}
+    for each in FIELDS:
+        key, _, name = each.path.partition(".")
+        fields.setdefault(key, set()).add(name)
     rig.publish(RXCommand(*STICKS, ALL_VALID))
     content = rig.up.telemetry_controller.collect()
     for key in ("orientation", "rates", "rx", "location", "home", "heading"):
-        assert set(content[key]) == page[key], key
-    assert "altitude" in page and content["altitude"] is None
-    assert set(content) <= set(page)
+        assert set(content[key]) == fields[key], key
+    assert "altitude" in fields and content["altitude"] is None
+    assert set(content) <= set(fields)
     readings = {"orientation", "rx", "location", "altitude", "heading"}
     assert set(content["age_ms"]) == set(content["source"]) == readings
     assert content["age_ms"]["rx"] == 0 and content["source"]["rx"] == "arduino"
