@@ -26,9 +26,10 @@ class BaseCommand:
 
     ``NAME`` is the name on the wire, ``ALIASES`` its older names, ``ROLES`` the roles that may send
     it from outside (empty: none), ``ROLES_WHERE`` those for a value of a field, ``ROUTE`` the link
-    to which it is forwarded instead of being handled here, ``NEEDS_BEACON`` whether it must echo a fresh beacon, ``NEEDS_CONTROL`` whether
-    only one module at a time may publish it (``ControlLease``), ``UNSUPPORTED`` why a ground's
-    request for it cannot be carried out (empty: it can).
+    to which it is forwarded instead of being handled here, ``NEEDS_BEACON`` whether it must echo a
+    fresh beacon, ``NEEDS_CONTROL`` whether only one module at a time may publish it
+    (``ControlLease``), ``UNSUPPORTED`` why a ground's request for it cannot be carried out (empty:
+    it can).
     """
 
     NAME: ClassVar[str] = ""
