@@ -65,7 +65,10 @@ NAMES_ALLOWED = (
     ("commands/system_commands.py", "arduino_connected"),
     # Generated: names of telemetry, and texts for users, who have an Arduino and a phone.
     ("commands/board_schema.py", "the Arduino"),
-    *(("commands/telemetry_schema.py", word) for word in ("arduino", "Arduino", "android", "phone")),
+    *(
+        ("commands/telemetry_schema.py", word)
+        for word in ("arduino", "Arduino", "android", "phone")
+    ),
 )
 
 

@@ -83,8 +83,11 @@ def roles_text(cls: type[BaseCommand]) -> str:
 
 
 def _words(roles: frozenset[Role]) -> str:
-    names = sorted(f"{each.value}{' or more' * (each in _GROUND_ROLES)}" for each in roles)
-    return " or ".join(names) or "only modules"
+    if roles == frozenset(Role):
+        return "any"
+    least = next((f"{each.value} or more" for each in _GROUND_ROLES if each in roles), "")
+    others = sorted(each.value for each in roles.difference(_GROUND_ROLES))
+    return " or ".join(filter(None, (least, *others))) or "only modules"
 
 
 def describe(cls: type[BaseCommand]) -> Iterator[str]:

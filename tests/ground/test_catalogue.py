@@ -1,5 +1,7 @@
 """Which Commands a ground may send."""
 
+import re
+
 import pytest
 
 from up_ground.catalogue import Catalogue, describe, fault_of, role_of
