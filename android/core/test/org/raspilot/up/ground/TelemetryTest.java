@@ -164,7 +164,8 @@ public final class TelemetryTest {
                 new Track().update(hostile, null, 0);
                 new HomeEstimator().update(hostile);
                 new EventMonitor(new EventLog(), new Alarms()).update(hostile,
-                        new GroundStatus(new GroundStatus.Draft()), 0);
+                        new GroundStatus(new LinkStatus(), false, null, hostile, 0, null,
+                                new GroundCounters(0, 0, 0, 0, 0, 0, 0)), 0);
             } catch (RuntimeException fault) {
                 throw new AssertionError("seed " + seed, fault);
             }
