@@ -10,5 +10,5 @@ AS_JSON = {"UP_LOG_FORMAT": "json"}
 
 def fields_of(output: str) -> list[dict[str, Any]]:
     """Return the fields of each line that is JSON: its code, and the values in its text."""
-    lines = (line for line in output.splitlines() if line.startswith("{"))
-    return [json.loads(line)["fields"] for line in lines]
+    lines = (line for line in output.splitlines() if line.startswith("{") and line.endswith("}"))
+    return [json.loads(line).get("fields", {}) for line in lines]
