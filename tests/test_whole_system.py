@@ -25,11 +25,13 @@ def flight(tmp_path_factory):
         showcase.stop(signal.SIGTERM)
 
 
-def test_it_prints_the_controller(flight):
+def test_it_prints_aircraft_board_and_controller(flight):
     said = flight.said()
-    assert "aboard: the firmware on a simulated ATmega328P" in said
-    assert "flying motor glider, 1.8 m by JSBSim: wind 4 m/s, turbulence moderate" in said
-    assert "The Arduino holds the attitude (FBW)" in said
+    (model,) = flight.events("aircraft", "flight_selected")
+    (board,) = flight.events("aircraft", "board_selected")
+    assert model["source"] == "jsbsim" and "ATmega328P" in board["board"]
+    for part in ("motor glider", "JSBSim", "4 m/s", board["board"], "Arduino", "(FBW)"):
+        assert part in said
     assert "Traceback" not in said
 
 
@@ -59,7 +61,7 @@ def test_the_page_serves_a_browser_and_forbids_other_content(flight):
         policy = answer.headers["content-security-policy"]
         assert b"<html" in answer.read()
     assert "default-src 'none'" in policy and "script-src 'self'" in policy
-    assert f"Open {flight.page} in a browser" in flight.said()
+    assert flight.said().count(flight.page) > 1
 
 
 def test_gains_may_be_changed_from_the_page_in_flight(flight):
@@ -78,7 +80,7 @@ def test_telemetry_has_every_reading_with_source_and_age(flight):
     assert frame["arduino"]["connected"] and frame["arduino"]["framing"] == "checked"
     assert set(frame["rx"]) == {"ailerons", "elevator", "throttle", "rudder", "aux1", "aux2"}
     assert "orientation" in frame["system"]["providers"]
-    assert frame["vetoes"] == ["arduino: the throttle is not low"], "in flight it never is"
+    assert len(frame["vetoes"]) == 1 and "throttle" in frame["vetoes"][0], "in flight not low"
     assert frame["home"]["distance"] is not None
 
 
@@ -108,9 +110,9 @@ def test_the_aircraft_does_not_claim_to_navigate(flight, quantity):
 
 
 def test_the_phone_received_its_commands(flight):
-    assert flight.ground("send", "android.speak", "text=mind the trees").returncode == 0
+    assert flight.ground("send", "android.speak", "text=trees!").returncode == 0
     log = flight.folder / "aircraft.log"
-    wait(lambda: "mind the trees" in log.read_text(encoding="utf-8"), "the phone speaks")
+    wait(lambda: "trees!" in log.read_text(encoding="utf-8"), "the phone speaks")
 
 
 def test_gains_set_from_the_ground_fly_in_the_firmware_and_are_saved(flight):
@@ -134,7 +136,7 @@ def test_half_a_set_of_gains_is_refused_whole(flight):
     half = {"ratePIDs": {"ailerons": {"p": 1, "i": 0, "d": 0}}, "stabPIDs": {}}
     result = flight.ground("send", "--force", "arduino.pids.tunings", f"pids={json.dumps(half)}")
     assert result.returncode == 1
-    assert "elevator is missing" in result.stdout + result.stderr
+    assert "elevator" in result.stdout + result.stderr
     assert flight.gains() == before
 
 

@@ -90,7 +90,7 @@ def test_a_daemon_that_is_killed_leaves_a_log_to_its_last_second(flight):
     The truth has that time; what it is now and then told by is slowed in Panic Mode, and what the
     board says never.
     """
-    assert "raspilot ended unexpectedly with signal 9" in flight.showcase.said()
+    assert "signal 9" in flight.showcase.said()
     assert flight.log.is_cut, "nobody has finished it"
     for topic in ("simulator.truth", "up.orientation.update", "up.servo.update"):
         times_s = [time_s for time_s, _ in flight.log.messages[topic]]
@@ -116,7 +116,7 @@ def test_commands_and_outputs_are_in_it_with_their_origins(flight):
     assert sent[1]["frequency"] == 200 and "pilot" in sent[1]["_origin"]
     assert messages["up.flight.state"][-1][1]["flight_mode"] == "FBW"
     assert len(messages["up.telemetry.update"]) > 3
-    assert any("the Arduino answers" in data["message"] for _, data in messages["log"])
+    assert "board_connected" in {data.get("code") for _, data in messages["log"]}
 
 
 def test_the_truth_is_beside_the_estimate(flight):
@@ -145,7 +145,6 @@ def test_the_configuration_that_flew_is_attached(flight):
 
 def test_the_suggested_command_reads_the_log(flight):
     said = flight.showcase.said()
-    assert said.index("Everything is stopped.") < said.index("The flight's log: ")
     line = re.search(r"The flight's log: (.*)", said)[1]
     done = subprocess.run(
         shlex.split(line), cwd=flight.showcase.folder, capture_output=True, text=True,

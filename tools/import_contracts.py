@@ -29,7 +29,9 @@ ARROWS: dict[str, set[str]] = {
     "up_rig": set(),
 }
 # The parts of Up for a program on another machine: the proxy uses no modules and no bus.
-PROXY_MAY_USE = {"cli", "config", "log", "protocols", "system", "fields", "version"}
+PROXY_MAY_USE = {
+    "cli", "config", "errors", "fields", "log", "output", "protocols", "system", "version"
+}  # fmt: skip
 
 # The layers of Up, from the highest to the lowest: a part imports only from the lines below it.
 LAYERS = (
@@ -52,6 +54,7 @@ LAYERS = (
     "config | mode",
     "log",
     "system",
+    "output",
     "fields | version | errors",
 )
 # Up names no cog and no device: it knows roles. These texts of its files are exceptions.

@@ -2,10 +2,34 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
+from typing import Any, Protocol, Self
+
+
+class Problem(Protocol):
+    """One thing to correct: its text (``str``), a code that names its kind, the values in it."""
+
+    @property
+    def code(self) -> str: ...
+
+    @property
+    def fields(self) -> Mapping[str, Any]: ...
+
 
 class UserError(Exception):
-    """An error with a text of one or more sentences for the user; ``code`` names its kind."""
+    """An error that the user can fix, or a group of them; ``status`` is the exit status."""
 
-    def __init__(self, text: str, code: str = "") -> None:
+    status = 1
+
+    def __init__(self, text: str, code: str = "", **fields: Any) -> None:
         super().__init__(text)
         self.code = code
+        self.fields: Mapping[str, Any] = fields
+        self.problems: Sequence[Problem] = (self,)
+
+    @classmethod
+    def group(cls, errors: Sequence[Self]) -> Self:
+        """Return one error with the texts of several, which must not be empty."""
+        found = cls("\n".join(map(str, errors)), errors[0].code)
+        found.problems = errors
+        return found

@@ -10,8 +10,7 @@ from twisted.logger import Logger, LogLevel
 from twisted.python.failure import Failure
 
 from up.base_module import BaseModule
-from up.base_started_module import BaseStartedModule, StartFailedError, StartResult
-from up.config import ConfigErrors
+from up.base_started_module import BaseStartedModule, StartResult
 from up.errors import UserError
 from up.system.clock import cancel
 from up.up import Up
@@ -126,7 +125,7 @@ class LifeCycle:
             result, reason = module.failure_result, "CancelledError"
         except TimeoutError:
             result, reason = module.failure_result, f"not started within {START_LIMIT_S:.0f} s"
-        except (StartFailedError, ConfigErrors) as error:
+        except UserError as error:
             result, reason = module.failure_result, str(error)
         except _FAULTS as error:
             self.log.failure("{name} failed to start", name=module.path, code="start_failed")

@@ -17,13 +17,14 @@ from up.commands.base_command_handler import BaseCommandHandler
 from up.config import ConfigErrors, load_all
 from up.config.atomic_writer import remove_unfinished
 from up.context import Context
+from up.errors import Problem, UserError
 from up.life_cycle import BootStoppedError, LifeCycle
-from up.loading.application import Application, NoApplicationError
+from up.loading.application import Application
 from up.loading.checking import check_application, config_files, no_configuration
-from up.loading.discovery import CogImportError
 from up.loading.plan import BootError
 from up.log import start_logging
 from up.mode import Mode
+from up.output import print_problems
 from up.system.aircraft_name import AIRCRAFT_NAME, AIRCRAFT_NAME_RULE
 from up.system.exit_watchdog import ExitWatchdog
 from up.system.gc_scheduler import GcScheduler
@@ -40,7 +41,6 @@ EXIT_STOPPED = 1
 EXIT_CONFIG = 2
 EXIT_INTERRUPTED = 130
 FORCED_AFTER_S = 2.0
-USER_ERRORS = (ConfigErrors, NoApplicationError, CogImportError, BootError)
 
 
 class Program:
@@ -131,7 +131,7 @@ class Program:
     def _boot_failed(self, failure: Any) -> None:
         self._exit_status = EXIT_STOPPED
         if failure.check(BootStoppedError):
-            print(failure.getErrorMessage(), file=sys.stderr)  # noqa: T201 - the last word
+            print_problems(failure.value.problems)
             self.stop("the boot was stopped")
         else:
             self.log.failure("the boot failed", failure, code="boot_failed")
@@ -180,18 +180,17 @@ def run_application(
         plan = UpLoader(application, context).plan()
         files = config_files(plan.modules)
         nothing = no_configuration(context.config_folder, files)
-        if nothing and not use_defaults:
-            raise BootError(nothing, code="no_configuration")
+        if nothing is not None and not use_defaults:
+            raise nothing
         load_all(context.config_folder, files)
         remove_unfinished(context.config_folder)
         up = Up(plan, context)
         up.initialize()
-    except USER_ERRORS as error:
-        problems = str(error).splitlines()
+    except UserError as error:
+        problems = list(error.problems)
         if application is not None:
             problems += _more_problems(application, reactor, config_folder, environ)
-        for problem in dict.fromkeys(problems):
-            print(problem, file=sys.stderr)  # noqa: T201 - the user's answer
+        print_problems(problems)
         return EXIT_CONFIG
     except KeyboardInterrupt:
         return EXIT_INTERRUPTED
@@ -203,7 +202,7 @@ def _more_problems(
     reactor: Any,
     config_folder: Path | None,
     environ: Mapping[str, str],
-) -> list[str]:
+) -> list[Problem]:
     """Return the result of ``up check``: the error that ended the boot hides later ones."""
     try:
         context = make_context(application, reactor, config_folder, environ)
@@ -225,21 +224,20 @@ def make_context(
     """Return the context of a run; raises ConfigErrors, or BootError for an invalid UP_MODE."""
     folder = application.config_folder if config_folder is None else config_folder.resolve()
     if config_folder is not None and not folder.is_dir():
-        raise BootError(f"--config {config_folder}: no such folder", code="folder_missing")
+        text = f"--config {config_folder}: no such folder"
+        raise BootError(text, "folder_missing", folder=config_folder)
     instance = environ.get("UP_INSTANCE", "")
     if instance and not AIRCRAFT_NAME.fullmatch(instance):
-        raise BootError(
-            f"UP_INSTANCE={instance!r}: must be {AIRCRAFT_NAME_RULE}", code="instance_invalid"
-        )
+        text = f"UP_INSTANCE={instance!r}: must be {AIRCRAFT_NAME_RULE}"
+        raise BootError(text, "instance_invalid", value=instance)
     context = Context(reactor, Mode.AUTO, folder, instance=instance)
     wanted = environ.get("UP_MODE") or context.application.mode
     try:
         context.mode = Mode(wanted.strip().lower())
     except ValueError:
         words = ", ".join(mode.value for mode in Mode)
-        raise BootError(
-            f"UP_MODE={wanted!r} is not a mode; the modes are: {words}", code="mode_invalid"
-        ) from None
+        text = f"UP_MODE={wanted!r} is not a mode; the modes are: {words}"
+        raise BootError(text, "mode_invalid", value=wanted) from None
     return context
 
 

@@ -62,7 +62,13 @@ class Up:
         self._handlers: Sequence[BaseCommandHandler] = plan.handlers
         self.started_at_s = context.reactor.seconds()
         for problem in plan.problems:
-            self.log.error("{problem}", problem=str(problem), code="load_problem")
+            self.log.error(
+                "{problem}",
+                problem=str(problem),
+                code="load_problem",
+                reason=problem.code,
+                **problem.fields,
+            )
             self.vetoes.set(problem.name, problem.what)
 
     @property

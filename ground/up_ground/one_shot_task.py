@@ -10,7 +10,7 @@ from typing import Any
 from twisted.internet.defer import Deferred
 
 from up.cli.option_parser import EXIT_FAILED, EXIT_INTERRUPTED, EXIT_OK
-from up.log.json_lines import program_error, program_line
+from up.output import program_error, program_line
 from up.protocols.general_message import GeneralMessage
 from up.system.clock import cancel, use_monotonic_time
 from up.system.pid_file import service

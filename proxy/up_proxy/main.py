@@ -10,7 +10,7 @@ from typing import Any
 
 from up.cli.server_parser import ServerParser
 from up.log import UpLogger, start_logging
-from up.log.json_lines import program_error
+from up.output import program_error
 from up.system.clock import use_monotonic_time
 from up.system.notify import Notifier, WatchdogPinger
 from up.system.pid_file import service

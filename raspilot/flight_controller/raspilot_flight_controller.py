@@ -98,8 +98,8 @@ class RaspilotFlightController(BaseFlightController):
         self._gains_store = GainsStore(pids, self.context.reactor)
         self.gains, problem = pids.load()
         if problem:
-            self.log.error("{reason}", reason=problem, code="gains_invalid")
-            self.up.vetoes.set("pids.yml", problem)
+            self.log.error("{reason}", reason=str(problem), code="gains_invalid")
+            self.up.vetoes.set("pids.yml", str(problem))
         self._build(self.gains)
         # With its origin the bus need not search the publisher of each Output.
         self._origin = Origin(self.class_name, Role.INTERNAL)

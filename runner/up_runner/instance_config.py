@@ -129,7 +129,7 @@ def _files(folder: Path) -> list[str]:
 
 def _read(path: Path) -> str | None:
     problems: list[str] = []
-    text = read_text(path, lambda line, column, what: problems.append(what))
+    text = read_text(path, lambda line, column, what, *more: problems.append(what))
     if problems:
         raise ConfigurationRefused("bad_file", f"the configuration file {path} {problems[0]}")
     return text

@@ -12,7 +12,7 @@ from typing import Any
 from up.cli.option_parser import EXIT_FAILED
 from up.cli.server_parser import ServerParser
 from up.log import start_logging
-from up.log.json_lines import program_error
+from up.output import program_error
 from up.system.clock import use_monotonic_time
 from up.system.pid_file import service
 from up_runner.config import RUNNER

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import argparse
+import ast
+import re
 from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import Any
@@ -10,6 +12,7 @@ from typing import Any
 from up.cli.verbs import cog_files, system_of
 from up.config import ConfigFile
 from up.config.application import DISABLED_MODULES
+from up.config.problems import CODES
 from up.config.schema import Entry, ListOf, MapOf, Schema, plain_value
 from up.config.template import yaml_scalar
 from up.fields import Constraint, number_text
@@ -21,6 +24,9 @@ from up_runner.config import RUNNER
 
 ROOT = Path(__file__).parents[2]
 PAGE = ROOT / "docs" / "configuration.md"
+_ERRORS = ("cli/*.py", "cogs/*.py", "loading/*.py", "program.py", "life_cycle.py", "registrar.py")
+_ERROR = re.compile(r"Error$|(^|\.)_?(problem|problem_of|cog_error|import_error)$|LoadProblem$")
+_CODE = re.compile(r"[a-z]+(_[a-z]+)+|usage|exists|locked|interrupted")
 BEGIN = "<!-- tables: begin -->\n"
 END = "<!-- tables: end -->\n"
 
@@ -37,7 +43,28 @@ def configuration_files() -> list[ConfigFile[Any]]:
 
 def tables() -> str:
     """Return the generated part of the page."""
-    return "\n".join(line for file in configuration_files() for line in _table(file))
+    files = [line for file in configuration_files() for line in _table(file)]
+    codes = [f"| `{code}` | {meaning} |" for code, meaning in CODES.items()]
+    return "\n".join([*files, "## Codes of a file's problems\n", "| code | |", "|---|---|", *codes])
+
+
+def error_codes() -> set[str]:
+    """Return the codes of the other errors that a start and ``up`` report, from their source."""
+    found: set[str] = set()
+    for path in (path for each in _ERRORS for path in sorted((ROOT / "up").glob(each))):
+        for call in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+            if not isinstance(call, ast.Call) or not _ERROR.search(ast.unparse(call.func)):
+                continue
+            given = [*call.args[1:], *(each.value for each in call.keywords if each.arg == "code")]
+            texts = [each.value for each in given if isinstance(each, ast.Constant)]
+            found.update(each for each in texts if isinstance(each, str) and _CODE.fullmatch(each))
+    return found - set(CODES)
+
+
+def documented_error_codes() -> set[str]:
+    """Return the codes in the page's table of other errors."""
+    text = PAGE.read_text(encoding="utf-8").partition("## Codes of other errors\n")[2]
+    return set(re.findall(r"`([a-z]+(?:_[a-z]+)*)`", text.partition("\n\n<!-- codes: end")[0]))
 
 
 def keys_of(schema: Schema, above: str = "") -> Iterator[str]:

@@ -138,6 +138,10 @@ def test_the_paths_that_it_names_exist(page):
             assert (REPOSITORY / path).exists(), path
 
 
+def test_the_configuration_page_lists_the_codes_of_every_error():
+    assert configuration_page.documented_error_codes() == configuration_page.error_codes()
+
+
 def test_the_configuration_page_says_what_the_files_declare():
     _head, _, rest = text_of(configuration_page.PAGE).partition(configuration_page.BEGIN)
     shown = rest.partition(configuration_page.END)[0].strip()

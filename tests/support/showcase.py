@@ -12,6 +12,8 @@ import sys
 import time
 from pathlib import Path
 
+from tests.support.program_output import fields_of
+
 LIMIT_S = 60.0
 
 
@@ -63,6 +65,11 @@ class Showcase:
 
     def said(self):
         return self.log.read_text(encoding="utf-8")
+
+    def events(self, part, code):
+        """Return the fields of a part's log events with a code."""
+        found = fields_of((self.folder / f"{part}.log").read_text(encoding="utf-8"))
+        return [fields for fields in found if fields.get("code") == code]
 
     @property
     def ground_port(self):

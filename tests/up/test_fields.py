@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from up.fields import Constraint, show
+from up.fields import Constraint, ConstraintError, show
 
 LATITUDE = Constraint(float, -90, 90, unit="deg")
 ANYTHING = st.one_of(
@@ -36,9 +36,9 @@ CONSTRAINTS = [
 
 
 def refusal(constraint, value):
-    with pytest.raises(ValueError) as caught:
+    with pytest.raises(ConstraintError) as caught:
         constraint.check(value)
-    return str(caught.value)
+    return caught.value.code
 
 
 @pytest.mark.parametrize("value", [-90, 90, 0.5, -90.0, 10**1])
@@ -48,24 +48,35 @@ def test_a_number_within_its_bounds_comes_back_as_a_float(value):
     assert type(checked) is float
 
 
-def test_a_refusal_is_one_sentence_with_range_unit_and_what_came():
-    assert refusal(LATITUDE, "x") == 'must be a number between -90 and 90 deg, not "x"'
-    assert refusal(LATITUDE, 90.5) == "must be a number between -90 and 90 deg, not 90.5"
-    assert refusal(Constraint(int, 1, 65535), 0) == (
-        "must be a whole number between 1 and 65535, not 0"
-    )
-    assert refusal(Constraint(float, minimum=0.5), None) == (
-        "must be a number of at least 0.5, not null"
-    )
-    assert refusal(Constraint(bool), 1) == "must be true or false, not 1"
-    assert refusal(Constraint(str, choices=("a", "b")), "c") == 'must be one of "a", "b", not "c"'
-    assert refusal(Constraint(str, max_length=2), "abc") == (
-        "must be text of at most 2 characters, not of 3"
-    )
-    assert refusal(Constraint(list, max_length=1), [1, 2]) == (
-        "must be a list of at most 1 items, not of 2"
-    )
-    assert refusal(Constraint(dict), [1]) == "must be a map, not a list"
+def test_a_refusal_is_one_sentence_with_range_unit_and_value():
+    with pytest.raises(ConstraintError) as caught:
+        LATITUDE.check("x")
+    assert str(caught.value) == 'must be a number between -90 and 90 deg, not "x"'
+
+
+@pytest.mark.parametrize(
+    ("constraint", "value", "code", "words"),
+    [
+        (LATITUDE, 90.5, "out_of_range", "a number between -90 and 90 deg"),
+        (Constraint(int, 1, 9), 0, "out_of_range", "a whole number between 1 and 9"),
+        (Constraint(float, minimum=0.5), 0.25, "out_of_range", "a number of at least 0.5"),
+        (Constraint(float, nullable=True), "x", "wrong_type", "a number or null"),
+        (Constraint(float), None, "wrong_type", "a number"),
+        (Constraint(bool), 1, "wrong_type", "true or false"),
+        (Constraint(str, choices=("a", "b")), "c", "unknown_choice", 'one of "a", "b"'),
+        (Constraint(str, max_length=2), "abc", "too_long", "text of at most 2 characters"),
+        (Constraint(list, max_length=1), [1, 2], "too_long", "a list of at most 1 items"),
+        (Constraint(dict), [1], "wrong_type", "a map"),
+        (Constraint(int), 2**63, "out_of_range", "a whole number"),
+        (Constraint(str), "a\ud800", "bad_format", "text"),
+        # A unit that begins with a figure stands in brackets.
+        (Constraint(float, 0, 5, unit="1.25 us"), 9.0, "out_of_range",
+         "a number between 0 and 5 (1.25 us)"),
+    ],
+)  # fmt: skip
+def test_a_refusal_has_a_code_and_a_constraint_a_description(constraint, value, code, words):
+    assert refusal(constraint, value) == code
+    assert constraint.describe() == words
 
 
 @pytest.mark.parametrize(
@@ -85,41 +96,33 @@ def test_a_value_of_another_type_is_refused(constraint, values):
 @pytest.mark.parametrize("constraint", [Constraint(float), LATITUDE, Constraint(float, minimum=0)])
 @pytest.mark.parametrize("value", [math.nan, math.inf, -math.inf])
 def test_what_is_not_finite_is_refused(constraint, value):
-    assert refusal(constraint, value).startswith("must be a finite number, not ")
+    assert refusal(constraint, value) == "not_finite"
 
 
 @pytest.mark.parametrize("value", [10**400, -(10**400), 10**5000], ids=["+", "-", "longest"])
 @pytest.mark.parametrize("constraint", [Constraint(float), Constraint(int), LATITUDE])
 def test_huge_integers_are_refused_in_a_short_sentence(constraint, value):
-    assert refusal(constraint, value).endswith("not a huge number")
+    assert refusal(constraint, value) == "out_of_range"
+    assert len(show(value)) < 40
 
 
 def test_an_unbounded_int_holds_64_bits():
     assert Constraint(int).check(2**63 - 1) == 2**63 - 1
     assert Constraint(int).check(-(2**63)) == -(2**63)
-    refusal(Constraint(int), 2**63)
 
 
-def test_lone_surrogates_are_no_text():
-    assert refusal(Constraint(str), "a\ud800") == "must be valid Unicode text, not lone surrogates"
+def test_text_may_hold_any_language():
     assert Constraint(str).check("žluťoučký 🛩") == "žluťoučký 🛩"
 
 
 def test_null_only_where_it_is_allowed():
     assert Constraint(float, nullable=True).check(None) is None
-    assert "or null" in refusal(Constraint(float, nullable=True), "x")
-    refusal(Constraint(float), None)
 
 
-def test_a_choice_in_another_case_is_told_as_it_is_spelled():
+def test_a_choice_in_another_case_is_shown_as_it_is_spelled():
     light = Constraint(str, choices=("none", "light"))
-    assert refusal(light, "Light").endswith('not "Light", did you mean "light"?')
-    assert refusal(light, "lihgt").endswith('not "lihgt"')
-
-
-def test_a_unit_that_begins_with_a_figure_stands_in_brackets():
-    gain = Constraint(float, minimum=0, maximum=50, unit="1.25 us per deg/s")
-    assert "a number between 0 and 50 (1.25 us per deg/s), not" in refusal(gain, 99.0)
+    with pytest.raises(ConstraintError, match=r'"light"\?$'):
+        light.check("Light")
 
 
 def test_choices_may_ignore_case_and_come_back_as_they_are_spelled():
@@ -177,7 +180,7 @@ def test_any_value_is_accepted_again_or_refused_in_one_short_printable_sentence(
     try:
         checked = constraint.check(value)
     except ValueError as error:
-        assert type(error) is ValueError
+        assert type(error) is ConstraintError
         assert str(error).isprintable()
         assert len(str(error)) < 400
     else:

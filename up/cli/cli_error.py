@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from up.errors import UserError
 
 
 class CliError(UserError):
     """A verb failed; the text is one sentence, ``status`` the exit status."""
 
-    def __init__(self, text: str, status: int = 1, code: str = "") -> None:
-        super().__init__(text, code)
+    def __init__(self, text: str, status: int = 1, code: str = "", **fields: Any) -> None:
+        super().__init__(text, code, **fields)
         self.status = status
 
 

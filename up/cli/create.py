@@ -13,12 +13,12 @@ from up.builtin_modules import BUILTIN_MODULES
 from up.cli.cli_error import CliError
 from up.cli.explore import package_at
 from up.cli.names import Name, check_identifier
-from up.cogs.cog import echo
 from up.cogs.manifest import MANIFEST_FILE, write_manifest
 from up.config import write_template
 from up.loading.application import Application
 from up.loading.checking import config_files
 from up.loading.external_modules import ModuleEntry
+from up.output import echo
 
 _APPLICATION = {
     "__init__.py": "application_init",
@@ -59,7 +59,9 @@ def may_overwrite(path: Path, yes: bool) -> bool:
     if yes:
         return True
     if not sys.stdin.isatty():
-        raise CliError(f"{path} exists already: use --yes to overwrite it", code="exists")
+        raise CliError(
+            f"{path} exists already: use --yes to overwrite it", code="exists", path=path
+        )
     while True:
         try:
             answer = input(f"{path} exists already. Overwrite it? (y)es, (n)o, (c)ancel: ")
@@ -94,7 +96,7 @@ def _create_application(values: argparse.Namespace) -> int:
         _write(root / target, template, example if "heartbeat" in target else words)
     for file in config_files(BUILTIN_MODULES):
         write_template(file, root / "config")
-    echo(f"created {root}")
+    echo(f"created {root}", "created", path=root)
     echo(f"next: cd {name.snake}; up check; up start (Ctrl-C stops it)")
     return 0
 
@@ -104,7 +106,9 @@ def _create_cog(values: argparse.Namespace) -> int:
     package = f"{name.snake}_cog"
     root = Path.cwd() / package
     if root.exists():
-        raise CliError(f"{root} exists already: choose another name or remove it", code="exists")
+        raise CliError(
+            f"{root} exists already: choose another name or remove it", code="exists", path=root
+        )
     words = _words(name, package=package)
     for target, template in _COG.items():
         _write(root / Template(target).substitute(words), template, words)
@@ -112,7 +116,7 @@ def _create_cog(values: argparse.Namespace) -> int:
     (inner / "py.typed").write_text("")
     module = ModuleEntry(f"{name.camel}Module", f"{package}.modules.{name.snake}_module")
     write_manifest(inner / MANIFEST_FILE, [module])
-    echo(f"created {root}")
+    echo(f"created {root}", "created", path=root)
     echo(f"next: list it in an application's Cogfile.yml ({package}: {{path: ...}}); up gather")
     return 0
 
@@ -137,7 +141,7 @@ def _create_part(values: argparse.Namespace) -> int:
     if (path.exists() or path.is_symlink()) and not may_overwrite(path, values.yes):
         return 0
     _write(path, template, words)
-    echo(f"created {path}")
+    echo(f"created {path}", "created", path=path)
     if place is not None:
         _write_test(place, file_name, f"{template}_test", words)
         if is_module and (place.root / MANIFEST_FILE).is_file():
@@ -152,7 +156,7 @@ def _write_test(
         path = folder / f"test_{file_name}"
         if folder.is_dir() and not path.exists():
             _write(path, template, words)
-            echo(f"created {path}")
+            echo(f"created {path}", "created", path=path)
             return
 
 

@@ -3,17 +3,16 @@
 from __future__ import annotations
 
 import argparse
-import sys
 from pathlib import Path
 
 from up.base_module import BaseModule
 from up.cli.cli_error import CliError
-from up.cogs.cog import echo
 from up.cogs.manifest import MANIFEST_FILE, write_manifest
 from up.cogs.registration import REGISTRANT_MODULE
 from up.loading.application import UP_FILE, Application
 from up.loading.discovery import MODULE_FOLDERS, Discovered, discover_folder
 from up.loading.external_modules import ModuleEntry
+from up.output import echo, print_problems
 
 
 def run(values: argparse.Namespace) -> int:
@@ -30,8 +29,7 @@ def run(values: argparse.Namespace) -> int:
     entries = [_entry(cls) for cls in found.modules]
     for entry in entries:
         echo(entry.path)
-    for problem in found.problems:
-        print(problem, file=sys.stderr)  # noqa: T201 - the user's answer
+    print_problems(found.problems)
     if found.problems:
         raise CliError(f"correct them first; {MANIFEST_FILE} is unchanged", code="module_broken")
     if not entries:

@@ -5,11 +5,10 @@ from __future__ import annotations
 import sys
 from collections.abc import Sequence
 
-from up.cli.cli_error import CliError
-from up.cli.option_parser import EXIT_FAILED, EXIT_INTERRUPTED, EXIT_USAGE
+from up.cli.option_parser import EXIT_FAILED, EXIT_INTERRUPTED
 from up.cli.parser import make_parser
-from up.config import ConfigErrors
 from up.errors import UserError
+from up.output import print_problems
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -25,25 +24,21 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return EXIT_FAILED
     try:
         status: int = values.carry_out(values)
-    except ConfigErrors as errors:
-        return _fail(str(errors), EXIT_USAGE)
-    except CliError as error:
-        return _fail(str(error), error.status)
     except UserError as error:
-        return _fail(str(error), EXIT_FAILED)
+        return _fail(error, error.status)
     except BrokenPipeError:
         # The reader, such as 'head', has closed the pipe.
         sys.stderr.close()
         return EXIT_FAILED
     except OSError as error:
-        return _fail(f"up: {error}", EXIT_FAILED)
+        return _fail(UserError(f"up: {error}", "system_error"), EXIT_FAILED)
     except KeyboardInterrupt:
-        return _fail("interrupted", EXIT_INTERRUPTED)
+        return _fail(UserError("interrupted", "interrupted"), EXIT_INTERRUPTED)
     return status
 
 
-def _fail(text: str, status: int) -> int:
-    print(text, file=sys.stderr)  # noqa: T201 - the user's answer
+def _fail(error: UserError, status: int) -> int:
+    print_problems(error.problems)
     return status
 
 

@@ -7,7 +7,9 @@ import functools
 from collections.abc import Iterable
 from typing import Any, NoReturn
 
+from up.errors import UserError
 from up.fields import suggestion
+from up.output import print_problems
 
 EXIT_OK = 0
 EXIT_FAILED = 1
@@ -39,7 +41,9 @@ class OptionParser(argparse.ArgumentParser):
 
     def error(self, message: str) -> NoReturn:
         """Print the error and how to get help; exit with EXIT_USAGE."""
-        self.exit(EXIT_USAGE, f"{self.prog}: {message} ('{self.prog} --help' explains)\n")
+        text = f"{self.prog}: {message} ('{self.prog} --help' explains)"
+        print_problems([UserError(text, "usage", program=self.prog)])
+        self.exit(EXIT_USAGE)
 
     def _check_value(self, action: argparse.Action, value: Any) -> None:
         choices: Iterable[Any] | None = action.choices

@@ -106,7 +106,7 @@ def _add_broken(verbs: Any, plugin: _Plugin, why: str) -> None:
     )
 
     def carry_out(values: argparse.Namespace) -> int:
-        raise CliError(sentence, code="verb_broken")
+        raise CliError(sentence, code="verb_broken", verb=plugin.name, reason=why)
 
     parser = verbs.add_parser(
         plugin.name,

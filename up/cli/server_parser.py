@@ -9,7 +9,9 @@ from pathlib import Path
 from typing import Any
 
 from up.cli.option_parser import EXIT_USAGE, OptionParser
-from up.config import ConfigErrors, ConfigFile
+from up.config import ConfigFile
+from up.errors import UserError
+from up.output import print_problems
 from up.version import VERSION
 
 
@@ -37,12 +39,14 @@ class ServerParser(OptionParser):
         """
         options = self.parse_args(arguments)
         folder = options.config or default
-        if options.config is not None and not folder.is_dir():
-            self.exit(EXIT_USAGE, f"--config {folder}: no such folder\n")
         try:
+            if options.config is not None and not folder.is_dir():
+                text = f"--config {folder}: no such folder"
+                raise UserError(text, "folder_missing", folder=folder)
             config = self._file.load(folder)
-        except ConfigErrors as errors:
-            self.exit(EXIT_USAGE, f"{errors}\n")
+        except UserError as error:
+            print_problems(error.problems)
+            self.exit(EXIT_USAGE)
         given = {name: value for name, value in vars(options).items() if value is not None}
         keys = {each.name for each in fields(config)} & set(given)
         return options, folder, replace(config, **{name: given[name] for name in keys})

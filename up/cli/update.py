@@ -12,7 +12,7 @@ from typing import Any
 
 from up.cli.cli_error import CliError
 from up.cogs import pip
-from up.cogs.cog import echo
+from up.output import echo
 from up.version import VERSION
 
 

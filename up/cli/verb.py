@@ -44,7 +44,9 @@ def _from(module: str, verb: str) -> Callable[[argparse.Namespace], int]:
             run = getattr(importlib.import_module(name), function or "run")
         except ModuleNotFoundError as error:
             raise CliError(
-                f"'{verb}' needs {error.name}, which is not installed", code="import_missing"
+                f"'{verb}' needs {error.name}, which is not installed",
+                code="import_missing",
+                module=error.name,
             ) from error
         status: int = run(values)
         return status

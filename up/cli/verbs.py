@@ -5,26 +5,25 @@ from __future__ import annotations
 import argparse
 import importlib.metadata
 import os
-import sys
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from typing import Any
 
 from twisted.internet.task import Clock
 
-from up.cli.cli_error import CliError
 from up.cli.locate import application_of
 from up.cli.option_parser import EXIT_OK, EXIT_USAGE
 from up.cogs import gather as cog_gather
 from up.cogs import registration
-from up.cogs.cog import CogError, echo, package_name
+from up.cogs.cog import CogError, package_name
 from up.cogs.cogfile import COGFILE, load_cogfile
 from up.config import ConfigErrors, ConfigFile, write_schemas
 from up.context import Context
+from up.errors import Problem
 from up.loading.application import UP_FILE_CONFIG, Application
 from up.loading.checking import Findings, check_application, no_configuration
 from up.loading.external_modules import EXTERNAL_MODULES
-from up.loading.plan import BootError
+from up.output import echo, print_problems
 from up.program import make_context, run_application
 
 PROGRAM_FILES = "up.config_files"
@@ -55,21 +54,22 @@ def check(values: argparse.Namespace) -> int:
     """Check configuration and module graph; report all problems and warnings."""
     system = system_of(values)
     findings = system.check(*cog_files(system.application), *program_files())
-    problems = list(dict.fromkeys([*_cogfile_problems(system.application), *findings.problems]))
-    nothing = no_configuration(system.context.config_folder, findings.files)
-    if nothing and not values.defaults:
+    problems = [*_cogfile_problems(system.application), *findings.problems]
+    folder, mode = system.context.config_folder, system.context.mode.value
+    nothing = no_configuration(folder, findings.files)
+    if nothing is not None and not values.defaults:
         problems.append(nothing)
-    _print_errors(f"warning: {warning}" for warning in findings.warnings)
-    _print_errors(problems)
+    print_problems(findings.warnings, "warning")
+    print_problems(problems)
     if problems:
-        count = len(problems)
-        echo(f"{count} {'mistake' if count == 1 else 'mistakes'} to fix")
+        count = len(set(map(str, problems)))
+        text = f"{count} {'mistake' if count == 1 else 'mistakes'} to fix"
+        echo(text, "check_failed", count=count)
         return EXIT_USAGE
-    echo(
-        f"no mistakes: {len(findings.plan.modules)} modules in the mode"
-        f" '{system.context.mode.value}', {len(findings.files)} configuration files"
-        f" for {system.context.config_folder}"
-    )
+    modules, files = len(findings.plan.modules), len(findings.files)
+    text = f"no mistakes: {modules} modules in the mode '{mode}', {files} configuration files"
+    fields = {"modules": modules, "mode": mode, "files": files, "folder": folder}
+    echo(f"{text} for {folder}", "check_passed", **fields)
     return EXIT_OK
 
 
@@ -90,7 +90,7 @@ def modules(values: argparse.Namespace) -> int:
     if plan.commands:
         echo("further Commands:")
         _table(("", cls.NAME, f"{cls.__module__}.{cls.__qualname__}") for cls in plan.commands)
-    _print_errors((*_cogfile_problems(system.application), *findings.problems))
+    print_problems((*_cogfile_problems(system.application), *findings.problems))
     return EXIT_USAGE if findings.problems else EXIT_OK
 
 
@@ -121,7 +121,7 @@ class System:
 def system_of(values: argparse.Namespace) -> System:
     """Return the application and context of ``--file``, ``--config``, ``--mode`` and UP_MODE.
 
-    Raises CliError or NoApplicationError; uses the defaults for an invalid config.yml.
+    Raises UserError; uses the defaults for an invalid config.yml.
     """
     application = application_of(values)
     folder = getattr(values, "config", None)
@@ -134,8 +134,6 @@ def system_of(values: argparse.Namespace) -> System:
         # The check of the configuration reports the same errors; without a mode it cannot run.
         environ.setdefault("UP_MODE", "auto")
         context = make_context(application, Clock(), folder, environ)
-    except BootError as error:
-        raise CliError(str(error), status=EXIT_USAGE) from error
     return System(application, context)
 
 
@@ -164,22 +162,19 @@ def cog_files(application: Application) -> Iterator[ConfigFile[Any]]:
         yield from getattr(registrant, "CONFIG_FILES", ())
 
 
-def _cogfile_problems(application: Application) -> Iterator[str]:
+def _cogfile_problems(application: Application) -> Iterator[Problem]:
     """Yield the errors in the Cogfile and its cogs that are not registered."""
     try:
         wanted = load_cogfile(application.root)
         registered = EXTERNAL_MODULES.load(application.root)
     except ConfigErrors as errors:
-        yield from map(str, errors.problems)
+        yield from errors.problems
         return
     for each in wanted:
         if each.cog not in registered:
-            yield f"{application.root / COGFILE}: {each.cog} is not registered: run 'up gather'"
-
-
-def _print_errors(lines: Iterable[str]) -> None:
-    for line in lines:
-        print(line, file=sys.stderr)  # noqa: T201 - the user's answer
+            file = application.root / COGFILE
+            text = f"{file}: {each.cog} is not registered: run 'up gather'"
+            yield CogError(text, "not_registered", file=file, cog=each.cog)
 
 
 def _table(rows: Iterable[tuple[str, str, str]]) -> None:

@@ -1,8 +1,6 @@
-"""A cog's name, its errors, and the progress output of the utilities."""
+"""A cog's name and its errors."""
 
 from __future__ import annotations
-
-from collections.abc import Callable
 
 from up.errors import UserError
 
@@ -21,13 +19,6 @@ def package_name(label: str) -> str:
         raise CogError(
             f'"{label}" is not the name of a cog, which is that of its Python package',
             code="name_invalid",
+            name=label,
         )
     return name
-
-
-Echo = Callable[[str], None]
-
-
-def echo(text: str) -> None:
-    """Show a line to the user."""
-    print(text, flush=True)  # noqa: T201 - command line output

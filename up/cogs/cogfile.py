@@ -34,17 +34,19 @@ class CogSpec:
     url: str = key("", "Git repository of the cog.", max_length=1000)
     revision: str = key("", "Branch, tag or commit of the repository.", max_length=200)
 
-    def problems(self) -> Iterator[tuple[str, str]]:
+    def problems(self) -> Iterator[tuple[str, str] | tuple[str, str, str]]:
         if not self.path.isprintable():
-            yield "path", "must be the path of a folder"
+            yield "path", "must be the path of a folder", "bad_format"
         if self.pypi and not is_distribution_name(self.pypi):
-            yield "pypi", "must be the name of a distribution, like raspilot-radio-cog"
+            what = "must be the name of a distribution, like raspilot-radio-cog"
+            yield "pypi", what, "bad_format"
         if self.version and not _VERSION.fullmatch(self.version):
-            yield "version", 'must be one version, like "1.2.3"'
+            yield "version", 'must be one version, like "1.2.3"', "bad_format"
         if self.url and not _URL.fullmatch(self.url):
-            yield "url", "must be an https://, ssh:// or file:// address of a git repository"
+            what = "must be an https://, ssh:// or file:// address of a git repository"
+            yield "url", what, "bad_format"
         if self.revision and not _REVISION.fullmatch(self.revision):
-            yield "revision", "must be a branch, a tag or a commit"
+            yield "revision", "must be a branch, a tag or a commit", "bad_format"
         if self.version and not self.pypi:
             yield "version", "goes with pypi"
         if self.revision and not self.url:
@@ -81,7 +83,7 @@ def load_cogfile(root: Path) -> list[WantedCog]:
             if each is not None:
                 wanted.append(each)
     elif tree is not None and not is_null(tree):
-        problems.report(tree.line, tree.column, "must be a map of cogs")
+        problems.report(tree.line, tree.column, "must be a map of cogs", "wrong_type")
     problems.raise_if_any()
     return wanted
 
@@ -99,12 +101,16 @@ class _Entry:
         try:
             cog = package_name(self.label)
         except CogError as error:
-            self._refuse(str(error))
+            self._refuse(str(error), "bad_format")
             cog = ""
         if cog and cog in seen:
-            self._refuse(f"{self.label} is repeated, first as {seen[cog]}")
+            self._refuse(f"{self.label} is repeated, first as {seen[cog]}", "key_repeated")
         seen[cog] = self.label
-        spec = CogSpec() if is_null(value) else Validator(self.report, {}).read(_SCHEMA, value)
+        spec = (
+            CogSpec()
+            if is_null(value)
+            else Validator(self.report, {}).read(_SCHEMA, value, self.label)
+        )
         if not isinstance(spec, CogSpec):
             return None
         folder = self._folder(spec)
@@ -114,14 +120,15 @@ class _Entry:
         given = [name for name in ("path", "pypi", "url") if getattr(spec, name)]
         if len(given) != 1:
             found = " and ".join(given) if given else "none"
-            self._refuse(f"{self.label}: give one of path, pypi and url; here is {found}")
+            what = f"{self.label}: give one of path, pypi and url; here is {found}"
+            self._refuse(what, "source_unclear")
             return None
         if not spec.path:
             return None
         folder = (self.root / spec.path).resolve()
         if not any((folder / name).is_file() for name in ("setup.py", "pyproject.toml")):
-            self._refuse(f"{self.label}: setup.py is missing in {folder}")
+            self._refuse(f"{self.label}: setup.py is missing in {folder}", "source_missing")
         return folder
 
-    def _refuse(self, what: str) -> None:
-        self.report(self.name.line, self.name.column, what)
+    def _refuse(self, what: str, code: str) -> None:
+        self.report(self.name.line, self.name.column, what, code, self.label)

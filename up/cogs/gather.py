@@ -7,19 +7,20 @@ import sys
 from collections.abc import Sequence
 
 from up.cogs import pip
-from up.cogs.cog import CogError, Echo, echo
+from up.cogs.cog import CogError
 from up.cogs.cogfile import COGFILE, WantedCog, load_cogfile
 from up.cogs.installed import is_installed
 from up.cogs.registration import register, unregister
 from up.cogs.registry import Registry
-from up.config import ConfigErrors
+from up.errors import UserError
 from up.loading.application import Application
+from up.output import Echo, echo
 
 
 def gather(application: Application, *, may_install: bool = True, echo: Echo = echo) -> None:
     """Install missing cogs, register all, unregister those that left the Cogfile.
 
-    Raises CogError with one sentence per problem, ConfigErrors for errors in the Cogfile or the
+    Raises UserError with one sentence per problem, ConfigErrors for errors in the Cogfile or the
     generated list.
     """
     wanted = load_cogfile(application.root)
@@ -30,7 +31,7 @@ def gather(application: Application, *, may_install: bool = True, echo: Echo = e
         if entry.source == "cogfile" and cog not in {each.cog for each in wanted}
     ]
     for cog in sorted(left):
-        echo(f"{cog}: has left {COGFILE}")
+        echo(f"{cog}: has left {COGFILE}", "cog_removed", cog=cog)
         unregister(cog, application, echo)
     missing = [each for each in wanted if not is_installed(each)]
     if missing and may_install:
@@ -38,16 +39,21 @@ def gather(application: Application, *, may_install: bool = True, echo: Echo = e
         _register_anew(application)
         return
     if missing:
-        names = ", ".join(each.cog for each in missing)
-        raise CogError(f"not installed, but listed in {COGFILE}: {names}", code="not_installed")
+        names = [each.cog for each in missing]
+        text = f"not installed, but listed in {COGFILE}: {', '.join(names)}"
+        raise CogError(text, "not_installed", cogs=names)
     _register_all(wanted, application, echo)
 
 
 def _install(missing: Sequence[WantedCog], wanted: Sequence[WantedCog], echo: Echo) -> None:
     for each in missing:
-        echo(f"{each.cog}: to be installed from {_origin(each)}")
+        origin = _origin(each)
+        echo(
+            f"{each.cog}: to be installed from {origin}", "installing", cog=each.cog, origin=origin
+        )
     pip.install(missing, [each for each in wanted if each.folder is not None], echo)
-    echo(f"installed {len(missing)} {'cog' if len(missing) == 1 else 'cogs'}")
+    count = len(missing)
+    echo(f"installed {count} {'cog' if count == 1 else 'cogs'}", "installed", count=count)
 
 
 def _register_anew(application: Application) -> None:
@@ -62,16 +68,17 @@ def _register_anew(application: Application) -> None:
 
 
 def _register_all(wanted: Sequence[WantedCog], application: Application, echo: Echo) -> None:
-    failed: list[str] = []
+    failed: list[UserError] = []
     for each in wanted:
         try:
             register(each.cog, application, "cogfile", echo)
-        except (CogError, ConfigErrors) as error:
-            failed.append(str(error))
+        except UserError as error:
+            failed.append(error)
     if failed:
-        raise CogError("\n".join(failed), code="registration_failed")
+        raise UserError.group(failed)
     count = len(wanted)
-    echo(f"{count} {'cog' if count == 1 else 'cogs'} of {COGFILE} installed and registered")
+    text = f"{count} {'cog' if count == 1 else 'cogs'} of {COGFILE} installed and registered"
+    echo(text, "gathered", count=count)
 
 
 def _origin(wanted: WantedCog) -> str:

@@ -11,7 +11,7 @@ import tempfile
 from collections.abc import Sequence
 from pathlib import Path
 
-from up.cogs.cog import CogError, Echo
+from up.cogs.cog import CogError
 from up.cogs.cogfile import WantedCog
 from up.cogs.installed import distribution_of
 from up.cogs.source_tree import (
@@ -20,6 +20,7 @@ from up.cogs.source_tree import (
     neighbours,
     normal_name,
 )
+from up.output import Echo
 
 FRAMEWORK = "raspilot"
 _SHOWN_LINES = 12
@@ -41,17 +42,9 @@ def install(missing: Sequence[WantedCog], in_tree: Sequence[WantedCog], echo: Ec
         constraints = Path(scratch, "constraints.txt")
         given = {each.folder for each in folders if each.folder is not None}
         constraints.write_text(_constraints(in_tree, given), encoding="utf-8")
-        command = [
-            sys.executable,
-            "-P",
-            "-m",
-            "pip",
-            "install",
-            "--no-input",
-            "--progress-bar",
-            "off",
-        ]
-        command += ["--disable-pip-version-check", "--use-pep517", "--constraint", str(constraints)]
+        command = [sys.executable, "-P", "-m", "pip", "install", "--no-input"]
+        command += ["--progress-bar=off", "--disable-pip-version-check", "--use-pep517"]
+        command += ["--constraint", str(constraints)]
         here = ["--no-build-isolation"] if _can_build(given) else []
         for options, cogs in (
             (here, folders),
@@ -81,11 +74,9 @@ def run_pip(command: Sequence[str], echo: Echo) -> None:
         raise CogError(f"pip cannot be run: {error}", code="pip_failed") from error
     if done.returncode != 0:
         for line in done.stdout.rstrip().splitlines()[-_SHOWN_LINES:]:
-            echo(f"  pip: {line}")
-        raise CogError(
-            f"pip could not install the missing cogs (exit status {done.returncode})",
-            code="pip_failed",
-        )
+            echo(f"  pip: {line}", "pip_output", line=line)
+        text = f"pip could not install the missing cogs (exit status {done.returncode})"
+        raise CogError(text, "pip_failed", status=done.returncode)
 
 
 def check_environment() -> None:

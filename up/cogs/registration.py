@@ -8,12 +8,14 @@ import importlib.util
 import inspect
 from typing import Any
 
-from up.cogs.cog import CogError, Echo, echo
+from up.cogs.cog import CogError
 from up.cogs.registry import Registry, Source
-from up.cogs.up_registrant import UpRegistrant
+from up.cogs.up_registrant import UpRegistrant, echo_registered
 from up.cogs.up_registrar import UpRegistrar
-from up.config import ConfigErrors
+from up.errors import UserError
 from up.loading.application import Application
+from up.loading.plan import reason_of
+from up.output import Echo, echo
 
 REGISTRANT_MODULE = "registrar"
 REGISTRANT_CLASSES = ("Registrant", "Registrar")
@@ -32,7 +34,7 @@ def register(cog: str, application: Application, source: Source, echo: Echo = ec
             registrant.register(application, source)
         else:
             _register_old(found, cog, application, source, echo)
-    except (CogError, ConfigErrors, BrokenPipeError):
+    except (UserError, BrokenPipeError):
         raise
     except OSError as error:
         raise CogError(
@@ -40,15 +42,17 @@ def register(cog: str, application: Application, source: Source, echo: Echo = ec
         ) from error
     except Exception as error:
         raise CogError(
-            f"the Registrant of the cog {cog} failed: {type(error).__name__}: {error}",
+            f"the Registrant of the cog {cog} failed: {reason_of(error)}",
             code="registrant_failed",
+            cog=cog,
         ) from error
 
 
 def unregister(cog: str, application: Application, echo: Echo = echo) -> bool:
     """Unregister a cog, installed or not; return whether it was registered."""
     changed = Registry(application.root).remove(cog)
-    echo(f"{cog}: {'unregistered' if changed else 'was not registered'}")
+    code = "cog_unregistered" if changed else "cog_unknown"
+    echo(f"{cog}: {'unregistered' if changed else 'was not registered'}", code, cog=cog)
     return changed
 
 
@@ -67,11 +71,9 @@ def find_registrant(cog: str) -> type[Any]:
             raise CogError(
                 f"{cog} is not a cog: it lacks {REGISTRANT_MODULE}.py", code="registrar_missing"
             ) from None
-        raise CogError(f"{name} cannot be imported: {error}", code="import_failed") from error
+        raise _import_error(name, str(error)) from error
     except Exception as error:
-        raise CogError(
-            f"{name} cannot be imported: {type(error).__name__}: {error}", code="import_failed"
-        ) from error
+        raise _import_error(name, reason_of(error)) from error
     for wanted in REGISTRANT_CLASSES:
         found = getattr(module, wanted, None)
         if inspect.isclass(found) and issubclass(found, UpRegistrant | UpRegistrar):
@@ -79,6 +81,10 @@ def find_registrant(cog: str) -> type[Any]:
     raise CogError(
         f"{name} has no class Registrant that extends UpRegistrant", code="registrant_missing"
     )
+
+
+def _import_error(name: str, reason: str) -> CogError:
+    return CogError(f"{name} cannot be imported: {reason}", "import_failed", name=name)
 
 
 def _check_importable(registrant: UpRegistrant, application: Application) -> None:
@@ -93,8 +99,9 @@ def _check_importable(registrant: UpRegistrant, application: Application) -> Non
         except Exception as error:
             raise CogError(
                 f"the cog {registrant.cog_name} lists {each.path}, which cannot be imported:"
-                f" {type(error).__name__}: {error}",
+                f" {reason_of(error)}",
                 code="import_failed",
+                name=each.path,
             ) from error
 
 
@@ -110,4 +117,4 @@ def _register_old(
                 f"the Registrar of the cog {cog} reports a failure", code="registrant_failed"
             )
         changed = registrar.finish()
-    echo(f"{cog}: {'registered' if changed else 'is registered'}")
+    echo_registered(cog, changed, echo)

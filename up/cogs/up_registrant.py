@@ -6,11 +6,11 @@ import inspect
 from pathlib import Path
 from typing import Any, ClassVar
 
-from up.cogs.cog import Echo, echo
 from up.cogs.manifest import MANIFEST_FILE, Manifest, load_manifest
 from up.cogs.registry import Registry, Source
 from up.config import ConfigFile, write_template
 from up.loading.application import Application
+from up.output import Echo, echo
 
 
 class UpRegistrant:
@@ -53,7 +53,7 @@ class UpRegistrant:
                 " Thread Modules"
             )
         changed = Registry(application.root).add(self.cog_name, manifest.modules, source)
-        self.echo(f"{self.cog_name}: {'registered' if changed else 'is registered'}")
+        echo_registered(self.cog_name, changed, self.echo)
         self.create_configuration(application)
         self.prepare(application)
         return changed
@@ -66,7 +66,16 @@ class UpRegistrant:
     def create_configuration(self, application: Application) -> None:
         for file in self.CONFIG_FILES:
             if write_template(file, application.config_folder):
-                self.echo(f"{self.cog_name}: created {application.config_folder / file.filename}")
+                path = application.config_folder / file.filename
+                self.echo(
+                    f"{self.cog_name}: created {path}", "created", cog=self.cog_name, path=path
+                )
 
     def prepare(self, application: Application) -> None:
         """Create everything else that the cog needs."""
+
+
+def echo_registered(cog: str, changed: bool, echo: Echo) -> None:
+    """Show that a cog is registered, newly or as before."""
+    text = f"{cog}: {'registered' if changed else 'is registered'}"
+    echo(text, "cog_registered", cog=cog, changed=changed)

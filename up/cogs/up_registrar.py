@@ -10,13 +10,14 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from up.cogs.cog import CogError, echo
+from up.cogs.cog import CogError
 from up.cogs.manifest import load_manifest
 from up.cogs.registry import Registry, Source
 from up.config.atomic_writer import create_text
 from up.loading.application import Application
 from up.loading.external_modules import EXTERNAL_MODULES_FILE as _FILE
 from up.loading.external_modules import ModuleEntry
+from up.output import echo
 
 
 class UpRegistrar:

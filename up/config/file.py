@@ -75,7 +75,7 @@ class ConfigFile(Generic[T]):
         root = compose(text, problems.report)
         if root is None or is_null(root):
             if whole and not problems.found:
-                problems.report(1, 1, "is empty")
+                problems.report(1, 1, "is empty", "file_empty")
             return self.cls()
         value: T = Validator(problems.report, dict(self.removed), whole).read(self.schema, root)
         return value

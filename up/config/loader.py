@@ -20,13 +20,13 @@ def read_text(path: Path, report: Report) -> str | None:
         data = _read_bytes(path)
     except FileNotFoundError:
         if path.is_symlink():
-            report(1, 1, "is a link to a missing file")
+            report(1, 1, "is a link to a missing file", "not_a_file")
         return None
     except OSError as error:
-        report(1, 1, f"cannot be read: {error.strerror or error}")
+        report(1, 1, f"cannot be read: {error.strerror or error}", "cannot_read")
         return None
     except _NotAFileError as error:
-        report(1, 1, str(error))
+        report(1, 1, str(error), "not_a_file")
         return None
     return decode(data, report)
 
@@ -34,7 +34,7 @@ def read_text(path: Path, report: Report) -> str | None:
 def decode(data: bytes, report: Report) -> str | None:
     """Return bytes as text, or None if a problem was reported."""
     if len(data) > MAX_BYTES:
-        report(1, 1, "is larger than 1 MiB")
+        report(1, 1, "is larger than 1 MiB", "file_too_large")
         return None
     try:
         text = data.decode("utf-8-sig")
@@ -42,7 +42,8 @@ def decode(data: bytes, report: Report) -> str | None:
         # The error counts from after a byte order mark; its object begins there too.
         before = error.object[: error.start].decode()
         line, column = place_of(before, len(before))
-        report(line, column, f"is not UTF-8 text: byte 0x{error.object[error.start]:02X}")
+        what = f"is not UTF-8 text: byte 0x{error.object[error.start]:02X}"
+        report(line, column, what, "not_utf8")
         return None
     return text
 

@@ -6,8 +6,8 @@ aliases, tags and deep nesting, so that a file can neither expand on reading nor
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass, field
+from typing import Protocol
 
 import yaml
 
@@ -16,7 +16,21 @@ from up.fields import printable
 MAX_DEPTH = 20
 MAX_NODES = 50_000
 
-Report = Callable[[int, int, str], None]
+
+class Report(Protocol):
+    """Takes a problem: line and column from 1, text, code (of
+    `up.config.problems.CODES`), dotted key and value."""
+
+    def __call__(
+        self,
+        line: int,
+        column: int,
+        what: str,
+        code: str = "inconsistent",
+        key: str = "",
+        value: str = "",
+        /,
+    ) -> None: ...
 
 
 @dataclass(slots=True)
@@ -63,13 +77,15 @@ def compose(text: str, report: Report) -> Node | None:
     except yaml.MarkedYAMLError as error:
         mark = error.problem_mark or error.context_mark
         line, column = (mark.line + 1, mark.column + 1) if mark else (1, 1)
-        report(line, column, _syntax_sentence(error))
+        report(line, column, _syntax_sentence(error), "not_yaml")
     except yaml.reader.ReaderError as error:
         line, column = place_of(text, int(error.position))
-        report(line, column, f"the character U+{ord(text[error.position]):04X} is not allowed here")
+        what = f"the character U+{ord(text[error.position]):04X} is not allowed here"
+        report(line, column, what, "not_yaml")
     except (ValueError, OverflowError):
         # PyYAML converts the digits of \U escapes and of %YAML to numbers without a size limit.
-        report(builder.line, builder.column, "an escape or directive after this place is not valid")
+        what = "an escape or directive after this place is not valid"
+        report(builder.line, builder.column, what, "not_yaml")
     else:
         return builder.root
     return None
@@ -137,7 +153,7 @@ class _Builder:
     def _process_node(self, event: yaml.NodeEvent) -> bool:
         self._count += 1
         if self._count > MAX_NODES:
-            self._refuse(f"the file has more than {MAX_NODES} values")
+            self._refuse(f"the file has more than {MAX_NODES} values", "file_too_large")
             return False
         if isinstance(event, yaml.AliasEvent):
             name = printable(str(event.anchor))
@@ -159,7 +175,7 @@ class _Builder:
         self._place(node)
         if not isinstance(node, ScalarNode):
             if len(self._open) >= MAX_DEPTH:
-                self._refuse(f"is nested more than {MAX_DEPTH} deep")
+                self._refuse(f"is nested more than {MAX_DEPTH} deep", "file_too_large")
                 return False
             self._open.append(node)
             self._keys.append(None)
@@ -179,5 +195,5 @@ class _Builder:
         else:
             parent.pairs.append((key, node))
 
-    def _refuse(self, what: str) -> None:
-        self._report(self.line, self.column, what)
+    def _refuse(self, what: str, code: str = "not_supported") -> None:
+        self._report(self.line, self.column, what, code)

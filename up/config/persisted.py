@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import contextlib
 from pathlib import Path
-from typing import Generic, TypeVar
+from typing import Generic, TypeVar, cast
 
 from up.config.atomic_writer import write_atomically
 from up.config.file import ConfigFile
 from up.config.loader import read_text
-from up.config.problems import ConfigErrors
+from up.config.problems import ConfigErrors, Problems
+from up.errors import UserError
 
 T = TypeVar("T")
 _HEAD = "# Written by the program; a file that lacks its last line, '# end', is not used.\n\n"
@@ -28,11 +29,12 @@ class PersistedFile(Generic[T]):
         self.good_path = self.path.with_name(self.path.name + ".good")
         self._file = config_file
 
-    def load(self) -> tuple[T, str | None]:
-        """Return the values and None, or the best available values and the reason, one sentence.
+    def load(self) -> tuple[T, UserError | None]:
+        """Return the values and None, or the best available values and the reason.
 
-        For a corrupt or lost file this is the last good copy, otherwise the defaults. Never raises.
-        If neither file exists, nothing was ever learned: returns the defaults and no problem.
+        For a corrupt or lost file this is the last good copy, otherwise the defaults: the field
+        ``used`` of the reason is ``good_copy`` or ``defaults``. Never raises. If neither file
+        exists, nothing was ever learned: returns the defaults and no reason.
         """
         values, problem = self._read(self.path)
         if values is not None:
@@ -40,11 +42,13 @@ class PersistedFile(Generic[T]):
             return values, None
         good, good_problem = self._read(self.good_path)
         if good is not None:
-            reason = problem or f"{self.path}: is gone"
-            return good, f"{reason}; the last good copy {self.good_path.name} is used"
+            reason = problem or UserError(f"{self.path}: is gone", "file_missing")
+            used = f"the last good copy {self.good_path.name} is used"
+            return good, _instead(reason, used, "good_copy")
         if problem is None and good_problem is None:
             return self._file.cls(), None
-        return self._file.cls(), f"{problem or good_problem}; the defaults are used"
+        reason = cast(UserError, problem or good_problem)
+        return self._file.cls(), _instead(reason, "the defaults are used", "defaults")
 
     def save(self, values: T) -> None:
         """Write the values and their good copy, each atomically.
@@ -61,24 +65,21 @@ class PersistedFile(Generic[T]):
         write_atomically(self.path, data)
         write_atomically(self.good_path, data)
 
-    def _read(self, path: Path) -> tuple[T | None, str | None]:
-        found: list[str] = []
-
-        def report(line: int, column: int, what: str) -> None:
-            found.append(f"{path}:{line}:{column}: {what}")
-
-        text = read_text(path, report)
-        if text is not None and text.startswith(_HEAD) and not text.rstrip().endswith(_END):
-            report(text.count("\n") + 1, 1, "is cut short")
-        elif text is not None:
-            try:
-                return self._file.parse(text, path, whole=True), None
-            except ConfigErrors as errors:
-                found.extend(str(problem) for problem in errors.problems)
-        if not found:
-            return None, None
-        rest = f" (and {len(found) - 1} more)" if len(found) > 1 else ""
-        return None, found[0] + rest
+    def _read(self, path: Path) -> tuple[T | None, UserError | None]:
+        problems = Problems(path)
+        try:
+            text = read_text(path, problems.report)
+            problems.raise_if_any()
+            if text is None:
+                return None, None
+            if text.startswith(_HEAD) and not text.rstrip().endswith(_END):
+                problems.report(text.count("\n") + 1, 1, "is cut short", "cut_short")
+                problems.raise_if_any()
+            return self._file.parse(text, path, whole=True), None
+        except ConfigErrors as errors:
+            first, *more = errors.problems
+            rest = f" (and {len(more)} more)" if more else ""
+            return None, UserError(f"{first}{rest}", first.code, **first.fields)
 
     def _keep_good(self, values: T) -> None:
         """Update the good copy of a saved set with later edits by people."""
@@ -88,3 +89,7 @@ class PersistedFile(Generic[T]):
 
     def _render(self, values: T) -> bytes:
         return f"{_HEAD}{self._file.render(values)}\n{_END}\n".encode()
+
+
+def _instead(reason: UserError, text: str, used: str) -> UserError:
+    return UserError(f"{reason}; {text}", reason.code, **{**reason.fields, "used": used})

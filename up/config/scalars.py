@@ -9,7 +9,7 @@ from __future__ import annotations
 import re
 
 from up.config.nodes import ScalarNode
-from up.fields import Constraint, show
+from up.fields import Constraint, ConstraintError, show
 
 _NULLS = frozenset({"", "~", "null", "Null", "NULL"})
 _BOOLS = {
@@ -56,7 +56,7 @@ def needs_quotes(text: str) -> bool:
 
 
 def read_scalar(node: ScalarNode, constraint: Constraint) -> object:
-    """Return the checked value of a scalar; raises ValueError with one sentence."""
+    """Return the checked value of a scalar; raises ConstraintError."""
     if is_null(node):
         return constraint.check(None)
     if constraint.type_ is str:
@@ -65,19 +65,20 @@ def read_scalar(node: ScalarNode, constraint: Constraint) -> object:
         hint = ""
         if constraint.type_ in (bool, int, float):
             hint = " (remove the quotes)"
-        raise ValueError(f"must be {constraint.describe()}, not text: {show(node.text)}{hint}")
+        what = f"must be {constraint.describe()}, not text: {show(node.text)}{hint}"
+        raise ConstraintError(what, "wrong_type")
     if constraint.type_ is bool:
         return constraint.check(_BOOLS.get(node.text, node.text))
     if constraint.type_ in (int, float):
         return constraint.check(_number(node.text, constraint))
-    raise ValueError(f"must be {constraint.describe()}, not {show(node.text)}")
+    raise ConstraintError(f"must be {constraint.describe()}, not {show(node.text)}", "wrong_type")
 
 
 def _text(node: ScalarNode, constraint: Constraint) -> str:
     # Among choices the meaning of a word is unambiguous, so it needs no quotes.
     if node.plain and constraint.choices is None and needs_quotes(node.text):
-        what = "must be in quotes, YAML does not read it as text:"
-        raise ValueError(f"{what} write {show(node.text)}")
+        what = f"must be in quotes, YAML does not read it as text: write {show(node.text)}"
+        raise ConstraintError(what, "needs_quotes")
     return node.text
 
 
@@ -87,13 +88,13 @@ def _number(text: str, constraint: Constraint) -> object:
     if _INT.fullmatch(text):
         return int(text)
     if _NOT_FINITE.fullmatch(text):
-        raise ValueError(f"must be a finite number, not {text}")
+        raise ConstraintError(f"must be a finite number, not {text}", "not_finite")
     if _OCTAL.fullmatch(text):
-        raise ValueError(f"must not begin with 0, which YAML reads as octal: {show(text)}")
+        what = f"must not begin with 0, which YAML reads as octal: {show(text)}"
+        raise ConstraintError(what, "bad_format")
     if _SEXAGESIMAL.fullmatch(text):
-        raise ValueError(
-            f"must be {constraint.describe()}, not {show(text)} (YAML counts it in sixties)"
-        )
+        what = f"must be {constraint.describe()}, not {show(text)} (YAML counts it in sixties)"
+        raise ConstraintError(what, "bad_format")
     if _FLOAT.fullmatch(text):
         return float(text)
     return text

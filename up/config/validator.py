@@ -8,15 +8,15 @@ from typing import Any, Protocol, runtime_checkable
 from up.config.nodes import ListNode, MapNode, Node, Report, ScalarNode
 from up.config.scalars import is_null, read_scalar
 from up.config.schema import ListOf, MapOf, Schema, Spec
-from up.fields import Constraint, show, suggestion
+from up.fields import Constraint, ConstraintError, show, suggestion
 
 
 @runtime_checkable
 class ChecksItself(Protocol):
     """A configuration dataclass with constraints between its keys."""
 
-    def problems(self) -> Iterable[tuple[str, str]]:
-        """Yield (attribute, sentence) for each violation."""
+    def problems(self) -> Iterable[tuple[str, str] | tuple[str, str, str]]:
+        """Yield (attribute, sentence) for each violation, and its code if not inconsistent."""
 
 
 class _Refused:
@@ -63,15 +63,16 @@ class Validator:
             return self._list(spec, node, path)
         if not isinstance(node, ScalarNode):
             found = "a list" if isinstance(node, ListNode) else "a map"
-            return self._refuse(node, path, f"must be {spec.describe()}, not {found}")
+            return self._refuse(node, path, f"must be {spec.describe()}, not {found}", "wrong_type")
         try:
             return read_scalar(node, spec)
-        except ValueError as error:
-            return self._refuse(node, path, str(error))
+        except ConstraintError as error:
+            return self._refuse(node, path, str(error), error.code)
 
     def _schema(self, schema: Schema, node: Node, path: str) -> Any:
         if not isinstance(node, MapNode):
-            return self._refuse(node, path, f"must be a map of keys, not {_found(node)}")
+            what = f"must be a map of keys, not {_found(node)}"
+            return self._refuse(node, path, what, "wrong_type")
         before = self._refused
         entries = {entry.name: entry for entry in schema.entries}
         places: dict[str, Node] = {}
@@ -88,7 +89,7 @@ class Validator:
             elif isinstance(entry.spec, Constraint) and entry.spec.nullable:
                 values[entry.attribute] = None
             elif self._whole or (self._valued and isinstance(entry.spec, Constraint)):
-                self._refuse(value_node, inner, "must have a value")
+                self._refuse(value_node, inner, "must have a value", "value_missing")
         if self._whole:
             self._check_whole(schema, node, places, path)
         if self._refused > before:
@@ -103,7 +104,8 @@ class Validator:
             # A nested section (an axis) may be absent as a whole, a top-level section may not.
             is_part = isinstance(entry.spec, Constraint) or (not path and entry.default is not None)
             if is_part and entry.attribute not in places:
-                self._refuse(node, path, f"the key {show(entry.name)} is missing")
+                what = f"the key {show(entry.name)} is missing"
+                self._refuse(node, path, what, "key_missing", entry.name)
 
     def _fits(
         self, schema: Schema, value: Any, node: MapNode, places: dict[str, Node], path: str
@@ -111,22 +113,23 @@ class Validator:
         before = self._refused
         if isinstance(value, ChecksItself):
             names = {entry.attribute: entry.name for entry in schema.entries}
-            for attribute, what in value.problems():
-                self._refuse(places.get(attribute, node), _join(path, names[attribute]), what)
+            for attribute, what, *code in value.problems():
+                inner = _join(path, names[attribute])
+                self._refuse(places.get(attribute, node), inner, what, *code)
         return self._refused == before
 
     def _map(self, spec: MapOf, node: Node, path: str) -> Any:
         if not isinstance(node, MapNode):
-            return self._refuse(node, path, f"must be a map, not {_found(node)}")
+            return self._refuse(node, path, f"must be a map, not {_found(node)}", "wrong_type")
         if spec.max_length is not None and len(node.pairs) > spec.max_length:
-            return self._refuse(node, path, f"must have at most {spec.max_length} keys")
+            return self._refuse(node, path, f"must have at most {spec.max_length} keys", "too_long")
         values: dict[str, Any] = {}
         for name, key_node, value_node in self._pairs(node, path):
             inner = _join(path, name)
             try:
                 checked_name = str(read_scalar(key_node, spec.key))
-            except ValueError as error:
-                self._refuse(key_node, inner, f"as a key {error}")
+            except ConstraintError as error:
+                self._refuse(key_node, inner, f"as a key {error}", error.code)
                 continue
             if is_null(value_node) and isinstance(spec.value, Schema) and not self._whole:
                 values[checked_name] = spec.value.defaults()
@@ -136,9 +139,10 @@ class Validator:
 
     def _list(self, spec: ListOf, node: Node, path: str) -> Any:
         if not isinstance(node, ListNode):
-            return self._refuse(node, path, f"must be a list, not {_found(node)}")
+            return self._refuse(node, path, f"must be a list, not {_found(node)}", "wrong_type")
         if spec.max_length is not None and len(node.items) > spec.max_length:
-            return self._refuse(node, path, f"must have at most {spec.max_length} items")
+            what = f"must have at most {spec.max_length} items"
+            return self._refuse(node, path, what, "too_long")
         return tuple(
             self._value(spec.item, item, f"{path}[{index}]")
             for index, item in enumerate(node.items)
@@ -149,14 +153,13 @@ class Validator:
         lines: dict[str, int] = {}
         for key_node, value_node in node.pairs:
             if not isinstance(key_node, ScalarNode):
-                self._refuse(
-                    key_node, path, f"a key must be one word or text, not {_found(key_node)}"
-                )
+                what = f"a key must be one word or text, not {_found(key_node)}"
+                self._refuse(key_node, path, what, "wrong_type")
                 continue
             name = key_node.text
             if name in lines:
                 what = f"the key {show(name)} is repeated, first in line {lines[name]}"
-                self._refuse(key_node, path, what)
+                self._refuse(key_node, path, what, "key_repeated", name)
                 continue
             lines[name] = key_node.line
             yield name, key_node, value_node
@@ -164,23 +167,27 @@ class Validator:
     def _unknown(self, schema: Schema, name: str, node: Node, path: str) -> None:
         sentence = self._removed.get(_join(path, name))
         if sentence is not None:
-            self._refuse(node, path, f"the key {show(name)} was removed: {sentence}")
+            what = f"the key {show(name)} was removed: {sentence}"
+            self._refuse(node, path, what, "key_removed", name)
             return
         for entry in schema.entries:
             if name in entry.replaced:
-                new = show(entry.name)
-                self._refuse(node, path, f"the key {show(name)} is now called {new}")
+                what = f"the key {show(name)} is now called {show(entry.name)}"
+                self._refuse(node, path, what, "key_renamed", name)
                 return
         guess = suggestion(name, (entry.name for entry in schema.entries))
-        self._refuse(node, path, f"unknown key {show(name)}{guess}")
+        self._refuse(node, path, f"unknown key {show(name)}{guess}", "unknown_key", name)
 
-    def _refuse(self, node: Node, path: str, what: str) -> _Refused:
+    def _refuse(
+        self, node: Node, path: str, what: str, code: str = "inconsistent", name: str = ""
+    ) -> _Refused:
+        """Report a problem of the value at `path`, or of its key `name`."""
         self._refused += 1
-        shown = show(path)[1:-1] if path else ""
-        if self._head:
-            shown = _join(self._head, shown) if shown else self._head
-        prefix = f"{shown}: " if shown else ""
-        self._report(node.line, node.column, prefix + what)
+        head = _join(self._head, show(path)[1:-1])
+        text = f"{head}: {what}" if head else what
+        value = node.text if isinstance(node, ScalarNode) and not name else ""
+        key = _join(head, show(name)[1:-1])
+        self._report(node.line, node.column, text, code, key, value)
         return _REFUSED
 
 
@@ -193,4 +200,4 @@ def _found(node: Node) -> str:
 
 
 def _join(path: str, name: str) -> str:
-    return f"{path}.{name}" if path else name
+    return f"{path}.{name}" if path and name else path or name

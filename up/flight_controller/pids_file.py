@@ -7,6 +7,7 @@ from pathlib import Path
 
 from up.commands.gains import MAX_GAIN, Gains, GainSet, LoopGains
 from up.config import ConfigFile, PersistedFile, key, section
+from up.errors import UserError
 
 _RATE_UNIT = "1.25 us per deg/s"
 _STABILIZE_UNIT = "deg/s per deg"
@@ -109,7 +110,7 @@ class PidsFile:
     def __init__(self, folder: Path) -> None:
         self._file = PersistedFile(folder / PIDS.filename, PIDS)
 
-    def load(self) -> tuple[GainSet, str | None]:
+    def load(self) -> tuple[GainSet, UserError | None]:
         """Return the saved set, or the last good one, or the defaults, and the reason."""
         values, problem = self._file.load()
         return gain_set_of(values), problem

@@ -63,11 +63,14 @@ class Application:
             raise NoApplicationError(
                 f"{start} holds several applications ({names}): go into one",
                 code="several_applications",
+                folder=start,
+                applications=names,
             )
         raise NoApplicationError(
             f"no {UP_FILE} in {start}, above it or one folder below: not an application on Up"
             " (create one with: up create new -n NAME)",
             code="no_application",
+            folder=start,
         )
 
     def make_importable(self) -> None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable
+from collections.abc import Collection, Iterable, Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -12,20 +12,22 @@ from up.builtin_modules import BUILTIN_MODULES
 from up.config import ConfigErrors, ConfigFile, unknown_files
 from up.config.application import APPLICATION, DISABLED_MODULES
 from up.context import Context
+from up.errors import Problem, UserError
 from up.loading.application import Application
 from up.loading.commands import add_commands
 from up.loading.discovery import Discovered, survey
 from up.loading.order import order
-from up.loading.plan import BootError, Plan
+from up.loading.plan import BootError, Plan, path_of
 from up.loading.selection import select
+from up.log.json_lines import RotatingFile
 
 
 @dataclass(slots=True)
 class Findings:
-    """The result of a check: sentences for people, each with its place if it has one."""
+    """The result of a check."""
 
-    problems: list[str] = field(default_factory=list)
-    warnings: list[str] = field(default_factory=list)
+    problems: list[Problem] = field(default_factory=list)
+    warnings: list[Problem] = field(default_factory=list)
     files: list[ConfigFile[Any]] = field(default_factory=list)
     plan: Plan = field(default_factory=Plan)
 
@@ -43,16 +45,17 @@ def check_application(
     try:
         found = survey(application, disabled)
     except ConfigErrors as errors:
-        findings.problems += map(str, errors.problems)
+        findings.problems += errors.problems
         found = Discovered()
     findings.problems += found.cog_errors
     files = (*config_files((*BUILTIN_MODULES, *found.modules)), *more_files)
     findings.files = list(dict.fromkeys(files))
     read_files(context, findings.files, findings)
     _check_graph(context, found, disabled, findings)
-    findings.problems += map(str, findings.plan.problems)
+    findings.problems += findings.plan.problems
     findings.warnings += _unknown(context.config_folder, findings.files)
     findings.warnings += _disabled_for_nothing(disabled, found)
+    findings.warnings += _unwritable_log(context)
     return findings
 
 
@@ -62,7 +65,7 @@ def read_files(context: Context, files: Iterable[ConfigFile[Any]], findings: Fin
         try:
             context.config(file)
         except ConfigErrors as errors:
-            findings.problems += map(str, errors.problems)
+            findings.problems += errors.problems
             context.values[file] = file.cls()
 
 
@@ -77,25 +80,34 @@ def _check_graph(
         if not found.cog_errors:
             plan.modules = order(plan.modules, plan.left_out)
     except BootError as error:
-        findings.problems += str(error).splitlines()
+        findings.problems += error.problems
 
 
-def _unknown(folder: Path, files: Iterable[ConfigFile[Any]]) -> list[str]:
-    return [
-        f"{path}: no module of this application reads this file"
-        for path in unknown_files(folder, files)
-    ]
+def _unknown(folder: Path, files: Iterable[ConfigFile[Any]]) -> Iterator[UserError]:
+    for path in unknown_files(folder, files):
+        text = f"{path}: no module of this application reads this file"
+        yield UserError(text, "file_unused", file=path)
 
 
-def _disabled_for_nothing(disabled: Iterable[str], found: Discovered) -> list[str]:
+def _disabled_for_nothing(disabled: Iterable[str], found: Discovered) -> Iterator[UserError]:
     classes = (*BUILTIN_MODULES, *found.modules, *found.commands, *found.handlers)
-    known = {f"{cls.__module__}.{cls.__qualname__}" for cls in classes}
-    known |= {cls.__module__ for cls in classes} | found.disabled_files
-    return [
-        f"{DISABLED_MODULES.filename}: {name} does not exist, so it cannot be disabled"
-        for name in disabled
-        if name not in known
-    ]
+    known = {path_of(cls) for cls in classes} | {cls.__module__ for cls in classes}
+    for name in disabled:
+        if name not in known | found.disabled_files:
+            file = DISABLED_MODULES.filename
+            text = f"{file}: {name} does not exist, so it cannot be disabled"
+            yield UserError(text, "module_unknown", file=file, name=name)
+
+
+def _unwritable_log(context: Context) -> Iterator[UserError]:
+    file, log_file = APPLICATION.filename, context.application.log_file
+    try:
+        if log_file:
+            RotatingFile(Path(log_file), 0, 0).probe()
+    except OSError as error:
+        reason = error.strerror or error
+        text = f"{file}: log file: cannot write {log_file}: {reason}; the start goes on without it"
+        yield UserError(text, "log_file_unwritable", file=file, key="log file", value=log_file)
 
 
 def config_files(modules: Iterable[BaseModule | type[BaseModule]]) -> list[ConfigFile[Any]]:
@@ -105,8 +117,9 @@ def config_files(modules: Iterable[BaseModule | type[BaseModule]]) -> list[Confi
     return list(dict.fromkeys(files))
 
 
-def no_configuration(folder: Path, files: Iterable[ConfigFile[Any]]) -> str:
-    """Return the error for a folder without any of the files, or an empty text."""
+def no_configuration(folder: Path, files: Iterable[ConfigFile[Any]]) -> BootError | None:
+    """Return the error for a folder without any of the files."""
     if any((folder / file.filename).exists() for file in files):
-        return ""
-    return f"{folder}: no configuration file is here; start with --defaults to use the defaults"
+        return None
+    text = f"{folder}: no configuration file is here; start with --defaults to use the defaults"
+    return BootError(text, "no_configuration", folder=folder)

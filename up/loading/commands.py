@@ -10,7 +10,7 @@ from up.commands.builtin import BUILTIN_COMMANDS
 from up.commands.command import BaseCommand
 from up.commands.command_registry import CommandRegistry, DuplicateCommandError
 from up.loading.discovery import IMPORT_FAULTS, Discovered
-from up.loading.plan import LoadProblem, Plan, Rejected
+from up.loading.plan import LoadProblem, Plan, Rejected, path_of, reason_of
 
 _REGISTRATION_FAULTS = (DuplicateCommandError, ValueError, TypeError, NameError)
 
@@ -28,7 +28,7 @@ def add_commands(plan: Plan, found: Discovered, disabled: Container[str]) -> Non
         try:
             registry.add(cls)
         except _REGISTRATION_FAULTS as error:
-            plan.problems.append(LoadProblem(_path(cls), found.origins[cls], str(error)))
+            plan.problems.append(_problem(cls, found, str(error), "command_invalid"))
         else:
             plan.commands.append(cls)
     for handler in found.handlers:
@@ -41,15 +41,15 @@ def _add_handler(
 ) -> None:
     if cls.COMMAND in found.commands and cls.COMMAND not in plan.commands:
         reason = f"its Command {getattr(cls.COMMAND, '__name__', cls.COMMAND)} is not loaded"
-        plan.rejected.append(Rejected(_path(cls), reason))
+        plan.rejected.append(Rejected(path_of(cls), reason, "command_not_loaded"))
         return
     make: Callable[[], BaseCommandHandler] = cls
     try:
         _check_command(cls, registry)
         plan.handlers.append(make())
     except IMPORT_FAULTS as error:
-        text = str(error) if isinstance(error, _NoCommandError) else _text(error)
-        plan.problems.append(LoadProblem(_path(cls), found.origins[cls], text))
+        text = str(error) if isinstance(error, _NoCommandError) else reason_of(error)
+        plan.problems.append(_problem(cls, found, text, "handler_invalid"))
 
 
 class _NoCommandError(Exception):
@@ -71,15 +71,11 @@ def _check_command(cls: type[BaseCommandHandler], registry: CommandRegistry) -> 
 
 
 def _is_rejected(plan: Plan, cls: type, disabled: Container[str]) -> bool:
-    if _path(cls) not in disabled and cls.__module__ not in disabled:
+    if path_of(cls) not in disabled and cls.__module__ not in disabled:
         return False
-    plan.rejected.append(Rejected(_path(cls), "listed in disabled_modules.yml"))
+    plan.rejected.append(Rejected(path_of(cls), "listed in disabled_modules.yml", "disabled"))
     return True
 
 
-def _text(error: BaseException) -> str:
-    return f"{type(error).__name__}: {error}"
-
-
-def _path(cls: type) -> str:
-    return f"{cls.__module__}.{cls.__qualname__}"
+def _problem(cls: type, found: Discovered, what: str, code: str) -> LoadProblem:
+    return LoadProblem(path_of(cls), found.origins[cls], what, code)

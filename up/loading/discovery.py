@@ -16,7 +16,7 @@ from up.commands.command import BaseCommand
 from up.errors import UserError
 from up.loading.application import Application
 from up.loading.external_modules import EXTERNAL_MODULES, CogEntry
-from up.loading.plan import LoadProblem, problem_of
+from up.loading.plan import LoadProblem, problem_of, reason_of
 
 # The import of a file may raise anything, and one that exits must not end the program.
 IMPORT_FAULTS = (Exception, SystemExit)
@@ -26,6 +26,8 @@ COMMAND_FOLDER = "commands"
 
 class CogImportError(UserError):
     """A registered cog cannot be imported; the text is one sentence that names the remedy."""
+
+    status = 2
 
 
 @dataclass(slots=True)
@@ -37,7 +39,7 @@ class Discovered:
     handlers: list[type[BaseCommandHandler]] = field(default_factory=list)
     origins: dict[type, str] = field(default_factory=dict)
     problems: list[LoadProblem] = field(default_factory=list)
-    cog_errors: list[str] = field(default_factory=list)
+    cog_errors: list[CogImportError] = field(default_factory=list)
     disabled_files: set[str] = field(default_factory=set)
 
     def add(self, cls: type, origin: str) -> None:
@@ -62,7 +64,7 @@ def discover(application: Application, disabled: Iterable[str] = ()) -> Discover
     """
     found = survey(application, disabled)
     if found.cog_errors:
-        raise CogImportError("\n".join(found.cog_errors), code="cog_import_failed")
+        raise CogImportError.group(found.cog_errors)
     return found
 
 
@@ -82,14 +84,16 @@ def _discover_cog(found: Discovered, cog: str, entry: CogEntry) -> None:
         try:
             cls = getattr(importlib.import_module(each.prefix), each.class_name)
         except IMPORT_FAULTS as error:
-            found.cog_errors.append(
-                f"the registered cog {cog} cannot be imported ({each.path}: {_reason(error)}):"
+            what = (
+                f"the registered cog {cog} cannot be imported ({each.path}: {reason_of(error)}):"
                 " install it with 'up gather', or take it out of Cogfile.yml and run 'up gather'"
             )
+            found.cog_errors.append(_cog_error(what, cog, each.path, error))
             continue
         if not (inspect.isclass(cls) and issubclass(cls, BaseModule)):
+            what = f"{each.path} of the cog {cog} is not a module: it does not extend BaseModule"
             found.cog_errors.append(
-                f"{each.path} of the cog {cog} is not a module: it does not extend BaseModule"
+                CogImportError(what, "not_a_module", cog=cog, name=each.path, reason="")
             )
             continue
         found.add(cls, cog)
@@ -115,12 +119,14 @@ def _command_modules(found: Discovered, cog: str) -> Iterator[ModuleType]:
             found.cog_errors.append(_no_commands(name, cog, error))
 
 
-def _no_commands(name: str, cog: str, error: BaseException) -> str:
-    return f"the Commands of the cog {cog} cannot be imported ({name}: {_reason(error)})"
+def _no_commands(name: str, cog: str, error: BaseException) -> CogImportError:
+    what = f"the Commands of the cog {cog} cannot be imported ({name}: {reason_of(error)})"
+    return _cog_error(what, cog, name, error)
 
 
-def _reason(error: BaseException) -> str:
-    return f"{type(error).__name__}: {error}"
+def _cog_error(what: str, cog: str, name: str, error: BaseException) -> CogImportError:
+    fields = {"cog": cog, "name": name, "reason": type(error).__name__}
+    return CogImportError(what, "cog_import_failed", **fields)
 
 
 def discover_folder(
@@ -138,15 +144,14 @@ def discover_folder(
             found.disabled_files.add(name)
             continue
         if not path.stem.isidentifier():
-            found.problems.append(
-                LoadProblem(name, str(path), "the file's name is not a Python identifier")
-            )
+            what = "the file's name is not a Python identifier"
+            found.problems.append(LoadProblem(name, str(path), what, "name_invalid"))
             continue
         try:
             module = importlib.import_module(name)
         except IMPORT_FAULTS as error:
             sys.modules.pop(name, None)
-            found.problems.append(problem_of(name, path, error))
+            found.problems.append(problem_of(name, path, error, "import_failed"))
             continue
         for cls in _classes_of(module):
             found.add(cls, str(path.relative_to(application.root)))

@@ -24,11 +24,12 @@ class ModuleEntry:
         """Return the fully qualified name."""
         return f"{self.prefix}.{self.class_name}"
 
-    def problems(self) -> Iterable[tuple[str, str]]:
+    def problems(self) -> Iterable[tuple[str, str, str]]:
         if not self.class_name.isidentifier():
-            yield "class_name", "must be the name of a class"
+            yield "class_name", "must be the name of a class", "bad_format"
         if not all(part.isidentifier() for part in self.prefix.split(".")):
-            yield "prefix", "must be the name of a Python module, like my_cog.modules.my_module"
+            what = "must be the name of a Python module, like my_cog.modules.my_module"
+            yield "prefix", what, "bad_format"
 
 
 @dataclass(frozen=True, slots=True)

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from types import MappingProxyType
 
 from up.base_module import BaseModule
-from up.loading.plan import BootError
+from up.loading.plan import BootError, path_of
 from up.needs import declared_needs
 
 
@@ -22,7 +22,7 @@ def order(
     uses = {id(module): _fill(module, modules, absent) for module in modules}
     missing = [_missing(module, wanted, left_out) for module, wanted in absent]
     if missing:
-        raise BootError("\n".join(missing), code="need_missing")
+        raise BootError.group(missing)
     ranked = sorted(modules, key=lambda module: module.LOAD_ORDER)
     ordered: list[BaseModule] = []
     placed: set[int] = set()
@@ -37,7 +37,7 @@ def order(
         )
         if ready is None:
             left = [module for module in ranked if id(module) not in placed]
-            raise BootError(_circle(left, uses), code="need_circle")
+            raise _circle(left, uses)
         placed.add(id(ready))
         ordered.append(ready)
     return ordered
@@ -60,28 +60,30 @@ def _fill(
 
 def _missing(
     module: BaseModule, wanted: type[BaseModule], left_out: Mapping[type[BaseModule], str]
-) -> str:
+) -> BootError:
     reasons = [
-        f"{cls.__module__}.{cls.__qualname__}: {reason}"
-        for cls, reason in left_out.items()
-        if issubclass(cls, wanted)
+        f"{path_of(cls)}: {reason}" for cls, reason in left_out.items() if issubclass(cls, wanted)
     ]
     known = f" ({'; '.join(reasons)})" if reasons else ""
     way = "fix that" if reasons else "register the cog that brings it"
-    return (
+    return BootError(
         f"{module.path} needs {wanted.__name__}, which is not loaded{known}: {way}, or list"
-        f" {module.path} in disabled_modules.yml"
+        f" {module.path} in disabled_modules.yml",
+        "need_missing",
+        module=module.path,
+        needs=path_of(wanted),
+        reasons=reasons,
     )
 
 
-def _circle(left: list[BaseModule], uses: dict[int, list[BaseModule]]) -> str:
+def _circle(left: list[BaseModule], uses: dict[int, list[BaseModule]]) -> BootError:
     waiting = {id(module) for module in left}
     path = [left[0]]
     while True:
         following = next(used for used in uses[id(path[-1])] if id(used) in waiting)
         if following in path:
             circle = [*path[path.index(following) :], following]
-            return "modules need each other in a circle: " + " -> ".join(
-                module.class_name for module in circle
-            )
+            names = [module.class_name for module in circle]
+            text = f"modules need each other in a circle: {' -> '.join(names)}"
+            return BootError(text, "need_circle", modules=names)
         path.append(following)

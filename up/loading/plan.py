@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import traceback
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import Any
 
 from up.base_module import BaseModule
 from up.commands.base_command_handler import BaseCommandHandler
@@ -18,6 +20,7 @@ class Rejected:
 
     path: str
     reason: str
+    code: str
 
 
 @dataclass(slots=True)
@@ -37,30 +40,48 @@ class Plan:
 class BootError(UserError):
     """The configured system cannot boot; the text is one sentence."""
 
+    status = 2
+
 
 @dataclass(frozen=True, slots=True)
 class LoadProblem:
     """A file or class of the application, and the reason why it is not part of the system.
 
     ``name`` is the entry of ``disabled_modules.yml`` that accepts its absence. The daemon runs
-    without it but does not arm.
+    without it but does not arm. ``line`` is 0 where none is known.
     """
 
     name: str
-    where: str
+    file: str
     what: str
+    code: str
+    line: int = 0
 
     def __str__(self) -> str:
-        return f"{self.where}: {self.what}"
+        return f"{self.file}:{self.line}: {self.what}" if self.line else f"{self.file}: {self.what}"
+
+    @property
+    def fields(self) -> Mapping[str, Any]:
+        return {"name": self.name, "file": self.file, "line": self.line}
 
 
-def problem_of(name: str, path: Path, error: BaseException) -> LoadProblem:
+def problem_of(name: str, path: Path, error: BaseException, code: str) -> LoadProblem:
     """Return the problem for an exception while importing or building, with its line."""
     if isinstance(error, SyntaxError) and error.filename:
-        return LoadProblem(name, f"{error.filename}:{error.lineno or 1}", f"syntax: {error.msg}")
-    line = None
+        what = f"syntax: {error.msg}"
+        return LoadProblem(name, error.filename, what, "syntax_error", error.lineno or 1)
+    line = 0
     for frame in traceback.extract_tb(error.__traceback__):
         if Path(frame.filename) == path:
-            line = frame.lineno
-    where = str(path) if line is None else f"{path}:{line}"
-    return LoadProblem(name, where, f"{type(error).__name__}: {error}")
+            line = frame.lineno or 0
+    return LoadProblem(name, str(path), reason_of(error), code, line)
+
+
+def reason_of(error: BaseException) -> str:
+    """Return the type and text of an exception."""
+    return f"{type(error).__name__}: {error}"
+
+
+def path_of(cls: type) -> str:
+    """Return the fully qualified name, as in ``disabled_modules.yml``."""
+    return f"{cls.__module__}.{cls.__qualname__}"

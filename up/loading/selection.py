@@ -10,7 +10,7 @@ from up.base_module import BaseModule
 from up.builtin_modules import BUILTIN_MODULES
 from up.context import Context
 from up.loading.discovery import IMPORT_FAULTS, Discovered
-from up.loading.plan import BootError, Plan, Rejected, problem_of
+from up.loading.plan import BootError, Plan, Rejected, path_of, problem_of
 
 
 def select(
@@ -27,24 +27,18 @@ def select(
     refused = set(disabled)
     chosen: list[BaseModule] = []
     for cls in (*builtins, *found.modules):
-        plan.origins[_path(cls)] = found.origins.get(cls, "built in")
-        reason = _reason_against(cls, context, refused)
-        if reason:
-            _reject(plan, cls, reason)
+        plan.origins[path_of(cls)] = found.origins.get(cls, "built in")
+        if path_of(cls) in refused or cls.__module__ in refused:
+            _reject(plan, cls, "listed in disabled_modules.yml", "disabled")
+            continue
+        if context.mode not in cls.MODES:
+            _reject(plan, cls, f"not for the mode {context.mode.value!r}", "other_mode")
             continue
         module = _build(cls, context, plan)
         if module is not None:
             chosen.append(module)
     plan.modules = _without_overridden(chosen, builtins, plan)
     return plan
-
-
-def _reason_against(cls: type[BaseModule], context: Context, disabled: set[str]) -> str:
-    if _path(cls) in disabled or cls.__module__ in disabled:
-        return "listed in disabled_modules.yml"
-    if context.mode not in cls.MODES:
-        return f"not for the mode {context.mode.value!r}"
-    return ""
 
 
 def _build(cls: type[BaseModule], context: Context, plan: Plan) -> BaseModule | None:
@@ -57,18 +51,18 @@ def _build(cls: type[BaseModule], context: Context, plan: Plan) -> BaseModule | 
     except ConfigErrors:
         raise
     except IMPORT_FAULTS as error:
-        problem = problem_of(_path(cls), Path(inspect.getfile(cls)), error)
+        problem = problem_of(path_of(cls), Path(inspect.getfile(cls)), error, "build_failed")
         plan.problems.append(problem)
         plan.left_out[cls] = problem.what
         return None
     if not wanted:
-        _reject(plan, cls, "its load() returned False")
+        _reject(plan, cls, "its load() returned False", "load_false")
         return None
     return module
 
 
-def _reject(plan: Plan, cls: type[BaseModule], reason: str) -> None:
-    plan.rejected.append(Rejected(_path(cls), reason))
+def _reject(plan: Plan, cls: type[BaseModule], reason: str, code: str) -> None:
+    plan.rejected.append(Rejected(path_of(cls), reason, code))
     plan.left_out[cls] = reason
 
 
@@ -80,26 +74,31 @@ def _without_overridden(
     for module in modules:
         over = [each for each in modules if _extends(each, module)]
         if over:
-            _reject(plan, type(module), f"replaced by {over[-1].path}")
+            _reject(plan, type(module), f"replaced by {over[-1].path}", "replaced")
             replaced.append(type(module))
         else:
             kept.append(module)
     conflicts = _conflicts(kept, dict.fromkeys((*builtins, *replaced)))
     if conflicts:
-        raise BootError("\n".join(conflicts), code="replacement_conflict")
+        raise BootError.group(conflicts)
     return kept
 
 
-def _conflicts(kept: list[BaseModule], bases: Iterable[type[BaseModule]]) -> list[str]:
-    """Return a sentence for each set of modules that replace the same one."""
+def _conflicts(kept: list[BaseModule], bases: Iterable[type[BaseModule]]) -> list[BootError]:
+    """Return an error for each set of modules that replace the same one."""
     found: dict[tuple[str, ...], type[BaseModule]] = {}
     for base in bases:
         heirs = tuple(each.path for each in kept if isinstance(each, base))
         if len(heirs) > 1 and issubclass(base, found.get(heirs, base)):
             found[heirs] = base
     return [
-        f"{' and '.join(heirs)} both replace {base.__name__}: list one of them in"
-        f" disabled_modules.yml{_way_out(base)}"
+        BootError(
+            f"{' and '.join(heirs)} both replace {base.__name__}: list one of them in"
+            f" disabled_modules.yml{_way_out(base)}",
+            "replacement_conflict",
+            modules=heirs,
+            base=base.__name__,
+        )
         for heirs, base in found.items()
     ]
 
@@ -115,7 +114,3 @@ def _way_out(base: type[BaseModule]) -> str:
 
 def _extends(module: BaseModule, base: BaseModule) -> bool:
     return type(module) is not type(base) and isinstance(module, type(base))
-
-
-def _path(cls: type) -> str:
-    return f"{cls.__module__}.{cls.__qualname__}"

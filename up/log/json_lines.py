@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import contextlib
+import errno
 import json
 import math
 import os
 import threading
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
@@ -19,9 +20,8 @@ from zope.interface import implementer
 from up.log.levels import level_of, word_of
 from up.log.text import source_of, text_of, traceback_of
 
-FORMAT_VARIABLE = "UP_LOG_FORMAT"
-"""In the environment of a program: ``json`` for output and log that another program reads."""
 _MAX_FIELD = 1000
+_FLAGS = os.O_RDWR | os.O_APPEND | os.O_NONBLOCK | os.O_CLOEXEC
 
 
 class RotatingFile:
@@ -40,11 +40,19 @@ class RotatingFile:
     def open(self) -> None:
         """Open the file, creating its folder, and end a line that a crash left incomplete."""
         self.path.parent.mkdir(parents=True, exist_ok=True)
-        flags = os.O_RDWR | os.O_APPEND | os.O_CREAT | os.O_NONBLOCK | os.O_CLOEXEC
-        self._descriptor = os.open(self.path, flags, 0o644)
+        self._descriptor = os.open(self.path, _FLAGS | os.O_CREAT, 0o644)
         self._size = os.fstat(self._descriptor).st_size
         if self._size and os.pread(self._descriptor, 1, self._size - 1) != b"\n":
             self._put(b"\n")
+
+    def probe(self) -> None:
+        """Raise the OSError that `open` would raise; creates nothing."""
+        try:
+            os.close(os.open(self.path, _FLAGS))
+        except FileNotFoundError:
+            folder = next(each for each in self.path.absolute().parents if each.exists())
+            if not os.access(folder, os.W_OK | os.X_OK):
+                raise PermissionError(errno.EACCES, os.strerror(errno.EACCES)) from None
 
     def write(self, line: bytes) -> None:
         """Add one line, which ends with a line feed."""
@@ -154,21 +162,6 @@ def fields_of(event: LogEvent) -> dict[str, str | int | float | None]:
         for name, value in event.items()
         if not name.startswith("log_") and isinstance(value, str | int | float | None)
     }
-
-
-def program_line(
-    text: str, code: str, fields: Mapping[str, object], level: str = "info"
-) -> str | None:
-    """Return a line of a program's own output as JSON with its code; None if text is wanted."""
-    if os.environ.get(FORMAT_VARIABLE) != "json":
-        return None
-    record = {"level": level, "text": text, "fields": {"code": code, **fields}}
-    return json.dumps(record, default=str)
-
-
-def program_error(program: str, text: str, code: str, **fields: object) -> str:
-    """Return the line with which a program reports an error: JSON, or its name and the text."""
-    return program_line(text, code, fields, "error") or f"{program}: {text}"
 
 
 def _plain(value: str | int | float | None) -> str | int | float | None:

@@ -21,9 +21,10 @@ from twisted.logger import (
     globalLogPublisher,
 )
 
-from up.log.json_lines import FORMAT_VARIABLE, JsonLinesObserver, RotatingFile, line_of
+from up.log.json_lines import JsonLinesObserver, RotatingFile, line_of
 from up.log.levels import level_named
 from up.log.text import TextObserver, is_journal, journal_lines, terminal_lines
+from up.output import FORMAT_VARIABLE
 
 
 class Logging:
@@ -96,6 +97,7 @@ def _log_directly(observer: TextObserver, what: str) -> None:
             "log_format": "{what}",
             "log_time": time.time(),
             "what": what,
+            "code": "log_file_failed",
         }
     )
 

@@ -9,7 +9,7 @@ from contextlib import suppress
 from dataclasses import dataclass, field
 from typing import Any, Protocol
 
-from up.log.json_lines import FORMAT_VARIABLE, program_line
+from up.output import FORMAT_VARIABLE, program_line
 
 JSON_ENVIRONMENT = {FORMAT_VARIABLE: "json"}
 """Makes a program of the project log JSON lines, which ``read_line`` reads."""

@@ -18,13 +18,14 @@ from up.base_module import BaseModule
 from up.commands.beacon import Beacons
 from up.commands.system_commands import SystemStopCommand
 from up.config import load_all
+from up.errors import UserError
 from up.life_cycle import BootStoppedError, LifeCycle
 from up.loading.application import Application
 from up.loading.checking import check_application, config_files
 from up.log.levels import level_named, level_of, word_of
 from up.log.text import source_of, text_of, traceback_of
 from up.mode import Mode
-from up.program import USER_ERRORS, make_context
+from up.program import make_context
 from up.protocols.general_message import GeneralMessage
 from up.protocols.serial_line import SerialLike
 from up.protocols.serial_port import SerialPortError
@@ -153,13 +154,13 @@ class InProcessRaspilot:
             up = Up(plan, context)
             self._substitute_modules(up)
             up.initialize()
-        except USER_ERRORS as error:
+        except UserError as error:
             self._log.close()
-            problems = str(error).splitlines()
+            problems = list(map(str, error.problems))
             if application is not None:
                 words = {"UP_MODE": Mode.AUTO.value}
                 context = make_context(application, host, self._config_folder, words)
-                problems += check_application(application, context).problems
+                problems += map(str, check_application(application, context).problems)
             host.cut_off()
             raise ParticipantError("\n".join(dict.fromkeys(problems))) from error
         self.boots += 1

@@ -40,13 +40,13 @@ class OverriddenProblems(Problems):
         super().__init__(path)
         self._overrides = overrides
 
-    def report(self, line: int, column: int, what: str) -> None:
+    def report(self, line: int, column: int, what: str, *more: str) -> None:
         """Add a problem; `line` and `column` count from 1."""
         if line >= 0:
-            super().report(line, column, what)
+            super().report(line, column, what, *more)
             return
         source = self._overrides[-line - 1].source
-        self.found.append(_OverrideProblem(Path(source), 1, 1, what))
+        self.found.append(_OverrideProblem(Path(source), 1, 1, what, *more))
 
 
 def apply(overrides: Sequence[Override], root: MapNode, report: Report) -> None:
@@ -54,8 +54,8 @@ def apply(overrides: Sequence[Override], root: MapNode, report: Report) -> None:
     for number, override in enumerate(overrides):
         line = -number - 1
 
-        def refuse(_line: int, _column: int, what: str, at: int = line) -> None:
-            report(at, 1, what)
+        def refuse(_line: int, _column: int, what: str, *more: str) -> None:
+            report(line, 1, what, *more)  # noqa: B023 - called before the next turn
 
         value = compose(override.value, refuse) or ScalarNode(line, 1, "", True)
         _set_position(value, line)

@@ -7,9 +7,11 @@ import subprocess
 import sys
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import pytest
 
+from tests.support.program_output import fields_of
 from tests.support.virtual_environment import REPOSITORY
 from up.cli.main import main
 
@@ -20,14 +22,25 @@ class Outcome:
     out: str
     err: str
 
+    @property
+    def codes(self) -> list[str]:
+        return [each["code"] for each in fields_of(self.err + self.out)]
+
+    @property
+    def problem(self) -> dict[str, Any]:
+        """Return the fields of the one error or warning."""
+        (only,) = fields_of(self.err)
+        return only
+
 
 @pytest.fixture
 def up(capsys, monkeypatch, tmp_path):
     """Return a function that carries out a command in this process, in ``tmp_path``."""
     monkeypatch.delenv("UP_MODE", raising=False)
 
-    def up(*arguments: str, cwd: Path = tmp_path) -> Outcome:
+    def up(*arguments: str, cwd: Path = tmp_path, as_json: bool = False) -> Outcome:
         monkeypatch.chdir(cwd)
+        monkeypatch.setenv("UP_LOG_FORMAT", "json" if as_json else "")
         try:
             status = main([str(each) for each in arguments])
         except SystemExit as end:

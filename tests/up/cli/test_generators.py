@@ -13,6 +13,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from tests.support.program_output import AS_JSON, fields_of
 from tests.support.virtual_environment import REPOSITORY
 from up.cli.cli_error import CliError
 from up.cli.names import Name
@@ -114,9 +115,9 @@ def test_the_configuration_is_made_of_the_templates(up, tmp_path):
     ],
 )
 def test_what_cannot_be_created_is_one_sentence(up, tmp_path, arguments):
-    outcome = up(*arguments)
+    outcome = up(*arguments, as_json=True)
     assert outcome.status == 1
-    assert len(outcome.err.splitlines()) == 1
+    assert outcome.problem["code"] in ("name_invalid", "name_taken", "no_application")
     assert list(tmp_path.iterdir()) == []
 
 
@@ -150,9 +151,10 @@ def test_nothing_is_overwritten_where_nobody_can_be_asked(up, own_process, tmp_p
     up("create", "new", "-n", "plane")
     main = tmp_path / "plane/main.py"
     main.write_text("mine\n")
-    done = own_process("up.cli", "create", "new", "-n", "plane", cwd=tmp_path)
+    command = ("up.cli", "create", "new", "-n", "plane")
+    done = own_process(*command, cwd=tmp_path, **AS_JSON)
     assert done.returncode == 1
-    assert done.stderr == f"{tmp_path}/plane exists already: use --yes to overwrite it\n"
+    assert fields_of(done.stderr) == [{"code": "exists", "path": str(tmp_path / "plane")}]
     assert main.read_text() == "mine\n"
     config = tmp_path / "plane/config/config.yml"
     config.write_text("log level: debug\n")

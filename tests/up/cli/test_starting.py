@@ -10,6 +10,7 @@ from pathlib import Path
 
 import pytest
 
+from tests.support.program_output import AS_JSON, fields_of
 from tests.support.virtual_environment import VirtualEnvironment
 
 LIMIT_S = 120
@@ -24,7 +25,7 @@ def start(environment: VirtualEnvironment, *arguments: str, cwd: Path) -> subpro
     return subprocess.Popen(
         [environment.python, *arguments],
         cwd=cwd,
-        env=environment.environ(),
+        env=environment.environ(AS_JSON),
         stdin=subprocess.DEVNULL,
         stderr=subprocess.PIPE,
     )
@@ -78,9 +79,9 @@ def test_a_cog_from_outside_flies(environment, tmp_path, road):
     assert stop(process) == 0
 
     environment.run("-m", "pip", "uninstall", "--yes", "raspilot-lidar-cog", cwd=tmp_path)
-    done = environment.up("start", cwd=plane, status=2)
-    assert "lidar_cog cannot be imported" in done.stderr and "'up gather'" in done.stderr
-    assert "Traceback" not in done.stderr
+    done = environment.up("start", cwd=plane, environ=AS_JSON, status=2)
+    (problem,) = fields_of(done.stderr)
+    assert (problem["code"], problem["cog"]) == ("cog_import_failed", "lidar_cog")
 
 
 def test_a_broken_file_does_not_keep_the_rest_from_running(environment, tmp_path):
@@ -88,18 +89,9 @@ def test_a_broken_file_does_not_keep_the_rest_from_running(environment, tmp_path
     plane = tmp_path / "plane"
     (plane / "modules/broken.py").write_text("x = = 1\n")
     process = start(environment, "-m", "up.cli", "s", cwd=plane)
-    said = read_until(process, b"arming is refused")
-    assert b"modules/broken.py:1: syntax" in said
+    said = read_until(process, b'"arming_refused"')
     assert b"plane.modules.broken" in said
     assert stop(process) == 0
-
-
-def test_mistakes_in_the_configuration_stop_the_start(environment, tmp_path):
-    environment.up("create", "new", "-n", "plane", cwd=tmp_path)
-    plane = tmp_path / "plane"
-    (plane / "config/config.yml").write_text("mode: sideways\nlog levl: info\n")
-    done = environment.up("start", cwd=plane, status=2)
-    lines = done.stderr.splitlines()
-    assert lines[0].startswith(f"{plane}/config/config.yml:1:7: mode: must be one of")
-    assert lines[1].startswith(f"{plane}/config/config.yml:2:1: unknown key")
-    assert "Traceback" not in done.stderr
+    (problem,) = (each for each in fields_of(said.decode()) if each["code"] == "load_problem")
+    assert (problem["reason"], problem["line"]) == ("syntax_error", 1)
+    assert problem["file"] == str(plane / "modules/broken.py")

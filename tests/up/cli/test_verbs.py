@@ -45,41 +45,38 @@ def test_every_verb_explains_itself(up, verb):
     "verb", ["start", "s", "gather", "g", "check", "modules", "register -n x", "r -n x"]
 )
 def test_outside_an_application(up, verb):
-    outcome = up(*verb.split())
-    assert outcome.status == 1
-    assert outcome.err.startswith("no UpFile in ")
-    assert len(outcome.err.splitlines()) == 1
+    outcome = up(*verb.split(), as_json=True)
+    assert (outcome.status, outcome.problem["code"]) == (1, "no_application")
 
 
 def test_a_file_that_leads_nowhere(up):
-    outcome = up("-f", "nowhere", "check")
-    assert outcome.status == 1
-    assert "nowhere" in outcome.err
+    outcome = up("-f", "nowhere", "check", as_json=True)
+    assert (outcome.status, outcome.problem["code"]) == (1, "file_missing")
 
 
 def test_several_applications_are_named(up, tmp_path):
     for name in ("a", "b"):
         (tmp_path / name).mkdir()
         (tmp_path / name / "UpFile").write_text("")
-    outcome = up("check")
-    assert outcome.status == 1 and "(a, b)" in outcome.err
+    outcome = up("check", as_json=True)
+    assert (outcome.status, outcome.problem["code"]) == (1, "several_applications")
+    assert outcome.problem["applications"] == "a, b"
     assert up("-f", "a", "check", "--defaults").status == 0
     assert up("-f", "a/UpFile", "check", "--defaults").status == 0
 
 
 def test_a_broken_upfile_has_its_place(up, tmp_path):
     (tmp_path / "UpFile").write_text("packag: plane\n")
-    outcome = up("check")
-    assert outcome.status == 2
-    assert outcome.err.startswith(f"{tmp_path}/UpFile:1:1: unknown key")
+    outcome = up("check", as_json=True)
+    assert (outcome.status, outcome.problem["code"]) == (2, "unknown_key")
+    assert outcome.problem["file"] == str(tmp_path / "UpFile")
 
 
 def test_a_folder_that_cannot_be_written_is_one_sentence(up, tmp_path):
     (tmp_path / "UpFile").write_text("")
     (tmp_path / "taken").write_text("")
-    outcome = up("schemas", "taken/here")
-    assert outcome.status == 1
-    assert len(outcome.err.splitlines()) == 1
+    outcome = up("schemas", "taken/here", as_json=True)
+    assert (outcome.status, outcome.problem["code"]) == (1, "system_error")
 
 
 @pytest.mark.parametrize(

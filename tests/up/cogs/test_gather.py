@@ -8,6 +8,7 @@ from pathlib import Path
 
 import pytest
 
+from tests.support.program_output import AS_JSON, fields_of
 from tests.support.tools import need_tool
 from up.loading.external_modules import EXTERNAL_MODULES
 
@@ -20,46 +21,53 @@ def registered(application: Path) -> dict[str, str]:
     return {cog: entry.source for cog, entry in EXTERNAL_MODULES.load(application).items()}
 
 
+def gather(environment, application: Path, *arguments: str, **more) -> list[dict]:
+    """Return the fields of each line that ``up gather`` prints."""
+    environ = {**AS_JSON, **more.pop("environ", {})}
+    done = environment.up("gather", *arguments, cwd=application, environ=environ, **more)
+    assert "Traceback" not in done.stderr
+    return fields_of(done.stdout + done.stderr)
+
+
+def codes(found: list[dict]) -> list[tuple]:
+    return [(each["code"], each.get("cog", each.get("count"))) for each in found]
+
+
 BOTH = "alpha-cog: {path: ../tree/alpha_cog}\nbeta_cog: {path: ../tree/beta_cog}\n"
 
 
 def test_the_life_of_a_cogfile(environment, application, tree):
     cogfile(application, BOTH)
-    first = environment.up("gather", cwd=application).stdout.splitlines()
-    assert first == [
-        f"alpha_cog: to be installed from {tree}/alpha_cog",
-        f"beta_cog: to be installed from {tree}/beta_cog",
-        "installed 2 cogs",
-        "alpha_cog: registered",
-        f"alpha_cog: created {application}/config/alpha.yml",
-        "beta_cog: registered",
-        f"beta_cog: created {application}/config/beta.yml",
-        "2 cogs of Cogfile.yml installed and registered",
+    first = gather(environment, application)
+    assert codes(first) == [
+        ("installing", "alpha_cog"),
+        ("installing", "beta_cog"),
+        ("installed", 2),
+        ("cog_registered", "alpha_cog"),
+        ("created", "alpha_cog"),
+        ("cog_registered", "beta_cog"),
+        ("created", "beta_cog"),
+        ("gathered", 2),
     ]
+    assert first[0]["origin"] == f"{tree}/alpha_cog"
+    assert first[4]["path"] == f"{application}/config/alpha.yml"
     assert registered(application) == {"alpha_cog": "cogfile", "beta_cog": "cogfile"}
 
-    again = environment.up("gather", cwd=application).stdout.splitlines()
-    assert again == [
-        "alpha_cog: is registered",
-        "beta_cog: is registered",
-        "2 cogs of Cogfile.yml installed and registered",
-    ]
+    again = gather(environment, application)
+    assert [each.get("changed") for each in again] == [False, False, None]
 
     # Packaging that is newer than the installation may bring other entry points.
     (tree / "alpha_cog" / "setup.py").touch()
-    updated = environment.up("gather", cwd=application).stdout.splitlines()
-    assert updated[:2] == [
-        f"alpha_cog: to be installed from {tree}/alpha_cog",
-        "installed 1 cog",
-    ]
+    updated = gather(environment, application)
+    assert codes(updated)[:2] == [("installing", "alpha_cog"), ("installed", 1)]
 
     modules = environment.up("modules", cwd=application).stdout
     assert modules.index("AlphaModule") < modules.index("BetaModule")
     environment.up("check", cwd=application)
 
     cogfile(application, BOTH.splitlines()[0])
-    left = environment.up("gather", cwd=application).stdout.splitlines()
-    assert left[:2] == ["beta_cog: has left Cogfile.yml", "beta_cog: unregistered"]
+    left = codes(gather(environment, application))
+    assert left[:2] == [("cog_removed", "beta_cog"), ("cog_unregistered", "beta_cog")]
     assert registered(application) == {"alpha_cog": "cogfile"}
     assert (application / "config/beta.yml").exists()
 
@@ -98,13 +106,12 @@ def test_from_the_index_with_a_version(environment, application, outside, index)
     for wheel in (outside / "dist").glob("*.whl"):
         index.add(wheel)
     cogfile(application, 'lidar-cog: {pypi: raspilot-lidar-cog, version: "0.1.0"}\n')
-    done = environment.up("gather", cwd=application, environ=index.environ)
-    assert "from the package index (raspilot-lidar-cog 0.1.0)" in done.stdout
+    found = gather(environment, application, environ=index.environ)
+    assert "raspilot-lidar-cog 0.1.0" in found[0]["origin"]
     assert registered(application) == {"lidar_cog": "cogfile"}
     assert (application / "config/lidar.yml").exists()
     asked = len(index.asked)
-    done = environment.up("gather", cwd=application, environ=index.environ)
-    assert "lidar_cog: is registered" in done.stdout
+    assert gather(environment, application, environ=index.environ)[0]["changed"] is False
     assert len(index.asked) == asked, "nothing to do asks nobody"
 
     newer = Path(shutil.copytree(outside, application.parent / "newer"))
@@ -125,9 +132,9 @@ def test_a_version_that_is_not_there_is_pips_last_lines_and_a_sentence(
     for sdist in (outside / "dist").glob("*.tar.gz"):
         index.add(sdist)
     cogfile(application, 'lidar-cog: {pypi: raspilot-lidar-cog, version: "7.0"}\n')
-    done = environment.up("gather", cwd=application, environ=index.environ, status=1)
-    assert "pip: ERROR: No matching distribution found for raspilot-lidar-cog==7.0" in done.stdout
-    assert done.stderr == "pip could not install the missing cogs (exit status 1)\n"
+    *_, last, error = gather(environment, application, environ=index.environ, status=1)
+    assert last["code"] == "pip_output" and "raspilot-lidar-cog==7.0" in last["line"]
+    assert (error["code"], error["status"]) == ("pip_failed", 1)
     assert registered(application) == {}
     cogfile(application, "lidar-cog: {pypi: raspilot-lidar-cog}\n")
     environment.up("gather", cwd=application, environ=index.environ)
@@ -150,43 +157,39 @@ def test_from_a_git_repository_with_a_revision(environment, application, outside
     cogfile(application, f"camera_cog: {{url: {url}, revision: v1}}\n")
     environment.up("gather", cwd=application)
     assert registered(application) == {"camera_cog": "cogfile"}
-    again = environment.up("gather", cwd=application).stdout
-    assert again.startswith("camera_cog: is registered")
+    assert gather(environment, application)[0]["changed"] is False
 
     cogfile(application, f"camera_cog: {{url: {url}}}\n")
-    assert environment.up("gather", cwd=application).stdout.startswith("camera_cog: is registered")
+    assert gather(environment, application)[0]["changed"] is False
     cogfile(application, f"camera_cog: {{url: {url}, revision: v2}}\n")
-    done = environment.up("gather", cwd=application, status=1)
-    assert "RuntimeError: not this one" in done.stderr
+    codes_ = [each["code"] for each in gather(environment, application, status=1)]
+    assert codes_[-2:] == ["import_failed", "registration_failed"]
 
 
 def test_mistakes_are_told_before_anything_is_installed(environment, application, tree):
     cogfile(application, BOTH + "gamma_cog: {path: ../tree/gamma_cog}\n")
-    done = environment.up("gather", cwd=application, status=2)
-    assert done.stderr.startswith(f"{application}/Cogfile.yml:3:1: gamma_cog: ")
-    assert "Traceback" not in done.stderr
+    (problem,) = gather(environment, application, status=2)
+    assert (problem["code"], problem["line"], problem["key"]) == ("source_missing", 3, "gamma_cog")
     assert list(environment.packages.glob("*cog*")) == []
 
 
 def test_without_installing(environment, application, tree):
     cogfile(application, BOTH)
-    done = environment.up("gather", "--no-install", cwd=application, status=1)
-    assert done.stderr == "not installed, but listed in Cogfile.yml: alpha_cog, beta_cog\n"
+    (problem,) = gather(environment, application, "--no-install", status=1)
+    assert problem == {"code": "not_installed", "cogs": ["alpha_cog", "beta_cog"]}
 
 
 def test_a_failing_registrant_does_not_keep_the_others_out(environment, application, tree):
     (tree / "alpha_cog/alpha_cog/registrar.py").write_text("import nothing_there\n")
     cogfile(application, BOTH)
-    done = environment.up("gather", cwd=application, status=1)
-    assert "alpha_cog.registrar cannot be imported" in done.stderr
-    assert "Traceback" not in done.stderr
+    found = gather(environment, application, status=1)
+    assert {"code": "import_failed", "name": "alpha_cog.registrar"} in found
     assert registered(application) == {"beta_cog": "cogfile"}
 
 
 @pytest.mark.parametrize("managed", [True, False])
 def test_an_environment_that_pip_may_not_change(environment, application, tree, managed):
     cogfile(application, BOTH)
-    arguments = ["gather", "-f", "."]
     code = (
         "import os, sys, sysconfig, pathlib\n"
         "from up.cogs import pip\n"
@@ -201,9 +204,9 @@ def test_an_environment_that_pip_may_not_change(environment, application, tree, 
         "    os.access = lambda *a: False\n"
         "sys.exit(main(['gather']))\n"
     )
-    done = environment.run("-c", code, cwd=application, status=1)
-    wanted = "belongs to the operating system" if managed else "cannot be written"
-    assert wanted in done.stderr and len(done.stderr.splitlines()) == 1, arguments
+    done = environment.run("-c", code, cwd=application, environ=AS_JSON, status=1)
+    (problem,) = fields_of(done.stderr)
+    assert problem["code"] == ("environment_managed" if managed else "environment_readonly")
     assert list(environment.packages.glob("*cog*")) == []
 
 
@@ -220,5 +223,5 @@ def test_a_framework_that_is_not_installed_is_never_fetched(environment, applica
         "from up.cli.main import main\n"
         "sys.exit(main(['gather']))\n"
     )
-    done = environment.run("-c", code, cwd=application, status=1)
-    assert "Up itself is not installed" in done.stderr
+    done = environment.run("-c", code, cwd=application, environ=AS_JSON, status=1)
+    assert [each["code"] for each in fields_of(done.stderr)] == ["framework_missing"]

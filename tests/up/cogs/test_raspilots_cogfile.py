@@ -2,6 +2,7 @@
 
 import shutil
 
+from tests.support.program_output import AS_JSON, fields_of
 from tests.support.virtual_environment import REPOSITORY
 from up.cogs.cogfile import load_cogfile
 
@@ -21,8 +22,8 @@ def test_every_cog_of_raspilot_is_gathered_from_the_tree(environment, tmp_path):
         "mission_control_cog",
         "black_box_cog",
     ]
-    done = environment.up("gather", cwd=tmp_path)
-    assert f"{len(wanted)} cogs of Cogfile.yml installed and registered" in done.stdout
+    done = environment.up("gather", cwd=tmp_path, environ=AS_JSON)
+    assert fields_of(done.stdout)[-1] == {"code": "gathered", "count": len(wanted)}
     for mode in ("auto", "black box"):
         environment.up("check", "--mode", mode, cwd=tmp_path)
     black_box = environment.up("modules", "--mode", "black box", cwd=tmp_path).stdout

@@ -6,6 +6,7 @@ import pytest
 
 from tests.support.application import importable, plan_of, write_application
 from tests.support.virtual_environment import REPOSITORY
+from tests.up.config.samples import places
 from up.cogs.cog import CogError, package_name
 from up.cogs.registration import find_registrant, register, unregister
 from up.cogs.registry import Registry
@@ -13,6 +14,13 @@ from up.config import ConfigErrors
 
 TREE = REPOSITORY / "tests/fixtures/cogs/tree"
 OLD = REPOSITORY / "tests/fixtures/cogs/prototype_cog"
+
+
+class Said(list):
+    """Collects the code and fields of each line."""
+
+    def __call__(self, text, code="", **fields):
+        self.append({"code": code, **fields})
 
 
 @pytest.fixture
@@ -52,14 +60,17 @@ REGISTRAR = "from up.cogs.up_registrant import UpRegistrant\nclass Registrant(Up
 
 
 def test_registering_enters_creates_and_says_so(application, alpha):
-    said: list[str] = []
-    register("alpha_cog", application, "manual", said.append)
+    said = Said()
+    register("alpha_cog", application, "manual", said)
     entry = Registry(application.root).entries()["alpha_cog"]
     assert [each.path for each in entry.modules] == ["alpha_cog.modules.alpha_module.AlphaModule"]
     assert entry.source == "manual"
     config = application.config_folder / "alpha.yml"
     assert "interval_s: 1.0" in config.read_text()
-    assert said == ["alpha_cog: registered", f"alpha_cog: created {config}"]
+    assert said == [
+        {"code": "cog_registered", "cog": "alpha_cog", "changed": True},
+        {"code": "created", "cog": "alpha_cog", "path": config},
+    ]
     assert "AlphaModule" in [module.class_name for module in plan_of(application).modules]
 
 
@@ -67,15 +78,15 @@ def test_configuration_is_never_overwritten(application, alpha):
     config = application.config_folder / "alpha.yml"
     config.parent.mkdir()
     config.write_text("interval_s: 5\n")
-    said: list[str] = []
-    register("alpha_cog", application, "manual", said.append)
-    register("alpha_cog", application, "manual", said.append)
+    said = Said()
+    register("alpha_cog", application, "manual", said)
+    register("alpha_cog", application, "manual", said)
     assert config.read_text() == "interval_s: 5\n"
-    assert said == ["alpha_cog: registered", "alpha_cog: is registered"]
+    assert [each["changed"] for each in said] == [True, False]
 
 
 def test_a_closed_pipe_is_not_a_fault_of_the_cog(application, alpha):
-    def tell(text):
+    def tell(text, *code, **fields):
         raise BrokenPipeError
 
     with pytest.raises(BrokenPipeError):
@@ -83,9 +94,9 @@ def test_a_closed_pipe_is_not_a_fault_of_the_cog(application, alpha):
 
 
 def test_unregistering_leaves_the_configuration(application, alpha):
-    register("alpha_cog", application, "manual", lambda text: None)
-    assert unregister("alpha_cog", application, lambda text: None)
-    assert not unregister("alpha_cog", application, lambda text: None)
+    register("alpha_cog", application, "manual", Said())
+    assert unregister("alpha_cog", application, Said())
+    assert not unregister("alpha_cog", application, Said())
     assert Registry(application.root).entries() == {}
     assert (application.config_folder / "alpha.yml").exists()
 
@@ -95,12 +106,12 @@ def test_a_cog_of_the_prototype_registers_loads_and_works(
 ):
     bystander = write_application(tmp_path / "bystander", {})
     monkeypatch.chdir(bystander.root)
-    said: list[str] = []
-    register("prototype_cog", application, "manual", said.append)
-    register("prototype_cog", application, "manual", said.append)
-    assert said == ["prototype_cog: registered", "prototype_cog: is registered"]
+    said = Said()
+    register("prototype_cog", application, "manual", said)
+    register("prototype_cog", application, "manual", said)
+    assert [each["changed"] for each in said] == [True, False]
     assert (application.config_folder / "prototype.yml").read_text() == "interval: 1\n"
-    assert "recorders are ignored" in capfd.readouterr().out
+    assert "recorders" in capfd.readouterr().out
     assert Registry(bystander.root).entries() == {}, "where it is run from does not matter"
     plan = plan_of(application)
     assert not plan.problems
@@ -161,7 +172,7 @@ def test_a_cog_without_a_name_or_a_registrar_is_one_sentence(application, cog):
 def test_a_broken_registrant_is_one_sentence(application, cog, text, code):
     cog(registrar__py=text, registered_modules__yml="modules: []\n")
     with pytest.raises(CogError) as error:
-        register("odd_cog", application, "manual", lambda text: None)
+        register("odd_cog", application, "manual", Said())
     assert error.value.code == code
 
 
@@ -179,10 +190,12 @@ def test_mistakes_in_a_manifest_have_their_place(application, cog):
     )
     with pytest.raises(ConfigErrors) as errors:
         register("odd_cog", application, "manual")
-    lines = str(errors.value).splitlines()
-    assert lines[0].startswith(f"{folder}/registered_modules.yml:2:17: ")
-    assert lines[1].startswith(f"{folder}/registered_modules.yml:3:13: ")
-    assert lines[2].startswith(f"{folder}/registered_modules.yml:4:5: ")
+    assert errors.value.problems[0].path == folder / "registered_modules.yml"
+    assert [places(each) for each in errors.value.problems][:3] == [
+        "2:17 bad_format modules[0].class_name",
+        "3:13 bad_format modules[0].prefix",
+        "4:5 bad_format modules[1].class_name",
+    ]
 
 
 def test_a_manifest_that_would_stop_the_boot_is_not_entered(application, cog):

@@ -87,7 +87,11 @@ LINK = ConfigFile(
 
 
 def problems_of(text, file=LINK):
-    """Return the problems of a text as 'line:column: what'."""
+    """Return the problems of a text as 'line:column code key'."""
     with pytest.raises(ConfigErrors) as caught:
         file.parse(text, PATH)
-    return [str(problem).removeprefix("link.yml:") for problem in caught.value.problems]
+    return [places(problem) for problem in caught.value.problems]
+
+
+def places(problem):
+    return f"{problem.line}:{problem.column} {problem.code} {problem.key}".strip()

@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 from tests.up.config.samples import LINK, PATH, Link, problems_of
 from up.config import ConfigErrors
 from up.config.application import APPLICATION, DISABLED_MODULES
+from up.config.problems import CODES
 
 FILES = [LINK, APPLICATION, DISABLED_MODULES]
 SMALL = (
@@ -29,6 +30,7 @@ def is_value_or_config_errors(file, data):
             assert str(problem).isprintable()
             assert 1 <= problem.line <= lines
             assert problem.column >= 1
+            assert problem.code in CODES
     else:
         assert isinstance(value, file.cls)
 
@@ -36,66 +38,33 @@ def is_value_or_config_errors(file, data):
 @pytest.mark.parametrize(
     ("text", "problem"),
     [
-        (
-            "role: [pilot\n",
-            "2:1: is not valid YAML: expected ',' or ']', but got '<stream end>' "
-            "(while parsing a flow sequence, line 1)",
-        ),
-        (
-            "role: a: b\n",
-            "1:8: is not valid YAML: mapping values are not allowed here (a text with ': ' in it"
-            " needs quotes; or the indentation is wrong)",
-        ),
-        (
-            "role: pilot\n indented: 3\n",
-            "2:10: is not valid YAML: mapping values are not allowed here (a text with ': ' in it"
-            " needs quotes; or the indentation is wrong)",
-        ),
-        (
-            "hosts:\n  - a\n - b\n",
-            "3:2: is not valid YAML: expected <block end>, but found '<block sequence start>'"
-            " (while parsing a block mapping, line 1): is the indentation right?",
-        ),
-        (
-            "role: pilot\nb\nhosts: a\n",
-            "3:1: is not valid YAML: could not find expected ':' (while scanning a simple key,"
-            " line 2): a key needs ': ' behind it, and a text of several lines quotes or '>'",
-        ),
-        (
-            "role\nhosts: a\n",
-            "2:6: is not valid YAML: mapping values are not allowed here (a text with ': ' in it"
-            " needs quotes; or the indentation is wrong)",
-        ),
-        ("remote_server:\n\turl: a\n", "2:1: a tab cannot indent here, use spaces"),
-        (
-            "role: pilot\n---\nrole: pilot\n",
-            "2:1: a second document begins here, a file may hold only one",
-        ),
-        ("role: &a pilot\n", "1:7: anchors (&a) are not allowed"),
-        ("role: *a\n", "1:7: aliases (*a) are not allowed, write the value itself"),
-        ("role: !!python/object/apply:os.system [x]\n", None),
-        ("role: !!str pilot\n", "1:7: tags (!!str) are not allowed, write the plain value"),
-        ("role: ! pilot\n", "1:7: tags (!) are not allowed, write the plain value"),
-        ('role: "\\UFFFFFFFF"\n', "1:1: an escape or directive after this place is not valid"),
-        (
-            f"%YAML {'1' * 5000}.1\n---\n",
-            "1:1: an escape or directive after this place is not valid",
-        ),
-        ("role: a\x07b\n", "1:8: the character U+0007 is not allowed here"),
-        ("role: a\x00\n", "1:8: the character U+0000 is not allowed here"),
+        ("role: [pilot\n", "2:1 not_yaml"),
+        ("role: a: b\n", "1:8 not_yaml"),
+        ("role: pilot\n indented: 3\n", "2:10 not_yaml"),
+        ("hosts:\n  - a\n - b\n", "3:2 not_yaml"),
+        ("role: pilot\nb\nhosts: a\n", "3:1 not_yaml"),
+        ("role\nhosts: a\n", "2:6 not_yaml"),
+        ("remote_server:\n\turl: a\n", "2:1 not_yaml"),
+        ("role: pilot\n---\nrole: pilot\n", "2:1 not_supported"),
+        ("role: &a pilot\n", "1:7 not_supported"),
+        ("role: *a\n", "1:7 not_supported"),
+        ("role: !!python/object/apply:os.system [x]\n", "1:7 not_supported"),
+        ("role: !!str pilot\n", "1:7 not_supported"),
+        ("role: ! pilot\n", "1:7 not_supported"),
+        ('role: "\\UFFFFFFFF"\n', "1:1 not_yaml"),
+        (f"%YAML {'1' * 5000}.1\n---\n", "1:1 not_yaml"),
+        ("role: a\x07b\n", "1:8 not_yaml"),
+        ("role: a\x00\n", "1:8 not_yaml"),
     ],
 )
 def test_what_is_no_plain_yaml_is_refused_at_its_place(text, problem):
-    problems = problems_of(text)
-    assert len(problems) >= 1
-    if problem is not None:
-        assert problems == [problem]
+    assert problems_of(text)[0] == problem
 
 
 def test_a_python_object_is_not_made(tmp_path):
     witness = tmp_path / "witness"
     text = f"role: !!python/object/apply:os.mkdir ['{witness}']\n"
-    assert problems_of(text)[0].startswith("1:7: tags (!!python/object/apply:os.mkdir)")
+    assert problems_of(text)[0] == "1:7 not_supported"
     assert not witness.exists()
 
 
@@ -107,7 +76,7 @@ def test_an_alias_bomb_is_refused_at_its_first_anchor():
     bomb = "a: &a [x]\n" + "".join(
         f"{chr(98 + n)}: &{chr(98 + n)} [{', '.join(['*' + chr(97 + n)] * 9)}]\n" for n in range(9)
     )
-    assert "1:4: anchors (&a) are not allowed" in problems_of(bomb)
+    assert "1:4 not_supported" in problems_of(bomb)
 
 
 @pytest.mark.parametrize("opening", ["[", "{a: ", "- ", "? ", "{[", "[{"])
@@ -118,21 +87,20 @@ def test_deep_nesting_is_refused(opening):
 
 
 def test_a_very_large_number_is_refused():
-    start = "1:17: stop delay (s): must be a number between 0 and 3600 s, not"
-    assert problems_of(f"stop delay (s): {'9' * 100_000}\n") == [f'{start} "{"9" * 40}..."']
-    assert problems_of(f"stop delay (s): {'9' * 399}\n") == [f"{start} a huge number"]
-    assert len(problems_of(f"labels: {{a: {'9' * 399}}}\n")) == 1
-    assert problems_of("limit: 1e999\n") == ["1:8: limit: must be a finite number, not inf"]
+    assert problems_of(f"stop delay (s): {'9' * 100_000}\n") == ["1:17 wrong_type stop delay (s)"]
+    assert problems_of(f"stop delay (s): {'9' * 399}\n") == ["1:17 out_of_range stop delay (s)"]
+    assert problems_of(f"labels: {{a: {'9' * 399}}}\n") == ["1:13 out_of_range labels.a"]
+    assert problems_of("limit: 1e999\n") == ["1:8 not_finite limit"]
 
 
 @pytest.mark.parametrize(
     ("data", "place"),
     [
-        (b"role: \xff\n", "1:7: is not UTF-8 text: byte 0xFF"),
-        (b"\xef\xbb\xbfrole: \xff\n", "1:7: is not UTF-8 text: byte 0xFF"),
-        ("a: 1\n# ž\nrole: ".encode() + b"\xe9", "3:7: is not UTF-8 text: byte 0xE9"),
-        ("role: pilot\n".encode("utf-16"), "1:1: is not UTF-8 text: byte 0xFF"),
-        (b"#" * (1024 * 1024 + 1), "1:1: is larger than 1 MiB"),
+        (b"role: \xff\n", "1:7 not_utf8"),
+        (b"\xef\xbb\xbfrole: \xff\n", "1:7 not_utf8"),
+        ("a: 1\n# ž\nrole: ".encode() + b"\xe9", "3:7 not_utf8"),
+        ("role: pilot\n".encode("utf-16"), "1:1 not_utf8"),
+        (b"#" * (1024 * 1024 + 1), "1:1 file_too_large"),
     ],
 )
 def test_bytes_that_are_no_text_are_refused(data, place):
@@ -148,7 +116,7 @@ def load_problem(tmp_path):
         LINK.load(tmp_path)
     [problem] = caught.value.problems
     assert problem.path == tmp_path / "link.yml"
-    return problem.what
+    return problem.code
 
 
 def test_a_missing_file_is_its_defaults(tmp_path):
@@ -161,7 +129,7 @@ def test_a_missing_file_is_its_defaults(tmp_path):
 )
 def test_what_is_not_a_regular_file_is_refused_without_waiting(tmp_path, make):
     make(tmp_path / "link.yml")
-    assert load_problem(tmp_path)
+    assert load_problem(tmp_path) in ("not_a_file", "cannot_read")
 
 
 def test_a_link_to_a_file_is_followed(tmp_path):
@@ -172,8 +140,9 @@ def test_a_link_to_a_file_is_followed(tmp_path):
 
 def test_a_file_in_the_place_of_the_folder_is_refused(tmp_path):
     (tmp_path / "folder").write_text("")
-    with pytest.raises(ConfigErrors, match="cannot be read: Not a directory"):
+    with pytest.raises(ConfigErrors) as caught:
         LINK.load(tmp_path / "folder")
+    assert caught.value.code == "cannot_read"
 
 
 def test_an_unreadable_file_is_refused(tmp_path):
@@ -183,7 +152,7 @@ def test_an_unreadable_file_is_refused(tmp_path):
     if user == 0:
         os.seteuid(65534)  # root reads everything
     try:
-        assert load_problem(tmp_path).startswith("cannot be read: ")
+        assert load_problem(tmp_path) == "cannot_read"
     finally:
         os.seteuid(user)
 

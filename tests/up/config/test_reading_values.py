@@ -2,7 +2,7 @@ from dataclasses import dataclass
 
 import pytest
 
-from tests.up.config.samples import LINK, PATH, Gains, Link, Remote, problems_of
+from tests.up.config.samples import LINK, PATH, Gains, Link, Remote, places, problems_of
 from up.config import ConfigErrors, ConfigFile, items, key, section
 from up.config.nodes import compose
 from up.config.schema import schema_of
@@ -47,7 +47,8 @@ def test_a_reader_may_want_a_value_behind_every_key():
     root = compose("role:\nlimit:\nremote_server:\n", lambda *one: problems.append(one))
     validator = Validator(lambda *one: problems.append(one), {}, valued=True)
     validator.read(schema_of(Link), root, "part")
-    assert problems == [(1, 6, "part.role: must have a value")]
+    [(line, column, _what, *rest)] = problems
+    assert (line, column, *rest) == (1, 6, "value_missing", "part.role", "")
 
 
 def test_an_empty_key_is_its_default_unless_null_means_something():
@@ -65,95 +66,40 @@ def test_yaml_words_for_true_are_read_where_a_bool_is_asked(word):
 @pytest.mark.parametrize(
     ("text", "problem"),
     [
-        ("rol: pilot\n", "1:1: unknown key \"rol\", did you mean 'role'?"),
-        ("\n\nxyzzy: 1\n", '3:1: unknown key "xyzzy"'),
-        (
-            "remote_server:\n  prt: 1\n",
-            "2:3: remote_server: unknown key \"prt\", did you mean 'port'?",
-        ),
-        (
-            "remote_server: {port: 0}\n",
-            "1:23: remote_server.port: must be a whole number between 1 and 65535, not 0",
-        ),
-        (
-            "stop delay (s): x\n",
-            '1:17: stop delay (s): must be a number between 0 and 3600 s, not "x"',
-        ),
-        (
-            "stop delay (s): [1]\n",
-            "1:17: stop delay (s): must be a number between 0 and 3600 s, not a list",
-        ),
-        ("role: no\n", '1:7: role: must be one of "observer", "operator", "pilot", not "no"'),
-        ("role: pilot\nrole: pilot\n", '2:1: the key "role" is repeated, first in line 1'),
-        (
-            "gains:\n  roll: {}\n  roll: {}\n",
-            '3:3: gains: the key "roll" is repeated, first in line 2',
-        ),
-        ("forward: 1\n", '1:10: forward: must be true or false, not "1"'),
-        (
-            'forward: "true"\n',
-            '1:10: forward: must be true or false, not text: "true" (remove the quotes)',
-        ),
-        (
-            "stop delay (s): '5'\n",
-            "1:17: stop delay (s): must be a number between 0 and 3600 s, "
-            'not text: "5" (remove the quotes)',
-        ),
-        ("stop delay (s): .nan\n", "1:17: stop delay (s): must be a finite number, not .nan"),
-        ("stop delay (s): -.Inf\n", "1:17: stop delay (s): must be a finite number, not -.Inf"),
-        (
-            "stop delay (s): 010\n",
-            '1:17: stop delay (s): must not begin with 0, which YAML reads as octal: "010"',
-        ),
-        (
-            "stop delay (s): 12:30\n",
-            "1:17: stop delay (s): must be a number between 0 and 3600 s, "
-            'not "12:30" (YAML counts it in sixties)',
-        ),
-        (
-            "labels: {a: 1.0}\n",
-            "1:13: labels.a: must be a whole number between 0 and 9, not 1.0",
-        ),
-        (
-            "labels: {no: 1}\n",
-            "1:10: labels.no: as a key must be in quotes, YAML does not read "
-            'it as text: write "no"',
-        ),
-        (
-            "hosts: [a, 1.5]\n",
-            '1:12: hosts[1]: must be in quotes, YAML does not read it as text: write "1.5"',
-        ),
-        ("hosts: [a, null]\n", "1:12: hosts[1]: must be text, not null"),
-        ("hosts: a\n", '1:8: hosts: must be a list, not "a"'),
-        ("hosts: [a, b, c, d, e, f]\n", "1:8: hosts: must have at most 5 items"),
-        ("gains: [a]\n", "1:8: gains: must be a map, not a list"),
-        (
-            "gains: {far too long a name: {}}\n",
-            "1:9: gains.far too long a name: as a key must be "
-            "text of at most 10 characters, not of 19",
-        ),
-        ("remote_server: 5\n", '1:16: remote_server: must be a map of keys, not "5"'),
-        ("- a\n", "1:1: must be a map of keys, not a list"),
-        ("text\n", '1:1: must be a map of keys, not "text"'),
-        ("? [a]\n: b\n", "1:3: a key must be one word or text, not a list"),
-        (
-            "port: 1\n",
-            "1:1: the key \"port\" was removed: write 'remote_server: {port: ...}'",
-        ),
-        (
-            "remote_server: {host: a}\n",
-            "1:17: remote_server: the key \"host\" was removed: write 'url' instead",
-        ),
-        (
-            "stop delay (in seconds): 1\n",
-            '1:1: the key "stop delay (in seconds)" is now called "stop delay (s)"',
-        ),
-        (
-            "thresholds:\n  panic: 50\n  calm down: 60\n",
-            "3:14: thresholds.calm down: must be below panic",
-        ),
-        ("thresholds:\n  panic: 50\n", "2:3: thresholds.calm down: must be below panic"),
-        ('name: "a\\ud800"\n', "1:7: name: must be valid Unicode text, not lone surrogates"),
+        ("rol: pilot\n", "1:1 unknown_key rol"),
+        ("\n\nxyzzy: 1\n", "3:1 unknown_key xyzzy"),
+        ("remote_server:\n  prt: 1\n", "2:3 unknown_key remote_server.prt"),
+        ("remote_server: {port: 0}\n", "1:23 out_of_range remote_server.port"),
+        ("stop delay (s): x\n", "1:17 wrong_type stop delay (s)"),
+        ("stop delay (s): [1]\n", "1:17 wrong_type stop delay (s)"),
+        ("role: no\n", "1:7 unknown_choice role"),
+        ("role: pilot\nrole: pilot\n", "2:1 key_repeated role"),
+        ("gains:\n  roll: {}\n  roll: {}\n", "3:3 key_repeated gains.roll"),
+        ("forward: 1\n", "1:10 wrong_type forward"),
+        ('forward: "true"\n', "1:10 wrong_type forward"),
+        ("stop delay (s): '5'\n", "1:17 wrong_type stop delay (s)"),
+        ("stop delay (s): .nan\n", "1:17 not_finite stop delay (s)"),
+        ("stop delay (s): -.Inf\n", "1:17 not_finite stop delay (s)"),
+        ("stop delay (s): 010\n", "1:17 bad_format stop delay (s)"),
+        ("stop delay (s): 12:30\n", "1:17 bad_format stop delay (s)"),
+        ("labels: {a: 1.0}\n", "1:13 wrong_type labels.a"),
+        ("labels: {no: 1}\n", "1:10 needs_quotes labels.no"),
+        ("hosts: [a, 1.5]\n", "1:12 needs_quotes hosts[1]"),
+        ("hosts: [a, null]\n", "1:12 wrong_type hosts[1]"),
+        ("hosts: a\n", "1:8 wrong_type hosts"),
+        ("hosts: [a, b, c, d, e, f]\n", "1:8 too_long hosts"),
+        ("gains: [a]\n", "1:8 wrong_type gains"),
+        ("gains: {far too long a name: {}}\n", "1:9 too_long gains.far too long a name"),
+        ("remote_server: 5\n", "1:16 wrong_type remote_server"),
+        ("- a\n", "1:1 wrong_type"),
+        ("text\n", "1:1 wrong_type"),
+        ("? [a]\n: b\n", "1:3 wrong_type"),
+        ("port: 1\n", "1:1 key_removed port"),
+        ("remote_server: {host: a}\n", "1:17 key_removed remote_server.host"),
+        ("stop delay (in seconds): 1\n", "1:1 key_renamed stop delay (in seconds)"),
+        ("thresholds:\n  panic: 50\n  calm down: 60\n", "3:14 inconsistent thresholds.calm down"),
+        ("thresholds:\n  panic: 50\n", "2:3 inconsistent thresholds.calm down"),
+        ('name: "a\\ud800"\n', "1:7 bad_format name"),
     ],
 )
 def test_a_mistake_is_named_at_its_place(text, problem):
@@ -189,10 +135,7 @@ def test_a_mistake_is_named_at_its_place(text, problem):
     ],
 )
 def test_what_yaml_would_not_read_as_text_must_be_quoted(plain):
-    [problem] = problems_of(f"name: {plain}\n")
-    assert problem == (
-        f'1:7: name: must be in quotes, YAML does not read it as text: write "{plain}"'
-    )
+    assert problems_of(f"name: {plain}\n") == ["1:7 needs_quotes name"]
     assert parse(f'name: "{plain}"\n').name == plain
     assert parse(f"name: '{plain}'\n").name == plain
 
@@ -205,44 +148,47 @@ def test_ordinary_words_need_no_quotes(plain):
 
 
 def test_all_problems_are_shown_at_once_in_the_order_of_the_file():
-    assert [
-        p.split(": ")[0]
-        for p in problems_of(
-            "rol: 1\nremote_server:\n  port: x\n  url: [a]\n"
-            "forward: 3\nforward: 4\nhosts: [1, b, 2]\n"
-        )
-    ] == ["1:1", "3:9", "4:8", "5:10", "6:1", "7:9", "7:15"]
+    text = (
+        "rol: 1\nremote_server:\n  port: x\n  url: [a]\nforward: 3\nforward: 4\nhosts: [1, b, 2]\n"
+    )
+    found = [problem.split()[0] for problem in problems_of(text)]
+    assert found == ["1:1", "3:9", "4:8", "5:10", "6:1", "7:9", "7:15"]
+
+
+def test_the_sentence_names_place_key_value_and_the_probable_intention():
+    with pytest.raises(ConfigErrors) as caught:
+        parse("remote_server: {prt: 1}\nstop delay (s): '5'\n")
+    assert str(caught.value).splitlines() == [
+        "link.yml:1:17: remote_server: unknown key \"prt\", did you mean 'port'?",
+        'link.yml:2:17: stop delay (s): must be a number between 0 and 3600 s, not text: "5"'
+        " (remove the quotes)",
+    ]
 
 
 def test_problems_beyond_a_hundred_are_only_mentioned():
     problems = problems_of("".join(f"key{number}: 1\n" for number in range(300)))
     assert len(problems) == 101
-    assert problems[-1].endswith("more than 100 problems, the rest is not shown")
+    assert problems[-1].endswith(" more_problems")
 
 
 def test_half_a_set_is_refused_where_only_a_whole_one_will_do():
     whole = "{p: 1, i: 0}"
     assert ConfigFile("g.yml", Gains).parse(whole, PATH, whole=True) == Gains(1.0, 0.0)
     for text, problem in {
-        "{p: 1}": '1:1: the key "i" is missing',
-        "{p: 1, i: }": "1:10: i: must have a value",
-        "": "1:1: is empty",
-        "# nothing\n": "1:1: is empty",
+        "{p: 1}": "1:1 key_missing i",
+        "{p: 1, i: }": "1:10 value_missing i",
+        "": "1:1 file_empty",
+        "# nothing\n": "1:1 file_empty",
     }.items():
         with pytest.raises(ConfigErrors) as caught:
             ConfigFile("g.yml", Gains).parse(text, PATH, whole=True)
-        assert str(caught.value) == f"link.yml:{problem}"
+        assert [places(each) for each in caught.value.problems] == [problem]
 
 
 def test_a_wrong_declaration_is_found_when_the_file_is_declared():
     class NoDataclass:
         pass
 
-    with pytest.raises(TypeError, match="is not a dataclass"):
-        ConfigFile("x.yml", NoDataclass)
-
-
-def test_a_default_that_its_own_bounds_refuse_is_found_when_the_file_is_declared():
     @dataclass(frozen=True)
     class Wrong:
         port: int = key(0, "A port.", minimum=1)
@@ -270,6 +216,7 @@ def test_a_default_that_its_own_bounds_refuse_is_found_when_the_file_is_declared
         (TwoNames, TypeError),
         (Bare, TypeError),
         (Section, ValueError),
+        (NoDataclass, TypeError),
     ):
         with pytest.raises(error):
             ConfigFile("x.yml", cls)

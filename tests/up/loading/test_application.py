@@ -47,8 +47,10 @@ def test_an_empty_upfile_means_the_folders_name(tmp_path):
 
 def test_a_mistake_in_an_upfile_has_its_place(tmp_path):
     (tmp_path / "UpFile").write_text("package: [plane]\n")
-    with pytest.raises(ConfigErrors, match="UpFile:1:10: "):
+    with pytest.raises(ConfigErrors) as error:
         Application.find(tmp_path)
+    assert error.value.problems[0].fields["line"] == 1
+    assert error.value.code == "wrong_type"
 
 
 def test_its_package_is_the_one_of_its_folder_whatever_was_imported_before(tmp_path):

@@ -6,7 +6,7 @@ import pytest
 
 from tests.support.application import plan_of, write_application
 from up.context import Context
-from up.loading.plan import Plan
+from up.loading.plan import LoadProblem, Plan
 from up.mode import Mode
 from up.testing import StillClock
 from up.up import Up
@@ -32,9 +32,9 @@ def names(plan: Plan) -> list[str]:
     return [module.class_name for module in plan.modules if module.path.startswith("tested_")]
 
 
-def only_problem(plan: Plan) -> str:
-    assert len(plan.problems) == 1, plan.problems
-    return str(plan.problems[0])
+def only_problem(plan: Plan) -> LoadProblem:
+    (problem,) = plan.problems
+    return problem
 
 
 @pytest.mark.parametrize("folder", ["modules", "flight_controller", "commands"])
@@ -127,8 +127,10 @@ def test_files_that_are_not_python_are_left_alone(load, tmp_path):
 
 def test_a_syntax_error_is_named_with_its_line(load, tmp_path):
     plan = load({"modules/broken.py": "import os\n\n\ndef f(:\n    pass\n"})
-    assert only_problem(plan).startswith(f"{tmp_path}/modules/broken.py:4: syntax: ")
-    assert plan.problems[0].name.endswith(".modules.broken")
+    problem = only_problem(plan)
+    assert (problem.code, problem.line) == ("syntax_error", 4)
+    assert problem.file == str(tmp_path / "modules/broken.py")
+    assert problem.name.endswith(".modules.broken")
 
 
 @pytest.mark.parametrize(
@@ -145,14 +147,15 @@ def test_a_syntax_error_is_named_with_its_line(load, tmp_path):
 )
 def test_whatever_an_import_raises_is_named(load, tmp_path, text, what):
     plan = load({"modules/broken.py": text})
-    assert only_problem(plan).startswith(f"{tmp_path}/modules/broken.py:")
-    assert what in only_problem(plan)
+    problem = only_problem(plan)
+    assert (problem.code, problem.file) == ("import_failed", str(tmp_path / "modules/broken.py"))
+    assert problem.line and what in problem.what
 
 
 @pytest.mark.parametrize("data", [b"\xff\xfe\x00", b"x = '\xe9'\n", b"x = 1\0\n"])
 def test_bytes_that_are_no_source_are_named(load, tmp_path, data):
     plan = load({}, {"modules/broken.py": data})
-    assert str(tmp_path / "modules/broken.py") in only_problem(plan)
+    assert str(tmp_path / "modules/broken.py") in only_problem(plan).file
 
 
 def test_a_link_to_nowhere_and_a_name_that_cannot_be_imported_are_named(load, tmp_path):
@@ -175,7 +178,8 @@ def test_a_class_that_cannot_be_built_is_named(load, tmp_path, body, what):
     plan = load(
         {"modules/bad.py": f"from up.base_module import BaseModule\nclass Bad(BaseModule):\n{body}"}
     )
-    assert what in only_problem(plan)
+    assert only_problem(plan).code == "build_failed"
+    assert what in only_problem(plan).what
     assert plan.problems[0].name.endswith(".modules.bad.Bad")
     assert names(plan) == ["GoodModule"]
 
@@ -214,5 +218,6 @@ def test_a_command_that_cannot_be_registered_is_named(load, text, what):
         "from up.commands.command import BaseCommand\n@dataclass(frozen=True)\n"
     )
     plan = load({"commands/bad.py": head + text})
-    assert what in only_problem(plan)
+    assert only_problem(plan).code == "command_invalid"
+    assert what in only_problem(plan).what
     assert plan.commands == []

@@ -62,31 +62,32 @@ def test_an_old_cog_may_list_recorders(load):
     ("files", "what"),
     [
         ({"modules/a.py": "x = = 1\n"}, "SyntaxError"),
-        ({"modules/a.py": "raise SystemExit('out')\n"}, "SystemExit: out"),
-        ({"modules/a.py": "import nowhere_at_all\n"}, "nowhere_at_all"),
+        ({"modules/a.py": "raise SystemExit('out')\n"}, "SystemExit"),
+        ({"modules/a.py": "import nowhere_at_all\n"}, "ModuleNotFoundError"),
         ({"modules/a.py": "pass\n"}, "AttributeError"),
         (
             {"modules/a.py": "class AModule: pass\n"},
-            "BaseModule",
+            "not_a_module",
         ),
         (
             {"modules/a.py": MODULE, "commands/__init__.py": "x = = 1\n"},
-            "tested_cog.commands: SyntaxError",
+            "SyntaxError",
         ),
         (
             {"modules/a.py": MODULE, "commands/__init__.py": "", "commands/b.py": "1 / 0\n"},
-            "tested_cog.commands.b: ZeroDivisionError",
+            "ZeroDivisionError",
         ),
         (
             {"modules/a.py": MODULE, "commands/__init__.py": "import nowhere_at_all\n"},
-            "nowhere_at_all",
+            "ModuleNotFoundError",
         ),
     ],
 )
 def test_a_broken_cog_stops_the_boot_with_a_sentence(load, files, what):
-    with pytest.raises(CogImportError, match=what) as error:
+    with pytest.raises(CogImportError) as error:
         load(files)
-    assert len(str(error.value).splitlines()) == 1
+    (problem,) = error.value.problems
+    assert what in (problem.fields["reason"], problem.code)
 
 
 @pytest.mark.parametrize(

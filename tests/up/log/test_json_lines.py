@@ -116,9 +116,8 @@ def test_a_full_disk_stops_it_and_is_said_once(make, failures, monkeypatch, tmp_
         log.info("lost")
         log.info("lost too")
     log.info("after")
-    assert failures == [
-        f"cannot write {tmp_path / 'log.jsonl'}, logging to it stops: No space left on device"
-    ]
+    assert len(failures) == 1
+    assert str(tmp_path / "log.jsonl") in failures[0]
     assert [record["text"] for record in records(tmp_path / "log.jsonl")] == ["before"]
 
 

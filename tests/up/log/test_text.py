@@ -84,9 +84,9 @@ def test_a_long_text_is_cut():
 
 
 def test_an_expected_failure_is_one_sentence():
-    failure = failure_of(OSError(2, "No such file"))
+    failure = failure_of(OSError(2, "missing"))
     text = logged(lambda log: log.error("cannot open", log_failure=failure))
-    assert text.endswith("cannot open: [Errno 2] No such file\n")
+    assert text.endswith("cannot open: [Errno 2] missing\n")
     assert text.count("\n") == 1
 
 

@@ -39,7 +39,7 @@ def test_wildcards(host, answer):
 @pytest.mark.parametrize("host", ["localhost", "1.2.3", "1.2.3.4.5", "::g", "010.0.0.1"])
 def test_what_is_no_address_is_refused(host):
     for judge in (is_private, is_wildcard, plain, neighbourhood):
-        with pytest.raises(ValueError, match="does not appear to be"):
+        with pytest.raises(ValueError, match=host):
             judge(host)
 
 

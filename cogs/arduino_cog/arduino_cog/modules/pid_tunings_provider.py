@@ -98,8 +98,8 @@ class PIDTuningsProvider(BaseModule):
         if problem is None:
             self.up.vetoes.clear(_VETO)
         else:
-            self.log.error("{reason}", code="gains_invalid", reason=problem)
-            self.up.vetoes.set(_VETO, problem)
+            self.log.error("{reason}", code="gains_invalid", reason=str(problem))
+            self.up.vetoes.set(_VETO, str(problem))
 
     def _answer(self) -> Deferred[Any]:
         if self.mission_control is None:
