@@ -18,9 +18,8 @@ from up.protocols.general_message import encode
 from up_ground.arguments import make_parser, settings_of
 from up_ground.catalogue import Catalogue, command_fields, describe, fault_of
 from up_ground.control_task import LeaveControl, RequestControl
-from up_ground.field_values import parse_fields
 from up_ground.one_shot_task import OneShotTask, echo, print_error, run
-from up_ground.send import Send
+from up_ground.send import Send, parse_fields
 from up_ground.settings import Seat
 from up_ground.terminal import Terminal
 from up_ground.token_store import TokenStore, state_folder
