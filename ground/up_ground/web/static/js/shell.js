@@ -5,10 +5,7 @@ import { UNKNOWN } from "./state/format.js";
 
 const THEMES = ["dark", "daylight"];
 
-/**
- * Dark or daylight: follows the system until the user chooses. button: toggles; its label names the
- * other theme.
- */
+/** Dark or daylight: follows the system until the user chooses with the button. */
 export function mountTheme(button) {
   const memory = storageOf("localStorage");
   const system = matchMedia("(prefers-color-scheme: light)");
@@ -108,10 +105,7 @@ export function silenceText(store, state) {
   return state === "none" ? "no telemetry yet" : `no news for ${store.age_s(null).toFixed(1)} s`;
 }
 
-/**
- * reason: with which the connection was closed; isFull: whether the server is reached but takes no
- * more pages. Returns why the page is disconnected.
- */
+/** Why the page is disconnected; isFull: the server takes no more pages. */
 export function lostText(reason, isFull) {
   if (isFull) {
     return `The ground server is full (${reason || "too many pages"}):`;

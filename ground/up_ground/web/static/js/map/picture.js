@@ -74,10 +74,7 @@ export class AircraftSymbol {
     );
   }
 
-  /**
-   * heading_deg: clockwise from north; age: how long ago it was seen there, written below while it
-   * is not live.
-   */
+  /** heading_deg: clockwise from north; age: of the position, written below it while it is not live. */
   show(heading_deg, freshness, age) {
     setAttribute(this.#outline, "d", heading_deg === null ? NO_HEADING : OUTLINE);
     setAttribute(this.#outline, "transform", `rotate(${(heading_deg ?? 0).toFixed(1)})`);

@@ -13,10 +13,7 @@ const MIXES = {
   "V-tail": "V-tail: elevator and rudder are mixed on two surfaces",
 };
 
-/**
- * A profile of the airframe as readable text. profile: the form of `arduino.profile.values`
- * (docs/protocols.md 5). Returns missing values have no row.
- */
+/** The profile `arduino.profile.values` (docs/protocols.md 5) as text; missing values have no row. */
 export function profileParts(profile) {
   const isElevon = profile.mix === "elevon";
   return [
