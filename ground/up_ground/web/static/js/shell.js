@@ -48,7 +48,7 @@ export function mountShell(store, connection) {
 
   function showLink() {
     const banner = at("link-banner");
-    setHidden(banner, connection.isOpen);
+    banner.hidden = connection.isOpen;
     setAttribute(banner, "data-code", connection.isFull ? "full" : "lost");
     if (!connection.isOpen) {
       const retry_s = connection.retry_s;
@@ -64,7 +64,7 @@ export function mountShell(store, connection) {
     setAttribute(root, "data-link", connection.isOpen ? "open" : "closed");
     setAttribute(root, "data-aircraft-state", state);
     const silence = at("silence");
-    setHidden(silence, state === "live");
+    silence.hidden = state === "live";
     if (state !== "live") {
       setText(silence, silenceText(store, state));
       setAttribute(silence, "data-age", String(store.age_s(null)?.toFixed(1) ?? ""));
@@ -111,12 +111,6 @@ export function lostText(reason, isFull) {
     return `The ground server is full (${reason || "too many pages"}):`;
   }
   return `No connection to the ground server${reason === "" ? "" : ` (${reason})`}:`;
-}
-
-function setHidden(element, isHidden) {
-  if (element.hidden !== isHidden) {
-    element.hidden = isHidden;
-  }
 }
 
 function linkWord(store, connection) {

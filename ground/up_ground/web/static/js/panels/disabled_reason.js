@@ -1,4 +1,5 @@
 import { setAttribute, setText } from "../dom.js";
+import { capital } from "../state/format.js";
 import { switchMode } from "../state/pilot_input.js";
 
 /** Why something is not offered, as {code, text}; null: it is offered. Programs and tests read the code. */
@@ -86,7 +87,7 @@ function controlReason(store, connection) {
 
 export function sentence(text) {
   const trimmed = String(text).trim().replace(/\.$/, "");
-  return trimmed === "" ? "" : `${trimmed[0].toUpperCase()}${trimmed.slice(1)}.`;
+  return trimmed === "" ? "" : `${capital(trimmed)}.`;
 }
 
 /** Why gains cannot be sent now, as far as the page knows before the aircraft answers. */

@@ -1,5 +1,6 @@
 import { html } from "../dom.js";
 import { CommandSender } from "./command_sender.js";
+import { capital } from "../state/format.js";
 
 const OUTPUTS = [
   ["ailerons", "Ailerons", "left elevon"],
@@ -110,10 +111,6 @@ function wordOf(words, value) {
 
 function textOf(value) {
   return typeof value === "string" ? value : "";
-}
-
-function capital(word) {
-  return word[0].toUpperCase() + word.slice(1);
 }
 
 const REQUEST = "arduino.profile.request";
