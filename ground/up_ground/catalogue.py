@@ -59,7 +59,9 @@ class Catalogue:
 
     def suggestions(self, name: str) -> list[str]:
         """Return names similar to a mistyped one, the nearest first."""
-        names = {each.casefold(): each for cls in self.sendable() for each in _names(cls)}
+        names = {
+            each.casefold(): each for cls in self.sendable() for each in (cls.NAME, *cls.ALIASES)
+        }
         near = difflib.get_close_matches(name.casefold(), names, n=3, cutoff=0.6)
         within = [full for low, full in names.items() if name and name.casefold() in low]
         return list(dict.fromkeys([*(names[each] for each in near), *sorted(within)]))[:3]
@@ -133,10 +135,6 @@ def fault_of(cls: type[BaseCommand], data: Mapping[str, Any]) -> str:
         return cls.from_data(data).unsupported
     except InvalidCommandError as error:
         return str(error)
-
-
-def _names(cls: type[BaseCommand]) -> tuple[str, ...]:
-    return (cls.NAME, *cls.ALIASES)
 
 
 def _sentence(text: str | None) -> str:

@@ -18,9 +18,8 @@ from up.protocols.general_message import encode
 from up_ground.arguments import make_parser, settings_of
 from up_ground.catalogue import Catalogue, command_fields, describe, fault_of
 from up_ground.control_task import LeaveControl, RequestControl
-from up_ground.field_values import parse_fields
 from up_ground.one_shot_task import OneShotTask, echo, print_error, run
-from up_ground.send import Send
+from up_ground.send import Send, parse_fields
 from up_ground.settings import Seat
 from up_ground.terminal import Terminal
 from up_ground.token_store import TokenStore, state_folder
@@ -150,6 +149,22 @@ def main(arguments: Sequence[str] | None = None) -> int:
         parser.print_help()
         return EXIT_FAILED
     try:
+        return _carry_out(options)
+    except BrokenPipeError:
+        # The reader, such as 'head', has closed the pipe; nothing more can be written.
+        nowhere = os.open(os.devnull, os.O_WRONLY)
+        for descriptor in (1, 2):
+            os.dup2(nowhere, descriptor)
+        return EXIT_OK
+    except OSError as error:
+        print_error(f"{error.filename or 'output'}: {error.strerror or error}", "os_error")
+        return EXIT_FAILED
+    except KeyboardInterrupt:
+        return EXIT_INTERRUPTED
+
+
+def _carry_out(options: argparse.Namespace) -> int:
+    try:
         status: int = options.carry_out(options)
     except CliError as error:
         first, *rest = map(printable, str(error).splitlines())
@@ -157,12 +172,6 @@ def main(arguments: Sequence[str] | None = None) -> int:
         for line in rest:
             sys.stderr.write(f"{line}\n")
         return error.status
-    except BrokenPipeError:
-        # The reader, such as 'head', has closed the pipe; nothing more can be written.
-        os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
-        return EXIT_OK
-    except KeyboardInterrupt:
-        return EXIT_INTERRUPTED
     return status
 
 

@@ -159,7 +159,7 @@ class Instances:
             child = self._adopt(saved.identity)
         if child is None and pid is not None:
             # Started, but that runner ended before it could save the state.
-            child = self._adopt_pid(pid)
+            child = self._adopt(pid)
             request = saved.request if saved else Request(name)
             saved = InstanceState(request, keep=bool(saved and saved.keep))
         if saved is None or (child is None and not saved.keep):
@@ -178,14 +178,9 @@ class Instances:
             del self._instances[name]
             child.close()
 
-    def _adopt(self, identity: Identity) -> Process | None:
+    def _adopt(self, who: Identity | int) -> Process | None:
         try:
+            identity = identity_of(who) if isinstance(who, int) else who
             return Process.adopt(self._host.reactor, identity)
-        except ProcessGone:
-            return None
-
-    def _adopt_pid(self, pid: int) -> Process | None:
-        try:
-            return self._adopt(identity_of(pid))
         except ProcessGone:
             return None

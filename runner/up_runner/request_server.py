@@ -42,7 +42,7 @@ class RequestServer(Factory):
     ) -> None:
         self.clock = clock
         self.idle_s = idle_s
-        self._encode = encode
+        self.encode = encode
         self.counts: Counter[str] = Counter()
         self.log = Logger(namespace="runner.requests")
         self._handle = handle
@@ -87,9 +87,6 @@ class RequestServer(Factory):
             aircraft=request.aircraft,
         )
         return self._handle(request)
-
-    def encode(self, answer: Response, host: str) -> bytes:
-        return self._encode(answer, host)
 
     def on_gone(self, connection: RequestConnection) -> None:
         if connection in self._connections:

@@ -2,7 +2,6 @@
 import assert from "node:assert/strict";
 import { before, test } from "node:test";
 
-import { FakeFlight } from "./support/fake_flight.mjs";
 import { GroundPage } from "./support/ground_page.mjs";
 import { browser, stopAfter } from "./support/setup.mjs";
 import { startShowcase } from "./support/showcase.mjs";
@@ -36,27 +35,4 @@ test("every mode is offered and flown, whichever is flown before", async () => {
     );
   }
   ground.assertClean();
-});
-
-test("AUTO is not offered while the controller cannot fly, with the reason", async () => {
-  const flight = await FakeFlight.start();
-  try {
-    flight.tell({ data: { flight_control: { mode: null, offered: [], missing: ["rx"] } } });
-    const page = await (await GroundPage.open(browser, flight.address)).isLive();
-    await page.takeControl();
-    await page.until(
-      () =>
-        document.querySelector('[data-mode="AUTO"]').dataset.offered === "false" &&
-        [...document.querySelectorAll("[data-mode]")]
-          .filter((each) => each.disabled)
-          .map((each) => each.dataset.mode)
-          .join() === "AUTO",
-      "only AUTO not offered",
-    );
-    assert.equal(await page.attribute(".modes + .quiet", "data-missing"), "rx");
-    page.assertClean();
-  } finally {
-    await GroundPage.closeAll();
-    await flight.stop();
-  }
 });

@@ -7,10 +7,10 @@ import socket
 import subprocess
 import sys
 import threading
-import time
 from pathlib import Path
 
-DEADLINE_S = 30.0
+from tests.support.waiting import DEADLINE_S, until
+
 UP_GROUND = Path(sys.executable).with_name("up-ground")
 NAME = "default"
 """The aircraft of the running test: the fixture `proxy` gives each test its own."""
@@ -105,15 +105,6 @@ class Aircraft:
         else:
             for name, data in answer(message):
                 self.tell(name, data)
-
-
-def until(condition, what, deadline_s=DEADLINE_S):
-    """Wait for a condition and return its value."""
-    end_s = time.monotonic() + deadline_s
-    while not (value := condition()):
-        assert time.monotonic() < end_s, f"never came: {what}"
-        time.sleep(0.01)
-    return value
 
 
 def environment(folder, port, **more):

@@ -1,11 +1,16 @@
 """`up-ground send`: real programs, a real proxy, a small aircraft."""
 
+import json
 import socket
 
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from tests.ground.aircraft import Aircraft, Ground, coded, codes, frame, ground, until
 from tests.proxy.program import Program
+from up.cli.cli_error import UsageError
+from up_ground.send import parse_fields
 
 
 def gains(p):
@@ -204,3 +209,46 @@ def test_a_peer_that_rejects_or_does_not_answer_the_hello(tmp_path, line, status
             peer.sendall(line)
             assert sending.wait() == status
     assert codes(sending.stderr) == [code]
+
+
+def test_values_are_json_where_they_are_json_and_text_otherwise():
+    words = ["a=2", "b=2.5", "c=true", "d=null", 'e="2"', "f=FBW", "g=", "h=x=y", "i=[1, 2]"]
+    assert parse_fields(words) == {
+        "a": 2,
+        "b": 2.5,
+        "c": True,
+        "d": None,
+        "e": "2",
+        "f": "FBW",
+        "g": "",
+        "h": "x=y",
+        "i": [1, 2],
+    }
+
+
+def test_dots_open_objects():
+    words = ["pids.ratePIDs.ailerons.p=2", "pids.ratePIDs.ailerons.i=0", "pids.x=1"]
+    assert parse_fields(words) == {"pids": {"ratePIDs": {"ailerons": {"p": 2, "i": 0}}, "x": 1}}
+
+
+@pytest.mark.parametrize("word", ["NaN", "Infinity", "-Infinity"])
+def test_what_json_has_no_number_for_stays_text(word):
+    assert parse_fields([f"a={word}"]) == {"a": word}
+
+
+@pytest.mark.parametrize(
+    "words", [["a"], ["=1"], ["a.=1"], [".a=1"], ["a..b=1"], ["a=1", "a=2"], ["a=1", "a.b=2"]]
+)
+def test_what_is_no_field_is_refused(words):
+    with pytest.raises(UsageError):
+        parse_fields(words)
+
+
+@given(st.lists(st.text(max_size=30), max_size=5))
+def test_no_words_break_it(words):
+    try:
+        data = parse_fields(words)
+    except UsageError as error:
+        assert str(error)
+    else:
+        json.dumps(data)

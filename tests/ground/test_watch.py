@@ -145,6 +145,19 @@ def test_a_closed_stdout_is_one_sentence(tmp_path):
     assert codes(done.stderr) == ["stdout_closed"]
 
 
+def test_a_full_disk_and_a_closed_pipe_are_no_traceback(tmp_path):
+    for shell, status, expected in (
+        ('"$0" commands >/dev/full', 1, ["os_error"]),
+        ('set -o pipefail; "$0" commands nope 2>&1 | head -c 1 >/dev/null', 0, []),
+    ):
+        done = subprocess.run(
+            ["bash", "-c", shell, str(UP_GROUND)],
+            env=environment(tmp_path, 1), stderr=subprocess.PIPE, text=True, timeout=60,
+        )  # fmt: skip
+        assert (codes(done.stderr), "Traceback" in done.stderr) == (expected, False)
+        assert done.returncode in (status, 2)
+
+
 def test_it_is_a_module_that_runs():
     shown = subprocess.run([sys.executable, "-m", "up_ground", "--version"], capture_output=True)
     assert shown.stdout.decode() == f"up-ground {VERSION}\n"

@@ -7,19 +7,11 @@ import socket
 import subprocess
 import sys
 import threading
-import time
 from pathlib import Path
 
-DEADLINE_S = 30.0
+from tests.support.waiting import DEADLINE_S, until
+
 UP_PROXY = Path(sys.executable).with_name("up-proxy")
-
-
-def until(condition, what, deadline_s=DEADLINE_S):
-    end_s = time.monotonic() + deadline_s
-    while not (value := condition()):
-        assert time.monotonic() < end_s, f"never came: {what}"
-        time.sleep(0.01)
-    return value
 
 
 class Program:

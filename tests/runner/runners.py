@@ -10,24 +10,15 @@ import socket
 import subprocess
 import sys
 import threading
-import time
 from pathlib import Path
 
 import yaml
 
+from tests.support.waiting import DEADLINE_S as LIMIT_S
+from tests.support.waiting import until as wait_until
+
 APPLICATION = Path(__file__).parents[1] / "fixtures" / "runner" / "application.py"
-LIMIT_S = 30.0
 _NUMBERS = itertools.count(2)
-
-
-def wait_until(condition, what, limit_s=LIMIT_S):
-    """Return the first true value of a condition; fail after a generous time."""
-    deadline = time.monotonic() + limit_s
-    while not (value := condition()):
-        if time.monotonic() > deadline:
-            raise AssertionError(f"not within {limit_s} s: {what}")
-        time.sleep(0.01)
-    return value
 
 
 def same_instance(answer, first):

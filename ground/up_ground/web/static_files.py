@@ -9,7 +9,6 @@ from pathlib import Path
 from urllib.parse import unquote_to_bytes
 
 MAX_FILE_BYTES = 8_000_000
-MAX_CACHE_BYTES = 16_000_000
 _SEGMENT = re.compile(rb"[A-Za-z0-9_@-][A-Za-z0-9_.@-]{0,99}")
 _TYPES = {
     ".html": "text/html; charset=utf-8",
@@ -39,14 +38,10 @@ class StaticFile:
 
 
 class StaticFiles:
-    """Serves files below ``folder`` only; a folder is not a file and is never listed.
-
-    A file's content is cached until its time or size changes.
-    """
+    """Serves files below ``folder`` only; a folder is not a file and is never listed."""
 
     def __init__(self, folder: Path) -> None:
         self._folder = folder.resolve()
-        self._kept: dict[Path, tuple[tuple[int, int], StaticFile]] = {}
 
     def get(self, path: bytes) -> StaticFile | None:
         """Return the file of a request's path, such as ``/js/main.js``; None if it is missing."""
@@ -70,16 +65,7 @@ class StaticFiles:
             return None
 
     def _read(self, place: Path, media_type: str) -> StaticFile | None:
-        facts = place.stat()
-        stamp = (facts.st_mtime_ns, facts.st_size)
-        kept = self._kept.get(place)
-        if kept is not None and kept[0] == stamp:
-            return kept[1]
-        if facts.st_size > MAX_FILE_BYTES:
+        if place.stat().st_size > MAX_FILE_BYTES:
             return None
         content = place.read_bytes()
-        found = StaticFile(content, media_type, f'"{hashlib.sha256(content).hexdigest()[:24]}"')
-        if sum(len(each.content) for _, each in self._kept.values()) > MAX_CACHE_BYTES:
-            self._kept.clear()
-        self._kept[place] = (stamp, found)
-        return found
+        return StaticFile(content, media_type, f'"{hashlib.sha256(content).hexdigest()[:24]}"')

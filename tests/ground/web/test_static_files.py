@@ -55,7 +55,7 @@ def test_what_is_not(folder, path):
 def test_a_changed_file_has_another_tag(folder):
     files = StaticFiles(folder)
     before = files.get(b"/js/main.js")
-    assert files.get(b"/js/main.js") is before
+    assert files.get(b"/js/main.js") == before
     (folder / "js" / "main.js").write_text("another")
     after = files.get(b"/js/main.js")
     assert after.content == b"another"

@@ -28,10 +28,7 @@ export function oldText(store, reading, freshness, otherwise = "") {
   return freshness === "stale" ? ageText(store.age_s(reading) ?? store.age_s(null)) : otherwise;
 }
 
-/**
- * One value of the telemetry in an element: `data-key`, `data-freshness`, `--` without a value, and
- * its age in `ageElement` while it is stale.
- */
+/** A value of telemetry in an element: `data-key`, `data-freshness`, `--` without a value, the age if stale. */
 export class Readout {
   #path;
   #format;
@@ -66,10 +63,7 @@ export class Row {
   #readout;
   #validate;
 
-  /**
-   * list: a `dl`; kind: a value of another type is ignored; validate: style of a live value: "" plain,
-   * "warning" or "alarm".
-   */
+  /** list: a `dl`; validate: the style of a live value: "" plain, "warning" or "alarm". */
   constructor(list, name, path, kind, format = String, validate = () => "") {
     const value = html("span", { class: "row-value" });
     const age = html("span", { class: "age" });

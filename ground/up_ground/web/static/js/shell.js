@@ -5,10 +5,7 @@ import { UNKNOWN } from "./state/format.js";
 
 const THEMES = ["dark", "daylight"];
 
-/**
- * Dark or daylight: follows the system until the user chooses. button: toggles; its label names the
- * other theme.
- */
+/** Dark or daylight: follows the system until the user chooses with the button. */
 export function mountTheme(button) {
   const memory = storageOf("localStorage");
   const system = matchMedia("(prefers-color-scheme: light)");
@@ -51,7 +48,7 @@ export function mountShell(store, connection) {
 
   function showLink() {
     const banner = at("link-banner");
-    setHidden(banner, connection.isOpen);
+    banner.hidden = connection.isOpen;
     setAttribute(banner, "data-code", connection.isFull ? "full" : "lost");
     if (!connection.isOpen) {
       const retry_s = connection.retry_s;
@@ -67,7 +64,7 @@ export function mountShell(store, connection) {
     setAttribute(root, "data-link", connection.isOpen ? "open" : "closed");
     setAttribute(root, "data-aircraft-state", state);
     const silence = at("silence");
-    setHidden(silence, state === "live");
+    silence.hidden = state === "live";
     if (state !== "live") {
       setText(silence, silenceText(store, state));
       setAttribute(silence, "data-age", String(store.age_s(null)?.toFixed(1) ?? ""));
@@ -108,21 +105,12 @@ export function silenceText(store, state) {
   return state === "none" ? "no telemetry yet" : `no news for ${store.age_s(null).toFixed(1)} s`;
 }
 
-/**
- * reason: with which the connection was closed; isFull: whether the server is reached but takes no
- * more pages. Returns why the page is disconnected.
- */
+/** Why the page is disconnected; isFull: the server takes no more pages. */
 export function lostText(reason, isFull) {
   if (isFull) {
     return `The ground server is full (${reason || "too many pages"}):`;
   }
   return `No connection to the ground server${reason === "" ? "" : ` (${reason})`}:`;
-}
-
-function setHidden(element, isHidden) {
-  if (element.hidden !== isHidden) {
-    element.hidden = isHidden;
-  }
 }
 
 function linkWord(store, connection) {

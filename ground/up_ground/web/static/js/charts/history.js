@@ -2,11 +2,7 @@ import { GAP_S, Silence } from "../state/track.js";
 
 export const WINDOW_S = 60;
 
-/**
- * The last minute of some values, with gaps for silences.
- *
- * Times are seconds of one clock; they rise. A value that is null or stale is a gap as well.
- */
+/** The last minute of some values at rising times (s); a silence, null or a stale value is a gap. */
 export class History {
   #names;
   #times_s = [];
@@ -47,10 +43,7 @@ export class History {
     return this.#silence.limit_s;
   }
 
-  /**
-   * Seconds before now (negative), then the values of each name; a silence up to now ends it with a
-   * gap.
-   */
+  /** Seconds before now (negative), then the values of each name; a silence up to now ends with a gap. */
   columns(now_s) {
     const first = this.#times_s.findIndex((time_s) => time_s >= now_s - WINDOW_S);
     if (first < 0) {

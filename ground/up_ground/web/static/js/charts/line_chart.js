@@ -17,10 +17,7 @@ export class LineChart {
   #title;
   #onTheme = () => this.#rebuild();
 
-  /**
-   * decimals: null: as many as it has; leastSpan: the least that the vertical axis shows, null: a
-   * fiftieth of the values.
-   */
+  /** decimals: null: as many as it has; leastSpan: of the vertical axis, null: a fiftieth of the values. */
   constructor(UPlot, { title, unit, decimals, leastSpan, lines }) {
     this.#UPlot = UPlot;
     this.#lines = lines;
@@ -121,10 +118,7 @@ export class LineChart {
   }
 }
 
-/**
- * leastSpan: null: a fiftieth of the values. Returns range of the axis: all values, with a minimum
- * span.
- */
+/** The range of an axis that shows all values; leastSpan: null: a fiftieth of the values. */
 export function span(least, most, leastSpan) {
   if (least === null || most === null || !Number.isFinite(least) || !Number.isFinite(most)) {
     return [-(leastSpan ?? 1) / 2, (leastSpan ?? 1) / 2];

@@ -20,7 +20,7 @@ export function mount(element, store) {
     new Row(list, "Attitude held by", "flight_mode", "text", (mode) => holderText(mode, store)),
     new Row(list, "Raspilot", "mode", "text"),
     new Row(list, "Switch", "arduino.switch", "text", () => switchText(store)),
-    new Row(list, "Failsafe", "arduino.failsafe", "flag", yesNo, alarmIfTrue),
+    new Row(list, "Failsafe", "arduino.failsafe", "flag", (isOn) => (isOn ? "YES" : "no"), (isOn) => (isOn ? "alarm" : "")),
     new Row(list, "Raspberry Pi", "load.panic", "flag", (value) => busyText(value, store)),
   ];
   return {
@@ -33,14 +33,6 @@ export function mount(element, store) {
       showVetoes(vetoes, store);
     },
   };
-}
-
-function yesNo(value) {
-  return flagText(value, "YES", "no");
-}
-
-function alarmIfTrue(value) {
-  return value === true ? "alarm" : "";
 }
 
 /** mode: that is flown. Returns who holds bank and pitch. */

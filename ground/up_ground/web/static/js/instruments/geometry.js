@@ -3,10 +3,7 @@ import { short } from "../dom.js";
 /** Distance of one degree of pitch in the drawing. */
 export const UNITS_PER_DEG = 5;
 
-/**
- * The rungs of the pitch ladder to the zenith and the nadir: long and numbered each 10 degrees,
- * short each 5, and near the horizon each 2.5.
- */
+/** The rungs of the pitch ladder: long with a number each 10 degrees, short each 5, near the horizon 2.5. */
 export function rungs() {
   const all = [];
   for (let pitch_deg = -90; pitch_deg <= 90; pitch_deg += 2.5) {
@@ -21,19 +18,13 @@ export function rungs() {
   return all;
 }
 
-/**
- * Where the ball stands: right wing down turns the picture to the left, nose up moves it down.
- * Returns of a transform attribute.
- */
+/** The transform of the ball: right wing down turns it to the left, nose up moves it down. */
 export function ballTransform(roll_deg, pitch_deg) {
   const shift = Math.max(-90, Math.min(90, pitch_deg)) * UNITS_PER_DEG;
   return `rotate(${short(-roll_deg)}) translate(0 ${short(shift)})`;
 }
 
-/**
- * Whether the label of a rung is whole within the bank arc and the edges of the picture. x: of its
- * middle, on the ladder; y: of its middle, on the ladder.
- */
+/** Whether a rung's label, with its middle at x, y of the ladder, is whole within bank arc and picture. */
 export function isWhole(x, y, roll_deg, pitch_deg) {
   const turn = (-roll_deg * Math.PI) / 180;
   const down = y + Math.max(-90, Math.min(90, pitch_deg)) * UNITS_PER_DEG;
@@ -61,11 +52,7 @@ const REACH = 44;
 const MIDDLE_US = 1500;
 const HALF_US = 500;
 
-/**
- * Where a stick stands in its gimbal: right and up are positive pulses, but a pulled elevator
- * (above 1500 us, nose up) is a stick drawn down. along: the channel of the vertical. Returns null:
- * a channel is not known.
- */
+/** A stick in its gimbal; nose up (above 1500 us) is a stick drawn down. along: the vertical channel. */
 export function stickPlace(x_us, y_us, along) {
   if (x_us === null || y_us === null) {
     return null;
@@ -121,11 +108,7 @@ export class TapeScale {
   }
 }
 
-/**
- * The needle of a scale that is finer around zero: the root of the share, with its sign. most: the
- * value at the end; length: of the scale from its middle. Returns upwards positive, within the
- * length.
- */
+/** The needle of a scale that is finer around zero: the root of value / most, within the length. */
 export function rootScale(value, most, length) {
   const share = Math.min(1, Math.abs(value) / most);
   return Math.sign(value) * Math.sqrt(share) * length;

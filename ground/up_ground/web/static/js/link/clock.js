@@ -1,7 +1,4 @@
-/**
- * The clock of every age: seconds that never jump with the wall clock. Returns seconds since the
- * page began.
- */
+/** Seconds since the page began: the clock of every age, which never jumps with the wall clock. */
 export function now_s() {
   return performance.now() / 1000;
 }

@@ -101,10 +101,7 @@ export class Connection {
     return true;
   }
 
-  /**
-   * Send a Command to an aircraft; the promise never fails, the result has the outcome. name: of
-   * the Command; isForced: sent although the server does not know the name.
-   */
+  /** Send a Command; the promise never fails. isForced: sent although the server does not know the name. */
   command(name, data, { aircraft = this.aircraft, isForced = false } = {}) {
     const { ask, answer } = this.#asks.add();
     const beacon = this.shownBeacon();

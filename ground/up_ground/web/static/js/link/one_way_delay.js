@@ -18,11 +18,7 @@ export class OneWayDelayEstimator {
   #least_s = -Infinity;
   #now_s = 0;
 
-  /**
-   * sent_ms: the server's clock at departure; now_s: the page's clock at arrival; asked_s: the
-   * page's clock at the request for this message, if any. Returns transit time in seconds; null:
-   * the server sends no clock.
-   */
+  /** The transit time, s, of a message sent at sent_ms (server), asked for at asked_s; null: no server clock. */
   take(sent_ms, now_s, asked_s = null) {
     const stamp_ms = number(sent_ms);
     if (stamp_ms === null) {

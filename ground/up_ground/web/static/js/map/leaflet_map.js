@@ -24,10 +24,7 @@ export class LeafletMap {
 
   isFollowing = true;
 
-  /**
-   * L: Leaflet; onFree: the user moved the map; onTiles: map tiles have become unavailable, or
-   * available.
-   */
+  /** L: Leaflet; onFree: the user moved the map; onTiles: map tiles became unavailable, or available. */
   constructor(L, place, { tiles, onFree, onTiles }) {
     this.#L = L;
     this.#onFree = onFree;

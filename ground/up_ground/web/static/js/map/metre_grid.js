@@ -3,10 +3,7 @@ import { linesBetween, offsetOf, placeAt, stepOf, stepText } from "../state/eart
 
 const METRES_AROUND = 40075016.7;
 
-/**
- * A layer for a field without a network: squares of round metres around a place, with distances. L:
- * Leaflet. Returns the layer, with `setOrigin(place)` and `step_m(zoom)`.
- */
+/** A layer of Leaflet (L) for a field without a network: squares of round metres around a place. */
 export function metreGrid(L, origin) {
   const Grid = L.GridLayer.extend({
     origin,

@@ -16,12 +16,14 @@ export function pictureOf(store) {
   const seen = aircraft ?? (last === undefined ? null : placeOf(last[0], last[1]));
   const home = store.status?.home;
   const isSeen = aircraft !== null;
+  // The time of a position from the track alone is unknown.
+  const age_s = store.age_s("location") ?? store.age_s(null);
   return {
     name: store.aircraft,
     aircraft: seen,
     heading_deg: isSeen ? headingOf(store) : null,
-    freshness: seen === null ? "none" : isSeen ? freshnessOf(store) : "stale",
-    age: lastSeenText(store.age_s("location") ?? store.age_s(null)),
+    freshness: seen === null ? "none" : isSeen && store.freshness("location") === "live" ? "live" : "stale",
+    age: age_s === null ? "some time" : ageText(age_s),
     home: placeOf(home?.latitude, home?.longitude),
     track: store.track,
   };
@@ -41,20 +43,10 @@ export function homeText(picture) {
   return `${distance} from home at ${from}°, the way back ${back}°${age}`;
 }
 
-// A position from the track alone: its time is unknown.
-function lastSeenText(age_s) {
-  return age_s === null ? "some time" : ageText(age_s);
-}
-
 function headingOf(store) {
   return store.freshnessAt("heading.actual") === "live" || store.number("orientation.yaw") === null
     ? store.number("heading.actual")
     : store.number("orientation.yaw");
-}
-
-// A position without a known age is as fresh as the frame that brought it.
-function freshnessOf(store) {
-  return store.freshness("location") === "live" ? "live" : "stale";
 }
 
 const OUTLINE = "M0 -15 L2 -9 L2 -4 L15 3 L15 6 L2 3 L1.5 10 L5 13 L5 15 L0 14 L-5 15 L-5 13 L-1.5 10 L-2 3 L-15 6 L-15 3 L-2 -4 L-2 -9 Z";
@@ -74,10 +66,7 @@ export class AircraftSymbol {
     );
   }
 
-  /**
-   * heading_deg: clockwise from north; age: how long ago it was seen there, written below while it
-   * is not live.
-   */
+  /** heading_deg: clockwise from north; age: of the position, written below it while it is not live. */
   show(heading_deg, freshness, age) {
     setAttribute(this.#outline, "d", heading_deg === null ? NO_HEADING : OUTLINE);
     setAttribute(this.#outline, "transform", `rotate(${(heading_deg ?? 0).toFixed(1)})`);

@@ -65,10 +65,7 @@ export class TrackLine {
   }
 }
 
-/**
- * points: of a Track. Returns latitude and longitude of each in pieces: no line goes across a
- * silence.
- */
+/** The latitudes and longitudes of a track in pieces: no line crosses a silence. */
 export function piecesOf(points) {
   const pieces = [];
   for (const point of points) {

@@ -103,10 +103,7 @@ function showAge(note, text, isOld) {
   setAttribute(note, "data-old", String(isOld));
 }
 
-/**
- * Sends Commands for the user: confirms where it matters, and shows progress and outcome beside the
- * button and in `#last-answer`.
- */
+/** Sends Commands: confirms where it matters, shows the outcome beside the button and in `#last-answer`. */
 export class CommandSender {
   #store;
   #connection;
@@ -122,10 +119,7 @@ export class CommandSender {
     return disabledReason(this.#store, this.#connection, name, data);
   }
 
-  /**
-   * note: shows the progress; question: for dialog.js, null: no confirmation; isForced: a name that
-   * the server does not know is sent. Returns the answer; null: it was not sent.
-   */
+  /** note: shows the outcome; question: for dialog.js; isForced: an unknown name. Returns null if not sent. */
   async send(name, data, { note, question = null, isForced = false }) {
     const { aircraft } = this.#store;
     const command = commandText(name, data);

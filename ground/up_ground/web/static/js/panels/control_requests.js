@@ -22,10 +22,7 @@ export class ControlRequests {
     this.#notes.delete(aircraft);
   }
 
-  /**
-   * A request was denied, or something else went wrong. aircraft: the watched one; without a
-   * request for it the first pending one is meant.
-   */
+  /** Note a denied request; without one for the watched aircraft the first pending one is meant. */
   fault({ code, text }, aircraft, now_s) {
     const place = this.#requests.has(aircraft) ? aircraft : ([...this.#requests.keys()][0] ?? aircraft);
     this.#requests.delete(place);
@@ -63,18 +60,12 @@ export class ControlRequests {
   }
 }
 
-/**
- * control: of a status; page: this page's number. Returns whether this page has the pending
- * request.
- */
+/** Whether a page, by its number, has the pending request. */
 export function isRequester(control, page) {
   return typeof page === "number" && control?.asked_by?.page === page;
 }
 
-/**
- * The owner of control, in words. control: of the server's `status`; welcome: null: disconnected.
- * Returns empty: no text.
- */
+/** The owner of control in words; empty: no text. welcome: null: disconnected. */
 export function controlTexts(control, welcome) {
   if (welcome === null) {
     return { holder: "No connection: this page has no control.", asked: "", pages: "" };

@@ -1,10 +1,8 @@
 import { setAttribute, setText } from "../dom.js";
+import { capital } from "../state/format.js";
 import { switchMode } from "../state/pilot_input.js";
 
-/**
- * Why something is not offered, as {code, text}; null: it is offered. Programs and tests read the
- * code, people the text.
- */
+/** Why something is not offered, as {code, text}; null: it is offered. Programs and tests read the code. */
 const GAINS = "arduino.pids.tunings";
 const RANK = { observer: 0, operator: 1, pilot: 2 };
 
@@ -24,10 +22,7 @@ const OFFLINE = { code: "no_server", text: "Not connected to the ground server."
 const REPLAY = { code: "replay", text: "This is a replay: it takes no Commands." };
 export const SILENT = { code: "silent", text: "The aircraft is silent." };
 
-/**
- * Whether the role of the aircraft's link allows a Command; an unknown role does, the aircraft
- * decides. least: role in the server's catalogue; null: the table above decides.
- */
+/** Whether a role allows a Command; unknown roles do. least: of the server's catalogue, null: the table's. */
 export function roleAllows(role, name, least = null) {
   if (role === null || !Object.hasOwn(RANK, role)) {
     return true;
@@ -92,7 +87,7 @@ function controlReason(store, connection) {
 
 export function sentence(text) {
   const trimmed = String(text).trim().replace(/\.$/, "");
-  return trimmed === "" ? "" : `${trimmed[0].toUpperCase()}${trimmed.slice(1)}.`;
+  return trimmed === "" ? "" : `${capital(trimmed)}.`;
 }
 
 /** Why gains cannot be sent now, as far as the page knows before the aircraft answers. */
@@ -124,10 +119,7 @@ export function gainsWarning(store) {
     : "The aircraft may be in flight: it may refuse gains.";
 }
 
-/**
- * Why a Command is not sent by its name: its own panel's conditions cannot be bypassed. name: not
- * an alias; data: null: not written yet.
- */
+/** Why a Command is not sent by its name: the conditions of its own panel hold. data: null: not written. */
 export function nameReason(store, sender, name, data = null) {
   const reason = sender.disabledReason(name, data ?? {});
   if (reason !== null) {

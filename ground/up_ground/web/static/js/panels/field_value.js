@@ -1,10 +1,6 @@
 const NAME = /^[A-Za-z0-9_.-]{1,128}$/;
 
-/**
- * The user's input for a field of a Command, validated by its type and bounds. field: of
- * Catalogue.get(); empty: left out; for a field with choices and for true or false: JSON; isNull:
- * whether null was chosen. Returns problem: one sentence, or empty.
- */
+/** The input for a field of a Command: {value}, {isLeftOut} or {problem}. Choices and booleans are JSON. */
 export function fieldValue(field, text, isNull = false) {
   if (isNull && field.isNullable) {
     return { problem: "", value: null };

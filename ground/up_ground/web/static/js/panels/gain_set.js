@@ -20,10 +20,7 @@ export function isUsed(loop, axis) {
 
 export const TERMS = ["p", "i", "d"];
 
-/**
- * set: `{ratePIDs, stabPIDs, navPIDs?}`. Returns each gain that it has by its path, as
- * `ratePIDs.ailerons.p`.
- */
+/** Each gain of a set by its path, as `ratePIDs.ailerons.p`. */
 export function cellsOf(set) {
   const cells = new Map();
   for (const loop of LOOPS) {
@@ -57,10 +54,7 @@ export function cellText(path) {
   return `${word(LOOPS, loop)} ${word(AXES, axis)} ${term.toUpperCase()}`;
 }
 
-/**
- * value: single precision has digits beyond those entered. Returns six figures at most, one decimal
- * at least.
- */
+/** Six figures at most, one decimal at least: single precision has digits beyond those entered. */
 export function gainText(value) {
   const short = String(Number(value.toPrecision(6)));
   return /^-?\d+$/.test(short) ? `${short}.0` : short;

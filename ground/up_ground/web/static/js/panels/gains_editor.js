@@ -110,11 +110,8 @@ export function setBefore(history, flying) {
     if (entry.outcome !== "ack" || !entry.before || !entry.after) {
       continue;
     }
-    return isSame(cellsOf(entry.after), flying) ? entry.before : null;
+    const after = cellsOf(entry.after);
+    return after.size === flying.size && difference(after, flying).length === 0 ? entry.before : null;
   }
   return null;
-}
-
-function isSame(one, other) {
-  return one.size === other.size && difference(one, other).length === 0;
 }

@@ -12,6 +12,7 @@ import {
   TERMS,
 } from "./gain_set.js";
 import { agoText } from "./messages.js";
+import { capital } from "../state/format.js";
 
 /** The fields of a set of gains: a table for each loop, a row for each axis. */
 export class GainsTable {
@@ -90,10 +91,6 @@ export class GainsTable {
     this.#editor.write(path, this.#cells.get(path).input.value);
     this.#onInput();
   }
-}
-
-function capital(word) {
-  return word[0].toUpperCase() + word.slice(1);
 }
 
 const OUTCOMES = { ack: "carried out", nack: "refused", timeout: "no answer", unsent: "not sent", refused: "refused" };

@@ -63,10 +63,7 @@ export class HeldPress {
     }
   }
 
-  /**
-   * Update to the present time. reason: why it may not be pressed now. Returns true once, when
-   * the press has lasted long enough.
-   */
+  /** Whether the press has now lasted long enough: true once. reason: why it may not be pressed. */
   update(now_s, reason = null) {
     if (this.state !== "pressed") {
       return false;

@@ -1,5 +1,6 @@
 import { html } from "../dom.js";
 import { CommandSender } from "./command_sender.js";
+import { capital } from "../state/format.js";
 
 const OUTPUTS = [
   ["ailerons", "Ailerons", "left elevon"],
@@ -13,10 +14,7 @@ const MIXES = {
   "V-tail": "V-tail: elevator and rudder are mixed on two surfaces",
 };
 
-/**
- * A profile of the airframe as readable text. profile: the form of `arduino.profile.values`
- * (docs/protocols.md 5). Returns missing values have no row.
- */
+/** The profile `arduino.profile.values` (docs/protocols.md 5) as text; missing values have no row. */
 export function profileParts(profile) {
   const isElevon = profile.mix === "elevon";
   return [
@@ -113,10 +111,6 @@ function wordOf(words, value) {
 
 function textOf(value) {
   return typeof value === "string" ? value : "";
-}
-
-function capital(word) {
-  return word[0].toUpperCase() + word.slice(1);
 }
 
 const REQUEST = "arduino.profile.request";

@@ -9,10 +9,7 @@ const MAX_PATH = 200;
 // Invisible characters and those that change the text direction: shown by their number.
 const UNSEEN = /[\p{Cc}\p{Cf}\p{Cs}\p{Co}\p{Zl}\p{Zp}]/gu;
 
-/**
- * Every value of a tree of telemetry, in its order; an empty object or list is a value. tree: as
- * received.
- */
+/** Every value of a tree of telemetry, in its order; an empty object or list is a value. */
 export function leavesOf(tree, most = MAX_LEAVES) {
   const leaves = [];
   let isCut = false;

@@ -64,10 +64,7 @@ export function distanceText(metres) {
   return `${(metres / 1000).toFixed(metres < 9995 ? 2 : 1)} km`;
 }
 
-/**
- * The distance between two lines of a grid: 1, 2 or 5 times a power of ten. least_px: how close two
- * lines may be. Returns metres.
- */
+/** Metres between two lines of a grid, 1, 2 or 5 times a power of ten, least_px apart at least. */
 export function stepOf(metresPerPixel, least_px = 70) {
   const least_m = metresPerPixel * least_px;
   const power = 10 ** Math.floor(Math.log10(least_m));
@@ -83,10 +80,7 @@ export function stepText(step_m) {
   return step_m < 1000 ? `${step_m} m` : `${step_m / 1000} km`;
 }
 
-/**
- * The lines of a grid that cross a stretch of one axis. Returns metres from the grid's origin,
- * rising.
- */
+/** The lines of a grid that cross a stretch of one axis, in rising metres from the grid's origin. */
 export function linesBetween(from_m, to_m, step_m) {
   const lines = [];
   const [least, most] = from_m <= to_m ? [from_m, to_m] : [to_m, from_m];
@@ -97,10 +91,7 @@ export function linesBetween(from_m, to_m, step_m) {
   return lines;
 }
 
-/**
- * The part of the plane in the picture, so that all points lie in it with a margin. least_m: the
- * least that is shown across. Returns its middle and scale.
- */
+/** Middle and scale of a picture that shows all points with a margin, and least_m at least. */
 export function windowOf(points, size, least_m = 200) {
   const span = (values) => (values.length ? [Math.min(...values), Math.max(...values)] : [0, 0]);
   const [west, east] = span(points.map((each) => each.east_m));

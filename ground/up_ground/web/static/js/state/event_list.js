@@ -13,10 +13,7 @@ export class EventList {
   /** Counts the changes, for those that draw it. */
   version = 0;
 
-  /**
-   * message: the server's `event`; of a flight of the past it has a `time_s`. Returns whether it is
-   * new.
-   */
+  /** Take the server's `event`; in a replay it has a `time_s`. Returns whether it is new. */
   take(message, now_s) {
     const place = number(message.number);
     if (place === null || typeof message.text !== "string") {

@@ -58,3 +58,7 @@ export function headingText(degrees) {
   }
   return String(Math.round(compassDegrees(degrees)) % 360).padStart(3, "0");
 }
+
+export function capital(word) {
+  return word[0].toUpperCase() + word.slice(1);
+}

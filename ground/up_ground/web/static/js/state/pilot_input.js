@@ -3,10 +3,7 @@ const HALF_TRAVEL_US = 500;
 /** The bank at full stick of a new Arduino. */
 const ROLL_DEG = 50;
 
-/**
- * The bank demanded by the pilot's stick in FBW (raspilot/flight_controller/sticks.py). Returns
- * degrees, right wing down positive; null: no demand in other modes.
- */
+/** The bank that the stick demands in FBW, right wing down positive; null: no demand in other modes. */
 export function rollDemand_deg(store) {
   const stick_us = store.number("rx.ailerons");
   if (store.text("flight_mode") !== "FBW" || stick_us === null || store.freshness("rx") !== "live") {

@@ -52,10 +52,7 @@ export class Store extends NewestFrame {
     connection.on("message", (message) => this.take(message));
   }
 
-  /**
-   * Repaint for the ages five times a second, whether or not a frame arrives, and immediately when
-   * a reading becomes stale.
-   */
+  /** Repaint five times a second, and immediately when a reading becomes stale. */
   start() {
     this.#timers.each(() => this.#change(), REPAINT_S);
     let known = "";
@@ -80,10 +77,7 @@ export class Store extends NewestFrame {
     this.#change();
   }
 
-  /**
-   * call: at most once an animation frame when something changed, and at least five times a second.
-   * Returns takes the call away.
-   */
+  /** Call once per animation frame at most when something changed; returns the end of it. */
   subscribe(call) {
     this.#calls.add(call);
     this.#change();

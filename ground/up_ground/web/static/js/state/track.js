@@ -39,10 +39,7 @@ export class Silence {
 const MAX_ITEMS = 20000;
 const STEP_DEG = 0.00001;
 
-/**
- * The track: [latitude, longitude, altitude|null] each, the oldest first. A fourth element true
- * marks a gap before the point: no line leads to it.
- */
+/** Points [latitude, longitude, altitude|null, true?], the oldest first; true: a gap lies before it. */
 export class Track {
   #silence = new Silence();
 

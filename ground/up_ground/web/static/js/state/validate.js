@@ -28,10 +28,7 @@ export function texts(found) {
     .filter((each) => each !== null);
 }
 
-/**
- * path: keys with dots between. Returns the value at the path among own properties, undefined if
- * missing.
- */
+/** The value at a path with dots among own properties; undefined: missing. */
 export function at(tree, path) {
   return atKeys(tree, path.split("."));
 }
