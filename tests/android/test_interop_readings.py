@@ -56,8 +56,7 @@ def test_a_phone_finds_the_daemon_by_discovery_and_all_readings_arrive(daemon):
         assert "nack_received" not in [each["code"] for each in phone.all("notice")]
 
 
-@pytest.mark.parametrize("hz", [50, 200])
-@pytest.mark.parametrize("transport", ["tcp", "udp"])
+@pytest.mark.parametrize(("transport", "hz"), [("tcp", 200), ("udp", 50)])
 def test_every_attitude_that_arrives_is_one_that_the_sensors_said(daemon, transport, hz):
     ground = daemon.start()
     options = ("--orientation", transport, "--orientation-hz", hz)

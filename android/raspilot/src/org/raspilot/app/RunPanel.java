@@ -8,6 +8,7 @@ import android.widget.Button;
 import android.widget.TextView;
 import org.raspilot.up.airborne.AirborneSettings.AirborneMode;
 import org.raspilot.up.airborne.AirborneSettings.OrientationTransport;
+import org.raspilot.app.view.TextViews;
 import org.raspilot.up.airborne.AirborneSettings;
 import org.raspilot.up.airborne.AirborneStatus;
 
@@ -50,7 +51,7 @@ final class RunPanel {
     void showStopped(boolean isSpawning, String newest) {
         panic.setVisibility(View.GONE);
         String state = context.getString(isSpawning ? R.string.link_spawning : R.string.link_off);
-        setText(link, newest == null ? state : state + "\n" + newest);
+        TextViews.show(link, newest == null ? state : state + "\n" + newest);
         paint(isSpawning ? R.string.cancel : R.string.start,
                 isSpawning ? R.attr.upAlarm : R.attr.upAccent,
                 isSpawning ? R.attr.upOnAlarm : R.attr.upOnAccent);
@@ -61,9 +62,9 @@ final class RunPanel {
         boolean isPanic = status != null && status.panicDelayMs > 0;
         panic.setVisibility(isPanic ? View.VISIBLE : View.GONE);
         if (isPanic) {
-            setText(panic, context.getString(R.string.panic, status.panicDelayMs));
+            TextViews.show(panic, context.getString(R.string.panic, status.panicDelayMs));
         }
-        setText(link, status == null ? context.getString(R.string.link_begins)
+        TextViews.show(link, status == null ? context.getString(R.string.link_begins)
                 : status.linkText);
         paint(R.string.stop_big, R.attr.upAlarm, R.attr.upOnAlarm);
     }
@@ -103,13 +104,6 @@ final class RunPanel {
             return found.getColor(0, 0);
         } finally {
             found.recycle();
-        }
-    }
-
-    /** Sets a text only if it changed: a screen reader would repeat it. */
-    private static void setText(TextView view, String text) {
-        if (!text.contentEquals(view.getText())) {
-            view.setText(text);
         }
     }
 }

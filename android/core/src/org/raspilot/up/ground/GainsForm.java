@@ -1,13 +1,11 @@
 package org.raspilot.up.ground;
 
-import java.util.HashMap;
 import java.util.LinkedHashMap;
 import java.util.Map;
 import java.util.regex.Pattern;
 import org.raspilot.up.commands.GainSet;
 import org.raspilot.up.commands.GainSet.Gains;
 import org.raspilot.up.commands.InvalidCommandException;
-import org.raspilot.up.ground.GainsService.GainChange;
 import org.raspilot.up.wire.SafeText;
 
 /** Reads the gains that a person has typed. */
@@ -19,20 +17,23 @@ public final class GainsForm {
     }
 
     /**
-     * Returns the set of the form.
+     * Returns the active set with a person's edits; unedited values stay exactly as they are.
      *
      * <p>Rate and stabilize must be complete for ailerons and elevator; the rudder is in both or in
      * neither; navigation is complete or empty, its rudder may be empty.
      *
-     * @param cells the typed texts by {@link GainKey#path}; an empty one counts as absent
+     * @param edits the typed texts; an empty one takes the gain out
+     * @param active null: none
      * @throws InvalidCommandException with one sentence that names the gain
      */
-    public static GainSet read(Map<String, String> cells) {
+    public static GainSet read(Map<GainKey, String> edits, GainSet active) {
         final Map<String, Object> set = new LinkedHashMap<>();
         for (GainKey key : GainKey.ALL) {
-            final String typed = cells.get(key.path());
-            if (typed != null && !typed.trim().isEmpty()) {
-                inside(inside(set, key.loop()), key.axis()).put(key.term(), number(key, typed));
+            final String typed = edits.get(key);
+            final Double value = typed == null ? key.of(active)
+                    : typed.trim().isEmpty() ? null : number(key, typed);
+            if (value != null) {
+                inside(inside(set, key.loop()), key.axis()).put(key.term(), value);
             }
         }
         try {
@@ -40,16 +41,6 @@ public final class GainsForm {
         } catch (InvalidCommandException fault) {
             throw fault.naming(words(fault.field));
         }
-    }
-
-    /** Returns the initial texts of a form; a gain that the set lacks is empty. */
-    public static Map<String, String> cells(GainSet set) {
-        final Map<String, String> cells = new HashMap<>();
-        for (GainKey key : GainKey.ALL) {
-            final Double value = key.of(set);
-            cells.put(key.path(), value == null ? "" : GainChange.number(value));
-        }
-        return cells;
     }
 
     /** Parses a typed gain, with a point or a comma; null if it is not a gain. */

@@ -1,29 +1,25 @@
 package org.raspilot.up.wire;
 
+import java.util.Locale;
+
 /** What a connection to the proxy is for (docs/protocols.md 9). */
 public enum ProxyRole {
     /** The ground that commands. */
-    COMMAND("command"),
+    COMMAND,
     /** A ground that only listens. */
-    LISTEN("listen"),
+    LISTEN,
     /** The aircraft itself; sent only by the proxy, never requested. */
-    AIR("air");
-
-    private final String word;
-
-    ProxyRole(String word) {
-        this.word = word;
-    }
+    AIR;
 
     /** Returns the word on the wire. */
     public String word() {
-        return word;
+        return name().toLowerCase(Locale.ROOT);
     }
 
     /** Returns the seat with that name, or null if unknown. */
     public static ProxyRole ofWord(String word) {
         for (ProxyRole seat : values()) {
-            if (seat.word.equals(word)) {
+            if (seat.word().equals(word)) {
                 return seat;
             }
         }

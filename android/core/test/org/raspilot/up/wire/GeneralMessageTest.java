@@ -14,7 +14,7 @@ import org.junit.Test;
 
 public final class GeneralMessageTest {
     private static final long SEED = 4711L;
-    private static final int MUTATIONS = 100000;
+    private static final int MUTATIONS = 10000;
 
     @Test
     public void goldenLinesAreWrittenExactly() throws Exception {

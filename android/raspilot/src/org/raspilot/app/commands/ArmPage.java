@@ -24,7 +24,7 @@ final class ArmPage implements Page, HoldButton.HoldListener {
 
     private final CommandForm arm;
     private final CommandForm disarm;
-    private final CommandContext desk;
+    private final CommandsScreen desk;
     private final View element;
     private final HoldButton armButton;
     private final HoldButton disarmButton;
@@ -35,7 +35,7 @@ final class ArmPage implements Page, HoldButton.HoldListener {
     private final TextView note;
 
     /** Creates the page; a form that the catalogue lacks is null. */
-    ArmPage(CommandForm arm, CommandForm disarm, CommandContext desk) {
+    ArmPage(CommandForm arm, CommandForm disarm, CommandsScreen desk) {
         this.arm = arm;
         this.disarm = disarm;
         this.desk = desk;

@@ -23,7 +23,7 @@ final class CommandList extends BaseAdapter {
 
     private final LayoutInflater inflater;
     private final Resources words;
-    private final CommandContext desk;
+    private final CommandsScreen desk;
     private final InstrumentColors colors;
     private final List<CommandForm> forms;
     /** Groups and forms as they stand below each other. */
@@ -31,7 +31,7 @@ final class CommandList extends BaseAdapter {
     private BitSet offered = new BitSet();
 
     /** Creates a list of all forms. */
-    CommandList(CommandContext desk, List<CommandForm> forms) {
+    CommandList(CommandsScreen desk, List<CommandForm> forms) {
         this.desk = desk;
         this.forms = forms;
         inflater = LayoutInflater.from(desk.context());

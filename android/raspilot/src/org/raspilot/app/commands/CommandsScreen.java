@@ -27,7 +27,7 @@ import org.raspilot.up.ground.GainsService;
 
 /** The list of Commands and the page of the one that is open, while their views live. */
 final class CommandsScreen
-        implements CommandContext, AdapterView.OnItemClickListener, TextListener,
+        implements AdapterView.OnItemClickListener, TextListener,
                 View.OnClickListener {
     private final Activity activity;
     private final CommandsState memory;
@@ -132,71 +132,69 @@ final class CommandsScreen
         list.search(text.toString());
     }
 
-    @Override
-    public Context context() {
+    /** Returns the source of views and texts. */
+    Context context() {
         return activity;
     }
 
-    @Override
-    public GroundSnapshot picture() {
+    GroundSnapshot picture() {
         return GroundSnapshot.of(ground);
     }
 
-    @Override
-    public GainsService.Snapshot gains() {
+    /** Returns the gains that are known now; null: none. */
+    GainsService.Snapshot gains() {
         return GroundSnapshot.of(ground).gains;
     }
 
-    @Override
-    public CommandsState memory() {
+    /** Returns what remembers texts, history and gains. */
+    CommandsState memory() {
         return memory;
     }
 
-    @Override
-    public DisabledReason objection(CommandForm form, Map<String, ?> data) {
+    /** Returns why a Command is not offered now. */
+    DisabledReason objection(CommandForm form, Map<String, ?> data) {
         GroundSnapshot picture = picture();
         return Permission.objection(form.name, form.role, data, picture.status,
                 picture.telemetry, picture.nowMs);
     }
 
-    @Override
-    public String objectionText(CommandForm form, Map<String, ?> data) {
+    /** Returns the same as a sentence; empty: it is offered. */
+    String objectionText(CommandForm form, Map<String, ?> data) {
         return CommandTexts.objection(activity.getResources(), objection(form, data), picture());
     }
 
-    @Override
-    public void send(BaseCommand command, String words) {
+    /** Sends a Command immediately, with the beacon of the frame that was drawn last. */
+    void send(BaseCommand command, String words) {
         if (isThere(words)) {
             ground.send(command, frame.shownBeacon(), memory.sent(words));
         }
     }
 
-    @Override
-    public void requestGains() {
+    /** Requests the active gains from the aircraft. */
+    void requestGains() {
         String words = activity.getString(R.string.gains_ask_words);
         if (isThere(words)) {
             ground.requestGains(memory.sent(words));
         }
     }
 
-    @Override
-    public void setGains(GainSet set) {
+    void setGains(GainSet set) {
         String words = activity.getString(R.string.gains_send_words);
         if (isThere(words)) {
             ground.setGains(set, frame.shownBeacon(), memory.sent(words));
         }
     }
 
-    @Override
-    public void undoGains() {
+    /** Sends the set of gains before. */
+    void undoGains() {
         String words = activity.getString(R.string.gains_undo_words);
         if (isThere(words)) {
             ground.undoGains(frame.shownBeacon(), memory.sent(words));
         }
     }
 
-    @Override
-    public void confirm(String title, String text, String yes, Runnable then) {
+    /** Shows a confirmation; does nothing when the user declines or the screen is closed. */
+    void confirm(String title, String text, String yes, Runnable then) {
         confirmation.show(title, text, yes, then);
     }
 
@@ -231,7 +229,7 @@ final class CommandsScreen
         if (form.name.equals("arduino.pids.tunings")) {
             return new GainsPage(form, this);
         }
-        return ChoicePage.fits(form) ? new ChoicePage(form, this) : new FormPage(form, this);
+        return new FormPage(form, this);
     }
 
     private CommandForm formOf(String name) {

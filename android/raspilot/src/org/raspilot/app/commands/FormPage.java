@@ -18,23 +18,27 @@ import org.raspilot.up.commands.CommandField;
 import org.raspilot.up.commands.CommandForm;
 import org.raspilot.up.commands.InvalidCommandException;
 
-/** The form of any Command, made from its description. */
+/**
+ * The form of any Command, made from its description. A Command whose one field is a choice of few
+ * values has a button for each, with a confirmation.
+ */
 final class FormPage implements Page, View.OnClickListener {
     private static final int[] PERIODS_MS = {50, 100, 200, 500, 1000, 2000};
+    private static final int MAX_CHOICES = 6;
 
     private final CommandForm form;
-    private final CommandContext desk;
+    private final CommandsScreen desk;
     private final Map<String, String> draft;
     private final View element;
     private final List<FieldView> fields = new ArrayList<>();
-    private final List<View> presets = new ArrayList<>();
+    private final List<View> buttons = new ArrayList<>();
     private final TextView why;
     private final TextView now;
     private final TextView problem;
     private final Button send;
 
     /** Creates the form and restores its typed text. */
-    FormPage(CommandForm form, CommandContext desk) {
+    FormPage(CommandForm form, CommandsScreen desk) {
         this.form = form;
         this.desk = desk;
         draft = desk.memory().draft(form.name);
@@ -51,8 +55,12 @@ final class FormPage implements Page, View.OnClickListener {
         send = (Button) element.findViewById(R.id.page_send);
         send.setOnClickListener(this);
         ViewGroup list = (ViewGroup) element.findViewById(R.id.page_fields);
-        for (CommandField field : form.fields()) {
-            fields.add(new FieldView(list, field, draft));
+        if (isChoice(form)) {
+            addChoices(list, form.fields().get(0));
+        } else {
+            for (CommandField field : form.fields()) {
+                fields.add(new FieldView(list, field, draft));
+            }
         }
         if (form.name.equals("up.telemetry.frequency") && fields.size() == 1) {
             addPresets((ViewGroup) element.findViewById(R.id.page_presets));
@@ -73,8 +81,8 @@ final class FormPage implements Page, View.OnClickListener {
         TextViews.showOrHide(now, CommandTexts.now(words, form.name, desk.picture()));
         boolean isOffered = objection.isEmpty();
         send.setEnabled(isOffered);
-        for (View preset : presets) {
-            preset.setEnabled(isOffered);
+        for (View button : buttons) {
+            button.setEnabled(isOffered);
         }
     }
 
@@ -95,22 +103,49 @@ final class FormPage implements Page, View.OnClickListener {
     }
 
     private void ask() {
-        final BaseCommand command;
+        BaseCommand command;
         try {
             command = form.command(draft);
         } catch (InvalidCommandException wrong) {
             TextViews.showOrHide(problem, wrong.getMessage());
             return;
         }
-        final String words = CommandTexts.asked(desk.context().getResources(), form.name,
+        String words = CommandTexts.asked(desk.context().getResources(), form.name,
                 command.data());
-        if (!ConfirmationPolicy.isConfirmed(form.name, command.data())) {
+        if (Permission.isConfirmed(form.name, command.data())) {
+            confirm(command, words);
+        } else {
             desk.send(command, words);
-            return;
         }
+    }
+
+    private void confirm(BaseCommand command, String words) {
         Context context = desk.context();
         desk.confirm(context.getString(R.string.commands_send_question), words,
                 context.getString(R.string.commands_send), () -> desk.send(command, words));
+    }
+
+    private static boolean isChoice(CommandForm form) {
+        if (form.fields().size() != 1) {
+            return false;
+        }
+        CommandField field = form.fields().get(0);
+        return field.isRequired() && field.choices != null && field.choices.size() <= MAX_CHOICES;
+    }
+
+    private void addChoices(ViewGroup list, CommandField field) {
+        send.setVisibility(View.GONE);
+        LayoutInflater inflater = LayoutInflater.from(desk.context());
+        for (Object choice : field.choices) {
+            Button button = (Button) inflater.inflate(R.layout.button_choice, list, false);
+            button.setText(String.valueOf(choice).replace('_', ' '));
+            BaseCommand command = new BaseCommand(form.name,
+                    Collections.singletonMap(field.name, choice));
+            button.setOnClickListener(pressed -> confirm(command, CommandTexts.asked(
+                    desk.context().getResources(), form.name, command.data())));
+            list.addView(button);
+            buttons.add(button);
+        }
     }
 
     private void addPresets(ViewGroup row) {
@@ -120,7 +155,7 @@ final class FormPage implements Page, View.OnClickListener {
             preset.setText(desk.context().getString(R.string.commands_preset, periodMs));
             preset.setOnClickListener(button -> fields.get(0).setText(Integer.toString(periodMs)));
             row.addView(preset);
-            presets.add(preset);
+            buttons.add(preset);
         }
         row.setVisibility(View.VISIBLE);
     }

@@ -1,15 +1,11 @@
 package org.raspilot.app.commands;
 
-import java.math.BigDecimal;
-import java.math.RoundingMode;
 import java.util.ArrayList;
 import java.util.Collections;
 import java.util.LinkedHashMap;
 import java.util.List;
 import java.util.Locale;
 import java.util.Map;
-import org.raspilot.up.commands.GainSet.Gains;
-import org.raspilot.up.commands.GainSet.LoopGains;
 import org.raspilot.up.commands.GainSet;
 import org.raspilot.up.commands.InvalidCommandException;
 import org.raspilot.up.ground.GainKey;
@@ -125,29 +121,11 @@ final class GainsEditor {
      * @throws InvalidCommandException with one sentence that names the gain
      */
     GainSet wanted() {
-        Map<String, String> cells = new LinkedHashMap<>();
-        for (GainKey key : GainKey.ALL) {
-            Edit edit = edits.get(key);
-            Double now = key.of(flying);
-            cells.put(key.path(), edit != null ? edit.written.trim() : now == null ? ""
-                    : new BigDecimal(now).setScale(6, RoundingMode.HALF_EVEN).toPlainString());
+        Map<GainKey, String> typed = new LinkedHashMap<>();
+        for (Map.Entry<GainKey, Edit> edit : edits.entrySet()) {
+            typed.put(edit.getKey(), edit.getValue().written);
         }
-        // The form validates the set as typed text; unedited values are not rounded.
-        GainSet written = GainsForm.read(cells);
-        return new GainSet(exact(0, written), exact(1, written), exact(2, written));
-    }
-
-    private LoopGains exact(int loop, GainSet written) {
-        Gains[] axes = new Gains[GainKey.AXES.size()];
-        for (int axis = 0; axis < axes.length; axis++) {
-            Double[] terms = new Double[GainKey.TERMS.size()];
-            for (int term = 0; term < terms.length; term++) {
-                GainKey key = GainKey.ALL.get(9 * loop + 3 * axis + term);
-                terms[term] = key.of(edits.containsKey(key) ? written : flying);
-            }
-            axes[axis] = terms[0] == null ? null : new Gains(terms[0], terms[1], terms[2]);
-        }
-        return axes[0] == null ? null : new LoopGains(axes[0], axes[1], axes[2]);
+        return GainsForm.read(typed, flying);
     }
 
     /** Returns what sending would change; empty while a cell has no valid gain. */

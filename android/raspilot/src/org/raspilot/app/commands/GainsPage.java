@@ -30,7 +30,7 @@ final class GainsPage implements Page, View.OnClickListener, GainsTable.ChangeLi
             Collections.singletonMap("request", true);
 
     private final CommandForm form;
-    private final CommandContext desk;
+    private final CommandsScreen desk;
     private final GainsEditor editor;
     private final View element;
     private final GainsTable table;
@@ -46,7 +46,7 @@ final class GainsPage implements Page, View.OnClickListener, GainsTable.ChangeLi
     private GainsService.Snapshot shown;
 
     /** Creates the page and restores its edits. */
-    GainsPage(CommandForm form, CommandContext desk) {
+    GainsPage(CommandForm form, CommandsScreen desk) {
         this.form = form;
         this.desk = desk;
         editor = desk.memory().gains();

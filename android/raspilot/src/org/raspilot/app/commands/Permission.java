@@ -126,6 +126,24 @@ final class Permission {
         return DisabledReason.NONE;
     }
 
+    /**
+     * Returns whether a Command needs a confirmation: every Command that changes the flight, and
+     * every unknown one. Requests, speech, marks and telemetry periods need none.
+     */
+    static boolean isConfirmed(String name, Map<String, ?> data) {
+        if (isOnlyRequest(name, data)) {
+            return false;
+        }
+        switch (CommandGroup.of(name)) {
+            case DATA:
+                return false;
+            case PHONE:
+                return !name.equals("android.speak");
+            default:
+                return true;
+        }
+    }
+
     /** Why a Command is not offered now. */
     enum DisabledReason {
         /** It is offered. */

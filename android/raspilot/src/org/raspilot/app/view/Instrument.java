@@ -20,7 +20,6 @@ import org.raspilot.up.ground.Freshness;
 public abstract class Instrument extends View {
     /** The text of an unknown value. */
     public static final String UNKNOWN = "--";
-    private static final float HATCH_STEP_DP = 9;
 
     /** For lines and areas; a drawing sets what it needs. */
     protected final Paint pen = new Paint(Paint.ANTI_ALIAS_FLAG);
@@ -33,7 +32,7 @@ public abstract class Instrument extends View {
     private final InstrumentColors staleColors;
     private Freshness freshness = Freshness.NONE;
     private String age = "";
-    private float[] hatching = new float[0];
+    private final Hatch hatch;
 
     /** Creates the view from a layout. */
     protected Instrument(Context context, AttributeSet attributes) {
@@ -42,6 +41,8 @@ public abstract class Instrument extends View {
         scaledDensity = getResources().getDisplayMetrics().scaledDensity;
         liveColors = InstrumentColors.of(context);
         staleColors = liveColors.stale();
+        hatch = new Hatch(context, liveColors.hatch);
+        hatch.setActive(true);
         letters.setTypeface(Typeface.DEFAULT_BOLD);
         if (getImportantForAccessibility() == IMPORTANT_FOR_ACCESSIBILITY_AUTO) {
             setImportantForAccessibility(IMPORTANT_FOR_ACCESSIBILITY_YES);
@@ -110,17 +111,7 @@ public abstract class Instrument extends View {
     @Override
     protected void onSizeChanged(int width, int height, int oldWidth, int oldHeight) {
         super.onSizeChanged(width, height, oldWidth, oldHeight);
-        float step = dp(HATCH_STEP_DP);
-        int count = (int) Math.ceil((width + height) / step);
-        float[] lines = new float[4 * count];
-        for (int each = 0; each < count; each++) {
-            float at = each * step;
-            lines[4 * each] = at;
-            lines[4 * each + 1] = 0;
-            lines[4 * each + 2] = at - height;
-            lines[4 * each + 3] = height;
-        }
-        hatching = lines;
+        hatch.setBounds(0, 0, width, height);
     }
 
     @Override
@@ -204,7 +195,7 @@ public abstract class Instrument extends View {
     }
 
     private void drawAge(Canvas canvas) {
-        canvas.drawLines(hatching, line(liveColors.hatch, 1.5f));
+        hatch.draw(canvas);
         float size = sp(13);
         float wide = Math.min(getWidth(), letterWidth(age, 13) + dp(8));
         float x = Math.max(wide / 2, getWidth() * ageAcross());

@@ -109,15 +109,15 @@ public final class PermissionTest {
 
     @Test
     public void whatChangesTheFlightIsConfirmedAndWhatNobodyKnowsToo() {
-        assertTrue(ConfirmationPolicy.isConfirmed("up.heading.change", NOTHING));
-        assertTrue(ConfirmationPolicy.isConfirmed("up.flight_mode.set", NOTHING));
-        assertTrue(ConfirmationPolicy.isConfirmed("arduino.calibrate", NOTHING));
-        assertTrue(ConfirmationPolicy.isConfirmed("chute.open", NOTHING));
-        assertTrue(ConfirmationPolicy.isConfirmed("android.reboot", NOTHING));
-        assertFalse(ConfirmationPolicy.isConfirmed("android.speak", NOTHING));
-        assertFalse(ConfirmationPolicy.isConfirmed("up.telemetry.frequency", NOTHING));
-        assertFalse(ConfirmationPolicy.isConfirmed("black_box.mark", NOTHING));
-        assertFalse(ConfirmationPolicy.isConfirmed("arduino.profile.request", NOTHING));
+        assertTrue(Permission.isConfirmed("up.heading.change", NOTHING));
+        assertTrue(Permission.isConfirmed("up.flight_mode.set", NOTHING));
+        assertTrue(Permission.isConfirmed("arduino.calibrate", NOTHING));
+        assertTrue(Permission.isConfirmed("chute.open", NOTHING));
+        assertTrue(Permission.isConfirmed("android.reboot", NOTHING));
+        assertFalse(Permission.isConfirmed("android.speak", NOTHING));
+        assertFalse(Permission.isConfirmed("up.telemetry.frequency", NOTHING));
+        assertFalse(Permission.isConfirmed("black_box.mark", NOTHING));
+        assertFalse(Permission.isConfirmed("arduino.profile.request", NOTHING));
     }
 
     @Test
