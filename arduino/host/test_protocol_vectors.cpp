@@ -7,7 +7,7 @@
 #include "protocol/cobs.h"
 #include "protocol/command_receiver.h"
 #include "protocol/crc16.h"
-#include "protocol/frame_writer.h"
+#include "protocol/frame.h"
 #include "wire_vectors.h"
 
 using namespace raspilot;
