@@ -12,7 +12,7 @@
 #include "moving_imu.h"
 #include "pilot_bench.h"
 #include "protocol/checked_reader.h"
-#include "protocol/frame_writer.h"
+#include "protocol/frame.h"
 
 namespace raspilot {
 

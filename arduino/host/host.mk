@@ -15,7 +15,7 @@ HOST_FLAGS := -std=gnu++11 -O1 -g -Wall -Wextra -Wconversion -Wshadow $(WERROR) 
 HOST_DEFINES := -DVECTORS='"$(abspath ../tests/vectors)"'
 
 PORTABLE := $(sort $(foreach part,$(PARTS),$(wildcard raspilot/src/$(part)/*.cpp)))
-HOST_SOURCES := host/main.cpp $(sort $(wildcard host/fake_*.cpp)) \
+HOST_SOURCES := host/main.cpp host/wire_vectors.cpp $(sort $(wildcard host/fake_*.cpp)) \
 	$(sort $(if $(TESTS),$(foreach test,$(TESTS),$(wildcard host/test_$(test)*.cpp)),$(wildcard host/test_*.cpp)))
 # The fuzzer's rules, for the test that replays its scripts.
 HOST_SOURCES += $(if $(filter host/test_protocol_fuzz.cpp,$(HOST_SOURCES)),host/fuzz/link_script.cpp)
@@ -48,7 +48,7 @@ $(HOST_BUILD)/%.o: %.cpp host/host.mk
 
 # Most of the time goes into optimizing and instrumenting the headers of doctest and json.
 $(HOST_BUILD)/host/%.o: FASTER := -O0
-$(HOST_BUILD)/host/main.o: FASTER := -O0 -fno-sanitize=all
+$(HOST_BUILD)/host/main.o $(HOST_BUILD)/host/wire_vectors.o: FASTER := -O0 -fno-sanitize=all
 
 # The same sources with a board around them, for a program that loads them (host/library/host_board.h):
 # where the AVR compiler is missing, the simulator flies these.

@@ -6,7 +6,7 @@
 
 #include "core/autopilot.h"
 #include "fake_board.h"
-#include "protocol/frame_writer.h"
+#include "protocol/frame.h"
 
 namespace raspilot {
 

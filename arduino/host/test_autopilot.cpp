@@ -1,7 +1,6 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
-#include <random>
 
 #include "flying_board.h"
 #include "store/wire_bytes.h"
@@ -61,108 +60,6 @@ uint32_t greatest_gap_us(const FlyingBoard& board, char type) {
 
 }  // namespace
 
-TEST_CASE("the motor stands still from power-on until the aircraft is armed") {
-  fake_board().reset();
-  FlyingBoard board;
-  board.sticks[THROTTLE] = 1900;
-  for (int slot = 0; slot < 5000; ++slot) {
-    board.run(2);
-    REQUIRE(board.output_us(THROTTLE) == 1000);
-  }
-  CHECK(board.output_us(AILERONS) >= 1490);
-  CHECK(board.output_us(AILERONS) <= 1510);
-}
-
-TEST_CASE("sticks pass through in ACRO, and the throttle once armed") {
-  Armed board;
-  board.sticks[AILERONS] = 1700;
-  board.sticks[ELEVATOR] = 1300;
-  board.sticks[THROTTLE] = 1600;
-  board.sticks[RUDDER] = 1444;
-  board.run(200);
-  CHECK(board.autopilot.authority.mode() == Mode::ACRO);
-  CHECK(board.output_us(AILERONS) == 1700);
-  CHECK(board.output_us(ELEVATOR) == 1300);
-  CHECK(board.output_us(THROTTLE) == 1600);
-  CHECK(board.output_us(RUDDER) == 1444);
-  board.sticks[AUX2] = 1000;
-  board.sticks[THROTTLE] = 1000;
-  REQUIRE(board.run_until([&] { return !board.autopilot.authority.is_armed(); }, 1000));
-  CHECK(board.output_us(THROTTLE) == 1000);
-}
-
-TEST_CASE("FBW levels the aircraft") {
-  Armed board;
-  board.sticks[AUX1] = 1500;
-  board.run(200);
-  CHECK(board.autopilot.authority.mode() == Mode::FBW);
-  board.imu.turn(50, 0, 0);
-  board.run(400);
-  board.imu.turn(0, 0, 0);
-  board.run(100);
-  REQUIRE(board.autopilot.attitude.attitude().roll_cdeg > 1500);
-  CHECK(board.output_us(AILERONS) < 1400);
-}
-
-TEST_CASE("a lost receiver circles with the motor at its failsafe and stays armed") {
-  Armed board;
-  board.sticks[THROTTLE] = 1700;
-  board.run(200);
-  REQUIRE(board.output_us(THROTTLE) == 1700);
-  board.is_receiver_on = false;
-  CHECK(board.run_until([&] { return board.autopilot.authority.is_failsafe(); }, 1000));
-  board.run(10);
-  CHECK(board.output_us(THROTTLE) == 1000);
-  CHECK(board.output_us(AILERONS) > 1550);
-  CHECK(board.autopilot.authority.is_armed());
-  board.sticks[THROTTLE] = 1650;
-  board.is_receiver_on = true;
-  CHECK(board.run_until([&] { return board.output_us(THROTTLE) == 1650; }, 500));
-}
-
-TEST_CASE("a lost IMU hands the surfaces to the sticks within 100 ms") {
-  Armed board;
-  board.sticks[AUX1] = 1500;
-  board.sticks[AILERONS] = 1700;
-  board.run(400);
-  REQUIRE(board.autopilot.authority.mode() == Mode::FBW);
-  REQUIRE(board.output_us(AILERONS) != 1700);
-  board.is_imu_on = false;
-  CHECK(board.run_until([&] { return board.output_us(AILERONS) == 1700; }, 100));
-  CHECK(board.autopilot.authority.mode() == Mode::ACRO);
-  CHECK(board.autopilot.authority.is_armed());
-}
-
-TEST_CASE("a reset in flight comes back armed, in its mode, with its attitude") {
-  Armed board;
-  board.sticks[AUX1] = 1500;
-  board.imu.turn(100, 0, 0);
-  board.run(200);
-  board.imu.turn(0, 0, 0);
-  board.sticks[THROTTLE] = 1600;
-  board.run(500);
-  SavedStates kept;
-  kept.write(board.autopilot.state());
-  SavedState state;
-  REQUIRE(kept.read(state));
-  const int16_t roll_cdeg = board.autopilot.attitude.attitude().roll_cdeg;
-  REQUIRE(roll_cdeg > 1000);
-
-  FlyingBoard later(&state, RESET_WATCHDOG);
-  later.imu = board.imu;
-  CHECK(later.autopilot.reset_cause == (RESET_WATCHDOG | RESET_RESTORED));
-  CHECK(later.autopilot.authority.is_armed());
-  for (uint8_t channel = 0; channel < INPUTS; ++channel) later.sticks[channel] = board.sticks[channel];
-  later.run(200);
-  CHECK(later.autopilot.authority.is_armed());
-  CHECK(later.autopilot.authority.mode() == Mode::FBW);
-  CHECK(later.output_us(THROTTLE) == 1600);
-  const int difference_cdeg = later.autopilot.attitude.attitude().roll_cdeg - roll_cdeg;
-  CHECK(difference_cdeg > -100);
-  CHECK(difference_cdeg < 100);
-  CHECK_FALSE(later.autopilot.attitude.is_calibrating());
-}
-
 TEST_CASE("FBW flies until the Outputs come that the Raspberry Pi has asked to send") {
   Armed board;
   board.sticks[AUX1] = 2000;
@@ -198,16 +95,6 @@ TEST_CASE("an armed aircraft that is still for once does not take that for its g
   board.sticks[AUX2] = 1000;
   board.run(3000);
   CHECK_FALSE(board.autopilot.authority.is_armed());
-}
-
-TEST_CASE("power-on never arms, whatever the sticks") {
-  fake_board().reset();
-  FlyingBoard board;
-  board.sticks[AUX2] = 2000;
-  board.sticks[AUX1] = 2000;
-  board.run(15000);
-  CHECK_FALSE(board.autopilot.authority.is_armed());
-  CHECK(board.autopilot.reset_cause == RESET_POWER_ON);
 }
 
 TEST_CASE("the Raspberry Pi starts the streams and reads the status") {
@@ -259,21 +146,6 @@ TEST_CASE("gains of the Raspberry Pi are used immediately and saved, without del
   CHECK(later.autopilot.settings.gains.stabilize[2].d == 7.5f);
 }
 
-TEST_CASE("gains sent in flight live in RAM and never reach EEPROM") {
-  Armed board;
-  const uint32_t written = fake_board().writes;
-  board.send('g', gains_of(4.25f));
-  board.run(3000);
-  CHECK(board.autopilot.authority.is_armed());
-  CHECK(board.autopilot.settings.gains.rate[0].p == 4.25f);
-  CHECK(fake_board().writes == written);
-  board.sticks[AUX2] = 1000;
-  board.run(3000);
-  REQUIRE_FALSE(board.autopilot.authority.is_armed());
-  CHECK(board.autopilot.settings.gains.rate[0].p == 4.25f);
-  CHECK(fake_board().writes == written);
-}
-
 TEST_CASE("a profile is taken and kept while disarmed, refused while armed") {
   Awake board;
   Profile glider = DEFAULT_PROFILE;
@@ -300,27 +172,6 @@ TEST_CASE("a profile is taken and kept while disarmed, refused while armed") {
   CHECK(later.autopilot.settings.profile.servos[AILERONS].is_reversed);
 }
 
-TEST_CASE("a profile that EEPROM has lost vetoes arming until there is a new one") {
-  {
-    Awake board;
-    board.autopilot.settings.save_profile();
-    board.run(3000);
-  }
-  for (uint8_t& cell : fake_board().eeprom) cell = cell == 0xA5 ? 0x5A : cell;
-  FlyingBoard board;
-  board.wake();
-  CHECK((board.autopilot.authority.vetoes() & VETO_PROFILE_INVALID) != 0);
-  board.flick_aux2();
-  CHECK_FALSE(board.autopilot.authority.is_armed());
-  Bytes wire(PROFILE_SIZE);
-  write_profile(DEFAULT_PROFILE, wire.data());
-  board.send('C', wire);
-  board.run(3000);
-  CHECK((board.autopilot.authority.vetoes() & VETO_PROFILE_INVALID) == 0);
-  board.flick_aux2();
-  CHECK(board.autopilot.authority.is_armed());
-}
-
 TEST_CASE("an aircraft whose receiver's end points are being learned does not arm") {
   Awake board;
   board.send('e', {1});
@@ -329,19 +180,4 @@ TEST_CASE("an aircraft whose receiver's end points are being learned does not ar
   CHECK((board.autopilot.authority.vetoes() & VETO_CALIBRATING) != 0);
   board.flick_aux2();
   CHECK_FALSE(board.autopilot.authority.is_armed());
-}
-
-TEST_CASE("noise on the serial line neither arms nor disturbs") {
-  Awake board;
-  std::mt19937 random(11);
-  for (int round = 0; round < 2000; ++round) {
-    for (int count = 0; count < 20; ++count) {
-      board.autopilot.link.on_byte(static_cast<uint8_t>(random()), board.now_us());
-    }
-    board.run(2);
-    REQUIRE_FALSE(board.autopilot.authority.is_armed());
-    REQUIRE(board.output_us(THROTTLE) == 1000);
-  }
-  CHECK(fake_board().violations == 0);
-  CHECK(board.autopilot.settings.gains.rate[0].p == DEFAULT_GAINS.rate[0].p);
 }

@@ -1,13 +1,10 @@
 #include <doctest/doctest.h>
 
-#include <fstream>
-#include <nlohmann/json.hpp>
-
 #include "protocol/checked_reader.h"
 #include "protocol/cobs.h"
 #include "protocol/command_receiver.h"
 #include "protocol/crc16.h"
-#include "protocol/frame_writer.h"
+#include "protocol/frame.h"
 #include "wire_vectors.h"
 
 using namespace raspilot;
@@ -15,13 +12,6 @@ using namespace raspilot;
 namespace {
 
 typedef std::vector<uint8_t> Bytes;
-
-nlohmann::json vectors_of(const std::string& name) {
-  std::ifstream file(std::string(VECTORS "/") + name + ".json");
-  const nlohmann::json page = nlohmann::json::parse(file);
-  REQUIRE(page["vectors"].size() > 2);
-  return page["vectors"];
-}
 
 Bytes written;
 
@@ -52,8 +42,8 @@ struct Reading {
 TEST_CASE("the CRC is that of the golden vectors") {
   for (const auto& vector : vectors_of("crc16")) {
     Crc16 crc;
-    for (uint8_t byte : bytes_of(vector["bytes"])) crc.put(byte);
-    const Bytes expected = bytes_of(vector["crc"]);
+    for (uint8_t byte : bytes_of(vector.at("bytes"))) crc.put(byte);
+    const Bytes expected = bytes_of(vector.at("crc"));
     CHECK(crc.high() == expected[0]);
     CHECK(crc.low() == expected[1]);
     crc.put(expected[0]);
@@ -65,8 +55,8 @@ TEST_CASE("the CRC is that of the golden vectors") {
 TEST_CASE("COBS is that of the golden vectors, as long as frames are short") {
   unsigned short_ones = 0;
   for (const auto& vector : vectors_of("cobs")) {
-    const Bytes plain = bytes_of(vector["plain"]);
-    const Bytes encoded = bytes_of(vector["encoded"]);
+    const Bytes plain = bytes_of(vector.at("plain"));
+    const Bytes encoded = bytes_of(vector.at("encoded"));
     if (plain.size() > MAX_FRAME) continue;
     ++short_ones;
     Bytes buffer(plain.size() + 1);
@@ -88,10 +78,10 @@ TEST_CASE("COBS is that of the golden vectors, as long as frames are short") {
 
 TEST_CASE("every golden frame is written byte for byte and read back") {
   for (const auto& vector : vectors_of("serial_checked")) {
-    const Bytes wire = bytes_of(vector["wire"]);
-    const Bytes payload = bytes_of(vector["payload"]);
-    const char type = vector["type"].get<std::string>()[0];
-    const uint8_t sequence = vector["sequence"];
+    const Bytes wire = bytes_of(vector.at("wire"));
+    const Bytes payload = bytes_of(vector.at("payload"));
+    const char type = vector.at("type")[0];
+    const uint8_t sequence = static_cast<uint8_t>(std::stoi(vector.at("sequence")));
     CHECK(frame_of(sequence, type, payload) == wire);
     Reading reading;
     reading.take(wire);
@@ -104,18 +94,18 @@ TEST_CASE("every golden frame is written byte for byte and read back") {
 }
 
 TEST_CASE("every golden Command is registered once, with its size, and in its framings") {
-  const nlohmann::json thesis = vectors_of("serial_thesis");
+  const auto thesis = vectors_of("serial_thesis");
   for (const auto& vector : vectors_of("serial_checked")) {
-    if (vector["direction"] != "to_arduino") continue;
-    const char type = vector["type"].get<std::string>()[0];
+    if (vector.at("direction") != "to_arduino") continue;
+    const char type = vector.at("type")[0];
     CAPTURE(type);
     CHECK(CommandExecutor::count(type) == 1);
     CommandDefinition command;
     REQUIRE(CommandExecutor::find(type, command));
-    CHECK(command.size == bytes_of(vector["payload"]).size());
+    CHECK(command.size == bytes_of(vector.at("payload")).size());
     bool is_thesis = false;
     for (const auto& old : thesis) {
-      is_thesis |= old["direction"] == "to_arduino" && old["type"] == vector["type"];
+      is_thesis |= old.at("direction") == "to_arduino" && old.at("type") == vector.at("type");
     }
     CHECK((command.framing == Framing::BOTH) == is_thesis);
     // A handler with its own answer is called when there is room, and its payload is gone by then.
@@ -132,17 +122,17 @@ TEST_CASE("every golden Command is registered once, with its size, and in its fr
 
 TEST_CASE("every golden thesis Command is received whole") {
   for (const auto& vector : vectors_of("serial_thesis")) {
-    if (vector["direction"] != "to_arduino") continue;
+    if (vector.at("direction") != "to_arduino") continue;
     ReceiveBuffer buffer = {};
     CommandReceiver receiver(buffer);
-    const Bytes wire = bytes_of(vector["wire"]);
+    const Bytes wire = bytes_of(vector.at("wire"));
     for (size_t at = 0; at < wire.size(); ++at) {
       const bool is_last = at + 1 == wire.size();
       CHECK(receiver.receive(wire[at], 0) == (is_last ? CommandReceiver::Found::COMMAND
                                                    : CommandReceiver::Found::NOTHING));
     }
-    CHECK(receiver.definition().type == vector["type"].get<std::string>()[0]);
-    const Bytes payload = bytes_of(vector["payload"]);
+    CHECK(receiver.definition().type == vector.at("type")[0]);
+    const Bytes payload = bytes_of(vector.at("payload"));
     CHECK(Bytes(receiver.payload(), receiver.payload() + payload.size()) == payload);
   }
 }

@@ -1,30 +1,21 @@
-/** The payloads of tests/vectors/serial_checked.json, read when the test runs. */
+/** The golden vectors of tests/vectors, read when the test runs. */
 #pragma once
 
-#include <fstream>
-#include <nlohmann/json.hpp>
+#include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
 
 namespace raspilot {
 
-inline std::vector<uint8_t> bytes_of(const std::string& hex) {
-  std::vector<uint8_t> bytes;
-  for (size_t at = 0; at + 1 < hex.size(); at += 2) {
-    bytes.push_back(static_cast<uint8_t>(std::stoul(hex.substr(at, 2), nullptr, 16)));
-  }
-  return bytes;
-}
+/** The members of one vector; those that are not text, as JSON. */
+typedef std::map<std::string, std::string> WireVector;
 
-/** Every payload of this type in the golden vectors, both directions. */
-inline std::vector<std::vector<uint8_t>> payloads_of(const std::string& type) {
-  std::ifstream file(VECTORS "/serial_checked.json");
-  std::vector<std::vector<uint8_t>> payloads;
-  const nlohmann::json page = nlohmann::json::parse(file);
-  for (const auto& vector : page["vectors"]) {
-    if (vector["type"] == type) payloads.push_back(bytes_of(vector["payload"]));
-  }
-  return payloads;
-}
+std::vector<uint8_t> bytes_of(const std::string& hex);
+std::vector<WireVector> vectors_of(const std::string& name);
+/** A text beside the vectors of a file. */
+std::string text_of(const std::string& name, const std::string& member);
+/** Every payload of this type in serial_checked.json, both directions. */
+std::vector<std::vector<uint8_t>> payloads_of(const std::string& type);
 
 }  // namespace raspilot

@@ -8,7 +8,7 @@
 #include "core/autopilot.h"
 #include "fake_board.h"
 #include "pilot_bench.h"
-#include "protocol/frame_writer.h"
+#include "protocol/frame.h"
 #include "second_reading.h"
 
 namespace raspilot {

@@ -49,7 +49,7 @@ void hook_write(rig_t *rig, uint16_t address, avr_io_write_t function) {
     rig->avr->io[AVR_DATA_TO_IO(address)].w.param = rig;
 }
 
-void crash(rig_t *rig, const char *code, const char *format, unsigned value) {
+void note_crash(rig_t *rig, const char *code, const char *format, unsigned value) {
     if (rig->crash_code) return;
     snprintf(rig->crash_text, sizeof rig->crash_text, format, value);
     rig->crash_code = code;
@@ -65,7 +65,8 @@ uint32_t next_random(rig_t *rig) {
 static void on_log(avr_t *avr, const int level, const char *format, va_list arguments) {
     (void)format, (void)arguments;
     if (avr && avr->custom.data && level <= LOG_ERROR)
-        crash(avr->custom.data, "wild_program", "the program went wild at address 0x%04x", avr->pc);
+        note_crash(avr->custom.data, "wild_program",
+                   "the program went wild at address 0x%04x", avr->pc);
 }
 
 /* ---- events ---- */
@@ -190,7 +191,7 @@ static void step(rig_t *rig, cycle_t until) {
         note_stack(rig, code);
     }
     if (avr->state == cpu_Crashed || avr->state == cpu_Stopped)
-        crash(rig, "wild_program", "the program went wild at address 0x%04x", avr->pc);
+        note_crash(rig, "wild_program", "the program went wild at address 0x%04x", avr->pc);
     if (avr->cycle >= rig->next_due || !rig->is_planned) run_events(rig, avr->cycle);
     /* The instruction after the one that allows interrupts always runs (7.7); simavr marks that
      * one by its own state. */

@@ -52,7 +52,8 @@ bool interrupt_enter(rig_t *rig) {
     const source_t *source = &SOURCES[vector];
     uint16_t stack = (uint16_t)(avr->data[R_SPL] | avr->data[R_SPH] << 8);
     if (stack < 0x102 || stack > avr->ramend) {
-        crash(rig, "wild_stack", "the stack pointer is at 0x%04x when an interrupt comes", stack);
+        note_crash(rig, "wild_stack",
+                   "the stack pointer is at 0x%04x when an interrupt comes", stack);
         return false;
     }
     avr->data[stack] = (uint8_t)(avr->pc >> 1);
@@ -115,7 +116,8 @@ static void on_masks(avr_t *avr, avr_io_addr_t address, uint8_t value, void *par
 
 static void on_external(avr_t *avr, avr_io_addr_t address, uint8_t value, void *param) {
     if (value & 3)
-        crash(of(param), "not_modelled", "INT0 and INT1 are not modelled (EIMSK = 0x%02x)", value);
+        note_crash(of(param), "not_modelled",
+                   "INT0 and INT1 are not modelled (EIMSK = 0x%02x)", value);
     avr->data[address] = value;
 }
 

@@ -194,7 +194,7 @@ uint8_t bits_written(const rig_t *rig, uint8_t value); /* SBI writes one bit alo
 void run_events(rig_t *rig, cycle_t now);
 void replan(rig_t *rig);
 void want_reset(rig_t *rig, uint8_t cause);
-void crash(rig_t *rig, const char *code, const char *format, unsigned value);
+void note_crash(rig_t *rig, const char *code, const char *format, unsigned value);
 uint32_t next_random(rig_t *rig);
 void hook_read(rig_t *rig, uint16_t address, avr_io_read_t function);
 void hook_write(rig_t *rig, uint16_t address, avr_io_write_t function);

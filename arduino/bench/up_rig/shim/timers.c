@@ -101,7 +101,8 @@ static void set_clock(rig_t *rig, rig_timer_t *timer, cycle_t now) {
     timer->origin = now;
     if (timer->divider)
         timer->origin -= (now - rig->prescaler_zero[is_two]) % timer->divider;
-    if (!is_two && select >= 6) crash(rig, "not_modelled", "timer clock %u is not modelled", select);
+    if (!is_two && select >= 6)
+        note_crash(rig, "not_modelled", "timer clock %u is not modelled", select);
     plan(rig, timer, now);
 }
 
@@ -132,7 +133,8 @@ static void on_control_a(avr_t *avr, avr_io_addr_t address, uint8_t value, void 
     run_events(rig, now);
     avr->data[address] = value;
     if (value & 3 && value & 0xF0)
-        crash(rig, "not_modelled", "pulse width modes are not modelled (TCCRnA = 0x%02x)", value);
+        note_crash(rig, "not_modelled",
+                   "pulse width modes are not modelled (TCCRnA = 0x%02x)", value);
     for (int side = 0; side < 2; side++)
         show(rig, timer, side, latch_of(rig, timer, side), now);
 }

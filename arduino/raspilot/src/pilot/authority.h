@@ -6,10 +6,9 @@
 #include "../core/compiler.h"
 #include "../core/types.h"
 #include "../store/profile.h"
-#include "arming_switch.h"
 #include "lifetime.h"
-#include "mode_switch.h"
 #include "pwm_reader.h"
+#include "switches.h"
 
 namespace raspilot {
 

@@ -26,7 +26,7 @@ class Lifetime {
  public:
   void start(uint16_t units) { left_ = units; }
   void end() { left_ = 0; }
-  void pass(uint16_t units);
+  void pass(uint16_t units) { left_ = left_ > units ? static_cast<uint16_t>(left_ - units) : 0; }
   bool is_running() const { return left_ != 0; }
 
  private:
@@ -38,7 +38,10 @@ class Stopwatch {
  public:
   void start() { units_ = 0; }
   // One copy of it is smaller than all of them in their places.
-  __attribute__((noinline)) void pass(uint16_t units);
+  __attribute__((noinline)) void pass(uint16_t units) {
+    const uint16_t sum = static_cast<uint16_t>(units_ + units);
+    units_ = sum < units ? 65535 : sum;
+  }
   uint16_t units() const { return units_; }
 
  private:

@@ -39,4 +39,8 @@ struct ReceiveBuffer {
   uint8_t bytes[MAX_COMMAND + 2];
 };
 
+/** Gives `write` one byte after the other: the frame and its zero, size + 6 bytes. */
+void write_frame(uint8_t sequence, char type, const uint8_t* payload, uint8_t size,
+                 void (*write)(uint8_t byte));
+
 }  // namespace raspilot

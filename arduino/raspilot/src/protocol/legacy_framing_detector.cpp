@@ -4,7 +4,6 @@
 #include "../store/gains.h"
 #include "../store/wire_bytes.h"
 #include "frame.h"
-#include "location.h"
 
 namespace raspilot {
 
@@ -12,6 +11,9 @@ namespace {
 
 constexpr uint8_t POINTS_NEEDED = 8;
 constexpr uint8_t COMMANDS_NEEDED = 2;
+// 90.0f and 180.0f.
+constexpr uint32_t MAX_LATITUDE = 0x42B40000;
+constexpr uint32_t MAX_LONGITUDE = 0x43340000;
 
 /** A Command of the thesis: its type, its size, its points. */
 struct ThesisCommand {

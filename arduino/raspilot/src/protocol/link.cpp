@@ -2,7 +2,7 @@
 
 #include "../core/autopilot.h"
 #include "../core/board.h"
-#include "frame_writer.h"
+#include "frame.h"
 
 namespace raspilot {
 

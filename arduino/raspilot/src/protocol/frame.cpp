@@ -1,8 +1,7 @@
-#include "frame_writer.h"
+#include "frame.h"
 
 #include "cobs.h"
 #include "crc16.h"
-#include "frame.h"
 
 namespace raspilot {
 
