@@ -30,6 +30,18 @@ _SHOWN_CHARACTERS = 40
 _GUESSED_CHARACTERS = 60
 
 
+class InvalidValueError(ValueError):
+    """A value violates its constraint; ``code`` names how, the text continues its name.
+
+    Codes: ``wrong_type``, ``out_of_range``, ``not_finite``, ``too_long``, ``not_a_choice`` and
+    ``not_unicode``.
+    """
+
+    def __init__(self, text: str, code: str) -> None:
+        super().__init__(text)
+        self.code = code
+
+
 @dataclass(frozen=True, slots=True)
 class Constraint:
     """The constraint of a value: its type, bounds, choices, length and unit.
@@ -50,7 +62,7 @@ class Constraint:
     unit: str = ""
     ignore_case: bool = False
     check: Callable[[object], Any] = field(init=False, repr=False, compare=False)
-    """Returns the value (an int as float if `type_` is float), or raises ValueError."""
+    """Returns the value (an int as float if `type_` is float), or raises InvalidValueError."""
 
     def __post_init__(self) -> None:
         if self.type_ not in _TYPES:
@@ -174,8 +186,12 @@ def _compile(constraint: Constraint) -> Callable[[object], Any]:
     return check_nullable
 
 
-def _refusal(constraint: Constraint, value: object) -> ValueError:
-    return ValueError(f"must be {constraint.describe()}, not {show(value)}")
+def _refusal(constraint: Constraint, value: object, code: str = "wrong_type") -> InvalidValueError:
+    return InvalidValueError(f"must be {constraint.describe()}, not {show(value)}", code)
+
+
+def _too_long(constraint: Constraint, size: int) -> InvalidValueError:
+    return InvalidValueError(f"must be {constraint.describe()}, not of {size}", "too_long")
 
 
 def _check_bool(constraint: Constraint) -> Callable[[object], Any]:
@@ -195,7 +211,8 @@ def _check_int(constraint: Constraint) -> Callable[[object], Any]:
         if type(value) is int:
             if low <= value <= high:
                 return value
-        elif isinstance(value, int) and not isinstance(value, bool):
+            raise _refusal(constraint, value, "out_of_range")
+        if isinstance(value, int) and not isinstance(value, bool):
             return check(int(value))
         raise _refusal(constraint, value)
 
@@ -214,17 +231,14 @@ def _check_float(constraint: Constraint) -> Callable[[object], Any]:
             try:
                 number = float(value)
             except OverflowError:
-                raise refusal(value) from None
+                raise _refusal(constraint, value, "out_of_range") from None
         else:
-            raise refusal(value)
+            raise _refusal(constraint, value)
         if low <= number <= high:
             return number
-        raise refusal(value)
-
-    def refusal(value: object) -> ValueError:
-        if isinstance(value, float) and not math.isfinite(value):
-            return ValueError(f"must be a finite number, not {value!r}")
-        return _refusal(constraint, value)
+        if not math.isfinite(number):
+            raise InvalidValueError(f"must be a finite number, not {number!r}", "not_finite")
+        raise _refusal(constraint, value, "out_of_range")
 
     return check
 
@@ -236,12 +250,14 @@ def _check_str(constraint: Constraint) -> Callable[[object], Any]:
         if not isinstance(value, str):
             raise _refusal(constraint, value)
         if len(value) > limit:
-            raise ValueError(f"must be {constraint.describe()}, not of {len(value)}")
+            raise _too_long(constraint, len(value))
         if not value.isascii():
             try:
                 value.encode()
             except UnicodeEncodeError:
-                raise ValueError("must be valid Unicode text, not lone surrogates") from None
+                raise InvalidValueError(
+                    "must be valid Unicode text, not lone surrogates", "not_unicode"
+                ) from None
         return value
 
     return check
@@ -255,7 +271,7 @@ def _check_sized(constraint: Constraint) -> Callable[[object], Any]:
         if not isinstance(value, types):
             raise _refusal(constraint, value)
         if len(value) > limit:
-            raise ValueError(f"must be {constraint.describe()}, not of {len(value)}")
+            raise _too_long(constraint, len(value))
         return value
 
     return check
@@ -272,11 +288,12 @@ def _check_choice(
         try:
             return choices[fold(check_type(value))]
         except (ValueError, KeyError):
-            refusal = _refusal(constraint, value)
+            refusal = _refusal(constraint, value, "not_a_choice")
         if isinstance(value, str):
             for choice in constraint.choices or ():
                 if str(choice).casefold() == value.casefold():
-                    raise ValueError(f"{refusal}, did you mean {show(choice)}?")
+                    hint = f"{refusal}, did you mean {show(choice)}?"
+                    raise InvalidValueError(hint, refusal.code)
         raise refusal
 
     return check

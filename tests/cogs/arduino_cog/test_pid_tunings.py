@@ -256,7 +256,7 @@ def test_a_disk_that_refuses_is_told(tuned, monkeypatch):
     monkeypatch.setattr(PidsFile, "save", full)
     outcome = refusal(rig.ask(tunings()))
     assert outcome.code is Code.FAILED
-    assert "gains fly, but pids.yml was not saved: no space" in outcome.reason
+    assert outcome.detail == "gains_not_saved"
 
 
 def test_a_request_is_answered_with_what_the_board_holds_in_full_precision(tuned):

@@ -134,7 +134,7 @@ def test_readings_arming_modes_and_gains(aircraft, tmp_path):
         profile = await until(lambda: profile_of(up))
         assert profile["fly_by_wire.roll_deg"] == 45.0
         up.vetoes.set("a module", "did not start")
-        assert await ask(up, ArmCommand()) == "arming is vetoed: a module: did not start"
+        assert "a module: " in await ask(up, ArmCommand())
         up.vetoes.clear("a module")
         # The virtual pilot's AUX2 goes high some time, and arms.
         await until(lambda: arduino.is_armed)

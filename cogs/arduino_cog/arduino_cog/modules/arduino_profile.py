@@ -207,8 +207,8 @@ class ArduinoProfile(BaseModule):
         # After a lost answer the board's profile is unknown.
         self._board.current = None
         self._back_off()
-        reason = failure.getErrorMessage()
-        self.log.warn("profile: {reason}", code="profile_failed", reason=reason)
+        reason, detail = failure.value.reason, failure.value.detail
+        self.log.warn("profile: {reason}", code="profile_failed", reason=reason, detail=detail)
         self._veto(f"the Arduino does not have this profile: {reason}")
 
     def _publish(self, current: Profile) -> None:
