@@ -130,15 +130,6 @@ def test_telemetry_tells_an_old_gyro_bias_and_a_state_that_came_back(rig):
     assert arduino["reset_cause"] == "watchdog, state restored"
 
 
-def test_every_veto_has_words(rig):
-    rig.start()
-    for bit in range(8):
-        rig.status(vetoes=1 << bit)
-        (veto,) = rig.up.vetoes.all
-        assert veto.startswith("arduino: ")
-        assert len(veto) > 15
-
-
 def test_what_is_not_known_is_null(rig):
     rig.start_alone()
     content = rig.up.telemetry_controller.collect()

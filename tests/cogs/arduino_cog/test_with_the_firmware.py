@@ -151,20 +151,6 @@ def test_arming_by_aux2_and_by_the_ground(flight):
     disarm(board, ground)
 
 
-def test_a_disarmed_motor_stands_whatever_the_stick_does(flight):
-    board, daemon = flight
-    disarm(board, daemon.ground)
-    with board.rig() as rig:
-        begun = rig.cycle
-    board.move(throttle=2000)
-    daemon.ground.comes("rx.throttle", 2000, 3)
-    board.pass_us(300_000)
-    widths = [each.width_us for each in board.pulses("throttle") if each.rise_cycle > begun]
-    assert len(widths) > 10
-    assert all(near(width, 1000, 1) for width in widths)
-    board.move(throttle=1000)
-
-
 def test_modes_are_taken_at_auto_only(flight):
     board, daemon = flight
     ground = daemon.ground
