@@ -79,7 +79,7 @@ class OrientationFactory(Factory):
     def source(self) -> str:
         return "" if self._current is None else self._current.source
 
-    def buildProtocol(self, addr: IAddress | None) -> Protocol | None:  # type: ignore[override]  # noqa: N802 - Twisted's name
+    def buildProtocol(self, addr: IAddress | None) -> Protocol | None:  # noqa: N802 - Twisted's name
         return _OrientationConnection(self) if self._permits(getattr(addr, "host", "")) else None
 
     def connected(self, connection: _OrientationConnection) -> None:
