@@ -59,7 +59,6 @@ class OrientationInput:
 
     @property
     def connected(self) -> bool:
-        """Return whether there is a source."""
         return self._sources > 0
 
     @property
@@ -75,7 +74,6 @@ class OrientationInput:
             self.datagrams.drop("another phone is connected")
 
     def close(self) -> None:
-        """Drop the source."""
         self.factory.close()
 
     def _on_stream_frame(self, frame: OrientationFrame, source: str) -> None:

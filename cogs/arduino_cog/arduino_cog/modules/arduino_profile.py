@@ -213,7 +213,6 @@ class ArduinoProfile(BaseModule):
         self._veto(f"the Arduino does not have this profile: {reason}")
 
     def _publish(self, current: Profile) -> None:
-        """Publish the current profile, for the flight log."""
         self.arduino.has_motor = current["motor"]
         self.up.command_executor.execute_command(ArduinoProfileValuesCommand.of(current))
 

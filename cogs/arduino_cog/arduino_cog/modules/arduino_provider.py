@@ -99,12 +99,10 @@ class ArduinoProvider(BaseStartedModule):
 
     @property
     def connected(self) -> bool:
-        """Return whether frames arrive."""
         return self.serial.connected
 
     @property
     def is_armed(self) -> bool | None:
-        """Return whether the Arduino is armed; None while unknown."""
         return None if self.status is None else self.status.is_armed
 
     @property
