@@ -29,7 +29,6 @@ class ModeMonitor(BaseStartedModule):
 
     @property
     def shown(self) -> str:
-        """Return the mode as telemetry shows it."""
         if self.context.mode is Mode.BLACK_BOX:
             return Mode.BLACK_BOX.value
         if self.is_provisional:

@@ -29,7 +29,6 @@ class Pid:
         self._p, self._i, self._d = gains
 
     def reset(self) -> None:
-        """Discard the integral and the last measurement."""
         self._integral = 0.0
         self._last: float | None = None
 
@@ -89,7 +88,6 @@ class Cascade:
         self._stabilize.tune(stabilize)
 
     def reset(self) -> None:
-        """Reset: after a pause the integrals are meaningless."""
         self._rate.reset()
         self._stabilize.reset()
 

@@ -23,7 +23,6 @@ class PhoneWatch(BaseStartedModule):
         self._timer: Timer | None = None
 
     def load(self) -> bool:
-        """Return whether a runner gave the instance its name."""
         return bool(self.context.instance)
 
     def on_init(self) -> None:

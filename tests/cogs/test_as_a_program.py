@@ -121,10 +121,3 @@ def test_an_absent_proxy_with_an_unknown_name_neither_stops_nor_hangs_the_progra
         daemon.process.send_signal(signal.SIGTERM)
         assert daemon.process.wait(DEADLINE_S) == 0
         assert "Traceback" not in daemon.log
-
-
-def test_the_templates_were_written_and_nothing_was_overwritten(tmp_path):
-    root = application(tmp_path / "app", android="general port: 0\n")
-    assert (root / "config" / "android.yml").read_text(encoding="utf-8") == "general port: 0\n"
-    for name in ("discovery.yml", "mission_control.yml"):
-        assert (root / "config" / name).is_file()

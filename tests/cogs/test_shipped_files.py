@@ -6,20 +6,25 @@ from pathlib import Path
 
 import pytest
 from android_cog.config import ANDROID
+from arduino_cog.profile import AIRFRAME
 from black_box_cog.config import BLACK_BOX
 from discovery_cog.config import DISCOVERY
 from mission_control_cog.config import MISSION_CONTROL
+from serial_cog.config import ARDUINO
 
 from up.base_module import BaseModule
 from up.cogs.manifest import load_manifest
 from up.config import ConfigErrors
+from up.flight_controller.pids_file import PIDS
 
 ROOT = Path(__file__).parents[2]
 
 
-@pytest.mark.parametrize(
-    "file", [ANDROID, BLACK_BOX, DISCOVERY, MISSION_CONTROL], ids=lambda f: f.filename
-)
+FILES = [ANDROID, ARDUINO, BLACK_BOX, DISCOVERY, MISSION_CONTROL, PIDS, AIRFRAME]
+COGS = sorted(path.name for path in (ROOT / "cogs").glob("*_cog"))
+
+
+@pytest.mark.parametrize("file", FILES, ids=lambda f: f.filename)
 def test_the_shipped_configuration_is_the_template(file):
     assert (ROOT / "config" / file.filename).read_text(encoding="utf-8") == file.template()
     assert file.load(ROOT / "config") == file.cls()
@@ -30,15 +35,16 @@ def test_the_tuning_example_grants_a_pilot_and_accepts_no_public_link():
     assert (values.role, values.i_accept_plain, values.listener.port) == ("pilot", False, 50002)
 
 
-@pytest.mark.parametrize(
-    "cog", ["android_cog", "black_box_cog", "discovery_cog", "mission_control_cog"]
-)
-def test_the_manifest_names_modules(cog):
+@pytest.mark.parametrize("cog", COGS)
+def test_the_manifest_names_every_module_of_the_cog(cog):
     registrant = importlib.import_module(f"{cog}.registrar").Registrant()
     assert registrant.cog_name == cog
-    for entry in load_manifest(registrant.folder, cog).modules:
+    entries = load_manifest(registrant.folder, cog).modules
+    for entry in entries:
         cls = getattr(importlib.import_module(entry.prefix), entry.class_name)
         assert issubclass(cls, BaseModule)
+    files = {path.stem for path in (registrant.folder / "modules").glob("[!_]*.py")}
+    assert files == {entry.prefix.rpartition(".")[2] for entry in entries}
 
 
 @pytest.mark.parametrize(

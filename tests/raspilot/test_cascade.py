@@ -58,18 +58,6 @@ def test_the_wanted_rate_is_limited():
 
 
 @given(
-    st.floats(-360, 360), st.floats(-360, 360), st.floats(-4000, 4000), st.floats(1e-3, 0.1),
-    st.builds(Gains, st.floats(0, 50), st.floats(0, 50), st.floats(0, 50)),
-)  # fmt: skip
-def test_the_output_is_limited_whatever_comes(wanted, angle, rate, dt_s, gains):
-    controller = cascade(gains, gains)
-    for _ in range(3):
-        output = controller.hold_angle(wanted, angle, rate, dt_s)
-        assert -LIMIT_US <= output <= LIMIT_US
-        angle = -angle
-
-
-@given(
     st.builds(Gains, st.floats(0, 50), st.floats(0, 50), st.floats(0, 50)),
     st.lists(
         st.tuples(st.floats(-400, 400), st.floats(-4000, 4000), st.floats(1e-3, 0.1)), max_size=20
@@ -80,16 +68,6 @@ def test_a_pid_computes_the_same_as_simple_pid(gains, steps):
     for wanted, measured, dt_s in steps:
         peer.setpoint = wanted
         assert mine.step(wanted, measured, dt_s) == pytest.approx(peer(measured, dt=dt_s))
-
-
-def test_integrals_do_not_wind_up():
-    controller = cascade(Gains(1.0, 1.0), Gains(1.0, 1.0))
-    for _ in range(10_000):
-        controller.hold_angle(50, -50, 0, DT_S)
-    frames = 0
-    while controller.hold_angle(-50, 50, 0, DT_S) > 0:
-        frames += 1
-        assert frames < 200
 
 
 def test_reset_forgets():
@@ -108,15 +86,6 @@ def test_tuning_acts_at_once_and_keeps_what_the_integral_holds():
         held = controller.hold_rate(10, 0, DT_S)
     controller.tune(Gains(2.0), Gains(1.0))
     assert controller.hold_rate(0, 0, DT_S) == pytest.approx(held, rel=0.01)
-
-
-def test_time_counts_in_the_integral():
-    slow, fast = cascade(Gains(0, 1.0)), cascade(Gains(0, 1.0))
-    for _ in range(10):
-        slow_us = slow.hold_rate(10, 0, 0.05)
-    for _ in range(50):
-        fast_us = fast.hold_rate(10, 0, 0.01)
-    assert slow_us == pytest.approx(fast_us)
 
 
 def roll_of(controller, wanted_deg, seconds, gust_deg_s2=0.0):

@@ -53,7 +53,6 @@ class CommandLink:
 
     @property
     def name(self) -> str:
-        """Return the link's name, which is the source of its readings."""
         return self.origin.link
 
     def is_repeated(self, message: GeneralMessage) -> bool:

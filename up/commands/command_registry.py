@@ -35,7 +35,6 @@ class CommandRegistry:
             self._classes[name] = cls
 
     def get(self, name: str) -> type[BaseCommand] | None:
-        """Return the class of a name or alias, or None."""
         return self._classes.get(name)
 
     def primary_name(self, name: str) -> str:

@@ -35,7 +35,6 @@ class BaseFlightController(BaseStartedModule):
 
     @property
     def offered_modes(self) -> list[str]:
-        """Return the modes whose readings are valid and fresh."""
         return [mode for mode in self.FLIGHT_MODES if self.is_offered(mode)]
 
     def is_offered(self, mode: str) -> bool:

@@ -53,7 +53,7 @@ class GainsStore:
             except (OSError, ValueError) as error:
                 reason = getattr(error, "strerror", None) or str(error)
                 text = f"the new gains fly, but pids.yml was not saved: {reason}"
-                failure = CommandRefusedError(text, Code.FAILED)
+                failure = CommandRefusedError(text, Code.FAILED, detail="gains_not_saved")
                 self._reactor.callFromThread(done.errback, failure)
             else:
                 self._reactor.callFromThread(done.callback, None)

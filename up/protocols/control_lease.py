@@ -81,13 +81,11 @@ class ControlLease(Generic[T]):
         self._last_rx_s = 0.0
 
     def state(self, now_s: float) -> State:
-        """Return the present state."""
         last_rx_s = self._last_rx_s if self.owner is None else self.owner.last_rx_s
         self._feed(Input.TIMEOUT if now_s - last_rx_s > ALIVE_S else Input.RECEIVE)
         return self._state
 
     def is_free(self, now_s: float) -> bool:
-        """Return whether a newcomer may acquire the lease."""
         return self.state(now_s) in (State.FREE, State.SILENT)
 
     def is_resumed_by(self, token: str | None) -> bool:

@@ -138,7 +138,6 @@ class GeneralMessageProtocol(Protocol):
             self.transport.loseConnection()
 
     def abort(self) -> None:
-        """Abort the connection immediately."""
         self._is_open = False
         if self.transport is not None:
             self.transport.abortConnection()

@@ -31,6 +31,7 @@ _USER_TIMEOUT_MS = 3000
 OnOrientation = Callable[[OrientationFrame, str], object]
 OnSource = Callable[[str], object]
 OnSourceLost = Callable[[str, str], object]
+Permits = Callable[[str], bool]
 
 
 @dataclass(slots=True)
@@ -49,6 +50,7 @@ class OrientationFactory(Factory):
 
     `on_orientation` gets a frame and the source as text, `on_connected` the source, `on_lost` the
     source and the reason. A replaced connection is reported as lost before the new one connects.
+    `permits` returns whether a host may be a source.
     """
 
     noisy = False
@@ -60,8 +62,11 @@ class OrientationFactory(Factory):
         on_orientation: OnOrientation,
         on_connected: OnSource,
         on_lost: OnSourceLost,
+        permits: Permits = lambda host: True,
+        counters: OrientationCounters | None = None,
     ) -> None:
-        self.counters = OrientationCounters()
+        self.counters = counters or OrientationCounters()
+        self._permits = permits
         self.on_orientation = on_orientation
         self._clock = clock
         self._bucket = TokenBucket(clock, MAX_FRAMES_HZ, MAX_BURST)
@@ -74,8 +79,8 @@ class OrientationFactory(Factory):
     def source(self) -> str:
         return "" if self._current is None else self._current.source
 
-    def buildProtocol(self, addr: IAddress | None) -> Protocol:  # noqa: N802 - Twisted's name
-        return _OrientationConnection(self)
+    def buildProtocol(self, addr: IAddress | None) -> Protocol | None:  # noqa: N802 - Twisted's name
+        return _OrientationConnection(self) if self._permits(getattr(addr, "host", "")) else None
 
     def connected(self, connection: _OrientationConnection) -> None:
         """Make `connection` the source, or drop it while another one sends."""
@@ -161,8 +166,11 @@ class OrientationDatagrams(DatagramProtocol):
         on_orientation: OnOrientation,
         on_connected: OnSource,
         on_lost: OnSourceLost,
+        permits: Permits = lambda host: True,
+        counters: OrientationCounters | None = None,
     ) -> None:
-        self.counters = OrientationCounters()
+        self.counters = counters or OrientationCounters()
+        self._permits = permits
         self._clock = clock
         self._bucket = TokenBucket(clock, MAX_FRAMES_HZ, MAX_BURST)
         self._on_orientation = on_orientation
@@ -174,6 +182,8 @@ class OrientationDatagrams(DatagramProtocol):
         self._timer: Timer | None = None
 
     def datagramReceived(self, datagram: bytes, addr: Any) -> None:  # noqa: N802 - Twisted's name
+        if not self._permits(addr[0]):
+            return
         if addr != self._address and self._address is not None:
             self._check_silence()
             if self._address is not None:

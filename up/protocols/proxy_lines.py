@@ -58,7 +58,6 @@ class _Line:
     FORMAT: ClassVar[str]
 
     def encode(self) -> bytes:
-        """Return the line with its LF."""
         values = {each.name: _word(getattr(self, each.name)) for each in fields(self)}
         return f"UP1 {self.FORMAT.format(**values)}\n".encode("ascii", "replace")
 
@@ -222,7 +221,6 @@ class Hello:
     token: str | None = None
 
     def encode(self) -> bytes:
-        """Return the line with its LF."""
         access = f" seat={self.access.value}" if self.access else ""
         token = f" token={self.token}" if self.token else ""
         return f"UP1 aircraft={self.aircraft}{access}{token}\n".encode("ascii")

@@ -17,7 +17,6 @@ class ThesisEncoder:
     last_sequence = 0
 
     def encode(self, type_: int, payload: bytes = b"") -> bytes:
-        """Return type and payload as one piece."""
         return bytes((type_,)) + payload
 
 

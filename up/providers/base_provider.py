@@ -59,7 +59,6 @@ class BaseProvider(BaseStartedModule, Generic[_T]):
 
     @property
     def age_ms(self) -> int | None:
-        """Return the age of the newest reading in milliseconds."""
         if self._reading is None:
             return None
         return round(self._reading.age_s(self._seconds()) * 1000)

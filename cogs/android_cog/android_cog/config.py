@@ -72,7 +72,6 @@ class AndroidConfig:
     )
 
     def problems(self) -> Iterator[tuple[str, str]]:
-        """Yield contradictions between the keys."""
         if self.general_port and self.general_port == self.orientation_port:
             yield "orientation_port", "must differ from the general port"
         try:

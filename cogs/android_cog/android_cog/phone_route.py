@@ -42,7 +42,6 @@ class PhoneRoute:
         self._used_ids: OrderedDict[str, None] = OrderedDict()
 
     def __len__(self) -> int:
-        """Return how many Commands wait for the phone's answer."""
         return len(self._pending)
 
     def carry(

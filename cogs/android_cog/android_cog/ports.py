@@ -55,7 +55,6 @@ class Ports:
 
     @property
     def are_open(self) -> bool:
-        """Return whether any port is open."""
         return bool(self._open)
 
     async def close(self) -> None:

@@ -25,7 +25,6 @@ class OnChangeSender:
         self._timer: Timer | None = None
 
     def offer(self, payload: bytes) -> None:
-        """Accept a new payload."""
         if self._timer is not None:
             self._waiting = payload
             return
@@ -45,7 +44,6 @@ class OnChangeSender:
         self.stop()
 
     def stop(self) -> None:
-        """Discard the waiting payload."""
         if self._timer is not None:
             self._timer.cancel()
         self._timer = self._waiting = None

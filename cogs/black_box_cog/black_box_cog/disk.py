@@ -27,18 +27,15 @@ class Disk:
         return os.write(descriptor, data)
 
     def sync(self, descriptor: int) -> None:
-        """Wait until the written data are on the disk."""
         os.fdatasync(descriptor)
 
     def truncate(self, descriptor: int, size: int) -> None:
         os.ftruncate(descriptor, size)
 
     def is_linked(self, descriptor: int) -> bool:
-        """Return whether the file still has a name."""
         return os.fstat(descriptor).st_nlink > 0
 
     def close(self, descriptor: int) -> None:
-        """Close the file and release its lock."""
         os.close(descriptor)
 
     def make_folder(self, folder: Path) -> None:
@@ -56,7 +53,6 @@ class Disk:
             os.close(descriptor)
 
     def free_bytes(self, folder: Path) -> int:
-        """Return the free space for this user."""
         status = os.statvfs(folder)
         return status.f_bavail * status.f_frsize
 

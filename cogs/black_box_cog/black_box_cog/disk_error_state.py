@@ -22,11 +22,9 @@ class DiskErrorState:
         self._retry_s = float("-inf")
 
     def may_retry(self, now_s: float) -> bool:
-        """Return whether a file may be opened."""
         return now_s >= self._retry_s
 
     def delay_retry(self, now_s: float) -> None:
-        """Retry only after a minute."""
         self._retry_s = now_s + RETRY_S
 
     def report(self, error: Exception) -> None:

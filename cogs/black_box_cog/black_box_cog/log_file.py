@@ -28,7 +28,6 @@ class LogFile:
         self._records.append(record)
 
     def flush(self) -> None:
-        """Write the added records; raises OSError."""
         records, self._records = self._records, []
         if not records:
             return
@@ -54,7 +53,6 @@ class LogFile:
         return self._disk.is_linked(self._descriptor)
 
     def close(self) -> None:
-        """Close the file; idempotent."""
         descriptor, self._descriptor = self._descriptor, -1
         if descriptor >= 0:
             with contextlib.suppress(OSError):

@@ -247,7 +247,6 @@ class Recorder:
         segment.file.close()
 
     def _fail(self, error: Exception) -> None:
-        """Stop recording cleanly, and report it once."""
         segment, self._segment = self._segment, None
         if segment is not None:
             self._dropped += segment.file.lost

@@ -61,7 +61,6 @@ class SegmentFactory:
         return segment
 
     def make_room(self) -> None:
-        """Delete old flights during the recording."""
         self._folder.make_room(self._last)
 
     def end_flight(self) -> None:

@@ -25,7 +25,6 @@ class Timeline:
         self._reported_s = 0.0
 
     def log_ns(self, time_s: float) -> int:
-        """Return the log's time, nanoseconds since 1970."""
         return max(0, self._origin_ns + int(time_s * 1e9))
 
     @property

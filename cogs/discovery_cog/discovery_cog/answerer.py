@@ -35,7 +35,6 @@ class Answerer(DatagramProtocol):
         self._own_address_towards = own_address_towards
 
     def datagramReceived(self, datagram: bytes, addr: Any) -> None:  # noqa: N802 - Twisted's name
-        """Answer a request."""
         host, port = addr[0], addr[1]
         if len(datagram) > MAX_REQUEST_BYTES:
             self.counters["too_long"] += 1
@@ -75,7 +74,6 @@ class RateLimit:
         self._buckets: OrderedDict[str, TokenBucket] = OrderedDict()
 
     def __len__(self) -> int:
-        """Return how many senders are remembered."""
         return len(self._buckets)
 
     def permits(self, sender: str) -> bool:

@@ -22,7 +22,6 @@ class RemoteServerConfig:
     port: int = key(3003, "TCP port of the proxy's airborne side.", minimum=1, maximum=65535)
 
     def problems(self) -> Iterator[tuple[str, str]]:
-        """Yield a problem for an invalid host."""
         if not _HOST.fullmatch(self.url):
             yield "url", "must be a host name or an address alone, without http:// and port"
 
@@ -44,7 +43,6 @@ class ListenerConfig:
     )
 
     def problems(self) -> Iterator[tuple[str, str]]:
-        """Yield a problem for an invalid address."""
         try:
             is_wildcard(self.address)
         except ValueError:
@@ -87,7 +85,6 @@ class MissionControlConfig:
     listener: ListenerConfig = section(ListenerConfig)
 
     def problems(self) -> Iterator[tuple[str, str]]:
-        """Yield values that the proxy would refuse."""
         if self.aircraft and not AIRCRAFT_NAME.fullmatch(self.aircraft):
             yield "aircraft", f"must be {AIRCRAFT_NAME_RULE}"
 

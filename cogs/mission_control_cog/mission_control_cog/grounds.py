@@ -58,7 +58,6 @@ class Grounds(Factory):
         self._all_closed: Deferred[None] | None = None
 
     def __len__(self) -> int:
-        """Return how many stations are connected."""
         return len(self._stations)
 
     def send(self, message: bytes) -> bool:
@@ -70,7 +69,6 @@ class Grounds(Factory):
         return any([each.send_newest(message) for each in self._stations if each.is_known])
 
     async def close(self) -> None:
-        """Close every connection."""
         if self._stations:
             self._all_closed = Deferred()
             for station in list(self._stations):
@@ -99,7 +97,6 @@ class Grounds(Factory):
         self._stations[station] = self._open_link(station.send)
 
     def _accept(self, station: GroundConnection, hello: Hello) -> Accepted:
-        """Return the answer to a hello."""
         if self._lease.is_resumed_by(hello.token):
             station.token = hello.token
             displaced = self._acquire(station)

@@ -56,7 +56,6 @@ class HostAddresses:
         return self._known[0]
 
     def failed(self, address: str) -> None:
-        """Try another address next, if there is one."""
         if address in self._known:
             self._known.remove(address)
             self._known.append(address)

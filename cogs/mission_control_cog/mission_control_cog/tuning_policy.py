@@ -20,11 +20,9 @@ class TuningPolicy:
         self._is_in_flight = False
 
     def on_flight_state(self, command: FlightStateCommand) -> None:
-        """Take the board's state."""
         self._is_in_flight = command.is_in_flight is not False or command.is_auto
 
     def __call__(self, command: BaseCommand) -> str | None:
-        """Return why a Command is refused, or None."""
         if not isinstance(command, PIDTuningsCommand) or command.gains is None:
             return None
         if self._tunes_in_flight or not self._is_in_flight:

@@ -74,7 +74,6 @@ class Uplink:
 
     @property
     def is_ready(self) -> bool:
-        """Return whether messages can be sent."""
         return self._link is not None and self._link.is_ready
 
     def send(self, message: bytes) -> bool:
@@ -86,7 +85,6 @@ class Uplink:
         return self._link is not None and self._link.send_newest(message)
 
     def start(self) -> None:
-        """Start connecting."""
         self._service.startService()
 
     async def stop(self) -> None:

@@ -52,7 +52,6 @@ class UplinkProtocol(GeneralMessageProtocol):
         return super().send(message)
 
     def send_newest(self, message: bytes) -> bool:
-        """Send ``message``; a slow peer gets only the newest."""
         if not self.is_ready:
             return False
         self._sent_s = self._clock.seconds()
@@ -71,13 +70,11 @@ class UplinkProtocol(GeneralMessageProtocol):
             super().dataReceived(rest)
 
     def connectionLost(self, reason: Failure = connectionDone) -> None:  # noqa: N802 - Twisted's name
-        """Stop the heartbeat and report the loss."""
         self.is_ready = False
         cancel(self._pulse)
         super().connectionLost(reason)
 
     def close(self) -> None:
-        """Send waiting data and close."""
         self.is_ready = False
         super().close()
 

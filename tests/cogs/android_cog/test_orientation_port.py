@@ -37,42 +37,6 @@ def test_frames_arrive_as_commands_of_the_phone(tmp_path):
     run_in_reactor(flight)
 
 
-def test_stray_bytes_of_one_connection_do_not_shift_the_next(tmp_path):
-    async def flight():
-        async with Flight(tmp_path) as f:
-            f.listen_to(OrientationCommand)
-            first = await f.gyro()
-            first.say(raw(1, 1, 1, 0, 0, 0) + b"0123456789")
-            await until(lambda: f.heard)
-            await first.close()
-            second = await f.gyro()
-            second.say(raw(7, 8, 9, 0, 0, 0))
-            await until(lambda: len(f.heard) == 2)
-            assert f.heard[1] == OrientationCommand(7, 8, 9, 0, 0, 0)
-
-    run_in_reactor(flight)
-
-
-@pytest.mark.parametrize(
-    "bad", [(float("nan"), 0, 0, 0, 0, 0), (0, 400, 0, 0, 0, 0), (0, 0, 0, 0, float("inf"), 0)]
-)
-def test_impossible_values_are_dropped_and_counted(tmp_path, bad):
-    async def flight():
-        async with Flight(tmp_path) as f:
-            f.listen_to(OrientationCommand)
-            gyro, udp = await f.gyro(), UdpPeer(reactor)
-            f.peers.append(udp)
-            udp.say(raw(*bad), f.up.ports["orientation"])
-            udp.say(b"short", f.up.ports["orientation"])
-            await until(lambda: counters(f)["orientation_dropped"] == 2)
-            gyro.say(raw(*bad) + raw(1, 2, 3, 0, 0, 0))
-            await until(lambda: f.heard)
-            assert counters(f)["orientation_dropped"] == 3
-            assert len(f.heard) == 1
-
-    run_in_reactor(flight)
-
-
 def test_one_source_at_a_time(tmp_path):
     async def flight():
         async with Flight(tmp_path) as f:

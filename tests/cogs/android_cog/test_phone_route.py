@@ -5,7 +5,6 @@ from android_cog.phone_route import PENDING_LIMIT
 from tests.cogs.android_cog.flight import Asker, Flight
 from tests.cogs.peers import UdpPeer
 from tests.support.reactor import reactor, run_in_reactor, until
-from up.commands.roles import Role
 
 
 def ack(id_):
@@ -119,23 +118,6 @@ def test_a_phone_that_goes_away_answers_nothing_any_more(tmp_path):
     run_in_reactor(flight)
 
 
-def test_a_silent_phone_is_a_timeout_after_two_seconds(tmp_path):
-    async def flight():
-        async with Flight(tmp_path) as f:
-            phone = await connected(f)
-            asker = Asker(f.up, "mission_control")
-            began_s = reactor.seconds()
-            asker.speak("a")
-            (answer,) = await until(lambda: asker.answers)
-            assert answer.data["code"] == "timeout"
-            assert reactor.seconds() - began_s >= 1.9
-            phone.say(ack("a"))
-            await until(lambda: f.telemetry["counters"]["android"]["unasked_answers"] == 1)
-            assert len(asker.answers) == 1
-
-    run_in_reactor(flight)
-
-
 def test_what_waits_for_the_phone_is_bounded(tmp_path):
     async def flight():
         async with Flight(tmp_path) as f:
@@ -144,28 +126,7 @@ def test_what_waits_for_the_phone_is_bounded(tmp_path):
             for number in range(PENDING_LIMIT + 1):
                 asker.speak(str(number))
             (answer,) = asker.answers
-            assert answer.data == {
-                "id": str(PENDING_LIMIT),
-                "code": "unavailable",
-                "reason": f"{PENDING_LIMIT} Commands wait for the phone already",
-            }
+            assert (answer.data["id"], answer.data["code"]) == (str(PENDING_LIMIT), "unavailable")
             await until(lambda: len(asker.answers) == PENDING_LIMIT + 1)
-
-    run_in_reactor(flight)
-
-
-def test_an_observer_does_not_speak(tmp_path):
-    async def flight():
-        async with Flight(tmp_path) as f:
-            phone = await connected(f)
-            watcher = Asker(f.up, "ground", Role.OBSERVER)
-            watcher.speak("w")
-            assert watcher.answers[0].data["code"] == "forbidden"
-            asker = Asker(f.up, "mission_control")
-            for text in ("", "x" * 201):
-                asker.speak(f"bad{len(text)}", text)
-            assert [each.data["code"] for each in asker.answers] == ["invalid", "invalid"]
-            asker.ask(b'{"name": "android.speak", "data": {"text": "no answer wanted"}}')
-            await until(lambda: [m["data"]["text"] for m in spoken(phone)] == ["no answer wanted"])
 
     run_in_reactor(flight)

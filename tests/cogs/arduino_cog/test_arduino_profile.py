@@ -4,10 +4,11 @@ import struct
 
 import pytest
 from arduino_cog.commands.arduino_profile_commands import ArduinoProfileRequestCommand
-from twisted.logger import globalLogPublisher
+from twisted.logger import capturedLogs, globalLogPublisher
 
 from tests.cogs.arduino_cog.board import PROFILE, PROFILE_FORMAT, Ground
 from up.commands.arming_commands import ArmCommand
+from up.commands.board_schema import REASONS, Reason
 from up.commands.flight_state_command import FlightStateCommand, FlyByWireLimitsCommand
 from up.commands.refusal import Code, CommandRefusedError
 
@@ -140,10 +141,12 @@ def test_arming_is_forbidden_from_the_first_moment_until_it_is_compared(framed):
     rig = framed()
     rig.mute = {"c"}
     rig.connect(armed=False)
-    reason = refusal(rig.ask(ArmCommand())).reason
-    assert reason == f"arming is vetoed: {NAME}: the Arduino's profile is not known yet"
-    rig.alive(1.4)
-    assert "did not answer" in rig.up.vetoes.own[NAME]
+    refused = refusal(rig.ask(ArmCommand()))
+    assert refused.detail == "veto" and NAME in refused.reason
+    with capturedLogs() as events:
+        rig.alive(1.4)
+    assert "no_answer" in [each.get("detail") for each in events]
+    assert NAME in rig.up.vetoes.own
     rig.mute = set()
     rig.profile = TRIMMED
     rig.alive(3)
@@ -161,7 +164,7 @@ def test_a_refused_profile_is_tried_again_ever_more_seldom(framed):
         counts.append(len(rig.sent("C")))
     assert counts[0] >= 3
     assert sum(counts[3:]) <= 2
-    assert "out of range" in rig.up.vetoes.own[NAME]
+    assert REASONS[Reason.OUT_OF_RANGE] in rig.up.vetoes.own[NAME]
     rig.refuse = {}
     rig.alive(61)
     assert rig.profile == TRIMMED
@@ -177,9 +180,11 @@ def test_a_board_that_holds_another_one_afterwards_is_not_believed(framed):
         rig.profile = wire()
 
     rig.on_command = forgetful
-    rig.connect(armed=False)
-    rig.alive(0.6)
-    assert "another profile than it was sent" in rig.up.vetoes.own[NAME]
+    with capturedLogs() as events:
+        rig.connect(armed=False)
+        rig.alive(0.6)
+    assert "value_differs" in [each.get("detail") for each in events]
+    assert NAME in rig.up.vetoes.own
 
 
 def test_a_lost_confirmation_is_no_reason_to_write_again(framed):

@@ -124,8 +124,8 @@ def test_a_line_that_closes_before_the_repetition_fails(requests, line, clock):
 
 def test_everything_that_waits_fails_with_the_arduino(requests, clock):
     found = [outcome_of(requests.request(each)) for each in "agM"]
-    requests.fail_all("the Arduino is not connected")
-    assert [refusal(each).reason for each in found] == ["the Arduino is not connected"] * 3
+    requests.fail_all("gone")
+    assert [refusal(each).reason for each in found] == ["gone"] * 3
     assert not clock.getDelayedCalls()
 
 

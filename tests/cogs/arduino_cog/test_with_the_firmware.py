@@ -11,6 +11,7 @@ import pytest
 from tests.cogs.arduino_cog.bench_board import BenchBoard, ms
 from tests.cogs.arduino_cog.daemon import Daemon
 from tests.support.firmware import build_firmware
+from up.commands.board_schema import REASONS, Reason
 from up.commands.gains import gain_set_to_data
 from up.flight_controller.pids_file import PIDS, gain_set_of
 from up_rig import CYCLES_PER_US
@@ -134,7 +135,7 @@ def test_arming_by_aux2_and_by_the_ground(flight):
     arm(board, ground)
     board.move(throttle=1500)
     board.gives("throttle", 1500, 3)
-    assert "throttle is not low" in ground.ask("up.disarm")
+    assert REASONS[Reason.THROTTLE_NOT_LOW] in ground.ask("up.disarm")
     board.move(throttle=1000)
     ground.comes("rx.throttle", 1000, 3)
     board.pass_us(2_300_000)
@@ -142,26 +143,12 @@ def test_arming_by_aux2_and_by_the_ground(flight):
     ground.sees("disarmed by the ground", armed=False)
     board.move(throttle=1500)
     ground.comes("rx.throttle", 1500, 3)
-    assert "throttle is not low" in ground.ask("up.arm")
+    assert REASONS[Reason.THROTTLE_NOT_LOW] in ground.ask("up.arm")
     board.move(throttle=1000)
     ground.comes("rx.throttle", 1000, 3)
     assert ground.ask("up.arm") == ""
     ground.sees("armed by the ground", armed=True)
     disarm(board, ground)
-
-
-def test_a_disarmed_motor_stands_whatever_the_stick_does(flight):
-    board, daemon = flight
-    disarm(board, daemon.ground)
-    with board.rig() as rig:
-        begun = rig.cycle
-    board.move(throttle=2000)
-    daemon.ground.comes("rx.throttle", 2000, 3)
-    board.pass_us(300_000)
-    widths = [each.width_us for each in board.pulses("throttle") if each.rise_cycle > begun]
-    assert len(widths) > 10
-    assert all(near(width, 1000, 1) for width in widths)
-    board.move(throttle=1000)
 
 
 def test_modes_are_taken_at_auto_only(flight):
@@ -173,12 +160,10 @@ def test_modes_are_taken_at_auto_only(flight):
     ground.sees("RATE", flight_mode="RATE")
     assert ground.ask("up.flight_mode.set", mode="FBW") == ""
     ground.sees("FBW", flight_mode="FBW")
-    assert "mode must be one of" in ground.ask("up.flight_mode.set", mode="ACRO")
+    assert ground.ask("up.flight_mode.set", mode="ACRO").startswith("mode ")
     board.move(aux1=1000)
     ground.sees("the switch", arduino__switch="low", flight_mode="ACRO")
-    assert ground.ask("up.flight_mode.set", mode="RATE") == (
-        "the Arduino refused: the switch is not at AUTO"
-    )
+    assert REASONS[Reason.NOT_AT_AUTO] in ground.ask("up.flight_mode.set", mode="RATE")
     board.pass_us(300_000)
     assert ground.at("flight_mode") == "ACRO"
 
@@ -196,7 +181,7 @@ def test_a_reset_in_flight_is_told_and_gets_nothing_but_start(flight):
     assert "watchdog" in ground.at("arduino.reset_cause")
     # A machine that is busy may have taken the pause for silence.
     reset = board.wait(lambda: daemon.logged("board_reset", "board_restored"), "the log")
-    assert reset[-1]["causes"] == " (watchdog, state restored), and is armed"
+    assert reset[-1]["reset_cause"] == "watchdog, state restored" and reset[-1]["armed"]
     board.gives("throttle", 1400, 3)
     board.pass_us(1_000_000)
     assert len(daemon.logged(*SENT)) == pushed
@@ -213,7 +198,7 @@ def test_calibrating_is_refused_while_armed_and_by_the_board_while_it_moves(flig
     with board.rig() as rig:
         rig.imu.motion = motion_at(6.0, -4.0, (0.0, 0.0, 20.0))
     board.pass_us(300_000)
-    assert ground.ask("arduino.calibrate", what="gyro") == "the Arduino refused: not still enough"
+    assert REASONS[Reason.NOT_STILL] in ground.ask("arduino.calibrate", what="gyro")
     with board.rig() as rig:
         rig.imu.motion = motion_at(6.0, -4.0)
 

@@ -1,4 +1,4 @@
-"""The cog and a board in another process, on a real pty: the firmware on chip and host."""
+"""The cog and a board in another process, on a real pty: the compiled firmware, and an old one."""
 
 import os
 import signal
@@ -10,31 +10,21 @@ from twisted.internet.task import LoopingCall
 
 from tests.cogs.arduino_cog.board import MODULES
 from tests.support.firmware import build_firmware
-from tests.support.reactor import reactor, run_in_reactor, sleep, until
+from tests.support.reactor import reactor, run_in_reactor, until
 from tests.support.system import build_up, started
 from up.base_started_module import BaseStartedModule
-from up.commands.arming_commands import ArmCommand, DisarmCommand
-from up.commands.flight_state_command import FlightModeCommand
-from up.commands.orientation_command import OrientationCommand
+from up.commands.arming_commands import ArmCommand
 from up.commands.origin import INTERNAL
-from up.commands.output_command import OutputCommand, SetpointCommand
+from up.commands.output_command import SetpointCommand
 from up.commands.pid_tunings_commands import PIDTuningsCommand
 from up.commands.refusal import CommandRefusedError
 from up.commands.servo_command import ServoCommand
 from up.flight_controller.pids_file import PIDS
 
-from arduino_cog.commands.arduino_calibrate_command import ArduinoCalibrateCommand  # isort: skip
-from arduino_cog.modules.arduino_profile import ArduinoProfile  # isort: skip
 from arduino_cog.modules.arduino_provider import ArduinoProvider  # isort: skip
 from arduino_cog.modules.pid_tunings_provider import PIDTuningsProvider  # isort: skip
 
 LOOP = {axis: {"p": 3.25, "i": 0.5, "d": 0.1} for axis in ("ailerons", "elevator", "rudder")}
-
-
-HOST = (
-    "up_simulator", "start", "--no-phone", "--wind", "0", "--turbulence", "none",
-    "--board", "host", "--radio", "script",
-)  # fmt: skip
 
 
 class Aircraft:
@@ -75,38 +65,18 @@ def fly_aircraft(tmp_path):
         each.end()
 
 
-@pytest.fixture(scope="module", params=["host", "firmware"])
-def board(request):
-    """What both promise is shown on both."""
-    if request.param == "host":
-        return HOST
-    return firmware()
-
-
 def firmware():
     """Return the command of the compiled firmware on a pty."""
     elf = os.environ.get("RASPILOT_ELF") or build_firmware()
     return ("up_rig", str(elf), "--pty")
 
 
-@pytest.fixture
-def aircraft(board, fly_aircraft):
-    return lambda: fly_aircraft(*board)
-
-
-def system(tmp_path, framing="checked", controller="arduino", modules=MODULES):
+def system(tmp_path, framing="checked", modules=MODULES):
     config = {
         "arduino.yml": f"port: {tmp_path / 'board'}\nframing: {framing}\n",
         "pids.yml": PIDS.template().replace("p: 2.0", "p: 2.25"),
-        "airframe.yml": "fly_by_wire: {roll_deg: 45}\n",
-        "config.yml": f"flight controller: {controller}\n",
     }
     return build_up(modules, reactor, tmp_path / "config", config=config)
-
-
-def profile_of(up):
-    """Return the profile once it has no veto left."""
-    return None if "airframe.yml" in up.vetoes.own else up.get_module(ArduinoProfile).current
 
 
 async def ask(up, command):
@@ -116,69 +86,6 @@ async def ask(up, command):
     except CommandRefusedError as error:
         return error.reason
     return None
-
-
-def test_readings_arming_modes_and_gains(aircraft, tmp_path):
-    async def fly():
-        plane = aircraft()
-        await plane.is_there()
-        up = system(tmp_path)
-        life = await started(up)
-        arduino = up.get_module(ArduinoProvider)
-        gains = up.get_module(PIDTuningsProvider)
-        await until(lambda: arduino.status is not None and arduino.status.is_at_auto)
-        content = up.telemetry_controller.collect()
-        assert content["arduino"]["connected"]
-        assert content["rx"]["aux1"] > 1900
-        await until(lambda: gains.current is not None and gains.current.rate.ailerons.p == 2.25)
-        profile = await until(lambda: profile_of(up))
-        assert profile["fly_by_wire.roll_deg"] == 45.0
-        up.vetoes.set("a module", "did not start")
-        assert await ask(up, ArmCommand()) == "arming is vetoed: a module: did not start"
-        up.vetoes.clear("a module")
-        # The virtual pilot's AUX2 goes high some time, and arms.
-        await until(lambda: arduino.is_armed)
-        assert await ask(up, ArmCommand()) is None
-        assert await ask(up, FlightModeCommand("FBW")) is None
-        stabilize = {**LOOP, "rudder": {"p": 0, "i": 0, "d": 0}}
-        pids = {"ratePIDs": LOOP, "stabPIDs": stabilize}
-        assert await ask(up, PIDTuningsCommand(pids=pids)) is None
-        assert gains.current.rate.rudder.d == 0.1
-        assert arduino.is_in_flight
-        assert await ask(up, ArduinoCalibrateCommand("level")) is not None
-        # The throttle must have been low for 2 s.
-        while await ask(up, DisarmCommand()) is not None:
-            await sleep(0.1)
-        await until(lambda: arduino.is_armed is False)
-        await life.stop()
-
-    run_in_reactor(fly)
-
-
-def test_outputs_move_the_servos_and_those_of_old_frames_do_not(aircraft, tmp_path):
-    async def fly():
-        plane = aircraft()
-        await plane.is_there()
-        up = system(tmp_path, controller="raspberry")
-        executor = up.command_executor
-        lag = 0
-
-        def control(orientation):
-            sequence = (orientation.sequence - lag) % 65536
-            executor.execute_command(OutputCommand(1600, 1400, 0, 1550, sequence))
-
-        executor.register_command(OrientationCommand, control)
-        life = await started(up)
-        arduino = up.get_module(ArduinoProvider)
-        await until(lambda: arduino.is_armed)
-        await until(lambda: arduino.servo.ailerons_us == 1600)
-        assert (arduino.servo.elevator_us, arduino.servo.rudder_us) == (1400, 1550)
-        lag = 60
-        await until(lambda: arduino.servo.ailerons_us != 1600)
-        assert arduino.counters["refused_frames"]
-        await life.stop()
-
-    run_in_reactor(fly)
 
 
 class FlightMode(BaseStartedModule):
@@ -227,25 +134,6 @@ def test_two_modules_that_publish_setpoints_do_not_alternate_on_the_servos(fly_a
     run_in_reactor(fly)
 
 
-def test_an_aircraft_that_dies_and_comes_back_is_used_again(aircraft, tmp_path):
-    async def fly():
-        plane = aircraft()
-        await plane.is_there()
-        up = system(tmp_path)
-        life = await started(up)
-        arduino = up.get_module(ArduinoProvider)
-        await until(lambda: arduino.status is not None)
-        plane.end(signal.SIGKILL)
-        await until(lambda: not arduino.connected)
-        assert arduino.status is None
-        plane.fly()
-        await until(lambda: arduino.status is not None)
-        assert up.get_module(PIDTuningsProvider) is not None
-        await life.stop()
-
-    run_in_reactor(fly)
-
-
 def test_an_old_firmware_with_its_boot_text(fly_aircraft, tmp_path):
     async def fly():
         plane = fly_aircraft("tests.support.old_firmware", "--boot-text", "DMP init failed")
@@ -267,17 +155,3 @@ def test_an_old_firmware_with_its_boot_text(fly_aircraft, tmp_path):
         await life.stop()
 
     run_in_reactor(fly)
-
-
-def test_the_ports_descriptor_is_given_back(aircraft, tmp_path):
-    async def fly():
-        plane = aircraft()
-        await plane.is_there()
-        up = system(tmp_path)
-        life = await started(up)
-        await until(lambda: up.get_module(ArduinoProvider).connected)
-        await life.stop()
-
-    before = len(os.listdir("/proc/self/fd"))  # noqa: PTH208
-    run_in_reactor(fly)
-    assert len(os.listdir("/proc/self/fd")) <= before  # noqa: PTH208

@@ -147,18 +147,6 @@ def test_a_daemon_without_peers_leaves_no_file(aircraft, tmp_path):
     assert not (tmp_path / "flights").exists()
 
 
-def test_two_daemons_share_a_folder(aircraft, tmp_path):
-    both = [aircraft("one"), aircraft("two")]
-    for each in both:
-        each.speak()
-        each.logged("recording_started")
-    for each in both:
-        assert each.stop() == 0
-    files = flight_files(tmp_path / "flights")
-    assert [each.number for each in files] == [1, 2]
-    assert all(FlightLog.read([each.path]).is_complete for each in files)
-
-
 def test_the_reactors_thread_never_touches_the_folder(aircraft, tmp_path):
     one = aircraft(watched=True)
     for _ in range(20):

@@ -13,7 +13,6 @@ from tests.cogs.black_box_cog.flights import (
     codes_of,
     lines_in,
     messages,
-    summary_of,
 )
 from tests.up.commands.samples import Log
 from up.commands.command import BaseCommand
@@ -83,20 +82,6 @@ def test_always_records_from_the_start_to_the_end(tmp_path):
 
 
 # What a file holds
-
-
-def test_the_official_reader_opens_it_with_its_summary(flight):
-    flight.fly(3)
-    flight.recorder.finish()
-    (path,) = flight.files
-    summary = summary_of(path)
-    assert summary.statistics.message_count == 30 + len(lines_in(path))
-    assert {each.topic for each in summary.channels.values()} == {"up.orientation.update", "log"}
-    log = FlightLog.read([path])
-    assert log.is_complete and not log.problems
-    assert log.metadata["flight"]["aircraft"] == "kite"
-    assert log.metadata["flight"]["started"] == "2026-08-14T09:30:00+00:00"
-    assert log.metadata["versions"].keys() == {"up", "black_box_cog"}
 
 
 def test_time_is_the_wall_clock_at_the_start_and_seconds_since(flight):

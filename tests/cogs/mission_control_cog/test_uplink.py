@@ -8,7 +8,7 @@ from tests.cogs.mission_control_cog.system import Aircraft, uplinked
 from tests.cogs.peers import Server
 from tests.support.reactor import reactor, run_in_reactor, sleep, until
 from up.commands.altitude_command import AltitudeCommand
-from up.commands.system_commands import LinkStateCommand, SystemStopCommand
+from up.commands.system_commands import LinkStateCommand
 from up.commands.telemetry_commands import TelemetryFrequencyCommand
 
 OK = b"UP1 ok aircraft=default seat=air token=" + b"ab" * 16 + b"\n"
@@ -169,27 +169,6 @@ def test_a_proxy_that_does_not_read_costs_bounded_memory_and_gets_the_newest_lat
         await until(lambda: b'{"n": 2}' in peer.lines)
         assert b'{"n": 1}' not in peer.lines
         assert link.output.replaced == 1
-
-
-def test_hostile_lines_from_the_ground_harm_nothing(tmp_path):
-    @uplinked(tmp_path)
-    async def _(a, server):
-        a.listen_to(SystemStopCommand, TelemetryFrequencyCommand)
-        peer = await accepted(server)
-        await until(lambda: a.provider.connected)
-        peer.say(
-            b"\xff\x00\n",
-            b"[" * 9000 + b"\n",
-            b"z" * 100000 + b"\n",
-            b'{"name": "up.telemetry.frequency", "data": {"frequency": NaN}}\n',
-            {"name": "up.system.stop", "id": "stop"},
-            {"name": "android.battery", "data": {"level": 1}, "id": "unknown"},
-            {**PERIOD, "id": "end"},
-        )
-        await peer.answer("end")
-        assert (await peer.answer("stop"))["data"]["code"] == "forbidden"
-        assert (await peer.answer("unknown"))["data"]["code"] == "unknown"
-        assert a.heard == [TelemetryFrequencyCommand(90)]
 
 
 def test_the_result_of_sending_a_command_to_the_ground(tmp_path):

@@ -7,12 +7,6 @@ from serial_cog.config import ARDUINO, SerialConfig, odd_speed
 
 from up.config import ConfigErrors
 
-ROOT = Path(__file__).parents[3]
-
-
-def test_the_shipped_file_is_the_template():
-    assert (ROOT / "config" / "arduino.yml").read_text() == ARDUINO.template()
-
 
 def test_the_prototypes_file_is_read():
     values = ARDUINO.parse("port: /dev/ttyAMA0\nbaud_rate: 9600\n", Path("arduino.yml"))

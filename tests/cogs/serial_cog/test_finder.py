@@ -26,7 +26,7 @@ def opener(ports, *, refuses=(), port_name=""):
 
     def open_port(path, baud):
         if path in refuses:
-            raise SerialPortError(f"{path} is in use by another program")
+            raise SerialPortError(f"{path} is taken", "port_in_use")
         opened.append(path)
         return len(opened)
 
@@ -87,8 +87,9 @@ def test_a_port_in_use_is_left_for_the_next_one():
     made, opened = opener([UNO, NANO], refuses={"/dev/ttyACM0"})
     made()
     assert opened == ["/dev/ttyUSB3"]
-    with pytest.raises(SerialPortError, match="ttyACM0 is in use"):
+    with pytest.raises(SerialPortError) as caught:
         opener([UNO], refuses={"/dev/ttyACM0"})[0]()
+    assert caught.value.code == "port_in_use"
 
 
 def test_silent_ports_are_passed_over_in_turn():

@@ -5,8 +5,6 @@ import termios
 from types import SimpleNamespace
 
 import pytest
-from hypothesis import HealthCheck, given, settings
-from hypothesis import strategies as st
 from serial_cog.modules.serial_provider import SerialProvider
 
 from tests.cogs.serial_cog.rig import Rig, VirtualReactor, run
@@ -123,26 +121,6 @@ def test_connected_means_frames_within_a_second(rig):
     rig.advance(0.2)
     assert not serial.connected
     assert listener.events == ["opened", "heard", "silent"]
-
-
-@settings(
-    max_examples=150,
-    deadline=None,
-    suppress_health_check=[HealthCheck.function_scoped_fixture],
-)
-@given(noise=st.binary(max_size=300), cut=st.integers(0, 7))
-def test_whatever_came_before_the_next_whole_frame_is_taken(checked, noise, cut):
-    if checked.life is None:
-        checked.taken = take(checked)
-        checked.start()
-    del checked.taken[:]
-    checked.port.write(noise + b"\0")
-    frame = checked.port.frame("o", b"xy")
-    checked.port.write(frame[:cut])
-    checked.turn()
-    checked.port.write(frame[cut:])
-    checked.turn()
-    assert checked.taken[-1:] == [b"xy"]
 
 
 def test_an_unfinished_frame_is_dropped_after_100_ms_of_silence(rig):

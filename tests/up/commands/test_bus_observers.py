@@ -148,24 +148,6 @@ def test_removing_takes_the_handle(bus):
         bus.remove_observer(first.handle)
 
 
-def test_without_observers_a_bus_calls_what_it_called_before(bus):
-    bus.register_command(NumberCommand, lambda _: None)
-    recorder = Recorder(bus)
-    bus.remove_observer(recorder.handle)
-    assert bus._called == bus._handlers
-    bus.register_command(OtherCommand, lambda _: None)
-    assert bus._called == bus._handlers
-
-
-def test_one_that_goes_while_a_command_is_delivered_acts_from_the_next_on(bus):
-    recorders = [Recorder(bus)]
-    bus.register_command(NumberCommand, lambda _: bus.remove_observer(recorders.pop().handle))
-    recorder = recorders[0]
-    bus.execute_command(NumberCommand(1))
-    bus.execute_command(OtherCommand())
-    assert len(recorder.seen) == 1
-
-
 def test_it_is_taken_back_with_its_module(bus):
     cleanups = CleanupStack()
     with cleanups.recording():

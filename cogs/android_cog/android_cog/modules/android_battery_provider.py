@@ -38,7 +38,6 @@ class AndroidBatteryProvider(BaseProvider[float]):
 
     @property
     def telemetry_content(self) -> Mapping[str, Any]:
-        """Return the level."""
         return {"android": {"batteryLevel": self.battery_level}, **self._ages()}
 
     def _value_of(self, command: Any) -> float:

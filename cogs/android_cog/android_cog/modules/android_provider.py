@@ -106,12 +106,10 @@ class AndroidProvider(BaseStartedModule):
 
     @property
     def wants_telemetry(self) -> bool:
-        """Return whether there is a receiver for telemetry."""
         return self._is_connected
 
     @property
     def is_source_open(self) -> bool:
-        """Return whether readings can arrive."""
         return self._ports.are_open
 
     @property

@@ -27,7 +27,6 @@ class ArduinoProfileValuesCommand(BaseCommand):
 
     @classmethod
     def of(cls, profile: Profile) -> ArduinoProfileValuesCommand:
-        """Return a Command with a profile."""
         return cls(nested(profile))
 
     @property

@@ -42,7 +42,6 @@ class ArduinoStatusCommand(BoardStatus, BaseCommand):
 
     @property
     def veto_names(self) -> tuple[str, ...]:
-        """Return the reasons against arming, in words."""
         return tuple(vetoes_of(self.data))
 
     @property

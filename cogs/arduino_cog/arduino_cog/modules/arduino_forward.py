@@ -42,7 +42,6 @@ class ReadingForward(BaseStartedModule):
         return bool(self.context.config(ARDUINO).framing == "thesis")
 
     def pack(self, value: Any) -> bytes:
-        """Return a value as the payload of a message."""
         raise NotImplementedError
 
     def on_init(self) -> None:
@@ -72,7 +71,6 @@ class ArduinoAltitudeModule(ReadingForward):
     source = needs(UpAltitudeProvider)
 
     def pack(self, value: float) -> bytes:
-        """Return the altitude as the payload of ``h``."""
         return pack_altitude(value)
 
 
@@ -84,7 +82,6 @@ class ArduinoHeadingModule(ReadingForward):
     source = needs(UpHeadingProvider)
 
     def pack(self, value: float) -> bytes:
-        """Return the heading as the payload of ``b``."""
         return pack_heading(value)
 
 
@@ -96,5 +93,4 @@ class ArduinoLocationModule(ReadingForward):
     source = needs(UpLocationProvider)
 
     def pack(self, value: LocationCommand) -> bytes:
-        """Return the location as the payload of ``l``."""
         return pack_location(value.latitude_deg, value.longitude_deg)

@@ -203,16 +203,16 @@ class ArduinoProfile(BaseModule):
 
     def _on_failed(self, failure: Failure) -> None:
         failure.trap(CommandRefusedError)
+        refusal: Any = failure.value
         self._is_reading = False
         # After a lost answer the board's profile is unknown.
         self._board.current = None
         self._back_off()
-        reason = failure.getErrorMessage()
-        self.log.warn("profile: {reason}", code="profile_failed", reason=reason)
+        reason, detail = refusal.reason, refusal.detail
+        self.log.warn("profile: {reason}", code="profile_failed", reason=reason, detail=detail)
         self._veto(f"the Arduino does not have this profile: {reason}")
 
     def _publish(self, current: Profile) -> None:
-        """Publish the current profile, for the flight log."""
         self.arduino.has_motor = current["motor"]
         self.up.command_executor.execute_command(ArduinoProfileValuesCommand.of(current))
 

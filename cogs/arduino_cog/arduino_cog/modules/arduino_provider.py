@@ -99,12 +99,10 @@ class ArduinoProvider(BaseStartedModule):
 
     @property
     def connected(self) -> bool:
-        """Return whether frames arrive."""
         return self.serial.connected
 
     @property
     def is_armed(self) -> bool | None:
-        """Return whether the Arduino is armed; None while unknown."""
         return None if self.status is None else self.status.is_armed
 
     @property
@@ -305,9 +303,9 @@ class ArduinoProvider(BaseStartedModule):
         elif previous is None and status.is_restored:
             # It was silent before, or this program just started: reported in both cases.
             self.log.warn(
-                "the Arduino continues after a reset{causes}",
+                "the Arduino continues after a reset ({reset_cause}){state}",
                 code="board_restored",
-                causes=_causes_of(status),
+                **_reset_of(status),
             )
         self._execute(status, ORIGIN)
         self._execute(flight_state_of(status, self.has_motor), ORIGIN)
@@ -315,7 +313,9 @@ class ArduinoProvider(BaseStartedModule):
     def _on_reset(self, status: ArduinoStatusCommand) -> None:
         self.counters["resets"] += 1
         self.log.warn(
-            "the Arduino was reset{causes}", code="board_reset", causes=_causes_of(status)
+            "the Arduino was reset ({reset_cause}){state}",
+            code="board_reset",
+            **_reset_of(status),
         )
         self._send_start()
         self._notify_board_started()
@@ -380,8 +380,9 @@ class ArduinoProvider(BaseStartedModule):
             listener()
 
 
-def _causes_of(status: ArduinoStatusCommand) -> str:
-    return f" ({status.reset_causes}){', and is armed' if status.is_armed else ''}"
+def _reset_of(status: ArduinoStatusCommand) -> dict[str, Any]:
+    state = ", and is armed" if status.is_armed else ""
+    return {"reset_cause": status.reset_causes, "armed": status.is_armed, "state": state}
 
 
 def flight_state_of(status: ArduinoStatusCommand, has_motor: bool | None) -> FlightStateCommand:

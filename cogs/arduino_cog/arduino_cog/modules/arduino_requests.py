@@ -46,7 +46,6 @@ class ArduinoArming(BaseModule):
         return self.arduino.request("a", may_repeat=False)
 
     def on_disarm(self, command: DisarmCommand) -> Deferred[Any]:
-        """Disarm."""
         self.arduino.require_checked("disarming")
         return self.arduino.request("d")
 

@@ -112,7 +112,6 @@ class PIDTuningsProvider(BaseModule):
             raise CommandRefusedError("the ground station is not connected", Code.UNAVAILABLE)
 
     def _publish(self, current: GainSet) -> None:
-        """Publish the current gains, for the flight log."""
         self.up.command_executor.execute_command(self._values_of(current))
 
     def _values_of(self, current: GainSet) -> PIDTuningsValuesCommand:

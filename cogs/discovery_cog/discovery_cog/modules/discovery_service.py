@@ -26,7 +26,6 @@ class DiscoveryService(BaseStartedModule):
 
     @property
     def telemetry_content(self) -> Mapping[str, Any]:
-        """Return the counters."""
         return {"counters": {"discovery": dict(self._answerer.counters)}}
 
     def on_start(self) -> bool:

@@ -135,7 +135,6 @@ class PsutilMeter:
         return min(100.0, max(machine, own))
 
     def memory_percent(self) -> float:
-        """Return the share of the machine's memory in use."""
         used: float = psutil.virtual_memory().percent
         return used
 

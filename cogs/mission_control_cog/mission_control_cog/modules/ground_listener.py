@@ -38,7 +38,6 @@ class GroundListener(BaseStartedModule):
     mission_control = needs(MissionControlProvider)
 
     def load(self) -> bool:
-        """Return whether a port is configured."""
         return self.config.listener.port is not None
 
     def on_init(self) -> None:
@@ -61,7 +60,6 @@ class GroundListener(BaseStartedModule):
 
     @property
     def telemetry_content(self) -> Mapping[str, Any]:
-        """Return the counters of the port."""
         counters = {
             "stations": len(self._grounds),
             "not_holder": self._grounds.dropped,

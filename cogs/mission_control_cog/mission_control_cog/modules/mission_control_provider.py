@@ -78,7 +78,6 @@ class MissionControlProvider(BaseMissionControlProvider):
 
     @property
     def connected(self) -> bool:
-        """Return whether there is a link to the proxy."""
         return self._uplink is not None and self._uplink.is_ready
 
     @property

@@ -69,7 +69,6 @@ class SerialProvider(BaseStartedModule):
 
     @property
     def framing(self) -> str:
-        """Return ``checked`` or ``thesis``."""
         config: SerialConfig = self.config
         return config.framing
 
@@ -80,7 +79,6 @@ class SerialProvider(BaseStartedModule):
 
     @property
     def baud_rate(self) -> int:
-        """Return the speed of the line, baud."""
         config: SerialConfig = self.config
         return config.baud_rate
 
