@@ -5,6 +5,7 @@ from one run on one machine.
 """
 
 import json
+import math
 import os
 import resource
 import shutil
@@ -154,7 +155,8 @@ class Load:
         self.tell({})
         end = self.hear("count")
         self._process.wait(10)
-        return Figures(end["p50_us"], end["p99_us"], used_s * 1e6 / end["count"])
+        cpu_us = used_s * 1e6 / end["count"] if end["count"] else math.nan
+        return Figures(end["p50_us"], end["p99_us"], cpu_us)
 
 
 def measure_direct(seconds: float) -> Figures:
