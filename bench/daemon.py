@@ -37,7 +37,6 @@ class Daemon:
 
 
 def free_ports() -> Ports:
-    """Return three TCP ports that are currently free."""
     with ExitStack() as stack:
         probes = [stack.enter_context(socket.create_server(("127.0.0.1", 0))) for _ in range(3)]
         return Ports(*(int(probe.getsockname()[1]) for probe in probes))

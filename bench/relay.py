@@ -49,7 +49,6 @@ class Figures:
 
 
 def tree_cpu_s(pid: int) -> float:
-    """Return the CPU time of a process with its descendants, all threads, in seconds."""
     return sum(map(cpu_s, tree(pid)))
 
 
@@ -61,7 +60,6 @@ def cores() -> tuple[int, int]:
 
 @contextmanager
 def process(*command: str, stderr: IO[str] | None = None) -> Iterator[subprocess.Popen[str]]:
-    """Run a program on the relay's core, and end it."""
     relay_core, _ = cores()
     running = subprocess.Popen(
         ["taskset", "-c", str(relay_core), *command],
@@ -82,7 +80,6 @@ def process(*command: str, stderr: IO[str] | None = None) -> Iterator[subprocess
 
 @contextmanager
 def our_proxy(folder: Path) -> Iterator[tuple[subprocess.Popen[str], int, int]]:
-    """Run up-proxy on free ports; yield it with its airborne and ground port."""
     (folder / "proxy.yml").write_text(
         "limits:\n  connections per side: 6000\n  connections per address: 6000\n"
         "  aircraft: 6000\nmetrics: false\n"
@@ -104,13 +101,11 @@ def our_proxy(folder: Path) -> Iterator[tuple[subprocess.Popen[str], int, int]]:
 
 
 def free_port() -> int:
-    """Return a port that is currently free."""
     with socket.create_server(("127.0.0.1", 0)) as probe:
         return int(probe.getsockname()[1])
 
 
 def wait_for_port(port: int) -> None:
-    """Return when a program listens."""
     deadline_s = time.monotonic() + DEADLINE_S
     while time.monotonic() < deadline_s:
         if f":{port:04X} " in "".join(
@@ -138,7 +133,6 @@ class Load:
         self._process.stdin.flush()
 
     def hear(self, key: str) -> dict[str, float]:
-        """Return its next line, which must have `key`."""
         assert self._process.stdout is not None
         answer: dict[str, float] = json.loads(self._process.stdout.readline() or "{}")
         if key not in answer:
@@ -146,7 +140,6 @@ class Load:
         return answer
 
     def figures(self, relay_pid: int | None) -> Figures:
-        """Wait for the measurement and return it."""
         self.hear("ready")
         self.hear("warm")
         begin_s = tree_cpu_s(relay_pid) if relay_pid is not None else 0.0
@@ -160,20 +153,17 @@ class Load:
 
 
 def measure_direct(seconds: float) -> Figures:
-    """Measure the load generator against itself."""
     load = Load("direct", seconds)
     load.hear("echo")
     return load.figures(None)
 
 
 def measure_ours(seconds: float) -> Figures:
-    """Measure up-proxy."""
     with tempfile.TemporaryDirectory() as folder, our_proxy(Path(folder)) as (running, air, ground):
         return Load("proxy", seconds, echo=air, send=ground).figures(running.pid)
 
 
 def haproxy_command(folder: Path, port: int, echo: int) -> tuple[str, ...]:
-    """Return HAProxy's command line: one thread, TCP mode."""
     path = folder / "haproxy.cfg"
     path.write_text(
         "global\n  nbthread 1\n  maxconn 4000\ndefaults\n  mode tcp\n  timeout connect 5s\n"
@@ -237,7 +227,6 @@ def added_us(runs: list[Figures], direct: list[Figures], share: str) -> list[flo
 
 
 def dial(port: int, hello: str) -> socket.socket:
-    """Connect to the proxy and say hello."""
     peer = socket.create_connection(("127.0.0.1", port))
     peer.sendall(hello.encode("ascii"))
     if not peer.recv(4096).startswith(b"UP1 ok"):
@@ -319,7 +308,6 @@ def stalled_row(seconds: float = 2.0) -> Row:
 
 
 def rows(quick: bool = False) -> Iterable[Row]:
-    """Yield the relay's rows of the table."""
     if shutil.which("taskset") is None:
         raise LeftOutError("taskset is not installed (Debian package util-linux)")
     if quick:

@@ -22,7 +22,6 @@ EXTRA_S = 10.0
 
 
 def dial(port: int, hello: str = "") -> socket.socket:
-    """Connect to a local port; send a hello, if there is one, and wait for the answer."""
     peer = socket.create_connection(("127.0.0.1", port))
     peer.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
     if hello:
@@ -112,7 +111,6 @@ def measure(job: dict[str, Any], ends: list[tuple[socket.socket, socket.socket]]
 
 
 def main() -> None:
-    """Do the job given on stdin."""
     job = json.loads(sys.stdin.readline())
     if "cpu" in job:
         os.sched_setaffinity(0, {job["cpu"]})

@@ -37,7 +37,6 @@ _MET = {True: "yes", False: "NO", None: "-"}
 
 
 def figure(value: float, unit: str = "") -> str:
-    """Return a number with three significant digits and its unit."""
     size = math.floor(math.log10(abs(value))) if value and math.isfinite(value) else 0
     return f"{value:.{max(0, 2 - size)}f} {unit}".rstrip()
 

@@ -31,7 +31,6 @@ class Spread:
 
     @classmethod
     def of(cls, values: Sequence[float]) -> "Spread":
-        """Return the spread of one or more figures; NaN if a round could not be measured."""
         if any(map(math.isnan, values)):
             return cls(math.nan, math.nan, math.nan)
         if len(values) == 1:

@@ -66,18 +66,11 @@ def test_the_sticks_move_when_they_are_to(bench):
 @pytest.mark.parametrize("axis", ["roll", "pitch"])
 def test_firm_gains_follow_a_step_better_than_soft_ones(bench, axis):
     soft = GainSet(LoopGains(Gains(1.0), Gains(0.6), ZERO), LoopGains(Gains(2.0), Gains(2.0), ZERO))
-    plan = STEPS[axis, "FBW"]
+    plan = STEPS[axis]
     poor, good = (fly_steps(bench, gains, plan) for gains in (soft, FIRM))
     assert len(good.responses) == len(poor.responses) == len(plan.demands)
     assert good.rise_time_s < 0.8 * (poor.rise_time_s or math.inf)
     assert good.steady_error_percent < 0.6 * poor.steady_error_percent
-    assert good.servo_us_s > poor.servo_us_s
-
-
-def test_rates_are_followed_in_rate(bench):
-    steps = fly_steps(bench, FIRM, STEPS["roll", "RATE"])
-    assert steps.rise_time_s < 0.2
-    assert max(steps.recording["truth.roll_rate_deg_s"]) > 30
 
 
 def test_a_crash_ends_a_trial_and_is_reported(bench):
