@@ -18,12 +18,12 @@ from collections.abc import Iterable, Iterator
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from pathlib import Path
-from typing import IO
 
 from bench.processes import cpu_s, resident_mib, tree
 from bench.table import LeftOutError, Row, compared
 from bench.timing import Limit
-from up_simulator.harness.user_log import JSON_ENVIRONMENT, read_line
+from up_simulator.harness.participants import ParticipantError
+from up_simulator.harness.programs import RealProxy
 
 PAIRS = 100
 RATE_HZ = 50
@@ -59,13 +59,11 @@ def cores() -> tuple[int, int]:
 
 
 @contextmanager
-def process(*command: str, stderr: IO[str] | None = None) -> Iterator[subprocess.Popen[str]]:
+def process(*command: str) -> Iterator[subprocess.Popen[str]]:
     relay_core, _ = cores()
     running = subprocess.Popen(
         ["taskset", "-c", str(relay_core), *command],
         text=True,
-        stderr=stderr,
-        env=os.environ | JSON_ENVIRONMENT,
     )
     try:
         yield running
@@ -79,25 +77,23 @@ def process(*command: str, stderr: IO[str] | None = None) -> Iterator[subprocess
 
 
 @contextmanager
-def our_proxy(folder: Path) -> Iterator[tuple[subprocess.Popen[str], int, int]]:
+def our_proxy(folder: Path) -> Iterator[tuple[int, int, int]]:
+    """Run up-proxy on the relay's core; yield its pid, its airborne and its ground port."""
     (folder / "proxy.yml").write_text(
+        "airborne port: 0\nground port: 0\nmetrics: false\n"
         "limits:\n  connections per side: 6000\n  connections per address: 6000\n"
-        "  aircraft: 6000\nmetrics: false\n"
+        "  aircraft: 6000\n"
     )
-    command = (sys.executable, "-m", "up_proxy.main", "--config", str(folder),
-               "--airborne-port", "0", "--ground-port", "0")  # fmt: skip
-    log = folder / "log"
-    with log.open("w") as stream, process(*command, stderr=stream) as running:
-        deadline_s = time.monotonic() + DEADLINE_S
-        while True:
-            lines = (read_line(line).fields for line in log.read_text().splitlines())
-            ports = {each["side"]: each["port"] for each in lines if {"side", "port"} <= set(each)}
-            if len(ports) == 2:
-                break
-            if time.monotonic() > deadline_s or running.poll() is not None:
-                raise RuntimeError("up-proxy did not start")
-            time.sleep(0.02)
-        yield running, int(ports["airborne"]), int(ports["ground"])
+    proxy = RealProxy(folder, folder)
+    proxy.start()
+    try:
+        proxy.wait_for_ports()
+        os.sched_setaffinity(proxy.pid, {cores()[0]})
+        yield proxy.pid, proxy.airborne_port, proxy.ground_port
+    except ParticipantError as error:
+        raise RuntimeError(str(error)) from error
+    finally:
+        proxy.stop()
 
 
 def free_port() -> int:
@@ -159,8 +155,8 @@ def measure_direct(seconds: float) -> Figures:
 
 
 def measure_ours(seconds: float) -> Figures:
-    with tempfile.TemporaryDirectory() as folder, our_proxy(Path(folder)) as (running, air, ground):
-        return Load("proxy", seconds, echo=air, send=ground).figures(running.pid)
+    with tempfile.TemporaryDirectory() as folder, our_proxy(Path(folder)) as (pid, air, ground):
+        return Load("proxy", seconds, echo=air, send=ground).figures(pid)
 
 
 def haproxy_command(folder: Path, port: int, echo: int) -> tuple[str, ...]:
@@ -241,22 +237,22 @@ def many_pairs_rows(pairs: int = MANY_PAIRS, seconds: int = 4) -> Iterable[Row]:
     pairs = min(pairs, allowed)
     if soft != resource.RLIM_INFINITY:
         resource.setrlimit(resource.RLIMIT_NOFILE, (max(soft, 2 * pairs + 200), hard))
-    with tempfile.TemporaryDirectory() as folder, our_proxy(Path(folder)) as (running, air, ground):
+    with tempfile.TemporaryDirectory() as folder, our_proxy(Path(folder)) as (pid, air, ground):
         keep = [dial(air, "UP1 aircraft=warm\n"), dial(ground, "UP1 aircraft=warm\n")]
-        before_mib = resident_mib(running.pid)
+        before_mib = resident_mib(pid)
         for number in range(pairs):
             keep.append(dial(air, f"UP1 aircraft=idle-{number}\n"))
             keep.append(dial(ground, f"UP1 aircraft=idle-{number} seat=command\n"))
             if number % 500 == 0:
                 beat(keep)
-        each = (resident_mib(running.pid) - before_mib) * 2**20 / pairs
+        each = (resident_mib(pid) - before_mib) * 2**20 / pairs
         shares = []
         begin_s = time.monotonic()
         for second in range(seconds):
-            began_s, used_s = time.monotonic(), cpu_s(running.pid)
+            began_s, used_s = time.monotonic(), cpu_s(pid)
             beat(keep)
             time.sleep(max(0.0, begin_s + second + 1 - time.monotonic()))
-            used_s = cpu_s(running.pid) - used_s
+            used_s = cpu_s(pid) - used_s
             shares.append(100 * used_s / (time.monotonic() - began_s))
         for peer in keep:
             peer.close()
@@ -282,17 +278,17 @@ def beat(peers: list[socket.socket]) -> None:
 
 def stalled_row(seconds: float = 2.0) -> Row:
     """Return how much a ground that does not read makes the proxy grow."""
-    with tempfile.TemporaryDirectory() as folder, our_proxy(Path(folder)) as (running, air, ground):
+    with tempfile.TemporaryDirectory() as folder, our_proxy(Path(folder)) as (pid, air, ground):
         aircraft = dial(air, "UP1 aircraft=stall\n")
         stalled = dial(ground, "UP1 aircraft=stall seat=command\n")
-        before_mib = peak_mib = resident_mib(running.pid)
+        before_mib = peak_mib = resident_mib(pid)
         sent = 0
         line = b"x" * 999 + b"\n"
         end_s = time.monotonic() + seconds
         while time.monotonic() < end_s:
             aircraft.sendall(line * 64)
             sent += 64_000
-            peak_mib = max(peak_mib, resident_mib(running.pid))
+            peak_mib = max(peak_mib, resident_mib(pid))
         aircraft.close()
         stalled.close()
     grown_mb = (peak_mib - before_mib) * 2**20 / 1e6
