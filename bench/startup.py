@@ -13,10 +13,11 @@ from collections.abc import Iterable
 from contextlib import suppress
 from importlib.util import find_spec
 
-from bench.daemon import Ports, daemon
+from bench.daemon import daemon
 from bench.processes import environment, resident_mib, running, wait_until
 from bench.table import Row, compared
 from bench.timing import Limit
+from up_simulator.harness.ports import Ports
 
 IMPORT = "import twisted.internet.reactor"
 RATIO_TARGET = 1.6
