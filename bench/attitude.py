@@ -26,7 +26,6 @@ Errors = tuple[float, float]
 
 
 def rows(quick: bool = False) -> Iterable[Row]:
-    """Yield the worst of all flights; raises LeftOutError without the simulator."""
     flights, minutes = (2, 1) if quick else (FLIGHTS, MINUTES)
     try:
         with Workers(MAX_PROCESSES) as workers:
@@ -43,7 +42,6 @@ def rows(quick: bool = False) -> Iterable[Row]:
 
 
 def worst(errors: Iterable[Errors]) -> Errors:
-    """Return the maximum of each axis."""
     roll_deg, pitch_deg = zip(*errors, strict=True)
     return max(roll_deg), max(pitch_deg)
 

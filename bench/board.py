@@ -59,7 +59,6 @@ class Board:
         self._poll.register(descriptor, select.POLLIN)
 
     def measure(self, rate_hz: float, seconds: float) -> Latency:
-        """Send orientation at ``rate_hz``, receiver and servos at 50 Hz, status at 5 Hz."""
         with _first_in_line():
             return self._measure(rate_hz, seconds)
 

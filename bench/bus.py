@@ -38,7 +38,6 @@ class Subscriber:
 
 
 def ours(count: int) -> Work:
-    """Return a publish on the bus of this project."""
     limited = Limited(Clock(), 10)
     bus = CommandExecutor(CommandRegistry(()), lambda call, *rest: call(*rest), limited)
     for _ in range(count):
@@ -60,7 +59,6 @@ def dict_of_lists(count: int) -> Work:
 
 
 def pluggy(count: int) -> Work | None:
-    """Return a call of a pluggy hook; None if pluggy is not installed."""
     try:
         library = import_module("pluggy")
     except ImportError:
@@ -88,7 +86,6 @@ def pluggy(count: int) -> Work | None:
 
 
 def blinker(count: int) -> Work | None:
-    """Return a send of a blinker signal; None if blinker is not installed."""
     try:
         library = import_module("blinker")
     except ImportError:
@@ -105,7 +102,6 @@ def blinker(count: int) -> Work | None:
 
 
 def rows(quick: bool = False) -> Iterable[Row]:
-    """Yield a row for each peer and number of subscribers."""
     makers: dict[str, Callable[[int], Work | None]] = {"pluggy": pluggy, "blinker": blinker}
     for count, target in TARGETS.items():
         what = f"publish to {count} subscriber{'s' * (count > 1)}"

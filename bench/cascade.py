@@ -15,13 +15,11 @@ DT_S = 0.001
 
 
 def update(cascades: list[Cascade]) -> None:
-    """Run two PIDs for each axis."""
     for cascade in cascades:
         cascade.hold_angle(10.0, 3.0, -20.0, DT_S)
 
 
 def rows(quick: bool = False) -> Iterable[Row]:
-    """Yield the cascade of three axes, and one PID."""
     cascades = [Cascade(Gains(2.1, 0.5, 0.01), Gains(2.0, 0.5, 0.0), 120.0) for _ in range(AXES)]
     bare = PID(2.1, 0.5, 0.01, sample_time=None, output_limits=(-400.0, 400.0))
     mine = Pid(Gains(2.1, 0.5, 0.01), 400.0)

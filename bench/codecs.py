@@ -47,7 +47,6 @@ def cpu_us(*works: Work, rounds: int = ROUNDS) -> list[list[float]]:
 
 
 def serial_payloads() -> list[tuple[int, bytes]]:
-    """Return the bytes of a serial line in flight."""
     draws = random.Random(1)
     payloads: list[tuple[int, bytes]] = []
     for number in range(FRAMES // 3):
@@ -60,7 +59,6 @@ def serial_payloads() -> list[tuple[int, bytes]]:
 
 
 def cut(data: bytes, size: int) -> list[bytes]:
-    """Return `data` in pieces as reads return them."""
     return [data[start : start + size] for start in range(0, len(data), size)]
 
 
@@ -133,7 +131,6 @@ def pymavlink_work() -> Work | None:
 
 
 def orientation_wire(count: int) -> bytes:
-    """Return `count` Orientation Forward frames."""
     draws = random.Random(3)
     return b"".join(
         struct.pack(">6f", *[draws.uniform(-180, 180) for _ in range(6)]) for _ in range(count)
@@ -169,7 +166,6 @@ def prototype_work(pieces: list[bytes]) -> Work:
 
 
 def serial_rows(rounds: int) -> Iterable[Row]:
-    """Yield the rows of the serial line."""
     payloads = serial_payloads()
     mavlink = pymavlink_work()
     works = [checked_work(payloads), table_work(payloads)] + ([mavlink] if mavlink else [])
@@ -181,7 +177,6 @@ def serial_rows(rounds: int) -> Iterable[Row]:
 
 
 def orientation_rows(rounds: int) -> Iterable[Row]:
-    """Yield the rows of Orientation Forward: a full read, and frame by frame."""
     for what, size, limit in (
         (
             f"orientation over TCP, reads of {TCP_READ_SIZE // 1024} KiB",
@@ -196,7 +191,6 @@ def orientation_rows(rounds: int) -> Iterable[Row]:
 
 
 def rows(quick: bool = False) -> Iterable[Row]:
-    """Yield the codecs' rows of the table."""
     rounds = QUICK_ROUNDS if quick else ROUNDS
     yield from serial_rows(rounds)
     yield from orientation_rows(rounds)

@@ -1,29 +1,20 @@
 """Raspilot as a user runs it, ``python main.py --config DIR``, with its own configuration."""
 
 import json
-import socket
 import sys
 import tempfile
 from collections.abc import Iterator
-from contextlib import ExitStack, contextmanager
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
 from bench.processes import running
+from up_simulator.harness.ports import Ports, choose_ports
 
 ROOT = Path(__file__).resolve().parents[1]
 MAIN = ROOT / "main.py"
 FLIGHTS = "flights"
 CONTROL = Path(__file__).with_name("control_run.py")
-
-
-@dataclass(frozen=True, slots=True)
-class Ports:
-    """Ports that were free a moment ago."""
-
-    general: int
-    orientation: int
-    discovery: int
 
 
 @dataclass(frozen=True, slots=True)
@@ -34,13 +25,6 @@ class Daemon:
     ports: Ports
     log: Path
     flights: Path
-
-
-def free_ports() -> Ports:
-    """Return three TCP ports that are currently free."""
-    with ExitStack() as stack:
-        probes = [stack.enter_context(socket.create_server(("127.0.0.1", 0))) for _ in range(3)]
-        return Ports(*(int(probe.getsockname()[1]) for probe in probes))
 
 
 def write_config(
@@ -78,7 +62,7 @@ def daemon(
     is_recorded: bool = True,
 ) -> Iterator[Daemon]:
     """Run the daemon on a serial port until the block ends."""
-    ports = free_ports()
+    ports = choose_ports(any_ports=True)
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         write_config(folder, ports, serial, proxy_port, priority, is_recorded)

@@ -20,7 +20,6 @@ OPTIONS = ("--any-ports", "--no-watch")
 
 
 def rows(quick: bool = False) -> Iterable[Row]:
-    """Yield the share of each process, without a browser, and of all together."""
     seconds = QUICK_SECONDS if quick else SECONDS
     with tempfile.TemporaryDirectory(prefix="upb-") as name:
         folder = Path(name)

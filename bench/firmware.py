@@ -166,7 +166,6 @@ def _rms(values: Iterable[float]) -> float:
 
 
 def rows(quick: bool = False) -> Iterable[Row]:
-    """Yield the firmware's figures; raises LeftOutError without the compiler or the simulator."""
     try:
         elf = build_firmware()
         yield from _size_rows(elf)

@@ -61,7 +61,6 @@ def messages(minutes: float) -> Iterator[tuple[int, int, bytes]]:
 
 
 def write_ours(write: Callable[[bytes], object], minutes: float) -> tuple[int, float]:
-    """Write a flight; return its messages and the CPU seconds of writing them."""
     writer = McapWriter(write)
     writer.start()
     channels = [
@@ -98,21 +97,18 @@ def write_theirs(official: Any, path: Path, minutes: float) -> tuple[int, float]
 
 
 def read_theirs(reader: Any, path: Path) -> int:
-    """Read every message by the official package, with its checksum."""
     with path.open("rb") as file:
         records = reader.StreamReader(file, validate_crcs=True).records
         return sum(hasattr(record, "channel_id") for record in records)
 
 
 def series_theirs(reader: Any, path: Path) -> int:
-    """Read one number of one topic by the official package."""
     with path.open("rb") as file:
         found = reader.make_reader(file).iter_messages(topics=[ROLL])
         return len([json.loads(message.data)["roll"] for _, _, message in found])
 
 
 def rows(quick: bool = False) -> Iterable[Row]:
-    """Yield the time to write a message, and the speed of reading a log."""
     minutes = QUICK_MINUTES if quick else MINUTES
     try:
         official, stream, reader = map(

@@ -35,7 +35,6 @@ WHAT = "sensor to actuator through the daemon, 1 kHz"
 
 @contextmanager
 def floor_board() -> Iterator[Board | None]:
-    """Yield the board of the C echo; None without a C compiler."""
     compiler = shutil.which("gcc") or shutil.which("cc")
     if compiler is None:
         yield None
@@ -51,7 +50,6 @@ def floor_board() -> Iterator[Board | None]:
 def daemon_board(
     program: Path = MAIN, priority: int = 0, is_recorded: bool = True
 ) -> Iterator[Board]:
-    """Yield the board of a running daemon."""
     with (
         terminal() as (board_end, port),
         daemon(port, priority=priority, program=program, is_recorded=is_recorded),
@@ -71,7 +69,6 @@ def in_turns(boards: list[Board], seconds: float, rounds: int) -> list[list[Late
 
 
 def tail_rows(seconds: float, rounds: int) -> Iterable[Row]:
-    """Yield the rows against the floor and against the control run."""
     with floor_board() as floor, daemon_board() as mine, daemon_board(CONTROL) as other:
         boards = [mine, other] + ([floor] if floor else [])
         ours, control, *floors = in_turns(boards, seconds, rounds)
@@ -89,7 +86,6 @@ def tail_rows(seconds: float, rounds: int) -> Iterable[Row]:
 
 
 def floor_rows(ours: list[Latency], floors: list[Latency]) -> Iterable[Row]:
-    """Yield the median and the tail beside the floor."""
     for name, limit in (("p50", P50_TARGET), ("p99", P99_TARGET)):
         figures, theirs = ([getattr(run, f"{name}_us") for run in runs] for runs in (ours, floors))
         peer = "C floor (epoll echo)"
@@ -113,7 +109,6 @@ def busy_row(seconds: float, rounds: int) -> Row:
 
 
 def may_be_realtime() -> bool:
-    """Return whether this user may use SCHED_FIFO."""
     before = os.sched_getscheduler(0), os.sched_getparam(0)
     try:
         os.sched_setscheduler(0, os.SCHED_FIFO, os.sched_param(1))
@@ -124,7 +119,6 @@ def may_be_realtime() -> bool:
 
 
 def rows(quick: bool = False) -> Iterable[Row]:
-    """Yield the latency rows."""
     seconds, rounds = (QUICK_SECONDS, QUICK_ROUNDS) if quick else (SECONDS, ROUNDS)
     yield from tail_rows(seconds, rounds)
     yield busy_row(seconds, rounds)

@@ -50,7 +50,6 @@ class Flown:
 
 @contextmanager
 def flight(is_recorded: bool = True) -> Iterator[Flown]:
-    """Yield a daemon that flies during the measurement."""
     with (
         Ground() as ground,
         terminal() as (board_end, port),
@@ -63,12 +62,10 @@ def flight(is_recorded: bool = True) -> Iterator[Flown]:
 
 
 def recorded_bytes(folder: Path) -> int:
-    """Return the size of all flights in a folder."""
     return sum(path.stat().st_size for path in folder.glob("*.mcap"))
 
 
 def flight_row(seconds: float, rounds: int) -> Row:
-    """Return the share in flight, recorded as shipped."""
     with flight() as flown:
         shares = [flown.cpu_percent(seconds) for _ in range(rounds)]
     what = f"CPU at {RATE_HZ} Hz RX + {RATE_HZ} Hz orientation + {flown.frames_hz:.0f} Hz telemetry"
@@ -76,7 +73,6 @@ def flight_row(seconds: float, rounds: int) -> Row:
 
 
 def idle_row(seconds: float, rounds: int) -> Row:
-    """Return the share without any peer."""
     with daemon() as running:
         wait_for_ports(running.ports)
         time.sleep(SETTLE_S)
@@ -99,7 +95,6 @@ def _cpu_percent(pid: int, seconds: float) -> float:
 
 
 def rows(quick: bool = False) -> Iterable[Row]:
-    """Yield both shares."""
     seconds, rounds = (QUICK_SECONDS, QUICK_ROUNDS) if quick else (SECONDS, ROUNDS)
     yield flight_row(seconds, rounds)
     yield idle_row(seconds, rounds)

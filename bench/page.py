@@ -50,7 +50,6 @@ class Paints:
 
 
 def set_up() -> None:
-    """Prepare the browser's requirements; raises LeftOutError with a sentence."""
     for program, package in NEEDED.items():
         if shutil.which(program) is None:
             raise LeftOutError(f"{program} is not installed (Debian package {package})")
@@ -61,7 +60,6 @@ def set_up() -> None:
 
 
 def measure(seconds: float, *options: str) -> Paints:
-    """Fly while a page shows the flight; raises RuntimeError."""
     with tempfile.TemporaryDirectory(prefix="upb-") as folder:
         command: list[str | Path] = [
             "node",

@@ -25,7 +25,6 @@ def environment() -> dict[str, str]:
 def running(
     command: Sequence[str | Path], log: IO[str] | int = subprocess.DEVNULL, cwd: Path | None = None
 ) -> Iterator[subprocess.Popen[bytes]]:
-    """Run a program, its output in a log, and end it."""
     process = subprocess.Popen(
         [str(word) for word in command],
         stdin=subprocess.DEVNULL,
@@ -47,7 +46,6 @@ def running(
 
 @contextmanager
 def busy_loops(count: int) -> Iterator[None]:
-    """Run this many busy loops at nice 0."""
     spinning = [subprocess.Popen(["sh", "-c", "while :; do :; done"]) for _ in range(count)]
     try:
         yield
@@ -68,7 +66,6 @@ def wait_until(condition: Callable[[], object], what: str, deadline_s: float = D
 
 
 def tree(pid: int) -> list[int]:
-    """Return a process and all its descendants."""
     found = [pid]
     for task in Path(f"/proc/{pid}/task").iterdir():
         for child in (task / "children").read_text().split():
@@ -95,5 +92,4 @@ def stat_cpu_s(pid: int) -> float:
 
 
 def resident_mib(pid: int) -> float:
-    """Return the resident memory of a process, MiB."""
     return int(Path(f"/proc/{pid}/statm").read_text().split()[1]) * PAGE / 2**20

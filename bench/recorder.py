@@ -14,7 +14,6 @@ CPU_TARGET, MB_TARGET = Limit(1.2), Limit(100.0)
 
 
 def load_rows(seconds: float, rounds: int) -> Iterable[Row]:
-    """Yield the share of a core in flight, and the bytes written in an hour."""
     shares: list[list[float]] = [[], []]
     written = []
     with load.flight() as recorded, load.flight(is_recorded=False) as other:
@@ -28,7 +27,6 @@ def load_rows(seconds: float, rounds: int) -> Iterable[Row]:
 
 
 def latency_rows(seconds: float, rounds: int) -> Iterable[Row]:
-    """Yield the median and the tail of sensor to actuator at 1 kHz."""
     with latency.daemon_board() as recorded, latency.daemon_board(is_recorded=False) as other:
         runs = latency.in_turns([recorded, other], seconds, rounds)
     for name in ("p50", "p99", "p999"):
@@ -38,7 +36,6 @@ def latency_rows(seconds: float, rounds: int) -> Iterable[Row]:
 
 
 def rows(quick: bool = False) -> Iterable[Row]:
-    """Yield CPU, bytes and latency."""
     rounds = load.QUICK_ROUNDS if quick else load.ROUNDS
     yield from load_rows(load.QUICK_SECONDS if quick else load.SECONDS, rounds)
     yield from latency_rows(latency.QUICK_SECONDS if quick else latency.SECONDS, rounds)

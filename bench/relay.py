@@ -5,6 +5,7 @@ from one run on one machine.
 """
 
 import json
+import math
 import os
 import resource
 import shutil
@@ -17,12 +18,12 @@ from collections.abc import Iterable, Iterator
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from pathlib import Path
-from typing import IO
 
 from bench.processes import cpu_s, resident_mib, tree
 from bench.table import LeftOutError, Row, compared
 from bench.timing import Limit
-from up_simulator.harness.user_log import JSON_ENVIRONMENT, read_line
+from up_simulator.harness.participants import ParticipantError
+from up_simulator.harness.programs import RealProxy
 
 PAIRS = 100
 RATE_HZ = 50
@@ -48,7 +49,6 @@ class Figures:
 
 
 def tree_cpu_s(pid: int) -> float:
-    """Return the CPU time of a process with its descendants, all threads, in seconds."""
     return sum(map(cpu_s, tree(pid)))
 
 
@@ -59,14 +59,11 @@ def cores() -> tuple[int, int]:
 
 
 @contextmanager
-def process(*command: str, stderr: IO[str] | None = None) -> Iterator[subprocess.Popen[str]]:
-    """Run a program on the relay's core, and end it."""
+def process(*command: str) -> Iterator[subprocess.Popen[str]]:
     relay_core, _ = cores()
     running = subprocess.Popen(
         ["taskset", "-c", str(relay_core), *command],
         text=True,
-        stderr=stderr,
-        env=os.environ | JSON_ENVIRONMENT,
     )
     try:
         yield running
@@ -80,36 +77,31 @@ def process(*command: str, stderr: IO[str] | None = None) -> Iterator[subprocess
 
 
 @contextmanager
-def our_proxy(folder: Path) -> Iterator[tuple[subprocess.Popen[str], int, int]]:
-    """Run up-proxy on free ports; yield it with its airborne and ground port."""
+def our_proxy(folder: Path) -> Iterator[tuple[int, int, int]]:
+    """Run up-proxy on the relay's core; yield its pid, its airborne and its ground port."""
     (folder / "proxy.yml").write_text(
+        "airborne port: 0\nground port: 0\nmetrics: false\n"
         "limits:\n  connections per side: 6000\n  connections per address: 6000\n"
-        "  aircraft: 6000\nmetrics: false\n"
+        "  aircraft: 6000\n"
     )
-    command = (sys.executable, "-m", "up_proxy.main", "--config", str(folder),
-               "--airborne-port", "0", "--ground-port", "0")  # fmt: skip
-    log = folder / "log"
-    with log.open("w") as stream, process(*command, stderr=stream) as running:
-        deadline_s = time.monotonic() + DEADLINE_S
-        while True:
-            lines = (read_line(line).fields for line in log.read_text().splitlines())
-            ports = {each["side"]: each["port"] for each in lines if {"side", "port"} <= set(each)}
-            if len(ports) == 2:
-                break
-            if time.monotonic() > deadline_s or running.poll() is not None:
-                raise RuntimeError("up-proxy did not start")
-            time.sleep(0.02)
-        yield running, int(ports["airborne"]), int(ports["ground"])
+    proxy = RealProxy(folder, folder)
+    proxy.start()
+    try:
+        proxy.wait_for_ports()
+        os.sched_setaffinity(proxy.pid, {cores()[0]})
+        yield proxy.pid, proxy.airborne_port, proxy.ground_port
+    except ParticipantError as error:
+        raise RuntimeError(str(error)) from error
+    finally:
+        proxy.stop()
 
 
 def free_port() -> int:
-    """Return a port that is currently free."""
     with socket.create_server(("127.0.0.1", 0)) as probe:
         return int(probe.getsockname()[1])
 
 
 def wait_for_port(port: int) -> None:
-    """Return when a program listens."""
     deadline_s = time.monotonic() + DEADLINE_S
     while time.monotonic() < deadline_s:
         if f":{port:04X} " in "".join(
@@ -137,7 +129,6 @@ class Load:
         self._process.stdin.flush()
 
     def hear(self, key: str) -> dict[str, float]:
-        """Return its next line, which must have `key`."""
         assert self._process.stdout is not None
         answer: dict[str, float] = json.loads(self._process.stdout.readline() or "{}")
         if key not in answer:
@@ -145,7 +136,6 @@ class Load:
         return answer
 
     def figures(self, relay_pid: int | None) -> Figures:
-        """Wait for the measurement and return it."""
         self.hear("ready")
         self.hear("warm")
         begin_s = tree_cpu_s(relay_pid) if relay_pid is not None else 0.0
@@ -154,24 +144,22 @@ class Load:
         self.tell({})
         end = self.hear("count")
         self._process.wait(10)
-        return Figures(end["p50_us"], end["p99_us"], used_s * 1e6 / end["count"])
+        cpu_us = used_s * 1e6 / end["count"] if end["count"] else math.nan
+        return Figures(end["p50_us"], end["p99_us"], cpu_us)
 
 
 def measure_direct(seconds: float) -> Figures:
-    """Measure the load generator against itself."""
     load = Load("direct", seconds)
     load.hear("echo")
     return load.figures(None)
 
 
 def measure_ours(seconds: float) -> Figures:
-    """Measure up-proxy."""
-    with tempfile.TemporaryDirectory() as folder, our_proxy(Path(folder)) as (running, air, ground):
-        return Load("proxy", seconds, echo=air, send=ground).figures(running.pid)
+    with tempfile.TemporaryDirectory() as folder, our_proxy(Path(folder)) as (pid, air, ground):
+        return Load("proxy", seconds, echo=air, send=ground).figures(pid)
 
 
 def haproxy_command(folder: Path, port: int, echo: int) -> tuple[str, ...]:
-    """Return HAProxy's command line: one thread, TCP mode."""
     path = folder / "haproxy.cfg"
     path.write_text(
         "global\n  nbthread 1\n  maxconn 4000\ndefaults\n  mode tcp\n  timeout connect 5s\n"
@@ -235,7 +223,6 @@ def added_us(runs: list[Figures], direct: list[Figures], share: str) -> list[flo
 
 
 def dial(port: int, hello: str) -> socket.socket:
-    """Connect to the proxy and say hello."""
     peer = socket.create_connection(("127.0.0.1", port))
     peer.sendall(hello.encode("ascii"))
     if not peer.recv(4096).startswith(b"UP1 ok"):
@@ -250,22 +237,22 @@ def many_pairs_rows(pairs: int = MANY_PAIRS, seconds: int = 4) -> Iterable[Row]:
     pairs = min(pairs, allowed)
     if soft != resource.RLIM_INFINITY:
         resource.setrlimit(resource.RLIMIT_NOFILE, (max(soft, 2 * pairs + 200), hard))
-    with tempfile.TemporaryDirectory() as folder, our_proxy(Path(folder)) as (running, air, ground):
+    with tempfile.TemporaryDirectory() as folder, our_proxy(Path(folder)) as (pid, air, ground):
         keep = [dial(air, "UP1 aircraft=warm\n"), dial(ground, "UP1 aircraft=warm\n")]
-        before_mib = resident_mib(running.pid)
+        before_mib = resident_mib(pid)
         for number in range(pairs):
             keep.append(dial(air, f"UP1 aircraft=idle-{number}\n"))
             keep.append(dial(ground, f"UP1 aircraft=idle-{number} seat=command\n"))
             if number % 500 == 0:
                 beat(keep)
-        each = (resident_mib(running.pid) - before_mib) * 2**20 / pairs
+        each = (resident_mib(pid) - before_mib) * 2**20 / pairs
         shares = []
         begin_s = time.monotonic()
         for second in range(seconds):
-            began_s, used_s = time.monotonic(), cpu_s(running.pid)
+            began_s, used_s = time.monotonic(), cpu_s(pid)
             beat(keep)
             time.sleep(max(0.0, begin_s + second + 1 - time.monotonic()))
-            used_s = cpu_s(running.pid) - used_s
+            used_s = cpu_s(pid) - used_s
             shares.append(100 * used_s / (time.monotonic() - began_s))
         for peer in keep:
             peer.close()
@@ -291,17 +278,17 @@ def beat(peers: list[socket.socket]) -> None:
 
 def stalled_row(seconds: float = 2.0) -> Row:
     """Return how much a ground that does not read makes the proxy grow."""
-    with tempfile.TemporaryDirectory() as folder, our_proxy(Path(folder)) as (running, air, ground):
+    with tempfile.TemporaryDirectory() as folder, our_proxy(Path(folder)) as (pid, air, ground):
         aircraft = dial(air, "UP1 aircraft=stall\n")
         stalled = dial(ground, "UP1 aircraft=stall seat=command\n")
-        before_mib = peak_mib = resident_mib(running.pid)
+        before_mib = peak_mib = resident_mib(pid)
         sent = 0
         line = b"x" * 999 + b"\n"
         end_s = time.monotonic() + seconds
         while time.monotonic() < end_s:
             aircraft.sendall(line * 64)
             sent += 64_000
-            peak_mib = max(peak_mib, resident_mib(running.pid))
+            peak_mib = max(peak_mib, resident_mib(pid))
         aircraft.close()
         stalled.close()
     grown_mb = (peak_mib - before_mib) * 2**20 / 1e6
@@ -317,7 +304,6 @@ def stalled_row(seconds: float = 2.0) -> Row:
 
 
 def rows(quick: bool = False) -> Iterable[Row]:
-    """Yield the relay's rows of the table."""
     if shutil.which("taskset") is None:
         raise LeftOutError("taskset is not installed (Debian package util-linux)")
     if quick:

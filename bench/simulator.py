@@ -22,7 +22,6 @@ BEAT_S = 0.02
 
 
 def rows(quick: bool = False) -> Iterable[Row]:
-    """Yield the factors; raises LeftOutError without the compilers or the flight dynamics."""
     flown_s = 1.0 if quick else 10.0
     try:
         chip, host = _world("firmware"), _world("host")

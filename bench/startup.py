@@ -13,10 +13,11 @@ from collections.abc import Iterable
 from contextlib import suppress
 from importlib.util import find_spec
 
-from bench.daemon import Ports, daemon
+from bench.daemon import daemon
 from bench.processes import environment, resident_mib, running, wait_until
 from bench.table import Row, compared
 from bench.timing import Limit
+from up_simulator.harness.ports import Ports
 
 IMPORT = "import twisted.internet.reactor"
 RATIO_TARGET = 1.6
@@ -47,7 +48,6 @@ def _is_open(port: int) -> bool:
 
 
 def start_s() -> float:
-    """Return the seconds from the command line to bound ports, once."""
     began_s = time.perf_counter()
     with daemon() as running_daemon:
         wait_for_ports(running_daemon.ports)
@@ -55,14 +55,12 @@ def start_s() -> float:
 
 
 def import_s() -> float:
-    """Return the seconds of a Python that imports the reactor and ends, once."""
     began_s = time.perf_counter()
     subprocess.run([sys.executable, "-c", IMPORT], check=True, env=environment())
     return time.perf_counter() - began_s
 
 
 def start_row(rounds: int) -> Row:
-    """Return start to ports beside the import, in alternating rounds."""
     starts, imports = [], []
     start_s()  # the first one writes Python's bytecode
     for _ in range(rounds):
@@ -73,7 +71,6 @@ def start_row(rounds: int) -> Row:
 
 
 def memory_row(settle_s: float) -> Row:
-    """Return the resident memory of an idle daemon beside a Python with the reactor."""
     with daemon() as idle, running((sys.executable, "-c", HOLD)) as holding:
         wait_for_ports(idle.ports)
         time.sleep(settle_s)
@@ -92,6 +89,5 @@ def memory_row(settle_s: float) -> Row:
 
 
 def rows(quick: bool = False) -> Iterable[Row]:
-    """Yield start and memory."""
     yield start_row(QUICK_ROUNDS if quick else ROUNDS)
     yield memory_row(1.0 if quick else SETTLE_S)

@@ -37,7 +37,6 @@ _MET = {True: "yes", False: "NO", None: "-"}
 
 
 def figure(value: float, unit: str = "") -> str:
-    """Return a number with three significant digits and its unit."""
     size = math.floor(math.log10(abs(value))) if value and math.isfinite(value) else 0
     return f"{value:.{max(0, 2 - size)}f} {unit}".rstrip()
 
@@ -66,7 +65,7 @@ def compared(
     ratios = list(ours)
     if peer:
         pairs = zip(theirs, ours, strict=True) if is_gain else zip(ours, theirs, strict=True)
-        ratios = [above / below if below > 0 else math.inf for above, below in pairs]
+        ratios = [math.inf if below <= 0 else above / below for above, below in pairs]
     spread = Spread.of(ratios)
     met = spread.meets(limit) if limit else None
     between = f"{figure(spread.low)} to {figure(spread.high)}" if len(ours) > 1 else ""
@@ -78,7 +77,7 @@ def compared(
         f"{figure(spread.median)}{suffix} ({between})" if peer else between,
         target,
         met,
-        is_noisy=limit is not None and met is None,
+        is_noisy=math.isnan(spread.median) or (limit is not None and met is None),
     )
 
 

@@ -31,7 +31,8 @@ class Spread:
 
     @classmethod
     def of(cls, values: Sequence[float]) -> "Spread":
-        """Return the spread of one or more figures."""
+        if any(map(math.isnan, values)):
+            return cls(math.nan, math.nan, math.nan)
         if len(values) == 1:
             return cls(values[0], -math.inf, math.inf)
         low, median, high = statistics.quantiles(values, n=4, method="inclusive")

@@ -154,7 +154,6 @@ def _contract(name: str, forbidden: list[str]) -> list[str]:
 
 
 def main() -> int:
-    """Check the names in Up, run import-linter on the generated contracts; return the status."""
     named = list(names_in_up())
     if named:
         print("Up names a cog or a device; use its role:", *named, sep="\n  ")

@@ -23,7 +23,6 @@ FOREIGN = {
 
 
 def is_sentence(text: str) -> bool:
-    """Return whether a text has three words or more in a row of one line."""
     return any(
         len(WORD.findall(part)) >= 3 and re.search(r"[a-z]+ [a-z]+ [a-z]+", part) is not None
         for part in text.splitlines()
@@ -69,7 +68,6 @@ def in_file(path: Path) -> Iterator[int]:
 
 
 def main() -> int:
-    """Print each place, or the count."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("paths", nargs="*", default=["tests", "android", "arduino/host"])
     parser.add_argument("--max", type=int, help="more are an error")

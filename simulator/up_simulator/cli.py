@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import difflib
 import importlib
 import os
 import sys
@@ -14,6 +13,7 @@ from typing import Any
 
 from up.cli.option_parser import OptionParser
 from up.config import ConfigErrors
+from up.fields import suggestion
 from up.version import VERSION
 from up_simulator.harness.signal_handling import orderly_exit
 from up_simulator.verbs.catalogue import (
@@ -75,8 +75,7 @@ def _main(words: list[str]) -> int:
         parser.parse_args(words)
         return _fail("a verb is missing; 'up-sim --help' lists them", WRONG_INPUT)
     if verb not in VERBS:
-        near = difflib.get_close_matches(verb[:60], VERBS, n=1)
-        hint = f", did you mean '{near[0]}'?" if near else " ('up-sim --help' lists them)"
+        hint = suggestion(verb, VERBS) or " ('up-sim --help' lists them)"
         return _fail(f"unknown verb {verb[:60]!r}{hint}", WRONG_INPUT)
     try:
         carry_out: Callable[[list[str]], int] = _module(verb).main

@@ -78,6 +78,12 @@ def test_a_peer_without_time_gives_no_ratio():
     assert row.is_noisy and row.met is None
 
 
+def test_a_round_that_a_busy_machine_prevented_is_noise():
+    row = compared("a", "us", (1.0, float("nan"), 1.0), "peer", STEADY[:3], AT_MOST_2)
+    assert row.is_noisy and row.met is None and format_table([row]).endswith("too noisy")
+    assert compared("a", "us", STEADY[:3], "peer", (1.0, float("nan"), 1.0)).is_noisy
+
+
 def test_a_missing_peer_leaves_the_figure_and_its_reason():
     row = compared("a", "us", STEADY, "HAProxy", (), AT_MOST_2)
     assert (row.ours, row.peer_figure, row.ratio) == ("1.00 us", "-", "")

@@ -68,7 +68,3 @@ class Flown:
         self.fly(0.24)
         assert self.world.time_s - self.tap.status_s < 0.24
         return self.tap.status
-
-
-def worst_roll_deg(states):
-    return max(abs(each.roll_deg) for each in states)

@@ -56,22 +56,3 @@ class Listener:
         """Return the messages since the last call, of these types only."""
         taken, self.messages = self.messages, []
         return [each for each in taken if letters is None or each.type in letters]
-
-
-def pulses_for(state, gains, target=(0.0, 0.0)):
-    """The cascade of the daemon, proportional only: degrees to deg/s to 1.25 us.
-
-    ``gains`` is (stabilize, rate) for roll and pitch and the rate gain of the rudder.
-    """
-    (roll_stab, roll_rate), (pitch_stab, pitch_rate), yaw_rate = gains
-    roll, pitch, rates = state
-    asked = (roll_stab * (target[0] - roll), pitch_stab * (target[1] - pitch), 0.0)
-    units = [
-        gain * (want - rate)
-        for gain, want, rate in zip((roll_rate, pitch_rate, yaw_rate), asked, rates, strict=True)
-    ]
-    ailerons, elevator, rudder = (max(1000, min(2000, round(1500 + 1.25 * u))) for u in units)
-    return ailerons, elevator, rudder
-
-
-GAINS = ((8.0, 6.0), (6.0, 3.0), 1.0)

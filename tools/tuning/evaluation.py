@@ -86,7 +86,6 @@ class Loop:
         return Loop(self.gains, tuple(scaled(self.points, factor)), airspeed_m_s)
 
     def margins(self, gains: AxisGains | None = None) -> Margins:
-        """Return its margins, with other gains or its own. Raises ``MarginsError``."""
         return margins_of(self.points if gains is None else self.with_gains(gains))
 
 
@@ -118,13 +117,11 @@ def try_loop(bench: Bench, gains: GainSet, axis: Axis, own: AxisGains, dives: bo
         return str(error)
 
 
-def try_steps(bench: Bench, gains: GainSet, axis: Axis, mode: str) -> FlownSteps:
-    """Fly the steps of an axis in a mode."""
-    return fly_steps(bench, gains, STEPS[axis, mode])
+def try_steps(bench: Bench, gains: GainSet, axis: Axis) -> FlownSteps:
+    return fly_steps(bench, gains, STEPS[axis])
 
 
 def worst(margins: Sequence[Margins]) -> Margins:
-    """Return the smallest of each margin."""
 
     def least(name: str) -> float | None:
         known = [value for each in margins if (value := getattr(each, name)) is not None]

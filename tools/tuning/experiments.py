@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import itertools
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -10,7 +9,7 @@ from statistics import fmean
 
 from tools.tuning.gain_set import CHANNELS, Axis
 from tools.tuning.margins import LoopPoint, MarginsError, Multisine, loop_response
-from tools.tuning.trial import RATE_US, Recording, StickMove, Trial
+from tools.tuning.trial import Recording, StickMove, Trial
 from up.commands.gains import GainSet
 from up_simulator.aircraft import Airframe, Weather
 from up_simulator.firmware.board import BoardKind
@@ -18,8 +17,6 @@ from up_simulator.harness.world import STEP_S
 from up_simulator.scenario.step_response import StepError, StepResponse, analyse_step
 
 SETTLE_S = 4.0
-FULL_RATE_DEG_S: dict[Axis, float] = {"roll": 180.0, "pitch": 90.0}
-"""Rate at full stick in RATE (the firmware's flight_controller.h)."""
 _LIMITS = {"roll_deg": 50.0, "pitch_up_deg": 20.0, "pitch_down_deg": 25.0}
 DIVE_DEG = -20.0
 DIVE_SETTLE_S = 9.0
@@ -41,32 +38,24 @@ class Bench:
 
 @dataclass(frozen=True, slots=True)
 class StepPlan:
-    """Demands in a row that an axis is to follow, each for the same time."""
+    """Demands in a row, deg, that an axis is to follow in FBW, each for the same time."""
 
     axis: Axis
-    mode: str
     demands: tuple[float, ...]
     hold_s: float
 
     @property
     def signal(self) -> str:
-        suffix = "deg" if self.mode == "FBW" else "rate_deg_s"
-        return f"truth.{self.axis}_{suffix}"
-
-    @property
-    def unit(self) -> str:
-        return "deg" if self.mode == "FBW" else "deg/s"
+        return f"truth.{self.axis}_deg"
 
     @property
     def duration_s(self) -> float:
         return SETTLE_S + self.hold_s * len(self.demands)
 
 
-STEPS: dict[tuple[Axis, str], StepPlan] = {
-    ("roll", "FBW"): StepPlan("roll", "FBW", (30.0, 0.0, -30.0, 0.0), 3.0),
-    ("pitch", "FBW"): StepPlan("pitch", "FBW", (10.0, 0.0, -10.0, 0.0), 3.0),
-    ("roll", "RATE"): StepPlan("roll", "RATE", (60.0, -60.0, 0.0), 0.8),
-    ("pitch", "RATE"): StepPlan("pitch", "RATE", (25.0, -25.0, 0.0), 0.8),
+STEPS: dict[Axis, StepPlan] = {
+    "roll": StepPlan("roll", (30.0, 0.0, -30.0, 0.0), 3.0),
+    "pitch": StepPlan("pitch", (10.0, 0.0, -10.0, 0.0), 3.0),
 }
 
 
@@ -77,8 +66,6 @@ class FlownSteps:
     plan: StepPlan
     responses: tuple[StepResponse, ...]
     recording: Recording
-    servo_us_s: float
-    """Travel of the axis's servo in a second: the cost of the gains."""
 
     @property
     def crash(self) -> str | None:
@@ -110,10 +97,10 @@ def fly_steps(
     """Fly the steps of a plan and measure the responses."""
     trial = bench.trial(gains, weather)
     channel = CHANNELS[plan.axis]
-    moves = [] if plan.mode == "FBW" else [StickMove(SETTLE_S - 0.1, "aux1", RATE_US)]
+    moves = []
     for number, demand in enumerate(plan.demands):
         at_s = SETTLE_S + number * plan.hold_s
-        moves.append(StickMove(at_s, channel, stick_us(bench.airframe, plan, demand)))
+        moves.append(StickMove(at_s, channel, stick_us(bench.airframe, plan.axis, demand)))
     recording = trial.fly(plan.duration_s, moves)
     times_s, values = recording.times_s, recording[plan.signal]
     responses = []
@@ -126,16 +113,12 @@ def fly_steps(
             )
         except StepError:
             continue
-    work = _travel(recording[f"servo.{channel}_us"]) / max(1.0, times_s[-1] - times_s[0])
-    return FlownSteps(plan, tuple(responses), recording, work)
+    return FlownSteps(plan, tuple(responses), recording)
 
 
-def stick_us(airframe: Airframe, plan: StepPlan, demand: float) -> float:
-    """Return the stick pulse of a demand."""
-    if plan.mode != "FBW":
-        return 1500.0 + 500.0 * demand / FULL_RATE_DEG_S[plan.axis]
-    name = "roll_deg" if plan.axis == "roll" else "pitch_up_deg"
-    if plan.axis == "pitch" and demand < 0:
+def stick_us(airframe: Airframe, axis: Axis, demand: float) -> float:
+    name = "roll_deg" if axis == "roll" else "pitch_up_deg"
+    if axis == "pitch" and demand < 0:
         name = "pitch_down_deg"
     limits: dict[str, float] = {**_LIMITS, **(airframe.profile.get("fly_by_wire") or {})}
     return 1500.0 + 500.0 * max(-1.0, min(1.0, demand / limits[name]))
@@ -158,8 +141,7 @@ def measure_loop(
     trial = bench.trial(gains)
     moves = []
     if dives:
-        dive = StepPlan("pitch", "FBW", (DIVE_DEG,), 0.0)
-        moves = [StickMove(0.5, "elevator", stick_us(bench.airframe, dive, DIVE_DEG))]
+        moves = [StickMove(0.5, "elevator", stick_us(bench.airframe, "pitch", DIVE_DEG))]
     trial.fly(DIVE_SETTLE_S if dives else SETTLE_S, moves)
     multisine = Multisine()
     actuators = trial.actuators
@@ -189,7 +171,6 @@ class RoughFlight:
     roll_rms_deg: float
     pitch_rms_deg: float
     yaw_rate_rms_deg_s: float
-    sideslip_rms_deg: float
     crash: str | None
 
 
@@ -201,7 +182,7 @@ def fly_rough(
     seeds: Sequence[int] = (1, 2, 3),
 ) -> RoughFlight:
     """Hold level in turbulence, once for each seed of the air."""
-    sums = [0.0] * 4
+    sums = [0.0] * 3
     count = 0
     crash = None
     for seed in seeds:
@@ -210,12 +191,12 @@ def fly_rough(
         trial.fly(SETTLE_S)
         recording = trial.fly(seconds)
         crash = crash or recording.crash
-        names = ("roll_deg", "pitch_deg", "yaw_rate_deg_s", "sideslip_deg")
+        names = ("roll_deg", "pitch_deg", "yaw_rate_deg_s")
         for at, name in enumerate(names):
             sums[at] += sum(value * value for value in recording[f"truth.{name}"])
         count += len(recording.times_s)
-    roll, pitch, yaw_rate, sideslip = (math.sqrt(each / max(1, count)) for each in sums)
-    return RoughFlight(roll, pitch, yaw_rate, sideslip, crash)
+    roll, pitch, yaw_rate = (math.sqrt(each / max(1, count)) for each in sums)
+    return RoughFlight(roll, pitch, yaw_rate, crash)
 
 
 def yaw_swing(bench: Bench, gains: GainSet) -> float:
@@ -238,10 +219,6 @@ def yaw_swing(bench: Bench, gains: GainSet) -> float:
         return math.inf
     mean = fmean(after)
     return math.sqrt(fmean([(rate - mean) ** 2 for rate in after]))
-
-
-def _travel(values: Sequence[float]) -> float:
-    return sum(abs(after - before) for before, after in itertools.pairwise(values))
 
 
 def _mean(values: Sequence[float | None]) -> float | None:

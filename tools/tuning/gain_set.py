@@ -27,7 +27,6 @@ class AxisGains:
 
 
 def axis_gains(gains: GainSet, axis: Axis) -> AxisGains:
-    """Return the gains of an axis."""
     channel = CHANNELS[axis]
     return AxisGains(
         getattr(gains.rate, channel) or ZERO, getattr(gains.stabilize, channel) or ZERO
@@ -35,7 +34,6 @@ def axis_gains(gains: GainSet, axis: Axis) -> AxisGains:
 
 
 def with_axis(gains: GainSet, axis: Axis, new: AxisGains) -> GainSet:
-    """Return the set with other gains on one axis."""
     channel = CHANNELS[axis]
     return GainSet(
         replace(gains.rate, **{channel: new.rate}),

@@ -201,7 +201,6 @@ def _excess(fine: Sequence[tuple[float, float, float]]) -> float:
 
 
 def scaled(points: Sequence[LoopPoint], factor: float) -> list[LoopPoint]:
-    """Return the loop with every gain of the axis multiplied."""
     return [LoopPoint(point.frequency_hz, factor * point.response) for point in points]
 
 

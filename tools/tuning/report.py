@@ -42,7 +42,6 @@ def tuning_lines(tuning: AxisTuning) -> list[str]:
 
 
 def yaw_lines(tuning: YawTuning | None) -> list[str]:
-    """Return the measured effect of the yaw damper."""
     if tuning is None:
         return ["yaw: the rudder does nothing here that a damper could use; its gain is 0"]
     swings = ", ".join(f"{gain:g}: {swing:.1f}" for gain, swing in tuning.swings)
@@ -75,7 +74,6 @@ def rough_lines(air: RoughAir) -> list[str]:
 
 
 def rules_lines(rules: Rules) -> list[str]:
-    """Return the rules that a proposal keeps."""
     text = (
         f"A proposal keeps, at cruise and in the dive, {rules.gain_margin_db:g} dB of gain,"
         f" {rules.phase_margin_deg:g} deg of phase, {rules.delay_margin_ms:g} ms of delay and a"

@@ -64,7 +64,7 @@ def _draw_comparison(axes: Axes, tuning: AxisTuning) -> None:
         axes.plot(times_s, values, color=colour, lw=1.6, label=f"{words}: {candidate.gains}")
     axes.set_title("Steps", loc="left", size=10, weight="bold")
     axes.set_xlabel("time (s)")
-    axes.set_ylabel(plan.unit)
+    axes.set_ylabel("deg")
     _room_for_legend(axes)
 
 

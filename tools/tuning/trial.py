@@ -16,7 +16,6 @@ from up_simulator.firmware.imu_errors import ImuErrors
 from up_simulator.firmware.line_monitor import LineMonitor
 from up_simulator.firmware.preparation import cached_eeprom
 from up_simulator.firmware.settings_wire import gains_bytes
-from up_simulator.harness.user_log import Log, no_log
 from up_simulator.harness.world import STEP_S, World
 
 SAMPLE_S = 0.01
@@ -24,7 +23,7 @@ START_HEIGHT_M = 900.0
 BOOT_US = 1_600_000.0
 ANSWER_US = 10_000.0
 ANSWERS = 60
-RATE_US, FBW_US = 1000.0, 1500.0
+FBW_US = 1500.0
 _SWITCH = {"low": "RATE", "middle": "FBW", "high": "AUTO"}
 _GAINS_SIZE = 72
 
@@ -74,21 +73,18 @@ class Trial:
         *,
         board: BoardKind = "auto",
         weather: Weather | None = None,
-        airspeed_m_s: float | None = None,
         seed: int = 1,
-        log: Log = no_log,
     ) -> None:
         profile = {**airframe.profile, "switch": _SWITCH}
         errors = ImuErrors(
             vibration_deg_s=airframe.imu.vibration_deg_s,
             vibration_m_s2=airframe.imu.vibration_m_s2,
         )
-        eeprom = cached_eeprom(board, profile, airframe.gains, log)
+        eeprom = cached_eeprom(board, profile, airframe.gains)
         self.board: FirmwareBoard = choose_board(board, seed=seed, imu_errors=errors, eeprom=eeprom)
         throttle = airframe.launch.level_throttle if airframe.has_motor else 0.0
         start = Start(
             height_m=START_HEIGHT_M,
-            airspeed_m_s=airspeed_m_s,
             throttle=throttle,
             **({"pitch_deg": 0.0, "climb_m_s": 0.0} if airframe.has_motor else {}),
         )
@@ -142,7 +138,6 @@ class Trial:
 
     def _record(self, recording: Recording, time_s: float) -> None:
         state = self.dynamics.state
-        pulses_us = self.board.pulses_us()
         recording.add(
             time_s,
             **{
@@ -151,12 +146,6 @@ class Trial:
                 "truth.roll_rate_deg_s": state.roll_rate_deg_s,
                 "truth.pitch_rate_deg_s": state.pitch_rate_deg_s,
                 "truth.yaw_rate_deg_s": state.yaw_rate_deg_s,
-                "truth.sideslip_deg": state.sideslip_deg,
                 "truth.airspeed_m_s": state.airspeed_m_s,
-                "truth.height_m": state.height_m,
-                "truth.load_factor_g": state.load_factor_g,
-                "servo.ailerons_us": pulses_us[0],
-                "servo.elevator_us": pulses_us[1],
-                "servo.rudder_us": pulses_us[3],
             },
         )

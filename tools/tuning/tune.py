@@ -177,7 +177,7 @@ def try_rough_air(
 ) -> RoughAir:
     """Fly the proposal's steps in light turbulence, and both sets level in moderate."""
     light = Weather(turbulence="light")
-    plans = [STEPS[axis, "FBW"] for axis in axes if axis != "yaw"]
+    plans = [STEPS[axis] for axis in axes if axis != "yaw"]
     steps = workers.fly(fly_steps, [(bench, proposed, plan, light) for plan in plans])
     seeds = (1,) if is_quick else (1, 2, 3)
     before, after = workers.fly(
@@ -280,9 +280,7 @@ def _fly(
     rules: Rules,
     workers: Workers,
 ) -> list[Candidate]:
-    flown = workers.fly(
-        try_steps, [(bench, with_axis(gains, axis, each), axis, "FBW") for each in tried]
-    )
+    flown = workers.fly(try_steps, [(bench, with_axis(gains, axis, each), axis) for each in tried])
     candidates = []
     for each, steps in zip(tried, flown, strict=True):
         cruise, dive = _margins(*loops, each)

@@ -44,11 +44,6 @@ class Battery:
     def percent(self) -> float:
         return 100 * self._left_c / self._capacity_c
 
-    @property
-    def used_mah(self) -> float:
-        """Return the charge drawn since it was full, mAh."""
-        return (self._capacity_c - self._left_c) / 3.6
-
     def charge(self) -> None:
         """Be as it was at the launch, as another one of the same kind is."""
         self._left_c = self._capacity_c * self._config.charge_percent / 100

@@ -14,7 +14,6 @@ from typing import Any
 from up_simulator.aircraft import load_airframe
 from up_simulator.demo.config import FLIGHTS, write_config
 from up_simulator.demo.hints import hints, log_hints
-from up_simulator.demo.news import News
 from up_simulator.demo.page import Page
 from up_simulator.harness.child import Child
 from up_simulator.harness.participants import ParticipantError
@@ -27,6 +26,8 @@ READING_TIME_S = 8
 POLL_PERIOD_S = 0.1
 UNPRINTED = ("board_ready", "board_mode", "late")
 """Codes of the aircraft's start that are not printed."""
+NEWS = ("crashed", "relaunched", "battery_changed", "phone_lost", "late")
+"""Codes of the aircraft's lines that are printed immediately in flight."""
 RESTORE_SCREEN = "\x1b[0m\x1b[?25h\x1b[?1049l"
 """Leaves the alternate screen and shows the cursor, for a screen that could not do so itself."""
 
@@ -52,7 +53,6 @@ class DemoFlight:
         self._children: list[Child] = []
         self._page: Page | None = None
         self._pending_lines: list[str] = []
-        self._news = News(time.monotonic)
         self._airframe = load_airframe(options.airframe)
         self._ports = Ports()
 
@@ -218,8 +218,9 @@ class DemoFlight:
         self._log(f"{why}The flight continues. Enter: the {self._screen} again; Ctrl-C: stop all.")
 
     def _log_news(self, aircraft: Child) -> None:
-        for text in self._news.select(aircraft.new_lines()):
-            self._log(f"aircraft: {text}")
+        for line in aircraft.new_lines():
+            if line.code in NEWS:
+                self._log(f"aircraft: {line.text}")
 
 
 def _enter_was_pressed() -> bool:

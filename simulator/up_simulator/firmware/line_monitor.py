@@ -58,7 +58,6 @@ class LineMonitor:
         self.status_s = -float("inf")
         self.orientation: BoardOrientation | None = None
         self.orientation_s = -float("inf")
-        self.outputs_us: tuple[int, ...] | None = None
         self.inputs: Inputs | None = None
         self.mode: str | None = None
         self.answers: list[Command] = []
@@ -122,7 +121,7 @@ class LineMonitor:
                 self.orientation = BoardOrientation(*_ORIENTATION.unpack(payload))
                 self.orientation_s = now_s
             case "r":
-                self.outputs_us = _OUTPUTS.unpack(payload)
+                pass
             case "i":
                 *pulses_us, validity = _INPUTS.unpack(payload)
                 self.inputs = Inputs(tuple(pulses_us), validity)

@@ -11,7 +11,7 @@ from up_simulator.harness.world import BYTES_A_STEP, STEP_S, World
 from up_simulator.radio.sticks import Radio, Sticks, Transmitter
 
 MAX_LATE_S = 0.25
-REPORT_PERIOD_S = 5.0
+REPORT_PERIOD_S = 60.0
 STICK_STEPS = 10
 """A receiver sends a frame every 20 ms: reading the sticks more often has no effect."""
 MAX_STEPS = 25
@@ -32,7 +32,7 @@ class RealTime:
     """Keeps a flight in step with a monotonic clock, never ahead of it.
 
     A delay beyond 250 ms is skipped instead of flown in a burst, which would make the next call
-    late as well: it is added to ``skipped_s`` and reported at most every 5 s.
+    late as well: it is added to ``skipped_s`` and reported at most once a minute.
     """
 
     def __init__(self, clock: Clock, log: Log = no_log, flown_s: float = 0.0) -> None:
@@ -59,7 +59,8 @@ class RealTime:
         now_s = self._clock.seconds()
         if now_s - self._reported_s >= REPORT_PERIOD_S:
             self._reported_s = now_s
-            text = f"late by {late_s:.2f} s: the missed time is skipped, not flown"
+            text = f"late by {late_s:.2f} s: this machine is too busy; missed time is skipped,"
+            text += f" not flown, {self.skipped_s:.2f} s so far"
             self._log(text, code="late", late_s=round(late_s, 2))
         return MAX_LATE_S
 

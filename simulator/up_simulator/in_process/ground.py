@@ -111,11 +111,6 @@ class InProcessGround:
         return self._received.frames
 
     @property
-    def lost_frames(self) -> int:
-        """Return the number of frames that, by the beacons, were sent and did not arrive."""
-        return self._received.lost
-
-    @property
     def newest_s(self) -> float | None:
         return self._newest_s
 

@@ -11,10 +11,8 @@ from twisted.internet.address import IPv4Address, IPv6Address
 from twisted.internet.base import DelayedCall
 from twisted.internet.interfaces import (
     IHostnameResolver,
-    IReactorFDSet,
     IReactorPluggableNameResolver,
     IReactorTCP,
-    IReactorTime,
     IReactorUDP,
 )
 from zope.interface import implementer
@@ -35,7 +33,7 @@ class TimedCall(DelayedCall):
     host: SimulatedHost | None = None
 
 
-@implementer(IReactorTime, IReactorTCP, IReactorUDP, IReactorFDSet, IReactorPluggableNameResolver)
+@implementer(IReactorTCP, IReactorUDP, IReactorPluggableNameResolver)
 class SimulatedHost:
     """The reactor that a program sees; its sockets stay in this process, at 127.0.0.1.
 
@@ -73,20 +71,6 @@ class SimulatedHost:
     def callFromThread(self, callable: Callable[..., Any], *args: object, **kw: object) -> None:  # noqa: N802
         self.reactor.call_from_thread(partial(self.do, partial(callable, *args, **kw)))
 
-    def callWhenRunning(self, callable: Callable[..., Any], *args: object, **kw: object) -> None:  # noqa: N802
-        """Call immediately: this reactor is always running."""
-        callable(*args, **kw)
-
-    def getDelayedCalls(self) -> list[TimedCall]:  # noqa: N802 - Twisted's name
-        return [each for each in self._calls if each.active()]
-
-    def addSystemEventTrigger(self, *_: object, **__: object) -> object:  # noqa: N802
-        """Keep nothing: this reactor never shuts down on its own."""
-        return object()
-
-    def removeSystemEventTrigger(self, _: object) -> None:  # noqa: N802 - Twisted's name
-        """Do nothing: no trigger was kept."""
-
     def addReader(self, reader: Any) -> None:  # noqa: N802 - Twisted's name
         self._descriptors[reader] = None
         self.reactor.add_reader(reader)
@@ -107,12 +91,6 @@ class SimulatedHost:
             self.reactor.remove_reader(each)
             self.reactor.remove_writer(each)
         return descriptors
-
-    def getReaders(self) -> list[Any]:  # noqa: N802 - Twisted's name
-        return list(self._descriptors)
-
-    def getWriters(self) -> list[Any]:  # noqa: N802 - Twisted's name
-        return list(self._descriptors)
 
     def listenTCP(  # noqa: N802 - Twisted's name
         self, port: int, factory: Any, backlog: int = 50, interface: str = ""
@@ -145,10 +123,6 @@ class SimulatedHost:
         listening = UdpPort(self, port, protocol, interface)
         listening.startListening()
         return listening
-
-    def installNameResolver(self, resolver: Any) -> Any:  # noqa: N802 - Twisted's name
-        before, self.nameResolver = self.nameResolver, resolver
-        return before
 
     def do(self, call: Callable[..., Any], *arguments: Any) -> None:
         """Call into the program now, or when it resumes."""

@@ -45,8 +45,6 @@ class TcpPort:
             self.factory.doStop()
         return succeed(None)
 
-    loseConnection = stopListening  # noqa: N815 - Twisted's name
-
     def getHost(self) -> IPv4Address:  # noqa: N802 - Twisted's name
         return IPv4Address("TCP", self.interface or "0.0.0.0", self._number)
 
@@ -90,13 +88,6 @@ class Connector:
         if self.state != "connecting":
             raise RuntimeError("no attempt is under way")
         self._fail(UserError())
-
-    def disconnect(self) -> None:
-        """Give up the attempt, or close the connection."""
-        if self.state == "connecting":
-            self.stopConnecting()
-        elif self.state == "connected" and self._connection is not None:
-            self._connection.loseConnection()
 
     def getDestination(self) -> IPv4Address:  # noqa: N802 - Twisted's name
         return self._address

@@ -40,8 +40,6 @@ class UdpPort:
             self.protocol.doStop()
         return succeed(None)
 
-    loseConnection = stopListening  # noqa: N815 - Twisted's name
-
     def write(self, packet: bytes, addr: tuple[str, int] | None = None) -> None:
         target = addr or self._peer
         if not self._is_open or target is None or len(packet) > MAX_DATAGRAM_BYTES:
@@ -51,9 +49,6 @@ class UdpPort:
         source = (ADDRESS, self._number)
         route.carry(HEADER + len(packet), _arrive, network, target[1], bytes(packet), source)
 
-    def writeSequence(self, seq: Any, addr: tuple[str, int] | None = None) -> None:  # noqa: N802
-        self.write(b"".join(seq), addr)
-
     def connect(self, host: str, port: int) -> None:
         self._peer = (host, port)
 
@@ -62,9 +57,6 @@ class UdpPort:
 
     def setBroadcastAllowed(self, enabled: bool) -> None:  # noqa: N802 - Twisted's name
         """Do nothing: there is one host to reach."""
-
-    def getBroadcastAllowed(self) -> bool:  # noqa: N802 - Twisted's name
-        return True
 
     def cut_off(self) -> None:
         self._is_open = False

@@ -8,11 +8,12 @@ from typing import Any
 
 from twisted.internet.protocol import DatagramProtocol
 
+from up.system.clock import Clock, cancel
 from up.system.udp import listen_udp
 from up_simulator.link.model import LinkModel
 from up_simulator.link.pipe import LinkPipe
 from up_simulator.link.relay import ListeningRelay
-from up_simulator.link.stream import POLL_S, Clock
+from up_simulator.link.stream import POLL_S
 
 HEADER = 28
 """Bytes of an IPv4 and a UDP header, which a link carries too."""
@@ -65,9 +66,8 @@ class _Direction:
         self._run()
 
     def _cancel(self) -> None:
-        if self._timer is not None:
-            self._timer.cancel()
-            self._timer = None
+        cancel(self._timer)
+        self._timer = None
 
 
 class _Socket(DatagramProtocol):

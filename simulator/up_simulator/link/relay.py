@@ -10,9 +10,9 @@ from twisted.internet.defer import Deferred
 from twisted.internet.error import CannotListenError
 from twisted.internet.protocol import ClientFactory, Factory, Protocol
 
+from up.system.clock import Clock
 from up_simulator.link.model import LinkModel
 from up_simulator.link.relay_connection import RelayedConnection
-from up_simulator.link.stream import Clock
 
 
 class LinkRelayError(Exception):

@@ -13,8 +13,9 @@ from twisted.internet.protocol import ClientFactory, Protocol, connectionDone
 from twisted.python.failure import Failure
 from zope.interface import implementer
 
+from up.system.clock import Clock
 from up_simulator.link.model import LinkModel
-from up_simulator.link.stream import Clock, LinkStream, Signal
+from up_simulator.link.stream import LinkStream, Signal
 
 SYSTEM_BUFFER = 32 * 1024
 """The system's buffer for a socket of the relay, small enough not to act as part of the link."""

@@ -7,8 +7,9 @@ import math
 from collections import deque
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any, Protocol
+from typing import Any
 
+from up.system.clock import Clock, cancel
 from up_simulator.link.model import LinkModel
 
 SEGMENT = 1448
@@ -29,16 +30,6 @@ class Signal(enum.Enum):
     OPENED = "opened"
     FINISHED = "finished"
     RESET = "reset"
-
-
-class Clock(Protocol):
-    """The source of time: a reactor, or ``task.Clock``."""
-
-    def seconds(self) -> float:
-        """Return the time, which never falls."""
-
-    def callLater(self, delay: float, function: Callable[..., object]) -> Any:  # noqa: N802
-        """Call a function later; the result can be cancelled."""
 
 
 @dataclass(slots=True)
@@ -209,6 +200,5 @@ class LinkStream:
             self._on_silence()
 
     def _cancel(self) -> None:
-        if self._timer is not None:
-            self._timer.cancel()
-            self._timer = None
+        cancel(self._timer)
+        self._timer = None

@@ -8,8 +8,6 @@ from dataclasses import dataclass
 from typing import Protocol
 
 MAX_POINTS = 6000
-DEGREE_M = 111_194.9
-"""A degree of latitude on a sphere of 6371 km."""
 
 
 class Log(Protocol):
@@ -70,10 +68,9 @@ def thinned(
 
 def mode_spans(log: Log) -> list[Span]:
     """Return which mode flew when; a lost receiver's circle is FAILSAFE."""
-    name = next((each for each in ("board.mode", "ground.flight_mode") if each in log), None)
-    if name is None:
+    if "board.mode" not in log:
         return []
-    modes = [str(mode) for mode in log.column(name)]
+    modes = [str(mode) for mode in log.column("board.mode")]
     if "board.failsafe" in log:
         flags = log.numbers("board.failsafe")
         modes = ["FAILSAFE" if flag == 1 else mode for mode, flag in zip(modes, flags, strict=True)]
@@ -83,21 +80,7 @@ def mode_spans(log: Log) -> list[Span]:
 def track(log: Log) -> tuple[list[float], list[float]] | None:
     """Return metres east and north of the start; ``None`` if the log lacks them."""
     north, east = numbers(log, "truth.north_m"), numbers(log, "truth.east_m")
-    if north is not None and east is not None:
-        return east, north
-    latitude, longitude = numbers(log, "truth.latitude_deg"), numbers(log, "truth.longitude_deg")
-    if latitude is None or longitude is None:
-        return None
-    first = next(
-        (at for at, each in enumerate(latitude) if math.isfinite(each + longitude[at])), None
-    )
-    if first is None:
-        return None
-    narrow = math.cos(math.radians(latitude[first]))
-    return (
-        [(each - longitude[first]) * DEGREE_M * narrow for each in longitude],
-        [(each - latitude[first]) * DEGREE_M for each in latitude],
-    )
+    return None if north is None or east is None else (east, north)
 
 
 def crash_index(log: Log) -> int | None:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import difflib
 import enum
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -15,6 +14,7 @@ from up.commands.board_schema import (
     SWITCH_POSITIONS,
 )
 from up.commands.telemetry_schema import FIELDS
+from up.fields import suggestion
 
 _MODES = tuple(FLIGHT_MODES.values())
 _POSITIONS = tuple(SWITCH_POSITIONS.values())
@@ -48,10 +48,8 @@ def value_problem(name: str, text: str) -> str:
     wrong = next((part for part in parts if part not in values), None)
     if not values or wrong is None:
         return ""
-    by_lower = {value.lower(): value for value in values}
-    matches = difflib.get_close_matches(wrong.lower()[:80], by_lower, n=1)
-    hint = f"did you mean '{by_lower[matches[0]]}'?" if matches else f"it has {', '.join(values)}"
-    return f'{name} is never "{wrong[:60]}": {hint}'
+    hint = suggestion(wrong, values) or f": it has {', '.join(values)}"
+    return f'{name} is never "{wrong[:60]}"{hint}'
 
 
 class Kind(enum.Enum):
@@ -206,8 +204,7 @@ def signal_of(name: str) -> Signal:
         return SIGNALS[name]
     if name.startswith(FREE_PREFIX) and name.count(".") >= 3 and not name.endswith("."):
         return Signal(name, f"telemetry {name.partition('.')[2]}")
-    matches = difflib.get_close_matches(name.lower()[:80], SIGNALS, n=1)
-    if not matches:
-        matches = [each for each in SIGNALS if each.rpartition(".")[2] == name.lower()][:1]
-    hint = f", did you mean '{matches[0]}'?" if matches else " ('up-sim signals' lists them)"
-    raise KeyError(f"unknown signal{hint}")
+    same_end = (each for each in SIGNALS if each.rpartition(".")[2] == name.lower())
+    near = suggestion(name, SIGNALS) or suggestion(next(same_end, ""), SIGNALS)
+    near = near or " ('up-sim signals' lists them)"
+    raise KeyError(f"unknown signal{near}")

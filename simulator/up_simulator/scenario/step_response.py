@@ -54,11 +54,6 @@ class StepResponse:
     swings: int
     """How often it crossed ``final`` after it first reached it and overshot by more than 5 %."""
 
-    @property
-    def is_settled(self) -> bool:
-        """Return whether it settled within the window."""
-        return self.settling_time_s is not None
-
 
 def analyse_step(
     times_s: Sequence[float],

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-import difflib
 from collections.abc import Iterable
 from pathlib import Path
+
+from up.fields import suggestion
 
 SHIPPED = Path(__file__).resolve().parents[1] / "scenarios"
 SUFFIXES = (".yml", ".yaml")
@@ -41,9 +42,8 @@ def find(name: str) -> Path:
 
 
 def _hint(name: str) -> str:
-    names = [each.stem for each in shipped_paths()]
-    near = difflib.get_close_matches(name[:80], names, n=1, cutoff=0.5)
-    return f", did you mean '{near[0]}'?" if near else " ('up-sim list' lists them)"
+    names = (each.stem for each in shipped_paths())
+    return suggestion(name, names) or " ('up-sim list' lists them)"
 
 
 def no_such_tag(wanted: Iterable[str], known: Iterable[str]) -> UsageError:
@@ -51,9 +51,9 @@ def no_such_tag(wanted: Iterable[str], known: Iterable[str]) -> UsageError:
     names = sorted(set(known))
     asked = " and ".join(f"'{tag[:80]}'" for tag in wanted)
     unknown = [tag for tag in wanted if tag not in names]
-    near = difflib.get_close_matches(unknown[0][:80], names, n=1) if unknown else []
-    hint = f"did you mean '{near[0]}'?" if near else f"there are {', '.join(names)}"
-    return UsageError(f"no scenario has the tag {asked}: {hint}")
+    hint = suggestion(unknown[0], names) if unknown else ""
+    hint = hint or f": there are {', '.join(names)}"
+    return UsageError(f"no scenario has the tag {asked}{hint}")
 
 
 def name_of(path: Path) -> str:

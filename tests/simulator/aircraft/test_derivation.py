@@ -8,11 +8,10 @@ import pytest
 
 from up_simulator.aircraft import airframe_names
 from up_simulator.aircraft.airframe import SHIPPED
-from up_simulator.aircraft.derivation import ALPHAS_DEG, BETAS_DEG, Derivation, plate_normal
+from up_simulator.aircraft.derivation import ALPHAS_DEG, BETAS_DEG, Derivation
 from up_simulator.aircraft.geometry import GEOMETRY, Flap, Fuselage, Geometry, Masses, Surface
-from up_simulator.aircraft.lattice import Flow
 from up_simulator.aircraft.model_file import main, model_text
-from up_simulator.aircraft.panels import lattice_of, references
+from up_simulator.aircraft.panels import references
 
 NAMES = airframe_names()
 
@@ -99,18 +98,6 @@ def test_a_plain_flap_lifts_as_thin_aerofoil_theory_says():
     assert found.by("elevator").lift == pytest.approx(0.61 * found.by("alpha_rad").lift, rel=0.02)
 
 
-def test_the_lattice_is_symmetrical():
-    lattice = lattice_of(GEOMETRY.load(SHIPPED / "glider"))
-    left, right = (
-        lattice.loads(Flow(alpha_rad=0.05, beta_rad=side, roll=side, controls={"ailerons": side}))
-        for side in (-0.1, 0.1)
-    )
-    assert left.lift == pytest.approx(right.lift)
-    assert left.pitch == pytest.approx(right.pitch)
-    for name in ("side", "roll", "yaw"):
-        assert getattr(left, name) == pytest.approx(-getattr(right, name))
-
-
 SIGNS = [
     ("alpha_rad", "lift", 1), ("alpha_rad", "pitch", -1), ("beta_rad", "side", -1),
     ("beta_rad", "roll", -1), ("beta_rad", "yaw", 1), ("roll", "roll", -1), ("pitch", "pitch", -1),
@@ -180,12 +167,6 @@ def test_a_stalled_wing_no_longer_damps_its_rolling():
     found = derived("glider")
     assert found.lateral("roll", 3.0)[0] < -0.4
     assert found.lateral("roll", 12.5)[0] > -0.1
-
-
-def test_a_flat_plate():
-    assert plate_normal(90.0) == pytest.approx(1.25)
-    assert plate_normal(-90.0) == pytest.approx(-1.25)
-    assert plate_normal(0.0) == 0.0
 
 
 @pytest.mark.parametrize("name", NAMES)

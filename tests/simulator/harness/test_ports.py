@@ -16,25 +16,6 @@ def test_a_port_that_only_udp_has_taken_is_not_chosen(monkeypatch):
         taken.close()
 
 
-def test_all_ports_differ():
-    ports = astuple(choose_ports(any_ports=True))
-    assert len(set(ports)) == len(ports)
-
-
-def test_the_ports_of_all_sets_differ_though_the_system_hands_them_out_again(monkeypatch):
-    free = astuple(choose_ports(any_ports=True))
-    more = astuple(choose_ports(any_ports=True))
-    offered = iter([*free, *free, *more, *free, *more] * 3)
-
-    class Socket(socket.socket):
-        def bind(self, address):
-            super().bind((address[0], address[1] or next(offered)))
-
-    monkeypatch.setattr("up_simulator.harness.ports.socket.socket", Socket)
-    chosen = [port for ports in choose_port_sets(2) for port in astuple(ports)]
-    assert len(set(chosen)) == len(chosen) == 2 * len(fields(Ports))
-
-
 def test_any_ports_are_none_that_the_system_gives_to_whoever_connects():
     sets = choose_port_sets(3)
     ports = [port for each in sets for port in astuple(each)]

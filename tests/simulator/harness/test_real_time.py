@@ -94,8 +94,8 @@ def test_missed_time_is_skipped_and_logged(flown):
     assert flown.time_s == pytest.approx(1.25)
 
 
-def test_lateness_is_logged_at_most_every_5_s(flown):
-    for _ in range(10):
+def test_lateness_is_logged_at_most_once_a_minute(flown):
+    for _ in range(100):
         flown.clock.advance(1.0)
         flown.made.advance()
     assert len(flown.logged) == 2

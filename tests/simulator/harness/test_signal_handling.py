@@ -1,6 +1,7 @@
 """SIGTERM, SIGHUP, a closed terminal and a killed parent: every process and file is cleaned up."""
 
 import fcntl
+import json
 import os
 import pty
 import signal
@@ -120,7 +121,7 @@ def left(folder):
     return [path.name for path in (folder / "tmp").iterdir()]
 
 
-@pytest.mark.parametrize("number", [signal.SIGTERM])
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
 def test_a_flight_ends_with_its_report_and_the_signals_status(in_a_folder, number):
     Path("long.yml").write_text(LONG)
     own, other = pty.openpty()
@@ -132,8 +133,11 @@ def test_a_flight_ends_with_its_report_and_the_signals_status(in_a_folder, numbe
         output = process.communicate(timeout=LIMIT_S)[0].decode()
         os.close(own)
     assert process.returncode == 128 + number
-    assert "long: NOT held" in output and "interrupted" in output and "Traceback" not in output
-    assert (in_a_folder / "run/flights/long/log.csv").is_file()
+    assert "Traceback" not in output
+    folder = in_a_folder / "run/flights/long"
+    summary = json.loads((folder / "summary.json").read_text())
+    assert summary["interrupted"] and summary["expectations"][-1]["code"] == "cut_short"
+    assert (folder / "log.csv").is_file()
 
 
 @pytest.mark.parametrize("number", [signal.SIGHUP])

@@ -8,14 +8,12 @@ import pytest
 from twisted.internet.protocol import Factory
 from twisted.logger import globalLogPublisher
 
-from tests.simulator.bench import StillFlight
 from tests.support.tools import unavailable
 from up_rig.imu import motion_at
 from up_simulator.firmware.build import BoardUnavailableError, choose_board
 from up_simulator.harness.participants import ParticipantError
 from up_simulator.in_process.config_folder import GROUND_PORT, write_config
 from up_simulator.in_process.ground import InProcessGround
-from up_simulator.in_process.phone import InProcessPhone
 from up_simulator.in_process.raspilot import InProcessRaspilot
 from up_simulator.in_process.reactor import SimulatedReactor
 
@@ -131,26 +129,6 @@ def test_a_stop_ends_it_in_time_and_releases_all_ports(tmp_path):
     assert len(bench.board.heard) == heard
 
 
-def test_after_a_kill_it_sends_nothing_and_may_start_again(tmp_path):
-    bench = Bench(tmp_path)
-    bench.raspilot.start()
-    bench.ground.start()
-    bench.run(2.0)
-    frames = bench.ground.frames
-    bench.raspilot.kill()
-    assert not bench.raspilot.is_running
-    heard = len(bench.board.heard)
-    bench.run(2.0)
-    assert bench.ground.frames == frames
-    assert len(bench.board.heard) == heard
-    assert not bench.ground.is_connected
-    bench.raspilot.start()
-    bench.run(4.0)
-    assert bench.ground.is_connected
-    assert bench.ground.frames > frames + 10
-    assert bench.raspilot.boots == 2
-
-
 def test_a_kill_may_cut_a_frame(tmp_path):
     bench = Bench(tmp_path)
     bench.raspilot.start()
@@ -208,26 +186,3 @@ def test_the_log_is_bounded(tmp_path):
     bench.raspilot.kill()
     module.log.warn("after the end")
     assert bench.raspilot.log[-1].endswith("line 4999")
-
-
-def test_in_black_box_mode_it_uses_only_the_phone(tmp_path):
-    files = {
-        "config.yml": {"mode": "black box"},
-        "mission_control.yml": {"remote_server": {"url": "127.0.0.1"}},
-    }
-    bench = Bench(tmp_path, files)
-    phone = InProcessPhone(bench.reactor, StillFlight())
-    bench.raspilot.start()
-    bench.ground.start()
-    phone.plug()
-    bench.run(2.0)
-    telemetry = bench.ground.telemetry
-    assert telemetry["mode"] == "black box"
-    assert telemetry["source"]["orientation"] == "android"
-    assert telemetry["orientation"]["roll"] == pytest.approx(3.25)
-    assert bench.board.heard == b""
-    with pytest.raises(LookupError, match="SerialProvider"):
-        bench.raspilot.module("SerialProvider")
-    # The proxy's port has no listener: it keeps retrying and does no harm.
-    assert "127.0.0.1" in bench.log()
-    assert "CRITICAL" not in bench.log()

@@ -243,15 +243,6 @@ def test_a_kill_closes_the_connections_of_the_program():
     assert bench.here.lost is None, "a killed program is not called"
 
 
-def test_a_kill_releases_the_ports_of_the_program():
-    bench = Bench()
-    bench.connect()
-    bench.pi.cut_off()
-    bench.connect()
-    assert bench.client.failed == "ConnectionRefusedError"
-    bench.phone.listenTCP(PORT, bench.server)
-
-
 def test_a_protocol_that_raises_loses_only_its_own_connection():
     bench = Bench(SLOW)
     first, second = Bench.recorder(bench), Bench.recorder(bench)

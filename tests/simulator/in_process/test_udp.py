@@ -49,16 +49,6 @@ def test_the_link_of_the_port_applies_both_ways():
     assert len(bench.there.received) == 1
 
 
-def test_some_datagrams_are_lost_and_none_comes_twice():
-    bench = Bench(LinkSettings(loss_percent=30))
-    for number in range(1000):
-        bench.sending.write(b"%d" % number, ("127.0.0.1", PORT))
-    bench.reactor.advance(1.0)
-    arrived = [int(datagram) for datagram, _, _ in bench.there.received]
-    assert arrived == sorted(set(arrived))
-    assert 650 < len(arrived) < 750
-
-
 def test_a_datagram_without_a_receiver_is_lost():
     bench = Bench()
     bench.listening.stopListening()

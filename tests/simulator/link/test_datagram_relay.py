@@ -116,31 +116,6 @@ def test_datagrams_arrive_unchanged_and_in_order(link, datagrams):
     flown(fly)
 
 
-def test_a_stall_delays_and_a_blackout_drops():
-    async def fly():
-        async with Bench() as bench:
-            client = bench.client()
-            bench.up.stall(bench.clock.seconds())
-            for at in range(5):
-                await bench.send(client, b"%d" % at)
-                await bench.pass_s(0.2)
-            assert bench.arrived == []
-            bench.up.resume(bench.clock.seconds())
-            await bench.pass_s(0.02)
-            assert bench.arrived == [b"0", b"1", b"2", b"3", b"4"]
-            bench.up.black_out()
-            await bench.send(client, b"lost")
-            await bench.pass_s(5)
-            bench.up.restore()
-            await bench.pass_s(5)
-            await bench.send(client, b"5")
-            await bench.pass_s(0)
-            assert bench.arrived[5:] == [b"5"]
-            assert bench.relay.lost == 1
-
-    flown(fly)
-
-
 def test_the_largest_datagram_arrives_whole():
     async def fly():
         async with Bench() as bench:

@@ -2,7 +2,6 @@
 
 import os
 import shutil
-import zipfile
 
 import pytest
 
@@ -54,13 +53,6 @@ def test_it_is_rebuilt_when_a_source_is_newer_or_removed(android):
     assert built_ns(find_java_program(android=android)) != second
 
 
-def test_an_invalid_jar_is_rebuilt(android):
-    program = find_java_program(android=android)
-    for jar in program.jars:
-        jar.write_bytes(b"a file cut by a full disk")
-    assert all(map(zipfile.is_zipfile, find_java_program(android=android).jars))
-
-
 def test_a_compiler_error_is_reported_in_one_line(android):
     (android / "core" / "src" / "One.java").write_text(CORE.replace("class", "clasp"))
     with pytest.raises(JavaUnavailableError, match=r"One\.java:3: error:") as caught:
@@ -100,14 +92,6 @@ def test_auto_is_java_where_available_and_otherwise_python(tmp_path, monkeypatch
     assert choice.java is None and PACKAGE in choice.title
     with pytest.raises(ParticipantError, match=PACKAGE):
         choose_phone("java")
-
-
-@pytest.mark.parametrize(("kind", "title"), [("auto", IN_JAVA), ("python", IN_PYTHON)])
-def test_the_aircraft_logs_its_phone(kind, title):
-    java_program()
-    with Program("--no-board", "--phone", kind, "--general-port", "1") as program:
-        program.wait_for("phone_selected", phone=title)
-        assert program.end()[0] == 0
 
 
 def test_an_aircraft_without_java_flies_the_stub(tmp_path):

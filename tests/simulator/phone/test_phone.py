@@ -99,14 +99,6 @@ def test_values_that_are_not_numbers_are_omitted_from_the_log():
     assert "wind_north_m_s" not in RECORDED_NAMES, "a recorded flight knows no wind"
 
 
-def test_lines_have_the_documented_keys():
-    bench = Bench()
-    bench.run(TICK_S)
-    for line in bench.lines:
-        assert line.endswith(b"\n")
-        assert list(json.loads(line)) == ["name", "data", "id"]
-
-
 def test_the_first_message_of_each_connection_identifies_the_phone():
     bench = Bench(identity="0badcafe")
     bench.run(1.0)

@@ -2,7 +2,6 @@
 
 import math
 
-import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -44,20 +43,6 @@ def test_modes_are_spans_and_a_lost_receiver_is_its_own():
         (4.0, 5.0, "FAILSAFE"),
     ]
     assert mode_spans(log_of(truth__roll_deg=[1, 2])) == []
-
-
-def test_the_ground_provides_the_mode_without_a_board():
-    assert mode_spans(log_of(ground__flight_mode=["FBW", "FBW"]))[0].name == "FBW"
-
-
-def test_degrees_become_metres_from_the_first_place_that_is_known():
-    log = log_of(
-        truth__latitude_deg=[None, 50.0, 50.001], truth__longitude_deg=[None, 14.5, 14.501]
-    )
-    east, north = track(log)
-    assert (east[1], north[1]) == (0, 0)
-    assert north[2] == pytest.approx(111.2, abs=0.1)
-    assert east[2] == pytest.approx(111.2 * math.cos(math.radians(50)), abs=0.1)
 
 
 def test_metres_are_taken_as_they_are():

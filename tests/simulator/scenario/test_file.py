@@ -2,14 +2,12 @@
 
 import re
 from dataclasses import fields
-from pathlib import Path
 
 import pytest
 from arduino_cog.commands.arduino_status_command import ArduinoStatusCommand
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-import up_simulator.scenario
 from tests.simulator.scenario.minimal import EXPECT, HEAD, scenario
 from up.commands.board_schema import FLIGHT_MODES
 from up.config import ConfigErrors
@@ -17,10 +15,8 @@ from up_simulator.scenario.file import parse_scenario, read_scenario
 from up_simulator.scenario.override import Override
 from up_simulator.scenario.scenario import Scenario
 from up_simulator.scenario.signals import values_of
-from up_simulator.verbs.catalogue import shipped_paths
 
 IN_PROCESS = HEAD + "raspilot: {runs: in process}\nground: {role: pilot}\n"
-TEMPLATE = Path(up_simulator.scenario.__file__).with_name("template.yml")
 RICH = """\
 title: Everything
 about: many words
@@ -95,12 +91,6 @@ def test_a_short_file_has_defaults():
     short = scenario()
     assert (short.airframe, short.board, short.raspilot.runs) == ("glider", "auto", "no")
     assert short.phone is None and short.ground is None and not short.is_real
-
-
-@pytest.mark.parametrize("path", [*shipped_paths(), TEMPLATE], ids=lambda path: path.stem)
-def test_shipped_files_are_valid(path):
-    shipped = read_scenario(path)
-    assert shipped.title and shipped.about and shipped.tags
 
 
 def test_all_problems_are_reported_together():

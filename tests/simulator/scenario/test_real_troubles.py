@@ -21,18 +21,6 @@ events:
   - {at_s: 0.4, name: in, serial: back}
 expect: [{name: a, signal: time_s, above: -1}]
 """
-TAKEN_PORT = """
-import socket
-from up_simulator.scenario.real_reactor import RealReactor
-link = RealReactor.link
-def taken(reactor, port, *models, **more):
-    global held
-    held = socket.socket()
-    held.bind(("127.0.0.1", port))
-    held.listen()
-    link(reactor, port, *models, **more)
-RealReactor.link = taken
-"""
 TAKEN_NAME = """
 from up_simulator.scenario.real_participants import RealParticipants
 plug = RealParticipants.plug_serial
@@ -64,13 +52,6 @@ def fly(patch):
         timeout=LIMIT_S,
         check=False,
     )
-
-
-def test_a_port_in_use_is_reported_before_the_flight():
-    done = fly(TAKEN_PORT)
-    assert done.stderr.startswith("up-sim: real: ") and "127.0.0.1:" in done.stderr
-    assert done.stderr.count("\n") == 1
-    assert done.returncode == 1
 
 
 def test_a_serial_line_that_cannot_be_reopened_fails_the_flight():

@@ -1,9 +1,6 @@
 """The program: verbs, exit statuses and its output."""
 
 import json
-import os
-import pty
-import signal
 import subprocess
 import sys
 from pathlib import Path
@@ -199,29 +196,6 @@ def test_a_new_scenario_that_cannot_be_written_is_removed(in_a_folder):
     assert done.returncode == 1
     assert "first-flight.yml" in done.stderr and done.stderr.count("\n") == 1
     assert list(in_a_folder.iterdir()) == []
-
-
-def test_ctrl_c_ends_with_a_partial_report():
-    build_firmware()
-    write("long.yml", GOOD.replace("duration_s: 1", "duration_s: 3000"))
-    own, other = pty.openpty()
-    command = [sys.executable, "-m", "up_simulator.cli", "fly", "long.yml", "--no-picture"]
-    process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=other)
-    try:
-        shown = b""
-        while b"x real time" not in shown:
-            shown += os.read(own, 1000)
-        process.send_signal(signal.SIGINT)
-        printed = process.communicate(timeout=LIMIT_S)[0].decode()
-    finally:
-        process.kill()
-        process.wait()
-        os.close(own)
-        os.close(other)
-    assert process.returncode == 130
-    assert "INTERRUPTED" in printed and "Traceback" not in printed
-    summary = json.loads(Path("run/flights/long/summary.json").read_text())
-    assert summary["interrupted"] and summary["expectations"][-1]["code"] == "cut_short"
 
 
 def test_all_flies_every_scenario_and_counts(capsys, monkeypatch, in_a_folder):

@@ -74,14 +74,6 @@ def test_a_log_without_steps_is_reported(tmp_path, capsys):
     assert str(path) in capsys.readouterr().out
 
 
-def test_without_matplotlib_the_figures_are_still_printed(log, tmp_path, capsys, monkeypatch):
-    monkeypatch.setitem(__import__("sys").modules, "matplotlib", None)
-    assert tune("--log", log, "--pictures", tmp_path) == 0
-    told = capsys.readouterr()
-    assert "roll in FBW: " in told.out
-    assert "pip install -e '.[sim]'" in told.err
-
-
 @pytest.mark.parametrize(
     ("arguments", "named"),
     [
@@ -115,11 +107,3 @@ def test_a_file_that_is_no_pids_yml_is_not_written_over(tmp_path, capsys):
     told = capsys.readouterr()
     assert f"{path}:1:" in told.err
     assert told.out == "", "before anything is flown"
-
-
-def test_the_picture_of_a_log_is_the_same_each_time(log, tmp_path):
-    pictures = []
-    for name in ("a", "b"):
-        assert tune("--log", log, "--pictures", tmp_path / name) == 0
-        pictures += [each.read_bytes() for each in (tmp_path / name).iterdir()]
-    assert pictures[0] == pictures[1]

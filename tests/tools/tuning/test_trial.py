@@ -11,7 +11,7 @@ from tools.tuning.experiments import STEPS, Bench, fly_rough, fly_steps, yaw_swi
 from tools.tuning.gain_set import ZERO, AxisGains, with_axis
 from tools.tuning.trial import StickMove
 from up.commands.gains import Gains, GainSet, LoopGains
-from up_simulator.aircraft import Weather, load_airframe
+from up_simulator.aircraft import load_airframe
 from up_simulator.firmware.line_monitor import LineMonitor
 from up_simulator.firmware.settings_wire import SettingsError
 
@@ -39,22 +39,6 @@ def test_gains_out_of_range_are_refused(bench):
     assert caught.value.code == "gain_out_of_range"
 
 
-def test_the_same_trial_is_the_same_flight(bench):
-    weather = Weather(turbulence="light")
-    one, other = (bench.trial(FIRM, weather).fly(1.5) for _ in range(2))
-    assert one == other
-    assert one != bench.trial(FIRM, weather, seed=7).fly(1.5)
-
-
-def test_it_begins_level_armed_and_at_its_speed(bench):
-    trial = bench.trial(FIRM)
-    recording = trial.fly(3.0)
-    assert max(map(abs, recording["truth.roll_deg"])) < 2
-    assert max(map(abs, recording["truth.pitch_deg"])) < 6
-    assert trial.board.pulses_us()[2] > 1200
-    assert recording.crash is None
-
-
 def test_the_sticks_move_when_they_are_to(bench):
     trial = bench.trial(FIRM)
     recording = trial.fly(1.5, [StickMove(0.5, "ailerons", 2000.0)])
@@ -66,18 +50,11 @@ def test_the_sticks_move_when_they_are_to(bench):
 @pytest.mark.parametrize("axis", ["roll", "pitch"])
 def test_firm_gains_follow_a_step_better_than_soft_ones(bench, axis):
     soft = GainSet(LoopGains(Gains(1.0), Gains(0.6), ZERO), LoopGains(Gains(2.0), Gains(2.0), ZERO))
-    plan = STEPS[axis, "FBW"]
+    plan = STEPS[axis]
     poor, good = (fly_steps(bench, gains, plan) for gains in (soft, FIRM))
     assert len(good.responses) == len(poor.responses) == len(plan.demands)
     assert good.rise_time_s < 0.8 * (poor.rise_time_s or math.inf)
     assert good.steady_error_percent < 0.6 * poor.steady_error_percent
-    assert good.servo_us_s > poor.servo_us_s
-
-
-def test_rates_are_followed_in_rate(bench):
-    steps = fly_steps(bench, FIRM, STEPS["roll", "RATE"])
-    assert steps.rise_time_s < 0.2
-    assert max(steps.recording["truth.roll_rate_deg_s"]) > 30
 
 
 def test_a_crash_ends_a_trial_and_is_reported(bench):
