@@ -113,7 +113,8 @@ class Send(LinkTask):
         elif message.name == "up.nack" and data.get("id") == self._id:
             reason = sanitize_text(data.get("reason") or "no reason given", 500)
             code = sanitize_text(data.get("code"), 32)
-            self.fail(f"refused: {reason} ({code})", code, EXIT_FAILED)
+            detail = sanitize_text(data.get("detail") or "", 32)
+            self.fail(f"refused: {reason} ({code})", code, EXIT_FAILED, detail=detail)
         elif message.name not in (*_QUIET, "up.ack", "up.nack"):
             shown = json.dumps(data).replace("\x7f", "\\u007f")
             name = sanitize_text(message.name, 128)

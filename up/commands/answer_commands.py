@@ -22,13 +22,14 @@ class AckCommand(BaseCommand):
 
 @dataclass(frozen=True, slots=True)
 class NackCommand(BaseCommand):
-    """The Command with that id was not carried out, and why."""
+    """The Command with that id was not carried out, and why; ``detail`` is its handler's code."""
 
     NAME: ClassVar[str] = "up.nack"
     ROLES: ClassVar[frozenset[Role]] = _ANYBODY
     command_id: str = value(key="id", max_length=64)
     code: str = value(max_length=32)
     reason: str = value("", max_length=500)
+    detail: str = value("", max_length=32)
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,4 +43,5 @@ class CommandAnsweredCommand(BaseCommand):
     outcome: str = value("ack", choices=("ack", "nack"))
     code: str = value("", max_length=32)
     reason: str = value("", max_length=500)
+    detail: str = value("", max_length=32)
     untold: int = value(0, minimum=0)

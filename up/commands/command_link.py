@@ -80,9 +80,12 @@ class CommandLink:
         if command_id is not None:
             self._answer(command_id, encode("up.ack", {"id": command_id}))
 
-    def nack(self, command_id: str | None, code: Code, reason: str) -> None:
+    def nack(self, command_id: str | None, code: Code, reason: str, detail: str = "") -> None:
+        """Refuse the Command; ``detail`` is its handler's code, absent if empty."""
         if command_id is not None:
             data = {"id": command_id, "code": code.value, "reason": reason[:_REASON_LIMIT]}
+            if detail:
+                data["detail"] = detail
             self._answer(command_id, encode("up.nack", data))
 
     def _answer(self, command_id: str, message: bytes) -> None:

@@ -156,13 +156,13 @@ class CommandReceiver:
         try:
             return route(command, link, message.id)
         except CommandRefusedError as error:
-            self._refuse(link, message, error.code, error.reason)
+            self._refuse(link, message, error.code, error.reason, error.detail)
             return None
 
     def _refused_later(self, failure: Failure, message: GeneralMessage, link: CommandLink) -> None:
         error = failure.value
         if isinstance(error, CommandRefusedError):
-            self._refuse(link, message, error.code, error.reason)
+            self._refuse(link, message, error.code, error.reason, error.detail)
         elif isinstance(error, UnhandledCommandError):
             self._refuse(link, message, Code.UNAVAILABLE, f"no module handles {message.name}")
         elif isinstance(error, TimeoutError):
@@ -177,13 +177,16 @@ class CommandReceiver:
             reason += f" ({link.role_key})"
         return reason
 
-    def _refuse(self, link: CommandLink, message: GeneralMessage, code: Code, reason: str) -> None:
+    def _refuse(
+        self, link: CommandLink, message: GeneralMessage, code: Code, reason: str, detail: str = ""
+    ) -> None:
         self.counters[code.value] += 1
         # All unknown names share one key, so that a peer cannot add keys.
         name = "" if code is Code.UNKNOWN else message.name
         self._log_refusal(link, (code, name), f"refused: {reason}")
-        link.nack(message.id, code, reason)
-        self._outcomes.report(link.name, message.name, message.id, code.value, reason)
+        link.nack(message.id, code, reason, detail)
+        outcome = (code.value, reason, detail)
+        self._outcomes.report(link.name, message.name, message.id, *outcome)
 
     def _log_refusal(self, link: CommandLink, key: tuple[Code, str], text: str) -> None:
         limited = self._executor.limited

@@ -26,7 +26,13 @@ class OutcomePublisher:
         self._second = 0
 
     def report(
-        self, link: str, name: str, command_id: str | None, code: str = "", reason: str = ""
+        self,
+        link: str,
+        name: str,
+        command_id: str | None,
+        code: str = "",
+        reason: str = "",
+        detail: str = "",
     ) -> None:
         """Report the outcome of a Command; an empty ``code`` means that it was carried out."""
         second = int(self._clock.seconds())
@@ -47,6 +53,7 @@ class OutcomePublisher:
                 outcome="nack" if code else "ack",
                 code=code,
                 reason=reason[:_REASON_LIMIT],
+                detail=detail,
                 untold=self._unreported.pop(link, 0),
             )
         )

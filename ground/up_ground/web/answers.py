@@ -21,7 +21,8 @@ ANSWER_LIMIT_S = 5.0
 class Answer:
     """Outcome of a Command.
 
-    ``outcome``: ack, nack, timeout (sent, result unknown), unsent, refused (here).
+    ``outcome``: ack, nack, timeout (sent, result unknown), unsent, refused (here). ``detail`` is
+    the code of the aircraft's handler that refused it.
     """
 
     outcome: str
@@ -29,6 +30,7 @@ class Answer:
     reason: str = ""
     round_trip_ms: float | None = None
     data: dict[str, Any] | None = None
+    detail: str = ""
 
     def message(self, ask: int) -> dict[str, Any]:
         """Return the message for the page that sent the Command as its number ``ask``."""
@@ -92,8 +94,8 @@ class Answers:
     def _on_answer(self, id_: str, sent: _Sent, message: GeneralMessage) -> None:
         took_ms = round((self._clock.seconds() - sent.sent_s) * 1000, 1)
         if message.name == "up.nack":
-            code, reason = _text(message.data, "code"), _text(message.data, "reason")
-            self.end(id_, Answer("nack", code, reason, took_ms))
+            texts = {key: _text(message.data, key) for key in ("code", "reason", "detail")}
+            self.end(id_, Answer("nack", round_trip_ms=took_ms, **texts))
         elif sent.awaited:
             sent.acked_ms = took_ms
         else:

@@ -109,7 +109,7 @@ class Ground:
         self._socket.close()
 
     def ask(self, name, **data):
-        """Send a Command and return '' for its ack, else the reason of its nack."""
+        """Send a Command and return '' for its ack, else the detail or the code of its nack."""
         self._asked += 1
         id_ = f"ask-{self._asked}"
         message = {"name": name, "data": data, "id": id_, "beacon": self.beacon}
@@ -119,7 +119,8 @@ class Ground:
             answers = [each for each in self.messages if each["name"] in ("up.ack", "up.nack")]
             return next((each for each in answers if each["data"]["id"] == id_), None)
 
-        return wait(answer, f"the answer to {name}")["data"].get("reason", "")
+        data = wait(answer, f"the answer to {name}")["data"]
+        return data.get("detail") or data.get("code", "")
 
     def content(self, name):
         """Return the data of the newest message of a name."""

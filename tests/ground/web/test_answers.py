@@ -37,9 +37,10 @@ def test_an_ack_and_how_long_it_took(bench):
 
 
 def test_a_nack_and_its_reason(bench):
-    bench.nack(bench.expect(), code="refused", reason="switch")
+    bench.nack(bench.expect(), code="refused", reason="switch", detail="not_at_auto")
     (answer,) = bench.heard
     assert (answer.outcome, answer.code, answer.reason) == ("nack", "refused", "switch")
+    assert answer.detail == "not_at_auto"
 
 
 def test_one_answer_counts(bench):
