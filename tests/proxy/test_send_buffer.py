@@ -23,32 +23,6 @@ def test_the_oldest_whole_lines_are_dropped():
     assert drain(queue) == b"three\nfour\n"
 
 
-def test_a_line_that_has_begun_to_leave_is_finished():
-    queue = SendBuffer(12)
-    queue.put_rest(b"rest\nold\n")
-    queue.put(b"newer\n")
-    assert drain(queue) == b"rest\nnewer\n"
-    queue = SendBuffer(12)
-    queue.put(b"begun\nnext\n")
-    queue.sent(2)
-    queue.put(b"0123456\n")
-    assert drain(queue) == b"gun\n0123456\n"
-
-
-def test_a_control_line_stands_between_lines_and_is_never_dropped():
-    queue = SendBuffer(8)
-    queue.put(b"begun\n")
-    queue.sent(2)
-    queue.put_control(b"UP1 x\n")
-    queue.put(b"a\nb\nc\nd\ne\n")
-    assert drain(queue) == b"gun\nUP1 x\n"
-    queue = SendBuffer(8)
-    queue.put_control(b"UP1 x\n")
-    queue.put(b"aaaaaaa\n")
-    queue.put(b"b\n")
-    assert drain(queue) == b"UP1 x\nb\n"
-
-
 def test_without_a_limit_nothing_is_dropped():
     queue = SendBuffer()
     for _ in range(1000):

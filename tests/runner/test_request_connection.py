@@ -250,16 +250,3 @@ def test_the_cut_of_the_stream_changes_nothing(lines, data):
     # One answer a line that is not empty.
     expected = sum(bool(line.strip()) for line in stream.split(b"\n"))
     assert whole.server.counts["malformed"] + len(whole.asked) == expected
-
-
-@settings(max_examples=500)
-@given(st.lists(st.binary(min_size=1, max_size=100), min_size=1, max_size=20))
-def test_no_bytes_break_it(chunks):
-    port = Port()
-    connection = port.connect()
-    for chunk in chunks:
-        connection.dataReceived(chunk)
-        port.clock.advance(0.3)
-    port.clock.advance(1)
-    for answer in answers(connection):
-        assert answer["running"] is False

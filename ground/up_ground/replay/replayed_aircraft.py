@@ -82,20 +82,7 @@ class ReplayedAircraft(AircraftSource):
         return {
             "type": "status",
             "aircraft": self.name,
-            "link": {
-                "state": "connected",
-                "reason": "",
-                "code": "",
-                "since_s": round(self._player.time_s, 3),
-                "aircraft_online": True,
-                "round_trip_ms": None,
-                "connections": 1,
-                "frames": self._frames,
-                "lost": 0,
-                "dropped": 0,
-                "rate_hz": None,
-                "frame_age_ms": 0.0,
-            },
+            "link": {"state": "connected", "aircraft_online": True, "frames": self._frames},
             "control": {
                 "holder": "nobody",
                 "holder_name": "",
