@@ -3,7 +3,7 @@ import { test } from "node:test";
 
 import { controlTexts, offeredActions } from "../../../../../ground/up_ground/web/static/js/panels/control_requests.js";
 import { numberBetween, textUpTo } from "../../../../../ground/up_ground/web/static/js/panels/field.js";
-import { FrameSize } from "../../../../../ground/up_ground/web/static/js/panels/request_form.js";
+import { FrameSize } from "../../../../../ground/up_ground/web/static/js/panels/commands.js";
 import { profileParts } from "../../../../../ground/up_ground/web/static/js/panels/profile.js";
 import { disabledReason } from "../../../../../ground/up_ground/web/static/js/panels/disabled_reason.js";
 import { agoText, answerCode, answerText, clockText, commandText, costText } from "../../../../../ground/up_ground/web/static/js/panels/messages.js";
