@@ -129,7 +129,9 @@ def run(make: MakeTask) -> int:
 
     def begin() -> None:
         for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
-            signal.signal(number, lambda *_: loop.callFromThread(task.finish, EXIT_INTERRUPTED))
+            # 'nohup' ignores SIGHUP.
+            if number != signal.SIGHUP or signal.getsignal(number) != signal.SIG_IGN:
+                signal.signal(number, lambda *_: loop.callFromThread(task.finish, EXIT_INTERRUPTED))
         Deferred.fromCoroutine(do()).addErrback(_crash)
 
     def _crash(failure: Any) -> None:

@@ -2,6 +2,7 @@
 
 import json
 import os
+import signal
 import subprocess
 import sys
 
@@ -82,6 +83,19 @@ def test_an_interrupt_ends_it_without_a_word(proxy, tmp_path):
         watching.process.terminate()
         assert watching.wait() == 130
         assert watching.stderr == ""
+
+
+def test_under_nohup_a_closed_terminal_does_not_end_it(proxy, tmp_path):
+    with subprocess.Popen(
+        ["nohup", str(UP_GROUND), "watch", "--count", "3"],
+        env=environment(tmp_path, proxy.ground_port),
+        stdin=subprocess.DEVNULL,
+        stdout=subprocess.PIPE,
+    ) as process:
+        assert process.stdout.readline()
+        process.send_signal(signal.SIGHUP)
+        assert process.stdout.read().count(b"\n") == 2
+    assert process.returncode == 0
 
 
 def test_a_reader_that_has_seen_enough_ends_it(proxy, tmp_path):
