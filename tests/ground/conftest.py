@@ -1,5 +1,7 @@
 """A proxy for the tests of a file, and an aircraft of its own name for each test."""
 
+import contextlib
+import threading
 from itertools import count
 
 import pytest
@@ -22,17 +24,34 @@ def proxy(shared_proxy, monkeypatch):
     return shared_proxy
 
 
+@contextlib.contextmanager
+def another_ground(port, access):
+    """Connect another ground, which sends a heartbeat each second however long the test takes."""
+    ended = threading.Event()
+
+    def beat():
+        with contextlib.suppress(OSError):
+            while not ended.wait(1):
+                client.say("\n")
+
+    with Client(port, f"UP1 aircraft={aircraft.NAME} seat={access}\n") as client:
+        client.expect(f"seat={access}")
+        thread = threading.Thread(target=beat, daemon=True)
+        thread.start()
+        yield client
+        ended.set()
+        thread.join()
+
+
 @pytest.fixture
 def owner(proxy):
     """Another ground, which has control."""
-    with Client(proxy.ground_port, f"UP1 aircraft={aircraft.NAME} seat=command\n") as client:
-        client.expect("seat=command")
+    with another_ground(proxy.ground_port, "command") as client:
         yield client
 
 
 @pytest.fixture
 def listener(proxy):
     """Another ground, without control."""
-    with Client(proxy.ground_port, f"UP1 aircraft={aircraft.NAME} seat=listen\n") as client:
-        client.expect("seat=listen")
+    with another_ground(proxy.ground_port, "listen") as client:
         yield client
