@@ -94,8 +94,10 @@ class Answers:
     def _on_answer(self, id_: str, sent: _Sent, message: GeneralMessage) -> None:
         took_ms = round((self._clock.seconds() - sent.sent_s) * 1000, 1)
         if message.name == "up.nack":
-            texts = {key: _text(message.data, key) for key in ("code", "reason", "detail")}
-            self.end(id_, Answer("nack", round_trip_ms=took_ms, **texts))
+            code, reason, detail = (
+                _text(message.data, key) for key in ("code", "reason", "detail")
+            )
+            self.end(id_, Answer("nack", code, reason, took_ms, detail=detail))
         elif sent.awaited:
             sent.acked_ms = took_ms
         else:
