@@ -1,7 +1,9 @@
 // The aircraft executes each request of the page, or refuses it with its reason.
 import assert from "node:assert/strict";
-import { before, test } from "node:test";
+import { afterEach, before, describe, test } from "node:test";
 
+import { seriousFaults } from "./support/accessibility.mjs";
+import { LAPTOP, PHONE } from "./support/browser.mjs";
 import { GroundPage } from "./support/ground_page.mjs";
 import { Pilot } from "./support/pilot.mjs";
 import { record } from "./support/recorder.mjs";
@@ -107,3 +109,160 @@ test("with the throttle low the page disarms the motor and arms it again", async
 });
 
 test("the page has done nothing that it may not", () => ground.assertClean());
+
+describe("a phone in the field, fingers, a keyboard, and who does not see well", () => {
+  const FINGER_PX = 44;
+  const KEY_CONTROLS = [
+    "#aircraft-select",
+    "#theme-button",
+    "#sound-button",
+    "#control-request",
+    "#control-release",
+    "[data-mode]",
+    "#arm-button",
+    "#disarm-button",
+    "#confirm-yes",
+    "#confirm-no",
+    "#gains-send",
+    "#gains-undo",
+    "#jump a",
+  ];
+  let pilot;
+
+  before(async () => {
+    await GroundPage.closeAll();
+    pilot = await new Pilot(showcase).ready();
+    stopAfter({ stop: () => pilot.leave() });
+  });
+
+  afterEach(() => GroundPage.closeAll());
+
+  /** Glide until the aircraft lets itself be disarmed, and do it in some way. */
+  async function disarm(ground, hold) {
+    pilot.move({ aux1: 2000, aux2: 2000, throttle: 1000, ailerons: 1500, elevator: 1500 });
+    await until(async () => {
+      const answer = await ground.answerTo(hold);
+      return answer.outcome === "ack" || null;
+    }, "the disarming");
+    await ground.until(() => document.querySelector("#bar-armed").textContent === "disarmed", "disarmed");
+  }
+
+  /** The elements wider than the screen. */
+  async function tooWide(ground) {
+    return ground.page.evaluate(() => {
+      const root = document.scrollingElement;
+      if (root.scrollWidth <= root.clientWidth) {
+        return [];
+      }
+      const wide = [...document.body.querySelectorAll("*")].filter(
+        (each) => each.getBoundingClientRect().right > root.clientWidth + 0.5,
+      );
+      return [`${root.scrollWidth} px`, ...wide.slice(0, 5).map((each) => each.id || each.outerHTML.slice(0, 80))];
+    });
+  }
+
+  /** Key controls that are shown and too small for a finger. */
+  async function tooSmall(ground) {
+    return ground.page.evaluate(
+      ([selectors, least]) =>
+        selectors
+          .flatMap((selector) => [...document.querySelectorAll(selector)])
+          .filter((each) => each.checkVisibility())
+          .map((each) => [each.id || each.outerHTML.slice(0, 60), each.getBoundingClientRect()])
+          .filter(([, { width, height }]) => Math.min(width, height) < least - 0.01)
+          .map(([name, { width, height }]) => `${name}: ${width.toFixed(0)} x ${height.toFixed(0)}`),
+      [KEY_CONTROLS, FINGER_PX],
+    );
+  }
+
+  test("a phone shows all of it without scrolling sideways, large enough for fingers", async () => {
+    const ground = await (await GroundPage.open(browser, showcase.address, PHONE)).isLive();
+    assert.deepEqual(await tooWide(ground), []);
+    assert.deepEqual(await tooSmall(ground), []);
+    await ground.page.tap("#control-request");
+    await ground.untilHolder("you");
+    await ground.page.tap('[data-mode="FBW"]');
+    assert.deepEqual(await tooSmall(ground), []);
+    assert.deepEqual(await tooWide(ground), []);
+    await ground.page.tap("#confirm-no");
+    await ground.page.setViewportSize({ width: 320, height: 568 });
+    assert.deepEqual(await tooWide(ground), []);
+    ground.assertClean();
+  });
+
+  test("a held finger disarms and arms; a touch that ends early does neither", async () => {
+    const ground = await (await GroundPage.open(browser, showcase.address, PHONE)).isLive();
+    await ground.takeControl();
+    const off = await ground.finger("#disarm-button");
+    await disarm(ground, () => ground.hold("#disarm-button", off));
+    const before = (await ground.messages("answer")).length;
+    const on = await ground.finger("#arm-button");
+    await on.down();
+    await ground.until(() => document.querySelector("#arm-button").dataset.press === "pressed", "touch");
+    await on.up();
+    await ground.until(() => document.querySelector("#arm-button").dataset.press === "idle", "its end");
+    assert.equal((await ground.messages("answer")).length, before);
+    const answer = await ground.answerTo(() => ground.hold("#arm-button", on));
+    assert.equal(answer.outcome, "ack", JSON.stringify(answer));
+    await ground.until(() => document.querySelector("#bar-armed").textContent === "ARMED", "armed");
+    ground.assertClean();
+  });
+
+  test("a keyboard is enough: control, theme, a mode, disarm and arm", async () => {
+    const ground = await (await GroundPage.open(browser, showcase.address)).isLive();
+    const { keyboard } = ground.page;
+    const goTo = async (selector) => {
+      await ground.until((s) => !document.querySelector(s).disabled, `${selector} offered`, selector);
+      for (let count = 0; count < 300; count += 1) {
+        await keyboard.press("Tab");
+        const found = await ground.page.evaluate((s) => {
+          const here = document.activeElement;
+          const style = getComputedStyle(here);
+          const isSeen = here === document.body || style.outlineStyle !== "none" || style.boxShadow !== "none";
+          return { isThere: here.matches(s), isSeen, name: here.id || here.outerHTML.slice(0, 80) };
+        }, selector);
+        assert.ok(found.isSeen, found.name);
+        if (found.isThere) {
+          return;
+        }
+      }
+      assert.fail(selector);
+    };
+    const held = (key) => ({ down: () => keyboard.down(key), up: () => keyboard.up(key) });
+    const theme = await ground.attribute("html", "data-theme");
+    await goTo("#theme-button");
+    await keyboard.press("Enter");
+    assert.notEqual(await ground.attribute("html", "data-theme"), theme);
+    await goTo("#control-request");
+    await keyboard.press("Space");
+    await ground.untilHolder("you");
+    await goTo('[data-mode="FBW"]');
+    const answer = await ground.answerTo(async () => {
+      await keyboard.press("Enter");
+      await keyboard.press("Tab");
+      assert.equal(await ground.page.evaluate(() => document.activeElement.id), "confirm-yes");
+      await keyboard.press("Enter");
+    });
+    assert.equal(answer.outcome, "ack", JSON.stringify(answer));
+    await disarm(ground, async () => {
+      await goTo("#disarm-button");
+      await ground.hold("#disarm-button", held("Space"));
+    });
+    await goTo("#arm-button");
+    const armed = await ground.answerTo(() => ground.hold("#arm-button", held("Enter")));
+    assert.equal(armed.outcome, "ack", JSON.stringify(armed));
+    ground.assertClean();
+  });
+
+  for (const [name, size] of [["laptop", LAPTOP], ["phone", PHONE]]) {
+    test(`nothing keeps anybody from using it: ${name}, light and dark`, async () => {
+      const ground = await (await GroundPage.open(browser, showcase.address, size)).isLive();
+      await ground.takeControl();
+      for (const [colorScheme, theme] of [["light", "daylight"], ["dark", "dark"]]) {
+        await ground.page.emulateMedia({ colorScheme });
+        await ground.until((name) => document.documentElement.dataset.theme === name, theme, theme);
+        assert.deepEqual(await seriousFaults(ground.page), []);
+      }
+    });
+  }
+});
