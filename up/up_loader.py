@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 from up.builtin_modules import BUILTIN_MODULES
 from up.config.application import DISABLED_MODULES
 from up.context import Context
@@ -40,8 +38,3 @@ class UpLoader:
         up = Up(self.plan(), self._context)
         up.initialize()
         return up
-
-
-def load_application(start: Path, context: Context) -> Up:
-    """Find the application of a folder and return its system."""
-    return UpLoader(Application.find(start), context).create()

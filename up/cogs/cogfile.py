@@ -10,8 +10,8 @@ from pathlib import Path
 from up.cogs.cog import CogError, package_name
 from up.cogs.source_tree import is_distribution_name
 from up.config import key
-from up.config.loader import read_text
-from up.config.nodes import MapNode, Node, Report, ScalarNode, compose
+from up.config.file import read_tree
+from up.config.nodes import MapNode, Node, Report, ScalarNode
 from up.config.problems import Problems
 from up.config.scalars import is_null
 from up.config.schema import schema_of
@@ -72,8 +72,7 @@ def load_cogfile(root: Path) -> list[WantedCog]:
     """
     path = root / COGFILE
     problems = Problems(path)
-    text = read_text(path, problems.report)
-    tree = None if text is None else compose(text, problems.report)
+    tree = read_tree(path, problems.report)
     wanted: list[WantedCog] = []
     if isinstance(tree, MapNode):
         seen: dict[str, str] = {}
@@ -82,7 +81,7 @@ def load_cogfile(root: Path) -> list[WantedCog]:
             each = _Entry(root, label, name, problems.report).read(value, seen)
             if each is not None:
                 wanted.append(each)
-    elif tree is not None and not is_null(tree):
+    elif tree is not None:
         problems.report(tree.line, tree.column, "must be a map of cogs", "wrong_type")
     problems.raise_if_any()
     return wanted

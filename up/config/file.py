@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any, Generic, TypeVar
 
 from up.config.loader import decode, read_text
-from up.config.nodes import compose
+from up.config.nodes import Node, Report, compose
 from up.config.problems import ConfigErrors, ConfigProblem, Problems
 from up.config.scalars import is_null
 from up.config.schema import Entry, ListOf, MapOf, Schema, Spec, plain_value, schema_of
@@ -162,12 +162,17 @@ class MapFile(Generic[V]):
         """
         path = Path(folder) / self.filename
         problems = Problems(path)
-        text = read_text(path, problems.report)
+        root = read_tree(path, problems.report)
         entries: dict[str, V] = {}
-        if text is not None:
-            root = compose(text, problems.report)
-            if root is not None and not is_null(root):
-                spec: Any = MapOf(self.key, schema_of(self.cls), _MAX_ENTRIES)
-                entries = Validator(problems.report, {}).read(spec, root)
+        if root is not None:
+            spec: Any = MapOf(self.key, schema_of(self.cls), _MAX_ENTRIES)
+            entries = Validator(problems.report, {}).read(spec, root)
         problems.raise_if_any()
         return entries
+
+
+def read_tree(path: Path, report: Report) -> Node | None:
+    """Return the root of a file; None if it is missing or empty, or a problem was reported."""
+    text = read_text(path, report)
+    root = None if text is None else compose(text, report)
+    return None if is_null(root) else root

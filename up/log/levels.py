@@ -5,6 +5,14 @@ from __future__ import annotations
 from constantly import NamedConstant
 from twisted.logger import LogEvent, LogLevel
 
+# The display name and the priority of syslog: 0 to 7, 7 the least severe.
+_LEVELS = {
+    LogLevel.debug: ("DEBUG", 7),
+    LogLevel.info: ("INFO", 6),
+    LogLevel.warn: ("WARNING", 4),
+    LogLevel.error: ("ERROR", 3),
+    LogLevel.critical: ("CRITICAL", 2),
+}
 _BY_NAME = {
     "debug": LogLevel.debug,
     "info": LogLevel.info,
@@ -12,22 +20,6 @@ _BY_NAME = {
     "warning": LogLevel.warn,
     "error": LogLevel.error,
 }
-_WORDS = {
-    LogLevel.debug: "DEBUG",
-    LogLevel.info: "INFO",
-    LogLevel.warn: "WARNING",
-    LogLevel.error: "ERROR",
-    LogLevel.critical: "CRITICAL",
-}
-_PRIORITIES = {
-    LogLevel.debug: 7,
-    LogLevel.info: 6,
-    LogLevel.warn: 4,
-    LogLevel.error: 3,
-    LogLevel.critical: 2,
-}
-
-
 # "log_legacy" marks events of Twisted's old log module, which this project does not use.
 _TWISTED = ("twisted.", "log_legacy")
 
@@ -51,9 +43,9 @@ def level_of(event: LogEvent) -> NamedConstant:
 
 def word_of(level: NamedConstant) -> str:
     """Return the display name."""
-    return _WORDS.get(level, "INFO")
+    return _LEVELS[level][0]
 
 
 def priority_of(level: NamedConstant) -> int:
     """Return the syslog priority (0 to 7, 7 the least severe) that the journal understands."""
-    return _PRIORITIES.get(level, 6)
+    return _LEVELS[level][1]

@@ -82,16 +82,3 @@ def test_a_cog_from_outside_flies(environment, tmp_path, road):
     done = environment.up("start", cwd=plane, environ=AS_JSON, status=2)
     (problem,) = fields_of(done.stderr)
     assert (problem["code"], problem["cog"]) == ("cog_import_failed", "lidar_cog")
-
-
-def test_a_broken_file_does_not_keep_the_rest_from_running(environment, tmp_path):
-    environment.up("create", "new", "-n", "plane", cwd=tmp_path)
-    plane = tmp_path / "plane"
-    (plane / "modules/broken.py").write_text("x = = 1\n")
-    process = start(environment, "-m", "up.cli", "s", cwd=plane)
-    said = read_until(process, b'"arming_refused"')
-    assert b"plane.modules.broken" in said
-    assert stop(process) == 0
-    (problem,) = (each for each in fields_of(said.decode()) if each["code"] == "load_problem")
-    assert (problem["reason"], problem["line"]) == ("syntax_error", 1)
-    assert problem["file"] == str(plane / "modules/broken.py")

@@ -18,6 +18,12 @@ def environment(tmp_path):
     return VirtualEnvironment(tmp_path / "environment")
 
 
+@pytest.fixture(scope="module")
+def bare(tmp_path_factory):
+    """An environment for tests in which nothing is installed."""
+    return VirtualEnvironment(tmp_path_factory.mktemp("bare") / "environment")
+
+
 @pytest.fixture
 def index(tmp_path):
     with PackageIndex(tmp_path / "index") as index:

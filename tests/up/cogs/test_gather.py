@@ -166,16 +166,16 @@ def test_from_a_git_repository_with_a_revision(environment, application, outside
     assert codes_[-2:] == ["import_failed", "registration_failed"]
 
 
-def test_mistakes_are_told_before_anything_is_installed(environment, application, tree):
+def test_mistakes_are_told_before_anything_is_installed(bare, application, tree):
     cogfile(application, BOTH + "gamma_cog: {path: ../tree/gamma_cog}\n")
-    (problem,) = gather(environment, application, status=2)
+    (problem,) = gather(bare, application, status=2)
     assert (problem["code"], problem["line"], problem["key"]) == ("source_missing", 3, "gamma_cog")
-    assert list(environment.packages.glob("*cog*")) == []
+    assert list(bare.packages.glob("*cog*")) == []
 
 
-def test_without_installing(environment, application, tree):
+def test_without_installing(bare, application, tree):
     cogfile(application, BOTH)
-    (problem,) = gather(environment, application, "--no-install", status=1)
+    (problem,) = gather(bare, application, "--no-install", status=1)
     assert problem == {"code": "not_installed", "cogs": ["alpha_cog", "beta_cog"]}
 
 
@@ -188,7 +188,7 @@ def test_a_failing_registrant_does_not_keep_the_others_out(environment, applicat
 
 
 @pytest.mark.parametrize("managed", [True, False])
-def test_an_environment_that_pip_may_not_change(environment, application, tree, managed):
+def test_an_environment_that_pip_may_not_change(bare, application, tree, managed):
     cogfile(application, BOTH)
     code = (
         "import os, sys, sysconfig, pathlib\n"
@@ -204,13 +204,13 @@ def test_an_environment_that_pip_may_not_change(environment, application, tree, 
         "    os.access = lambda *a: False\n"
         "sys.exit(main(['gather']))\n"
     )
-    done = environment.run("-c", code, cwd=application, environ=AS_JSON, status=1)
+    done = bare.run("-c", code, cwd=application, environ=AS_JSON, status=1)
     (problem,) = fields_of(done.stderr)
     assert problem["code"] == ("environment_managed" if managed else "environment_readonly")
-    assert list(environment.packages.glob("*cog*")) == []
+    assert list(bare.packages.glob("*cog*")) == []
 
 
-def test_a_framework_that_is_not_installed_is_never_fetched(environment, application, tree):
+def test_a_framework_that_is_not_installed_is_never_fetched(bare, application, tree):
     """Only its sources are on the path: pip would look for it on the index."""
     cogfile(application, BOTH)
     code = (
@@ -223,5 +223,5 @@ def test_a_framework_that_is_not_installed_is_never_fetched(environment, applica
         "from up.cli.main import main\n"
         "sys.exit(main(['gather']))\n"
     )
-    done = environment.run("-c", code, cwd=application, environ=AS_JSON, status=1)
+    done = bare.run("-c", code, cwd=application, environ=AS_JSON, status=1)
     assert [each["code"] for each in fields_of(done.stderr)] == ["framework_missing"]

@@ -5,6 +5,7 @@ from pathlib import Path
 import pytest
 
 from tests.support.application import plan_of, write_application
+from tests.up.commands.samples import Log
 from up.context import Context
 from up.loading.plan import LoadProblem, Plan
 from up.mode import Mode
@@ -186,8 +187,12 @@ def test_a_class_that_cannot_be_built_is_named(load, tmp_path, body, what):
 
 def test_what_is_broken_is_an_arming_veto_by_name(load, tmp_path):
     plan = load({"modules/broken.py": "x = = 1\n"})
-    up = Up(plan, Context(StillClock(), Mode.AUTO, tmp_path))
+    with Log() as log:
+        up = Up(plan, Context(StillClock(), Mode.AUTO, tmp_path))
     assert [veto for veto in up.vetoes.own if ".modules.broken" in veto]
+    (event,) = log.of("load_problem")
+    assert (event["reason"], event["line"]) == ("syntax_error", 1)
+    assert event["file"] == str(tmp_path / "modules/broken.py")
 
 
 def test_a_broken_file_can_be_accepted_by_name(tmp_path):
