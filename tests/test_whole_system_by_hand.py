@@ -9,6 +9,7 @@ from pathlib import Path
 
 import pytest
 
+from tests.support.program_output import AS_JSON, fields_of
 from tests.support.showcase import LIMIT_S, wait
 
 ROOT = Path(__file__).parents[1]
@@ -29,10 +30,17 @@ class Processes:
                 stdout=output,
                 stderr=subprocess.STDOUT,
                 stdin=subprocess.DEVNULL,
-                env={**os.environ, **environment},
+                env={**os.environ, **AS_JSON, **environment},
             )
         self.started.append(process)
-        return lambda: path.read_text(encoding="utf-8")
+
+        def event(code, **wanted):
+            """Return the fields of the first log event with this code and these fields, or None."""
+            found = fields_of(path.read_text(encoding="utf-8"))
+            wanted["code"] = code
+            return next((each for each in found if wanted.items() <= each.items()), None)
+
+        return event
 
     def stop(self):
         for process in reversed(self.started):
@@ -46,11 +54,6 @@ def processes(tmp_path):
     made = Processes(tmp_path)
     yield made
     made.stop()
-
-
-def port_in(text, before):
-    words = text.split(before, 1)[1].split()
-    return words[0]
 
 
 @pytest.fixture
@@ -67,9 +70,8 @@ def test_black_box_flight_through_runner_and_proxy(tmp_path, short_folder, proce
     black_box.mkdir(parents=True)
     (config / "proxy.yml").write_text("airborne port: 0\nground port: 0\nmetrics port: 0\n")
     proxy = processes.start("proxy", "-m", "up_proxy.main", "--config", config)
-    wait(lambda: "ground side listens" in proxy(), "proxy")
-    airborne = port_in(proxy(), "airborne side listens on port ")
-    ground = port_in(proxy(), "ground side listens on port ")
+    ground = str(wait(lambda: proxy("port_open", side="ground"), "proxy")["port"])
+    airborne = wait(lambda: proxy("port_open", side="airborne"), "proxy")["port"]
     (black_box / "config.yml").write_text("mode: black box\n")
     (black_box / "mission_control.yml").write_text(
         f"remote_server: {{url: 127.0.0.1, port: {airborne}}}\n"
@@ -78,13 +80,12 @@ def test_black_box_flight_through_runner_and_proxy(tmp_path, short_folder, proce
         f"port: 0\nrun folder: {short_folder}\nstop instances on exit: true\ni_accept_root: true\n"
     )
     runner = processes.start("runner", "-m", "up_runner.main", "--config", config)
-    wait(lambda: "listens on port" in runner(), "runner")
-    port = port_in(runner(), "listens on port ")
+    port = wait(lambda: runner("port_open"), "runner")["port"]
     phone = processes.start(
         "phone", "-m", "up_simulator", "start", "--no-board", "--orientation", "tcp",
         "--runner", f"127.0.0.1:{port}", "--aircraft-name", "glider-7",
     )  # fmt: skip
-    wait(lambda: "connected" in phone(), "phone")
+    wait(lambda: phone("phone_connected"), "phone")
     watch = [sys.executable, "-m", "up_ground.main", "--port", ground, "--aircraft", "glider-7",
              "watch", "--json", "--count", "5"]  # fmt: skip
 
@@ -110,13 +111,13 @@ def test_provisional_black_box_and_back(tmp_path, processes):
     (tmp_path / "discovery.yml").write_text("port: 0\n")
     (tmp_path / "mission_control.yml").write_text("listener: {port: 0}\n")
     daemon = processes.start("daemon", ROOT / "main.py", "--config", tmp_path)
-    wait(lambda: "provisionally in Black Box Mode" in daemon(), "provisional")
+    wait(lambda: daemon("mode_provisional"), "provisional")
     processes.start(
         "board", "-m", "up_simulator", "start", "--no-phone", "--board", "host",
         "--pty-link", board,
     )  # fmt: skip
-    wait(lambda: "back in Flight Controller Mode" in daemon(), "back")
-    assert "Traceback" not in daemon()
+    wait(lambda: daemon("mode_restored"), "back")
+    assert '"traceback"' not in (tmp_path / "daemon.log").read_text(encoding="utf-8")
 
 
 def test_without_any_port_there_is_nothing_to_run_for(tmp_path):
@@ -132,8 +133,8 @@ def test_without_any_port_there_is_nothing_to_run_for(tmp_path):
     result = subprocess.run(
         [sys.executable, str(ROOT / "main.py"), "--config", str(tmp_path)],
         capture_output=True, text=True, timeout=LIMIT_S, check=False,
+        env={**os.environ, **AS_JSON},
     )  # fmt: skip
     taken.close()
     assert result.returncode == 1
-    assert "neither" in result.stderr
-    assert "Traceback" not in result.stderr
+    assert "no_source" in [each.get("code") for each in fields_of(result.stderr)]

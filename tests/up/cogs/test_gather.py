@@ -38,7 +38,9 @@ BOTH = "alpha-cog: {path: ../tree/alpha_cog}\nbeta_cog: {path: ../tree/beta_cog}
 
 def test_the_life_of_a_cogfile(environment, application, tree):
     cogfile(application, BOTH)
-    first = gather(environment, application)
+    # The outer folder alpha_cog, here in the current folder, must not hide the package in it.
+    words = ("-P", "-m", "up.cli", "-f", str(application), "gather")
+    first = fields_of(environment.run(*words, cwd=tree, environ=AS_JSON).stdout)
     assert codes(first) == [
         ("installing", "alpha_cog"),
         ("installing", "beta_cog"),
@@ -70,13 +72,6 @@ def test_the_life_of_a_cogfile(environment, application, tree):
     assert left[:2] == [("cog_removed", "beta_cog"), ("cog_unregistered", "beta_cog")]
     assert registered(application) == {"alpha_cog": "cogfile"}
     assert (application / "config/beta.yml").exists()
-
-
-def test_the_current_folder_may_be_the_one_of_the_cogs(environment, application, tree):
-    """The outer folder alpha_cog is not a package, and must not hide the one that is."""
-    cogfile(application, BOTH)
-    environment.run("-P", "-m", "up.cli", "-f", str(application), "gather", cwd=tree)
-    assert registered(application) == {"alpha_cog": "cogfile", "beta_cog": "cogfile"}
 
 
 def test_names_of_the_tree_never_come_from_the_index(environment, application, tree, index):
