@@ -76,19 +76,6 @@ class Faulty(Worker):
         raise (RuntimeError("oops"), SystemExit(1))[self.rounds % 2]
 
 
-class Stuck(Worker):
-    """Blocks and ignores the request to stop."""
-
-    let_go = threading.Event()
-
-    def _loop(self):
-        self.rounds += 1
-        self.let_go.wait(120)
-
-    def on_stop(self):
-        self.is_closed = True
-
-
 def run(folder, cls, scenario):
     async def whole():
         up = build_up((cls,), reactor, folder, builtins=False)
@@ -132,22 +119,6 @@ def test_a_loop_that_fails_is_counted_and_called_again(tmp_path, monkeypatch):
     # Two kinds: each is logged first, and as a count at the end.
     assert len(faults) == 4
     assert sum(event.get("more", 1) for event in faults) == module.faults
-
-
-def test_a_thread_that_does_not_end_keeps_nobody(tmp_path):
-    async def scenario(up, module):
-        await until(lambda: module.rounds)
-
-    try:
-        with Log() as log:
-            module = run(tmp_path, Stuck, scenario)
-        assert module._thread.is_alive()
-        assert log.of("thread_left_behind")
-        assert module.is_closed
-    finally:
-        Stuck.let_go.set()
-    module._thread.join(30)
-    assert not module._thread.is_alive()
 
 
 def test_a_thread_without_a_loop_is_named(tmp_path):

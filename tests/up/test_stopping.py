@@ -71,18 +71,6 @@ def test_a_failed_start_leaves_nothing_open(tmp_path, fail, required):
     assert not system.clock.getDelayedCalls()
 
 
-def test_a_stop_during_the_start_closes_what_the_start_opened(tmp_path):
-    cls = type("Hanging", (Opening,), {"fail": lambda self: Deferred()})
-    system = System(tmp_path, cls)
-    module = system.up.get_module(cls)
-    starting = system.start()
-    assert module.is_open
-    assert system.stop() == [None]
-    assert starting == [None]
-    assert not module.is_open
-    assert not system.up.vetoes.own
-
-
 @pytest.mark.parametrize("stop", [fail_by(RuntimeError("half open")), fail_by(SystemExit(1))])
 def test_a_fault_of_the_stop_after_a_failed_start_is_only_a_detail(tmp_path, stop):
     cls = type("Failing", (Opening,), {"fail": lambda self: False, "on_stop": stop})
