@@ -147,7 +147,7 @@ class Program:
     def _on_signal(self, number: int, frame: object) -> None:
         self._signals += 1
         if self._signals > 1:
-            _force(128 + number)
+            os._exit(128 + number)
         # Requested here, because a blocked event loop could not do it.
         self._exit_watchdog.request(EXIT_STOPPED)
         self._reactor.callFromThread(self.stop, signal.Signals(number).name)
@@ -245,7 +245,3 @@ def _start_log(context: Context) -> None:
     values = context.application
     json_path = Path(values.log_file) if values.log_file else None
     start_logging(values.log_level, sys.stderr, json_path)
-
-
-def _force(status: int) -> None:
-    os._exit(status)

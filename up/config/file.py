@@ -69,7 +69,7 @@ class ConfigFile(Generic[T]):
 
     def json_schema(self) -> dict[str, Any]:
         """Return the JSON Schema (draft 2020-12) of the file, for editors."""
-        return json_schema_of(self.filename, self.schema)
+        return {"$schema": _DRAFT, "title": self.filename, **_schema(self.schema)}
 
     def _parse(self, text: str, problems: Problems, whole: bool) -> T:
         root = compose(text, problems.report)
@@ -106,11 +106,6 @@ def unknown_files(folder: Path, files: Iterable[ConfigFile[Any]]) -> list[Path]:
 
 
 _DRAFT = "https://json-schema.org/draft/2020-12/schema"
-
-
-def json_schema_of(filename: str, schema: Schema) -> dict[str, Any]:
-    """Return the schema (draft 2020-12) of a file with this schema."""
-    return {"$schema": _DRAFT, "title": filename, **_schema(schema)}
 
 
 def _schema(spec: Spec) -> dict[str, Any]:

@@ -17,7 +17,7 @@ def read_text(path: Path, report: Report) -> str | None:
     Reads only regular files of at most 1 MiB of UTF-8; a pipe or device cannot block it.
     """
     try:
-        data = _read_bytes(path)
+        data = _read_bytes(path, report)
     except FileNotFoundError:
         if path.is_symlink():
             report(1, 1, "is a link to a missing file", "not_a_file")
@@ -25,10 +25,7 @@ def read_text(path: Path, report: Report) -> str | None:
     except OSError as error:
         report(1, 1, f"cannot be read: {error.strerror or error}", "cannot_read")
         return None
-    except _NotAFileError as error:
-        report(1, 1, str(error), "not_a_file")
-        return None
-    return decode(data, report)
+    return None if data is None else decode(data, report)
 
 
 def decode(data: bytes, report: Report) -> str | None:
@@ -48,18 +45,14 @@ def decode(data: bytes, report: Report) -> str | None:
     return text
 
 
-class _NotAFileError(Exception):
-    """The path refers to something other than a regular file."""
-
-
-def _read_bytes(path: Path) -> bytes:
+def _read_bytes(path: Path, report: Report) -> bytes | None:
     descriptor = os.open(path, os.O_RDONLY | os.O_NONBLOCK | os.O_CLOEXEC)
     try:
         mode = os.fstat(descriptor).st_mode
-        if stat.S_ISDIR(mode):
-            raise _NotAFileError("is a folder, not a file")
         if not stat.S_ISREG(mode):
-            raise _NotAFileError("is not a regular file")
+            what = "is a folder, not a file" if stat.S_ISDIR(mode) else "is not a regular file"
+            report(1, 1, what, "not_a_file")
+            return None
         with open(descriptor, "rb", closefd=False) as file:
             return file.read(MAX_BYTES + 1)
     finally:
