@@ -31,5 +31,5 @@ class UserError(Exception):
     def group(cls, errors: Sequence[Self]) -> Self:
         """Return one error with the texts of several, which must not be empty."""
         found = cls("\n".join(map(str, errors)), errors[0].code)
-        found.problems = errors
+        found.problems = [problem for error in errors for problem in error.problems]
         return found
