@@ -25,11 +25,16 @@ class UserError(Exception):
         super().__init__(text)
         self.code = code
         self.fields: Mapping[str, Any] = fields
-        self.problems: Sequence[Problem] = (self,)
+        self._members: Sequence[Problem] = ()
+
+    @property
+    def problems(self) -> Sequence[Problem]:
+        """Return the errors of a group, otherwise this one."""
+        return self._members or (self,)
 
     @classmethod
     def group(cls, errors: Sequence[Self]) -> Self:
         """Return one error with the texts of several, which must not be empty."""
         found = cls("\n".join(map(str, errors)), errors[0].code)
-        found.problems = [problem for error in errors for problem in error.problems]
+        found._members = [problem for error in errors for problem in error.problems]
         return found

@@ -71,11 +71,14 @@ class ConfigErrors(UserError):  # noqa: N818 - it holds several errors
     """All the problems that were found in one or more configuration files, one line each."""
 
     status = 2
-    problems: Sequence[ConfigProblem]
 
     def __init__(self, problems: Sequence[ConfigProblem]) -> None:
         super().__init__("\n".join(map(str, problems)), problems[0].code)
-        self.problems = list(problems)
+        self._found = problems
+
+    @property
+    def problems(self) -> Sequence[ConfigProblem]:
+        return self._found
 
 
 class Problems:
