@@ -32,7 +32,6 @@ class Field(NamedTuple):
     type: Literal["number", "flag", "text", "texts", "object"]
     unit: str = ""
     reading: str = ""
-    about: str = ""
 
 
 class Rule(NamedTuple):
