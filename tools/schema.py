@@ -320,6 +320,15 @@ def answer_codes(schema: Schema, text: str) -> str:
     return _region(text, codes, "    # schema begin", "    # schema end")
 
 
+def java_answer_codes(schema: Schema, text: str) -> str:
+    """Return NackCode.java with its codes."""
+    codes = "".join(
+        f"    /** {each.text[0].upper()}{each.text[1:]}. */\n    {each.code.upper()},\n"
+        for each in schema.answers
+    )
+    return _region(text, codes, "// schema begin", "// schema end")
+
+
 def _commands() -> Any:
     """Import the Commands, when the tables that their modules import are written."""
     try:
@@ -342,6 +351,7 @@ OUTPUTS: dict[str, Callable[[Schema, str], str]] = {
     "ground/up_ground/web/static/js/state/schema.js": lambda schema, _: javascript(schema),
     "android/core/src/org/raspilot/up/ground/TelemetrySchema.java": lambda schema, _: java(schema),
     "up/commands/refusal.py": answer_codes,
+    "android/core/src/org/raspilot/up/commands/NackCode.java": java_answer_codes,
     "android/raspilot/assets/commands.json": lambda *_: _commands().forms(),
     "docs/protocols.md": documents,
 }
