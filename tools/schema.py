@@ -16,7 +16,17 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
-from schema_definition import MAXIMUM, TYPES, Item, Schema, SchemaError, event_rule
+ROOT = Path(__file__).resolve().parent.parent
+sys.path.insert(0, str(ROOT))  # A program finds only the modules of its own folder.
+
+from tools.schema_definition import (  # noqa: E402
+    MAXIMUM,
+    TYPES,
+    Item,
+    Schema,
+    SchemaError,
+    event_rule,
+)
 
 NOTE = "Generated from schema/ by tools/schema.py; do not edit."
 
@@ -332,7 +342,7 @@ def java_answer_codes(schema: Schema, text: str) -> str:
 def _commands() -> Any:
     """Import the Commands, when the tables that their modules import are written."""
     try:
-        return importlib.import_module("command_tables")
+        return importlib.import_module("tools.command_tables")
     except ImportError as error:
         raise SchemaError(f"{error}: run tools/schema.py by make schema") from None
 
@@ -371,7 +381,7 @@ def main(arguments: list[str] | None = None) -> int:
     """Write or check every output; return 1 if one differs or a definition is invalid."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--check", action="store_true", help="write nothing; fail on a difference")
-    parser.add_argument("--root", type=Path, default=Path(__file__).resolve().parent.parent)
+    parser.add_argument("--root", type=Path, default=ROOT)
     parser.add_argument("--json", type=Path, metavar="FOLDER")
     options = parser.parse_args(arguments)
     stale = False
