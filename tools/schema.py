@@ -117,7 +117,13 @@ def python_telemetry(schema: Schema) -> str:
 
     def field(row: Item) -> dict[str, Any]:
         names = ("type", "unit", "reading")
-        return {"path": row.name} | {key: getattr(row, key) for key in names if getattr(row, key)}
+        known = {key: getattr(row, key) for key in names if getattr(row, key)}
+        command = getattr(row, "from")
+        return {
+            "path": row.name,
+            **known,
+            **({"command": command, "key": row.key} if command else {}),
+        }
 
     events = (f"    {each.code!r}: {text}" for each in schema.events
               for text in rows("Rule", [_given(event_rule(each))]))  # fmt: skip

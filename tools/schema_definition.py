@@ -30,7 +30,8 @@ ROW: dict[str, Any] = {
        "second_alarm": {}, "event": {}, "finding": ""}  # fmt: skip
 FIELD: dict[str, Any] = {
        "name": None, "of": (), "type": "number", "unit": "", "about": "", "decimals": 3,
-       "reading": "", "row": {}, "alarm": {}, "second_alarm": {}, "event": {}, "finding": "",
+       "reading": "", "from": "", "key": "*", "row": {}, "alarm": {}, "second_alarm": {},
+       "event": {}, "finding": "",
        "in_telemetry": True, "rules": ()}  # fmt: skip
 READING = {"name": None, "title": "", "stale_s": 0, "source_s": None, "source_event": True}
 TYPES = {"number": "number", "flag": "boolean", "text": "string", "texts": "array",
@@ -104,7 +105,8 @@ class Schema:
         if row.type != "status":
             for name in row.of or ("",):
                 path = f"{row.name}.{name}".rstrip(".")
-                yield Item(**{**vars(row), "name": path, "rules": _rules(row, path)})
+                key = row.key.replace("*", path.rpartition(".")[2])
+                yield Item(**{**vars(row), "name": path, "key": key, "rules": _rules(row, path)})
             return
         for each in self.rows:
             if each.in_telemetry or each.alarm:
