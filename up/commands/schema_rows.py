@@ -26,13 +26,17 @@ class Reading(NamedTuple):
 
 
 class Field(NamedTuple):
-    """A field of telemetry; ``reading``: whose age it has ("": its frame's)."""
+    """A field of telemetry; ``reading``: whose age it has ("": its frame's).
+
+    ``key`` is the field of the ``command`` that carries the value ("": none does).
+    """
 
     path: str
     type: Literal["number", "flag", "text", "texts", "object"]
     unit: str = ""
     reading: str = ""
-    about: str = ""
+    command: str = ""
+    key: str = ""
 
 
 class Rule(NamedTuple):

@@ -7,6 +7,7 @@ from typing import Any, ClassVar
 
 from up.commands.command import BaseCommand
 from up.commands.rx_command import ALL_VALID, RXCommand
+from up.commands.telemetry_schema import READINGS
 from up.providers.base_provider import BaseProvider
 
 CHANNELS = ("ailerons", "elevator", "throttle", "rudder", "aux1", "aux2")
@@ -17,7 +18,7 @@ class BaseRXProvider(BaseProvider[RXCommand]):
 
     READING = "rx"
     COMMAND: ClassVar[type[BaseCommand]] = RXCommand
-    MAX_AGE_S = 0.5
+    MAX_AGE_S = READINGS[READING].source_s
 
     def get_channels(self) -> dict[str, int] | None:
         """Return the newest inputs by channel, us; None before the first."""

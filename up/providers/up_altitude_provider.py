@@ -7,6 +7,7 @@ from typing import Any, ClassVar
 
 from up.commands.altitude_command import AltitudeCommand
 from up.commands.command import BaseCommand
+from up.commands.telemetry_schema import READINGS
 from up.providers.base_provider import BaseProvider, Reading
 
 
@@ -15,7 +16,7 @@ class UpAltitudeProvider(BaseProvider[float]):
 
     READING = "altitude"
     COMMAND: ClassVar[type[BaseCommand]] = AltitudeCommand
-    MAX_AGE_S = 1.5
+    MAX_AGE_S = READINGS[READING].source_s
 
     def __init__(self, config: Any = None, silent: bool = False) -> None:
         super().__init__(config, silent)

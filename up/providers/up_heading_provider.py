@@ -7,6 +7,7 @@ from typing import Any, ClassVar
 
 from up.commands.command import BaseCommand
 from up.commands.heading_command import HeadingCommand
+from up.commands.telemetry_schema import READINGS
 from up.earth import compass_deg
 from up.providers.base_provider import BaseProvider, Reading
 
@@ -16,7 +17,7 @@ class UpHeadingProvider(BaseProvider[float]):
 
     READING = "heading"
     COMMAND: ClassVar[type[BaseCommand]] = HeadingCommand
-    MAX_AGE_S = 1.5
+    MAX_AGE_S = READINGS[READING].source_s
 
     def __init__(self, config: Any = None, silent: bool = False) -> None:
         super().__init__(config, silent)

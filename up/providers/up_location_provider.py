@@ -7,6 +7,7 @@ from typing import Any, ClassVar
 
 from up.commands.command import BaseCommand
 from up.commands.location_command import LocationCommand
+from up.commands.telemetry_schema import READINGS
 from up.earth import bearing_deg, distance_m
 from up.providers.base_provider import BaseProvider, Reading
 
@@ -16,7 +17,7 @@ class UpLocationProvider(BaseProvider[LocationCommand]):
 
     READING = "location"
     COMMAND: ClassVar[type[BaseCommand]] = LocationCommand
-    MAX_AGE_S = 1.5
+    MAX_AGE_S = READINGS[READING].source_s
 
     def __init__(self, config: Any = None, silent: bool = False) -> None:
         super().__init__(config, silent)

@@ -8,6 +8,7 @@ from typing import Any, ClassVar
 
 from up.commands.command import BaseCommand
 from up.commands.orientation_command import OrientationCommand
+from up.commands.telemetry_schema import READINGS
 from up.providers.base_provider import BaseProvider
 
 
@@ -16,7 +17,7 @@ class UpOrientationProvider(BaseProvider[OrientationCommand]):
 
     READING = "orientation"
     COMMAND: ClassVar[type[BaseCommand]] = OrientationCommand
-    MAX_AGE_S = 0.5
+    MAX_AGE_S = READINGS[READING].source_s
 
     def _is_valid(self, command: Any) -> bool:
         # Modules build the Command without validation; one NaN would persist in a controller.

@@ -6,15 +6,14 @@ from collections.abc import Callable, Mapping
 from typing import Any
 
 from up.commands import board_status
-from up.commands.telemetry_schema import READINGS
+from up.commands.schema_rows import Field
+from up.commands.telemetry_schema import FIELDS, READINGS
 from up.earth import bearing_deg, compass_deg, distance_m
 from up.flight_log.json_message import number_at
 from up.flight_log.origin_text import KEY, link_and_role
 from up_flightlog.read.source_filter import SourceFilter
 
 ANGLES = ("yaw", "pitch", "roll")
-STICKS = ("ailerons", "elevator", "throttle", "rudder", "aux1", "aux2")
-SERVOS = STICKS[:4]
 
 
 class FrameState:
@@ -44,6 +43,15 @@ class FrameState:
         handler = _HANDLERS.get(topic)
         if handler is not None:
             handler(self, time_s, data)
+        copied = _COPIED.get(topic, ())
+        reading = copied[0].reading if copied else ""
+        if not reading or self._accepts(reading, time_s, data):
+            for each in copied:
+                group, _, name = each.path.rpartition(".")
+                if group:
+                    self._update(group, {name: data.get(each.key)})
+                else:
+                    self._tree[name] = data.get(each.key)
 
     def apply_frame(self, time_s: float, tree: Mapping[str, Any]) -> None:
         """Apply a logged frame of telemetry: it has more data than the Commands."""
@@ -76,19 +84,6 @@ class FrameState:
         # A new dict: frames returned earlier keep the old one.
         known = self._tree.get(key)
         self._tree[key] = {**known, **values} if isinstance(known, dict) else dict(values)
-
-    def _on_orientation(self, time_s: float, data: Mapping[str, Any]) -> None:
-        if self._accepts("orientation", time_s, data):
-            self._tree["orientation"] = {name: data.get(name) for name in ANGLES}
-            self._tree["rates"] = {name: data.get(f"{name}_rate") for name in ANGLES}
-
-    def _on_rx(self, time_s: float, data: Mapping[str, Any]) -> None:
-        if self._accepts("rx", time_s, data):
-            self._tree["rx"] = {name: data.get(name) for name in STICKS}
-
-    def _on_servo(self, time_s: float, data: Mapping[str, Any]) -> None:
-        if self._accepts("servo", time_s, data):
-            self._tree["servo"] = {name: data.get(name) for name in SERVOS}
 
     def _on_location(self, time_s: float, data: Mapping[str, Any]) -> None:
         place = place_of(data)
@@ -131,40 +126,25 @@ class FrameState:
         self._update("arduino", board_status.telemetry_of(data))
         self._tree["vetoes"] = [f"arduino: {each}" for each in board_status.vetoes_of(data)]
 
-    def _on_battery(self, time_s: float, data: Mapping[str, Any]) -> None:
-        if self._accepts("battery", time_s, data):
-            self._update("android", {"batteryLevel": data.get("level")})
-
     def _on_link(self, time_s: float, data: Mapping[str, Any]) -> None:
         link = data.get("link")
         if link in ("android", "arduino"):
             self._update(link, {"connected": data.get("connected")})
 
-    def _on_panic(self, time_s: float, data: Mapping[str, Any]) -> None:
-        self._update("load", {"panic": data.get("panic"), "delay_ms": data.get("delay_ms")})
-
-    def _on_system(self, time_s: float, data: Mapping[str, Any]) -> None:
-        self._update("load", {"cpu": data.get("utilization"), "ram": data.get("memory")})
-        self._update("system", {"providers": data.get("providers")})
-        self._update("arduino", {"connected": data.get("arduino_connected")})
-        self._tree["mode"] = data.get("mode")
-
 
 _HANDLERS: dict[str, Callable[[FrameState, float, Mapping[str, Any]], None]] = {
-    "up.orientation.update": FrameState._on_orientation,
-    "up.rx.update": FrameState._on_rx,
-    "up.servo.update": FrameState._on_servo,
     "up.location.update": FrameState._on_location,
     "up.altitude.change": FrameState._on_altitude,
     "up.heading.change": FrameState._on_heading,
     "up.flight.state": FrameState._on_flight_state,
     board_status.TOPIC: FrameState._on_status,
-    "android.battery": FrameState._on_battery,
     "up.link.state": FrameState._on_link,
-    "up.panic": FrameState._on_panic,
-    "up.system.state": FrameState._on_system,
 }
-TOPICS = tuple(_HANDLERS)
+_COPIED: dict[str, list[Field]] = {}
+for _field in FIELDS:
+    if _field.command:
+        _COPIED.setdefault(_field.command, []).append(_field)
+TOPICS = (*_HANDLERS, *_COPIED)
 """The topics that determine telemetry."""
 
 

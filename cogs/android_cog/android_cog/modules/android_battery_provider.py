@@ -11,6 +11,7 @@ from android_cog.commands.android_battery_command import (
 )
 from android_cog.config import ANDROID
 from up.commands.command import BaseCommand
+from up.commands.telemetry_schema import READINGS
 from up.providers.base_provider import BaseProvider, Reading
 
 HYSTERESIS_PERCENT = 5.0
@@ -21,7 +22,7 @@ class AndroidBatteryProvider(BaseProvider[float]):
 
     READING = "battery"
     COMMAND: ClassVar[type[BaseCommand]] = AndroidBatteryCommand
-    MAX_AGE_S = 120.0
+    MAX_AGE_S = READINGS[READING].source_s
 
     def __init__(self, config: Any = None, silent: bool = False) -> None:
         super().__init__(config, silent)

@@ -4,34 +4,37 @@ import java.util.Locale;
 
 /** Why a Command was not carried out: the codes of {@code up.nack} (docs/protocols.md 4). */
 public enum NackCode {
-    /** It was no General Message. */
+    // schema begin
+    /** Not a General Message. */
     MALFORMED,
-    /** Unknown Command name. */
+    /** No Command of that name. */
     UNKNOWN,
-    /** A field is missing, of a wrong type, or out of range. */
+    /** A field is missing, of a wrong type, or out of range; the reason names it. */
     INVALID,
-    /** The link's role or its configuration does not permit it. */
+    /** The link's role, or its configuration now, does not permit it; the reason names the key to change. */
     FORBIDDEN,
-    /** The echoed beacon is older than 2 s, or than a longer period of telemetry and 1 s. */
+    /** The echoed beacon is older than 2 s, or, where telemetry's period is longer, than that and 1 s. */
     STALE,
     /** Arming and disarming need an echoed beacon. */
     NO_BEACON,
-    /** The aircraft has not sent the echoed beacon since its start. */
+    /** The aircraft has not sent the echoed beacon since its start: it is from the future or from another run. */
     UNKNOWN_BEACON,
-    /** Understood and permitted, but refused by the component that executes it. */
+    /** Nothing carries it out yet; the reason names the missing part: no navigation, no controller that uses the gain. */
+    NOT_SUPPORTED,
+    /** Valid, permitted, and refused by the handler, with a reason. */
     REFUSED,
-    /** The component that would execute it is absent. */
+    /** The handler is absent. */
     UNAVAILABLE,
-    /** Another phone is connected. */
+    /** Another phone is connected; the reason names its address. */
     TAKEN,
-    /** Panic Mode: the Raspberry Pi is too busy for it now. */
+    /** Panic Mode does not permit it now: a telemetry period below panic's delay. Nothing of it is kept. */
     OVERLOADED,
-    /** The component that executes it did not answer. */
+    /** No answer from the handler within 2 s. */
     TIMEOUT,
-    /** Carrying it out failed inside. */
+    /** The handler failed with an internal error; the log names the place. */
     FAILED,
-    /** Not implemented by any component; the reason names the missing part. */
-    NOT_SUPPORTED;
+    // schema end
+    ;
 
     /** Returns the word on the wire. */
     public String word() {

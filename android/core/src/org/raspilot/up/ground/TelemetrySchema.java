@@ -9,13 +9,10 @@ import java.util.Map;
 /** Tables of telemetry.
  *  Generated from schema/ by tools/schema.py; do not edit. */
 public final class TelemetrySchema {
-    static final long HOLD_MS = 2000;
     static final long PAUSE_MS = 3000;
     static final long MAX_PAUSE_MS = 30000;
     static final long QUIET_MS = 60000;
     static final long SILENT_MS = 900;
-    static final long LATE_MS = 300;
-    static final long LATE_FOR_MS = 1000;
     static final long NEW_CLOCK_MS = 30000;
     static final double DRIFT = 0.0001;
     /** Maximum age of a reading that is not stale, ms. */
