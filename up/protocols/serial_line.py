@@ -3,11 +3,16 @@
 from __future__ import annotations
 
 import os
+from collections import deque
 from collections.abc import Callable, Hashable
 from dataclasses import dataclass
 from typing import Any, Protocol
 
-from up.protocols.serial_descriptor import SerialDescriptor
+from twisted.internet.interfaces import IReadWriteDescriptor
+from twisted.internet.main import CONNECTION_LOST
+from twisted.python.failure import Failure
+from zope.interface import implementer
+
 from up.protocols.serial_port import close_serial
 from up.system.clock import Timer, cancel
 
@@ -16,6 +21,8 @@ MAX_DELAY_S = 1.6
 """Between attempts to open; below the 2 s within which a restored line is used again."""
 
 PENDING_LIMIT = 1024
+_READ_SIZE = 65536
+_UNPLUGGED = "the port was unplugged or closed by the other side"
 
 
 class SerialLike(Protocol):
@@ -38,12 +45,16 @@ class SerialLineCounters:
     replaced: int = 0
 
 
+@implementer(IReadWriteDescriptor)
 class SerialLine:
     """Opens a port, keeps it open and transfers bytes both ways, without a thread.
 
     `open_port` returns a non-blocking descriptor or an object that has one, and raises OSError with
     one sentence. Callbacks: `on_bytes(data)`, `on_opened()`, `on_lost(why)` for an open port that
     failed, `on_open_failed(why)` for each new reason why it cannot be opened.
+
+    A frame is written immediately when none waits before it. Commands wait in order, up to
+    `pending_limit` bytes; of each stream only the newest frame waits.
     """
 
     def __init__(
@@ -59,6 +70,7 @@ class SerialLine:
     ) -> None:
         self.counters = SerialLineCounters()
         self.last_error = ""
+        self.is_open = False
         self._reactor = reactor
         self._open_port = open_port
         self._on_bytes = on_bytes
@@ -67,14 +79,13 @@ class SerialLine:
         self._on_open_failed = on_open_failed
         self._pending_limit = pending_limit
         self._port: int | SerialLike | None = None
-        self._descriptor: SerialDescriptor | None = None
+        self._number = -1
         self._timer: Timer | None = None
+        self._failing: Timer | None = None
         self._delay_s = INITIAL_DELAY_S
         self._is_started = False
-
-    @property
-    def is_open(self) -> bool:
-        return self._descriptor is not None
+        self._why_lost = _UNPLUGGED
+        self._discard_waiting()
 
     def start(self) -> bool:
         """Try to open the port, and retry until it opens; return whether it is open already."""
@@ -88,31 +99,79 @@ class SerialLine:
         """Close the port immediately and keep it closed; does not call `on_lost`."""
         self._is_started = False
         cancel(self._timer)
-        if self._descriptor is not None:
-            self._descriptor.stop()
-            self._close()
+        self._close()
 
     def write(self, frame: bytes) -> bool:
         """Send a frame in order; False: the line is closed or stuck, the frame dropped, counted."""
-        if self._descriptor is not None and self._descriptor.write(frame):
-            return True
-        self.counters.dropped += 1
-        return False
+        if not self.is_open or self._frames_size + len(frame) > self._pending_limit:
+            self.counters.dropped += 1
+            return False
+        if self._is_writing:
+            self._frames.append(frame)
+            self._frames_size += len(frame)
+        else:
+            self._write_now(frame)
+        return True
 
     def write_newest(self, key: Hashable, frame: bytes) -> bool:
         """Send a frame that replaces a waiting one with the same `key`."""
-        if self._descriptor is None:
+        if not self.is_open:
             self.counters.dropped += 1
             return False
-        if self._descriptor.write_newest(key, frame):
-            self.counters.replaced += 1
+        if self._is_writing:
+            # Removed first, so that waiting streams take turns in the order of their frames.
+            self.counters.replaced += self._newest.pop(key, None) is not None
+            self._newest[key] = frame
+        else:
+            self._write_now(frame)
         return True
 
     def reopen(self) -> None:
         """Close the port and reopen it, as after a fault."""
-        if self._descriptor is not None:
-            self._descriptor.stop()
+        if self.is_open:
             self._lost("reopening")
+
+    def fileno(self) -> int:
+        """Return the descriptor; -1 while the port is closed."""
+        return self._number
+
+    def logPrefix(self) -> str:  # noqa: N802 - Twisted's name
+        return "serial"
+
+    def doRead(self) -> Exception | None:  # noqa: N802 - Twisted's name
+        try:
+            data = os.read(self._number, _READ_SIZE)
+        except BlockingIOError:
+            return None
+        except OSError as error:
+            return self._failed(error)
+        if not data:
+            return CONNECTION_LOST
+        # Only received bytes prove the port: one that opens and then fails is retried slowly.
+        self._delay_s = INITIAL_DELAY_S
+        self._on_bytes(data)
+        return None
+
+    def doWrite(self) -> Exception | None:  # noqa: N802 - Twisted's name
+        while self.is_open:
+            if not self._rest:
+                self._rest = self._pop_next()
+                if not self._rest:
+                    self._is_writing = False
+                    self._reactor.removeWriter(self)
+                    break
+            try:
+                written = os.write(self._number, self._rest)
+            except BlockingIOError:
+                break
+            except OSError as error:
+                return self._failed(error)
+            self._rest = self._rest[written:]
+        return None
+
+    def connectionLost(self, reason: Failure | None) -> None:  # noqa: N802 - Twisted's name
+        if self.is_open:
+            self._lost(self._why_lost)
 
     def _open(self) -> None:
         try:
@@ -120,18 +179,13 @@ class SerialLine:
         except OSError as error:
             self._fail(str(error))
             return
-        number = self._port if isinstance(self._port, int) else self._port.fileno()
-        os.set_blocking(number, False)
-        self._descriptor = SerialDescriptor(
-            self._reactor,
-            number,
-            on_bytes=self._on_first_bytes,
-            on_lost=self._lost,
-            pending_limit=self._pending_limit,
-        )
+        self._number = self._port if isinstance(self._port, int) else self._port.fileno()
+        os.set_blocking(self._number, False)
+        self.is_open = True
         self.last_error = ""
+        self._why_lost = _UNPLUGGED
         self.counters.opened += 1
-        self._descriptor.start()
+        self._reactor.addReader(self)
         self._on_opened()
 
     def _fail(self, why: str) -> None:
@@ -141,12 +195,9 @@ class SerialLine:
         if is_news and self._on_open_failed is not None:
             self._on_open_failed(why)
 
-    def _on_first_bytes(self, data: bytes) -> None:
-        # Only received bytes prove the port: one that opens and then fails is retried slowly.
-        self._delay_s = INITIAL_DELAY_S
-        if self._descriptor is not None:
-            self._descriptor.on_bytes = self._on_bytes
-        self._on_bytes(data)
+    def _failed(self, error: OSError) -> Exception:
+        self._why_lost = f"the port failed: {os.strerror(error.errno or 0)}"
+        return CONNECTION_LOST
 
     def _lost(self, why: str) -> None:
         self._close()
@@ -161,8 +212,48 @@ class SerialLine:
         self._delay_s = min(self._delay_s * 2, MAX_DELAY_S)
 
     def _close(self) -> None:
-        port, self._port, self._descriptor = self._port, None, None
+        """Leave the reactor and close the port; no more reads, writes or callbacks."""
+        if not self.is_open:
+            return
+        self.is_open = False
+        cancel(self._failing)
+        self._reactor.removeReader(self)
+        self._reactor.removeWriter(self)
+        self._discard_waiting()
+        port, self._port, self._number = self._port, None, -1
         if isinstance(port, int):
             close_serial(port)
         elif port is not None:
             port.close()
+
+    def _write_now(self, frame: bytes) -> None:
+        try:
+            written = os.write(self._number, frame)
+        except BlockingIOError:
+            written = 0
+        except OSError as error:
+            # Reported later, like a read fault: never from inside the caller's write.
+            self._failed(error)
+            self._is_writing = True
+            self._failing = self._reactor.callLater(0, self.connectionLost, None)
+            return
+        if written < len(frame):
+            self._rest = frame[written:]
+            self._is_writing = True
+            self._reactor.addWriter(self)
+
+    def _pop_next(self) -> bytes:
+        if self._frames:
+            frame = self._frames.popleft()
+            self._frames_size -= len(frame)
+            return frame
+        if self._newest:
+            return self._newest.pop(next(iter(self._newest)))
+        return b""
+
+    def _discard_waiting(self) -> None:
+        self._rest = b""
+        self._frames: deque[bytes] = deque()
+        self._frames_size = 0
+        self._newest: dict[Hashable, bytes] = {}
+        self._is_writing = False

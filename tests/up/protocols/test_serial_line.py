@@ -226,7 +226,7 @@ def test_a_stuck_line_keeps_commands_in_order_and_of_streams_the_newest(tmp_path
         notes.line.start()
         taken = fill(notes)
         assert notes.line.counters.dropped == 1
-        assert notes.line._descriptor._frames_size <= 1024
+        assert notes.line._frames_size <= 1024
         for number in range(1000):
             assert notes.line.write_newest("S", b"setpoint%04d;" % number)
             assert notes.line.write_newest("v", b"veto%04d;" % number)
