@@ -85,7 +85,11 @@ class SerialLine:
         self._delay_s = INITIAL_DELAY_S
         self._is_started = False
         self._why_lost = _UNPLUGGED
-        self._discard_waiting()
+        self._rest = b""
+        self._frames: deque[bytes] = deque()
+        self._frames_size = 0
+        self._newest: dict[Hashable, bytes] = {}
+        self._is_writing = False
 
     def start(self) -> bool:
         """Try to open the port, and retry until it opens; return whether it is open already."""
@@ -253,7 +257,7 @@ class SerialLine:
 
     def _discard_waiting(self) -> None:
         self._rest = b""
-        self._frames: deque[bytes] = deque()
+        self._frames.clear()
         self._frames_size = 0
-        self._newest: dict[Hashable, bytes] = {}
+        self._newest.clear()
         self._is_writing = False
