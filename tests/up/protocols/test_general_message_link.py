@@ -138,7 +138,7 @@ def test_half_a_line_does_not_survive_its_connection():
     async def scenario(listener):
         with await listener.client() as client:
             client.sendall(b'{"name": "up.ar')
-            await until(lambda: listener.links[0]._lines._held)
+            await until(lambda: len(listener.links[0]._lines._buffer))
         await until(lambda: listener.lost)
         with await listener.client() as client:
             client.sendall(b'm"}\n{"name": "up.ok"}\n')
