@@ -71,13 +71,12 @@ setup(
         "pyserial>=3.5",
         "PyYAML>=6",
         "psutil>=5.9",
-        "simple-pid>=2.0",
     ],
     extras_require={
         "ground": ["autobahn>=24.4"],
         "log": ["matplotlib>=3.8"],
         "sim": ["jsbsim==1.3.3; platform_machine == 'x86_64'", "matplotlib>=3.8"],
-        "bench": ["pymavlink", "pluggy>=1", "blinker>=1.6", "mcap>=1.2"],
+        "bench": ["pymavlink", "pluggy>=1", "blinker>=1.6", "mcap>=1.2", "simple-pid>=2.0"],
         "dev": [
             "autobahn>=24.4",
             "pytest>=8",
@@ -86,6 +85,7 @@ setup(
             "hypothesis>=6.100",
             "mcap>=1.2",
             "gpxpy>=1.6",
+            "simple-pid>=2.0",
             "ruff>=0.6",
             "mypy>=1.11",
             "import-linter>=2.0",

@@ -94,7 +94,8 @@ class CheckedDecoder:
 
     def feed(self, data: bytes, now: float = 0.0) -> list[Frame]:
         """Return the frames that `data` completes, in order."""
-        self.expire(now)
+        if self._tail or self._is_skipping:
+            self.expire(now)
         self._newest_byte_s = now
         pieces = (self._tail + data).split(b"\0")
         tail = pieces.pop()
