@@ -282,15 +282,6 @@ def test_the_owner_on_datagrams_is_known_by_its_identity_from_another_port():
     assert rig.link.datagrams.peer == ""
 
 
-def test_a_phone_on_datagrams_is_gone_after_1_5_s():
-    rig = Rig()
-    rig.datagram(1, (FIRST, 5))
-    rig.clock.advance(1.4)
-    assert rig.link.current is not None
-    rig.clock.advance(0.1)
-    assert rig.link.current is None
-
-
 def test_a_phone_that_reconnects_keeps_its_empty_bucket():
     rig = Rig()
     for port in range(10):

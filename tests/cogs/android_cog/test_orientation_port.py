@@ -63,26 +63,20 @@ def test_one_source_at_a_time(tmp_path):
     run_in_reactor(flight)
 
 
-def test_by_default_a_lost_orientation_link_stops_nothing(tmp_path):
-    async def flight():
-        async with Flight(tmp_path, "stop delay (s): 1\n", Mode.BLACK_BOX) as f:
-            f.listen_to(SystemStopCommand)
-            gyro = await f.gyro()
-            await until(lambda: counters(f) and f.provider._orientation.connected)
-            await gyro.close()
-            await until(lambda: not f.provider._orientation.connected)
-            assert f.provider._stop_timer is None
-
-    run_in_reactor(flight)
-
-
 STOPS = "stop if orientation connection is lost: true\nstop delay (s): 1\n"
 
 
-@pytest.mark.parametrize("mode", [Mode.AUTO, Mode.FLIGHT_CONTROLLER])
-def test_an_autopilot_is_never_stopped_by_the_phone(tmp_path, mode):
+@pytest.mark.parametrize(
+    ("text", "mode"),
+    [
+        (STOPS, Mode.AUTO),
+        (STOPS, Mode.FLIGHT_CONTROLLER),
+        ("stop delay (s): 1\n", Mode.BLACK_BOX),
+    ],
+)
+def test_an_autopilot_is_never_stopped_by_the_phone(tmp_path, text, mode):
     async def flight():
-        async with Flight(tmp_path, STOPS, mode) as f:
+        async with Flight(tmp_path, text, mode) as f:
             f.listen_to(SystemStopCommand)
             gyro = await f.gyro()
             await until(lambda: f.provider._orientation.connected)

@@ -1,5 +1,4 @@
 import errno
-import os
 
 import pytest
 from black_box_cog.disk import Disk
@@ -41,17 +40,6 @@ def test_of_a_disk_that_fills_up_at_any_byte_whole_records_stay(tmp_path, room):
     assert (tmp_path / "f").read_bytes() == b"".join(RECORDS)[:whole]
     assert file.size == whole
     assert file.lost == (3 if room < 10 else 2 if room < 30 else 1)
-
-
-def test_a_full_device(tmp_path):
-    disk = Disk()
-    file = LogFile(disk, tmp_path / "full", os.open("/dev/full", os.O_WRONLY))
-    file.put(b"record")
-    with pytest.raises(OSError) as caught:
-        file.flush()
-    assert caught.value.errno == errno.ENOSPC
-    assert (file.size, file.lost) == (0, 1)
-    file.close()
 
 
 def test_one_whose_name_went_is_known(tmp_path):
