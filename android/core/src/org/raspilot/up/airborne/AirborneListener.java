@@ -13,7 +13,7 @@ public interface AirborneListener {
         onDisconnected(reason);
     }
 
-    /** Called when the link is lost, unless {@link #onDisconnected(String, String)} is overridden. */
+    /** Called when the link is lost, unless the method with the code is overridden. */
     default void onDisconnected(String reason) {
     }
 
