@@ -240,7 +240,7 @@ def java(schema: Schema) -> str:
  *  {NOTE} */
 public final class TelemetrySchema {{
 {times}    /** Maximum age of a reading that is not stale, ms. */
-    public static final Map<String, Long> STALE_MS = new LinkedHashMap<>();
+    static final Map<String, Long> STALE_MS = new LinkedHashMap<>();
     /** Times for which alarms outlast their conditions, ms, by kind in the order of display. */
     static final Map<String, Long> HOLDS_MS = new LinkedHashMap<>();
     /** The reading whose age a field has. */
@@ -249,7 +249,7 @@ public final class TelemetrySchema {{
     /** Decimals of fields that have other than 3. */
     static final Map<String, Integer> DECIMALS = new HashMap<>();
     /** Limits of the alarms of numbers. */
-    public static final Map<String, Double> LIMITS = new HashMap<>();
+    static final Map<String, Double> LIMITS = new HashMap<>();
     static final List<TelemetryRule> RULES = new ArrayList<>();
     /** Events without a field, by code. */
     static final Map<String, TelemetryRule> EVENTS = new HashMap<>();

@@ -40,7 +40,7 @@ $(BOOT): tools/boot.py tools/pack.py $(JARS)/.stubs
 	@$(PYTHON) tools/boot.py $(FRAMEWORK_16) $@
 
 # The manifest's package is that of R; the application's name is shorter. Our PNGs are small
-# already (tools/icons.py): aapt's own packing makes them larger. Nine-patches it would have to.
+# already: aapt's own packing makes them larger. Nine-patches it would have to.
 $(RESOURCES) $(R_JAVA) &: $(RES) $(MANIFEST) $(BUILD)/RES.list ../up/version.py tools/aapt \
 		| $(BUILD)/debian-tools
 	@echo 'compile the resources'

@@ -6,6 +6,8 @@ import static org.junit.Assert.assertNotNull;
 import static org.junit.Assert.assertTrue;
 
 import android.app.Fragment;
+import android.content.ClipboardManager;
+import android.content.Context;
 import android.preference.Preference;
 import android.view.View;
 import org.junit.Test;
@@ -100,6 +102,24 @@ public final class WindowTest extends AppBench {
         refuse(R.string.key_reference_pressure, "10", R.string.rule_pressure);
         assertTrue(isTaken(R.string.key_general_port, " 50011 "));
         assertTrue(isTaken(R.string.key_host, "raspberry.local"));
+    }
+
+    @Test
+    public void theLogIsCopiedWithItsTimesAndHowOften() {
+        handset.open();
+        handset.choose(Screen.LOG);
+        AppLog log = RaspilotApplication.of(handset.application).events();
+        log.clear();
+        log.add(3723000, "connected");
+        log.add(3724000, "lost");
+        log.add(3725000, "lost");
+        find(R.id.log_copy).performClick();
+        ClipboardManager clipboard = (ClipboardManager)
+                handset.application.getSystemService(Context.CLIPBOARD_SERVICE);
+        String[] lines = clipboard.getPrimaryClip().getItemAt(0).getText().toString().split("\n");
+        assertEquals(2, lines.length);
+        assertTrue(lines[0], lines[0].matches("..:..:03  connected"));
+        assertTrue(lines[1], lines[1].matches("..:..:05  .*2.*"));
     }
 
     private void refuse(int key, String value, int sentence) {

@@ -7,11 +7,12 @@ import android.view.View;
 import android.view.ViewGroup;
 import org.raspilot.up.airborne.AirborneSettings;
 import org.raspilot.up.airborne.AirborneStatus;
+import org.raspilot.up.android.BaseUpService.UpWatcher;
 import org.raspilot.up.android.BaseUpService;
 
 /** The airborne screen: sent readings, rates, destination, and the phone's mounting. */
 public final class AirborneFragment extends Fragment
-        implements AirborneLink.Watcher, AppLog.Watcher, SpawnRequests.Watcher {
+        implements UpWatcher, AppLog.Watcher, SpawnRequests.Watcher {
     private static final String IS_STARTING = "starting";
     private static final String WAS_ASKED = "asked";
 
@@ -88,7 +89,7 @@ public final class AirborneFragment extends Fragment
     }
 
     @Override
-    public void onAirborne(AirborneStatus newest) {
+    public void onStatus(AirborneStatus newest) {
         status = newest;
         showRun();
     }

@@ -5,7 +5,6 @@ import android.content.Context;
 import android.content.Intent;
 import android.content.ServiceConnection;
 import android.os.IBinder;
-import org.raspilot.up.airborne.AirborneStatus;
 import org.raspilot.up.android.BaseUpService.UpWatcher;
 import org.raspilot.up.android.BaseUpService;
 
@@ -14,22 +13,15 @@ import org.raspilot.up.android.BaseUpService;
  * so that looking starts nothing. On the main thread.
  */
 final class AirborneLink {
-    /** Receives the changes of the service. */
-    interface Watcher {
-        /** Takes the newest status; null: the service does not run, or has not reported yet. */
-        void onAirborne(AirborneStatus status);
-    }
-
     private final Context context;
-    private final Watcher watcher;
-    private final UpWatcher statuses;
+    private final UpWatcher watcher;
     private final ServiceConnection connection = new ServiceConnection() {
         @Override
         public void onServiceConnected(ComponentName name, IBinder binder) {
             if (isBound && binder instanceof BaseUpService.Airside) {
                 airside = (BaseUpService.Airside) binder;
-                watcher.onAirborne(null);
-                airside.add(statuses);
+                watcher.onStatus(null);
+                airside.add(watcher);
             }
         }
 
@@ -37,16 +29,16 @@ final class AirborneLink {
         public void onServiceDisconnected(ComponentName name) {
             airside = null;
             bindAnew();
-            watcher.onAirborne(null);
+            watcher.onStatus(null);
         }
     };
     private BaseUpService.Airside airside;
     private boolean isBound;
 
-    AirborneLink(Context context, Watcher watcher) {
+    /** The watcher gets null when the service does not run, or has not reported yet. */
+    AirborneLink(Context context, UpWatcher watcher) {
         this.context = context.getApplicationContext();
         this.watcher = watcher;
-        statuses = status -> watcher.onAirborne(status);
     }
 
     /** Starts to watch, also a service that is started later. */
@@ -59,7 +51,7 @@ final class AirborneLink {
 
     void end() {
         if (airside != null) {
-            airside.remove(statuses);
+            airside.remove(watcher);
             airside = null;
         }
         if (isBound) {

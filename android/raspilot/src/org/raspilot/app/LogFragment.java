@@ -12,23 +12,21 @@ import android.view.ViewGroup;
 import android.widget.ArrayAdapter;
 import android.widget.ListView;
 import android.widget.Toast;
+import java.text.DateFormat;
 import java.text.SimpleDateFormat;
+import java.util.Date;
 import java.util.Locale;
 
 /** The log screen: the events since the application started, to read, share and copy. */
 public final class LogFragment extends Fragment implements AppLog.Watcher {
-    private static final String TIME = "HH:mm:ss";
+    private final DateFormat time = new SimpleDateFormat("HH:mm:ss", Locale.US);
 
     private ArrayAdapter<String> lines;
-    private LogFormatter text;
 
     @Override
     public View onCreateView(LayoutInflater inflater, ViewGroup container, Bundle saved) {
         View root = inflater.inflate(R.layout.fragment_log, container, false);
-        final Context context = getActivity();
-        text = new LogFormatter(new SimpleDateFormat(TIME, Locale.US), (line, times) ->
-                context.getString(R.string.log_times, line, times));
-        lines = new ArrayAdapter<>(context, R.layout.row_log);
+        lines = new ArrayAdapter<>(getActivity(), R.layout.row_log);
         ListView list = (ListView) root.findViewById(R.id.log_lines);
         list.setAdapter(lines);
         list.setEmptyView(root.findViewById(R.id.log_empty));
@@ -65,7 +63,7 @@ public final class LogFragment extends Fragment implements AppLog.Watcher {
         lines.setNotifyOnChange(false);
         lines.clear();
         for (AppLog.Entry entry : events().entries()) {
-            lines.add(text.line(entry));
+            lines.add(line(entry));
         }
         lines.notifyDataSetChanged();
     }
@@ -74,7 +72,7 @@ public final class LogFragment extends Fragment implements AppLog.Watcher {
         Intent intent = new Intent(Intent.ACTION_SEND)
                 .setType("text/plain")
                 .putExtra(Intent.EXTRA_SUBJECT, getString(R.string.log_subject))
-                .putExtra(Intent.EXTRA_TEXT, text.all(events().entries()));
+                .putExtra(Intent.EXTRA_TEXT, all());
         startActivity(Intent.createChooser(intent, getString(R.string.log_share)));
     }
 
@@ -82,8 +80,23 @@ public final class LogFragment extends Fragment implements AppLog.Watcher {
         ClipboardManager clipboard = (ClipboardManager)
                 getActivity().getSystemService(Context.CLIPBOARD_SERVICE);
         clipboard.setPrimaryClip(ClipData.newPlainText(getString(R.string.log_subject),
-                text.all(events().entries())));
+                all()));
         Toast.makeText(getActivity(), R.string.log_copied, Toast.LENGTH_SHORT).show();
+    }
+
+    /** Returns one line: its time, what happened and how often. */
+    private String line(AppLog.Entry entry) {
+        String text = entry.times == 1 ? entry.text
+                : getString(R.string.log_times, entry.text, entry.times);
+        return time.format(new Date(entry.timeMs)) + "  " + text;
+    }
+
+    private String all() {
+        StringBuilder text = new StringBuilder();
+        for (AppLog.Entry entry : events().entries()) {
+            text.append(line(entry)).append('\n');
+        }
+        return text.toString();
     }
 
     private AppLog events() {

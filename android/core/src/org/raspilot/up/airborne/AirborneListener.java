@@ -9,7 +9,13 @@ public interface AirborneListener {
     void onConnected(Endpoint place);
 
     /** Called when the link is lost; the code is that of {@link UpSocketStatus}. */
-    void onDisconnected(String code, String reason);
+    default void onDisconnected(String code, String reason) {
+        onDisconnected(reason);
+    }
+
+    /** Called when the link is lost, unless the method with the code is overridden. */
+    default void onDisconnected(String reason) {
+    }
 
     /** Called when Panic Mode starts, changes or ends (0). */
     void onPanic(long delayMs);

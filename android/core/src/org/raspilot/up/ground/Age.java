@@ -4,6 +4,7 @@ import java.util.Collections;
 import java.util.HashMap;
 import java.util.Locale;
 import java.util.Map;
+import java.util.Set;
 
 /**
  * The age of a frame of telemetry and of each of its readings: on the aircraft, in transit, and
@@ -72,6 +73,11 @@ public final class Age {
         return frame + Math.round(Math.max(0.0, there));
     }
 
+    /** Returns the names of the readings that become stale. */
+    public static Set<String> readings() {
+        return Collections.unmodifiableSet(TelemetrySchema.STALE_MS.keySet());
+    }
+
     /** Returns whether the frame is too old for any of its values to be current. */
     public boolean isSilent(long nowMs) {
         final Long frame = frameMs(nowMs);
@@ -80,7 +86,8 @@ public final class Age {
 
     /** Returns whether frames arrive, but so late that they count as silence. */
     public boolean isLate(long nowMs) {
-        return isKnown && !isLinkLost && transitMs > TelemetrySchema.SILENT_MS && nowMs - receivedMs <= TelemetrySchema.SILENT_MS;
+        return isKnown && !isLinkLost && transitMs > TelemetrySchema.SILENT_MS
+                && nowMs - receivedMs <= TelemetrySchema.SILENT_MS;
     }
 
     /** Returns whether a reading is too old to fly by; a reading without an age has its frame's. */

@@ -51,6 +51,11 @@ public final class Alarms {
     Alarms() {
     }
 
+    /** Returns the limit of the alarm of that code. */
+    public static double limit(String code) {
+        return TelemetrySchema.LIMITS.get(code);
+    }
+
     public Snapshot snapshot() {
         return snapshot;
     }

@@ -22,6 +22,8 @@ import org.raspilot.up.wire.GeneralMessage;
 public final class GroundSide implements TelemetrySource {
     /** Period of the checks for changes due to time alone, ms. */
     private static final long TICK_MS = 250;
+    /** Period of the status for its figures, ms; a change is reported immediately. */
+    private static final long STATUS_MS = 1000;
 
     private final Loop loop;
     private final GroundSettings settings;
@@ -38,9 +40,12 @@ public final class GroundSide implements TelemetrySource {
     private final EventLog events = new EventLog();
     private final Alarms alarms = new Alarms();
     private final EventMonitor judge = new EventMonitor(events, alarms);
-    private final SnapshotPublisher publisher;
-    private final StaleTimer silence;
     private Cancellable tick;
+    private Cancellable silence = Cancellable.DONE;
+    private boolean wasSilent = true;
+    private boolean wasLate;
+    private long reportedMs;
+    private long reportedVersions;
 
     /**
      * Creates a ground that is not started.
@@ -55,8 +60,6 @@ public final class GroundSide implements TelemetrySource {
         this.settings = settings;
         this.executor = executor;
         this.listener = listener;
-        publisher = new SnapshotPublisher(listener);
-        silence = new StaleTimer(loop, () -> check(true));
         link = new GroundLink(loop, settings, tokens, new Links(), random);
         answers = new PendingCommands(loop, random);
         desk = new CommandService(loop, settings, link, answers, beacons);
@@ -201,11 +204,11 @@ public final class GroundSide implements TelemetrySource {
         beacons.onFrame(frame);
         home.update(frame);
         track.update(frame, home.home(), nowMs);
-        silence.restart(frame, nowMs);
+        awaitSilence(frame, nowMs);
         judge.update(frame, status(), nowMs);
         executor.executeCommand(new BaseCommand(message));
         listener.onTelemetry(frame);
-        if (publisher.isChanged(frame, nowMs)) {
+        if (wasSilent != frame.isSilent(nowMs) || wasLate != frame.age.isLate(nowMs)) {
             reportStatus();
         }
         if (desk.standing() == ControlStatus.OURS && !frame.isSilent(nowMs)) {
@@ -214,10 +217,19 @@ public final class GroundSide implements TelemetrySource {
         reportChanges();
     }
 
+    /** Checks again when this frame expires, so that silence is reported without another event. */
+    private void awaitSilence(Telemetry frame, long nowMs) {
+        silence.cancel();
+        final Long ageMs = frame.ageMs(nowMs);
+        if (ageMs != null && ageMs <= TelemetrySchema.SILENT_MS) {
+            silence = loop.schedule(TelemetrySchema.SILENT_MS + 1 - ageMs, () -> check(true));
+        }
+    }
+
     private void tick() {
         tick = loop.schedule(TICK_MS, () -> {
             tick();
-            check(publisher.isDue(loop.nowMs()));
+            check(loop.nowMs() - reportedMs >= STATUS_MS);
         });
     }
 
@@ -231,12 +243,21 @@ public final class GroundSide implements TelemetrySource {
     }
 
     private void reportStatus() {
-        publisher.reportStatus(status(), loop.nowMs());
+        reportedMs = loop.nowMs();
+        final GroundStatus status = status();
+        wasSilent = status.isSilent;
+        wasLate = status.isLate;
+        listener.onStatus(status);
     }
 
     private void reportChanges() {
-        publisher.reportChanges(track.version() + events.version() + alarms.snapshot().version
-                + gains.version());
+        // Each version only increases.
+        final long versions = track.version() + events.version() + alarms.snapshot().version
+                + gains.version();
+        if (versions != reportedVersions) {
+            reportedVersions = versions;
+            listener.onChanged();
+        }
     }
 
     private final class Links implements LinkListener {

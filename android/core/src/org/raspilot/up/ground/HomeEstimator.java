@@ -26,7 +26,8 @@ final class HomeEstimator {
             return;
         }
         final Home found = destination(latitude, longitude, bearing, distance);
-        if (home == null || distanceM(home, found) > MOVED_M) {
+        if (home == null || Earth.distanceM(home.latitudeDeg, home.longitudeDeg,
+                found.latitudeDeg, found.longitudeDeg) > MOVED_M) {
             home = found;
         }
     }
@@ -44,17 +45,5 @@ final class HomeEstimator {
                         Math.cos(way) - Math.sin(north) * Math.sin(there));
         final double turned = (Math.toDegrees(east) + 540) % 360 - 180;
         return new Home(Math.toDegrees(there), turned);
-    }
-
-    /** Returns the great-circle distance (haversine), m. */
-    static double distanceM(Home a, Home b) {
-        final double south = Math.toRadians(a.latitudeDeg);
-        final double north = Math.toRadians(b.latitudeDeg);
-        final double halfNorth = Math.sin((north - south) / 2);
-        final double halfEast =
-                Math.sin(Math.toRadians(b.longitudeDeg - a.longitudeDeg) / 2);
-        final double h = halfNorth * halfNorth
-                + Math.cos(south) * Math.cos(north) * halfEast * halfEast;
-        return 2 * Earth.RADIUS_M * Math.asin(Math.min(1, Math.sqrt(h)));
     }
 }

@@ -59,7 +59,7 @@ final class TelemetryRule {
             Collections.sort(sorted);
             return sorted;
         }
-        final Boolean holds = holds(telemetry, Boolean.TRUE.equals(before));
+        final Object holds = holds(telemetry, Boolean.TRUE.equals(before));
         if (!Boolean.TRUE.equals(holds) || of("awaits").isEmpty()) {
             return holds;
         }
@@ -71,7 +71,7 @@ final class TelemetryRule {
         return AWAITED;
     }
 
-    private Boolean holds(Telemetry telemetry, boolean before) {
+    private Object holds(Telemetry telemetry, boolean before) {
         if (of("type").equals("flag")) {
             final Boolean flag = telemetry.flag(path);
             return flag == null ? null : Boolean.valueOf(flag.toString().equals(of("when")));
@@ -128,7 +128,7 @@ final class TelemetryRule {
         final StringBuilder filled = new StringBuilder();
         final String[] parts = text.split("[{}]", -1);
         for (int each = 0; each < parts.length; each++) {
-            final boolean isName = each % 2 == 1;
+            final boolean isName = each % 2 != 0;
             filled.append(isName ? valueOf(parts[each], telemetry, value, before) : parts[each]);
         }
         return filled.toString();

@@ -1,5 +1,6 @@
 package org.raspilot.up.net;
 
+import org.raspilot.up.loop.Cancellable;
 import org.raspilot.up.loop.Loop;
 
 /**
@@ -41,6 +42,69 @@ final class ConnectionWatchdog {
             stall.start();
         } else if (bytes > 0) {
             stall.reset();
+        }
+    }
+
+    /**
+     * Fires once when it was not touched for a time. A touch is cheap: it does not reschedule.
+     *
+     * <p>After a phone has slept, the timer is due before the data received during the sleep is
+     * read. The loop reads between two timers, so the decision is made at a second check.
+     */
+    private static final class IdleTimer {
+        private final Loop loop;
+        private final long limitMs;
+        private final Runnable onIdle;
+        private final Runnable check = () -> check();
+        private Cancellable timer;
+        private long touchedMs;
+        private boolean isSecondLook;
+
+        IdleTimer(Loop loop, long limitMs, Runnable onIdle) {
+            this.loop = loop;
+            this.limitMs = limitMs;
+            this.onIdle = onIdle;
+        }
+
+        /** Restarts the timer; a limit of 0 disables it. */
+        void start() {
+            stop();
+            reset();
+            if (limitMs > 0) {
+                checkAfter(limitMs, false);
+            }
+        }
+
+        /** Stops; it may be started again. */
+        void stop() {
+            if (timer != null) {
+                timer.cancel();
+            }
+        }
+
+        /** Notes that the awaited event has happened now. */
+        void reset() {
+            touchedMs = loop.nowMs();
+        }
+
+        boolean isRunning() {
+            return timer != null && timer.isPending();
+        }
+
+        private void check() {
+            final long restMs = touchedMs + limitMs - loop.nowMs();
+            if (restMs > 0) {
+                checkAfter(restMs, false);
+            } else if (!isSecondLook) {
+                checkAfter(0, true);
+            } else {
+                onIdle.run();
+            }
+        }
+
+        private void checkAfter(long delayMs, boolean isSecond) {
+            isSecondLook = isSecond;
+            timer = loop.schedule(delayMs, check);
         }
     }
 }

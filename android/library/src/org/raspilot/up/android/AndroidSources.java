@@ -38,12 +38,12 @@ public final class AndroidSources {
         return new Sensors(
                 new LocationSource(lasting, looper, posting, texts, problems, fixes),
                 rotation(access, posting, texts, problems),
-                new HardwareSource<>(access, Sensor.TYPE_GYROSCOPE, posting, texts,
-                        SensorProblem.GYROSCOPE, problems, (values, timeMs) ->
-                                new RotationRate(values[0], values[1], values[2], timeMs)),
-                new HardwareSource<>(access, Sensor.TYPE_PRESSURE, posting, texts,
-                        SensorProblem.BAROMETER, problems, (values, timeMs) ->
-                                new Pressure(values[0])),
+                new HardwareSource<>(access, posting, texts, SensorProblem.GYROSCOPE, problems,
+                        (event, timeMs) -> new RotationRate(event.values[0], event.values[1],
+                                event.values[2], timeMs),
+                        Sensor.TYPE_GYROSCOPE),
+                new HardwareSource<>(access, posting, texts, SensorProblem.BAROMETER, problems,
+                        (event, timeMs) -> new Pressure(event.values[0]), Sensor.TYPE_PRESSURE),
                 new BatterySource(lasting, new Handler(looper), posting, texts));
     }
 
@@ -51,10 +51,13 @@ public final class AndroidSources {
     static SensorSource<Rotation> rotation(SensorAccess access, Executor loop, SensorTexts texts,
             ProblemListener problems) {
         // The game rotation vector has no north: its yaw would be sent as a heading.
-        SensorSource<Rotation> vector = new HardwareSource<>(access, Sensor.TYPE_ROTATION_VECTOR,
-                loop, texts, SensorProblem.ROTATION, problems, (values, timeMs) ->
-                        RotationVector.read(values, timeMs, Build.VERSION.SDK_INT));
-        return vector.isPresent() ? vector : new FieldSource(access, loop, texts, problems);
+        SensorSource<Rotation> vector = new HardwareSource<>(access, loop, texts,
+                SensorProblem.ROTATION, problems, (event, timeMs) ->
+                        RotationVector.read(event.values, timeMs, Build.VERSION.SDK_INT),
+                Sensor.TYPE_ROTATION_VECTOR);
+        return vector.isPresent() ? vector : new HardwareSource<>(access, loop, texts,
+                SensorProblem.ROTATION, problems, new FieldReader(), Sensor.TYPE_ACCELEROMETER,
+                Sensor.TYPE_MAGNETIC_FIELD);
     }
 
     /** Receives the fixes in addition to the provider that sends them. Called on any thread. */

@@ -3,6 +3,8 @@ package org.raspilot.up.android;
 import android.hardware.Sensor;
 import android.hardware.SensorEvent;
 import android.hardware.SensorEventListener;
+import java.util.ArrayList;
+import java.util.List;
 import java.util.concurrent.Executor;
 import java.util.concurrent.TimeUnit;
 import org.raspilot.up.android.SensorProblem.SensorTexts;
@@ -10,7 +12,7 @@ import org.raspilot.up.providers.SensorListener;
 import org.raspilot.up.providers.SensorSource;
 
 /**
- * A source that is one of the phone's built-in sensors.
+ * A source that reads one of the phone's built-in sensors, or several.
  *
  * @param <R> what one reading is
  */
@@ -18,25 +20,26 @@ final class HardwareSource<R> implements SensorSource<R>, SensorEventListener {
     /** Converts the values of an event, on the sensors' thread. */
     interface Reader<R> {
         /** Returns the reading, or null for none. */
-        R read(float[] values, long timeMs);
+        R read(SensorEvent event, long timeMs);
     }
 
     private final SensorAccess access;
     private final Reader<R> reader;
-    private final Sensor sensor;
+    private final List<Sensor> sensors = new ArrayList<>();
     private final String absence;
     private final LatestReading<R> handover;
     private final ProblemListener problems;
     private final String refusal;
     private final BadReadings bad;
 
-    /** Takes the type of {@link Sensor} and the reason to report if the phone has none. */
-    HardwareSource(SensorAccess access, int type, Executor loop, SensorTexts texts,
-            SensorProblem lack,
-            ProblemListener problems, Reader<R> reader) {
+    /** Takes the types of {@link Sensor} and the reason to report if the phone lacks one. */
+    HardwareSource(SensorAccess access, Executor loop, SensorTexts texts, SensorProblem lack,
+            ProblemListener problems, Reader<R> reader, int... types) {
         this.reader = reader;
         this.access = access;
-        sensor = access.find(type);
+        for (int type : types) {
+            sensors.add(access.find(type));
+        }
         absence = texts.of(lack);
         refusal = texts.of(SensorProblem.REFUSED);
         handover = new LatestReading<>(loop);
@@ -46,28 +49,34 @@ final class HardwareSource<R> implements SensorSource<R>, SensorEventListener {
 
     @Override
     public boolean isPresent() {
-        return sensor != null;
+        return !sensors.contains(null);
     }
 
     @Override
     public String name() {
-        if (sensor == null) {
+        if (!isPresent()) {
             return absence;
         }
-        // Some makers leave it out.
-        String name = sensor.getName();
-        return name == null ? "" : name;
+        StringBuilder names = new StringBuilder();
+        for (Sensor sensor : sensors) {
+            // Some makers leave it out.
+            String name = sensor.getName() == null ? "" : sensor.getName();
+            names.append(names.length() == 0 ? "" : ", ").append(name);
+        }
+        return names.toString();
     }
 
     @Override
     public void subscribe(long periodMs, SensorListener<R> listener) {
-        if (sensor == null) {
+        if (!isPresent()) {
             throw new IllegalStateException(absence);
         }
         access.unregister(this);
         handover.setListener(listener);
-        if (!access.register(this, sensor, periodMs)) {
-            problems.onProblem(refusal + ": " + sensor.getName());
+        for (Sensor sensor : sensors) {
+            if (!access.register(this, sensor, periodMs)) {
+                problems.onProblem(refusal + ": " + sensor.getName());
+            }
         }
     }
 
@@ -80,7 +89,7 @@ final class HardwareSource<R> implements SensorSource<R>, SensorEventListener {
     @Override
     public void onSensorChanged(SensorEvent event) {
         try {
-            R reading = reader.read(event.values, TimeUnit.NANOSECONDS.toMillis(event.timestamp));
+            R reading = reader.read(event, TimeUnit.NANOSECONDS.toMillis(event.timestamp));
             if (reading != null) {
                 handover.put(reading);
             }

@@ -53,11 +53,6 @@ final class AlarmBell {
         silenced.addAll(Arrays.asList(words));
     }
 
-    /** Returns whether a silenced alarm is active. */
-    boolean isSilenced() {
-        return !silenced.isEmpty();
-    }
-
     /** Returns whether an audible alarm is active. */
     boolean isRinging() {
         return worst() != Ring.NONE;

@@ -13,14 +13,15 @@ import java.util.Locale;
 import org.raspilot.app.R;
 import org.raspilot.app.view.InstrumentColors;
 import org.raspilot.up.android.GroundSnapshot;
+import org.raspilot.up.ground.Age;
+import org.raspilot.up.ground.Alarms;
 import org.raspilot.up.ground.Freshness;
 import org.raspilot.up.ground.Telemetry;
-import org.raspilot.up.ground.TelemetrySchema;
 import org.raspilot.up.ground.TelemetryText;
 
 /** Control, mode, vetoes, and the state of board, phones and load. */
 final class StatePanel {
-    private static final double LOW_PERCENT = TelemetrySchema.LIMITS.get("battery_low");
+    private static final double LOW_PERCENT = Alarms.limit("battery_low");
     private static final long BATTERY_EACH_MS = 5000;
 
     private final Context context;
@@ -141,7 +142,7 @@ final class StatePanel {
             return;
         }
         StringBuilder all = new StringBuilder();
-        for (String reading : TelemetrySchema.STALE_MS.keySet()) {
+        for (String reading : Age.readings()) {
             if (telemetry.readingAgeMs(reading, picture.nowMs) != null
                     && telemetry.age.isStale(reading, picture.nowMs)) {
                 all.append(all.length() == 0 ? "" : ", ").append(reading);
