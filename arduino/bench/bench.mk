@@ -1,17 +1,7 @@
 # The bench rig: its C part, and the firmware's figures measured on it.
-RIG := build/librig.so
-RIG_SOURCES := $(wildcard bench/up_rig/shim/*.c)
-
 .PHONY: rig
-rig: $(RIG)
-
-$(RIG): $(RIG_SOURCES) $(wildcard bench/up_rig/shim/*.h)
-	$(call need,gcc,gcc)
-	@[ -f /usr/include/simavr/sim_avr.h ] || { echo 'Building the bench rig needs simavr:' \
-		'apt-get install libsimavr-dev libelf-dev' >&2; exit 1; }
-	@mkdir -p $(@D)
-	gcc -std=gnu11 -O2 -Wall -Wextra -fPIC -shared $(RIG_SOURCES) -lsimavr -o $@.new
-	@mv $@.new $@
+rig:
+	@cd bench && python3 -m up_rig --build
 
 # Latency, jitter, loop, interrupts, memory and size of the binary, against docs/performance.md.
 .PHONY: figures

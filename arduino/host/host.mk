@@ -47,8 +47,8 @@ $(HOST_BUILD)/%.o: %.cpp host/host.mk
 	$(HOST_CXX) $(HOST_FLAGS) $(FASTER) $(HOST_DEFINES) -Iraspilot/src -Ihost -MMD -MP -c -o $@ $<
 
 # Most of the time goes into optimizing and instrumenting the headers of doctest and json.
-$(HOST_BUILD)/host/%.o: FASTER := -O0
-$(HOST_BUILD)/host/main.o $(HOST_BUILD)/host/wire_vectors.o: FASTER := -O0 -fno-sanitize=all
+$(HOST_BUILD)/host/%.o: FASTER := -O0 -g1 -DDOCTEST_CONFIG_SUPER_FAST_ASSERTS
+$(HOST_BUILD)/host/main.o $(HOST_BUILD)/host/wire_vectors.o: FASTER := -O0 -g1 -fno-sanitize=all
 
 # The same sources with a board around them, for a program that loads them (host/library/host_board.h):
 # where the AVR compiler is missing, the simulator flies these.

@@ -20,7 +20,7 @@ def auto(flight):
     return flight
 
 
-def test_inputs_and_outputs_are_told_as_they_are(flight):
+def test_inputs_and_outputs_are_reported_as_measured(flight):
     flight.sticks(ailerons=1200, elevator=1700, rudder=1650, throttle=1300, aux1=LOW)
     flight.send("s")
     *inputs_us, valid = struct.unpack(">6HB", flight.newest("i").payload)
@@ -46,7 +46,7 @@ def test_outputs_reach_the_servos_while_they_are_fresh(auto):
     assert auto.mode() == "f"
 
 
-def test_level_is_what_it_is_told_to_be(flight):
+def test_level_is_the_calibrated_attitude(flight):
     flight.run_ms(1500)
     flight.tilt(5, -4)
     flight.run_ms(2500)

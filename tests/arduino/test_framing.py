@@ -1,4 +1,4 @@
-"""Both framings on the compiled firmware, the door between them, noise, and a full line."""
+"""Both framings on the compiled firmware, the change between them, noise, and a full line."""
 
 import json
 import random
@@ -34,7 +34,7 @@ def is_thesis(flight):
     return at >= 0 and len(answer) >= at + 49 and b"T\0" not in answer[at : at + 2]
 
 
-def open_door(flight):
+def enter_thesis_framing(flight):
     """Send the start-up messages of an old Raspberry Pi: gains, then panic's end."""
     flight.rig.serial.write(GAINS + PANIC)
     flight.rig.run_us(60_000)
@@ -53,7 +53,7 @@ def test_every_golden_frame_is_understood(flight, vector):
     assert flight.status().frame_errors == 0
 
 
-def test_every_bad_frame_is_dropped_counted_and_the_next_one_heard(flight):
+def test_every_bad_frame_is_dropped_and_counted_and_the_next_one_accepted(flight):
     bad = vectors("serial_checked_bad")
     flight.send("s")
     flight.run_ms(50)
@@ -69,7 +69,7 @@ def test_every_bad_frame_is_dropped_counted_and_the_next_one_heard(flight):
 
 
 def test_old_commands_open_thesis_framing(flight):
-    open_door(flight)
+    enter_thesis_framing(flight)
     assert is_thesis(flight)
     streams = thesis(flight, b"", 1000)
     assert streams.count(b"r\x05") >= 15
@@ -78,7 +78,7 @@ def test_old_commands_open_thesis_framing(flight):
 
 
 def test_a_bare_refusal_ends_what_is_unfinished_in_thesis_framing(flight):
-    open_door(flight)
+    enter_thesis_framing(flight)
     assert b"!" in thesis(flight, b"l\x42\x48", 160)
     assert is_thesis(flight)
 

@@ -68,7 +68,8 @@ def assert_frames(pulses):
 def test_each_wire_lost_in_each_way(fbw, channel, loss):
     width = {"throttle": 1400, "aux1": MIDDLE, "aux2": HIGH}.get(channel, 1500)
     loss(fbw.rig.receiver, channel)
-    fbw.run(FRAME_US + 100_000)
+    # The next `i` may have been measured 5 ms ago.
+    fbw.run(FRAME_US + 105_000)
     bit = 1 << CHANNELS.index(channel)
     assert inputs(fbw) == 0x3F & ~bit
     # Half a second is ridden through with the throttle that was there.

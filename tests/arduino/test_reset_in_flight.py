@@ -13,7 +13,7 @@ import pytest
 from tests.arduino.flight import BIAS_FROM_EEPROM, IMU, LOW, MIDDLE, Flight
 from tests.support.tools import unavailable
 from up_rig import Reset, RigUnavailableError, build_optiboot
-from up_rig.imu import GRAVITY_M_S2, Motion
+from up_rig.imu import GRAVITY_M_S2, Motion, motion_at
 
 WDR, RJMP_SELF, CLI = b"\xa8\x95", b"\xff\xcf", b"\xf8\x94"
 RESTORED = 0x80
@@ -139,12 +139,18 @@ def test_with_optiboot_a_deaf_stop_gives_the_surfaces_back_and_no_motor():
 def test_a_reset_at_any_moment_of_a_slot_flies_on(offset_us):
     """Also in the middle of a byte of the IMU's: it hangs with data low, and is freed."""
     flight = aloft()
+    flight.rig.imu.motion = turning(25)
+    flight.run_ms(1000)
+    flight.rig.imu.motion = motion_at(25, 0)
+    heading = flight.attitude()[2]
     flight.run(offset_us)
     flight.rig.servo.clear()
     before = flight.rig.cycle
     flight.rig.force_watchdog_reset()
     flight.run_ms(1000)
     assert_flies_on(flight, before)
+    # The accelerometer shows bank and pitch again; the heading has to be kept.
+    assert flight.attitude()[2] == pytest.approx(heading, abs=2) and heading > 10
 
 
 def test_a_second_reset_flies_on_too():

@@ -215,7 +215,7 @@ def up_ground(words, port):
     return done.returncode, done.stdout + done.stderr
 
 
-def test_the_phone_speaks_at_the_bench_and_arming_is_refused(bench):
+def test_the_phone_connects_at_the_bench_and_arming_is_refused(bench):
     place, port = bench
     (line,) = re.findall(r"`(\.venv/bin/up-ground [^`]* send [^`]*)`", TEXT)
     words = shlex.split(line)

@@ -35,7 +35,7 @@ def command_lines(text):
 
 
 @pytest.mark.parametrize("page", PAGES, ids=name_of)
-def test_up_understands_what_the_page_says(page, capsys):
+def test_up_parses_the_commands_of_the_page(page, capsys):
     for program, *arguments in command_lines(text_of(page)):
         if program in ("make", "up-sim"):
             continue
@@ -52,7 +52,7 @@ def test_up_understands_what_the_page_says(page, capsys):
 
 
 @pytest.mark.parametrize("page", PAGES, ids=name_of)
-def test_up_sim_knows_the_verbs_and_options_that_the_page_says(page, capsys):
+def test_up_sim_has_the_verbs_and_options_of_the_page(page, capsys):
     for program, verb, *arguments in command_lines(text_of(page)):
         if program != "up-sim":
             continue
@@ -71,7 +71,7 @@ def targets_of(folder):
 
 
 @pytest.mark.parametrize("page", PAGES, ids=name_of)
-def test_make_knows_what_the_page_says(page):
+def test_make_has_the_targets_of_the_page(page):
     for program, *words in command_lines(text_of(page)):
         if program != "make":
             continue

@@ -98,7 +98,7 @@ def test_a_remark_that_is_too_long_is_refused_in_words(flight):
     assert "text" in done.stdout + done.stderr and "80" in done.stdout + done.stderr
 
 
-def test_what_breaks_ends_the_run_and_by_hand_the_others_bear_it(tmp_path):
+def test_a_dead_part_ends_the_run_and_by_hand_the_others_survive_it(tmp_path):
     make_run = "make run CONTROLLER=raspberry"
     assert all(f"`{words}`" in TEXT for words in (make_run, FBW, OUTPUT))
     with flying(tmp_path / "flight", {}, make_run) as flight:

@@ -110,7 +110,7 @@ def test_the_module_is_shorter_than_15_lines_and_works(plane, tmp_path):
     bench.stop()
 
 
-def test_the_sensor_is_followed_while_it_speaks_and_named_sources_come_first(plane, tmp_path):
+def test_the_sensor_is_followed_while_it_sends_and_named_sources_come_first(plane, tmp_path):
     plan = plan_of(plane("module.md"))
     assert not plan.problems
     lidar = next(type(module) for module in plan.modules if module.class_name == "LidarModule")

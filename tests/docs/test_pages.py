@@ -142,7 +142,7 @@ def test_the_configuration_page_lists_the_codes_of_every_error():
     assert configuration_page.documented_error_codes() == configuration_page.error_codes()
 
 
-def test_the_configuration_page_says_what_the_files_declare():
+def test_the_configuration_page_lists_what_the_files_declare():
     _head, _, rest = text_of(configuration_page.PAGE).partition(configuration_page.BEGIN)
     shown = rest.partition(configuration_page.END)[0].strip()
     assert shown == configuration_page.tables().strip(), (
@@ -187,7 +187,7 @@ def test_keys_are_found_where_pages_name_them():
     assert ("a.yml", "x") in set(named_keys("`a.yml: x`")) & set(named_keys("`x` of `a.yml`"))
 
 
-def test_the_generator_of_the_configuration_page_changes_nothing_when_all_is_said(tmp_path):
+def test_the_generator_changes_nothing_in_an_up_to_date_configuration_page(tmp_path):
     before = text_of(configuration_page.PAGE)
     done = subprocess.run(
         [sys.executable, "-c", _GENERATE, str(tmp_path / "page.md")],

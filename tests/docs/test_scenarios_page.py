@@ -41,7 +41,7 @@ def test_the_scenarios_of_the_page_fly_and_hold(text):
 
 
 @pytest.mark.parametrize("lines", RUNS)
-def test_the_commands_of_the_page_do_what_they_say(lines, tmp_path, monkeypatch, capsys):
+def test_the_commands_of_the_page_run(lines, tmp_path, monkeypatch, capsys):
     build_firmware()
     monkeypatch.chdir(tmp_path)
     for line in lines.splitlines():

@@ -33,7 +33,7 @@ def folder(tmp_path, monkeypatch):
     return tmp_path
 
 
-def test_the_program_says_what_the_page_says(folder, capsys):
+def test_the_program_prints_the_output_of_the_page(folder, capsys):
     write_model(["trainer"])
     assert capsys.readouterr().out in TEXT
 
@@ -44,7 +44,7 @@ def test_the_aircraft_of_the_page_flies(folder, capsys):
         assert up_sim(line.split()[1:]) == 0, capsys.readouterr().out
 
 
-def test_the_mistake_of_the_page_is_told_so(folder):
+def test_the_mistake_of_the_page_is_reported(folder):
     path = folder / "trainer" / "airframe.yml"
     path.write_text(path.read_text().replace("fcs/left-aileron-pos-rad", "fcs/left-aileron"))
     with pytest.raises(AirframeError) as caught:

@@ -72,7 +72,7 @@ def test_the_aircraft_starts_for_a_raspilot(tmp_path):
 
 
 @pytest.mark.parametrize("line", re.findall(r"^    (make run.*?)(?:   |$)", TEXT, re.MULTILINE))
-def test_make_run_understands_what_the_page_says(line):
+def test_make_run_accepts_the_options_of_the_page(line):
     read_demo_options(options_of(line))
 
 

@@ -7,12 +7,10 @@ the 512 below the end of the flash. Two switches reduce it to the 500 of the ori
 from __future__ import annotations
 
 import shutil
-import subprocess
-import tempfile
 from pathlib import Path
 
 from up_rig.errors import RigUnavailableError
-from up_rig.library import library_path
+from up_rig.library import compile_to, library_path
 
 SOURCE = Path("/usr/share/arduino/hardware/arduino/avr/bootloaders/optiboot/optiboot.c")
 START, VERSION = 0x7E00, 0x7FFE
@@ -32,13 +30,5 @@ def build_optiboot() -> Path:
     compiler = shutil.which("avr-gcc")
     if compiler is None or not SOURCE.exists():
         raise RigUnavailableError("optiboot needs the Debian packages gcc-avr and arduino-core-avr")
-    path.parent.mkdir(parents=True, exist_ok=True)
-    with tempfile.TemporaryDirectory(dir=path.parent) as folder:
-        fresh = Path(folder) / path.name
-        command = [compiler, *_FLAGS, f"-I{SOURCE.parent}", str(SOURCE), "-o", str(fresh)]
-        result = subprocess.run(command, capture_output=True, text=True, check=False)
-        if result.returncode:
-            last = (result.stderr.strip().splitlines() or ["no message"])[-1]
-            raise RigUnavailableError(f"optiboot does not compile: {last}")
-        fresh.replace(path)
+    compile_to(path, [compiler, *_FLAGS, f"-I{SOURCE.parent}", str(SOURCE)], "optiboot")
     return path

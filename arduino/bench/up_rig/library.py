@@ -88,17 +88,25 @@ def build_library() -> Path:
     compiler = shutil.which("gcc") or shutil.which("cc")
     if compiler is None or not HEADER.exists():
         raise RigUnavailableError(NEEDS, "missing_packages")
+    compile_to(path, [compiler, *FLAGS, *map(str, sources), "-lsimavr"], "the bench rig")
+    return path
+
+
+def compile_to(path: Path, command: list[str], what: str) -> None:
+    """Run a compiler that writes a file; raises RigUnavailableError with its last line.
+
+    Several processes may build in parallel: each writes its own file, the last one stays.
+    """
     path.parent.mkdir(parents=True, exist_ok=True)
-    # Several processes may build in parallel: each to its own file, the last one stays.
     with tempfile.TemporaryDirectory(dir=path.parent) as folder:
         fresh = Path(folder) / path.name
-        command = [compiler, *FLAGS, *map(str, sources), "-lsimavr", "-o", str(fresh)]
-        result = subprocess.run(command, capture_output=True, text=True, check=False)
-        if result.returncode:
-            last = (result.stderr.strip().splitlines() or ["no message"])[-1]
-            raise RigUnavailableError(f"the bench rig does not compile: {last}")
+        done = subprocess.run(
+            [*command, "-o", str(fresh)], capture_output=True, text=True, check=False
+        )
+        if done.returncode:
+            last = (done.stderr.strip().splitlines() or ["no message"])[-1]
+            raise RigUnavailableError(f"{what} does not compile: {last}", "does_not_compile")
         fresh.replace(path)
-    return path
 
 
 @cache

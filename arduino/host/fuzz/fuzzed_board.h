@@ -39,7 +39,7 @@ class FuzzedBoard {
     const bool is_arming = is_command(frame) && frame[1] == 'a';
     never(!was_armed && autopilot_.authority.is_armed() && !is_arming,
           "armed by bytes other than an Arm Command");
-    is_door_closed_ = is_door_closed_ || is_command(frame);
+    has_checked_frame_ = has_checked_frame_ || is_command(frame);
     check_rules("a byte");
     pass(BYTE_US);
   }
@@ -135,7 +135,7 @@ class FuzzedBoard {
   void check_rules(const char* after) {
     const Link& link = autopilot_.link;
     if (link.is_thesis() && !is_thesis_) {
-      never(is_door_closed_, "thesis framing after a valid checked frame");
+      never(has_checked_frame_, "thesis framing after a valid checked frame");
       never(autopilot_.authority.is_armed(), "thesis framing while armed");
     }
     never(is_thesis_ && !link.is_thesis(), "thesis framing left without a reset");
@@ -192,7 +192,7 @@ class FuzzedBoard {
   bool is_imu_on_ = true;
   bool has_aux2_edge_ = false;
   bool was_aux2_low_ = true;
-  bool is_door_closed_ = false;
+  bool has_checked_frame_ = false;
   bool is_thesis_ = false;
 };
 

@@ -108,7 +108,7 @@ class Conversation {
     uint8_t payload[MAX_COMMAND] = {};
     const size_t size = std::min<size_t>(is_known ? command.size : 3, left - 1);
     std::copy(script, script + size, payload);
-    if (is_known && !autopilot_.link.is_thesis()) is_door_closed_ = true;
+    if (is_known && !autopilot_.link.is_thesis()) has_checked_frame_ = true;
     send(type, payload, is_known ? command.size : 3);
     return script + size;
   }
@@ -143,7 +143,7 @@ class Conversation {
     const Link& link = autopilot_.link;
     const bool is_armed = autopilot_.authority.is_armed();
     demand(!is_armed || watcher_.has_seen, "nothing but a valid Arm Command arms");
-    demand(!link.is_thesis() || !is_door_closed_, "a valid checked frame closes thesis framing");
+    demand(!link.is_thesis() || !has_checked_frame_, "a valid checked frame closes thesis framing");
     demand(link.is_thesis() || !was_thesis_, "thesis framing lasts until reset");
     demand(!link.is_thesis() || !is_armed, "thesis framing is never spoken armed");
     demand(fake_board().violations == 0, "the line gets no byte without room, EEPROM none early");
@@ -210,7 +210,7 @@ class Conversation {
   uint8_t sequence_ = 0;
   uint8_t expected_ = 0;
   bool was_thesis_ = false;
-  bool is_door_closed_ = false;
+  bool has_checked_frame_ = false;
 };
 
 }  // namespace

@@ -54,7 +54,7 @@ def test_it_wakes_up_and_measures(case):
 
 
 @pytest.mark.parametrize("rate, bit", [(12, 40), (72, 160), (0, 16)])
-def test_bits_take_what_the_rate_register_says(case, rate, bit):
+def test_bits_take_the_time_of_the_rate_register(case, rate, bit):
     rig = case(2, rate)
     rig.run_us(40_000)
     said = rig.serial.read()
@@ -178,7 +178,7 @@ def test_frozen_repeats_and_garbage_does_not(case):
     assert len(set(bursts(rig))) > 3
 
 
-def test_another_part_says_who_it_is(case):
+def test_another_part_has_another_identity(case):
     rig = case(1)
     rig.imu.set_identity(0x98)
     rig.run_us(60_000)

@@ -164,7 +164,7 @@ def test_it_keeps_time_with_the_clock(real_time):
     assert said == []
 
 
-def test_missed_time_is_skipped_and_said(real_time):
+def test_missed_time_is_skipped_and_reported(real_time):
     made, rig, clock, said = real_time
     made.step()
     clock.now_s += 3.0

@@ -106,7 +106,7 @@ def test_the_watchdog_interrupts(case):
     "name, cause",
     [("press_reset", Reset.EXTERNAL), ("brown_out", Reset.BROWN_OUT)],
 )
-def test_the_other_causes_are_told_apart(case, name, cause):
+def test_the_other_causes_are_distinguished(case, name, cause):
     rig = case(5)
     rig.run_us(START_UP_US + BOOT_US)
     rig.serial.read()
@@ -230,7 +230,7 @@ def test_the_stacks_depth_is_seen_two_ways(case):
     assert 2048 - 530 - 16 < rig.untouched_ram() < 2048 - 500
 
 
-def test_two_rigs_live_the_same_life(case):
+def test_two_rigs_run_alike(case):
     def live():
         rig = case(2, seed=7)
         rig.receiver.jitter_us = 3.0

@@ -28,9 +28,7 @@ def test_findings_are_bounded(maker, tmp_path):
     for number in range(300):
         maker.put(
             400,
-            CommandAnsweredCommand(
-                "ground", "up.arm", "1", "nack", "refused", f"reason {number}", 0
-            ),
+            CommandAnsweredCommand("ground", "up.arm", "1", "nack", "refused", f"reason {number}"),
         )
     maker.line(400, 4, "Up", "x" * 10_000)
     found = findings(maker.log(tmp_path))

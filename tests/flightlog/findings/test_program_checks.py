@@ -20,7 +20,8 @@ ARMED = State("FBW", True, False, False)
 
 def answered(name, code="", reason="", untold=0):
     outcome = "nack" if code else "ack"
-    return CommandAnsweredCommand("mission_control", name, "1", outcome, code, reason, untold)
+    link = "mission_control"
+    return CommandAnsweredCommand(link, name, "1", outcome, code, reason, untold=untold)
 
 
 def gains(p: float) -> dict:

@@ -28,7 +28,7 @@ void Link::on_byte(uint8_t byte, uint32_t now_us) {
     return;
   }
   on_checked_byte(byte, now_us);
-  if (!is_door_closed_) detect_legacy(byte, now_us);
+  if (!has_checked_frame_) detect_legacy(byte, now_us);
 }
 
 void Link::check(uint32_t now_us) {
@@ -82,7 +82,7 @@ void Link::on_frame(uint32_t now_us) {
     refuse_seldom(type, sequence, is_known ? Reason::WRONG_SIZE : Reason::UNKNOWN_TYPE, now_us);
     return;
   }
-  is_door_closed_ = true;
+  has_checked_frame_ = true;
   const Request request = {reader_.payload(), sequence, now_us};
   carry_out(command, request);
 }

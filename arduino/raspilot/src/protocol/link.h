@@ -79,8 +79,8 @@ class Link {
   bool has_expected_ ZEROED;
   bool is_heard_ ZEROED;
   bool is_thesis_ ZEROED;
-  /** A valid checked frame closes the door to thesis framing until reset. */
-  bool is_door_closed_ ZEROED;
+  /** A valid checked frame arrived: thesis framing is not detected until reset. */
+  bool has_checked_frame_ ZEROED;
   // Small members lie before it, where one instruction reaches them.
   ReceiveBuffer buffer_ ZEROED;
   CheckedReader reader_;
