@@ -151,9 +151,26 @@ def _measured(
     return LogStep(*step, response)
 
 
-def advice(steps: Sequence[LogStep]) -> list[str]:
-    """Return recommendations, a sentence for each axis and mode that was flown."""
-    sentences = []
+ADVICE = {
+    "not_following": "it does not follow the demand; look at the direction of the servo, at the"
+    " mode and at the airspeed before any gain",
+    "rings": "it rings: lower the rate P by a third first, and the stabilize P if that is not"
+    " enough",
+    "overshoots": "it overshoots: lower the stabilize P by a quarter, or raise the rate P a little",
+    "short": "it falls short of the demand: raise the stabilize P, then the rate P; more throttle"
+    " where it sinks below its speed",
+    "slow": "it is slow and calm: raise the stabilize P by a quarter and fly the steps again",
+    "good": "it follows well; leave it",
+    "rate_rings": "it rings: lower the rate P by a third",
+    "rate_short": "it turns slower than demanded, as every rate P without I does; a higher rate P"
+    " lessens it, within the margins that 'up-sim tune' shows; FBW needs none of it",
+    "rate_overshoots": "it begins faster than it continues: a property of the aeroplane, leave it",
+}
+
+
+def advice(steps: Sequence[LogStep]) -> dict[tuple[Axis, str], str]:
+    """Return a code of ``ADVICE`` for each axis and mode that was flown."""
+    found: dict[tuple[Axis, str], str] = {}
     for axis, mode, _, _ in _SIGNALS:
         chosen = [
             step.response
@@ -161,49 +178,21 @@ def advice(steps: Sequence[LogStep]) -> list[str]:
             if (step.axis, step.mode) == (axis, mode) and step.response is not None
         ]
         if chosen:
-            sentences.append(f"{axis} in {mode}: {_advice(mode, chosen)}")
-    return sentences
+            found[axis, mode] = _advice(mode, chosen)
+    return found
 
 
 def _advice(mode: str, responses: Sequence[StepResponse]) -> str:
     half = len(responses) / 2
-    rings = sum(each.swings > 3 for each in responses)
-    over = sum(each.overshoot_percent > 15 for each in responses)
+    rings = sum(each.swings > 3 for each in responses) > half
+    over = sum(each.overshoot_percent > 15 for each in responses) > half
     # A step back to level never falls short, and half of the steps of a flight are such.
-    short = 2 * sum(each.steady_error_percent > 10 for each in responses)
-    never = sum(each.rise_time_s is None for each in responses)
-    if never > half:
-        return (
-            "it does not follow the demand; look at the direction of the servo, at the mode and"
-            " at the airspeed before any gain"
-        )
+    short = 2 * sum(each.steady_error_percent > 10 for each in responses) >= len(responses)
+    if sum(each.rise_time_s is None for each in responses) > half:
+        return "not_following"
     if mode == "RATE":
-        return _rate_advice(rings > half, over > half, short >= len(responses))
-    slow = sum((each.rise_time_s or 9.0) > 1.2 for each in responses)
-    if rings > half:
-        return (
-            "it rings: lower the rate P by a third first, and the stabilize P if that is not enough"
-        )
-    if over > half:
-        return "it overshoots: lower the stabilize P by a quarter, or raise the rate P a little"
-    if short >= len(responses):
-        return (
-            "it falls short of the demand: raise the stabilize P, then the rate P; more throttle"
-            " where it sinks below its speed"
-        )
-    if slow > half:
-        return "it is slow and calm: raise the stabilize P by a quarter and fly the steps again"
-    return "it follows well; leave it"
-
-
-def _rate_advice(rings: bool, over: bool, short: bool) -> str:
-    if rings:
-        return "it rings: lower the rate P by a third"
-    if short:
-        return (
-            "it turns slower than asked, as every rate P without I does; a higher rate P lessens"
-            " it, within the margins that 'up-sim tune' shows; FBW needs none of it"
-        )
-    if over:
-        return "it begins faster than it continues: a property of the aeroplane, leave it"
-    return "it follows well; leave it"
+        faults = {"rate_rings": rings, "rate_short": short, "rate_overshoots": over}
+    else:
+        slow = sum((each.rise_time_s or 9.0) > 1.2 for each in responses) > half
+        faults = {"rings": rings, "overshoots": over, "short": short, "slow": slow}
+    return next((code for code, is_true in faults.items() if is_true), "good")

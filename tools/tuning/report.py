@@ -6,7 +6,7 @@ import textwrap
 from collections.abc import Sequence
 
 from tools.tuning.evaluation import Rules
-from tools.tuning.log_steps import LogStep, advice
+from tools.tuning.log_steps import ADVICE, LogStep, advice
 from tools.tuning.margins import Margins
 from tools.tuning.tune import AxisTuning, Candidate, RoughAir, YawTuning
 
@@ -105,7 +105,8 @@ def log_lines(steps: Sequence[LogStep]) -> list[str]:
             f" {_number(response.settling_time_s, 2):>8} {response.steady_error_percent:>6.0f}"
         )
     lines.append("")
-    for sentence in advice(steps):
+    for (axis, mode), code in advice(steps).items():
+        sentence = f"{axis} in {mode}: {ADVICE[code]}"
         lines += textwrap.wrap(sentence, WIDTH, subsequent_indent="  ")
     return lines
 

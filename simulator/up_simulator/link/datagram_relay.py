@@ -12,7 +12,7 @@ from up.system.clock import Clock, cancel
 from up.system.udp import listen_udp
 from up_simulator.link.model import LinkModel
 from up_simulator.link.pipe import LinkPipe
-from up_simulator.link.relay import ListeningRelay
+from up_simulator.link.relay import LOOPBACK, ListeningRelay
 from up_simulator.link.stream import POLL_S
 
 HEADER = 28
@@ -105,10 +105,9 @@ class DatagramRelay(ListeningRelay):
         up: LinkModel,
         down: LinkModel,
         *,
-        interface: str = "127.0.0.1",
         clock: Clock | None = None,
     ) -> None:
-        super().__init__(reactor, listen_port, (target_host, target_port), interface)
+        super().__init__(reactor, listen_port, (target_host, target_port))
         self._up = _Direction(clock if clock is not None else reactor, up)
         self._down = _Direction(clock if clock is not None else reactor, down)
         self._listening_socket = _Socket(self._on_client)
@@ -132,7 +131,7 @@ class DatagramRelay(ListeningRelay):
         return self._open(self._listen_port, self._listening_socket)
 
     def _open(self, number: int, protocol: DatagramProtocol) -> Any:
-        port = listen_udp(self._reactor, number, protocol, self._interface)
+        port = listen_udp(self._reactor, number, protocol, LOOPBACK)
         # Twisted would cut datagrams longer than 8 KiB.
         port.maxPacketSize = MAX_DATAGRAM_BYTES
         return port

@@ -14,6 +14,8 @@ from up.system.clock import Clock
 from up_simulator.link.model import LinkModel
 from up_simulator.link.relay_connection import RelayedConnection
 
+LOOPBACK = "127.0.0.1"
+
 
 class LinkRelayError(Exception):
     """The relay cannot listen: the message is one sentence for the user."""
@@ -27,11 +29,8 @@ class ListeningRelay(ABC):
     Port 0 is any free port; ``port`` has it after ``start``.
     """
 
-    def __init__(
-        self, reactor: Any, listen_port: int, target: tuple[str, int], interface: str
-    ) -> None:
+    def __init__(self, reactor: Any, listen_port: int, target: tuple[str, int]) -> None:
         self._reactor = reactor
-        self._interface = interface
         self._target = target
         self._listen_port = listen_port
         self._listener: Any = None
@@ -45,10 +44,9 @@ class ListeningRelay(ABC):
         try:
             self._listener = self._listen()
         except CannotListenError as error:
-            raise LinkRelayError(
-                f"the link cannot listen on {self._interface}:{self._listen_port}: "
-                f"{error.socketError}"
-            ) from error
+            where = f"{LOOPBACK}:{self._listen_port}"
+            text = f"the link cannot listen on {where}: {error.socketError}"
+            raise LinkRelayError(text) from error
         return self.port
 
     @abstractmethod
@@ -93,15 +91,13 @@ class LinkRelay(ListeningRelay):
         up: LinkModel,
         down: LinkModel,
         *,
-        interface: str = "127.0.0.1",
-        window: int = WINDOW,
         user_timeout_s: float | None = None,
         clock: Clock | None = None,
     ) -> None:
-        super().__init__(reactor, listen_port, (target_host, target_port), interface)
+        super().__init__(reactor, listen_port, (target_host, target_port))
         self.up = up
         self.down = down
-        self.window = window
+        self.window = WINDOW
         self.user_timeout_s = user_timeout_s
         self.clock: Clock = clock if clock is not None else reactor
         self._connections: set[RelayedConnection] = set()
@@ -136,7 +132,7 @@ class LinkRelay(ListeningRelay):
 
     def _listen(self) -> Any:
         factory = _ClientFactory(self._accept)
-        return self._reactor.listenTCP(self._listen_port, factory, interface=self._interface)
+        return self._reactor.listenTCP(self._listen_port, factory, interface=LOOPBACK)
 
     def _accept(self) -> Protocol:
         connection = RelayedConnection(self)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from typing import Any, Protocol
 
+from up.errors import UserError
 from up_simulator.aircraft.flight import FlightState
 from up_simulator.firmware.board import Channel
 
@@ -16,12 +17,8 @@ SWITCH_US = {"ACRO": 1000, "FBW": 1500, "AUTO": 2000}
 CHANNELS: tuple[Channel, ...] = ("ailerons", "elevator", "throttle", "rudder", "aux1", "aux2")
 
 
-class RadioError(Exception):
-    """A radio cannot be used: the message is one sentence for the user."""
-
-    def __init__(self, text: str, code: str = "") -> None:
-        super().__init__(text)
-        self.code = code
+class RadioError(UserError):
+    """A radio cannot be used."""
 
 
 @dataclass(frozen=True, slots=True)

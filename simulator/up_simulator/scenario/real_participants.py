@@ -13,10 +13,11 @@ from up_simulator.harness.world import BYTES_A_STEP
 from up_simulator.in_process.config_folder import merge, write_config
 from up_simulator.in_process.ground import InProcessGround
 from up_simulator.in_process.phone import InProcessPhone
+from up_simulator.link.relay import LOOPBACK
 from up_simulator.scenario.event import Event
 from up_simulator.scenario.line_board import LineBoard
 from up_simulator.scenario.participants import DaemonParticipants
-from up_simulator.scenario.real_reactor import LOOPBACK, RealReactor
+from up_simulator.scenario.real_reactor import RealReactor
 from up_simulator.scenario.runner_participants import RunnerDaemon, RunnerPhone, write_runner_config
 from up_simulator.scenario.scenario import Scenario
 from up_simulator.scenario.workspace import Workspace

@@ -9,10 +9,9 @@ from up_simulator.harness.participants import ParticipantError
 from up_simulator.in_process.host import LiteralResolver
 from up_simulator.link.datagram_relay import DatagramRelay
 from up_simulator.link.model import LinkModel
-from up_simulator.link.relay import LinkRelay, LinkRelayError
+from up_simulator.link.relay import LOOPBACK, LinkRelay, LinkRelayError
 
 LATEST_S = 0.25
-LOOPBACK = "127.0.0.1"
 
 
 class RealReactor:

@@ -15,8 +15,9 @@ import yaml
 from up_simulator.harness.participants import ParticipantError
 from up_simulator.harness.programs import RealRunner
 from up_simulator.in_process.phone import InProcessPhone
+from up_simulator.link.relay import LOOPBACK
 from up_simulator.phone.address import RaspberryPi, Runner, spawn
-from up_simulator.scenario.real_reactor import LOOPBACK, RealReactor
+from up_simulator.scenario.real_reactor import RealReactor
 
 AIRCRAFT = "default"
 LOG_TAIL_BYTES = 16_384

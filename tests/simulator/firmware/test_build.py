@@ -27,14 +27,6 @@ def no_avr(monkeypatch, tmp_path):
     monkeypatch.setattr(build, "FIRMWARE", tmp_path / "raspilot.elf")
 
 
-def test_with_the_tools_the_firmware_flies(monkeypatch):
-    build_firmware()
-    logged = []
-    board = choose_board(log=recorder(logged))
-    assert isinstance(board, RigBoard)
-    assert logged == []
-
-
 def test_without_the_avr_tools_the_host_build_flies(no_avr):
     need_tool("g++")
     logged = []

@@ -7,8 +7,6 @@ import struct
 import pytest
 
 from tests.simulator.firmware.pair import Aboard, rocking
-from tests.support.firmware import BuildError, make
-from tests.support.tools import need_tool
 from up_simulator.firmware.host_board import HostBoard, HostUnavailableError
 from up_simulator.firmware.imu_errors import ImuErrors
 
@@ -96,14 +94,3 @@ def test_an_invalid_library_is_refused(tmp_path):
             HostBoard(path, imu_errors=ImuErrors())
         assert str(path) in str(refused.value)
         assert "\n" not in str(refused.value)
-
-
-def test_without_a_compiler_the_error_names_the_package(tmp_path, monkeypatch):
-    programs = tmp_path / "bin"
-    programs.mkdir()
-    for name in ("make", "sh", "mkdir", "cmp", "echo"):
-        (programs / name).symlink_to(need_tool(name))
-    monkeypatch.setenv("PATH", str(programs))
-    wants = r"(?m)^Building the firmware for this computer needs a C\+\+ compiler: apt-get install"
-    with pytest.raises(BuildError, match=wants):
-        make("host-library", f"LIBRARY_BUILD={tmp_path}/new", f"HOST_LIBRARY={tmp_path}/new.so")

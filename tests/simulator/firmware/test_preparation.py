@@ -96,15 +96,6 @@ def test_an_invalid_profile_is_refused(settings, code, key):
     assert key in str(error.value)
 
 
-def test_an_unknown_choice_is_refused_with_the_known_ones():
-    for settings, known in (
-        ({"mix": "delta"}, "none, elevon, V-tail, not delta"),
-        ({"switch": {"low": "RTH"}}, "ACRO, RATE, FBW, AUTO, not RTH"),
-    ):
-        with pytest.raises(SettingsError, match=known):
-            profile_bytes(settings, HELD)
-
-
 def test_an_error_of_settings_is_the_same_after_a_copy_between_processes():
     error = pickle.loads(pickle.dumps(SettingsError("a text", code="not_a_number", key="mix")))
     assert (str(error), error.code, error.key) == ("a text", "not_a_number", "mix")

@@ -12,7 +12,7 @@ from up_rig.pty_line import PtyLine
 from up_simulator.firmware.wire import checked_frame
 from up_simulator.harness.child import Child
 from up_simulator.harness.participants import ParticipantError
-from up_simulator.harness.programs import RealProxy, RealRaspilot, RealRunner
+from up_simulator.harness.programs import RealRaspilot
 
 DEADLINE_S = 60.0
 
@@ -141,41 +141,3 @@ def test_the_daemon_is_killed_within_a_frame_and_restarted(raspilot, line, tmp_p
     assert log.count('"code": "started"') == 2, "both runs are in one log"
     raspilot.stop()
     assert not raspilot.is_running
-
-
-def test_a_frozen_daemon_is_stopped(raspilot):
-    raspilot.start()
-    raspilot.wait_for("started")
-    raspilot.freeze()
-    stat = Path(f"/proc/{raspilot.pid}/stat")
-    wait(lambda: stat.read_text().rsplit(")", 1)[1].split()[0] == "T", "it stands still")
-    assert raspilot.is_running
-    raspilot.stop()
-    assert not raspilot.is_running
-
-
-def test_a_daemon_with_a_wrong_configuration_is_reported(raspilot, tmp_path):
-    (tmp_path / "config" / "config.yml").write_text("log levle: info\n")
-    raspilot.start()
-    with pytest.raises(ParticipantError) as caught:
-        raspilot.wait_for("started")
-    assert "status 2" in str(caught.value) and "config.yml" in str(caught.value)
-    assert raspilot.log
-
-
-def test_a_proxy_and_a_runner_report_their_ports(tmp_path, short_path):
-    (tmp_path / "proxy.yml").write_text("airborne port: 0\nground port: 0\nmetrics: false\n")
-    (tmp_path / "runner.yml").write_text(
-        f"port: 0\nrun folder: {short_path}\nstop instances on exit: true\ni_accept_root: true\n"
-    )
-    proxy, runner = RealProxy(tmp_path, tmp_path), RealRunner(tmp_path, tmp_path)
-    proxy.start()
-    runner.start()
-    proxy.wait_for_ports()
-    runner.wait_for_port()
-    for port in (proxy.airborne_port, proxy.ground_port, runner.port):
-        assert 1024 <= port <= 65535
-    for server in (proxy, runner):
-        server.check()
-        server.stop()
-        assert not server.is_running

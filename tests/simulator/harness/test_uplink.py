@@ -16,19 +16,19 @@ def test_words_become_a_link():
 
 
 @pytest.mark.parametrize(
-    ("text", "says"),
+    ("text", "word"),
     [
-        ("delay", "'delay' is not understood (delay, jitter, loss, rate)"),
-        ("lag=3", "'lag=3' is not understood"),
-        ("loss=95", "loss=95: loss is 0 to 90"),
-        ("delay=nan", "delay=nan: delay is 0 to 10000"),
-        ("rate=-1", "rate=-1: rate is 0 to 1e+09"),
+        ("delay", "'delay'"),
+        ("lag=3", "'lag=3'"),
+        ("loss=95", "loss=95:"),
+        ("delay=nan", "delay=nan:"),
+        ("rate=-1", "rate=-1:"),
     ],
 )
-def test_an_invalid_link_is_refused(text, says):
+def test_an_invalid_link_is_refused_by_its_word(text, word):
     with pytest.raises(UplinkError) as caught:
         read_link(text)
-    assert says in str(caught.value) and "\n" not in str(caught.value)
+    assert word in str(caught.value) and "\n" not in str(caught.value)
 
 
 @given(st.text(max_size=40) | st.from_regex(r"(delay|loss|rate)=[-+.eEinf0-9_]{0,9}"))

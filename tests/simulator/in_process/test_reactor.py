@@ -31,22 +31,6 @@ def test_time_moves_in_steps_and_does_not_drift(reactor):
     assert seen_s == [n / 500 for n in range(20_001)]
 
 
-def test_a_call_may_be_moved_and_cancelled(reactor):
-    order = []
-    first = reactor.callLater(0.1, order.append, "first")
-    second = reactor.callLater(0.2, order.append, "second")
-    third = reactor.callLater(0.15, order.append, "third")
-    first.delay(0.2)
-    second.reset(0.05)
-    third.cancel()
-    reactor.advance(0.1)
-    assert order == ["second"]
-    reactor.advance(0.15)
-    assert order == ["second"]
-    reactor.advance(0.1)
-    assert order == ["second", "first"]
-
-
 def test_calls_made_in_a_step_run_in_the_next_one(reactor):
     made_s = []
 

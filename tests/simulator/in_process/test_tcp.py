@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from twisted.internet.error import CannotListenError
-from twisted.internet.interfaces import IPullProducer, IPushProducer
+from twisted.internet.interfaces import IPushProducer
 from twisted.logger import capturedLogs
 from zope.interface import implementer
 
@@ -123,35 +123,6 @@ def test_an_aborted_connection_is_reset_at_the_other_side():
     assert (bench.here.lost, bench.there.lost) == ("ConnectionAborted", None)
     bench.reactor.advance(0.1)
     assert bench.there.lost == "ConnectionLost"
-
-
-@implementer(IPullProducer)
-class Pull:
-    def __init__(self, transport, piece):
-        self.transport, self.piece, self.resumed, self.stopped = transport, piece, 0, False
-
-    def resumeProducing(self):  # noqa: N802
-        self.resumed += 1
-        self.transport.write(self.piece)
-
-    def stopProducing(self):  # noqa: N802
-        self.stopped = True
-
-
-def test_a_pull_producer_resumes_when_all_data_has_left():
-    bench = Bench(LinkSettings(delay_ms=20, rate_bytes_s=100_000))
-    bench.connect()
-    producer = Pull(bench.here.transport, b"x" * 10_000)
-    began_s = bench.reactor.seconds()
-    bench.here.transport.registerProducer(producer, False)
-    bench.reactor.advance(2.0)
-    # The link's rate decides, beyond the data in transit.
-    passed = (bench.reactor.seconds() - began_s) * 100_000
-    assert 0.7 * passed <= len(bench.there.received) <= passed
-    assert producer.resumed <= len(bench.there.received) / 10_000 + 4
-    bench.here.transport.abortConnection()
-    bench.reactor.advance(0.1)
-    assert producer.stopped
 
 
 @implementer(IPushProducer)

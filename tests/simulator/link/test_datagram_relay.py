@@ -116,19 +116,6 @@ def test_datagrams_arrive_unchanged_and_in_order(link, datagrams):
     flown(fly)
 
 
-def test_the_largest_datagram_arrives_whole():
-    async def fly():
-        async with Bench() as bench:
-            # A Twisted socket takes 8 KiB on its own.
-            bench.ports[0].maxPacketSize = 65536
-            data = bytes(range(256)) * 250
-            await bench.send(bench.client(), data)
-            await bench.pass_s(0)
-            assert bench.arrived == [data]
-
-    flown(fly)
-
-
 def test_the_queue_is_bounded():
     async def fly():
         async with Bench() as bench:

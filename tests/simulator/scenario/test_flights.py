@@ -1,6 +1,5 @@
 """Real flights of the compiled firmware and of the daemon, short ones."""
 
-import dataclasses
 import os
 import subprocess
 import sys
@@ -11,9 +10,8 @@ from tests.simulator.scenario.minimal import HEAD
 from tests.support.firmware import build_firmware
 from up_simulator.firmware.imu_errors import drawn_errors
 from up_simulator.scenario.build import build_flight
-from up_simulator.scenario.file import parse_scenario, read_scenario
-from up_simulator.scenario.result import Result, control_scenario, control_verdicts, verdicts_of
-from up_simulator.verbs.catalogue import SHIPPED
+from up_simulator.scenario.file import parse_scenario
+from up_simulator.scenario.result import Result, verdicts_of
 
 LEVEL = "sticks: [{at_s: 0, mode: FBW, arm: true, throttle: 0.5}]\n"
 HELD = "expect: [{name: It is held, signal: error.roll_deg, rms_below: 3}]\n"
@@ -143,16 +141,6 @@ def test_ctrl_c_ends_a_flight_with_a_partial_record():
     assert not Result(record, verdicts_of(record)).is_held
 
 
-def test_a_control_run_that_holds_fails_the_scenario():
-    shipped = read_scenario(SHIPPED / "level-flight-in-gusts.yml")
-    calm = dataclasses.replace(
-        shipped, weather=dataclasses.replace(shipped.weather, turbulence="none", gusts=()),
-        duration_s=3.0,
-    )  # fmt: skip
-    verdicts = control_verdicts(calm, build_flight(control_scenario(calm)).fly())
-    assert "control_held" in [verdict.code for verdict in verdicts]
-
-
 def test_the_bias_is_drawn_by_the_seed_unless_the_scenario_sets_it():
     def bias(text):
         return build_flight(parse_scenario(HEAD + text + LEVEL + HELD))._board.imu.errors
@@ -175,20 +163,6 @@ def test_a_stick_reaches_the_board_after_the_receivers_delay():
         return record.log.numbers("time_s")[next(at for at, us in enumerate(pulses) if us > 1700)]
 
     assert moved_s(200) - moved_s(0) == pytest.approx(0.2, abs=0.001)
-
-
-def test_a_receiver_without_radio_holds_the_sticks_and_sends_its_failsafe_throttle():
-    record = fly(
-        HEAD + "board: direct\nreceiver: {failsafe_throttle_us: 890}\n"
-        "sticks: [{at_s: 0, throttle: 0.5}, {at_s: 2, ailerons: 0.5}]\n"
-        "events: [{at_s: 1, receiver: failsafe}, {at_s: 3, receiver: back}]\n"
-        "expect: [{name: It flies, signal: time_s, above: 0}]\n"
-    )
-    rows = dict(zip(record.log.numbers("time_s"), range(201), strict=True))
-    throttle = record.log.numbers("servo.throttle_us")
-    ailerons = record.log.numbers("servo.ailerons_us")
-    pulses = [(throttle[rows[at_s]], ailerons[rows[at_s]]) for at_s in (0.9, 2.9, 3.9)]
-    assert pulses == [(1500, 1500), (890, 1500), (1500, 1750)]
 
 
 def test_without_gps_the_position_becomes_stale_and_the_altitude_does_not():

@@ -54,6 +54,16 @@ def fly(patch):
     )
 
 
+def test_a_daemon_that_fails_is_reported_with_its_newest_log_lines():
+    module = "serial_cog.modules.serial_provider.SerialProvider"
+    config = f"{{disabled_modules.yml: {{disabled modules: [{module}]}}}}"
+    Path("real.yml").write_text(REAL.replace("runs: real", f"runs: real, config: {config}"))
+    done = fly("")
+    assert done.returncode == 1 and "SerialProvider" in done.stdout
+    summary = json.loads(Path("out/real/summary.json").read_text())
+    assert summary["held"] is False and summary["failure_code"] == "participant_failed"
+
+
 def test_a_serial_line_that_cannot_be_reopened_fails_the_flight():
     done = fly(TAKEN_NAME)
     assert "Traceback" not in done.stderr, done.stderr

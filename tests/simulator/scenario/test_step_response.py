@@ -56,24 +56,6 @@ def test_a_first_order_system_rises_in_2_2_and_settles_in_3_time_constants(tau_s
     assert response.swings == 0
 
 
-@pytest.mark.parametrize("damping", [0.25, 0.5, 0.707, 1.0, 2.0])
-def test_rise_and_settling_are_those_of_the_exact_curve(damping):
-    natural = 5.0
-    times, values = second_order(damping, natural, seconds=12.0)
-    low, high = (
-        next(time for time, value in zip(times, values, strict=True) if value >= level) - 1
-        for level in (0.1, 0.9)
-    )
-    last_out = max(
-        time
-        for time, value in zip(times, values, strict=True)
-        if time >= 1 and abs(value - 1) > 0.05
-    )
-    response = analyse_step(times, values, 1.0, 0, 1)
-    assert response.rise_time_s == pytest.approx(high - low, abs=2 * STEP_S)
-    assert response.settling_time_s == pytest.approx(last_out - 1, abs=3 * STEP_S)
-
-
 def test_swings_are_counted_from_the_first_one_beyond():
     damping = 0.2
     times, values = second_order(damping, 6.0)
@@ -144,17 +126,6 @@ def test_noise_moves_the_figures_little(seed):
     assert response.overshoot_percent == pytest.approx(clean.overshoot_percent, abs=2.5)
     assert response.settling_time_s == pytest.approx(clean.settling_time_s, rel=0.15)
     assert response.steady_error == pytest.approx(clean.steady_error, abs=0.3)
-
-
-def test_single_wild_samples_move_nothing():
-    times, values = second_order(0.5, 4.0, end=30)
-    wild = list(values)
-    for index in (60, 155, 156, 400, 790):
-        wild[index] = 300.0
-    clean, response = (analyse_step(times, each, 1.0, 0, 30) for each in (values, wild))
-    assert response.overshoot_percent == pytest.approx(clean.overshoot_percent, abs=0.5)
-    assert response.rise_time_s == pytest.approx(clean.rise_time_s, abs=STEP_S)
-    assert response.settling_time_s == pytest.approx(clean.settling_time_s, abs=2 * STEP_S)
 
 
 GOOD = [index * 0.1 for index in range(40)]

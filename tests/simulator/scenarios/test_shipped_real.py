@@ -7,6 +7,7 @@ import pytest
 
 from tests.simulator.scenarios.shipped import REAL, SCENARIOS
 from tests.support.firmware import build_firmware
+from up_flightlog.read.flight_log import FlightLog
 
 START_AND_END_S = 90.0
 
@@ -23,3 +24,6 @@ def test_what_real_programs_fly_holds(name, tmp_path):
         timeout=SCENARIOS[name].duration_s + START_AND_END_S,
     )
     assert done.returncode == 0, done.stdout + done.stderr
+    boxes = sorted((tmp_path / name / "black-box").glob("*.mcap"))
+    recorded = [FlightLog.read([path]).topics for path in boxes]
+    assert recorded and all(topics["up.orientation.update"] > 20 for topics in recorded)
