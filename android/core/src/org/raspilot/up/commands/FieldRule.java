@@ -69,7 +69,7 @@ final class FieldRule {
     /** Throws InvalidCommandException unless a value is valid. */
     void check(String field, Object value) {
         String code = !isOfType(value) ? "wrong_type" : !isInRange(value) ? "out_of_range"
-                : !isChosen(value) ? "not_a_choice" : length(value) > maxLength ? "too_long" : "";
+                : !isChosen(value) ? "unknown_choice" : length(value) > maxLength ? "too_long" : "";
         if (!code.isEmpty()) {
             throw refusal(code, field,
                     code.equals("too_long") ? "of " + length(value) : shown(value));

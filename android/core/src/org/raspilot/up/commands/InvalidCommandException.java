@@ -9,7 +9,7 @@ public final class InvalidCommandException extends IllegalArgumentException {
     private static final long serialVersionUID = 1L;
 
     /**
-     * What is wrong: {@code missing unknown wrong_type out_of_range not_a_choice too_long empty
+     * What is wrong: {@code missing unknown wrong_type out_of_range unknown_choice too_long empty
      * malformed incomplete}.
      */
     public final String code;

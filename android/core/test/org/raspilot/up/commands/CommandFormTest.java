@@ -117,7 +117,7 @@ public final class CommandFormTest {
         assertRefused("wrong_type count", "count", "2.5");
         assertRefused("wrong_type count", "count", "99999999999999999999");
         assertRefused("out_of_range size", "size", "-1.01");
-        assertRefused("not_a_choice gear", "gear", "3");
+        assertRefused("unknown_choice gear", "gear", "3");
         assertRefused("too_long word", "word", "abcd");
         assertRefused("wrong_type tree", "tree", "{a: 1}");
         assertRefused("wrong_type tree", "tree", "[1]");
