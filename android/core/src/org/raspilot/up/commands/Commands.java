@@ -72,6 +72,7 @@ public final class Commands {
             fields.text("id", GeneralMessage.MAX_ID_LENGTH);
             fields.text("code", 32);
             fields.text("reason", 500, "");
+            fields.text("detail", 32, "");
         }));
         registry.register(PANIC, rule(fields -> {
             fields.flag("panic");
