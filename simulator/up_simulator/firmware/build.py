@@ -49,21 +49,22 @@ def choose_board(
     seed: int = 1,
     imu_errors: ImuErrors | None = None,
     eeprom: bytes = b"",
+    elf: Path | None = None,
     log: Log = no_log,
 ) -> FirmwareBoard:
     """Return a freshly powered board.
 
     ``auto`` is the firmware on the simulated chip if the AVR tools and simavr are installed,
     otherwise the same sources built for this computer, which ``log`` reports in one sentence.
-    Raises ``BoardUnavailableError``.
+    ``elf`` is a built firmware that replaces the project's own. Raises ``BoardUnavailableError``.
     """
     if kind == "direct":
         return DirectBoard(seed=seed, imu_errors=imu_errors)
-    program = aboard(kind, log)
+    program = aboard("firmware" if elf else kind, log, elf)
     return program.board(seed=seed, imu_errors=imu_errors, eeprom=eeprom)
 
 
-def aboard(kind: BoardKind, log: Log = no_log) -> Program:
+def aboard(kind: BoardKind, log: Log = no_log, elf: Path | None = None) -> Program:
     """Return the program for a kind of board, built if need be; raises as ``choose_board``.
 
     If the build is impossible, an earlier build is used, which ``log`` reports.
@@ -72,7 +73,7 @@ def aboard(kind: BoardKind, log: Log = no_log) -> Program:
         return _host_program(log)
     try:
         load_library()
-        return Program(_firmware(log), RigBoard)
+        return Program(elf or _firmware(log), RigBoard)
     except BuildError as error:
         raise BoardUnavailableError(f"the firmware does not compile: {_reason(error)}") from error
     except RigUnavailableError as error:

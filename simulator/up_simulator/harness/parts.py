@@ -47,7 +47,7 @@ def make_board(options: argparse.Namespace, airframe: Airframe, log: Log) -> Fir
     ``auto`` is the firmware on its chip, or, without the AVR tools, the same sources built for
     this computer, which ``log`` reports in one sentence. Raises ``BoardUnavailableError``.
     """
-    if not FIRMWARE.exists():
+    if not FIRMWARE.exists() and options.elf is None:
         log("building the firmware, which takes a minute the first time", code="building")
     errors = drawn_errors(
         options.seed,
@@ -61,10 +61,11 @@ def make_board(options: argparse.Namespace, airframe: Airframe, log: Log) -> Fir
             seed=options.seed,
             imu_errors=errors,
             eeprom=eeprom,
+            elf=options.elf,
             log=log,
         )
     except BoardUnavailableError as error:
-        if options.board == "auto":
+        if options.elf is not None or options.board == "auto":
             raise
         advice = "leave --board out to fly the best board that works here"
         raise BoardUnavailableError(f"--board {options.board}: {error}; or {advice}") from error

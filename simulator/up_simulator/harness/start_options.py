@@ -119,6 +119,7 @@ def _add_board(group: argparse._ArgumentGroup) -> None:
         default="auto",
         help=BOARD_HELP,
     )
+    group.add_argument("--elf", type=_file, metavar="FILE", help="a built firmware")
     group.add_argument(
         "--gains", type=_file, metavar="FILE", help="pids.yml that the Arduino's EEPROM holds"
     )

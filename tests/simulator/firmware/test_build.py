@@ -118,6 +118,15 @@ def test_a_compiler_error_is_reported_in_one_line(monkeypatch):
     assert "\n" not in str(error.value)
 
 
+def test_another_elf_flies_in_the_place_of_the_projects_own(tmp_path):
+    build_firmware()
+    path = tmp_path / "broken.elf"
+    path.write_bytes(b"no ELF")
+    with pytest.raises(BoardUnavailableError) as error:
+        choose_board(elf=path)
+    assert "broken.elf" in str(error.value)
+
+
 def test_no_board_needs_no_tools(no_avr):
     assert isinstance(choose_board("direct"), DirectBoard)
 

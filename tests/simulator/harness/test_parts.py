@@ -11,7 +11,7 @@ from up_simulator.firmware.build import BoardUnavailableError
 from up_simulator.harness.parts import make_board
 from up_simulator.harness.user_log import no_log
 
-OPTIONS = {"framing": "checked", "gains": None, "seed": 1}
+OPTIONS = {"framing": "checked", "elf": None, "gains": None, "seed": 1}
 
 
 @pytest.fixture

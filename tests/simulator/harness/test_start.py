@@ -105,6 +105,7 @@ def test_a_reader_that_stops_does_no_harm(tmp_path):
         ("--radio", "telepathy"),
         ("--controller", "flaps=1"),
         ("--airfram", "wing"),
+        ("--elf", "missing.elf"),
         ("--gains", "missing.yml"),
         ("--replay", "missing.csv"),
         ("--state-log", "/nowhere/truth.csv"),
