@@ -28,7 +28,9 @@ from tools.schema_definition import (  # noqa: E402
     event_rule,
 )
 
-NOTE = "Generated from schema/ by tools/schema.py; do not edit."
+NOTE = "Generated from schema/{} by tools/schema.py; do not edit."
+BOARD_NOTE = NOTE.format("status.yml")
+TELEMETRY_NOTE = NOTE.format("{telemetry,events,status}.yml")
 
 
 def cpp(schema: Schema) -> str:
@@ -46,7 +48,7 @@ def cpp(schema: Schema) -> str:
     refusals = [(each.name.upper(), each.code) for each in schema.refusals]
     offsets = [(f"AT_{each.name.upper()}", each.offset) for each in schema.status]
     return (
-        f"/** Codes of the serial line and layout of the status message.\n *  {NOTE} */\n"
+        f"/** Codes of the serial line and layout of the status message.\n *  {BOARD_NOTE} */\n"
         "#pragma once\n\n#include <stdint.h>\n\nnamespace raspilot {\n\n"
         f"constexpr uint8_t PROTOCOL_VERSION = {schema.version};\n"
         f"constexpr uint8_t STATUS_SIZE = {schema.size};\n\n"
@@ -77,7 +79,7 @@ def python(schema: Schema) -> str:
     positions = {k: v for r in schema.status if r.name == "switch" for k, v in r.values.items()}
     positions.pop(255)
     return "\n".join([
-        f'"""Codes and fields of the board\'s status. {NOTE}"""',
+        f'"""Codes and fields of the board\'s status. {BOARD_NOTE}"""',
         "# ruff: noqa: D101, E501, RUF100", "# fmt: off", "",
         "from __future__ import annotations", "", "from dataclasses import dataclass",
         "from enum import IntEnum, IntFlag", "from struct import Struct", "",
@@ -128,10 +130,11 @@ def python_telemetry(schema: Schema) -> str:
     events = (f"    {each.code!r}: {text}" for each in schema.events
               for text in rows("Rule", [_given(event_rule(each))]))  # fmt: skip
     return "\n".join([
-        f'"""Fields, ages, events and alarms of telemetry. {NOTE}"""',
+        f'"""Fields, ages, events and alarms of telemetry. {TELEMETRY_NOTE}"""',
         "# ruff: noqa: E501, RUF100", "# fmt: off", "", "from typing import Any", "",
         "from up.commands.schema_rows import Field, Reading, Rule", "",
-        *(f"{name.upper()} = {value!r}" for name, value in schema.times.items()),
+        *(f"{name.upper()} = {value!r}" for name, value in schema.times.items()
+          if name != "hold_s"),
         "READINGS = {",
         *(f"    {r.name!r}: Reading(stale_s={r.stale_s}, source_s={r.source_s}),"
           for r in schema.readings),
@@ -192,7 +195,7 @@ def javascript(schema: Schema) -> str:
             "READING_OF", {each.name: each.reading for each in schema.fields if each.reading}),
         "Limits of the alarms of numbers.": ("LIMITS", _limits(schema)),
     }  # fmt: skip
-    return f"// {NOTE}\n" + "".join(
+    return f"// {TELEMETRY_NOTE}\n" + "".join(
         f"\n/** {about} */\nexport const {name} = {json.dumps(value, indent=2)};\n"
         for about, (name, value) in tables.items()
     )
@@ -237,7 +240,7 @@ def java(schema: Schema) -> str:
 
 {imports}
 /** Tables of telemetry.
- *  {NOTE} */
+ *  {TELEMETRY_NOTE} */
 public final class TelemetrySchema {{
 {times}    /** Maximum age of a reading that is not stale, ms. */
     static final Map<String, Long> STALE_MS = new LinkedHashMap<>();

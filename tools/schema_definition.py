@@ -66,7 +66,8 @@ class Schema:
         self.holds_s = {each.alarm: hold_s for each in self.events if each.alarm}
         for rule in self.rules:
             if rule["alarm"]:
-                self.holds_s.setdefault(rule["alarm"], rule["hold_s"] or hold_s)
+                own_s = rule.get("hold_s", "")
+                self.holds_s.setdefault(rule["alarm"], hold_s if own_s == "" else own_s)
 
     def _read_events(self, data: dict[str, Any]) -> None:
         for name in ("hold_s", "pause_s", "max_pause_s", "quiet_s"):

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 from up.commands.flight_state_command import FlyByWireLimitsCommand
+from up.flight_controller.airframe_profile import DEFAULT_LIMITS_DEG
 
 CENTRE_US = 1500
 HALF_TRAVEL_US = 500
@@ -14,9 +15,9 @@ HALF_TRAVEL_US = 500
 class Limits:
     """Bank and pitch at full stick, in degrees; by default those of the Arduino."""
 
-    roll_deg: float = 50.0
-    pitch_up_deg: float = 20.0
-    pitch_down_deg: float = 25.0
+    roll_deg: float = DEFAULT_LIMITS_DEG["roll_deg"]
+    pitch_up_deg: float = DEFAULT_LIMITS_DEG["pitch_up_deg"]
+    pitch_down_deg: float = DEFAULT_LIMITS_DEG["pitch_down_deg"]
 
     @classmethod
     def of(cls, command: FlyByWireLimitsCommand) -> Limits:

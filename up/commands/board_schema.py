@@ -1,4 +1,4 @@
-"""Codes and fields of the board's status. Generated from schema/ by tools/schema.py; do not edit."""
+"""Codes and fields of the board's status. Generated from schema/status.yml by tools/schema.py; do not edit."""
 # ruff: noqa: D101, E501, RUF100
 # fmt: off
 

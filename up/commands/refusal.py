@@ -1,4 +1,4 @@
-"""Reasons why a Command is not carried out."""
+"""Reasons why a Command is not carried out; the board's own are in schema/status.yml."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Fields, ages, events and alarms of telemetry. Generated from schema/ by tools/schema.py; do not edit."""
+"""Fields, ages, events and alarms of telemetry. Generated from schema/{telemetry,events,status}.yml by tools/schema.py; do not edit."""
 # ruff: noqa: E501, RUF100
 # fmt: off
 
@@ -6,7 +6,6 @@ from typing import Any
 
 from up.commands.schema_rows import Field, Reading, Rule
 
-HOLD_S = 2.0
 PAUSE_S = 3.0
 MAX_PAUSE_S = 30.0
 QUIET_S = 60.0

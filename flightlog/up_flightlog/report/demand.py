@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
+from up.flight_controller.airframe_profile import DEFAULT_LIMITS_DEG
 from up.flight_log.json_message import number_at
 from up_flightlog.read.flight_log import FlightLog
 from up_flightlog.read.series import Series
@@ -12,7 +13,6 @@ from up_flightlog.read.series import Series
 STATE, STICKS, SETPOINT = "up.flight.state", "up.rx.update", "up.setpoint.set"
 PROFILE = "arduino.profile.values"
 _CENTRE_US, _HALF_TRAVEL_US = 1500.0, 500.0
-_LIMITS = {"roll_deg": 50.0, "pitch_up_deg": 20.0, "pitch_down_deg": 25.0}
 _CIRCLE = {"circle_bank_deg": 20.0, "glide_pitch_deg": -3.0}
 """The Arduino's default (docs/airframe.md), until the log contains its profile."""
 
@@ -25,7 +25,7 @@ class Demand:
         self.pitch = Series()
         self._mode: object = None
         self._is_failsafe = False
-        self._limits = dict(_LIMITS)
+        self._limits = dict(DEFAULT_LIMITS_DEG)
         self._circle = dict(_CIRCLE)
         handlers = {
             STATE: self._on_state,

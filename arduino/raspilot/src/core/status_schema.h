@@ -1,5 +1,5 @@
 /** Codes of the serial line and layout of the status message.
- *  Generated from schema/ by tools/schema.py; do not edit. */
+ *  Generated from schema/status.yml by tools/schema.py; do not edit. */
 #pragma once
 
 #include <stdint.h>

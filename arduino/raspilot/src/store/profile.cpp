@@ -46,19 +46,19 @@ bool is_profile(const uint8_t* wire) {
 const Profile DEFAULT_PROFILE PROGMEM = {
     {{false, 0, 1000, 2000}, {false, 0, 1000, 2000}, {false, 0, 1000, 2000}, {false, 0, 1000, 2000}},
     Mix::NONE,
-    true,
-    {'a', 'f', 'A'},
-    5000,
+    true,             // has_motor
+    {'a', 'f', 'A'},  // AUX1 low, middle, high
+    5000,             // FBW: roll, pitch up, pitch down, hundredths of a degree
     2000,
     2500,
-    -300,
+    -300,  // receiver lost: pitch and bank of the circle, throttle output
     2000,
     1000,
-    900,
+    900,   // a throttle below this is the receiver's own failsafe
+    1500,  // receiver lost and no attitude: ailerons, elevator, rudder
     1500,
     1500,
-    1500,
-    false,
+    false,  // may_return_with_motor
 };
 
 bool read_profile(const uint8_t* wire, Profile& profile) {

@@ -1,4 +1,4 @@
-// Generated from schema/ by tools/schema.py; do not edit.
+// Generated from schema/{telemetry,events,status}.yml by tools/schema.py; do not edit.
 
 /** Effect and holder of each flight mode. */
 export const MODES = {

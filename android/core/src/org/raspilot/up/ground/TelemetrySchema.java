@@ -7,7 +7,7 @@ import java.util.List;
 import java.util.Map;
 
 /** Tables of telemetry.
- *  Generated from schema/ by tools/schema.py; do not edit. */
+ *  Generated from schema/{telemetry,events,status}.yml by tools/schema.py; do not edit. */
 public final class TelemetrySchema {
     static final long PAUSE_MS = 3000;
     static final long MAX_PAUSE_MS = 30000;
