@@ -2,6 +2,8 @@
 
 import struct
 
+from up.flight_controller.airframe_profile import DEFAULT_LIMITS_DEG
+
 SERVOS = ("ailerons", "elevator", "throttle", "rudder")
 # docs/protocols.md 2.6, with what the firmware boots with.
 SERVO = {"reversed": 0, "trim_us": 0, "lowest_us": 1000, "highest_us": 2000}
@@ -9,9 +11,10 @@ AIRFRAME = {
     "mix": 0,
     "motor": 1,
     "switch": b"afA",
-    "roll_limit_cdeg": 5000,
-    "pitch_up_limit_cdeg": 2000,
-    "pitch_down_limit_cdeg": 2500,
+    **{
+        name.replace("_deg", "_limit_cdeg"): round(100 * limit_deg)
+        for name, limit_deg in DEFAULT_LIMITS_DEG.items()
+    },
     "glide_pitch_cdeg": -300,
     "circle_bank_cdeg": 2000,
     "throttle_failsafe_us": 1000,
