@@ -27,8 +27,8 @@ TEXT = (REPOSITORY / "docs" / PAGE).read_text(encoding="utf-8")
 PROXY = "run/demo/proxy.pid"
 ADDRESS = r"http://127\.0\.0\.1:\d+/"
 FBW, OUTPUT = (
-    "board: FBW, the Arduino holds the attitude",
-    "board: OUTPUT, Raspilot moves the servos",
+    "board: FBW: the sticks ask for attitude, within limits",
+    "board: OUTPUT: the Raspberry Pi sets the servo positions",
 )
 ENDED = "aircraft ended unexpectedly with signal 9; the end of its log "
 

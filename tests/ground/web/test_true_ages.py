@@ -37,9 +37,9 @@ class ClockedAircraft(Aircraft):
 
 
 @contextlib.asynccontextmanager
-async def link_to(port, **options):
+async def link_to(port):
     """Relay to a port by a link without any delay; ``up`` and ``down`` may be changed."""
-    relay = LinkRelay(reactor, 0, "127.0.0.1", port, LinkModel(), LinkModel(), **options)
+    relay = LinkRelay(reactor, 0, "127.0.0.1", port, LinkModel(), LinkModel())
     relay.start()
     try:
         yield relay
@@ -143,7 +143,8 @@ def test_a_page_behind_a_thin_line_draws_nothing_old_as_live(proxy, tmp_path):
             ClockedAircraft(proxy.airborne_port, data=data),
             Serve(tmp_path, proxy.ground_port) as server,
         ):
-            async with link_to(server.port, window=96 * 1024) as link:
+            async with link_to(server.port) as link:
+                link.window = 96 * 1024
                 with NodePage(link.port) as page:
                     await until(lambda: len(page.told) > 20)
                     link.down.settings = LinkSettings(rate_bytes_s=40_000)

@@ -88,7 +88,7 @@ def test_each_seed_draws_the_bias_and_the_drift_of_another_sensor():
         assert all(2 <= abs(each) <= 4 for each in biases)
         assert min(biases) < -3.5 and max(biases) > 3.5
         drifts = [each.gyro_drift_deg_s[axis] for each in drawn]
-        assert -4 <= min(drifts) < -3.5 and 3.5 < max(drifts) <= 4
+        assert -1 <= min(drifts) < -0.8 and 0.8 < max(drifts) <= 1
 
 
 def test_given_errors_of_a_sensor_are_not_drawn():
