@@ -101,6 +101,8 @@ class RaspilotFlightController(BaseFlightController):
             self.log.error("{reason}", reason=str(problem), code="gains_invalid")
             self.up.vetoes.set("pids.yml", str(problem))
         self._build(self.gains)
+        ages_s = self.FLIGHT_MODES["FBW"]
+        self._rx_age_s, self._orientation_age_s = ages_s["rx"], ages_s["orientation"]
         # With its origin the bus need not search the publisher of each Output.
         self._origin = Origin(self.class_name, Role.INTERNAL)
         executor = self._executor = self.up.command_executor
@@ -125,8 +127,8 @@ class RaspilotFlightController(BaseFlightController):
             or executor.origin.role is not Role.BOARD
         ):
             return
-        rx = self.rx.fresh(RX_MAX_AGE_S)
-        reading = self.orientation.fresh(ORIENTATION_MAX_AGE_S)
+        rx = self.rx.fresh(self._rx_age_s)
+        reading = self.orientation.fresh(self._orientation_age_s)
         if rx is None or reading is None or reading.value is not command:
             return
         now_s = reading.time_s

@@ -2,6 +2,7 @@
 
 import math
 import threading
+from typing import ClassVar
 
 import pytest
 from twisted.internet.task import Clock
@@ -60,17 +61,26 @@ class Ground(BaseMissionControlProvider):
 class Rig:
     """A flight controller, a board and a pilot."""
 
-    def __init__(self, folder, *, gains=OTHER_GAINS, clock=None, mode=Mode.AUTO, **config):
+    def __init__(
+        self,
+        folder,
+        *,
+        gains=OTHER_GAINS,
+        clock=None,
+        mode=Mode.AUTO,
+        controller=RaspilotFlightController,
+        **config,
+    ):
         folder.mkdir(exist_ok=True)
         if gains is not None:
             PidsFile(folder).save(gains)
         self.clock = clock or Clock()
         self.up = build_up(
-            (RaspilotFlightController, Ground), self.clock, folder, mode=mode,
+            (controller, Ground), self.clock, folder, mode=mode,
             config={**CONFIG, **{name + ".yml": text for name, text in config.items()}},
         )  # fmt: skip
         self.bus = self.up.command_executor
-        self.controller = self.up.get_module(RaspilotFlightController)
+        self.controller = self.up.get_module(controller)
         self.ground = self.up.get_module(Ground)
         self.outputs, self.modes = [], []
         self.bus.register_command(OutputCommand, self.outputs.append)
@@ -102,6 +112,20 @@ class Rig:
         got = []
         self.bus.execute_and_wait(command, origin).addBoth(got.append)
         return got
+
+
+class Impatient(RaspilotFlightController):
+    """An author's controller that wants newer readings than the base."""
+
+    FLIGHT_MODES: ClassVar = {"FBW": {"rx": 0.03, "orientation": 0.02}}
+
+
+def test_the_ages_of_a_subclass_limit_the_control_step(tmp_path):
+    rig = Rig(tmp_path, controller=Impatient)
+    rig.state()
+    rig.sticks()
+    assert rig.frame() is not None
+    assert rig.frame() is None, "the receiver's inputs are 40 ms old"
 
 
 @pytest.fixture

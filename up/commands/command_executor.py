@@ -52,6 +52,7 @@ class CommandExecutor:
         "_controlled",
         "_faults",
         "_handlers",
+        "_is_draining",
         "_logged_names",
         "_observers",
         "_observing",
@@ -92,6 +93,7 @@ class CommandExecutor:
         # Observers and handlers by Command, apart for those that need control.
         self._called: dict[str, tuple[Handler, ...]] = {}
         self._controlled: dict[str, tuple[Handler, ...]] = {}
+        self._is_draining = False
         self._waiting: deque[tuple[BaseCommand, Origin, Deferred[None] | None]] = deque()
         self._logged_names: set[str] = set()
         self._faults: Counter[tuple[str, str]] = Counter()
@@ -204,7 +206,7 @@ class CommandExecutor:
         finally:
             # Reset after any exception: a bus that is marked busy never delivers again.
             self.dispatching_since = 0.0
-        if self._waiting:
+        if self._waiting and not self._is_draining:
             self._drain()
 
     publish = execute_command
@@ -245,15 +247,20 @@ class CommandExecutor:
             self._call_from_thread(self.execute_command, command, origin)
 
     def _drain(self) -> None:
+        # One loop for all that wait: draining from within it would end in a RecursionError.
         waiting = self._waiting
-        while waiting and not self.dispatching_since:
-            command, origin, done = waiting.popleft()
-            if done is not None:
-                self._execute_awaited(command, origin, done)
-            elif command.NAME in self._controlled:
-                self._execute_controlled(command, origin)
-            else:
-                self.execute_command(command, origin)
+        self._is_draining = True
+        try:
+            while waiting and not self.dispatching_since:
+                command, origin, done = waiting.popleft()
+                if done is not None:
+                    self._execute_awaited(command, origin, done)
+                elif command.NAME in self._controlled:
+                    self._execute_controlled(command, origin)
+                else:
+                    self.execute_command(command, origin)
+        finally:
+            self._is_draining = False
 
     def _execute_controlled(self, command: BaseCommand, origin: Origin) -> None:
         if self.control.refuses(origin.link, command.NAME) is None:

@@ -16,6 +16,7 @@ from up.system.clock import Clock
 REMEMBERED = 256
 REMEMBERED_S = 60.0
 _REASON_LIMIT = 500
+_DETAIL_LIMIT = 32
 
 
 @dataclass(slots=True)
@@ -85,7 +86,7 @@ class CommandLink:
         if command_id is not None:
             data = {"id": command_id, "code": code.value, "reason": reason[:_REASON_LIMIT]}
             if detail:
-                data["detail"] = detail
+                data["detail"] = detail[:_DETAIL_LIMIT]
             self._answer(command_id, encode("up.nack", data))
 
     def _answer(self, command_id: str, message: bytes) -> None:

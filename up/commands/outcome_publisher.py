@@ -13,6 +13,7 @@ ANSWERS_HZ = 20
 _LINKS_LIMIT = 64
 _NAME_LIMIT = 64
 _REASON_LIMIT = 500
+_DETAIL_LIMIT = 32
 
 
 class OutcomePublisher:
@@ -53,7 +54,7 @@ class OutcomePublisher:
                 outcome="nack" if code else "ack",
                 code=code,
                 reason=reason[:_REASON_LIMIT],
-                detail=detail,
+                detail=detail[:_DETAIL_LIMIT],
                 untold=self._unreported.pop(link, 0),
             )
         )

@@ -29,7 +29,7 @@ class SystemStopCommand(BaseCommand):
 
 @dataclass(frozen=True, slots=True)
 class LinkStateCommand(BaseCommand):
-    """A link came or went: ``link`` is its name, the one that origins carry."""
+    """A link came or went: ``link`` is its name; its origin's role says what it links to."""
 
     NAME: ClassVar[str] = "up.link.state"
     link: str = value(max_length=64)

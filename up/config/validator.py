@@ -8,7 +8,9 @@ from typing import Any, Protocol, runtime_checkable
 from up.config.nodes import ListNode, MapNode, Node, Report, ScalarNode
 from up.config.scalars import is_null, read_scalar
 from up.config.schema import ListOf, MapOf, Schema, Spec
-from up.fields import Constraint, ConstraintError, show, suggestion
+from up.fields import Constraint, ConstraintError, printable, show, suggestion
+
+_VALUE_LIMIT = 1000  # characters of a wrong value in a problem
 
 
 @runtime_checkable
@@ -185,8 +187,8 @@ class Validator:
         self._refused += 1
         head = _join(self._head, show(path)[1:-1])
         text = f"{head}: {what}" if head else what
-        value = node.text if isinstance(node, ScalarNode) and not name else ""
-        key = _join(head, show(name)[1:-1])
+        value = node.text[:_VALUE_LIMIT] if isinstance(node, ScalarNode) and not name else ""
+        key = _join(printable(_join(self._head, path)), printable(name))
         self._report(node.line, node.column, text, code, key, value)
         return _REFUSED
 

@@ -13,6 +13,7 @@ from up.config import ConfigErrors, ConfigFile, unknown_files
 from up.config.application import APPLICATION, DISABLED_MODULES
 from up.context import Context
 from up.errors import Problem, UserError
+from up.fields import show
 from up.loading.application import Application
 from up.loading.commands import add_commands
 from up.loading.discovery import Discovered, survey
@@ -104,9 +105,9 @@ def _unwritable_log(context: Context) -> Iterator[UserError]:
     try:
         if log_file:
             RotatingFile(Path(log_file), 0, 0).probe()
-    except OSError as error:
-        reason = error.strerror or error
-        text = f"{file}: log file: cannot write {log_file}: {reason}; the start goes on without it"
+    except (OSError, ValueError) as error:
+        reason = getattr(error, "strerror", None) or error
+        text = f"{file}: log file: this user cannot write {show(log_file)}: {reason}"
         yield UserError(text, "log_file_unwritable", file=file, key="log file", value=log_file)
 
 

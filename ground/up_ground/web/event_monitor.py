@@ -174,8 +174,10 @@ class EventMonitor:
     def update(self, telemetry: Telemetry, link: LinkSnapshot, now_s: float) -> None:
         """Process a frame, or the changes by time alone."""
         alarms = [silence(link)]
+        active = {each.kind for each in self._alarms.active}
         for rule in RULES:
-            state = state_of(rule, telemetry, self._states.get(rule))
+            before = None if rule.alarm and rule.alarm not in active else self._states.get(rule)
+            state = state_of(rule, telemetry, before)
             if state is None:
                 continue
             self._states[rule] = state
@@ -202,8 +204,11 @@ class EventMonitor:
         self.report(rule.event, report_of(rule, before, now, telemetry), now_s)
 
     def _on_silence(self, link: LinkSnapshot, now_s: float, before: Any, now: Any) -> None:
-        begin = event_of("late" if link.is_late else "silent")
-        self.report("link", begin if now else None if before is None else event_of("heard"), now_s)
+        cause = silence(link)
+        if now and cause is not None:
+            self.report("link", event_of(cause.code), now_s)
+        elif not now and before is not None:
+            self.report("link", event_of("heard"), now_s)
 
 
 def _link_report(link: LinkSnapshot, before: Any, now: tuple[bool, bool | None]) -> Report | None:

@@ -110,6 +110,7 @@ class GroundRequest(Request):
     def gotLength(self, length: int | None) -> None:  # noqa: N802 - Twisted's name
         if length != 0:
             self._has_body = True
+            self.requestHeaders.removeHeader(b"expect")
             self.channel.transport.refuse(_BODY_REFUSED)
         super().gotLength(0)  # type: ignore[no-untyped-call]
 

@@ -12,7 +12,14 @@ from up.commands.panic_command import PanicCommand
 from up.commands.system_commands import LinkStateCommand
 from up.flight_log.origin_text import KEY as ORIGIN
 from up_simulator.aircraft.truth import NAMES, TOPIC
-from up_simulator.scenario.board_topics import BoardTopics, Data, FreshnessDetector, LogRow, Message
+from up_simulator.scenario.board_topics import (
+    BOARD,
+    BoardTopics,
+    Data,
+    FreshnessDetector,
+    LogRow,
+    Message,
+)
 from up_simulator.scenario.log import ROW_S, Value
 from up_simulator.scenario.scenario import Scenario
 from up_simulator.scenario.signals import Kind, signal_of
@@ -138,7 +145,10 @@ class GroundTopics:
             if is_connected is not None and is_connected != self._links.get(link):
                 self._links[link] = is_connected
                 data: Data = {"link": link, "connected": is_connected}
-                yield LinkStateCommand.NAME, {**data, ORIGIN: INTERNAL}
+                yield (
+                    LinkStateCommand.NAME,
+                    {**data, ORIGIN: BOARD if link == "arduino" else INTERNAL},
+                )
         is_panic, delay_ms = row.flag("ground.load.panic"), row.whole("ground.load.delay_ms")
         panic: Data = {"panic": is_panic, "delay_ms": delay_ms}
         if None not in panic.values() and panic != self._panic:

@@ -161,6 +161,19 @@ def test_silence_is_an_alarm_and_news_end_it(bench):
     assert bench.codes == ["silent", "heard"]
 
 
+def test_an_unknown_level_ends_the_hysteresis_with_the_alarm(bench):
+    bench.see(1.0, android__batteryLevel=19)
+    bench.see(1.0, android__batteryLevel=None).wait(3)
+    bench.see(1.0, android__batteryLevel=22)
+    assert bench.alarms == [["battery"], []]
+
+
+def test_silence_over_a_lost_link_does_not_blame_the_aircraft(bench):
+    bench.wait(3, LinkSnapshot(False, "connection lost", None, True, True))
+    assert bench.alarms == [["silent"]]
+    assert bench.codes == ["no_link"]
+
+
 def test_nothing_was_ever_heard_is_no_silence():
     bench = Bench()
     bench.wait(5, LinkSnapshot(True, "", False, False, True))

@@ -181,6 +181,7 @@ def test_nonsense_is_cut_off(server, request_bytes):
     [
         b"POST / HTTP/1.1\r\nHost: 127.0.0.1\r\nContent-Length: 99999999\r\n\r\n" + b"x" * 4096,
         b"GET / HTTP/1.1\r\nHost: 127.0.0.1\r\nTransfer-Encoding: chunked\r\n\r\n5\r\nxxxxx\r\n",
+        b"POST / HTTP/1.1\r\nHost: 127.0.0.1\r\nContent-Length: 9\r\nExpect: 100-continue\r\n\r\n",
     ],
 )
 def test_a_request_with_a_body_is_answered_and_may_be_reset(server, request_bytes):

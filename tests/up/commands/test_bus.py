@@ -48,6 +48,20 @@ def test_handlers_run_at_once_and_in_order(bus):
     assert heard == ["a", "b", "c"]
 
 
+def test_any_number_of_commands_waits_its_turn(bus):
+    heard = []
+
+    def publish_many(command):
+        if command.number == 0:
+            for number in range(1, 2001):
+                bus.publish(NumberCommand(number))
+
+    bus.register_command(NumberCommand, publish_many)
+    bus.register_command(NumberCommand, lambda command: heard.append(command.number))
+    bus.publish(NumberCommand(0))
+    assert heard == list(range(2001))
+
+
 def test_by_class_by_name_by_alias_and_by_object(bus):
     heard = []
     adder = Adder()

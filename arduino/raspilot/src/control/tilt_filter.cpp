@@ -25,27 +25,27 @@ constexpr float MAX_SPEED_M_S = 40;
 
 // Random walks in a cycle: tilt from rates that are rounded, bias from temperature, more at first,
 // airspeed from gusts. They and the sigmas were searched for in flights in moderate turbulence.
-constexpr float TILT_WALK = 0.018F * RAD;
+constexpr float TILT_WALK = 0.0156F * RAD;
 constexpr float BIAS_WALK = 0.0047F * RAD;
-constexpr float EARLY_BIAS_WALK = 0.019F * RAD;
+constexpr float EARLY_BIAS_WALK = 0.017F * RAD;
 constexpr float SPEED_WALK = 0.41F;
 constexpr uint8_t EARLY_CYCLES = 216;  // 62 s
-// The bias drifts as it did in the last 56 s, later in the last 100 s. A constant turn cannot tell a
+// The bias drifts as it did in the last 56 s, later in the last 80 s. A constant turn cannot tell a
 // drift about the vertical from an airspeed: the yaw gyro's fades.
 constexpr float EARLY_DRIFT_SHARE = CYCLE_S / 56;
-constexpr float DRIFT_SHARE = CYCLE_S / 100;
+constexpr float DRIFT_SHARE = CYCLE_S / 80;
 constexpr float YAW_DRIFT_KEPT = 1 - CYCLE_S / 190;
 
 // 1 sigma of the observation, for one cycle.
 constexpr float FORCE_SIGMA = 0.1435F;  // g, across the nose
-constexpr float EXCESS_WEIGHT = 4.9F;  // a force is trusted less when it is not 1 g
+constexpr float EXCESS_WEIGHT = 6.4F;   // a force is trusted less when it is not 1 g
 constexpr float SPEED_SIGMA = 17.5F;    // m/s, about its mean
-constexpr float EARLY_SPEED_SIGMA = 19;
+constexpr float EARLY_SPEED_SIGMA = 16.7F;
 constexpr float FIRST_SPEED_SHARE = 0.1F;
 constexpr float MEAN_SPEED_SHARE = CYCLE_S / 570;
-constexpr float LOAD_FACTOR_SIGMA = 0.093F;   // g, along down
-constexpr float STRAIGHT_SIGMA = 2.8F * RAD;     // rad/s: in straight flight a turn is mostly bias
-constexpr float STRAIGHT_LIMIT = 5.7F * RAD;  // a faster one is a turn
+constexpr float LOAD_FACTOR_SIGMA = 0.093F;     // g, along down
+constexpr float STRAIGHT_SIGMA = 2.8F * RAD;   // rad/s: in straight flight a turn is mostly bias
+constexpr float STRAIGHT_LIMIT = 5.2F * RAD;  // a faster one is a turn
 
 constexpr float FORCE_UNIT = 1 / 8192.0F;
 constexpr int16_t ONE_Q14 = 16384;

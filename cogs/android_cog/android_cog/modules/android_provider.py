@@ -291,7 +291,9 @@ class AndroidProvider(BaseStartedModule):
             code = Code(command.code)
         except ValueError:
             code = Code.REFUSED
-        self._on_answer(command.command_id, CommandRefusedError(command.reason, code))
+        self._on_answer(
+            command.command_id, CommandRefusedError(command.reason, code, detail=command.detail)
+        )
 
     def _on_answer(self, command_id: str, refusal: CommandRefusedError | None) -> None:
         """Handle an answer from the phone's own link; answers from other links are ignored."""

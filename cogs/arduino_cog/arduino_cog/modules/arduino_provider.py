@@ -89,7 +89,7 @@ class ArduinoProvider(BaseStartedModule):
                 "framing: thesis brings no receiver inputs, which 'flight controller: raspberry'"
                 " (config.yml) needs: choose checked here, or arduino there"
             )
-            raise ConfigErrors([ConfigProblem(path, 1, 1, what)])
+            raise ConfigErrors([ConfigProblem(path, 1, 1, what, key="framing")])
         return True
 
     @property

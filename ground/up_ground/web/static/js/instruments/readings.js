@@ -21,7 +21,7 @@ export function mount(element, store) {
     const row = html(
       "tr",
       {},
-      html("th", { scope: "row" }, title),
+      html("th", { scope: "row" }, title || reading),
       source,
       age,
       state,

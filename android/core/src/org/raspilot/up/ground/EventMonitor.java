@@ -54,7 +54,9 @@ final class EventMonitor {
             present.add(new Alarm("silent", EventLevel.ALARM, cause.code, cause.text));
         }
         for (TelemetryRule rule : TelemetrySchema.RULES) {
-            final Object state = rule.state(telemetry, states.get(rule));
+            final boolean isOver = !rule.alarmKind.isEmpty()
+                    && !alarms.snapshot().has(rule.alarmKind);
+            final Object state = rule.state(telemetry, isOver ? null : states.get(rule));
             if (state == null) {
                 continue;
             }
@@ -75,7 +77,7 @@ final class EventMonitor {
         if (alarms.update(present, nowMs)) {
             debouncer.update("silent", alarms.snapshot().has("silent"), nowMs, (before, now) -> {
                 if (Boolean.TRUE.equals(now)) {
-                    add(status.isLate ? "late" : "silent", "", nowMs);
+                    add(status.silenceCode(), "", nowMs);
                 } else if (before != null) {
                     add("heard", "", nowMs);
                 }

@@ -97,9 +97,11 @@ public final class Telemetry {
         return age.isStale(readingOf(path), nowMs) ? Freshness.STALE : Freshness.LIVE;
     }
 
-    /** Returns the reading whose age the value at a path has; null: it has its frame's. */
+    /** Returns the reading whose age the value at a path has, or a reading's own path; null: it
+     * has its frame's. */
     public static String readingOf(String path) {
-        return TelemetrySchema.READING_OF.get(path);
+        return TelemetrySchema.STALE_MS.containsKey(path) ? path
+                : TelemetrySchema.READING_OF.get(path);
     }
 
     /** Returns the finite number at a path; null if absent, null or of another type. */

@@ -21,6 +21,8 @@ final class TelemetryRule {
     final EventLevel level;
     final String text;
     final boolean isEvent;
+    /** Kind of its alarm; empty: none. */
+    final String alarmKind;
     private final Map<String, String> columns = new HashMap<>();
 
     /** Creates a rule of the columns of up/commands/schema_rows.py, a name before each value. */
@@ -33,6 +35,7 @@ final class TelemetryRule {
         text = of("text");
         level = levelOf("level");
         isEvent = !of("event").isEmpty();
+        alarmKind = of("alarm");
     }
 
     private String of(String column) {

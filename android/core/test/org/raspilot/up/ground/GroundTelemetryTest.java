@@ -42,6 +42,15 @@ public final class GroundTelemetryTest {
     }
 
     @Test
+    public void aWholeReadingIsAsOldAsItsValues() {
+        bench.open(ProxyRole.LISTEN);
+        final Telemetry frame = bench.frame(1, "{\"rx\": {\"ailerons\": 1500},"
+                + " \"age_ms\": {\"rx\": 5000}}");
+        assertEquals(Freshness.STALE, frame.freshness("rx", bench.loop.nowMs()));
+        assertEquals(Freshness.STALE, frame.freshness("rx.ailerons", bench.loop.nowMs()));
+    }
+
+    @Test
     public void theWayToTheProxyIsHalfOfTheHellosRoundTrip() {
         bench.start(GroundBench.settings(ProxyRole.LISTEN, false));
         bench.loop.advance(80);
