@@ -227,7 +227,7 @@ def test_the_receivers_ends_are_calibrated(flight):
     board.pass_us(400_000)
     assert ground.ask("arduino.calibrate", what="receiver_end") == ""
     board.move(ailerons=1900)
-    board.gives("ailerons", 2000, 4)
+    board.gives("ailerons", 2000, 8)
     board.wait(lambda: "arduino: calibrating" not in ground.at("vetoes"), "the end")
 
 
