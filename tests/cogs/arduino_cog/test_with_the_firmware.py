@@ -94,7 +94,7 @@ def test_orientation_inputs_and_outputs_reach_the_ground(flight):
     ground.comes("orientation.pitch", -4.0, 1.0)
     ground.comes("rx.ailerons", 1620, 3)
     ground.comes("servo.ailerons", 1620, 3)
-    assert near(ground.at("servo.ailerons"), board.pulse_us("ailerons"), 3)
+    board.gives("ailerons", 1620, 3)
     ground.sees("the switch", flight_mode="ACRO", arduino__switch="low")
     assert ground.at("arduino.imu_valid") is True
     assert ground.at("arduino.restored") is False
@@ -272,8 +272,10 @@ def test_panic_slows_the_streams_that_nobody_controls_by(elf, tmp_path):
             since = rig.cycle
         board.pass_us(1_500_000)
         for letter in "irO":
-            assert all(near(each, 150, 12) for each in periods_ms(board, letter, since)), letter
-            assert len(periods_ms(board, letter, since)) >= 7
+            found_ms = periods_ms(board, letter, since)
+            # A period that is requested again, without an answer in time, begins anew.
+            assert sum(not near(each, 150, 12) for each in found_ms) <= 1, letter
+            assert 7 <= len(found_ms) <= 11
 
 
 @pytest.fixture
