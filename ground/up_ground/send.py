@@ -103,7 +103,10 @@ class Send(LinkTask):
     def _on_answer(self, message: GeneralMessage, sent_s: float) -> None:
         data = message.data
         if message.name == "up.ack" and data.get("id") == self._id:
-            self.echo(f"ack after {(self._reactor.seconds() - sent_s) * 1000:.0f} ms", "ack")
+            took_ms = round((self._reactor.seconds() - sent_s) * 1000)
+            aircraft, address = self._settings.aircraft, self._settings.address
+            text = f"ack after {took_ms} ms from {aircraft} by {address}"
+            self.echo(text, "ack", took_ms=took_ms, aircraft=aircraft, address=address)
             self._is_acked = True
             self.cancel_timer("answer")
             if not self._awaited:
