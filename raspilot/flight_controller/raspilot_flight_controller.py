@@ -31,7 +31,6 @@ from up.providers.base_mission_control_provider import BaseMissionControlProvide
 
 ROLL_RATE_LIMIT_DEG_S = 120.0
 PITCH_RATE_LIMIT_DEG_S = 80.0
-RX_MAX_AGE_S, ORIENTATION_MAX_AGE_S = 0.25, 0.1
 MIN_STEP_S, MAX_STEP_S = 1e-3, 0.1
 REQUEST_PERIOD_S = 5.0
 MIN_US, MAX_US = 1000, 2000
@@ -52,8 +51,8 @@ class RaspilotFlightController(BaseFlightController):
 
     MODES: ClassVar[frozenset[Mode]] = WITH_BOARD
     FLIGHT_MODES: ClassVar[Mapping[str, Mapping[str, float]]] = {
-        "FBW": {"rx": RX_MAX_AGE_S, "orientation": ORIENTATION_MAX_AGE_S},
-        "ACRO": {"rx": RX_MAX_AGE_S},
+        "FBW": {"rx": 0.25, "orientation": 0.1},
+        "ACRO": {"rx": 0.25},
     }
 
     mission_control = wants(BaseMissionControlProvider)
@@ -101,8 +100,6 @@ class RaspilotFlightController(BaseFlightController):
             self.log.error("{reason}", reason=str(problem), code="gains_invalid")
             self.up.vetoes.set("pids.yml", str(problem))
         self._build(self.gains)
-        ages_s = self.FLIGHT_MODES["FBW"]
-        self._rx_age_s, self._orientation_age_s = ages_s["rx"], ages_s["orientation"]
         # With its origin the bus need not search the publisher of each Output.
         self._origin = Origin(self.class_name, Role.INTERNAL)
         executor = self._executor = self.up.command_executor
@@ -127,8 +124,10 @@ class RaspilotFlightController(BaseFlightController):
             or executor.origin.role is not Role.BOARD
         ):
             return
-        rx = self.rx.fresh(self._rx_age_s)
-        reading = self.orientation.fresh(self._orientation_age_s)
+        # Without rates the sticks pass through.
+        mode = "ACRO" if command.roll_rate_deg_s is None else "FBW"
+        rx = self.rx.fresh(self.FLIGHT_MODES[mode]["rx"])
+        reading = self.orientation.fresh(self.FLIGHT_MODES["FBW"]["orientation"])
         if rx is None or reading is None or reading.value is not command:
             return
         now_s = reading.time_s
@@ -138,11 +137,10 @@ class RaspilotFlightController(BaseFlightController):
             # The controllers paused: their state belongs to an earlier part of the flight.
             self._reset()
             dt_s = min(dt_s, MAX_STEP_S)
-        if command.roll_rate_deg_s is None:
-            self.flight_mode = "ACRO"
+        self.flight_mode = mode
+        if mode == "ACRO":
             output = _pass_through(command.sequence, rx.value)
         else:
-            self.flight_mode = "FBW"
             output = self._fly_by_wire(command, rx.value, max(dt_s, MIN_STEP_S))
         self.outputs += 1
         executor.execute_command(output, self._origin)

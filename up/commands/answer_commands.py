@@ -9,6 +9,8 @@ from up.commands.command import BaseCommand, value
 from up.commands.roles import Role
 
 _ANYBODY = frozenset(Role)
+MAX_REASON, MAX_DETAIL = 500, 32
+"""Characters of a reason and of a handler's code; longer ones are cut."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -28,8 +30,8 @@ class NackCommand(BaseCommand):
     ROLES: ClassVar[frozenset[Role]] = _ANYBODY
     command_id: str = value(key="id", max_length=64)
     code: str = value(max_length=32)
-    reason: str = value("", max_length=500)
-    detail: str = value("", max_length=32)
+    reason: str = value("", max_length=MAX_REASON)
+    detail: str = value("", max_length=MAX_DETAIL)
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,6 +44,6 @@ class CommandAnsweredCommand(BaseCommand):
     command_id: str | None = value(None, key="id", max_length=64)
     outcome: str = value("ack", choices=("ack", "nack"))
     code: str = value("", max_length=32)
-    reason: str = value("", max_length=500)
-    detail: str = value("", max_length=32)
+    reason: str = value("", max_length=MAX_REASON)
+    detail: str = value("", max_length=MAX_DETAIL)
     untold: int = value(0, minimum=0)

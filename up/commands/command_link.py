@@ -6,6 +6,7 @@ from collections import OrderedDict
 from collections.abc import Callable
 from dataclasses import dataclass
 
+from up.commands.answer_commands import MAX_DETAIL, MAX_REASON
 from up.commands.command import BaseCommand
 from up.commands.origin import Origin
 from up.commands.refusal import Code
@@ -15,8 +16,6 @@ from up.system.clock import Clock
 
 REMEMBERED = 256
 REMEMBERED_S = 60.0
-_REASON_LIMIT = 500
-_DETAIL_LIMIT = 32
 
 
 @dataclass(slots=True)
@@ -84,9 +83,9 @@ class CommandLink:
     def nack(self, command_id: str | None, code: Code, reason: str, detail: str = "") -> None:
         """Refuse the Command; ``detail`` is its handler's code, absent if empty."""
         if command_id is not None:
-            data = {"id": command_id, "code": code.value, "reason": reason[:_REASON_LIMIT]}
+            data = {"id": command_id, "code": code.value, "reason": reason[:MAX_REASON]}
             if detail:
-                data["detail"] = detail[:_DETAIL_LIMIT]
+                data["detail"] = detail[:MAX_DETAIL]
             self._answer(command_id, encode("up.nack", data))
 
     def _answer(self, command_id: str, message: bytes) -> None:

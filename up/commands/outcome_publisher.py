@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 
-from up.commands.answer_commands import CommandAnsweredCommand
+from up.commands.answer_commands import MAX_DETAIL, MAX_REASON, CommandAnsweredCommand
 from up.commands.command_executor import CommandExecutor
 from up.system.clock import Clock
 
@@ -12,8 +12,6 @@ ANSWERS_HZ = 20
 """Outcomes reported per link and second; of the others only their number is reported."""
 _LINKS_LIMIT = 64
 _NAME_LIMIT = 64
-_REASON_LIMIT = 500
-_DETAIL_LIMIT = 32
 
 
 class OutcomePublisher:
@@ -53,8 +51,8 @@ class OutcomePublisher:
                 command_id=command_id,
                 outcome="nack" if code else "ack",
                 code=code,
-                reason=reason[:_REASON_LIMIT],
-                detail=detail[:_DETAIL_LIMIT],
+                reason=reason[:MAX_REASON],
+                detail=detail[:MAX_DETAIL],
                 untold=self._unreported.pop(link, 0),
             )
         )

@@ -22,6 +22,10 @@ def _angle(comment: str, least: float = 0.0) -> float | None:
     return key(None, comment, unit="deg", minimum=least, maximum=90)
 
 
+def _default(limit: str) -> str:
+    return f"Board default: {DEFAULT_LIMITS_DEG[limit]:g}."
+
+
 def _switch(comment: str) -> str | None:
     return key(None, comment, choices=MODES, ignore_case=True)
 
@@ -61,9 +65,9 @@ class Switch:
 class FlyByWire:
     """How far the sticks bank and pitch the aeroplane in FBW, on the board and on the Pi."""
 
-    roll_deg: float | None = _angle("Greatest bank. Board default: 50.")
-    pitch_up_deg: float | None = _angle("Greatest pitch up. Board default: 20.")
-    pitch_down_deg: float | None = _angle("Greatest pitch down. Board default: 25.")
+    roll_deg: float | None = _angle(f"Greatest bank. {_default('roll_deg')}")
+    pitch_up_deg: float | None = _angle(f"Greatest pitch up. {_default('pitch_up_deg')}")
+    pitch_down_deg: float | None = _angle(f"Greatest pitch down. {_default('pitch_down_deg')}")
 
 
 @dataclass(frozen=True, slots=True)

@@ -53,9 +53,9 @@ final class EventMonitor {
             final TelemetryRule cause = TelemetrySchema.EVENTS.get(status.silenceCode());
             present.add(new Alarm("silent", EventLevel.ALARM, cause.code, cause.text));
         }
+        final Alarms.Snapshot active = alarms.snapshot();
         for (TelemetryRule rule : TelemetrySchema.RULES) {
-            final boolean isOver = !rule.alarmKind.isEmpty()
-                    && !alarms.snapshot().has(rule.alarmKind);
+            final boolean isOver = !rule.alarmKind.isEmpty() && !active.has(rule.alarmKind);
             final Object state = rule.state(telemetry, isOver ? null : states.get(rule));
             if (state == null) {
                 continue;

@@ -97,8 +97,7 @@ public final class Telemetry {
         return age.isStale(readingOf(path), nowMs) ? Freshness.STALE : Freshness.LIVE;
     }
 
-    /** Returns the reading whose age the value at a path has, or a reading's own path; null: it
-     * has its frame's. */
+    /** Returns the reading at a path, or whose age its value has; null: it has its frame's. */
     public static String readingOf(String path) {
         return TelemetrySchema.STALE_MS.containsKey(path) ? path
                 : TelemetrySchema.READING_OF.get(path);
