@@ -21,8 +21,9 @@ class Echo(Protocol):
 
 
 def echo(text: str, /, code: str = "", **fields: Any) -> None:
-    """Show a line on stdout."""
-    print(program_line(text, code, fields) or text, flush=True)  # noqa: T201
+    """Show a line on stdout: an event if it has a code, otherwise a line of the answer itself."""
+    line = program_line(text, code, fields) if code else None
+    print(line or text, flush=True)  # noqa: T201
 
 
 def print_problems(problems: Iterable[Problem], level: str = "error") -> None:

@@ -14,11 +14,12 @@ from up.cli.cli_error import CliError, UsageError
 from up.cli.option_parser import EXIT_FAILED, EXIT_INTERRUPTED, EXIT_OK, EXIT_USAGE
 from up.commands.command import BaseCommand
 from up.fields import printable
+from up.output import echo
 from up.protocols.general_message import encode
 from up_ground.arguments import make_parser, settings_of
 from up_ground.catalogue import Catalogue, command_fields, describe, fault_of
 from up_ground.control_task import LeaveControl, RequestControl
-from up_ground.one_shot_task import OneShotTask, echo, print_error, run
+from up_ground.one_shot_task import OneShotTask, print_error, run
 from up_ground.send import Send, parse_fields
 from up_ground.settings import Seat
 from up_ground.terminal import Terminal

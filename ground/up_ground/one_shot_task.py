@@ -10,7 +10,7 @@ from typing import Any
 from twisted.internet.defer import Deferred
 
 from up.cli.option_parser import EXIT_FAILED, EXIT_INTERRUPTED, EXIT_OK
-from up.output import program_error, program_line
+from up.output import echo, program_error
 from up.protocols.general_message import GeneralMessage
 from up.system.clock import cancel, use_monotonic_time
 from up.system.pid_file import service
@@ -94,13 +94,6 @@ class LinkTask(OneShotTask):
         """Request control until the task ends or cancels the timer ``request``."""
         self.link.request_seat()
         self.after(self._reactor, "request", ASK_INTERVAL_S, self.request_control)
-
-
-def echo(text: str, code: str = "", **fields: object) -> None:
-    """Write a line for the user; with UP_LOG_FORMAT=json one that has a code is JSON."""
-    line = program_line(text, code, fields) if code else None
-    sys.stdout.write(f"{line or text}\n")
-    sys.stdout.flush()
 
 
 def print_error(text: str, code: str, **fields: object) -> None:
