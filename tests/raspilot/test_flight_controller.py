@@ -5,135 +5,30 @@ import threading
 from typing import ClassVar
 
 import pytest
-from twisted.internet.task import Clock
 
 from raspilot.flight_controller.raspilot_flight_controller import RaspilotFlightController
+from tests.raspilot.flight_controller_rig import (
+    BOARD,
+    FBW_MODE,
+    LOOP,
+    MANUAL,
+    OTHER_GAINS,
+    PHONE,
+    Rig,
+)
 from tests.support.reactor import reactor, run_in_reactor, until
-from tests.support.system import build_up
-from tests.up.commands.samples import Log
 from up.commands.flight_state_command import (
-    FlightModeCommand,
     FlightStateCommand,
     FlyByWireLimitsCommand,
 )
 from up.commands.gains import Gains, GainSet, LoopGains, gain_set_to_data
 from up.commands.orientation_command import OrientationCommand
-from up.commands.origin import Origin
 from up.commands.output_command import OutputCommand
 from up.commands.pid_tunings_commands import PIDTuningsCommand, PIDTuningsValuesCommand
 from up.commands.refusal import Code, CommandRefusedError
-from up.commands.roles import Role
-from up.commands.rx_command import ALL_VALID, RXCommand
+from up.commands.rx_command import ALL_VALID
 from up.flight_controller.gains_store import GainsStore
 from up.flight_controller.pids_file import PidsFile
-from up.mode import Mode
-from up.providers.base_mission_control_provider import BaseMissionControlProvider
-
-BOARD = Origin("arduino", Role.BOARD, 10)
-PHONE = Origin("android", Role.SENSOR, 0)
-GROUND = Origin("ground", Role.PILOT, 0)
-CONFIG = {"config.yml": "flight controller: raspberry\n"}
-OUTPUT_MODE = FlightStateCommand("OUTPUT", True, True, False)
-FBW_MODE = FlightStateCommand("FBW", True, True, False)
-MANUAL = FlightStateCommand("FBW", True, False, False)
-LOOP = LoopGains(Gains(3.0, 0.5, 0.1), Gains(1.5), Gains(0.25))
-OTHER_GAINS = GainSet(LOOP, LOOP)
-
-
-class Ground(BaseMissionControlProvider):
-    """A ground that records received messages."""
-
-    def __init__(self):
-        super().__init__()
-        self.sent, self.is_there = [], True
-
-    def send_command(self, command, command_id=None):
-        self.sent.append(command)
-        return self.is_there
-
-    def _transmit_data(self, message):
-        return True
-
-    def _transmit_newest(self, message):
-        pass
-
-
-class Rig:
-    """A flight controller, a board and a pilot."""
-
-    def __init__(
-        self,
-        folder,
-        *,
-        gains=OTHER_GAINS,
-        clock=None,
-        mode=Mode.AUTO,
-        controller=RaspilotFlightController,
-        **config,
-    ):
-        folder.mkdir(exist_ok=True)
-        if gains is not None:
-            PidsFile(folder).save(gains)
-        self.clock = clock or Clock()
-        self.up = build_up(
-            (controller, Ground), self.clock, folder, mode=mode,
-            config={**CONFIG, **{name + ".yml": text for name, text in config.items()}},
-        )  # fmt: skip
-        self.bus = self.up.command_executor
-        self.controller = self.up.get_module(controller)
-        self.ground = self.up.get_module(Ground)
-        self.outputs, self.modes = [], []
-        self.bus.register_command(OutputCommand, self.outputs.append)
-        self.bus.register_command(FlightModeCommand, self.modes.append)
-        self.sequence = 0
-
-    def state(self, state=OUTPUT_MODE):
-        self.bus.execute_command(state, BOARD)
-
-    def sticks(self, ailerons=1500, elevator=1500, throttle=1400, rudder=1500, valid=ALL_VALID):
-        self.bus.execute_command(
-            RXCommand(ailerons, elevator, throttle, rudder, 2000, 2000, valid), BOARD
-        )
-
-    def attitude(self, roll=0.0, pitch=0.0, yaw=0.0, rates=(0.0, 0.0, 0.0), origin=BOARD, **more):
-        self.sequence = more.get("sequence", self.sequence + 1)
-        self.bus.execute_command(
-            OrientationCommand(roll, pitch, yaw, *rates, self.sequence), origin
-        )
-
-    def frame(self, *attitude, **more):
-        """Let a period pass and a frame come; return the Output that it made, or None."""
-        self.clock.advance(0.02)
-        count = len(self.outputs)
-        self.attitude(*attitude, **more)
-        return self.outputs[-1] if len(self.outputs) > count else None
-
-    def outcome(self, command, origin=GROUND):
-        got = []
-        self.bus.execute_and_wait(command, origin).addBoth(got.append)
-        return got
-
-
-class Impatient(RaspilotFlightController):
-    """An author's controller that wants newer readings than the base."""
-
-    FLIGHT_MODES: ClassVar = {"FBW": {"rx": 0.03, "orientation": 0.02}}
-
-
-def test_the_ages_of_a_subclass_limit_the_control_step(tmp_path):
-    rig = Rig(tmp_path, controller=Impatient)
-    rig.state()
-    rig.sticks()
-    assert rig.frame() is not None
-    assert rig.frame() is None, "the receiver's inputs are 40 ms old"
-
-
-@pytest.fixture
-def rig(tmp_path):
-    made = Rig(tmp_path)
-    made.state()
-    made.sticks()
-    return made
 
 
 def test_level_and_centred_it_holds_the_middle_and_leaves_the_throttle_to_the_stick(rig):
@@ -296,110 +191,18 @@ class TestThePast:
         assert abs(rig.outputs[-1].ailerons_us - before.ailerons_us) < 20
 
 
-class TestModes:
-    """Offered, shown and requested modes."""
+class Impatient(RaspilotFlightController):
+    """An author's controller that wants newer readings than the base."""
 
-    def test_offered_by_what_is_valid(self, tmp_path):
-        rig = Rig(tmp_path)
-        controller = rig.controller
-        assert controller.offered_modes == []
-        assert controller.missing_for("FBW") == ["rx", "orientation"]
-        rig.sticks()
-        assert controller.offered_modes == ["ACRO"]
-        rig.attitude()
-        assert controller.offered_modes == ["FBW", "ACRO"]
-        rig.clock.advance(0.11)
-        assert controller.offered_modes == ["ACRO"]
-        rig.clock.advance(0.2)
-        assert controller.offered_modes == []
-        assert not controller.is_offered("RTH")
+    FLIGHT_MODES: ClassVar = {"FBW": {"rx": 0.03, "orientation": 0.02}}
 
-    def test_telemetry_shows_what_is_really_flown(self, rig):
-        def shown():
-            return rig.controller.telemetry_content["flight_control"]["mode"]
 
-        assert shown() is None
-        rig.frame()
-        assert shown() == "FBW"
-        rig.clock.advance(0.3)
-        assert shown() is None
-        rig.sticks()
-        rig.frame()
-        rig.state(FBW_MODE)
-        assert shown() is None
-
-    def test_a_controller_whose_outputs_are_dropped_says_so(self, rig):
-        other = Origin("Thermal", Role.INTERNAL)
-
-        def fly(origin=None):
-            for number in range(40):
-                if origin is not None:
-                    rig.bus.execute_command(OutputCommand(1500, 1500, 0, 1500, 1), origin)
-                rig.sticks()
-                rig.frame()
-                if number % 10 == 9:
-                    rig.state()
-            return state()
-
-        def state():
-            event = changes()[-1]
-            return event["permitted"], event["flies"], event["owner"]
-
-        def changes():
-            return [event for event in log.events if event.get("code") == "control_changed"]
-
-        def counted():
-            return rig.controller.telemetry_content["counters"]["flight_control"]["outputs"]
-
-        controller = rig.controller.class_name
-        with Log() as log:
-            assert fly() == (True, True, controller)
-            delivered = counted()
-            assert delivered == len(rig.outputs) == 40
-            rig.clock.advance(1)
-            assert fly(other) == (True, False, "Thermal")
-            assert counted() == delivered
-            rig.clock.advance(1)
-            assert fly() == (True, True, controller)
-            rig.clock.advance(1)
-            rig.state()
-            assert state() == (True, False, None)
-            rig.state(FBW_MODE)
-            assert not state()[0]
-            rig.state(FBW_MODE)
-            rig.state()
-            assert len(changes()) == 5
-
-    def test_it_asks_for_auto_only_at_auto_and_while_the_ground_wants_it(self, tmp_path):
-        rig = Rig(tmp_path)
-        rig.state(MANUAL)
-        assert not rig.modes
-        rig.state(FBW_MODE)
-        assert rig.modes == [FlightModeCommand("AUTO")]
-        rig.state(FBW_MODE)
-        assert len(rig.modes) == 1
-        rig.clock.advance(5)
-        rig.state(FBW_MODE)
-        assert len(rig.modes) == 2
-        rig.bus.execute_command(FlightModeCommand("FBW"), GROUND)
-        rig.clock.advance(60)
-        rig.state(FBW_MODE)
-        assert len(rig.modes) == 3
-
-    @pytest.mark.parametrize(
-        ("mode", "text", "loaded"),
-        [
-            (Mode.AUTO, "raspberry", True),
-            (Mode.AUTO, "arduino", False),
-            (Mode.BLACK_BOX, "raspberry", False),
-        ],
-    )
-    def test_it_is_loaded_where_the_configuration_says(self, tmp_path, mode, text, loaded):
-        up = build_up(
-            (RaspilotFlightController,), Clock(), tmp_path, mode=mode,
-            config={"config.yml": f"flight controller: {text}\n"},
-        )  # fmt: skip
-        assert (up.get_module(RaspilotFlightController) is not None) is loaded
+def test_the_ages_of_a_subclass_limit_the_control_step(tmp_path):
+    rig = Rig(tmp_path, controller=Impatient)
+    rig.state()
+    rig.sticks()
+    assert rig.frame() is not None
+    assert rig.frame() is None, "the receiver's inputs are 40 ms old"
 
 
 class TestGains:
@@ -470,24 +273,3 @@ class TestGains:
             rig.bus.limited.stop()
 
         run_in_reactor(scenario)
-
-
-def test_a_mode_that_the_board_refuses_is_no_wish(rig):
-    """With the switch elsewhere the board refuses; later at AUTO the Pi still requests control."""
-    rig.state(MANUAL)
-    rig.bus.execute_command(FlightModeCommand("FBW"), GROUND)
-    rig.modes.clear()
-    rig.state(FBW_MODE)
-    assert [each.mode for each in rig.modes] == ["AUTO"]
-
-
-def test_a_wish_of_the_ground_ends_when_the_switch_leaves_auto(rig):
-    rig.state(FBW_MODE)
-    rig.bus.execute_command(FlightModeCommand("FBW"), GROUND)
-    rig.modes.clear()
-    rig.clock.advance(10)
-    rig.state(FBW_MODE)
-    assert rig.modes == [], "the ground asked for FBW"
-    rig.state(MANUAL)
-    rig.state(FBW_MODE)
-    assert [each.mode for each in rig.modes] == ["AUTO"]
