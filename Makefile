@@ -78,7 +78,7 @@ check: $(VENV)/.dev-ready
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
 	$(BIN)/mypy main.py tools/import_contracts.py tools/command_tables.py \
-		tools/plain_english.py tools/schema.py tools/schema_definition.py \
+		tools/plain_english.py tools/schema.py tools/schema_definition.py tools/schema_languages.py \
 		tools/sentence_assertions.py tools/tuning $(PACKAGES)
 	@for cog in $(COGS); do echo "mypy $$cog"; \
 		MYPYPATH=$(MYPY_ROOTS) $(BIN)/mypy $$cog/$$(basename $$cog) || exit 1; done
