@@ -43,7 +43,7 @@ LAYERS = (
     "loading",
     "builtin_modules | life_cycle",
     "up",
-    "telemetry_controller | mode_monitor | flight_controller",
+    "telemetry_controller | mode_monitor | flight_controller | flight_modes",
     "providers",
     "base_thread_module",
     "base_started_module",

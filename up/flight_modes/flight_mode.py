@@ -1,0 +1,73 @@
+"""The base of every flight mode."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import ClassVar
+
+from up.base_module import BaseModule
+from up.commands.orientation_command import OrientationCommand
+from up.commands.rx_command import RXCommand
+from up.flight_modes.demand import Demand
+from up.flight_modes.navigation_state import NavigationState, Point
+
+
+@dataclass(frozen=True, slots=True)
+class Home:
+    """Where RETURN flies to: a point in the estimator's frame, and its altitude."""
+
+    point: Point
+    altitude_m: float
+
+
+@dataclass(frozen=True, slots=True)
+class Target:
+    """Where GUIDED flies to, requested from the ground."""
+
+    point: Point
+    altitude_m: float
+    radius_m: float | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class FlightSituation:
+    """What a mode sees in one step.
+
+    A reading is None unless it is valid and as fresh as the mode's ``NEEDS`` require; those that
+    are needed are never None. ``required_course_deg`` and ``required_altitude_m`` are the ground's
+    requests since the mode was entered.
+    """
+
+    time_s: float
+    orientation: OrientationCommand
+    navigation: NavigationState | None = None
+    rx: RXCommand | None = None
+    home: Home | None = None
+    target: Target | None = None
+    required_course_deg: float | None = None
+    required_altitude_m: float | None = None
+
+
+class FlightMode(BaseModule):
+    """What the aircraft does while the mode is active. A new file in ``flight_modes/`` is a new mode.
+
+    ``NAME`` is the mode's name everywhere. ``NEEDS`` gives the readings without which it is not
+    offered, and their maximum ages in seconds; ``FALLBACK`` the mode that replaces it when one
+    becomes too old, or a step fails, blocks, or demands what is not possible.
+    """
+
+    NAME: ClassVar[str] = ""
+    NEEDS: ClassVar[Mapping[str, float]] = {"orientation": 0.1}
+    FALLBACK: ClassVar[str] = "GLIDE"
+
+    def refusal(self, situation: FlightSituation) -> str | None:
+        """Return why the mode cannot be entered now, apart from its readings; None: it can."""
+        return None
+
+    def enter(self, situation: FlightSituation) -> None:
+        """Called before the first step: discard what belongs to an earlier part of the flight."""
+
+    def step(self, situation: FlightSituation, dt_s: float) -> Demand:
+        """Return what is demanded now; called for every orientation frame, within 2 ms."""
+        raise NotImplementedError
