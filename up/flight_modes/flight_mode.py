@@ -50,7 +50,7 @@ class FlightSituation:
 
 
 class FlightMode(BaseModule):
-    """What the aircraft does while the mode is active. A new file in ``flight_modes/`` is a new mode.
+    """What the aircraft does while it is active; a new file in ``flight_modes/`` is a new mode.
 
     ``NAME`` is the mode's name everywhere. ``NEEDS`` gives the readings without which it is not
     offered, and their maximum ages in seconds; ``FALLBACK`` the mode that replaces it when one

@@ -195,6 +195,10 @@ export const READINGS = {
   "battery": {
     "title": "",
     "stale_s": 120.0
+  },
+  "navigation": {
+    "title": "",
+    "stale_s": 3.0
   }
 };
 
@@ -221,6 +225,22 @@ export const READING_OF = {
   "location.altitude": "location",
   "home.distance": "location",
   "home.bearing": "location",
+  "navigation.latitude": "navigation",
+  "navigation.longitude": "navigation",
+  "navigation.altitude": "navigation",
+  "navigation.height": "navigation",
+  "navigation.speed": "navigation",
+  "navigation.climb": "navigation",
+  "navigation.airspeed": "navigation",
+  "navigation.course": "navigation",
+  "navigation.heading": "navigation",
+  "navigation.wind.speed": "navigation",
+  "navigation.wind.from": "navigation",
+  "navigation.sd.position": "navigation",
+  "navigation.sd.altitude": "navigation",
+  "navigation.sd.wind": "navigation",
+  "navigation.sd.airspeed": "navigation",
+  "navigation.sd.heading": "navigation",
   "altitude": "altitude",
   "heading.actual": "heading",
   "heading.required": "heading",

@@ -39,6 +39,7 @@ public final class TelemetrySchema {
         STALE_MS.put("altitude", 1900L);
         STALE_MS.put("heading", 1900L);
         STALE_MS.put("battery", 120000L);
+        STALE_MS.put("navigation", 3000L);
         HOLDS_MS.put("silent", 2000L);
         HOLDS_MS.put("receiver", 2000L);
         HOLDS_MS.put("imu", 2000L);
@@ -67,6 +68,22 @@ public final class TelemetrySchema {
         READING_OF.put("location.altitude", "location");
         READING_OF.put("home.distance", "location");
         READING_OF.put("home.bearing", "location");
+        READING_OF.put("navigation.latitude", "navigation");
+        READING_OF.put("navigation.longitude", "navigation");
+        READING_OF.put("navigation.altitude", "navigation");
+        READING_OF.put("navigation.height", "navigation");
+        READING_OF.put("navigation.speed", "navigation");
+        READING_OF.put("navigation.climb", "navigation");
+        READING_OF.put("navigation.airspeed", "navigation");
+        READING_OF.put("navigation.course", "navigation");
+        READING_OF.put("navigation.heading", "navigation");
+        READING_OF.put("navigation.wind.speed", "navigation");
+        READING_OF.put("navigation.wind.from", "navigation");
+        READING_OF.put("navigation.sd.position", "navigation");
+        READING_OF.put("navigation.sd.altitude", "navigation");
+        READING_OF.put("navigation.sd.wind", "navigation");
+        READING_OF.put("navigation.sd.airspeed", "navigation");
+        READING_OF.put("navigation.sd.heading", "navigation");
         READING_OF.put("altitude", "altitude");
         READING_OF.put("heading.actual", "heading");
         READING_OF.put("heading.required", "heading");
@@ -105,6 +122,30 @@ public final class TelemetrySchema {
         UNITS.put("location.altitude", "m");
         UNITS.put("home.distance", "m");
         UNITS.put("home.bearing", "deg");
+        UNITS.put("home.latitude", "deg");
+        UNITS.put("home.longitude", "deg");
+        UNITS.put("home.altitude", "m");
+        UNITS.put("home.time_s", "s");
+        UNITS.put("navigation.latitude", "deg");
+        UNITS.put("navigation.longitude", "deg");
+        UNITS.put("navigation.altitude", "m");
+        UNITS.put("navigation.height", "m");
+        UNITS.put("navigation.speed", "m/s");
+        UNITS.put("navigation.climb", "m/s");
+        UNITS.put("navigation.airspeed", "m/s");
+        UNITS.put("navigation.course", "deg");
+        UNITS.put("navigation.heading", "deg");
+        UNITS.put("navigation.wind.speed", "m/s");
+        UNITS.put("navigation.wind.from", "deg");
+        UNITS.put("navigation.sd.position", "m");
+        UNITS.put("navigation.sd.altitude", "m");
+        UNITS.put("navigation.sd.wind", "m/s");
+        UNITS.put("navigation.sd.airspeed", "m/s");
+        UNITS.put("navigation.sd.heading", "deg");
+        UNITS.put("navigation.target.latitude", "deg");
+        UNITS.put("navigation.target.longitude", "deg");
+        UNITS.put("navigation.target.altitude", "m");
+        UNITS.put("navigation.target.radius", "m");
         UNITS.put("altitude", "m");
         UNITS.put("altitude_required", "m");
         UNITS.put("heading.actual", "deg");
@@ -127,8 +168,33 @@ public final class TelemetrySchema {
         UNITS.put("age_ms.altitude", "ms");
         UNITS.put("age_ms.heading", "ms");
         UNITS.put("age_ms.battery", "ms");
+        UNITS.put("age_ms.navigation", "ms");
         DECIMALS.put("location.latitude", 6);
         DECIMALS.put("location.longitude", 6);
+        DECIMALS.put("home.latitude", 6);
+        DECIMALS.put("home.longitude", 6);
+        DECIMALS.put("home.altitude", 1);
+        DECIMALS.put("home.time_s", 0);
+        DECIMALS.put("navigation.latitude", 6);
+        DECIMALS.put("navigation.longitude", 6);
+        DECIMALS.put("navigation.altitude", 1);
+        DECIMALS.put("navigation.height", 1);
+        DECIMALS.put("navigation.speed", 1);
+        DECIMALS.put("navigation.climb", 1);
+        DECIMALS.put("navigation.airspeed", 1);
+        DECIMALS.put("navigation.course", 1);
+        DECIMALS.put("navigation.heading", 1);
+        DECIMALS.put("navigation.wind.speed", 1);
+        DECIMALS.put("navigation.wind.from", 0);
+        DECIMALS.put("navigation.sd.position", 1);
+        DECIMALS.put("navigation.sd.altitude", 1);
+        DECIMALS.put("navigation.sd.wind", 1);
+        DECIMALS.put("navigation.sd.airspeed", 1);
+        DECIMALS.put("navigation.sd.heading", 1);
+        DECIMALS.put("navigation.target.latitude", 6);
+        DECIMALS.put("navigation.target.longitude", 6);
+        DECIMALS.put("navigation.target.altitude", 1);
+        DECIMALS.put("navigation.target.radius", 1);
         LIMITS.put("battery_low", 20.0);
         LIMITS.put("battery_empty", 10.0);
         RULES.add(new TelemetryRule(
@@ -144,6 +210,16 @@ public final class TelemetrySchema {
                 "level", "info",
                 "text", "mode {value} (was {before})",
                 "path", "mode",
+                "type", "text"));
+        RULES.add(new TelemetryRule(
+                "event", "mode",
+                "code", "fallback",
+                "level", "alarm",
+                "text", "{flight_control.mode} replaces {flight_control.selected}: {value}",
+                "end_code", "fallback_over",
+                "end", "the selected flight mode acts again",
+                "first", "true",
+                "path", "flight_control.fallback",
                 "type", "text"));
         RULES.add(new TelemetryRule(
                 "path", "armed",
