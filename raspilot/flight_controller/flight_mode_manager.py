@@ -51,6 +51,7 @@ class FlightModeManager(BaseFlightController):
     """
 
     MODES: ClassVar[frozenset[Mode]] = WITH_BOARD
+    LOAD_ORDER: ClassVar[int] = 100
     CONFIG = NAVIGATION
     SELECTS_MODES: ClassVar[bool] = True
 
@@ -76,6 +77,9 @@ class FlightModeManager(BaseFlightController):
     def on_init(self) -> None:
         super().on_init()
         self._selector = FlightModeSelector(self.up.get_modules(FlightMode), self._is_fresh)
+        for path, problem in self._selector.problems.items():
+            self.log.error("{problem}", problem=problem, module=path, code="mode_invalid")
+            self.up.vetoes.set(path, problem)
         modes, auto = self._selector.modes, self.config.auto_mode
         self._auto = auto if auto in modes else None
         if self._auto is None and auto not in BOARD_MODES:
