@@ -17,6 +17,7 @@ from raspilot.flight_controller.home import (
 )
 from raspilot.navigation.config import NAVIGATION
 from up.commands.flight_state_command import FlightModeCommand, FlightStateCommand
+from up.commands.location_command import LocationCommand
 from up.commands.navigation_commands import HomeCommand, NavigationTargetCommand
 from up.commands.orientation_command import OrientationCommand
 from up.commands.origin import Origin
@@ -89,7 +90,10 @@ class FlightModeManager(BaseFlightController):
         # With its origin the bus need not search the publisher of each Command.
         self._origin = Origin(self.class_name, Role.INTERNAL)
         self.home = HomeKeeper(
-            self.context.config_folder, self.context.reactor, self.config.home_accuracy_m
+            self.context.config_folder,
+            self.context.reactor,
+            self.config.home_accuracy_m,
+            self._on_home_changed,
         )
         executor = self._executor = self.up.command_executor
         executor.register_command(OrientationCommand, self._on_orientation)
@@ -303,6 +307,12 @@ class FlightModeManager(BaseFlightController):
 
     def _on_home(self, command: HomeCommand) -> None:
         self.home.set(command, self._navigation)
+
+    def _on_home_changed(self, place: Place) -> None:
+        if self.location is not None:
+            self.location.home = LocationCommand(
+                place.latitude_deg, place.longitude_deg, place.altitude_m
+            )
 
     def require(self, what: str, value: float) -> None:
         """Follow a course (deg) or altitude (m) that the ground requests.

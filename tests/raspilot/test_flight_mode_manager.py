@@ -172,6 +172,14 @@ def test_refused_modes_change_nothing(rig, mode, detail):
     assert (rig.board.asked, rig.shown()["selected"]) == ([], None)
 
 
+@pytest.mark.parametrize("mode", ["ACRO", "acro", "OUTPUT", "SETPOINT", "RTH", ""])
+def test_the_ground_selects_no_mode_that_is_the_pilots(tmp_path, mode):
+    rig = Rig(tmp_path)
+    rig.state()
+    assert refusal(rig.outcome(FlightModeCommand(mode))) == "mode_unknown"
+    assert rig.manager.telemetry_content["flight_control"]["selected"] == "FBW"
+
+
 def test_the_pilot_ends_a_mode_by_the_switch_and_gets_no_surprise_later(rig):
     rig.state()
     rig.outcome(FlightModeCommand("BANK"))
