@@ -1,0 +1,1 @@
+"""Flight modes of Raspilot: every file here is loaded."""
