@@ -5,6 +5,10 @@ from dataclasses import replace
 import pytest
 from twisted.internet.defer import Deferred
 
+from raspilot.flight_modes.circle import CircleMode
+from raspilot.flight_modes.glide import Glide
+from raspilot.flight_modes.guided import Guided
+from raspilot.flight_modes.loiter import Loiter
 from tests.raspilot.flight_controller_rig import BOARD, Rig
 from up.base_module import BaseModule
 from up.commands.altitude_command import AltitudeCommand
@@ -45,12 +49,8 @@ class Bank(FlightMode):
     NAME = "BANK"
     NEEDS = {"navigation": 3.0, "orientation": 0.1}
     FALLBACK = "LEVEL"
-    REQUESTS = frozenset({"course", "target"})
+    REQUESTS = frozenset({"course"})
     seen = None
-
-    @property
-    def target(self):
-        return self.seen and self.seen.target
 
     def step(self, situation, dt_s):
         self.seen = situation
@@ -92,7 +92,8 @@ class Board(BaseModule):
 class NavigationRig(Rig):
     def __init__(self, folder, config=ARDUINO, **more):
         super().__init__(
-            folder, modes=(Bank, Level, Servos), modules=(Navigation, Board),
+            folder, modes=(Bank, Level, Servos, Guided, Loiter, CircleMode, Glide),
+            modules=(Navigation, Board),
             **{"config": config, "navigation": "home_accuracy_m: 5\n", **more},
         )  # fmt: skip
         self.navigation = self.up.get_module(Navigation)
@@ -247,7 +248,7 @@ class TestHome:
 
     @pytest.mark.parametrize(
         ("wind", "time_s"),
-        [((0.0, 0.0), 10.0), ((-4.0, 0.0), 14.0), ((0.0, 14.1), None), ((-14.0, 0.0), None)],
+        [((0.0, 0.0), 12.7), ((-4.0, 0.0), 20.0), ((0.0, 11.1), None), ((-11.0, 0.0), None)],
     )
     def test_the_time_home_counts_the_wind(self, rig, wind, time_s):
         rig.navigation.state = replace(
@@ -261,20 +262,22 @@ class TestHome:
 class TestRequests:
     """The ground's target, course and altitude act, or are refused."""
 
-    def test_a_target_reaches_the_mode_that_takes_it(self, rig):
+    def test_guided_flies_to_the_target_which_is_shown_and_ends_with_the_mode(self, rig):
         rig.state()
+        assert refusal(rig.outcome(FlightModeCommand("GUIDED"))) == "mode_refused"
         rig.outcome(NavigationTargetCommand(48.01, 17.0, height_m=80.0))
-        rig.outcome(FlightModeCommand("BANK"))
+        rig.frame()
+        assert rig.outcome(FlightModeCommand("GUIDED")) == [None]
         rig.setpoint()
-        target = rig.bank.seen.target
-        assert target.point == pytest.approx((1112.0, 0.0), abs=1.0)
-        assert target.altitude_m == 330.0
         shown = rig.manager.telemetry_content["navigation"]["target"]
-        assert shown["latitude"] == pytest.approx(48.01) and shown["altitude"] == 330.0
-        rig.outcome(FlightModeCommand("LEVEL"))
+        assert shown == pytest.approx(
+            {"latitude": 48.01, "longitude": 17.0, "altitude": 330.0, "radius": 50.0}
+        )
         rig.outcome(FlightModeCommand("BANK"))
         rig.setpoint()
-        assert rig.bank.seen.target is None, "a target does not outlive its mode"
+        shown = rig.manager.telemetry_content["navigation"]["target"]
+        assert shown["latitude"] is None
+        assert refusal(rig.outcome(FlightModeCommand("GUIDED"))) == "mode_refused"
 
     def test_a_target_ten_thousand_kilometres_away_is_refused(self, rig):
         assert refusal(rig.outcome(NavigationTargetCommand(-40.0, 17.0))) == "too_far"
@@ -303,16 +306,20 @@ class TestRestart:
     ):
         rig.state()
         rig.outcome(NavigationTargetCommand(48.01, 17.0, altitude_m=300.0))
-        rig.outcome(FlightModeCommand("BANK"))
+        rig.frame()
+        rig.outcome(FlightModeCommand("GUIDED"))
         rig.setpoint()
         rig.manager.home.memory.wait()
         again = NavigationRig(tmp_path, gains=None)
         again.state()
         again.frame()
         assert again.setpoints == []
-        assert again.setpoint().roll_deg == 20.0
-        assert again.bank.seen.target.altitude_m == 300.0
-        assert again.bank.seen.home.point == pytest.approx((100.0, 50.0), abs=0.01)
+        assert again.setpoint()
+        assert again.shown()["mode"] == "GUIDED"
+        shown = again.manager.telemetry_content
+        assert shown["navigation"]["target"]["latitude"] == pytest.approx(48.01)
+        home = shown["home"]["latitude"], shown["home"]["longitude"]
+        assert FRAME.point(*home) == pytest.approx((100.0, 50.0), abs=0.01)
 
     def test_if_the_readings_stay_away_the_fallback_acts(self, rig, tmp_path):
         rig.state()

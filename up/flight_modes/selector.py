@@ -26,6 +26,8 @@ FAILED, OVERRUN, INVALID, REFUSED, UNKNOWN = (
 _T = TypeVar("_T")
 _NAME = re.compile(r"[A-Z][A-Z0-9_]{1,15}")
 RESERVED = ("AUTO", "RATE")
+BOARD_MODES = ("FBW", "RATE", "ACRO")
+"""A fallback to one of these, where the Raspberry Pi has none of that name, is the board's."""
 _FAULTS = (Exception, SystemExit)
 
 
@@ -74,7 +76,7 @@ class FlightModeSelector:
 
     def _check_fallbacks(self) -> None:
         for mode in self.modes.values():
-            if mode.FALLBACK and mode.FALLBACK not in self.modes:
+            if mode.FALLBACK not in {"", *BOARD_MODES, *self.modes}:
                 text = f"{mode.path}: FALLBACK {mode.FALLBACK!r} is no loaded flight mode"
                 self.problems[mode.path] = text
 
