@@ -10,6 +10,10 @@ MISSING_PART = 0.5
 """A stop is suspected while more than this part of the motor's power is missing."""
 MISSING_M = 1.5
 """Energy (as height) that is missing beyond that when the motor counts as stopped."""
+MIN_MISSING_M_S = 0.5
+"""Less is never suspected: it may be a downdraught."""
+IDLE_PART, FORGET_M_S = 0.3, 0.3
+"""Below this part of the power of level flight nothing is known: a suspicion fades."""
 BIAS_S, MAX_BIAS_M_S = 30.0, 0.5
 
 
@@ -39,7 +43,9 @@ class MotorWatch:
         self._power_m_s += (power_m_s - self._power_m_s) * min(1.0, dt_s / DELAY_S)
         expected_m_s = self._power_m_s - self._model.sink_m_s(airspeed_m_s, load)
         residual_m_s = energy_m_s - expected_m_s - self._bias_m_s
-        growth_m_s = -residual_m_s - MISSING_PART * self._power_m_s
+        growth_m_s = -residual_m_s - max(MIN_MISSING_M_S, MISSING_PART * self._power_m_s)
+        if self._power_m_s < IDLE_PART * self._model.power_m_s(self._model.level_throttle):
+            growth_m_s = -FORGET_M_S
         missing_m = self._missing_m + growth_m_s * dt_s
         self._missing_m = max(0.0, min(2.0 * MISSING_M, missing_m))
         if self._missing_m == 0.0:

@@ -18,7 +18,7 @@ CLIMB_CHANGE_M_S2 = 1.5
 """How fast the demanded climb changes: no faster than the motor follows."""
 SPEED_PITCH_DEG = 6.0
 """Greatest sum of the airspeed's integral, either way."""
-SPEED_INTEGRAL, MAX_SUMMED_ERROR_M_S = 0.15, 3.0
+SPEED_INTEGRAL, MAX_SUMMED_ERROR_M_S = 0.15, 1.0
 
 
 class EnergyControl:
