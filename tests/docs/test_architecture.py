@@ -21,7 +21,7 @@ from twisted.python.failure import Failure
 from raspilot.flight_controller.attitude_controller import AttitudeController
 from raspilot.flight_controller.flight_mode_manager import FlightModeManager
 from raspilot.flight_modes.acro import Acro
-from raspilot.flight_modes.fbw import Fbw
+from raspilot.flight_modes.fbw import FlyByWire
 from tests.cogs.arduino_cog.board import BoardRig
 from tests.cogs.black_box_cog.flights import BOARD, Flight
 from tests.ground.aircraft import Aircraft as Kite
@@ -79,7 +79,13 @@ class Aircraft(BoardRig):
                 "config.yml": "flight controller: raspberry\n",
                 "mission_control.yml": "remote_server: {url: 127.0.0.1}\n",
             },
-            modules=[FlightModeManager, AttitudeController, Fbw, Acro, MissionControlProvider],
+            modules=[
+                FlightModeManager,
+                AttitudeController,
+                FlyByWire,
+                Acro,
+                MissionControlProvider,
+            ],
         )
         self.wire = Wire()
         self.reactor.connectTCP = self.connect_tcp
