@@ -261,7 +261,7 @@ def test_what_runs_in_the_browser(proxy, tmp_path):
         done = subprocess.run([node, program, address], capture_output=True, text=True, timeout=120)
     assert done.returncode == 0, done.stderr
     called = json.loads(done.stdout)
-    later = [("js/link/pending_commands.js", "take"), ("js/panels/messages.js", "answerText")]
+    later = [("js/link/connection.js", "take"), ("js/panels/messages.js", "answerText")]
     assert all(f"{function}`" in PAGE for _, function in later)
     for name, more in (("page", []), ("click", later)):
         assert len(scripts(name)) > 5
