@@ -8,10 +8,11 @@ import sys
 from collections.abc import Iterable, Mapping
 from typing import Any, Protocol
 
-from up.errors import Problem
+from up.errors import Problem, UserError
 
 FORMAT_VARIABLE = "UP_LOG_FORMAT"
 """In the environment of a program: ``json`` for output and log that another program reads."""
+_FORMATS = ("text", "json")
 
 
 class Echo(Protocol):
@@ -32,6 +33,14 @@ def print_problems(problems: Iterable[Problem], level: str = "error") -> None:
     for text, each in {str(each): each for each in problems}.items():
         line = program_line(text, each.code, each.fields, level) or f"{head}{text}"
         print(line, file=sys.stderr)  # noqa: T201 - the user's answer
+
+
+def check_format() -> None:
+    """Raise UserError for an unknown value of UP_LOG_FORMAT."""
+    value = os.environ.get(FORMAT_VARIABLE)
+    if value and value not in _FORMATS:
+        text = f"{FORMAT_VARIABLE}={value!r} is not a format; the formats are: {', '.join(_FORMATS)}"
+        raise UserError(text, "log_format_unknown", value=value)
 
 
 def program_line(

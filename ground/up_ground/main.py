@@ -11,7 +11,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from up.cli.cli_error import CliError, UsageError
-from up.cli.option_parser import EXIT_FAILED, EXIT_INTERRUPTED, EXIT_OK, EXIT_USAGE
+from up.cli.option_parser import EXIT_FAILED, EXIT_OK, EXIT_USAGE
 from up.commands.command import BaseCommand
 from up.fields import printable
 from up.output import echo
@@ -160,8 +160,6 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except OSError as error:
         print_error(f"{error.filename or 'output'}: {error.strerror or error}", "os_error")
         return EXIT_FAILED
-    except KeyboardInterrupt:
-        return EXIT_INTERRUPTED
 
 
 def _carry_out(options: argparse.Namespace) -> int:
