@@ -11,12 +11,13 @@ import argparse
 import fcntl
 import math
 import signal
-import sys
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from up.cli.option_parser import EXIT_USAGE as WRONG_INPUT
 from up.cli.option_parser import OptionParser
+from up.errors import UserError
+from up.output import print_problems
 from up_ground.web.listen_address import parse_listen
 from up_simulator.aircraft import AirframeError, airframe_names
 from up_simulator.demo.flight import DemoFlight
@@ -46,12 +47,13 @@ def main(arguments: Sequence[str] | None = None) -> int:
     options = _options(arguments)
     folder = (options.folder or ROOT / "run" / "demo").resolve()
     if not (ROOT / "main.py").is_file():
-        return _fail("the demo runs from a clone of the project: make run", WRONG_INPUT)
+        text = "the demo runs from a clone of the project: make run"
+        return _fail(text, WRONG_INPUT, "not_a_clone")
     try:
         folder.mkdir(parents=True, exist_ok=True)
         lock = (folder / "lock").open("w")
     except OSError as error:
-        return _fail(f"--folder {folder}: {error.strerror}", WRONG_INPUT)
+        return _fail(f"--folder {folder}: {error.strerror}", WRONG_INPUT, "cannot_write")
     with lock:
         try:
             fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
@@ -60,6 +62,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
                 f"another 'make run' flies with {folder}: end it, or give this one another folder:"
                 " make run ARGS='--folder run/second'",
                 1,
+                "folder_in_use",
             )
         return _fly(options, folder)
 
@@ -79,7 +82,7 @@ def _fly(options: argparse.Namespace, folder: Path) -> int:
         pass
     except AirframeError as error:
         # Before anything was started.
-        return _fail(f"make run: {error}", WRONG_INPUT)
+        return _fail(f"make run: {error}", WRONG_INPUT, "airframe")
     except (ParticipantError, OSError) as error:
         failure = str(error)
     finally:
@@ -191,6 +194,6 @@ def _raise_stopped(number: int, frame: object) -> None:
     raise Stopped
 
 
-def _fail(text: str, status: int) -> int:
-    sys.stderr.write(f"{text}\n")
+def _fail(text: str, status: int, code: str) -> int:
+    print_problems([UserError(text, code)])
     return status
