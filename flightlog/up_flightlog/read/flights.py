@@ -114,9 +114,8 @@ def find_flight_of(names: Sequence[str], folder: Callable[[], Path]) -> Flight:
 
 def _flights_of(folder: Path) -> list[Flight]:
     if not folder.is_dir():
-        raise FlightNotFoundError(
-            f"no flight recorded: no folder {folder}{demo_hint()}", "no_folder"
-        )
+        text = f"no flight recorded: no folder {folder}{demo_hint()}"
+        raise FlightNotFoundError(text, "no_folder")
     flights = flights_in(folder)
     if not flights:
         raise FlightNotFoundError(f"no flight in {folder}{demo_hint()}", "no_flights")
