@@ -106,7 +106,10 @@ class ReplayedAircraft(AircraftSource):
             if action == "seek":
                 self._seek(value)
             else:
-                self._player.set_speed(value)
+                try:
+                    self._player.set_speed(value)
+                except ValueError as error:
+                    raise PageFault(str(error)) from None
         elif action == "play":
             if self._player.time_s >= self._player.length_s:
                 self._seek(0.0)
