@@ -162,6 +162,7 @@ RULES = (
     Rule(path='source.heading', type='text', event='source', level='warning', code='source_changed', text='heading comes from {value} (was {before})'),
     Rule(path='source.battery', type='text', event='source', level='warning', code='source_changed', text='battery comes from {value} (was {before})'),
 )
+MODE_REASONS = {'reading_stale': 'a reading is missing or too old', 'mode_unknown': 'no module provides this flight mode', 'mode_refused': 'the flight mode cannot be entered now', 'no_home': 'home is not set', 'no_target': 'no target is set', 'failed': 'it failed', 'slow': 'it took too long', 'invalid_demand': 'it demanded what is not possible', 'orientation': 'orientation missing or too old', 'rx': 'receiver missing or too old', 'servo': 'servos missing or too old', 'flight': 'flight state missing or too old', 'location': 'location missing or too old', 'altitude': 'altitude missing or too old', 'heading': 'heading missing or too old', 'battery': 'battery missing or too old', 'navigation': 'navigation missing or too old'}
 EVENTS = {
     'silent':     Rule(event='link', code='silent', level='alarm', text='the aircraft is silent', alarm='silent'),
     'late':     Rule(event='link', code='late', level='alarm', text='telemetry arrives too late', alarm='silent'),
