@@ -54,7 +54,7 @@ class Catalogue:
         return [
             cls
             for cls in self._registry
-            if role_of(cls) and not cls.UNSUPPORTED and cls.NAME not in _ANSWERS
+            if role_of(cls) and cls.NAME not in _ANSWERS
         ]
 
     def suggestions(self, name: str) -> list[str]:
@@ -132,9 +132,10 @@ def fault_of(cls: type[BaseCommand], data: Mapping[str, Any]) -> str:
         fields = ", ".join(sorted(known)) or "none"
         return f"{cls.NAME} has no field {strange[0]} (its fields: {fields})"
     try:
-        return cls.from_data(data).unsupported
+        cls.from_data(data)
     except InvalidCommandError as error:
         return str(error)
+    return ""
 
 
 def _sentence(text: str | None) -> str:

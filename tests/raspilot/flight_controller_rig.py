@@ -1,8 +1,11 @@
-"""A flight controller with a board, a ground and a pilot, for its tests."""
+"""The flight mode manager with a board, a ground and a pilot, for its tests."""
 
 from twisted.internet.task import Clock
 
-from raspilot.flight_controller.raspilot_flight_controller import RaspilotFlightController
+from raspilot.flight_controller.attitude_controller import AttitudeController
+from raspilot.flight_controller.flight_mode_manager import FlightModeManager
+from raspilot.flight_modes.acro import Acro
+from raspilot.flight_modes.fbw import Fbw
 from tests.support.system import build_up
 from up.commands.flight_state_command import (
     FlightModeCommand,
@@ -11,7 +14,7 @@ from up.commands.flight_state_command import (
 from up.commands.gains import Gains, GainSet, LoopGains
 from up.commands.orientation_command import OrientationCommand
 from up.commands.origin import Origin
-from up.commands.output_command import OutputCommand
+from up.commands.output_command import OutputCommand, SetpointCommand
 from up.commands.roles import Role
 from up.commands.rx_command import ALL_VALID, RXCommand
 from up.flight_controller.pids_file import PidsFile
@@ -57,7 +60,8 @@ class Rig:
         gains=OTHER_GAINS,
         clock=None,
         mode=Mode.AUTO,
-        controller=RaspilotFlightController,
+        modes=(Fbw, Acro),
+        modules=(),
         **config,
     ):
         folder.mkdir(exist_ok=True)
@@ -65,13 +69,16 @@ class Rig:
             PidsFile(folder).save(gains)
         self.clock = clock or Clock()
         self.up = build_up(
-            (controller, Ground), self.clock, folder, mode=mode,
+            (FlightModeManager, AttitudeController, *modes, *modules, Ground),
+            self.clock, folder, mode=mode,
             config={**CONFIG, **{name + ".yml": text for name, text in config.items()}},
         )  # fmt: skip
         self.bus = self.up.command_executor
-        self.controller = self.up.get_module(controller)
+        self.manager = self.up.get_module(FlightModeManager)
+        self.controller = self.up.get_module(AttitudeController)
         self.ground = self.up.get_module(Ground)
-        self.outputs, self.modes = [], []
+        self.outputs, self.setpoints, self.modes = [], [], []
+        self.bus.register_command(SetpointCommand, self.setpoints.append)
         self.bus.register_command(OutputCommand, self.outputs.append)
         self.bus.register_command(FlightModeCommand, self.modes.append)
         self.sequence = 0

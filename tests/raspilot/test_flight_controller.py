@@ -6,7 +6,8 @@ from typing import ClassVar
 
 import pytest
 
-from raspilot.flight_controller.raspilot_flight_controller import RaspilotFlightController
+from raspilot.flight_modes.acro import Acro
+from raspilot.flight_modes.fbw import Fbw
 from tests.raspilot.flight_controller_rig import (
     BOARD,
     FBW_MODE,
@@ -51,7 +52,7 @@ def test_full_sticks_ask_for_the_limits_that_the_airframes_configuration_says(ri
     rig.sticks(ailerons=2000, elevator=2000)
     assert rig.frame(30.0, 10.0, sequence=1) == at_rest
     rig.sticks(ailerons=1000, elevator=1000)
-    rig.controller._reset()
+    rig.controller.reset()
     assert rig.frame(-30.0, -15.0, sequence=1) == at_rest
 
 
@@ -123,7 +124,7 @@ class TestNothingIsSent:
         rig.state()
         rig.sticks()
         assert rig.frame(origin=PHONE) is None
-        assert rig.up.get_modules(type(rig.controller.orientation))[0].reading.source == "android"
+        assert rig.up.get_modules(type(rig.manager.orientation))[0].reading.source == "android"
         assert rig.frame() is None
 
     @pytest.mark.parametrize("bad", [math.nan, math.inf])
@@ -141,7 +142,7 @@ def test_without_rates_the_sticks_pass_through(rig):
     rig.sticks(ailerons=1234, elevator=1777, rudder=900)
     output = rig.frame(30.0, 10.0, rates=(None, None, None))
     assert output == OutputCommand(1234, 1777, 0, 1000, 1)
-    assert rig.controller.flight_mode == "ACRO"
+    assert rig.manager.flight_mode == "ACRO"
 
 
 class TestThePast:
@@ -191,14 +192,15 @@ class TestThePast:
         assert abs(rig.outputs[-1].ailerons_us - before.ailerons_us) < 20
 
 
-class Impatient(RaspilotFlightController):
-    """An author's controller that wants newer readings than the base."""
+class Impatient(Fbw):
+    """An author's mode that wants newer readings than the one it replaces."""
 
-    FLIGHT_MODES: ClassVar = {"FBW": {"rx": 0.03, "orientation": 0.02}}
+    NEEDS: ClassVar = {"rx": 0.03, "orientation": 0.02}
+    FALLBACK: ClassVar = ""
 
 
-def test_the_ages_of_a_subclass_limit_the_control_step(tmp_path):
-    rig = Rig(tmp_path, controller=Impatient)
+def test_the_ages_of_a_mode_limit_the_control_step(tmp_path):
+    rig = Rig(tmp_path, modes=(Impatient, Acro))
     rig.state()
     rig.sticks()
     assert rig.frame() is not None

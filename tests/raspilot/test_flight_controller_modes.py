@@ -3,7 +3,7 @@
 import pytest
 from twisted.internet.task import Clock
 
-from raspilot.flight_controller.raspilot_flight_controller import RaspilotFlightController
+from raspilot.flight_controller.attitude_controller import AttitudeController
 from tests.raspilot.flight_controller_rig import FBW_MODE, GROUND, MANUAL, Rig
 from tests.support.system import build_up
 from tests.up.commands.samples import Log
@@ -19,24 +19,9 @@ from up.mode import Mode
 class TestModes:
     """Offered, shown and requested modes."""
 
-    def test_offered_by_what_is_valid(self, tmp_path):
-        rig = Rig(tmp_path)
-        controller = rig.controller
-        assert controller.offered_modes == []
-        assert controller.missing_for("FBW") == ["rx", "orientation"]
-        rig.sticks()
-        assert controller.offered_modes == ["ACRO"]
-        rig.attitude()
-        assert controller.offered_modes == ["FBW", "ACRO"]
-        rig.clock.advance(0.11)
-        assert controller.offered_modes == ["ACRO"]
-        rig.clock.advance(0.2)
-        assert controller.offered_modes == []
-        assert not controller.is_offered("RTH")
-
     def test_telemetry_shows_what_is_really_flown(self, rig):
         def shown():
-            return rig.controller.telemetry_content["flight_control"]["mode"]
+            return rig.manager.telemetry_content["flight_control"]["mode"]
 
         assert shown() is None
         rig.frame()
@@ -69,9 +54,9 @@ class TestModes:
             return [event for event in log.events if event.get("code") == "control_changed"]
 
         def counted():
-            return rig.controller.telemetry_content["counters"]["flight_control"]["outputs"]
+            return rig.manager.telemetry_content["counters"]["flight_control"]["published"]
 
-        controller = rig.controller.class_name
+        controller = rig.manager.class_name
         with Log() as log:
             assert fly() == (True, True, controller)
             delivered = counted()
@@ -116,10 +101,10 @@ class TestModes:
     )
     def test_it_is_loaded_where_the_configuration_says(self, tmp_path, mode, text, loaded):
         up = build_up(
-            (RaspilotFlightController,), Clock(), tmp_path, mode=mode,
+            (AttitudeController,), Clock(), tmp_path, mode=mode,
             config={"config.yml": f"flight controller: {text}\n"},
         )  # fmt: skip
-        assert (up.get_module(RaspilotFlightController) is not None) is loaded
+        assert (up.get_module(AttitudeController) is not None) is loaded
 
 
 def test_a_mode_that_the_board_refuses_is_no_wish(rig):

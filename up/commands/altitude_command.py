@@ -6,7 +6,6 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 from up.commands.command import BaseCommand, RolesWhere, value
-from up.commands.refusal import NO_NAVIGATION
 from up.commands.roles import Role
 
 
@@ -17,6 +16,5 @@ class AltitudeCommand(BaseCommand):
     NAME: ClassVar[str] = "up.altitude.change"
     ROLES: ClassVar[frozenset[Role]] = frozenset({Role.SENSOR})
     ROLES_WHERE: ClassVar[RolesWhere] = {"mode": {"required": frozenset({Role.OPERATOR})}}
-    UNSUPPORTED: ClassVar[str] = NO_NAVIGATION
     altitude_m: float = value(key="altitude", minimum=-1000, maximum=30000, unit="m")
     mode: str = value("actual", choices=("actual", "required"))

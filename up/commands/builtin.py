@@ -13,6 +13,7 @@ from up.commands.flight_state_command import (
 )
 from up.commands.heading_command import HeadingCommand
 from up.commands.location_command import LocationCommand
+from up.commands.navigation_commands import HomeCommand, NavigationTargetCommand
 from up.commands.orientation_command import OrientationCommand
 from up.commands.output_command import OutputCommand, SetpointCommand
 from up.commands.panic_command import PanicCommand
@@ -37,9 +38,11 @@ BUILTIN_COMMANDS: tuple[type[BaseCommand], ...] = (
     FlightStateCommand,
     FlyByWireLimitsCommand,
     HeadingCommand,
+    HomeCommand,
     LinkStateCommand,
     LocationCommand,
     NackCommand,
+    NavigationTargetCommand,
     OrientationCommand,
     OutputCommand,
     PIDTuningsCommand,

@@ -28,8 +28,7 @@ class BaseCommand:
     it from outside (empty: none), ``ROLES_WHERE`` those for a value of a field, ``ROUTE`` the link
     to which it is forwarded instead of being handled here, ``NEEDS_BEACON`` whether it must echo a
     fresh beacon, ``NEEDS_CONTROL`` whether only one module at a time may publish it
-    (``ControlLease``), ``UNSUPPORTED`` why a ground's request for it cannot be carried out (empty:
-    it can).
+    (``ControlLease``).
     """
 
     NAME: ClassVar[str] = ""
@@ -39,7 +38,6 @@ class BaseCommand:
     ROUTE: ClassVar[str] = ""
     NEEDS_BEACON: ClassVar[bool] = False
     NEEDS_CONTROL: ClassVar[bool] = False
-    UNSUPPORTED: ClassVar[str] = ""
 
     def roles(self) -> frozenset[Role]:
         """Return the roles that may send this instance."""
@@ -47,11 +45,6 @@ class BaseCommand:
             if (given := getattr(self, name)) in roles:
                 return roles[given]
         return self.ROLES
-
-    @property
-    def unsupported(self) -> str:
-        """Return why this instance cannot be carried out; a sensor reading is always accepted."""
-        return "" if Role.SENSOR in self.roles() else self.UNSUPPORTED
 
     @property
     def name(self) -> str:

@@ -92,9 +92,6 @@ class CommandReceiver:
         if reason is not None:
             self._refuse(link, message, Code.FORBIDDEN, f"{command.NAME}: {reason}")
             return
-        if command.unsupported:
-            self._refuse(link, message, Code.NOT_SUPPORTED, command.unsupported)
-            return
         refusal = self._check_beacon(command, message)
         if refusal is not None:
             self._refuse(link, message, *refusal)

@@ -27,11 +27,14 @@ class FlightStateCommand(BaseCommand):
 
 @dataclass(frozen=True, slots=True)
 class FlightModeCommand(BaseCommand):
-    """A flight mode; taken only while the pilot's switch stands at AUTO, and never ACRO."""
+    """A flight mode; taken only while the pilot's switch stands at AUTO, and never ACRO.
+
+    The board's FBW and RATE, AUTO for the Raspberry Pi, or the name of one of its flight modes.
+    """
 
     NAME: ClassVar[str] = "up.flight_mode.set"
     ROLES: ClassVar[frozenset[Role]] = frozenset({Role.OPERATOR})
-    mode: str = value(choices=("RATE", "FBW", "AUTO"))
+    mode: str = value(max_length=32)
 
 
 @dataclass(frozen=True, slots=True)

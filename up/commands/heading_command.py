@@ -6,7 +6,6 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 from up.commands.command import BaseCommand, RolesWhere, value
-from up.commands.refusal import NO_NAVIGATION
 from up.commands.roles import Role
 
 
@@ -17,6 +16,5 @@ class HeadingCommand(BaseCommand):
     NAME: ClassVar[str] = "up.heading.change"
     ROLES: ClassVar[frozenset[Role]] = frozenset({Role.SENSOR})
     ROLES_WHERE: ClassVar[RolesWhere] = {"mode": {"required": frozenset({Role.OPERATOR})}}
-    UNSUPPORTED: ClassVar[str] = NO_NAVIGATION
     heading_deg: float = value(key="heading", minimum=-360, maximum=360, unit="deg")
     mode: str = value(choices=("actual", "required"))

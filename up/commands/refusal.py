@@ -26,7 +26,7 @@ class Code(Enum):
     # schema end
 
 
-NO_NAVIGATION = "nothing navigates yet: no module flies to a heading or an altitude"
+NO_NAVIGATION = "no module of this application flies to a heading or an altitude"
 
 
 class CommandRefusedError(Exception):

@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from typing import Any, ClassVar
 
 from up.base_started_module import BaseStartedModule
+from up.commands.refusal import NO_NAVIGATION, Code, CommandRefusedError
 from up.needs import needs
 from up.providers.base_provider import BaseProvider
 from up.providers.base_rx_provider import BaseRXProvider
@@ -19,6 +20,8 @@ class BaseFlightController(BaseStartedModule):
     seconds: a mode is offered only while all of them are valid.
     """
 
+    SELECTS_MODES: ClassVar[bool] = False
+    """Whether it handles the flight modes of ``up.flight_mode.set`` that are not the board's."""
     FLIGHT_MODES: ClassVar[Mapping[str, Mapping[str, float]]] = {}
 
     rx = needs(BaseRXProvider)
@@ -48,6 +51,17 @@ class BaseFlightController(BaseStartedModule):
         """Return the readings that keep a mode from being offered."""
         wanted = self.FLIGHT_MODES.get(mode, {})
         return [each for each, max_age_s in wanted.items() if not self._is_fresh(each, max_age_s)]
+
+    def require(self, what: str, value: float) -> None:
+        """Follow a ``course`` (deg) or ``altitude`` (m) that the ground requests.
+
+        Raises CommandRefusedError when nothing follows it.
+        """
+        raise CommandRefusedError(NO_NAVIGATION, Code.NOT_SUPPORTED)
+
+    def required(self, what: str) -> float | None:
+        """Return the course or altitude that it follows now because the ground requested it."""
+        return None
 
     def _is_fresh(self, reading: str, max_age_s: float) -> bool:
         provider = self._providers.get(reading)

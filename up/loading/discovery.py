@@ -20,7 +20,7 @@ from up.loading.plan import LoadProblem, problem_of, reason_of
 
 # The import of a file may raise anything, and one that exits must not end the program.
 IMPORT_FAULTS = (Exception, SystemExit)
-MODULE_FOLDERS = ("modules", "flight_controller")
+MODULE_FOLDERS = ("modules", "flight_modes", "flight_controller")
 COMMAND_FOLDER = "commands"
 
 

@@ -8,6 +8,7 @@ from typing import Any, ClassVar, Generic, TypeVar
 
 from up.base_started_module import BaseStartedModule
 from up.commands.command import BaseCommand
+from up.commands.refusal import NO_NAVIGATION, Code, CommandRefusedError
 from up.commands.system_commands import SourceSelectedCommand
 from up.config.application import PROVIDERS
 from up.providers.source_arbiter import SourceArbiter
@@ -115,6 +116,16 @@ class BaseProvider(BaseStartedModule, Generic[_T]):
         """Return the part of telemetry common to all readings."""
         source = None if self._reading is None else self._reading.source
         return {"age_ms": {self.READING: self.age_ms}, "source": {self.READING: source}}
+
+
+def require(flight_control: Any, what: str, value: float) -> None:
+    """Request a ``course`` or ``altitude`` of the flight controller, or of none.
+
+    Raises CommandRefusedError when nothing follows it.
+    """
+    if flight_control is None:
+        raise CommandRefusedError(NO_NAVIGATION, Code.NOT_SUPPORTED)
+    flight_control.require(what, value)
 
 
 @dataclass(frozen=True, slots=True)

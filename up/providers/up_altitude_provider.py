@@ -8,7 +8,7 @@ from typing import Any, ClassVar
 from up.commands.altitude_command import AltitudeCommand
 from up.commands.command import BaseCommand
 from up.commands.telemetry_schema import READINGS
-from up.providers.base_provider import BaseProvider, Reading
+from up.providers.base_provider import BaseProvider, Reading, require
 
 
 class UpAltitudeProvider(BaseProvider[float]):
@@ -18,9 +18,12 @@ class UpAltitudeProvider(BaseProvider[float]):
     COMMAND: ClassVar[type[BaseCommand]] = AltitudeCommand
     MAX_AGE_S = READINGS[READING].source_s
 
-    def __init__(self, config: Any = None, silent: bool = False) -> None:
-        super().__init__(config, silent)
-        self.required_altitude: float | None = None
+    @property
+    def required_altitude(self) -> float | None:
+        """Return the altitude that the flight controller holds at the ground's request, m."""
+        control = self.up.flight_control
+        required: float | None = control and control.required("altitude")
+        return required
 
     @property
     def altitude(self) -> float | None:
@@ -37,7 +40,7 @@ class UpAltitudeProvider(BaseProvider[float]):
 
     def _value_of(self, command: Any) -> float | None:
         if command.mode == "required":
-            self.required_altitude = command.altitude_m
+            require(self.up.flight_control, "altitude", command.altitude_m)
             return None
         altitude: float = command.altitude_m
         return altitude

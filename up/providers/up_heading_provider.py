@@ -9,7 +9,7 @@ from up.commands.command import BaseCommand
 from up.commands.heading_command import HeadingCommand
 from up.commands.telemetry_schema import READINGS
 from up.earth import compass_deg
-from up.providers.base_provider import BaseProvider, Reading
+from up.providers.base_provider import BaseProvider, Reading, require
 
 
 class UpHeadingProvider(BaseProvider[float]):
@@ -19,9 +19,12 @@ class UpHeadingProvider(BaseProvider[float]):
     COMMAND: ClassVar[type[BaseCommand]] = HeadingCommand
     MAX_AGE_S = READINGS[READING].source_s
 
-    def __init__(self, config: Any = None, silent: bool = False) -> None:
-        super().__init__(config, silent)
-        self.required_heading: float | None = None
+    @property
+    def required_heading(self) -> float | None:
+        """Return the course that the flight controller follows at the ground's request, deg."""
+        control = self.up.flight_control
+        required: float | None = control and control.required("course")
+        return required
 
     @property
     def actual_heading(self) -> float | None:
@@ -38,7 +41,7 @@ class UpHeadingProvider(BaseProvider[float]):
     def _value_of(self, command: Any) -> float | None:
         heading = compass_deg(command.heading_deg)
         if command.mode == "required":
-            self.required_heading = heading
+            require(self.up.flight_control, "course", heading)
             self._on_required_heading_changed()
             return None
         return heading

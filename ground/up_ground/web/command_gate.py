@@ -106,8 +106,6 @@ class CommandGate:
         self, cls: type[BaseCommand], name: str, data: dict[str, Any], beacon: int | None
     ) -> Answer | None:
         """Return why no aircraft takes it; the role of its link is checked if it is known."""
-        if cls.UNSUPPORTED:
-            return Answer("refused", "not_supported", cls.UNSUPPORTED)
         if cls not in self._catalogue.sendable():
             return Answer("refused", "forbidden", f"no ground may send {name}")
         if fault := fault_of(cls, data):

@@ -135,7 +135,6 @@ def test_who_may_send_what(name, data, roles, role):
     border.bus.register_command(name, hear)
     border.receiver.register_route("android", lambda command, link, id_: heard.append(command))
     border.say(name, data, "a", border.beacons.draw())
-    is_unsupported = data.get("mode") == "required"
-    assert bool(heard) == (role in roles and not is_unsupported), border.answers
+    assert bool(heard) == (role in roles), border.answers
     if not heard:
-        assert border.codes == ["not_supported" if role in roles else "forbidden"]
+        assert border.codes == ["forbidden"]

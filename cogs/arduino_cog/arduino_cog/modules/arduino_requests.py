@@ -12,7 +12,8 @@ from arduino_cog.wire import IN_FLIGHT
 from up.base_module import BaseModule
 from up.commands.arming_commands import ArmCommand, DisarmCommand
 from up.commands.flight_state_command import FlightModeCommand
-from up.commands.refusal import CommandRefusedError
+from up.commands.refusal import Code, CommandRefusedError
+from up.fields import suggestion
 from up.mode import WITH_BOARD
 from up.needs import needs
 
@@ -62,10 +63,22 @@ class ArduinoFlightMode(BaseModule):
         self._letters = {**_LETTERS, "AUTO": auto}
         self.up.command_executor.register_command(FlightModeCommand, self.on_flight_mode)
 
-    def on_flight_mode(self, command: FlightModeCommand) -> Deferred[Any]:
-        """Request the mode; ACRO has no letter, as the ground can never select it."""
+    def on_flight_mode(self, command: FlightModeCommand) -> Deferred[Any] | None:
+        """Request the mode; ACRO has no letter, as the ground can never select it.
+
+        Other modes are those of the flight controller on this computer.
+        """
         self.arduino.require_checked("a flight mode")
-        return self.arduino.request("M", self._letters[command.mode])
+        letter = self._letters.get(command.mode)
+        if letter is not None:
+            return self.arduino.request("M", letter)
+        control = self.up.flight_control
+        if control is None or not control.SELECTS_MODES:
+            near = suggestion(command.mode, self._letters)
+            raise CommandRefusedError(
+                f"no flight mode {command.mode}{near}", Code.INVALID, detail="mode_unknown"
+            )
+        return None
 
 
 class ArduinoCalibration(BaseModule):

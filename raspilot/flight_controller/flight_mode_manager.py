@@ -1,0 +1,323 @@
+"""The one place that decides what the aircraft does at AUTO, and publishes it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any, ClassVar
+
+from twisted.internet.defer import Deferred
+
+from raspilot.flight_controller.attitude_controller import AttitudeController
+from raspilot.flight_controller.flight_memory import Place
+from raspilot.flight_controller.home import (
+    HomeKeeper,
+    place_of_target,
+    target_of_place,
+    telemetry_of,
+)
+from raspilot.navigation.config import NAVIGATION
+from up.commands.flight_state_command import FlightModeCommand, FlightStateCommand
+from up.commands.navigation_commands import HomeCommand, NavigationTargetCommand
+from up.commands.orientation_command import OrientationCommand
+from up.commands.origin import Origin
+from up.commands.output_command import OutputCommand, SetpointCommand
+from up.commands.refusal import CommandRefusedError
+from up.commands.roles import Role
+from up.flight_controller.base_flight_controller import BaseFlightController
+from up.flight_modes.demand import AttitudeDemand, Demand, PathDemand, SurfacesDemand
+from up.flight_modes.flight_mode import FlightMode, FlightSituation, Target
+from up.flight_modes.navigation_state import NavigationState
+from up.flight_modes.selector import REFUSED, DemandError, FlightModeSelector
+from up.mode import WITH_BOARD, Mode
+from up.needs import wants
+from up.providers.up_location_provider import UpLocationProvider
+
+BOARD_MODES = ("FBW", "RATE")
+AUTO = "AUTO"
+MIN_STEP_S, MAX_STEP_S = 1e-3, 0.1
+REQUEST_PERIOD_S = 5.0
+RESUME_S = 3.0
+"""After a restart in flight the readings get this time before a fallback acts."""
+MAX_RX_AGE_S, MAX_ORIENTATION_AGE_S, MAX_NAVIGATION_AGE_S = 0.25, 0.1, 3.0
+_NOT_PERMITTED = "does not fly: the board does not let it"
+
+
+class FlightModeManager(BaseFlightController):
+    """Runs the selected flight mode on every orientation frame while the board lets the Pi fly.
+
+    Its demand becomes an Output (``flight controller: raspberry``) or a set-point (``arduino``).
+    Without a mode that can act, or from an orientation that is not the board's, nothing is
+    published: the board's own failsafe acts. When the switch leaves AUTO, the selection ends.
+    """
+
+    MODES: ClassVar[frozenset[Mode]] = WITH_BOARD
+    CONFIG = NAVIGATION
+    SELECTS_MODES: ClassVar[bool] = True
+
+    attitude_controller = wants(AttitudeController)
+    location = wants(UpLocationProvider)
+
+    def __init__(self, config: Any = None, silent: bool = False) -> None:
+        super().__init__(config, silent)
+        self.published = 0
+        self._is_asked = True
+        self._is_board_ready = False
+        self._asked_at_s = float("-inf")
+        self._state: FlightStateCommand | None = None
+        self._stepped_at_s = float("-inf")
+        self._resumed_at_s = float("-inf")
+        self._logged = _NOT_PERMITTED
+        self._situation: FlightSituation | None = None
+        self._shown_target: Target | None = None
+        self._target: Target | None = None
+        self._resumed_place: Place | None = None
+        self._requests: dict[str, float] = {}
+
+    def on_init(self) -> None:
+        super().on_init()
+        self._selector = FlightModeSelector(self.up.get_modules(FlightMode), self._is_fresh)
+        modes, auto = self._selector.modes, self.config.auto_mode
+        self._auto = auto if auto in modes else None
+        if self._auto is None and auto not in BOARD_MODES:
+            text = f"navigation.yml: auto_mode: no flight mode {auto!r} is loaded"
+            self.up.vetoes.set("navigation.yml", text)
+        self._selector.select(self._auto)
+        # With its origin the bus need not search the publisher of each Command.
+        self._origin = Origin(self.class_name, Role.INTERNAL)
+        self.home = HomeKeeper(
+            self.context.config_folder, self.context.reactor, self.config.home_accuracy_m
+        )
+        executor = self._executor = self.up.command_executor
+        executor.register_command(OrientationCommand, self._on_orientation)
+        executor.register_command(FlightStateCommand, self._on_flight_state)
+        executor.register_command(FlightModeCommand, self._on_flight_mode)
+        executor.register_command(NavigationTargetCommand, self._on_target)
+        executor.register_command(HomeCommand, self._on_home)
+
+    def on_stop(self) -> None:
+        self._selector.timer.close()
+
+    @property
+    def telemetry_content(self) -> Mapping[str, Any]:
+        """Return the flight modes, home and target; counts only delivered Commands."""
+        dropped = self._executor.control.refused[self.class_name]
+        selector = self._selector
+        is_flying = self.is_flying
+        offers = selector.offers(self._situation)
+        if self._auto is not None:
+            missing = selector.missing_for(self._auto)
+            offers = {AUTO: missing[0] if missing else None, **offers}
+        return {
+            "flight_control": {
+                "mode": selector.active if is_flying else None,
+                "selected": selector.selected,
+                "fallback": selector.reason if is_flying else None,
+                "modes": offers,
+                "board_modes": list(BOARD_MODES),
+            },
+            "navigation": {"target": self._target_content},
+            "home": self.home.telemetry(self._navigation, self.config.cruise_m_s),
+            "counters": {"flight_control": {"published": self.published - dropped}},
+        }
+
+    @property
+    def is_flying(self) -> bool:
+        """Return whether its Commands reach the board: another module may have control."""
+        return self._is_board_ready and self._executor.control.owner == self.class_name
+
+    @property
+    def _target_content(self) -> Mapping[str, float | None]:
+        return telemetry_of(self.home.memory.values.target if self.is_flying else None, "radius")
+
+    @property
+    def _navigation(self) -> NavigationState | None:
+        provider: Any = self._providers.get("navigation")
+        if provider is None or provider.fresh(MAX_NAVIGATION_AGE_S) is None:
+            return None
+        state: NavigationState = provider.state
+        return state
+
+    def _on_orientation(self, command: OrientationCommand) -> None:
+        # A phone's frame could carry a sequence too; only the board's is valid.
+        if command.sequence is None or self._executor.origin.role is not Role.BOARD:
+            return
+        reading = self.orientation.fresh(MAX_ORIENTATION_AGE_S)
+        if reading is None or reading.value is not command:
+            return
+        navigation = self._navigation
+        self.home.update(navigation, self._state)
+        if navigation is not None and self._resumed_place is not None:
+            self._target = target_of_place(self._resumed_place, navigation.frame)
+            self._resumed_place = None
+        rx = self.rx.fresh(MAX_RX_AGE_S)
+        now_s = reading.time_s
+        situation = self._situation = FlightSituation(
+            now_s,
+            command,
+            navigation,
+            None if rx is None else rx.value,
+            None if navigation is None else self.home.of(navigation.frame),
+            self._target,
+            self._requests.get("course"),
+            self._requests.get("altitude"),
+        )
+        selector = self._selector
+        if not self._is_board_ready or selector.selected is None:
+            return
+        dt_s = now_s - self._stepped_at_s
+        self._stepped_at_s = now_s
+        if dt_s > MAX_STEP_S:
+            # The loop paused: its state belongs to an earlier part of the flight.
+            self._reset()
+            dt_s = MAX_STEP_S
+        if now_s - self._resumed_at_s < RESUME_S and selector.missing_for(selector.selected):
+            return
+        made = selector.step(situation, max(dt_s, MIN_STEP_S), self._carry_out)
+        self.flight_mode = selector.active
+        self._remember_target(navigation)
+        if made is not None:
+            self.published += 1
+            self._executor.execute_command(made, self._origin)
+
+    def _carry_out(
+        self, demand: Demand, situation: FlightSituation, dt_s: float
+    ) -> OutputCommand | SetpointCommand:
+        if isinstance(demand, PathDemand):
+            demand = self._attitude_of(demand, situation, dt_s)
+        if self.attitude_controller is not None:
+            return self.attitude_controller.output(demand, situation.orientation, dt_s)
+        if isinstance(demand, SurfacesDemand):
+            raise DemandError("the Arduino's control loop takes attitudes, not surfaces")
+        throttle = demand.throttle
+        return SetpointCommand(
+            max(-90.0, min(90.0, demand.roll_deg)),
+            max(-90.0, min(90.0, demand.pitch_deg)),
+            throttle_us=None if throttle is None else round(1000 + 1000 * _part(throttle)),
+        )
+
+    def _attitude_of(
+        self, demand: PathDemand, situation: FlightSituation, dt_s: float
+    ) -> AttitudeDemand:
+        raise DemandError("no path controller")
+
+    def _remember_target(self, navigation: NavigationState | None) -> None:
+        mode = self._selector.modes.get(self._selector.active or "")
+        target = None if mode is None else mode.target
+        if target is not self._shown_target and navigation is not None:
+            self._shown_target = target
+            place = None if target is None else place_of_target(target, navigation.frame)
+            self.home.memory.update(target=place)
+
+    def _reset(self) -> None:
+        if self.attitude_controller is not None:
+            self.attitude_controller.reset()
+
+    def _select(self, name: str | None) -> None:
+        selector = self._selector
+        selector.select(name)
+        self._requests.clear()
+        if name is None or "target" not in selector.modes[name].REQUESTS:
+            self._target = None
+        self.home.memory.update(mode=name or "")
+
+    def _on_flight_state(self, command: FlightStateCommand) -> None:
+        ready = command.flight_mode in ("OUTPUT", "SETPOINT")
+        was_ready, self._is_board_ready = self._is_board_ready, ready
+        if was_ready or not ready:
+            # Not at the first state: its first Command takes control.
+            self._log_change_of_control()
+        previous, self._state = self._state, command
+        if previous is None and command.is_in_flight:
+            self._resume(command)
+        elif not command.is_auto:
+            self._is_asked = True
+            if self._selector.selected != self._auto:
+                self._select(self._auto)
+        if command.is_auto and not ready and self._is_asked and self._auto is not None:
+            self._request_control(command != previous)
+
+    def _resume(self, state: FlightStateCommand) -> None:
+        """Continue a flight after a restart of the program: home, target, mode."""
+        memory = self.home.memory.values
+        self._resumed_at_s = self.context.reactor.seconds()
+        self.home.resume()
+        name = memory.mode if state.is_auto and memory.mode in self._selector.modes else self._auto
+        self._select(name)
+        self._resumed_place = memory.target
+        self.log.warn(
+            "the program started in flight: home and flight mode {mode} are resumed",
+            mode=name,
+            home=self.home.place is not None,
+            code="flight_resumed",
+        )
+
+    def _log_change_of_control(self) -> None:
+        owner = self._executor.control.owner
+        if not self._is_board_ready:
+            text = _NOT_PERMITTED
+        elif self.is_flying:
+            text = "flies"
+        else:
+            text = f"does not fly: {owner or 'no module'} has control"
+        if text != self._logged:
+            self._logged = text
+            self.log.info(
+                "{text}",
+                text=text,
+                code="control_changed",
+                flies=self.is_flying,
+                permitted=self._is_board_ready,
+                owner=owner,
+            )
+
+    def _request_control(self, at_once: bool) -> None:
+        """Request AUTO from the board: after a state change, and periodically in case of loss."""
+        now_s = self.context.reactor.seconds()
+        if at_once or now_s - self._asked_at_s >= REQUEST_PERIOD_S:
+            self._asked_at_s = now_s
+            self._executor.execute_command(FlightModeCommand(AUTO), self._origin)
+
+    def _on_flight_mode(self, command: FlightModeCommand) -> Deferred[None] | None:
+        name = command.mode
+        if self._executor.origin == self._origin:
+            return None
+        if name == AUTO or name in BOARD_MODES:
+            # The board accepts a mode only with the switch at AUTO; a refused one does not count.
+            if self._state is not None and self._state.is_auto:
+                self._is_asked = name == AUTO
+                self._select(self._auto if name == AUTO else None)
+            return None
+        self._selector.check(name, self._situation)
+        if self._is_board_ready:
+            self._select(name)
+            return None
+        done = self._executor.execute_and_wait(FlightModeCommand(AUTO), self._origin)
+        return done.addCallback(lambda _: self._select(name))
+
+    def _on_target(self, command: NavigationTargetCommand) -> None:
+        self._target = self.home.target_of(command, self._navigation)
+
+    def _on_home(self, command: HomeCommand) -> None:
+        self.home.set(command, self._navigation)
+
+    def require(self, what: str, value: float) -> None:
+        """Follow a course (deg) or altitude (m) that the ground requests.
+
+        Raises CommandRefusedError unless the mode that acts follows it.
+        """
+        active = self._selector.modes.get(self._selector.active or "")
+        if not self.is_flying or active is None or what not in active.REQUESTS:
+            able = [name for name, each in self._selector.modes.items() if what in each.REQUESTS]
+            raise CommandRefusedError(
+                f"a required {what} acts in {' and '.join(able) or 'no flight mode'} only",
+                detail=REFUSED,
+            )
+        self._requests[what] = value
+
+    def required(self, what: str) -> float | None:
+        """Return the course or altitude that the ground requested of the present mode."""
+        return self._requests.get(what)
+
+
+def _part(throttle: float) -> float:
+    return max(0.0, min(1.0, throttle))

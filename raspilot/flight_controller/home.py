@@ -1,0 +1,180 @@
+"""Home: set once, never moved by accident (INAV#5893), kept over a restart."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+from twisted.logger import Logger
+
+from raspilot.flight_controller.flight_memory import FlightMemory, Place
+from up.commands.flight_state_command import FlightStateCommand
+from up.commands.navigation_commands import HomeCommand, NavigationTargetCommand
+from up.commands.refusal import Code, CommandRefusedError
+from up.flight_modes.flight_mode import Home, Target
+from up.flight_modes.navigation_state import LocalFrame, NavigationState
+
+MAX_DISTANCE_M = 100_000.0
+"""No target is farther away: the plane of the estimator would no longer fit the Earth."""
+
+
+class HomeKeeper:
+    """Home is the first accurate position, then the one at which the flight begins (arming).
+
+    In flight only a Command moves it. ``place`` is None while home is not known.
+    """
+
+    log = Logger()
+
+    def __init__(self, folder: Path, reactor: Any, accuracy_m: float) -> None:
+        self.memory = FlightMemory(folder, reactor)
+        self.place: Place | None = None
+        self._accuracy_m = accuracy_m
+        self._was_in_flight: bool | None = None
+
+    def resume(self) -> None:
+        """Take the home of the flight that another run of the program began."""
+        self.place = self.memory.values.home
+
+    def of(self, frame: LocalFrame) -> Home | None:
+        """Return home in the estimator's frame."""
+        place = self.place
+        if place is None:
+            return None
+        return Home(frame.point(place.latitude_deg, place.longitude_deg), place.altitude_m)
+
+    def update(self, navigation: NavigationState | None, state: FlightStateCommand | None) -> None:
+        """Set home, if this is the moment; called for every orientation frame."""
+        is_in_flight = None if state is None else state.is_in_flight
+        begins = is_in_flight and self._was_in_flight is False
+        if not begins and (self.place is not None or is_in_flight is None):
+            self._was_in_flight = is_in_flight
+            return
+        if navigation is None or navigation.position_sd_m > self._accuracy_m:
+            return
+        self._was_in_flight = is_in_flight
+        self._set(_place_of(navigation), "flight_begins" if begins else "first_position")
+
+    def set(self, command: HomeCommand, navigation: NavigationState | None) -> None:
+        """Set home by a Command; raises CommandRefusedError without a position."""
+        place = self.place
+        if command.latitude_deg is None or command.longitude_deg is None:
+            place = _place_of(require_position(navigation))
+        else:
+            _check_distance(command.latitude_deg, command.longitude_deg, navigation)
+            if place is None and command.altitude_m is None:
+                place = _place_of(require_position(navigation))
+            place = replace(
+                place or Place(),
+                latitude_deg=command.latitude_deg,
+                longitude_deg=command.longitude_deg,
+            )
+        if command.altitude_m is not None:
+            place = replace(place, altitude_m=command.altitude_m)
+        self._set(place, "command")
+
+    def target_of(
+        self, command: NavigationTargetCommand, navigation: NavigationState | None
+    ) -> Target:
+        """Return a Command's target in the estimator's frame; raises CommandRefusedError."""
+        state = require_position(navigation)
+        _check_distance(command.latitude_deg, command.longitude_deg, state)
+        altitude_m = state.altitude_m if command.altitude_m is None else command.altitude_m
+        if command.height_m is not None:
+            if self.place is None:
+                text = "home is not set: give the altitude above sea level"
+                raise CommandRefusedError(text, detail="no_home")
+            altitude_m = self.place.altitude_m + command.height_m
+        point = state.frame.point(command.latitude_deg, command.longitude_deg)
+        return Target(point, altitude_m, command.radius_m)
+
+    def telemetry(
+        self, navigation: NavigationState | None, cruise_m_s: float
+    ) -> Mapping[str, float | None]:
+        """Return the telemetry of home that the location's provider does not send."""
+        home = None if navigation is None else self.of(navigation.frame)
+        time_s = None
+        if navigation is not None and home is not None:
+            time_s = time_home_s(navigation, home, cruise_m_s)
+        return {**telemetry_of(self.place), "time_s": time_s}
+
+    def _set(self, place: Place, cause: str) -> None:
+        self.place = place
+        self.memory.update(home=place)
+        self.log.info(
+            "home is {latitude:.6f}, {longitude:.6f}, {altitude:.0f} m above sea level",
+            latitude=place.latitude_deg,
+            longitude=place.longitude_deg,
+            altitude=place.altitude_m,
+            cause=cause,
+            code="home_set",
+        )
+
+
+def time_home_s(navigation: NavigationState, home: Home, airspeed_m_s: float) -> float | None:
+    """Return how long the straight way home takes in this wind; None: it does not arrive."""
+    north_m = home.point.north_m - navigation.position.north_m
+    east_m = home.point.east_m - navigation.position.east_m
+    distance_m = math.hypot(north_m, east_m)
+    if distance_m < 1.0:
+        return 0.0
+    north, east = north_m / distance_m, east_m / distance_m
+    wind = navigation.wind_m_s
+    along_m_s = wind.north_m * north + wind.east_m * east
+    across_m_s = wind.east_m * north - wind.north_m * east
+    if abs(across_m_s) >= airspeed_m_s:
+        return None
+    speed_m_s = along_m_s + math.sqrt(airspeed_m_s**2 - across_m_s**2)
+    return distance_m / speed_m_s if speed_m_s > 0.5 else None
+
+
+def require_position(navigation: NavigationState | None) -> NavigationState:
+    """Return the state; raises CommandRefusedError without one."""
+    if navigation is None:
+        text = "the position of the aircraft is not known"
+        raise CommandRefusedError(text, Code.UNAVAILABLE, detail="reading_stale")
+    return navigation
+
+
+def telemetry_of(place: Place | None, *more: str) -> dict[str, float | None]:
+    """Return a place as telemetry: its latitude, longitude, altitude, and ``more``."""
+    fields = {"latitude": "deg", "longitude": "deg", "altitude": "m", **dict.fromkeys(more, "m")}
+    return {
+        name: None if place is None else getattr(place, f"{name}_{unit}")
+        for name, unit in fields.items()
+    }
+
+
+def place_of_target(target: Target, frame: LocalFrame) -> Place:
+    """Return a target as it is saved."""
+    latitude_deg, longitude_deg = frame.degrees(target.point)
+    return Place(latitude_deg, longitude_deg, target.altitude_m, target.radius_m)
+
+
+def target_of_place(place: Place, frame: LocalFrame) -> Target:
+    """Return a saved target in the estimator's frame."""
+    point = frame.point(place.latitude_deg, place.longitude_deg)
+    return Target(point, place.altitude_m, place.radius_m)
+
+
+def _check_distance(
+    latitude_deg: float, longitude_deg: float, navigation: NavigationState | None
+) -> None:
+    if navigation is None:
+        return
+    point = navigation.frame.point(latitude_deg, longitude_deg)
+    distance_m = math.dist(point, navigation.position)
+    if distance_m > MAX_DISTANCE_M:
+        raise CommandRefusedError(
+            f"that point is {distance_m / 1000:.0f} km away: at most"
+            f" {MAX_DISTANCE_M / 1000:.0f} km is possible",
+            detail="too_far",
+        )
+
+
+def _place_of(navigation: NavigationState) -> Place:
+    latitude_deg, longitude_deg = navigation.frame.degrees(navigation.position)
+    return Place(latitude_deg, longitude_deg, navigation.altitude_m)

@@ -1,0 +1,1 @@
+"""Raspilot's own flight modes: every file here is loaded."""

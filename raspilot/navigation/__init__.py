@@ -1,0 +1,1 @@
+"""The mathematics of navigation: no module, no Twisted."""
