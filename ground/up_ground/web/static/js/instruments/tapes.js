@@ -60,6 +60,9 @@ function showSpeed(tape, store) {
   const freshness = freshnessOf(store, speed_m_s, "location");
   const age = oldText(store, "location", freshness);
   tape.show(speed_m_s, freshness, numberText(speed_m_s, 1), age);
+  const airspeed_m_s = store.number("navigation.airspeed");
+  setText(tape.foot, airspeed_m_s === null ? "" : `AS ${numberText(airspeed_m_s, 1)}`);
+  setAttribute(tape.foot, "data-freshness", freshnessOf(store, airspeed_m_s, "navigation"));
 }
 
 function showAltitude(tape, store) {
@@ -68,10 +71,11 @@ function showAltitude(tape, store) {
   const decimals = altitude_m >= 1000 || altitude_m <= -100 ? 0 : 1;
   const age = oldText(store, "altitude", freshness);
   tape.show(altitude_m, freshness, numberText(altitude_m, decimals), age);
-  const height_m = heightOverStart_m(store);
-  const where = startsAtHome(store) ? "home" : "start";
+  const estimated_m = store.number("navigation.height");
+  const height_m = estimated_m ?? heightOverStart_m(store);
+  const where = estimated_m !== null || startsAtHome(store) ? "home" : "start";
   setText(tape.foot, height_m === null ? "" : `${heightText(height_m)} ${where}`);
-  setAttribute(tape.foot, "data-freshness", freshnessOf(store, height_m, "location"));
+  setAttribute(tape.foot, "data-freshness", freshnessOf(store, height_m, estimated_m === null ? "location" : "navigation"));
 }
 
 function heightText(height_m) {
@@ -80,7 +84,7 @@ function heightText(height_m) {
     : `${numberText(height_m / 1000, 1, { sign: true })} km`;
 }
 
-/** Above the start of the track: the altitude of home itself is not reported. */
+/** Above the start of the track, where the aircraft reports no height above home. */
 function heightOverStart_m(store) {
   const start_m = store.track.startAltitude_m;
   const here_m = store.number("location.altitude");

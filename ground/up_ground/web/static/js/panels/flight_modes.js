@@ -6,7 +6,7 @@ import { switchMode } from "../state/pilot_input.js";
 const NAME = "up.flight_mode.set";
 /** The modes for which there is always a large button. */
 const LARGE = ["RETURN", "LOITER"];
-/** Selects the mode of the aircraft's navigation.yml. */
+/** Selects the mode that the aircraft's navigation.yml names. */
 const AUTO = "AUTO";
 const NOT_REPORTED = "the aircraft does not report its flight modes";
 
@@ -87,16 +87,14 @@ export class FlightModes {
     const isPi = isLive && isFlownByPi(store.text("flight_mode"));
     const acting = isLive ? actingMode(store) : null;
     const reported = piModes(store);
-    const all = reported ?? new Map();
-    const offered = [...all.values()].filter((code) => code === null);
-    const missing = reported === null ? NOT_REPORTED : "mode_unknown";
-    const own = (mode) => (all.has(mode) ? all.get(mode) : missing);
-    const isActive = (mode) => isPi && mode === acting;
+    // An older aircraft reports none, and takes AUTO.
+    const all = reported ?? new Map([[AUTO, null]]);
+    const own = (mode) => (all.has(mode) ? all.get(mode) : reported === null ? NOT_REPORTED : "mode_unknown");
+    // AUTO also acts while the Raspberry Pi flies a mode that cannot be selected.
+    const isActive = (mode) => isPi && mode === (all.has(acting) ? acting : AUTO);
     this.#large.show(LARGE.map((mode) => this.#of(mode, own(mode), isActive(mode))));
     const names = [...all.keys()].filter((mode) => !LARGE.includes(mode));
-    // AUTO acts while the Raspberry Pi flies a mode that it does not report.
-    const auto = this.#of(AUTO, reported === null || offered.length > 0 ? null : "mode_refused", isPi && !all.has(acting));
-    this.#pi.show([...names.map((mode) => this.#of(mode, own(mode), isActive(mode))), auto]);
+    this.#pi.show(names.map((mode) => this.#of(mode, own(mode), isActive(mode))));
     this.#board.show(boardModes(store).map((mode) => this.#of(mode, null, !isPi && mode === acting)));
     setText(this.#line, this.#switchText());
   }

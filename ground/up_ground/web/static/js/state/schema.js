@@ -246,14 +246,11 @@ export const NAVIGATION_ROWS = [
 
 /** Why a flight mode is not offered, or was replaced, by code. */
 export const MODE_REASONS = {
-  "reading_stale": "a reading is missing or too old",
-  "mode_unknown": "no module provides this flight mode",
-  "mode_refused": "the flight mode cannot be entered now",
-  "no_home": "home is not set",
-  "no_target": "no target is set",
-  "failed": "it failed",
-  "slow": "it took too long",
-  "invalid_demand": "it demanded what is not possible",
+  "mode_failed": "it failed",
+  "mode_overrun": "it took too long",
+  "demand_invalid": "it demanded what is not possible",
+  "mode_refused": "it cannot be entered now",
+  "mode_unknown": "no module provides it",
   "orientation": "orientation missing or too old",
   "rx": "receiver missing or too old",
   "servo": "servos missing or too old",
