@@ -22,7 +22,7 @@ export function mount(place, store, connection) {
   const wind = new Wind();
   const notice = html("p.map-notice", { id: "map-notice", hidden: true });
   const actions = new MapActions(store, connection, show);
-  place.append(canvas, tools, html("div.map-foot", {}, words, wind.element), notice, actions.element);
+  place.append(canvas, tools, html("div.map-foot", {}, words), wind.element, notice, actions.element);
   let map = null;
   place.addEventListener("keydown", onKey);
 

@@ -1,5 +1,5 @@
 import { html, setAttribute, setText, svg } from "../dom.js";
-import { numberText } from "../state/format.js";
+import { headingText, numberText } from "../state/format.js";
 
 /** The wind beside the map, if the aircraft estimates it: an arrow along the wind, and text. */
 export class Wind {
@@ -7,9 +7,9 @@ export class Wind {
   #words = html("span");
 
   constructor() {
-    const arrow = svg("svg", { viewBox: "-8 -8 16 16", width: 16, height: 16 }, this.#arrow);
+    const arrow = svg("svg", { viewBox: "-8 -8 16 16", width: 24, height: 24 }, this.#arrow);
     setAttribute(arrow, "aria-hidden", "true");
-    this.element = html("p.map-wind", { id: "map-wind", hidden: true }, arrow, this.#words);
+    this.element = html("p.map-wind", { id: "map-wind", title: "Wind, two standard deviations", hidden: true }, "Wind", arrow, this.#words);
   }
 
   show(store) {
@@ -20,7 +20,7 @@ export class Wind {
       const sd_m_s = store.number("navigation.sd.wind");
       const spread = sd_m_s === null ? "" : ` ±${numberText(2 * sd_m_s, 1)}`;
       setAttribute(this.#arrow, "transform", `rotate(${from_deg.toFixed(0)})`);
-      setText(this.#words, `wind ${numberText(speed_m_s, 1)}${spread} m/s from ${from_deg.toFixed(0)}°`);
+      setText(this.#words, `${numberText(speed_m_s, 1)}${spread} m/s from ${headingText(from_deg)}°`);
       setAttribute(this.element, "data-freshness", store.freshness("navigation"));
     }
   }
