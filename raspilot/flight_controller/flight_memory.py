@@ -47,6 +47,7 @@ class FlightMemory:
         self._file = PersistedFile(folder / MEMORY.filename, MEMORY)
         self._reactor = reactor
         self._lock = threading.Lock()
+        self._writer: threading.Thread | None = None
         self.values, problem = self._file.load()
         if problem:
             self.log.warn("{reason}", reason=str(problem), code="flight_state_invalid")
@@ -56,7 +57,14 @@ class FlightMemory:
         values = replace(self.values, **changes)
         if values != self.values:
             self.values = values
-            threading.Thread(target=self._save, name="flight_state.yml writer", daemon=True).start()
+            name = "flight_state.yml writer"
+            self._writer = threading.Thread(target=self._save, name=name, daemon=True)
+            self._writer.start()
+
+    def wait(self) -> None:
+        """Wait until the newest values are on the disk."""
+        if self._writer is not None:
+            self._writer.join()
 
     def _save(self) -> None:
         with self._lock:

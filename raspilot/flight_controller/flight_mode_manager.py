@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 from typing import Any, ClassVar
 
 from twisted.internet.defer import Deferred
@@ -15,8 +16,9 @@ from raspilot.flight_controller.home import (
     target_of_place,
     telemetry_of,
 )
-from raspilot.navigation.config import NAVIGATION
+from raspilot.navigation.path_controller import PathController
 from up.commands.flight_state_command import FlightModeCommand, FlightStateCommand
+from up.commands.location_command import LocationCommand
 from up.commands.navigation_commands import HomeCommand, NavigationTargetCommand
 from up.commands.orientation_command import OrientationCommand
 from up.commands.origin import Origin
@@ -24,8 +26,9 @@ from up.commands.output_command import OutputCommand, SetpointCommand
 from up.commands.refusal import CommandRefusedError
 from up.commands.roles import Role
 from up.flight_controller.base_flight_controller import BaseFlightController
-from up.flight_modes.demand import AttitudeDemand, Demand, PathDemand, SurfacesDemand
+from up.flight_modes.demand import AttitudeDemand, Circle, Demand, PathDemand, SurfacesDemand
 from up.flight_modes.flight_mode import FlightMode, FlightSituation, Target
+from up.flight_modes.navigation_file import NAVIGATION
 from up.flight_modes.navigation_state import NavigationState
 from up.flight_modes.selector import REFUSED, DemandError, FlightModeSelector
 from up.mode import WITH_BOARD, Mode
@@ -51,6 +54,7 @@ class FlightModeManager(BaseFlightController):
     """
 
     MODES: ClassVar[frozenset[Mode]] = WITH_BOARD
+    LOAD_ORDER: ClassVar[int] = 100
     CONFIG = NAVIGATION
     SELECTS_MODES: ClassVar[bool] = True
 
@@ -68,7 +72,8 @@ class FlightModeManager(BaseFlightController):
         self._resumed_at_s = float("-inf")
         self._logged = _NOT_PERMITTED
         self._situation: FlightSituation | None = None
-        self._shown_target: Target | None = None
+        self._circle: Circle | None = None
+        self._path_at_s = float("-inf")
         self._target: Target | None = None
         self._resumed_place: Place | None = None
         self._requests: dict[str, float] = {}
@@ -76,16 +81,24 @@ class FlightModeManager(BaseFlightController):
     def on_init(self) -> None:
         super().on_init()
         self._selector = FlightModeSelector(self.up.get_modules(FlightMode), self._is_fresh)
+        for path, problem in self._selector.problems.items():
+            self.log.error("{problem}", problem=problem, module=path, code="mode_invalid")
+            self.up.vetoes.set(path, problem)
         modes, auto = self._selector.modes, self.config.auto_mode
         self._auto = auto if auto in modes else None
         if self._auto is None and auto not in BOARD_MODES:
             text = f"navigation.yml: auto_mode: no flight mode {auto!r} is loaded"
             self.up.vetoes.set("navigation.yml", text)
         self._selector.select(self._auto)
+        self._path_controller = PathController(self.config)
+        self._has_motor = self.config.performance.motor
         # With its origin the bus need not search the publisher of each Command.
         self._origin = Origin(self.class_name, Role.INTERNAL)
         self.home = HomeKeeper(
-            self.context.config_folder, self.context.reactor, self.config.home_accuracy_m
+            self.context.config_folder,
+            self.context.reactor,
+            self.config.home_accuracy_m,
+            self._on_home_changed,
         )
         executor = self._executor = self.up.command_executor
         executor.register_command(OrientationCommand, self._on_orientation)
@@ -116,7 +129,7 @@ class FlightModeManager(BaseFlightController):
                 "board_modes": list(BOARD_MODES),
             },
             "navigation": {"target": self._target_content},
-            "home": self.home.telemetry(self._navigation, self.config.cruise_m_s),
+            "home": self.home.telemetry(self._navigation, self.config.airspeed.cruise_m_s),
             "counters": {"flight_control": {"published": self.published - dropped}},
         }
 
@@ -174,7 +187,6 @@ class FlightModeManager(BaseFlightController):
             return
         made = selector.step(situation, max(dt_s, MIN_STEP_S), self._carry_out)
         self.flight_mode = selector.active
-        self._remember_target(navigation)
         if made is not None:
             self.published += 1
             self._executor.execute_command(made, self._origin)
@@ -198,15 +210,28 @@ class FlightModeManager(BaseFlightController):
     def _attitude_of(
         self, demand: PathDemand, situation: FlightSituation, dt_s: float
     ) -> AttitudeDemand:
-        raise DemandError("no path controller")
+        navigation = situation.navigation
+        if navigation is None:
+            raise DemandError("a path needs a position", "navigation")
+        if situation.time_s - self._path_at_s > MAX_STEP_S:
+            self._path_controller.reset()
+        self._path_at_s = situation.time_s
+        if isinstance(demand.path, Circle):
+            self._remember_target(demand.path, demand.altitude_m, navigation)
+        attitude = self._path_controller.step(demand, navigation, dt_s)
+        if not self._has_motor:
+            attitude = replace(attitude, throttle=None)
+        return attitude
 
-    def _remember_target(self, navigation: NavigationState | None) -> None:
-        mode = self._selector.modes.get(self._selector.active or "")
-        target = None if mode is None else mode.target
-        if target is not self._shown_target and navigation is not None:
-            self._shown_target = target
-            place = None if target is None else place_of_target(target, navigation.frame)
-            self.home.memory.update(target=place)
+    def _remember_target(
+        self, circle: Circle, altitude_m: float | None, navigation: NavigationState
+    ) -> None:
+        """Save where it flies to, for telemetry and for a restart."""
+        if circle != self._circle:
+            self._circle = circle
+            altitude_m = navigation.altitude_m if altitude_m is None else altitude_m
+            target = Target(circle.centre, altitude_m, circle.radius_m)
+            self.home.memory.update(target=place_of_target(target, navigation.frame))
 
     def _reset(self) -> None:
         if self.attitude_controller is not None:
@@ -216,9 +241,10 @@ class FlightModeManager(BaseFlightController):
         selector = self._selector
         selector.select(name)
         self._requests.clear()
+        self._circle = None
         if name is None or "target" not in selector.modes[name].REQUESTS:
             self._target = None
-        self.home.memory.update(mode=name or "")
+        self.home.memory.update(mode=name or "", target=None)
 
     def _on_flight_state(self, command: FlightStateCommand) -> None:
         ready = command.flight_mode in ("OUTPUT", "SETPOINT")
@@ -299,6 +325,12 @@ class FlightModeManager(BaseFlightController):
 
     def _on_home(self, command: HomeCommand) -> None:
         self.home.set(command, self._navigation)
+
+    def _on_home_changed(self, place: Place) -> None:
+        if self.location is not None:
+            self.location.home = LocationCommand(
+                place.latitude_deg, place.longitude_deg, place.altitude_m
+            )
 
     def require(self, what: str, value: float) -> None:
         """Follow a course (deg) or altitude (m) that the ground requests.

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -24,13 +24,17 @@ MAX_DISTANCE_M = 100_000.0
 class HomeKeeper:
     """Home is the first accurate position, then the one at which the flight begins (arming).
 
-    In flight only a Command moves it. ``place`` is None while home is not known.
+    In flight only a Command moves it. ``place`` is None while home is not known; ``on_changed`` is
+    called with every new one.
     """
 
     log = Logger()
 
-    def __init__(self, folder: Path, reactor: Any, accuracy_m: float) -> None:
+    def __init__(
+        self, folder: Path, reactor: Any, accuracy_m: float, on_changed: Callable[[Place], object]
+    ) -> None:
         self.memory = FlightMemory(folder, reactor)
+        self._on_changed = on_changed
         self.place: Place | None = None
         self._accuracy_m = accuracy_m
         self._was_in_flight: bool | None = None
@@ -38,6 +42,8 @@ class HomeKeeper:
     def resume(self) -> None:
         """Take the home of the flight that another run of the program began."""
         self.place = self.memory.values.home
+        if self.place is not None:
+            self._on_changed(self.place)
 
     def of(self, frame: LocalFrame) -> Home | None:
         """Return home in the estimator's frame."""
@@ -104,6 +110,7 @@ class HomeKeeper:
     def _set(self, place: Place, cause: str) -> None:
         self.place = place
         self.memory.update(home=place)
+        self._on_changed(place)
         self.log.info(
             "home is {latitude:.6f}, {longitude:.6f}, {altitude:.0f} m above sea level",
             latitude=place.latitude_deg,

@@ -18,7 +18,10 @@ from twisted.internet.error import ConnectionDone
 from twisted.internet.testing import StringTransport
 from twisted.python.failure import Failure
 
-from raspilot.flight_controller.raspilot_flight_controller import RaspilotFlightController
+from raspilot.flight_controller.attitude_controller import AttitudeController
+from raspilot.flight_controller.flight_mode_manager import FlightModeManager
+from raspilot.flight_modes.acro import Acro
+from raspilot.flight_modes.fbw import Fbw
 from tests.cogs.arduino_cog.board import BoardRig
 from tests.cogs.black_box_cog.flights import BOARD, Flight
 from tests.ground.aircraft import Aircraft as Kite
@@ -76,7 +79,7 @@ class Aircraft(BoardRig):
                 "config.yml": "flight controller: raspberry\n",
                 "mission_control.yml": "remote_server: {url: 127.0.0.1}\n",
             },
-            modules=[RaspilotFlightController, MissionControlProvider],
+            modules=[FlightModeManager, AttitudeController, Fbw, Acro, MissionControlProvider],
         )
         self.wire = Wire()
         self.reactor.connectTCP = self.connect_tcp

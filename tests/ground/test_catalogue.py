@@ -37,7 +37,7 @@ def test_a_mistyped_name_finds_its_neighbours(catalogue):
     ("name", "data", "sentence"),
     [
         ("up.flight_mode.set", {"mode": "FBW"}, ""),
-        ("up.flight_mode.set", {"mode": "ACRO"}, "mode must be one of"),
+        ("up.flight_mode.set", {"mode": 5}, "mode must be"),
         ("up.flight_mode.set", {}, "mode is missing"),
         ("up.flight_mode.set", {"mode": "FBW", "mood": 1}, "has no field mood"),
         ("up.telemetry.frequency", {"frequency": 5}, "between 20 and 10000 ms"),

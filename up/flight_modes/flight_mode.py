@@ -55,8 +55,8 @@ class FlightMode(BaseModule):
     ``NAME`` is the mode's name everywhere. ``NEEDS`` gives the readings without which it is not
     offered, and their maximum ages in seconds; ``FALLBACK`` the mode that replaces it when one
     becomes too old, or a step fails, blocks, or demands what is not possible; "": none.
-    ``REQUESTS`` are the ground's requests that it follows: ``course``, ``altitude``. A mode that is
-    not ``SELECTABLE`` only serves as a fallback or as ``auto_mode``.
+    ``REQUESTS`` are the ground's requests that it follows: ``course``, ``altitude``, ``target``. A
+    mode that is not ``SELECTABLE`` only serves as a fallback or as ``auto_mode``.
     """
 
     NAME: ClassVar[str] = ""
@@ -64,11 +64,6 @@ class FlightMode(BaseModule):
     FALLBACK: ClassVar[str] = "GLIDE"
     REQUESTS: ClassVar[frozenset[str]] = frozenset()
     SELECTABLE: ClassVar[bool] = True
-
-    @property
-    def target(self) -> Target | None:
-        """Return where the mode flies to now, if it flies to a point: telemetry shows it."""
-        return None
 
     def refusal(self, situation: FlightSituation) -> str | None:
         """Return why the mode cannot be entered now, apart from its readings; None: it can."""

@@ -104,8 +104,8 @@ def test_a_check_of_the_whole_command_is_invalid_too():
         Pair.from_data({"low": 2, "high": 1})
 
 
-@pytest.mark.parametrize("mode", ["ACRO", "acro", "OUTPUT", "SETPOINT", "RTH", "", None, 1])
-def test_the_ground_selects_no_mode_that_is_the_pilots(mode):
+@pytest.mark.parametrize("mode", ["A" * 33, None, 1])
+def test_a_flight_mode_is_a_short_name(mode):
     cls = next(each for each in ALL if each.NAME == "up.flight_mode.set")
     with pytest.raises(InvalidCommandError):
         cls.from_data({"mode": mode})

@@ -288,22 +288,3 @@ def test_a_links_policy_refuses_what_its_role_would_permit(border, numbers):
     border.say("test.number", {"number": 0}, "b")
     assert numbers == [0]
     assert border.codes == ["forbidden", "ack"]
-
-
-@pytest.mark.parametrize("quantity", ["heading", "altitude"])
-def test_what_nothing_carries_out_is_refused_to_everybody_who_may_ask(quantity):
-    """A required heading is parsed as the thesis wrote it, and refused; a sensor's is taken."""
-    name = f"up.{quantity}.change"
-    for role, mode, outcome in (
-        (Role.ADMIN, "required", "not_supported"),
-        (Role.OPERATOR, "required", "not_supported"),
-        (Role.OBSERVER, "required", "forbidden"),
-        (Role.SENSOR, "actual", "ack"),
-    ):
-        border = Border(role)
-        taken = []
-        border.bus.register_command(name, taken.append)
-        border.say(name, {quantity: 90, "mode": mode}, "id")
-        border.say(name, {quantity: 90, "mode": mode})
-        assert border.answers[0][0] == outcome
-        assert len(taken) == (2 if outcome == "ack" else 0)

@@ -38,7 +38,8 @@ LADDER = ("observer", "operator", "pilot", "admin")
 WHO = {
     "observer": ("arduino.profile.request", "up.ack", "up.nack"),
     "operator": (
-        "android.speak", "black_box.mark", "up.flight_mode.set", "up.telemetry.frequency",
+        "android.speak", "black_box.mark", "up.flight_mode.set", "up.home.set",
+        "up.navigation.target", "up.telemetry.frequency",
     ),
     "pilot": ("arduino.calibrate", "arduino.pids.tunings", "up.arm", "up.disarm"),
     "sensor": (
@@ -70,6 +71,8 @@ SAMPLES = {
     "up.output.set": {**STICKS, "sequence": 1},
     "up.setpoint.set": {"roll": 1, "pitch": 1},
     "up.flight_mode.set": {"mode": "FBW"},
+    "up.home.set": {},
+    "up.navigation.target": {"latitude": 1, "longitude": 2},
     "up.flight.state": {"flight_mode": "FBW", "armed": True, "auto": True, "failsafe": False},
     "up.flight.limits": {},
     "up.panic": {"panic": True, "delay_ms": 100},

@@ -13,6 +13,7 @@ from up.commands.heading_command import HeadingCommand
 from up.commands.location_command import LocationCommand
 from up.commands.orientation_command import OrientationCommand
 from up.commands.origin import Origin
+from up.commands.refusal import Code
 from up.commands.roles import Role
 from up.commands.rx_command import ALL_VALID, RXCommand
 from up.commands.telemetry_schema import FIELDS
@@ -39,6 +40,11 @@ class Rig:
 
     def publish(self, command, origin=BOARD):
         self.up.command_executor.execute_command(command, origin)
+
+    def refusal_of(self, command):
+        got = []
+        self.up.command_executor.execute_and_wait(command, OPERATOR).addErrback(got.append)
+        return got[0].value.code
 
     def __getitem__(self, cls):
         return self.up.get_module(cls)
@@ -151,18 +157,17 @@ def test_heading_measured_and_asked_for(rig):
     provider._on_actual_heading_changed = lambda: heard.append("actual")
     provider._on_required_heading_changed = lambda: heard.append("required")
     rig.publish(HeadingCommand(-90, "actual"), PHONE)
-    rig.publish(HeadingCommand(360, "required"), OPERATOR)
-    assert heard == ["actual", "required"]
-    assert (provider.actual_heading, provider.required_heading) == (270.0, 0.0)
+    assert rig.refusal_of(HeadingCommand(360, "required")) is Code.NOT_SUPPORTED
+    assert heard == ["actual"]
+    assert (provider.actual_heading, provider.required_heading) == (270.0, None)
     assert provider.reading.source == "android"
 
 
 def test_altitude_measured_and_asked_for(rig):
     provider = rig[UpAltitudeProvider]
     rig.publish(AltitudeCommand(120.5), PHONE)
-    rig.publish(AltitudeCommand(300, "required"), OPERATOR)
-    assert (provider.altitude, provider.required_altitude) == (120.5, 300)
-    assert provider.telemetry_content["altitude_required"] == 300
+    assert rig.refusal_of(AltitudeCommand(300, "required")) is Code.NOT_SUPPORTED
+    assert (provider.altitude, provider.required_altitude) == (120.5, None)
 
 
 def test_home_is_the_first_place_and_the_way_back_is_computed_here(rig):
@@ -182,7 +187,7 @@ def test_telemetry_has_exactly_the_fields_of_the_schema(rig):
         fields.setdefault(key, set()).add(name)
     rig.publish(RXCommand(*STICKS, ALL_VALID))
     content = rig.up.telemetry_controller.collect()
-    for key in ("orientation", "rates", "rx", "location", "home", "heading"):
+    for key in ("orientation", "rates", "rx", "location", "heading"):
         assert set(content[key]) == fields[key], key
     assert "altitude" in fields and content["altitude"] is None
     assert set(content) <= set(fields)

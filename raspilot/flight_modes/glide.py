@@ -1,0 +1,41 @@
+"""GLIDE: motor off, towards home."""
+
+from __future__ import annotations
+
+from typing import ClassVar
+
+from raspilot.navigation.airframe_model import AirframeModel, load_of
+from raspilot.navigation.planning import airspeed_for_wind_m_s, circle_around, course_to_deg
+from up.flight_modes.demand import AttitudeDemand, Bank, Circle, Demand, PathDemand
+from up.flight_modes.flight_mode import FlightMode, FlightSituation
+from up.flight_modes.navigation_file import NAVIGATION
+
+RADIUS_M = 50.0
+BANK_DEG = 10.0
+"""A gentle turn where home is unknown: it stays near."""
+
+
+class Glide(FlightMode):
+    """Flies to home at the flattest glide for the wind and circles there; else a gentle turn."""
+
+    NAME: ClassVar[str] = "GLIDE"
+    FALLBACK: ClassVar[str] = ""
+
+    def enter(self, situation: FlightSituation) -> None:
+        self._circle: Circle | None = None
+
+    def step(self, situation: FlightSituation, dt_s: float) -> Demand:
+        state, home = situation.navigation, situation.home
+        config = self.context.config(NAVIGATION)
+        best_m_s = max(config.airspeed.minimum_m_s, config.airspeed.best_glide_m_s)
+        if state is None:
+            self._circle = None
+            pitch_deg = AirframeModel(config).glide_pitch_deg(best_m_s, load_of(BANK_DEG))
+            return AttitudeDemand(BANK_DEG, pitch_deg, 0.0)
+        if home is None:
+            return PathDemand(Bank(BANK_DEG), airspeed_m_s=best_m_s, motor=False)
+        if self._circle is None or self._circle.centre != home.point:
+            self._circle = circle_around(config, state, home.point, RADIUS_M)
+        course_deg = course_to_deg(state.position, home.point)
+        airspeed_m_s = airspeed_for_wind_m_s(config, course_deg, state.wind_m_s, motor=False)
+        return PathDemand(self._circle, airspeed_m_s=airspeed_m_s, motor=False)

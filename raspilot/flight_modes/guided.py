@@ -1,0 +1,86 @@
+"""GUIDED: flies to the target that the ground requested, and circles there."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import ClassVar
+
+from raspilot.navigation.planning import circle_around, distance_m
+from up.config import ConfigFile, key
+from up.flight_modes.demand import Demand, PathDemand
+from up.flight_modes.flight_mode import FlightMode, FlightSituation, Target
+from up.flight_modes.navigation_file import NAVIGATION
+
+
+@dataclass(frozen=True, slots=True)
+class GuidedConfig:
+    """The mode GUIDED."""
+
+    radius_m: float = key(
+        50.0, "Radius of the circle without one in the target.", unit="m", minimum=15, maximum=500
+    )
+    max_distance_m: float = key(
+        5000.0, "A target farther away is refused.", unit="m", minimum=100, maximum=50_000
+    )
+    max_climb_m: float = key(
+        500.0, "A target farther above or below is refused.", unit="m", minimum=10, maximum=5000
+    )
+
+
+GUIDED = ConfigFile("guided.yml", GuidedConfig)
+
+
+class Guided(FlightMode):
+    """Flies to the target and circles there; a new target is followed if it is permitted."""
+
+    NAME: ClassVar[str] = "GUIDED"
+    NEEDS: ClassVar[Mapping[str, float]] = {"navigation": 3.0, "orientation": 0.1}
+    FALLBACK: ClassVar[str] = "LOITER"
+    REQUESTS: ClassVar[frozenset[str]] = frozenset({"target"})
+    CONFIG = GUIDED
+
+    def refusal(self, situation: FlightSituation) -> str | None:
+        target, state, limits = situation.target, situation.navigation, self.config
+        if target is None:
+            return "no target; send up.navigation.target first"
+        if state is None:
+            return "the position is unknown"
+        away_m = distance_m(state.position, target.point)
+        if not away_m <= limits.max_distance_m:
+            return (
+                f"the target is {away_m / 1000:.1f} km away, more than"
+                f" {limits.max_distance_m / 1000:g} km (guided.yml: max_distance_m)"
+            )
+        climb_m = target.altitude_m - state.altitude_m
+        if not abs(climb_m) <= limits.max_climb_m:
+            side = "above" if climb_m > 0 else "below"
+            return (
+                f"the target is {abs(climb_m):.0f} m {side} the aircraft, more than"
+                f" {limits.max_climb_m:g} m (guided.yml: max_climb_m)"
+            )
+        if situation.home is not None and target.altitude_m < situation.home.altitude_m:
+            below_m = situation.home.altitude_m - target.altitude_m
+            return f"the target is {below_m:.0f} m below home"
+        if target.radius_m is not None and not target.radius_m > 0:
+            return f"the radius of the target is {target.radius_m:g} m; it must be above 0"
+        return None
+
+    def enter(self, situation: FlightSituation) -> None:
+        self._requested: Target | None = None
+        self._follow(situation)
+
+    def step(self, situation: FlightSituation, dt_s: float) -> Demand:
+        if situation.target != self._requested and self.refusal(situation) is None:
+            self._follow(situation)
+        return self._demand
+
+    def _follow(self, situation: FlightSituation) -> None:
+        target, state = situation.target, situation.navigation
+        assert target is not None
+        assert state is not None
+        radius_m = target.radius_m or self.config.radius_m
+        navigation = self.context.config(NAVIGATION)
+        self._requested = target
+        circle = circle_around(navigation, state, target.point, radius_m)
+        self._demand = PathDemand(circle, target.altitude_m)

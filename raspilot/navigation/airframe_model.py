@@ -1,0 +1,77 @@
+"""What the airframe needs for an airspeed: sink, angle of attack, throttle, load."""
+
+from __future__ import annotations
+
+import math
+
+from up.flight_modes.navigation_file import NavigationConfig
+
+GRAVITY_M_S2 = 9.80665
+STALL_MARGIN = 1.15
+"""The turn's stall speed times this stays below the airspeed."""
+
+
+class AirframeModel:
+    """The polar and the throttle of ``navigation.yml``, for the feed-forward of the control.
+
+    The load factor ``load`` is the lift over the weight: 1 level, more in a turn.
+    """
+
+    def __init__(self, config: NavigationConfig) -> None:
+        self.speeds = config.airspeed
+        self._performance = config.performance
+        self.has_motor = config.performance.motor
+        self.level_throttle = config.performance.level_throttle
+        self._least_sink_m_s = self.speeds.best_glide_m_s / config.performance.glide_ratio
+        self._cruise_sink_m_s = self.sink_m_s(self.speeds.cruise_m_s, 1.0)
+        self._stall_squared = self.speeds.stall_m_s * self.speeds.stall_m_s
+        self._cruise_lift = self._lift(self.speeds.cruise_m_s, 1.0)
+
+    def sink_m_s(self, airspeed_m_s: float, load: float) -> float:
+        """Return the sink without motor: a parabolic polar."""
+        part = airspeed_m_s / self.speeds.best_glide_m_s
+        return 0.5 * self._least_sink_m_s * (part * part * part + load * load / part)
+
+    def level_pitch_deg(self, airspeed_m_s: float, load: float) -> float:
+        """Return the angle of attack, as the pitch that holds the altitude."""
+        performance = self._performance
+        part = (self._lift(airspeed_m_s, load) - self._cruise_lift) / (1.0 - self._cruise_lift)
+        span_deg = performance.stall_pitch_deg - performance.cruise_pitch_deg
+        return performance.cruise_pitch_deg + span_deg * min(part, 1.0)
+
+    def glide_pitch_deg(self, airspeed_m_s: float, load: float) -> float:
+        """Return the pitch of a glide at this airspeed without motor."""
+        slope = self.sink_m_s(airspeed_m_s, load) / airspeed_m_s
+        return self.level_pitch_deg(airspeed_m_s, load) - math.degrees(math.atan(slope))
+
+    def throttle(self, power_m_s: float) -> float:
+        """Return the throttle for a power over the weight: the climb that no drag would allow."""
+        performance = self._performance
+        level = performance.level_throttle
+        more = power_m_s - self._cruise_sink_m_s
+        if more <= 0.0:
+            return max(0.0, level * power_m_s / self._cruise_sink_m_s)
+        return min(1.0, level + (1.0 - level) * more / performance.full_throttle_climb_m_s)
+
+    def power_m_s(self, throttle: float) -> float:
+        """Return the power over the weight of a throttle, the inverse of ``throttle``."""
+        performance = self._performance
+        more = throttle - performance.level_throttle
+        if more <= 0.0:
+            return self._cruise_sink_m_s * throttle / performance.level_throttle
+        climb_m_s = performance.full_throttle_climb_m_s
+        return self._cruise_sink_m_s + climb_m_s * more / (1.0 - performance.level_throttle)
+
+    def bank_limit_deg(self, airspeed_m_s: float) -> float:
+        """Return the bank whose stall is still ``STALL_MARGIN`` below the airspeed."""
+        cosine = STALL_MARGIN * STALL_MARGIN * self._lift(airspeed_m_s, 1.0)
+        return math.degrees(math.acos(min(1.0, cosine)))
+
+    def _lift(self, airspeed_m_s: float, load: float) -> float:
+        """Return the part of the greatest lift that carries this load."""
+        return load * self._stall_squared / (airspeed_m_s * airspeed_m_s)
+
+
+def load_of(roll_deg: float) -> float:
+    """Return the load factor of a level turn, at most 2."""
+    return 1.0 / max(0.5, math.cos(math.radians(roll_deg)))

@@ -1,0 +1,134 @@
+"""Lateral guidance: the bank that brings the aircraft onto its path, in wind."""
+
+from __future__ import annotations
+
+import math
+
+from raspilot.navigation.airframe_model import GRAVITY_M_S2, AirframeModel
+from up.flight_modes.demand import Bank, Circle, Course, Line
+from up.flight_modes.navigation_file import Lateral
+from up.flight_modes.navigation_state import NavigationState
+
+MIN_L1_M = 12.0
+MAX_L1_OF_RADIUS = 0.9
+MIN_RADIUS_M = 10.0
+TURN_MEMORY_DEG = 150.0
+MAX_FAR_M = 1e7
+
+
+class LateralGuidance:
+    """L1 guidance (Park, Deyst, How 2004) as a demanded course, flown by the air's velocity.
+
+    The reference point at the L1 distance gives the course over the ground; the wind triangle
+    gives the heading that makes it good. Where no heading does, because the wind is stronger than
+    the airspeed, the nearest one is flown, finally straight into the wind: no limit cycle. The
+    air's velocity is the ground velocity minus the wind, so an error of the wind causes no steady
+    error of the track.
+    """
+
+    def __init__(self, config: Lateral, model: AirframeModel) -> None:
+        self._config = config
+        self._model = model
+        omega = 2.0 * math.pi / config.period_s
+        self._course_gain = 2.0 * config.damping * omega
+        self._l1_s = 2.0 * config.damping / omega
+        self.reset()
+
+    def reset(self) -> None:
+        self._last_turn = 0.0
+
+    def roll_deg(self, path: Line | Circle | Course | Bank, state: NavigationState) -> float:
+        """Return the demanded bank, within the limits of the airspeed and of the configuration."""
+        airspeed_m_s = max(state.airspeed_m_s, self._model.speeds.stall_m_s)
+        if isinstance(path, Bank):
+            return self.limited(path.roll_deg, state.airspeed_m_s)
+        course_rad, course_rate = self._course(path, state)
+        wind_north, wind_east = state.wind_m_s
+        air_north = state.velocity_m_s.north_m - wind_north
+        air_east = state.velocity_m_s.east_m - wind_east
+        if math.hypot(air_north, air_east) < 0.5 * self._model.speeds.stall_m_s:
+            heading_rad = math.radians(state.heading_deg)
+        else:
+            heading_rad = math.atan2(air_east, air_north)
+        turning = GRAVITY_M_S2 * math.tan(math.radians(_bank(state.roll_deg))) / airspeed_m_s
+        heading_rad += turning * self._config.roll_delay_s
+        wanted_rad, rate_factor = _heading(course_rad, airspeed_m_s, wind_north, wind_east)
+        error_rad = self._error(wanted_rad - heading_rad)
+        limit = 0.5 * math.pi
+        rate = self._course_gain * max(-limit, min(limit, error_rad)) + rate_factor * course_rate
+        bank_deg = math.degrees(math.atan(airspeed_m_s * rate / GRAVITY_M_S2))
+        return self.limited(bank_deg, state.airspeed_m_s)
+
+    def limited(self, roll_deg: float, airspeed_m_s: float) -> float:
+        """Return a bank within the limits."""
+        speed_m_s = max(airspeed_m_s, 0.5 * self._model.speeds.stall_m_s)
+        limit = min(self._config.bank_limit_deg, self._model.bank_limit_deg(speed_m_s))
+        return max(-limit, min(limit, roll_deg))
+
+    def _error(self, error_rad: float) -> float:
+        """Return the turn to make; almost opposite, the side of the last turn is kept."""
+        error_rad = math.remainder(error_rad, 2.0 * math.pi)
+        if abs(error_rad) > math.radians(TURN_MEMORY_DEG) and error_rad * self._last_turn < 0.0:
+            error_rad += math.copysign(2.0 * math.pi, self._last_turn)
+        self._last_turn = error_rad
+        return error_rad
+
+    def _course(self, path: Line | Circle | Course, state: NavigationState) -> tuple[float, float]:
+        """Return the course over the ground (rad) and its rate along the path (rad/s)."""
+        if isinstance(path, Course):
+            return math.radians(path.course_deg), 0.0
+        # Where the aircraft is when the bank that is demanded now begins to act.
+        delay_s = self._config.roll_delay_s
+        north_m = state.position.north_m + delay_s * state.velocity_m_s.north_m
+        east_m = state.position.east_m + delay_s * state.velocity_m_s.east_m
+        l1_m = max(MIN_L1_M, self._l1_s * state.ground_speed_m_s)
+        if isinstance(path, Line):
+            tangent = math.radians(path.course_deg)
+            sine, cosine = math.sin(tangent), math.cos(tangent)
+            right_m = cosine * _far(east_m - path.point.east_m) - sine * _far(
+                north_m - path.point.north_m
+            )
+            return tangent - math.asin(max(-1.0, min(1.0, right_m / l1_m))), 0.0
+        radius_m = max(MIN_RADIUS_M, path.radius_m)
+        out_north = _far(north_m - path.centre.north_m)
+        out_east = _far(east_m - path.centre.east_m)
+        outside_m = math.hypot(out_north, out_east) - radius_m
+        l1_m = max(min(l1_m, MAX_L1_OF_RADIUS * radius_m), 1.0)
+        side = 1.0 if path.is_clockwise else -1.0
+        bearing = math.atan2(out_east, out_north)
+        inward = math.asin(max(-1.0, min(1.0, outside_m / l1_m)))
+        if outside_m > 0.0:
+            # From far away onto the tangent, not towards the centre.
+            inward = min(inward, math.acos(radius_m / (radius_m + outside_m)))
+        course = bearing + side * (0.5 * math.pi + inward)
+        along_m_s = side * (
+            math.cos(bearing) * state.velocity_m_s.east_m
+            - math.sin(bearing) * state.velocity_m_s.north_m
+        )
+        # Far outside the rate belongs to a straight line.
+        share = math.cos(inward)
+        return course, side * share * max(0.0, along_m_s) / max(radius_m, radius_m + outside_m)
+
+
+def _heading(
+    course_rad: float, airspeed_m_s: float, wind_north: float, wind_east: float
+) -> tuple[float, float]:
+    """Return the heading (rad) for a course over the ground, and its rate over the course's."""
+    sine, cosine = math.sin(course_rad), math.cos(course_rad)
+    along = wind_north * cosine + wind_east * sine
+    across = wind_east * cosine - wind_north * sine
+    left = airspeed_m_s * airspeed_m_s - across * across
+    forward = math.sqrt(left) if left > 0.0 else 0.0
+    ground = max(0.0, along + forward)
+    if ground == 0.0 and wind_north == 0.0 == wind_east:
+        return course_rad, 1.0
+    heading = math.atan2(ground * sine - wind_east, ground * cosine - wind_north)
+    return heading, min(2.0, ground / forward) if forward > 0.0 else 0.0
+
+
+def _bank(roll_deg: float) -> float:
+    return max(-60.0, min(60.0, roll_deg))
+
+
+def _far(distance_m: float) -> float:
+    return max(-MAX_FAR_M, min(MAX_FAR_M, distance_m))

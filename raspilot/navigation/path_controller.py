@@ -1,0 +1,64 @@
+"""From a path, an altitude and an airspeed to an attitude and a throttle."""
+
+from __future__ import annotations
+
+from raspilot.navigation.airframe_model import AirframeModel, load_of
+from raspilot.navigation.lateral import LateralGuidance
+from raspilot.navigation.vertical import EnergyControl
+from up.flight_modes.demand import AttitudeDemand, PathDemand
+from up.flight_modes.navigation_file import NavigationConfig
+from up.flight_modes.navigation_state import NavigationState
+
+MAX_STEP_S = 0.1
+THROTTLE_PER_S = 1.0
+"""How fast the demanded throttle changes."""
+
+
+class PathController:
+    """Turns each PathDemand into an AttitudeDemand; finite for every finite input.
+
+    It begins from the present attitude, and again after ``reset``: call that when another part
+    controlled the aircraft in between.
+    """
+
+    def __init__(self, config: NavigationConfig) -> None:
+        self._config = config
+        model = AirframeModel(config)
+        self._lateral = LateralGuidance(config.lateral, model)
+        self._vertical = EnergyControl(config.vertical, model)
+        self.reset()
+
+    @property
+    def is_motor_stopped(self) -> bool:
+        """Return whether the energy did not follow the throttle: a glider until it does."""
+        return self._vertical.motor.is_stopped
+
+    def reset(self, throttle: float | None = None) -> None:
+        """Begin again at the next step, from this throttle (0 to 1; None: from any)."""
+        self._roll_deg: float | None = None
+        self._pitch_deg = 0.0
+        self._throttle = throttle
+
+    def step(self, demand: PathDemand, state: NavigationState, dt_s: float) -> AttitudeDemand:
+        """Return the attitude after ``dt_s``, of which at most 0.1 s counts."""
+        dt_s = max(0.0, min(MAX_STEP_S, dt_s))
+        lateral, vertical = self._config.lateral, self._config.vertical
+        if self._roll_deg is None:
+            self._lateral.reset()
+            self._vertical.reset(state.airspeed_m_s)
+            self._roll_deg = self._lateral.limited(state.roll_deg, state.airspeed_m_s)
+            up_deg, down_deg = vertical.pitch_up_limit_deg, -vertical.pitch_down_limit_deg
+            self._pitch_deg = max(down_deg, min(up_deg, state.pitch_deg))
+        wanted_deg = self._lateral.roll_deg(demand.path, state)
+        roll_deg = _towards(self._roll_deg, wanted_deg, lateral.roll_rate_deg_s * dt_s)
+        self._roll_deg = self._lateral.limited(roll_deg, state.airspeed_m_s)
+        pitch_deg, throttle = self._vertical.step(demand, state, load_of(self._roll_deg), dt_s)
+        self._pitch_deg = _towards(self._pitch_deg, pitch_deg, vertical.pitch_rate_deg_s * dt_s)
+        if self._throttle is None or throttle == 0.0:
+            self._throttle = throttle
+        self._throttle = _towards(self._throttle, throttle, THROTTLE_PER_S * dt_s)
+        return AttitudeDemand(self._roll_deg, self._pitch_deg, self._throttle)
+
+
+def _towards(value: float, wanted: float, step: float) -> float:
+    return value + max(-step, min(step, wanted - value))

@@ -1,0 +1,142 @@
+"""Vertical control: throttle holds the total energy, pitch divides it (Lambregts)."""
+
+from __future__ import annotations
+
+import math
+
+from raspilot.navigation.airframe_model import GRAVITY_M_S2, AirframeModel
+from raspilot.navigation.motor_watch import MotorWatch
+from up.flight_modes.demand import PathDemand
+from up.flight_modes.navigation_file import Vertical
+from up.flight_modes.navigation_state import NavigationState
+
+RATE_S = 1.0
+"""Time constant of the airspeed's rate, which the estimate does not give."""
+MAX_ACCELERATION_M_S2 = 1.5
+MAX_CLIMB_M_S = 50.0
+CLIMB_CHANGE_M_S2 = 1.5
+"""How fast the demanded climb changes: no faster than the motor follows."""
+SPEED_PITCH_DEG = 6.0
+"""Greatest sum of the airspeed's integral, either way."""
+SPEED_INTEGRAL, MAX_SUMMED_ERROR_M_S = 0.15, 1.0
+
+
+class EnergyControl:
+    """Pitch and throttle for an altitude and an airspeed.
+
+    The energy rates are in m/s of climb. With the motor, pitch follows the balance of climb and
+    acceleration, but never above the pitch that holds the least airspeed: height is given up
+    before speed. Without, pitch holds the demanded airspeed and the altitude is what results.
+    """
+
+    def __init__(self, config: Vertical, model: AirframeModel) -> None:
+        self._config = config
+        self._model = model
+        self.motor = MotorWatch(model)
+        self.reset()
+
+    def reset(self, airspeed_m_s: float | None = None) -> None:
+        self._smooth_m_s = airspeed_m_s
+        self._throttle_sum = 0.0
+        self._pitch_sum = 0.0
+        self._speed_sum = 0.0
+        self._energy = 0.0
+        self._wanted_climb = 0.0
+        self.motor.reset()
+
+    def step(
+        self, demand: PathDemand, state: NavigationState, load: float, dt_s: float
+    ) -> tuple[float, float]:
+        """Return pitch (deg) and throttle (0 to 1) for the bank that is demanded."""
+        model, config = self._model, self._config
+        airspeed = max(0.5 * model.speeds.stall_m_s, min(200.0, state.airspeed_m_s))
+        climb = max(-MAX_CLIMB_M_S, min(MAX_CLIMB_M_S, state.climb_m_s))
+        if self._smooth_m_s is None:
+            self._smooth_m_s = airspeed
+        acceleration = (airspeed - self._smooth_m_s) / RATE_S
+        self._smooth_m_s += (airspeed - self._smooth_m_s) * min(1.0, dt_s / RATE_S)
+        acceleration = max(-4.0, min(4.0, acceleration))
+        # What the airspeed's change stores, as a climb.
+        stored = airspeed * acceleration / GRAVITY_M_S2
+
+        least = self.least_airspeed_m_s(load)
+        wanted = model.speeds.cruise_m_s if demand.airspeed_m_s is None else demand.airspeed_m_s
+        wanted = max(least, min(model.speeds.maximum_m_s, wanted))
+        change = config.speed_gain * (wanted - airspeed)
+        change = max(-MAX_ACCELERATION_M_S2, min(MAX_ACCELERATION_M_S2, change))
+        wanted_stored = airspeed * change / GRAVITY_M_S2
+        wanted_climb = self._climb(demand, state, dt_s)
+
+        if not demand.motor or not model.has_motor:
+            self.motor.reset()
+            return self._glide(airspeed, wanted, acceleration, load, dt_s), 0.0
+
+        wanted_energy, energy = wanted_climb + wanted_stored, climb + stored
+        throttle = self._throttle(wanted_energy, wanted_energy - energy, airspeed, load, dt_s)
+        if self.motor.is_stopped:
+            throttle = min(throttle, model.level_throttle)
+        if self.motor.has_stopped(energy, throttle, airspeed, load, dt_s):
+            glide = max(least, min(wanted, model.speeds.best_glide_m_s * math.sqrt(load)))
+            pitch = self._glide(airspeed, glide, acceleration, load, dt_s)
+            return pitch, throttle
+        # The climb that the motor gives is the one that was seen, not the one that was expected.
+        self._energy += (energy - self._energy) * min(1.0, dt_s / RATE_S)
+        highest = self._speed_pitch(airspeed, least, acceleration, self._energy, load)
+        wanted_slope = (wanted_climb - wanted_stored) / airspeed
+        slope = (climb - stored) / airspeed
+        base = model.level_pitch_deg(airspeed, load)
+        pitch = base + math.degrees(config.pitch_p * wanted_slope) + self._pitch_sum
+        growth = math.degrees(config.pitch_i * (wanted_slope - slope)) * dt_s
+        up, down = min(highest, config.pitch_up_limit_deg), -config.pitch_down_limit_deg
+        if not (pitch >= up and growth > 0.0) and not (pitch <= down and growth < 0.0):
+            self._pitch_sum = max(-12.0, min(12.0, self._pitch_sum + growth))
+        return max(down, min(up, pitch)), throttle
+
+    def least_airspeed_m_s(self, load: float) -> float:
+        """Return the least airspeed in a turn of this load factor."""
+        return self._model.speeds.minimum_m_s * math.sqrt(max(1.0, load))
+
+    def _climb(self, demand: PathDemand, state: NavigationState, dt_s: float) -> float:
+        config = self._config
+        if demand.altitude_m is None:
+            climb = demand.climb_m_s
+        else:
+            climb = config.height_gain * (demand.altitude_m - state.altitude_m)
+        climb = max(-config.sink_limit_m_s, min(config.climb_limit_m_s, climb))
+        step = CLIMB_CHANGE_M_S2 * dt_s
+        self._wanted_climb += max(-step, min(step, climb - self._wanted_climb))
+        return self._wanted_climb
+
+    def _throttle(
+        self, wanted: float, error: float, airspeed: float, load: float, dt_s: float
+    ) -> float:
+        model, config = self._model, self._config
+        power = wanted + model.sink_m_s(airspeed, load)
+        throttle = model.throttle(power) + config.throttle_p * error + self._throttle_sum
+        growth = config.throttle_i * error * dt_s
+        if not (throttle >= 1.0 and growth > 0.0) and not (throttle <= 0.0 and growth < 0.0):
+            self._throttle_sum = max(-0.5, min(0.5, self._throttle_sum + growth))
+        return max(0.0, min(1.0, throttle))
+
+    def _glide(
+        self, airspeed: float, wanted: float, acceleration: float, load: float, dt_s: float
+    ) -> float:
+        """Return the pitch that holds the airspeed without power."""
+        config = self._config
+        sink = self._model.sink_m_s(wanted, load)
+        pitch = self._speed_pitch(airspeed, wanted, acceleration, -sink, load) + self._speed_sum
+        error = airspeed - wanted
+        growth = SPEED_INTEGRAL * config.glide_gain * error * dt_s
+        up, down = config.pitch_up_limit_deg, -config.pitch_down_limit_deg
+        if down < pitch < up and abs(error) < MAX_SUMMED_ERROR_M_S:
+            grown = self._speed_sum + growth
+            self._speed_sum = max(-SPEED_PITCH_DEG, min(SPEED_PITCH_DEG, grown))
+        return max(down, min(up, pitch))
+
+    def _speed_pitch(
+        self, airspeed: float, wanted: float, acceleration: float, energy: float, load: float
+    ) -> float:
+        """Return the pitch towards an airspeed for an energy rate (m/s of climb)."""
+        slope_deg = math.degrees(math.atan(energy / wanted))
+        towards_deg = self._config.glide_gain * (airspeed + acceleration - wanted)
+        return self._model.level_pitch_deg(wanted, load) + slope_deg + towards_deg

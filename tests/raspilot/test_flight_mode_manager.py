@@ -1,0 +1,341 @@
+"""The manager: selection by the ground, both placements, home, target, a restart in flight."""
+
+from dataclasses import replace
+
+import pytest
+from twisted.internet.defer import Deferred
+
+from raspilot.flight_modes.circle import CircleMode
+from raspilot.flight_modes.glide import Glide
+from raspilot.flight_modes.guided import Guided
+from raspilot.flight_modes.loiter import Loiter
+from tests.raspilot.flight_controller_rig import BOARD, Rig
+from up.base_module import BaseModule
+from up.commands.altitude_command import AltitudeCommand
+from up.commands.flight_state_command import FlightModeCommand, FlightStateCommand
+from up.commands.heading_command import HeadingCommand
+from up.commands.navigation_commands import HomeCommand, NavigationTargetCommand
+from up.commands.output_command import SetpointCommand
+from up.flight_modes.demand import AttitudeDemand, SurfacesDemand
+from up.flight_modes.flight_mode import FlightMode
+from up.flight_modes.navigation_state import LocalFrame, NavigationState, Point
+from up.providers.base_provider import BaseProvider, Reading
+
+FRAME = LocalFrame(48.0, 17.0)
+NAVIGATION = NavigationState(
+    0.0, FRAME, Point(100.0, 50.0), Point(14.0, 0.0), 250.0, 0.0, Point(0.0, 0.0), 14.0, 0.0, 0.0,
+    0.0, 2.0, 3.0, 0.5, 0.5, 2.0, 0.5,
+)  # fmt: skip
+ARDUINO = "flight controller: arduino\n"
+
+
+class Navigation(BaseProvider):
+    """A position that the test sets."""
+
+    READING = "navigation"
+    state = NAVIGATION
+
+    def on_init(self):
+        self._seconds = self.context.reactor.seconds
+
+    def set(self, state=NAVIGATION):
+        self.state = state
+        self._reading = Reading(state, "test", self.context.reactor.seconds())
+
+
+class Bank(FlightMode):
+    """Banks by 20 degrees with half throttle, by position."""
+
+    NAME = "BANK"
+    NEEDS = {"navigation": 3.0, "orientation": 0.1}
+    FALLBACK = "LEVEL"
+    REQUESTS = frozenset({"course"})
+    seen = None
+
+    def step(self, situation, dt_s):
+        self.seen = situation
+        return AttitudeDemand(20.0, 5.0, 0.5)
+
+
+class Level(FlightMode):
+    NAME = "LEVEL"
+    FALLBACK = ""
+
+    def step(self, situation, dt_s):
+        return AttitudeDemand(0.0, 0.0)
+
+
+class Servos(FlightMode):
+    NAME = "SERVOS"
+    FALLBACK = "LEVEL"
+
+    def step(self, situation, dt_s):
+        return SurfacesDemand(1500, 1500, 1500)
+
+
+class Board(BaseModule):
+    """Confirms a flight mode when the test says so."""
+
+    def on_init(self):
+        self.asked = []
+        self.answer = None
+        self.up.command_executor.register_command(FlightModeCommand, self.on_mode)
+
+    def on_mode(self, command):
+        if command.mode == "AUTO":
+            self.asked.append(command.mode)
+            self.answer = Deferred()
+            return self.answer
+        return None
+
+
+class NavigationRig(Rig):
+    def __init__(self, folder, config=ARDUINO, **more):
+        super().__init__(
+            folder, modes=(Bank, Level, Servos, Guided, Loiter, CircleMode, Glide),
+            modules=(Navigation, Board),
+            **{"config": config, "navigation": "home_accuracy_m: 5\n", **more},
+        )  # fmt: skip
+        self.navigation = self.up.get_module(Navigation)
+        self.board = self.up.get_module(Board)
+        self.bank = self.up.get_module(Bank)
+
+    def state(self, mode="SETPOINT", *, armed=True, auto=True, in_flight=True):
+        self.bus.execute_command(FlightStateCommand(mode, armed, auto, False, in_flight), BOARD)
+
+    def setpoint(self):
+        """Let a frame come; return the set-point that it made, or None."""
+        count = len(self.setpoints)
+        self.navigation.set(self.navigation.state)
+        self.frame()
+        return self.setpoints[-1] if len(self.setpoints) > count else None
+
+    def shown(self):
+        return self.manager.telemetry_content["flight_control"]
+
+
+@pytest.fixture
+def rig(tmp_path):
+    made = NavigationRig(tmp_path)
+    made.state("FBW", in_flight=False)
+    made.setpoint()
+    return made
+
+
+def refusal(got):
+    return got[0].value.detail
+
+
+def test_a_mode_is_requested_of_the_board_first_and_acts_when_it_agrees(rig):
+    done = rig.outcome(FlightModeCommand("BANK"))
+    assert (done, rig.board.asked, rig.shown()["selected"]) == ([], ["AUTO"], None)
+    rig.board.answer.callback(None)
+    assert (done, rig.shown()["selected"]) == ([None], "BANK")
+    assert rig.setpoint() is None
+    rig.state()
+    assert rig.setpoint() == SetpointCommand(20.0, 5.0, throttle_us=1500)
+    assert (rig.shown()["mode"], rig.shown()["fallback"]) == ("BANK", None)
+
+
+def test_where_the_board_flies_for_the_pi_a_mode_acts_at_once(rig):
+    rig.state()
+    assert rig.outcome(FlightModeCommand("BANK")) == [None]
+    assert rig.setpoint().roll_deg == 20.0
+    rig.outcome(FlightModeCommand("LEVEL"))
+    assert rig.setpoint() == SetpointCommand(0.0, 0.0)
+
+
+def test_the_arduinos_loop_takes_no_surfaces(rig):
+    rig.state()
+    rig.outcome(FlightModeCommand("SERVOS"))
+    assert rig.setpoint() == SetpointCommand(0.0, 0.0)
+    assert (rig.shown()["mode"], rig.shown()["fallback"]) == ("LEVEL", "demand_invalid")
+
+
+def test_the_same_mode_flies_with_the_control_loop_on_the_raspberry_pi(tmp_path):
+    rig = NavigationRig(tmp_path, "flight controller: raspberry\n")
+    rig.state("OUTPUT")
+    rig.setpoint()
+    rig.outcome(FlightModeCommand("BANK"))
+    rig.navigation.set()
+    output = rig.frame()
+    assert output.ailerons_us > 1500 and output.throttle_us == 1500
+    assert not rig.setpoints
+
+
+@pytest.mark.parametrize(
+    ("mode", "detail"), [("BNAK", "mode_unknown"), ("BANK", "reading_stale")]
+)  # fmt: skip
+def test_refused_modes_change_nothing(rig, mode, detail):
+    rig.clock.advance(3.1)
+    rig.attitude()
+    assert refusal(rig.outcome(FlightModeCommand(mode))) == detail
+    assert (rig.board.asked, rig.shown()["selected"]) == ([], None)
+
+
+@pytest.mark.parametrize("mode", ["ACRO", "acro", "OUTPUT", "SETPOINT", "RTH", ""])
+def test_the_ground_selects_no_mode_that_is_the_pilots(tmp_path, mode):
+    rig = Rig(tmp_path)
+    rig.state()
+    assert refusal(rig.outcome(FlightModeCommand(mode))) == "mode_unknown"
+    assert rig.manager.telemetry_content["flight_control"]["selected"] == "FBW"
+
+
+def test_the_pilot_ends_a_mode_by_the_switch_and_gets_no_surprise_later(rig):
+    rig.state()
+    rig.outcome(FlightModeCommand("BANK"))
+    assert rig.setpoint()
+    rig.state("FBW", auto=False)
+    rig.state("SETPOINT")
+    assert rig.setpoint() is None
+    assert rig.shown()["selected"] is None
+
+
+def test_a_board_mode_ends_a_mode_of_the_pi(rig):
+    rig.state()
+    rig.outcome(FlightModeCommand("BANK"))
+    rig.outcome(FlightModeCommand("FBW"))
+    assert rig.setpoint() is None
+
+
+def test_the_configured_mode_acts_when_the_switch_comes_to_auto(tmp_path):
+    rig = NavigationRig(tmp_path, navigation="auto_mode: LEVEL\n")
+    rig.state("FBW", in_flight=False)
+    assert rig.board.asked == ["AUTO"]
+    rig.state()
+    assert rig.setpoint() == SetpointCommand(0.0, 0.0)
+
+
+def test_an_auto_mode_that_is_not_loaded_is_a_veto(tmp_path):
+    rig = NavigationRig(tmp_path, navigation="auto_mode: LOTIER\n")
+    assert list(rig.up.vetoes.own) == ["navigation.yml"]
+
+
+class TestHome:
+    """Set once, moved by a Command only."""
+
+    def home(self, rig):
+        content = rig.manager.telemetry_content["home"]
+        place = content["latitude"], content["longitude"]
+        return None if place[0] is None else FRAME.point(*place)
+
+    def test_the_first_accurate_position_then_the_one_where_the_flight_begins(self, tmp_path):
+        rig = NavigationRig(tmp_path)
+        rig.navigation.state = replace(NAVIGATION, position_sd_m=6.0)
+        rig.state("FBW", armed=False, in_flight=False)
+        rig.setpoint()
+        assert self.home(rig) is None
+        rig.navigation.state = NAVIGATION
+        rig.setpoint()
+        assert self.home(rig) == pytest.approx((100.0, 50.0), abs=0.01)
+        rig.navigation.state = replace(NAVIGATION, position=Point(0.0, 10.0))
+        rig.setpoint()
+        assert self.home(rig) == pytest.approx((100.0, 50.0), abs=0.01)
+        rig.state("FBW")
+        rig.setpoint()
+        assert self.home(rig) == pytest.approx((0.0, 10.0), abs=0.01)
+        rig.navigation.state = replace(NAVIGATION, position=Point(900.0, 0.0))
+        rig.setpoint()
+        assert self.home(rig) == pytest.approx((0.0, 10.0), abs=0.01)
+        assert rig.outcome(HomeCommand()) == [None]
+        assert self.home(rig) == pytest.approx((900.0, 0.0), abs=0.01)
+
+    def test_a_command_far_away_or_without_a_position_is_refused(self, tmp_path):
+        rig = NavigationRig(tmp_path)
+        assert refusal(rig.outcome(HomeCommand())) == "reading_stale"
+        rig.setpoint()
+        assert refusal(rig.outcome(HomeCommand(-48.0, 17.0))) == "too_far"
+
+    @pytest.mark.parametrize(
+        ("wind", "time_s"),
+        [((0.0, 0.0), 12.7), ((-4.0, 0.0), 20.0), ((0.0, 11.1), None), ((-11.0, 0.0), None)],
+    )
+    def test_the_time_home_counts_the_wind(self, rig, wind, time_s):
+        rig.navigation.state = replace(
+            NAVIGATION, position=Point(-40.0, 50.0), wind_m_s=Point(*wind)
+        )
+        rig.setpoint()
+        shown = rig.manager.telemetry_content["home"]["time_s"]
+        assert shown == (None if time_s is None else pytest.approx(time_s, rel=0.01))
+
+
+class TestRequests:
+    """The ground's target, course and altitude act, or are refused."""
+
+    def test_guided_flies_to_the_target_which_is_shown_and_ends_with_the_mode(self, rig):
+        rig.state()
+        assert refusal(rig.outcome(FlightModeCommand("GUIDED"))) == "mode_refused"
+        rig.outcome(NavigationTargetCommand(48.01, 17.0, height_m=80.0))
+        rig.frame()
+        assert rig.outcome(FlightModeCommand("GUIDED")) == [None]
+        rig.setpoint()
+        shown = rig.manager.telemetry_content["navigation"]["target"]
+        assert shown == pytest.approx(
+            {"latitude": 48.01, "longitude": 17.0, "altitude": 330.0, "radius": 50.0}
+        )
+        rig.outcome(FlightModeCommand("BANK"))
+        rig.setpoint()
+        shown = rig.manager.telemetry_content["navigation"]["target"]
+        assert shown["latitude"] is None
+        assert refusal(rig.outcome(FlightModeCommand("GUIDED"))) == "mode_refused"
+
+    def test_a_target_ten_thousand_kilometres_away_is_refused(self, rig):
+        assert refusal(rig.outcome(NavigationTargetCommand(-40.0, 17.0))) == "too_far"
+
+    def test_a_course_acts_in_a_mode_that_follows_it_and_is_shown(self, rig):
+        required = HeadingCommand(-90.0, "required")
+        assert refusal(rig.outcome(required)) == "mode_refused"
+        rig.state()
+        rig.outcome(FlightModeCommand("BANK"))
+        rig.setpoint()
+        assert rig.outcome(required) == [None]
+        rig.setpoint()
+        assert rig.bank.seen.required_course_deg == 270.0
+        shown = rig.up.telemetry_controller.collect()["heading"]["required"]
+        assert shown == 270.0
+        assert refusal(rig.outcome(AltitudeCommand(100.0, "required"))) == "mode_refused"
+        rig.outcome(FlightModeCommand("LEVEL"))
+        assert rig.up.telemetry_controller.collect()["heading"]["required"] is None
+
+
+class TestRestart:
+    """Home, target and mode survive the program."""
+
+    def test_in_flight_everything_is_resumed_and_no_fallback_acts_before_the_first_fix(
+        self, rig, tmp_path
+    ):
+        rig.state()
+        rig.outcome(NavigationTargetCommand(48.01, 17.0, altitude_m=300.0))
+        rig.frame()
+        rig.outcome(FlightModeCommand("GUIDED"))
+        rig.setpoint()
+        rig.manager.home.memory.wait()
+        again = NavigationRig(tmp_path, gains=None)
+        again.state()
+        again.frame()
+        assert again.setpoints == []
+        assert again.setpoint()
+        assert again.shown()["mode"] == "GUIDED"
+        shown = again.manager.telemetry_content
+        assert shown["navigation"]["target"]["latitude"] == pytest.approx(48.01)
+        home = shown["home"]["latitude"], shown["home"]["longitude"]
+        assert FRAME.point(*home) == pytest.approx((100.0, 50.0), abs=0.01)
+
+    def test_if_the_readings_stay_away_the_fallback_acts(self, rig, tmp_path):
+        rig.state()
+        rig.outcome(FlightModeCommand("BANK"))
+        rig.manager.home.memory.wait()
+        again = NavigationRig(tmp_path, gains=None)
+        again.state()
+        again.clock.advance(3.0)
+        again.frame()
+        assert again.shown()["mode"] == "LEVEL"
+
+    def test_on_the_ground_nothing_is_resumed(self, rig, tmp_path):
+        rig.state()
+        rig.outcome(FlightModeCommand("BANK"))
+        rig.manager.home.memory.wait()
+        again = NavigationRig(tmp_path, gains=None)
+        again.state(in_flight=False)
+        assert again.shown()["selected"] is None
+        assert again.manager.home.place is None
