@@ -126,7 +126,7 @@ def python_telemetry(schema: Schema) -> str:
           for r in schema.readings),
         "}", "FIELDS = (", *rows("Field", [field(r) for r in schema.fields if r.in_telemetry]),
         ")", "RULES = (", *rows("Rule", [_given(rule) for rule in schema.rules]),
-        ")", "EVENTS = {", *events, "}", f"ALARM_HOLDS_S = {schema.holds_s}",
+        f")\nMODE_REASONS = {schema.mode_reasons}", "EVENTS = {", *events, "}", f"ALARM_HOLDS_S = {schema.holds_s}",
         f"PROPERTIES: dict[str, Any] = {json_tree(schema)!r}", "",
     ])  # fmt: skip
 
@@ -169,8 +169,15 @@ def javascript(schema: Schema) -> str:
     tables = {
         "Effect and holder of each flight mode.": (
             "MODES", {mode.name: {"about": mode.about, "holder": mode.holder}
-                      for mode in schema.modes}),
+                      for mode in schema.modes} | {
+                          name: {"about": about, "holder": ""}
+                          for name, about in schema.mode_texts.items()}),
         "Rows of the board panel; `style` applies to the value `when`.": ("BOARD_ROWS", rows),
+        "Rows of the navigation panel.": ("NAVIGATION_ROWS", [
+            {"label": each.label, "path": each.name, "unit": each.unit, "decimals": each.decimals}
+            for each in schema.fields if each.label]),
+        "Why a flight mode is not offered, or was replaced, by code.": (
+            "MODE_REASONS", schema.mode_reasons),
         "An older frame is shown as stale, before the second is over.": (
             "SILENT_S", schema.times["silent_s"]),
         "Two clocks run apart by no more than this.": ("DRIFT", schema.times["drift"]),
@@ -245,6 +252,10 @@ public final class TelemetrySchema {{
     static final Map<String, Integer> DECIMALS = new HashMap<>();
     /** Limits of the alarms of numbers. */
     static final Map<String, Double> LIMITS = new HashMap<>();
+    /** Why a flight mode is not offered, or was replaced, by code. */
+    static final Map<String, String> MODE_REASONS = new HashMap<>();
+    /** Paths of the values of navigation, by label in the order of display. */
+    public static final Map<String, String> NAVIGATION = new LinkedHashMap<>();
     static final List<TelemetryRule> RULES = new ArrayList<>();
     /** Events without a field, by code. */
     static final Map<String, TelemetryRule> EVENTS = new HashMap<>();
@@ -256,6 +267,8 @@ public final class TelemetrySchema {{
 {grouped("UNITS", [(r.name, r.unit) for r in fields if r.unit])}\
 {grouped("DECIMALS", [(r.name, r.decimals) for r in fields if r.decimals != 3])}\
 {"".join(put("LIMITS", k, float(v)) for k, v in _limits(schema).items())}\
+{"".join(put("MODE_REASONS", k, json.dumps(v)) for k, v in schema.mode_reasons.items())}\
+{"".join(put("NAVIGATION", r.label, json.dumps(r.name)) for r in schema.fields if r.label)}\
 {"".join(_java_call("RULES.add(" + RULE, rule(each), "));") for each in shown)}\
 {
         "".join(

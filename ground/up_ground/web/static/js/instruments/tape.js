@@ -12,7 +12,6 @@ export class Tape {
   #first = null;
   #number;
   #note;
-  #unit;
   #label;
 
   /** each: how many steps between labels; isLeft: the marks point to the middle of the picture. */
@@ -50,7 +49,7 @@ export class Tape {
       svg("rect", { x, y: -140, width, height: 32, class: "tape-cap" }),
       svg("text", { x: x + width / 2, y: -127, class: "tape-title" }, form.title),
     );
-    this.#unit = form.unit;
+    this.unit = form.unit;
     this.#note = svg("text", { x: x + width / 2, y: -114, class: "tape-unit" }, form.unit);
     this.foot = svg("text", { x: x + width / 2, y: 133, class: "tape-unit" });
     const foot = svg("rect", { x, y: 120, width, height: 20, class: "tape-cap" });
@@ -62,7 +61,7 @@ export class Tape {
     setAttribute(this.element, "data-freshness", freshness);
     setAttribute(this.#number, "data-freshness", freshness);
     setText(this.#number, value === null ? UNKNOWN : text);
-    setText(this.#note, age === "" ? this.#unit : age);
+    setText(this.#note, age === "" ? this.unit : age);
     setAttribute(this.#note, "data-old", String(age !== ""));
     if (value === null) {
       return;

@@ -26,6 +26,10 @@ public final class TelemetrySchema {
     static final Map<String, Integer> DECIMALS = new HashMap<>();
     /** Limits of the alarms of numbers. */
     static final Map<String, Double> LIMITS = new HashMap<>();
+    /** Why a flight mode is not offered, or was replaced, by code. */
+    static final Map<String, String> MODE_REASONS = new HashMap<>();
+    /** Paths of the values of navigation, by label in the order of display. */
+    public static final Map<String, String> NAVIGATION = new LinkedHashMap<>();
     static final List<TelemetryRule> RULES = new ArrayList<>();
     /** Events without a field, by code. */
     static final Map<String, TelemetryRule> EVENTS = new HashMap<>();
@@ -102,6 +106,30 @@ public final class TelemetrySchema {
         put(DECIMALS, 0, "home.time_s", "navigation.wind.from");
         LIMITS.put("battery_low", 20.0);
         LIMITS.put("battery_empty", 10.0);
+        MODE_REASONS.put("mode_failed", "it failed");
+        MODE_REASONS.put("mode_overrun", "it took too long");
+        MODE_REASONS.put("demand_invalid", "it demanded what is not possible");
+        MODE_REASONS.put("mode_refused", "it cannot be entered now");
+        MODE_REASONS.put("mode_unknown", "no module provides it");
+        MODE_REASONS.put("orientation", "orientation missing or too old");
+        MODE_REASONS.put("rx", "receiver missing or too old");
+        MODE_REASONS.put("servo", "servos missing or too old");
+        MODE_REASONS.put("flight", "flight state missing or too old");
+        MODE_REASONS.put("location", "location missing or too old");
+        MODE_REASONS.put("altitude", "altitude missing or too old");
+        MODE_REASONS.put("heading", "heading missing or too old");
+        MODE_REASONS.put("battery", "battery missing or too old");
+        MODE_REASONS.put("navigation", "navigation missing or too old");
+        NAVIGATION.put("Time home", "home.time_s");
+        NAVIGATION.put("Above sea level", "navigation.altitude");
+        NAVIGATION.put("Above home", "navigation.height");
+        NAVIGATION.put("Ground speed", "navigation.speed");
+        NAVIGATION.put("Climb", "navigation.climb");
+        NAVIGATION.put("Airspeed", "navigation.airspeed");
+        NAVIGATION.put("Wind", "navigation.wind.speed");
+        NAVIGATION.put("Wind from", "navigation.wind.from");
+        NAVIGATION.put("Position sd", "navigation.sd.position");
+        NAVIGATION.put("Altitude sd", "navigation.sd.altitude");
         RULES.add(new TelemetryRule("event", "mode", "code", "flight_mode", "level", "info",
                 "text", "flight mode {value} (was {before})", "path", "flight_mode",
                 "type", "text"));
