@@ -30,7 +30,7 @@ ROW: dict[str, Any] = {
        "second_alarm": {}, "event": {}, "finding": ""}  # fmt: skip
 FIELD: dict[str, Any] = {
        "name": None, "of": (), "type": "number", "unit": "", "about": "", "decimals": 3,
-       "reading": "", "from": "", "key": "*", "row": {}, "alarm": {}, "second_alarm": {},
+       "reading": "", "from": "", "key": "*", "row": {}, "labels": (), "alarm": {}, "second_alarm": {},
        "event": {}, "finding": "",
        "in_telemetry": True, "rules": ()}  # fmt: skip
 READING = {"name": None, "title": "", "stale_s": 0, "source_s": None, "source_event": True}
@@ -85,6 +85,10 @@ class Schema:
         names = [each.name for each in self.readings]
         rows = [*data["fields"], *({**each, "of": names} for each in (ages, sources))]
         self.table = [_field(each, names) for each in rows]
+        self.mode_reasons = data["mode_reasons"] | {
+            each.name: f"{each.title or each.name} missing or too old" for each in self.readings
+        }
+        self.mode_texts = data["mode_texts"]
 
     def _read_status(self, data: dict[str, Any]) -> None:
         self.version = data["version"]
@@ -104,17 +108,19 @@ class Schema:
     def _fields_of(self, row: Item) -> Iterator[Item]:
         """Yield the fields that a row of the table of telemetry stands for."""
         if row.type != "status":
-            for name in row.of or ("",):
+            names = row.of or ("",)
+            for name, label in zip(names, row.labels or ("",) * len(names), strict=True):
                 path = f"{row.name}.{name}".rstrip(".")
                 key = row.key.replace("*", path.rpartition(".")[2])
-                yield Item(**{**vars(row), "name": path, "key": key, "rules": _rules(row, path)})
+                own = {"name": path, "key": key, "label": label, "rules": _rules(row, path)}
+                yield Item(**vars(row) | own)
             return
         for each in self.rows:
             if each.in_telemetry or each.alarm:
                 known = {key: getattr(each, key) for key in FIELD if hasattr(each, key)}
                 path = f"{row.name}.{each.name}"
                 own = {"name": path, "type": each.kind, "reading": row.reading}
-                yield Item(**FIELD | known | own | {"rules": _rules(each, path)})
+                yield Item(**FIELD | known | own | {"label": "", "rules": _rules(each, path)})
 
 
 def _item(keys: dict[str, Any], data: dict[str, Any]) -> Item:
@@ -131,6 +137,8 @@ def _field(data: dict[str, Any], readings: list[str]) -> Item:
     row = _item(FIELD, data)
     if row.reading and row.reading not in readings:
         raise SchemaError(f"{row.name}: unknown reading '{row.reading}'")
+    if row.labels and len(row.labels) != len(row.of or (row.name,)):
+        raise SchemaError(f"{row.name}: labels must be as many as the fields")
     if row.type not in TYPES:
         raise SchemaError(f"{row.name}: type must be one of {', '.join(TYPES)}")
     row.kind = row.type

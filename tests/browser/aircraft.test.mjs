@@ -122,21 +122,3 @@ test("a failsafe raises an alarm and an event, until it is over", async () => {
   await ground.until(() => document.querySelector('#alarms [role="alert"]') === null, "its end");
   ground.assertClean();
 });
-
-test("AUTO is not offered while the controller cannot fly, with the reason", async () => {
-  const ground = await (await GroundPage.open(browser, flight.address)).isLive();
-  flight.tell({ data: { flight_control: { mode: null, offered: [], missing: ["rx"] } } });
-  await ground.takeControl();
-  await ground.until(
-    () =>
-      document.querySelector('[data-mode="AUTO"]').dataset.offered === "false" &&
-      [...document.querySelectorAll("[data-mode]")]
-        .filter((each) => each.disabled)
-        .map((each) => each.dataset.mode)
-        .join() === "AUTO",
-    "only AUTO not offered",
-  );
-  assert.equal(await ground.attribute(".modes + .quiet", "data-missing"), "rx");
-  flight.tell({ data: {} });
-  ground.assertClean();
-});

@@ -162,6 +162,7 @@ RULES = (
     Rule(path='source.heading', type='text', event='source', level='warning', code='source_changed', text='heading comes from {value} (was {before})'),
     Rule(path='source.battery', type='text', event='source', level='warning', code='source_changed', text='battery comes from {value} (was {before})'),
 )
+MODE_REASONS = {'mode_failed': 'it failed', 'mode_overrun': 'it took too long', 'demand_invalid': 'it demanded what is not possible', 'mode_refused': 'it cannot be entered now', 'mode_unknown': 'no module provides it', 'orientation': 'orientation missing or too old', 'rx': 'receiver missing or too old', 'servo': 'servos missing or too old', 'flight': 'flight state missing or too old', 'location': 'location missing or too old', 'altitude': 'altitude missing or too old', 'heading': 'heading missing or too old', 'battery': 'battery missing or too old', 'navigation': 'navigation missing or too old'}
 EVENTS = {
     'silent':     Rule(event='link', code='silent', level='alarm', text='the aircraft is silent', alarm='silent'),
     'late':     Rule(event='link', code='late', level='alarm', text='telemetry arrives too late', alarm='silent'),

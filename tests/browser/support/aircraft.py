@@ -13,7 +13,14 @@ sys.path.insert(0, str(Path(__file__).parents[3]))
 
 from tests.ground.aircraft import Aircraft, frame
 
-COMMANDS = ("up.flight_mode.set", "up.arm", "up.disarm", "up.heading.change", "android.speak")
+COMMANDS = (
+    "up.flight_mode.set",
+    "up.arm",
+    "up.disarm",
+    "up.heading.change",
+    "up.navigation.target",
+    "android.speak",
+)
 
 
 def main(port, hello):

@@ -1,6 +1,5 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { holderText } from "../../../../ground/up_ground/web/static/js/instruments/flight.js";
 import { climbText } from "../../../../ground/up_ground/web/static/js/instruments/tapes.js";
 import {
   switchMode,
@@ -12,16 +11,6 @@ import { alarmOf } from "../../../../ground/up_ground/web/static/js/state/alarm_
 function store(texts, profile = null) {
   return { text: (path) => texts[path] ?? null, profile, alarms: [], aircraftState: "live" };
 }
-
-test("sticks and rates hold no attitude", () => {
-  const plain = store({});
-  assert.equal(holderText("ACRO", plain), "the pilot");
-  assert.equal(holderText("RATE", plain), "the pilot; the Arduino holds the rates");
-  assert.equal(holderText("FBW", plain), "Arduino");
-  assert.equal(holderText("OUTPUT", plain), "Raspberry Pi");
-  assert.equal(holderText("OUTPUT", store({ "flight_control.mode": "ACRO" })), "the pilot");
-  assert.equal(holderText("constructor", plain), "--");
-});
 
 test("the switch says what its position selects, by the profile or by default", () => {
   assert.equal(switchText(store({ "arduino.switch": "high" })), "high: AUTO (default)");

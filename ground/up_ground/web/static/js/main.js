@@ -12,6 +12,7 @@ const PARTS = [
   ["turn", "./instruments/turn.js"],
   ["compass", "./instruments/compass.js"],
   ["flight", "./instruments/flight.js"],
+  ["navigation", "./instruments/navigation.js"],
   ["sticks", "./instruments/sticks.js"],
   ["servos", "./instruments/servos.js"],
   ["battery", "./instruments/battery.js"],

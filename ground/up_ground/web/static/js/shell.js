@@ -1,6 +1,7 @@
 import { setAttribute, setText } from "./dom.js";
 import { storageOf } from "./link/storage.js";
 import { alarmOf } from "./state/alarm_level.js";
+import { actingMode } from "./state/flight_mode.js";
 import { UNKNOWN } from "./state/format.js";
 
 const THEMES = ["dark", "daylight"];
@@ -72,7 +73,7 @@ export function mountShell(store, connection) {
     const frame = store.freshness(null);
     showBar("bar-link", linkWord(store, connection), state === "none" ? "none" : frame);
     const flight = store.freshness("flight");
-    showBar("bar-mode", store.text("flight_mode"), flight);
+    showBar("bar-mode", actingMode(store), flight);
     const armed = store.flag("armed");
     showBar("bar-armed", armed === null ? null : armed ? "ARMED" : "disarmed", flight);
     setAttribute(at("bar-armed"), "data-armed", String(armed));

@@ -5,7 +5,10 @@ import {
   bearing_deg, distance_m, distanceText, offsetOf, placeAt, placeOf,
 } from "../../../../../ground/up_ground/web/static/js/state/earth.js";
 import { linesBetween, stepOf, stepText, windowOf } from "../../../../../ground/up_ground/web/static/js/state/earth.js";
-import { homeText } from "../../../../../ground/up_ground/web/static/js/map/picture.js";
+import { placeText } from "../../../../../ground/up_ground/web/static/js/map/map_actions.js";
+import { circlesOf } from "../../../../../ground/up_ground/web/static/js/map/overlay.js";
+import { homeText, pictureOf } from "../../../../../ground/up_ground/web/static/js/map/picture.js";
+import { NewestFrame } from "../../../../../ground/up_ground/web/static/js/state/newest_frame.js";
 
 const HOME = { latitude: 50.1, longitude: 8.6 };
 const near = (value, wanted, by) => assert.ok(Math.abs(value - wanted) <= by, `${value} is not ${wanted}`);
@@ -82,4 +85,58 @@ test("the way home has the age of a stale position", () => {
   assert.match(homeText({ ...picture, freshness: "stale" }), /12.3 s/);
   assert.doesNotMatch(homeText({ ...picture, home: null }), /\d/);
   assert.doesNotMatch(homeText({ ...picture, aircraft: null }), /\d/);
+});
+
+function storeOf(data) {
+  const store = new NewestFrame(() => 0);
+  store.track = { points: [] };
+  store.status = { home: { latitude: 1, longitude: 2 } };
+  store.updateFrame({ data, beacon: 1, age_ms: 0 }, 0);
+  return store;
+}
+
+const NAVIGATION = {
+  latitude: 50.2, longitude: 8.7, heading: 33, sd: { position: 2.5 },
+  target: { latitude: 50.3, longitude: 8.8, radius: 60 },
+};
+
+test("the map shows the estimate with two standard deviations, and the fix beside it", () => {
+  const picture = pictureOf(storeOf({
+    location: { latitude: 50.1, longitude: 8.6 }, navigation: NAVIGATION,
+    age_ms: { navigation: 100, location: 100 }, home: { ...HOME, time_s: 65 },
+  }));
+  assert.deepEqual(picture.aircraft, { latitude: 50.2, longitude: 8.7 });
+  assert.equal(picture.heading_deg, 33);
+  assert.deepEqual(picture.home, HOME);
+  assert.match(homeText(picture), / 1:05$/);
+  const circles = new Map(circlesOf({ ...picture, chosen: null }).map(({ name, ...more }) => [name, more]));
+  assert.deepEqual([...circles.keys()], ["uncertainty", "target", "fix", "target-point"]);
+  assert.equal(circles.get("uncertainty").radius_m, 5);
+  assert.deepEqual(circles.get("uncertainty").place, picture.aircraft);
+  assert.equal(circles.get("target").radius_m, 60);
+  assert.deepEqual(circles.get("fix").place, HOME);
+});
+
+test("without an estimate the map shows the fix, and the server's home", () => {
+  const picture = pictureOf(storeOf({ location: { latitude: 50.1, longitude: 8.6 }, age_ms: { location: 100 } }));
+  assert.deepEqual(picture.aircraft, HOME);
+  assert.deepEqual(picture.home, { latitude: 1, longitude: 2 });
+  assert.equal(picture.time_s, undefined);
+  assert.deepEqual(circlesOf(picture), []);
+});
+
+test("an aircraft that does not reach home in this wind is told from one whose way is unknown", () => {
+  const home = { ...HOME, time_s: null };
+  const blown = pictureOf(storeOf({ navigation: NAVIGATION, age_ms: { navigation: 0 }, home }));
+  assert.equal(blown.time_s, null);
+  const unset = pictureOf(storeOf({ navigation: NAVIGATION, age_ms: { navigation: 0 } }));
+  assert.equal(unset.time_s, undefined);
+  assert.notEqual(homeText(blown), homeText({ ...blown, time_s: undefined }));
+});
+
+test("a chosen place has its distance from home, else from the aircraft", () => {
+  const place = placeAt(HOME, { east_m: 340, north_m: 0 });
+  assert.match(placeText(place, HOME, null), /340 m .* 090°$/);
+  assert.match(placeText(place, null, HOME), /340 m .* 090°$/);
+  assert.doesNotMatch(placeText(place, null, null), /m/);
 });

@@ -1,6 +1,7 @@
 import { html, setAttribute, setText } from "../dom.js";
 import { Readout, Row } from "../readout.js";
-import { MODES } from "../state/schema.js";
+import { modeText } from "../panels/messages.js";
+import { actingMode, controllerText } from "../state/flight_mode.js";
 import { flagText, numberText, UNKNOWN } from "../state/format.js";
 import { switchText } from "../state/pilot_input.js";
 
@@ -13,11 +14,11 @@ export function mount(element, store) {
   const list = html("dl", { class: "rows" });
   const vetoes = html("div", { id: "vetoes" });
   element.append(html("p", { class: "flight-head" }, mode, armed, age), meaning, list, vetoes);
-  const modeReadout = new Readout(mode, "flight_mode", String, age, "text");
+  const modeReadout = new Readout(mode, "flight_mode", () => actingMode(store), age, "text");
   const armedText = (value) => flagText(value, "ARMED", "disarmed");
   const armedReadout = new Readout(armed, "armed", armedText, null, "flag");
   const rows = [
-    new Row(list, "Attitude held by", "flight_mode", "text", (mode) => holderText(mode, store)),
+    new Row(list, "Controlled by", "flight_mode", "text", () => controllerText(store) || UNKNOWN),
     new Row(list, "Raspilot", "mode", "text"),
     new Row(list, "Switch", "arduino.switch", "text", () => switchText(store)),
     new Row(list, "Failsafe", "arduino.failsafe", "flag", (isOn) => (isOn ? "YES" : "no"), (isOn) => (isOn ? "alarm" : "")),
@@ -25,7 +26,8 @@ export function mount(element, store) {
   ];
   return {
     update() {
-      setText(meaning, MODES[modeReadout.update(store)]?.about ?? "");
+      modeReadout.update(store);
+      setText(meaning, modeText(actingMode(store)));
       setAttribute(armed, "data-armed", String(armedReadout.update(store)));
       for (const row of rows) {
         row.update(store);
@@ -33,15 +35,6 @@ export function mount(element, store) {
       showVetoes(vetoes, store);
     },
   };
-}
-
-/** mode: that is flown. Returns who holds bank and pitch. */
-export function holderText(mode, store) {
-  // Raspilot's controller passes the sticks through where it knows no rates.
-  if (mode === "OUTPUT" && store.text("flight_control.mode") === "ACRO") {
-    return MODES.ACRO.holder;
-  }
-  return Object.hasOwn(MODES, mode) ? MODES[mode].holder : UNKNOWN;
 }
 
 function busyText(value, store) {

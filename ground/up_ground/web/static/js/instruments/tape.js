@@ -1,5 +1,4 @@
 import { hatch, setAttribute, setText, short, svg } from "../dom.js";
-import { TapeScale } from "./geometry.js";
 import { UNKNOWN } from "../state/format.js";
 
 const HEIGHT = 280;
@@ -13,7 +12,6 @@ export class Tape {
   #first = null;
   #number;
   #note;
-  #unit;
   #label;
 
   /** each: how many steps between labels; isLeft: the marks point to the middle of the picture. */
@@ -51,7 +49,7 @@ export class Tape {
       svg("rect", { x, y: -140, width, height: 32, class: "tape-cap" }),
       svg("text", { x: x + width / 2, y: -127, class: "tape-title" }, form.title),
     );
-    this.#unit = form.unit;
+    this.unit = form.unit;
     this.#note = svg("text", { x: x + width / 2, y: -114, class: "tape-unit" }, form.unit);
     this.foot = svg("text", { x: x + width / 2, y: 133, class: "tape-unit" });
     const foot = svg("rect", { x, y: 120, width, height: 20, class: "tape-cap" });
@@ -63,7 +61,7 @@ export class Tape {
     setAttribute(this.element, "data-freshness", freshness);
     setAttribute(this.#number, "data-freshness", freshness);
     setText(this.#number, value === null ? UNKNOWN : text);
-    setText(this.#note, age === "" ? this.#unit : age);
+    setText(this.#note, age === "" ? this.unit : age);
     setAttribute(this.#note, "data-old", String(age !== ""));
     if (value === null) {
       return;
@@ -97,4 +95,34 @@ function windowPath(x, width, isLeft) {
   return isLeft
     ? `M${x} -15H${x + width - 5}V-6L${x + width + 3} 0L${x + width - 5} 6V15H${x}Z`
     : `M${x + width} -15H${x + 5}V-6L${x - 3} 0L${x + 5} 6V15H${x + width}Z`;
+}
+
+/**
+ * A scale that moves past a pointer, greater values above.
+ *
+ * Only changes are reported: `first` is the lowest mark drawn and stays the same until the value
+ * has moved by a whole step; in between only `shift` changes.
+ */
+export class TapeScale {
+  /** step: between marks; units: of the drawing for a step; height: of the drawing. */
+  constructor({ step, units, height }) {
+    this.step = step;
+    this.units = units;
+    this.count = 2 * (Math.ceil(height / 2 / units) + 1) + 1;
+  }
+
+  /** value: at the pointer. Returns shift: how far down the marks move. */
+  at(value) {
+    const middle = Math.round(value / this.step);
+    const below = (this.count - 1) / 2;
+    return {
+      first: (middle - below) * this.step,
+      shift: (value / this.step - middle) * this.units,
+    };
+  }
+
+  /** place: of a mark, counted from the lowest. Returns where it is drawn while the shift is 0. */
+  y(place) {
+    return ((this.count - 1) / 2 - place) * this.units;
+  }
 }

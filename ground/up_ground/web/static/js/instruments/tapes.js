@@ -1,5 +1,4 @@
 import { drawing, setAttribute, setText, short, svg } from "../dom.js";
-import { rootScale } from "./geometry.js";
 import { VIEW } from "./horizon.js";
 import { Tape } from "./tape.js";
 import { freshnessOf, oldText } from "../readout.js";
@@ -50,16 +49,27 @@ export function mount(element, store) {
     update() {
       showSpeed(speed, store);
       showAltitude(altitude, store);
-      climb.show(store.motion.climb_m_s, freshnessOf(store, store.motion.climb_m_s, "altitude"));
+      const [climb_m_s, reading] = estimated(store, "navigation.climb", store.motion.climb_m_s, "altitude");
+      climb.show(climb_m_s, freshnessOf(store, climb_m_s, reading));
     },
   };
 }
 
+/** The aircraft's estimate, or what the page derives; and the reading whose age it has. */
+function estimated(store, path, derived, reading) {
+  const value = store.number(path);
+  return value === null ? [derived, reading] : [value, "navigation"];
+}
+
 function showSpeed(tape, store) {
-  const speed_m_s = store.motion.groundSpeed_m_s;
-  const freshness = freshnessOf(store, speed_m_s, "location");
-  const age = oldText(store, "location", freshness);
+  const [speed_m_s, reading] = estimated(store, "navigation.speed", store.motion.groundSpeed_m_s, "location");
+  const freshness = freshnessOf(store, speed_m_s, reading);
+  const age = oldText(store, reading, freshness);
+  tape.unit = reading === "location" ? "by fixes" : "estimate";
   tape.show(speed_m_s, freshness, numberText(speed_m_s, 1), age);
+  const airspeed_m_s = store.number("navigation.airspeed");
+  setText(tape.foot, airspeed_m_s === null ? "" : `AS ${numberText(airspeed_m_s, 1)}`);
+  setAttribute(tape.foot, "data-freshness", freshnessOf(store, airspeed_m_s, "navigation"));
 }
 
 function showAltitude(tape, store) {
@@ -68,10 +78,10 @@ function showAltitude(tape, store) {
   const decimals = altitude_m >= 1000 || altitude_m <= -100 ? 0 : 1;
   const age = oldText(store, "altitude", freshness);
   tape.show(altitude_m, freshness, numberText(altitude_m, decimals), age);
-  const height_m = heightOverStart_m(store);
-  const where = startsAtHome(store) ? "home" : "start";
+  const [height_m, reading] = estimated(store, "navigation.height", heightOverStart_m(store), "location");
+  const where = reading === "navigation" || startsAtHome(store) ? "home" : "start";
   setText(tape.foot, height_m === null ? "" : `${heightText(height_m)} ${where}`);
-  setAttribute(tape.foot, "data-freshness", freshnessOf(store, height_m, "location"));
+  setAttribute(tape.foot, "data-freshness", freshnessOf(store, height_m, reading));
 }
 
 function heightText(height_m) {
@@ -80,7 +90,7 @@ function heightText(height_m) {
     : `${numberText(height_m / 1000, 1, { sign: true })} km`;
 }
 
-/** Above the start of the track: the altitude of home itself is not reported. */
+/** Above the start of the track, where the aircraft reports no height above home. */
 function heightOverStart_m(store) {
   const start_m = store.track.startAltitude_m;
   const here_m = store.number("location.altitude");
@@ -136,4 +146,10 @@ function climbOf() {
       setText(text, climbText(climb_m_s));
     },
   };
+}
+
+/** The needle of a scale that is finer around zero: the root of value / most, within the length. */
+export function rootScale(value, most, length) {
+  const share = Math.min(1, Math.abs(value) / most);
+  return Math.sign(value) * Math.sqrt(share) * length;
 }

@@ -1,6 +1,7 @@
 import { svg } from "../dom.js";
 import { metreGrid } from "./metre_grid.js";
 import { AircraftSymbol } from "./picture.js";
+import { Overlay } from "./overlay.js";
 import { TrackLine } from "./track_line.js";
 
 const INITIAL_ZOOM = 16;
@@ -16,6 +17,7 @@ export class LeafletMap {
   #symbol = new AircraftSymbol();
   #aircraft = null;
   #home = null;
+  #overlay;
   #wayHome;
   #track;
   #hasView = false;
@@ -24,8 +26,8 @@ export class LeafletMap {
 
   isFollowing = true;
 
-  /** L: Leaflet; onFree: the user moved the map; onTiles: map tiles became unavailable, or available. */
-  constructor(L, place, { tiles, onFree, onTiles }) {
+  /** L: Leaflet; onFree: the user moved the map; onTiles: map tiles became unavailable, or available; onChoose: a place was clicked. */
+  constructor(L, place, { tiles, onFree, onTiles, onChoose }) {
     this.#L = L;
     this.#onFree = onFree;
     const isCalm = matchMedia("(prefers-reduced-motion: reduce)").matches;
@@ -53,6 +55,8 @@ export class LeafletMap {
     place.classList.toggle("has-tiles", tiles !== null);
     this.#wayHome = L.polyline([], { className: "way-home", interactive: false });
     this.#track = new TrackLine(L, this.#map, tiles !== null);
+    this.#overlay = new Overlay(L, this.#map);
+    this.#map.on("click", ({ latlng }) => onChoose(placeOfLatLng(latlng)));
     this.#map.on("dragstart", () => this.free());
     this.#map.getContainer().addEventListener("keydown", (event) => {
       if (event.key.startsWith("Arrow")) {
@@ -81,6 +85,11 @@ export class LeafletMap {
       this.#zoomAround(true);
       this.#onFree();
     }
+  }
+
+  /** The place in the middle; null: nothing is shown yet. */
+  get middle() {
+    return this.#hasView ? placeOfLatLng(this.#map.getCenter()) : null;
   }
 
   /** by: levels closer; negative: farther. */
@@ -114,6 +123,7 @@ export class LeafletMap {
     }
     this.#showGround(home ?? aircraft, home !== null);
     this.#showHome(home);
+    this.#overlay.show(picture);
     this.#showAircraft(picture);
     const ends = home === null || aircraft === null ? [] : [latLng(home), latLng(aircraft)];
     this.#wayHome.setLatLngs(ends).addTo(this.#map);
@@ -124,6 +134,7 @@ export class LeafletMap {
   #clear(picture) {
     this.#showAircraft({ ...picture, aircraft: null });
     this.#showHome(null);
+    this.#overlay.show({});
     this.#wayHome.setLatLngs([]);
     this.#track.show({ points: [], version: -1 });
     this.#grid?.remove();
@@ -187,8 +198,7 @@ export class LeafletMap {
   }
 
   #useGrid(place = null) {
-    const middle = this.#hasView ? this.#map.getCenter() : null;
-    const origin = place ?? (middle && { latitude: middle.lat, longitude: middle.lng });
+    const origin = place ?? this.middle;
     if (this.#grid === null && origin !== null) {
       this.#grid = metreGrid(this.#L, origin).addTo(this.#map);
       this.#grid.bringToBack();
@@ -204,6 +214,11 @@ export class LeafletMap {
 
 function latLng({ latitude, longitude }) {
   return [latitude, longitude];
+}
+
+function placeOfLatLng(latLng) {
+  const { lat, lng } = latLng.wrap();
+  return { latitude: lat, longitude: lng };
 }
 
 function homeSymbol() {

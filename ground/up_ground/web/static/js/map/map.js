@@ -1,29 +1,8 @@
-import { html, showMissing, setAttribute, setText, styleSheet, svg } from "../dom.js";
+import { html, showMissing, setAttribute, setText, styleSheet } from "../dom.js";
+import { MapActions } from "./map_actions.js";
 import { homeText, pictureOf } from "./picture.js";
 import { PlainMap } from "./plain_map.js";
-
-/** The wind beside the map, if the aircraft reports it: an arrow along the wind, and text. */
-export class Wind {
-  #arrow = svg("path", { d: "M0 -7 V7 M-4 3 L0 7 L4 3" });
-  #words = html("span");
-
-  constructor() {
-    const arrow = svg("svg", { viewBox: "-8 -8 16 16", width: 16, height: 16 }, this.#arrow);
-    setAttribute(arrow, "aria-hidden", "true");
-    this.element = html("p.map-wind", { hidden: true }, arrow, this.#words);
-  }
-
-  show(store) {
-    const from_deg = store.number("wind.from");
-    const speed_m_s = store.number("wind.speed");
-    this.element.hidden =
-      from_deg === null || speed_m_s === null || store.freshness(null) !== "live";
-    if (!this.element.hidden) {
-      setAttribute(this.#arrow, "transform", `rotate(${from_deg.toFixed(0)})`);
-      setText(this.#words, `wind ${speed_m_s.toFixed(1)} m/s from ${from_deg.toFixed(0)}°`);
-    }
-  }
-}
+import { Wind } from "./wind.js";
 
 const MISSING =
   "Leaflet is not installed, so the map is a plain one: run tools/web_assets (it needs npm) and reload this page.";
@@ -42,7 +21,8 @@ export function mount(place, store, connection) {
   const words = html("p.map-words", { id: "map-home" });
   const wind = new Wind();
   const notice = html("p.map-notice", { id: "map-notice", hidden: true });
-  place.append(canvas, tools, html("div.map-foot", {}, words, wind.element), notice);
+  const actions = new MapActions(store, connection, show);
+  place.append(canvas, tools, html("div.map-foot", {}, words), wind.element, notice, actions.element);
   let map = null;
   place.addEventListener("keydown", onKey);
 
@@ -79,12 +59,27 @@ export function mount(place, store, connection) {
       "=": () => map?.zoom(1),
       "-": () => map?.zoom(-1),
       f: () => setFollow(!map?.isFollowing),
+      Enter: () => choose(map?.middle ?? null),
     };
     // Leaflet itself handles + and - while it has the focus.
-    const isLeaflets = event.target === canvas && event.key !== "f";
-    if (Object.hasOwn(keys, event.key) && !isLeaflets) {
+    const isLeaflets = event.target === canvas && ["+", "=", "-"].includes(event.key);
+    const isTyped = event.target !== canvas && (event.key === "Enter" || event.target.matches("input"));
+    if (Object.hasOwn(keys, event.key) && !isLeaflets && !isTyped) {
       keys[event.key]();
     }
+  }
+
+  function choose(chosen) {
+    if (chosen !== null) {
+      actions.open(chosen);
+    }
+  }
+
+  function show() {
+    const picture = { ...pictureOf(store), chosen: actions.place };
+    map?.show(picture);
+    actions.update(picture);
+    return picture;
   }
 
   async function begin() {
@@ -94,10 +89,10 @@ export function mount(place, store, connection) {
       await styleSheet("vendor/leaflet/leaflet.css");
       const tiles = connection.welcome?.tiles ?? null;
       const onTiles = (areThere) => notify(areThere ? "" : NO_TILES);
-      map = new LeafletMap(L, canvas, { tiles, onFree: showFollow, onTiles });
+      map = new LeafletMap(L, canvas, { tiles, onFree: showFollow, onTiles, onChoose: choose });
     } catch (error) {
       console.warn(error);
-      map = new PlainMap(canvas);
+      map = new PlainMap(canvas, choose);
       notify(MISSING);
       showMissing("leaflet", MISSING);
     }
@@ -116,8 +111,7 @@ export function mount(place, store, connection) {
 
   return {
     update() {
-      const picture = pictureOf(store);
-      map?.show(picture);
+      const picture = show();
       const isShown = map !== null && picture.aircraft !== null;
       setAttribute(place, "data-latitude", isShown ? String(picture.aircraft.latitude) : "");
       setAttribute(place, "data-longitude", isShown ? String(picture.aircraft.longitude) : "");

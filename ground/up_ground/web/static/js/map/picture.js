@@ -1,32 +1,49 @@
 import { setAttribute, setText, svg } from "../dom.js";
 import { bearing_deg, distance_m, distanceText, placeOf } from "../state/earth.js";
 import { ageText, headingText } from "../state/format.js";
+import { clockText } from "../panels/messages.js";
 
 /**
- * Content of a map: the name of the aircraft, its last position, home, the track.
- * @typedef {{name: ?string, aircraft: ?{latitude: number, longitude: number}, heading_deg: ?number,
- *   freshness: "live"|"stale"|"none", age: string, home: ?{latitude: number, longitude: number},
- *   track: object}} Picture
+ * Content of a map: the name of the aircraft, its estimated or last position, home, the track.
+ * uncertainty_m: two standard deviations of the estimate; fix: the receiver's position beside it;
+ * target: what the mode flies to; time_s: of the way home; null: it does not arrive, undefined: unknown.
+ * @typedef {{latitude: number, longitude: number}} Place
+ * @typedef {{name: ?string, aircraft: ?Place, heading_deg: ?number, uncertainty_m: ?number,
+ *   fix: ?Place, target: ?Place, radius_m: ?number, freshness: "live"|"stale"|"none", age: string,
+ *   home: ?Place, time_s: ?number|undefined, track: object}} Picture
  */
 
 /** The last position known, and how fresh it is. */
 export function pictureOf(store) {
-  const aircraft = placeOf(store.number("location.latitude"), store.number("location.longitude"));
+  const estimate = placeAt(store, "navigation");
+  const fix = placeAt(store, "location");
+  const aircraft = estimate ?? fix;
+  const reading = estimate === null ? "location" : "navigation";
   const last = store.track.points.at(-1);
   const seen = aircraft ?? (last === undefined ? null : placeOf(last[0], last[1]));
-  const home = store.status?.home;
+  const known = store.status?.home;
+  const sd_m = estimate === null ? null : store.number("navigation.sd.position");
   const isSeen = aircraft !== null;
   // The time of a position from the track alone is unknown.
-  const age_s = store.age_s("location") ?? store.age_s(null);
+  const age_s = store.age_s(reading) ?? store.age_s(null);
   return {
     name: store.aircraft,
     aircraft: seen,
     heading_deg: isSeen ? headingOf(store) : null,
-    freshness: seen === null ? "none" : isSeen && store.freshness("location") === "live" ? "live" : "stale",
+    freshness: seen === null ? "none" : isSeen && store.freshness(reading) === "live" ? "live" : "stale",
     age: age_s === null ? "some time" : ageText(age_s),
-    home: placeOf(home?.latitude, home?.longitude),
+    uncertainty_m: sd_m === null ? null : 2 * sd_m,
+    fix: estimate === null ? null : fix,
+    target: placeAt(store, "navigation.target"),
+    radius_m: store.number("navigation.target.radius"),
+    home: placeAt(store, "home") ?? placeOf(known?.latitude, known?.longitude),
+    time_s: estimate === null || store.number("home.latitude") === null ? undefined : store.number("home.time_s"),
     track: store.track,
   };
+}
+
+function placeAt(store, path) {
+  return placeOf(store.number(`${path}.latitude`), store.number(`${path}.longitude`));
 }
 
 export function homeText(picture) {
@@ -40,10 +57,21 @@ export function homeText(picture) {
   const distance = distanceText(distance_m(picture.home, picture.aircraft));
   const back = headingText(bearing_deg(picture.aircraft, picture.home));
   const from = headingText(bearing_deg(picture.home, picture.aircraft));
-  return `${distance} from home at ${from}°, the way back ${back}°${age}`;
+  return `${distance} from home at ${from}°, the way back ${back}°${timeText(picture)}${age}`;
+}
+
+function timeText({ time_s }) {
+  if (time_s === undefined) {
+    return "";
+  }
+  return time_s === null ? ", not reached in this wind" : ` takes ${clockText(time_s)}`;
 }
 
 function headingOf(store) {
+  const estimated_deg = store.number("navigation.heading");
+  if (estimated_deg !== null) {
+    return estimated_deg;
+  }
   return store.freshnessAt("heading.actual") === "live" || store.number("orientation.yaw") === null
     ? store.number("heading.actual")
     : store.number("orientation.yaw");

@@ -1,7 +1,8 @@
 import { setAttribute, setText, svg } from "../dom.js";
+import { circlesOf } from "./overlay.js";
 import { AircraftSymbol } from "./picture.js";
 import { piecesOf } from "./track_line.js";
-import { linesBetween, offsetOf, stepOf, stepText, windowOf } from "../state/earth.js";
+import { linesBetween, offsetOf, placeAt, stepOf, stepText, windowOf } from "../state/earth.js";
 
 const MAX_POINTS = 1500;
 /** Height covered by the line of text below the map. */
@@ -16,24 +17,39 @@ export class PlainMap {
   #scale = svg("text.scale", { x: 12 });
   #step_m = 0;
   #place;
+  #circles = svg("g");
+  #placeAtPixel = () => null;
 
   isFollowing = false;
 
-  constructor(place) {
+  /** onChoose: a place was clicked. */
+  constructor(place, onChoose) {
     this.#place = place;
+    place.tabIndex = 0;
+    place.addEventListener("click", ({ clientX, clientY }) => {
+      const { left, top } = place.getBoundingClientRect();
+      onChoose(this.#placeAtPixel(clientX - left, clientY - top));
+    });
     this.element = svg(
       "svg.plain-map",
       { role: "img", "aria-label": "Map: track, home and aircraft on a grid of metres" },
       this.#lines,
       this.#track,
       this.#home,
+      this.#circles,
       this.#symbol.element,
       this.#scale,
     );
     place.append(this.element);
   }
 
-  show({ aircraft, heading_deg, freshness, age, home, track }) {
+  /** The place in the middle; null: nothing is shown yet. */
+  get middle() {
+    return this.#placeAtPixel(this.#place.clientWidth / 2, this.#place.clientHeight / 2);
+  }
+
+  show(picture) {
+    const { aircraft, heading_deg, freshness, age, home, track } = picture;
     const origin = home ?? aircraft;
     const size = { width_px: this.#place.clientWidth, height_px: this.#place.clientHeight };
     if (origin === null || size.width_px === 0 || size.height_px === 0) {
@@ -50,6 +66,16 @@ export class PlainMap {
     const view = windowOf([...shown, { east_m: 0, north_m: 0 }], size);
     const x = (each) => size.width_px / 2 + (each.east_m - view.east_m) / view.metresPerPixel;
     const y = (each) => size.height_px / 2 - (each.north_m - view.north_m) / view.metresPerPixel;
+    this.#placeAtPixel = (x_px, y_px) =>
+      placeAt(origin, {
+        east_m: view.east_m + (x_px - size.width_px / 2) * view.metresPerPixel,
+        north_m: view.north_m - (y_px - size.height_px / 2) * view.metresPerPixel,
+      });
+    const circles = circlesOf(picture).map(({ name, place, radius_m, radius_px }) => {
+      const at = offsetOf(origin, place);
+      return svg(`circle.map-${name}`, { cx: x(at), cy: y(at), r: radius_px ?? radius_m / view.metresPerPixel });
+    });
+    this.#circles.replaceChildren(...circles);
     setAttribute(this.element, "viewBox", `0 0 ${size.width_px} ${size.height_px}`);
     this.#drawGrid(view, size, x, y);
     const point = (each) => `${x(each).toFixed(1)} ${y(each).toFixed(1)}`;

@@ -1,12 +1,27 @@
 import { html, setAttribute, setText } from "../dom.js";
 import { offlineReason } from "./disabled_reason.js";
+import { modeReason } from "../state/flight_mode.js";
 import { acknowledge, dropAcknowledged, isAcknowledged } from "../state/alarm_level.js";
 
 /** The active alarms: a bar each, until it is over. Acknowledging silences it. */
 export function mount(place, store, connection) {
   const bars = new Map();
   const away = html("div.alarm", { id: "aircraft-away", role: "alert", "data-level": "warning" }, html("strong"));
+  const fallback = html("div.alarm", { id: "fallback", role: "alert", "data-level": "alarm" }, html("strong"));
   let aircraft = store.aircraft;
+
+  function showFallback() {
+    const code = store.freshness(null) === "none" ? null : store.text("flight_control.fallback");
+    if (code === null) {
+      fallback.remove();
+    } else if (!fallback.isConnected) {
+      place.prepend(fallback);
+    }
+    const now = store.text("flight_control.mode") ?? "No flight mode of the Raspberry Pi";
+    const asked = store.text("flight_control.selected");
+    setText(fallback.firstChild, `${now} replaces ${asked}: ${modeReason(code ?? "")}`);
+    setAttribute(fallback, "data-code", code ?? "");
+  }
 
   // If the aircraft had sent telemetry before, its own alarm already reports this.
   function showAway(standing) {
@@ -62,6 +77,7 @@ export function mount(place, store, connection) {
         button.disabled = isSeen;
       }
       showAway(standing);
+      showFallback();
       place.hidden = place.childElementCount === 0;
     },
   };

@@ -14,10 +14,11 @@ export class Field {
     this.button = html("button", { type: "submit", id: `${id}-send`, text: button });
     this.note = html("p.note", { id: `${id}-note`, role: "status" });
     this.hint = html("p.quiet");
+    this.label = html("label", { for: id, text: label });
     this.element = html(
       "form.field",
       { novalidate: true, on: { submit: (event) => this.#submit(event), input: () => this.#validate() } },
-      html("label", { for: id, text: label }),
+      this.label,
       html("div.field-row", {}, this.input, this.button),
       this.hint,
       this.note,

@@ -1,83 +1,124 @@
 import { html, setAttribute, setText } from "../dom.js";
 import { modeText } from "./messages.js";
+import { actingMode, boardModes, isFlownByPi, modeReason, piModes } from "../state/flight_mode.js";
 import { switchMode } from "../state/pilot_input.js";
 
-/** Modes that the ground may select; only the pilot's switch selects ACRO. */
-const MODES = ["RATE", "FBW", "AUTO"];
 const NAME = "up.flight_mode.set";
+/** The modes for which there is always a large button. */
+const LARGE = ["RETURN", "LOITER"];
+/** Selects the mode that the aircraft's navigation.yml names. */
+const AUTO = "AUTO";
+const NOT_REPORTED = "the aircraft does not report its flight modes";
 
-/** The board's modes while AUTO is selected: the Raspberry Pi's attitude or its servo positions. */
-const FLOWN_AT_AUTO = ["SETPOINT", "OUTPUT"];
+/** A group of buttons, one for each mode that the aircraft reports. */
+class ModeButtons {
+  #select;
+  #buttons = new Map();
+  #row;
+  #shown = "";
 
-/** The buttons of the flight modes; the one that is flown is marked. */
+  constructor(title, row, select) {
+    this.#row = row;
+    this.#select = select;
+    row.setAttribute("role", "group");
+    row.setAttribute("aria-label", title);
+  }
+
+  /** modes: [{mode, reason: text or "", isActive, isEnabled}] */
+  show(modes) {
+    const names = modes.map(({ mode }) => mode);
+    if (names.join("\n") !== this.#shown) {
+      this.#shown = names.join("\n");
+      this.#buttons = new Map(names.map((mode) => [mode, this.#buttons.get(mode) ?? this.#button(mode)]));
+      this.#row.replaceChildren(...[...this.#buttons.values()].map(({ button }) => button));
+    }
+    for (const { mode, code, isActive, isEnabled } of modes) {
+      const { button, small } = this.#buttons.get(mode);
+      button.disabled = code !== null || !isEnabled;
+      setText(small, code === null ? modeText(mode) : modeReason(code));
+      setAttribute(button, "aria-pressed", String(isActive));
+      setAttribute(button, "data-offered", String(code === null));
+      setAttribute(button, "data-code", code ?? "");
+    }
+  }
+
+  #button(mode) {
+    const small = html("small");
+    const how = { type: "button", "data-mode": mode, on: { click: () => this.#select(mode) } };
+    return { button: html("button", how, html("strong", { text: mode }), small), small };
+  }
+}
+
+/** The buttons of the flight modes, in the aircraft's lists; the one that acts is marked. */
 export class FlightModes {
   #store;
   #sender;
-  #buttons = new Map();
+  #large;
+  #pi;
+  #board;
   #line = html("p.quiet");
   #note = html("p.note", { role: "status" });
 
   constructor(store, sender) {
     this.#store = store;
     this.#sender = sender;
-    const row = html("div.buttons.modes", { role: "group", "aria-label": "Flight mode" });
-    for (const mode of MODES) {
-      const button = html(
-        "button",
-        {
-          type: "button",
-          "data-mode": mode,
-          "aria-pressed": "false",
-          on: { click: () => this.#select(mode) },
-        },
-        html("strong", { text: mode }),
-        html("small", { text: modeText(mode) }),
-      );
-      this.#buttons.set(mode, button);
-      row.append(button);
-    }
-    this.element = html("section.part", {}, heading("Flight mode"), row, this.#line, this.#note);
+    const select = (mode) => this.#select(mode);
+    const rows = [html("div.buttons.modes.large"), html("div.buttons.modes"), html("div.buttons.modes")];
+    this.#large = new ModeButtons("Return and loiter", rows[0], select);
+    this.#pi = new ModeButtons("Flight modes of the Raspberry Pi", rows[1], select);
+    this.#board = new ModeButtons("Flight modes of the Arduino", rows[2], select);
+    this.element = html(
+      "section.part",
+      { id: "flight-modes" },
+      heading("Flight mode"),
+      rows[0],
+      html("h4", { text: "Controlled by the Raspberry Pi" }),
+      rows[1],
+      html("h4", { text: "Controlled by the pilot with the Arduino" }),
+      rows[2],
+      this.#line,
+      this.#note,
+    );
   }
 
   update() {
     const store = this.#store;
-    const flown = store.freshness(null) === "live" ? store.text("flight_mode") : null;
-    const isControllerReady = store.texts("flight_control.offered")?.length !== 0;
-    const selected = FLOWN_AT_AUTO.includes(flown) ? "AUTO" : flown;
-    for (const [mode, button] of this.#buttons) {
-      // RATE and FBW are the board's own; AUTO is flown by a controller on the Raspberry Pi, if any.
-      const isOffered = mode !== "AUTO" || isControllerReady;
-      button.disabled = !isOffered || this.#sender.disabledReason(NAME, { mode }) !== null;
-      setAttribute(button, "aria-pressed", String(mode === selected));
-      setAttribute(button, "data-offered", String(isOffered));
-    }
-    const missing = isControllerReady ? [] : (store.texts("flight_control.missing") ?? []);
-    setText(this.#line, this.#lineText(isControllerReady, missing));
-    setAttribute(this.#line, "data-missing", missing.join(" "));
+    const isLive = store.freshness(null) === "live";
+    const isPi = isLive && isFlownByPi(store.text("flight_mode"));
+    const acting = isLive ? actingMode(store) : null;
+    const reported = piModes(store);
+    // An older aircraft reports none, and takes AUTO.
+    const all = reported ?? new Map([[AUTO, null]]);
+    const own = (mode) => (all.has(mode) ? all.get(mode) : reported === null ? NOT_REPORTED : "mode_unknown");
+    // AUTO also acts while the Raspberry Pi flies a mode that cannot be selected.
+    const isActive = (mode) => isPi && mode === (all.has(acting) ? acting : AUTO);
+    this.#large.show(LARGE.map((mode) => this.#of(mode, own(mode), isActive(mode))));
+    const names = [...all.keys()].filter((mode) => !LARGE.includes(mode));
+    this.#pi.show(names.map((mode) => this.#of(mode, own(mode), isActive(mode))));
+    this.#board.show(boardModes(store).map((mode) => this.#of(mode, null, !isPi && mode === acting)));
+    setText(this.#line, this.#switchText());
+  }
+
+  #of(mode, code, isActive) {
+    return { mode, code, isActive, isEnabled: this.#sender.disabledReason(NAME, { mode }) === null };
   }
 
   async #select(mode) {
-    const flown = this.#store.text("flight_mode") ?? "an unknown mode";
+    const about = modeText(mode);
     const question = {
       title: `Fly ${mode}?`,
-      text: `Now it flies ${flown}. In ${mode} ${modeText(mode)}. The pilot's switch decides: leaving AUTO there takes over immediately.`,
+      text: `Now it flies ${actingMode(this.#store) ?? "an unknown mode"}.${about && ` In ${mode} ${about}.`} The pilot's switch decides: leaving AUTO there takes over immediately.`,
       yes: `Fly ${mode}`,
       no: "Leave it",
     };
     await this.#sender.send(NAME, { mode }, { note: this.#note, question });
   }
 
-  #lineText(isControllerReady, missing) {
-    const words = [];
+  #switchText() {
     const selected = switchMode(this.#store);
-    if (selected !== null && selected !== "AUTO") {
-      words.push(`The pilot's switch stands at ${selected}: the aircraft takes a mode only at AUTO.`);
-    }
-    if (!isControllerReady) {
-      const why = missing.length > 0 ? ` (missing: ${missing.join(", ")})` : "";
-      words.push(`AUTO is not offered: the Raspberry Pi's flight controller cannot fly now${why}.`);
-    }
-    return words.join(" ");
+    return selected === null || selected === AUTO
+      ? ""
+      : `The pilot's switch stands at ${selected}: the aircraft takes a mode only at AUTO.`;
   }
 }
 

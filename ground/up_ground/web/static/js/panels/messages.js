@@ -10,6 +10,10 @@ export function commandText(name, data = {}) {
   switch (name) {
     case "up.flight_mode.set":
       return `Flight mode ${data.mode}`;
+    case "up.navigation.target":
+      return "Target";
+    case "up.home.set":
+      return "Set home";
     case "up.arm":
       return "Arm";
     case "up.disarm":

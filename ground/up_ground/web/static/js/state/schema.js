@@ -12,11 +12,11 @@ export const MODES = {
   },
   "FBW": {
     "about": "the sticks ask for attitude, within limits",
-    "holder": "Arduino"
+    "holder": "the pilot; the Arduino holds the attitude"
   },
   "SETPOINT": {
     "about": "the Raspberry Pi sets the attitude",
-    "holder": "Arduino"
+    "holder": "Raspberry Pi; the Arduino holds the attitude"
   },
   "OUTPUT": {
     "about": "the Raspberry Pi sets the servo positions",
@@ -28,6 +28,30 @@ export const MODES = {
   },
   "AUTO": {
     "about": "modules on the Raspberry Pi may fly; without one the sticks ask for attitude",
+    "holder": ""
+  },
+  "CRUISE": {
+    "about": "the aircraft holds height and course",
+    "holder": ""
+  },
+  "LOITER": {
+    "about": "the aircraft circles where it is, at constant height",
+    "holder": ""
+  },
+  "GUIDED": {
+    "about": "the aircraft flies to the target and circles there",
+    "holder": ""
+  },
+  "RETURN": {
+    "about": "the aircraft flies home and circles there",
+    "holder": ""
+  },
+  "CIRCLE": {
+    "about": "the aircraft circles in a gentle bank, without a position",
+    "holder": ""
+  },
+  "GLIDE": {
+    "about": "the aircraft glides, motor off",
     "holder": ""
   }
 };
@@ -155,6 +179,88 @@ export const BOARD_ROWS = [
     "when": null
   }
 ];
+
+/** Rows of the navigation panel. */
+export const NAVIGATION_ROWS = [
+  {
+    "label": "Time home",
+    "path": "home.time_s",
+    "unit": "s",
+    "decimals": 0
+  },
+  {
+    "label": "Above sea level",
+    "path": "navigation.altitude",
+    "unit": "m",
+    "decimals": 1
+  },
+  {
+    "label": "Above home",
+    "path": "navigation.height",
+    "unit": "m",
+    "decimals": 1
+  },
+  {
+    "label": "Ground speed",
+    "path": "navigation.speed",
+    "unit": "m/s",
+    "decimals": 1
+  },
+  {
+    "label": "Climb",
+    "path": "navigation.climb",
+    "unit": "m/s",
+    "decimals": 1
+  },
+  {
+    "label": "Airspeed",
+    "path": "navigation.airspeed",
+    "unit": "m/s",
+    "decimals": 1
+  },
+  {
+    "label": "Wind",
+    "path": "navigation.wind.speed",
+    "unit": "m/s",
+    "decimals": 1
+  },
+  {
+    "label": "Wind from",
+    "path": "navigation.wind.from",
+    "unit": "deg",
+    "decimals": 0
+  },
+  {
+    "label": "Position sd",
+    "path": "navigation.sd.position",
+    "unit": "m",
+    "decimals": 1
+  },
+  {
+    "label": "Altitude sd",
+    "path": "navigation.sd.altitude",
+    "unit": "m",
+    "decimals": 1
+  }
+];
+
+/** Why a flight mode is not offered, or was replaced, by code. */
+export const MODE_REASONS = {
+  "mode_failed": "it failed",
+  "mode_overrun": "it took too long",
+  "demand_invalid": "it demanded what is not possible",
+  "mode_refused": "it cannot be entered now",
+  "mode_unknown": "no module provides it",
+  "orientation": "orientation missing or too old",
+  "rx": "receiver missing or too old",
+  "servo": "servos missing or too old",
+  "flight": "flight state missing or too old",
+  "location": "location missing or too old",
+  "altitude": "altitude missing or too old",
+  "heading": "heading missing or too old",
+  "battery": "battery missing or too old",
+  "navigation": "navigation missing or too old"
+};
 
 /** An older frame is shown as stale, before the second is over. */
 export const SILENT_S = 0.9;

@@ -1,0 +1,134 @@
+// Flight modes by the aircraft's lists, navigation in figures and on the map, and what a click on the map sends.
+import assert from "node:assert/strict";
+import { afterEach, before, test } from "node:test";
+
+import { seriousFaults } from "./support/accessibility.mjs";
+import { PHONE } from "./support/browser.mjs";
+import { FakeFlight } from "./support/fake_flight.mjs";
+import { GroundPage } from "./support/ground_page.mjs";
+import { navigating } from "./support/navigating.mjs";
+import { browser, stopAfter } from "./support/setup.mjs";
+
+let flight;
+
+before(async () => {
+  flight = stopAfter(await FakeFlight.start({ hello: "UP1 aircraft=glider-1", serve: ["--aircraft", "glider-1"] }));
+});
+
+afterEach(() => GroundPage.closeAll());
+
+/** A page with control that shows such telemetry. */
+async function openWith(data, options) {
+  flight.tell({ data });
+  const ground = await (await GroundPage.open(browser, flight.address, options)).isLive();
+  await ground.takeControl();
+  await ground.page.evaluate(() => {
+    window.testSent = [];
+    const socket = window.testSockets.at(-1);
+    const send = socket.send.bind(socket);
+    socket.send = (text) => {
+      const message = JSON.parse(text);
+      if (message.type === "command") {
+        window.testSent.push([message.name, message.data]);
+      }
+      send(text);
+    };
+  });
+  return ground;
+}
+
+const sent = (ground) => ground.page.evaluate(() => window.testSent);
+
+/** Wait for the answers of so many Commands; returns their data by their names. */
+async function sentAfter(ground, count) {
+  await ground.until((count) => window.testSent.length >= count, `${count} Commands`, count);
+  return Object.fromEntries(await sent(ground));
+}
+
+test("the modes are those of the aircraft; one that is not offered is disabled with its reason", async () => {
+  const ground = await openWith(navigating());
+  const states = await ground.page.$$eval("#flight-modes [data-mode]", (all) =>
+    Object.fromEntries(all.map((each) => [each.dataset.mode, [each.dataset.code, each.disabled]])),
+  );
+  assert.deepEqual(states, {
+    RETURN: ["", false], LOITER: ["", false], AUTO: ["", false], CRUISE: ["", false], CIRCLE: ["", false],
+    GUIDED: ["mode_refused", true], GLIDE: ["altitude", true], FBW: ["", false], RATE: ["", false],
+  });
+  assert.equal(await ground.attribute('[data-mode="LOITER"]', "aria-pressed"), "true");
+  assert.equal(await ground.text("#bar-mode"), "LOITER");
+  assert.match(await ground.text('[data-mode="GLIDE"] small'), /altitude .*too old/);
+  const answer = await ground.answerTo(() => ground.press('[data-mode="RETURN"]'));
+  assert.equal(answer.outcome, "ack", JSON.stringify(answer));
+  assert.deepEqual(await sent(ground), [["up.flight_mode.set", { mode: "RETURN" }]]);
+  flight.tell({ data: navigating({ flight_control: { modes: { AUTO: "rx", FENCED: null } } }) });
+  await ground.until(() => document.querySelector('[data-mode="FENCED"]')?.disabled === false, "a mode of a plug-in");
+  assert.deepEqual(
+    await ground.page.$$eval("#flight-modes [data-mode][disabled]", (all) => all.map((each) => each.dataset.code)),
+    ["mode_unknown", "mode_unknown", "rx"],
+  );
+  ground.assertClean();
+});
+
+test("a fallback is shown until the selected mode acts again", async () => {
+  const ground = await openWith(navigating());
+  flight.tell({ data: navigating({ mode: "CIRCLE", selected: "LOITER", fallback: "navigation" }) });
+  await ground.until(() => document.querySelector("#fallback")?.dataset.code === "navigation", "the banner");
+  assert.match(await ground.text("#fallback"), /^CIRCLE replaces LOITER/);
+  await ground.until(() => document.querySelector('#events li[data-code="fallback"]') !== null, "the event");
+  flight.tell({ data: navigating() });
+  await ground.until(() => document.querySelector("#fallback") === null, "its end");
+});
+
+test("a click on the map sends a target above home, then selects GUIDED", async () => {
+  const ground = await openWith(navigating());
+  await ground.until(() => document.querySelector(".map-target") !== null, "the circle of LOITER");
+  for (const name of ["uncertainty", "fix", "target-point"]) {
+    assert.equal(await ground.page.locator(`.map-${name}`).count(), 1, name);
+  }
+  const { x, y, width, height } = await ground.page.locator(".map-canvas").boundingBox();
+  await ground.page.mouse.click(x + width / 4, y + height / 2);
+  await ground.page.fill("#map-fly", "-1");
+  await ground.page.click("#map-fly-send");
+  assert.equal(await ground.attribute("#map-fly", "aria-invalid"), "true");
+  await ground.page.fill("#map-fly", "75");
+  await ground.press("#map-fly-send");
+  const { "up.navigation.target": target, "up.flight_mode.set": mode } = await sentAfter(ground, 2);
+  const { latitude, longitude } = navigating().navigation;
+  assert.ok(target.longitude < longitude && Math.abs(target.latitude - latitude) < 0.002, JSON.stringify(target));
+  assert.equal(target.height, 75);
+  assert.deepEqual(mode, { mode: "GUIDED" });
+  ground.assertClean();
+});
+
+test("a refused target does not select GUIDED; without home a height is above sea level", async () => {
+  const home = { latitude: null, longitude: null, altitude: null, distance: null, bearing: null, time_s: null };
+  const ground = await openWith({ ...navigating(), home });
+  flight.tell({ nack: "too far" });
+  await ground.page.focus(".map-canvas");
+  await ground.page.keyboard.press("Enter");
+  assert.equal(await ground.page.inputValue("#map-fly"), "402");
+  const answer = await ground.answerTo(() => ground.press("#map-fly-send"));
+  assert.equal(answer.outcome, "nack");
+  const [[name, data], ...more] = await sent(ground);
+  assert.deepEqual([name, data.altitude, "height" in data, more], ["up.navigation.target", 402, false, []]);
+  ground.assertClean();
+});
+
+test("home is set where a finger touched the map; nothing without control", async () => {
+  const ground = await openWith(navigating(), PHONE);
+  await ground.show("#panel-map");
+  const { x, y, width, height } = await ground.page.locator(".map-canvas").boundingBox();
+  await ground.page.touchscreen.tap(x + width / 2, y + height * 0.75);
+  await ground.until(() => !document.querySelector(".map-actions").hidden, "what a place offers");
+  assert.deepEqual(await seriousFaults(ground.page), []);
+  await ground.press("#map-home-set");
+  const { "up.home.set": home } = await sentAfter(ground, 1);
+  assert.deepEqual(Object.keys(home), ["latitude", "longitude"]);
+  assert.ok(home.latitude < navigating().navigation.latitude);
+  await ground.leaveControl();
+  await ground.reason("#map-why", "control_free");
+  assert.equal(await ground.page.isDisabled("#map-home-set"), true);
+  await ground.page.click("#map-close");
+  assert.equal(await ground.page.isVisible(".map-actions"), false);
+  ground.assertClean();
+});
