@@ -46,6 +46,7 @@ def _settings(scenario: Scenario, airframe: Airframe) -> dict[str, dict[str, Any
     return {
         "airframe.yml": profile_of(scenario, airframe.profile),
         "pids.yml": gains_of(scenario, airframe.gains),
+        "navigation.yml": airframe.navigation,
     }
 
 
