@@ -1,0 +1,1 @@
+"""Mathematics of navigation: estimation and path control. No Twisted."""
