@@ -16,6 +16,8 @@ GPS_WANDER_M, GPS_ALTITUDE_WANDER_M, GPS_WANDER_S = (1.5, 3.0), (3.0, 4.0), 20.0
 """A slow error of position and altitude, drawn by the seed, and its correlation time."""
 GPS_NOISE_M, GPS_VELOCITY_NOISE_M_S = 1.0, 0.3
 GPS_JUMP_M = 300.0
+MAX_FIX_AGE_S = 2.0
+"""An older fix is not sent; the app has the same limit."""
 BAROMETER_M = 0.3
 COMPASS_DEG = 1.5
 COMPASS_S = 0.2
@@ -100,7 +102,7 @@ class PhoneSensors:
         horizontal_m = spread.uniform(*GPS_WANDER_M)
         self._wander_spread_m = (horizontal_m, horizontal_m, spread.uniform(*GPS_ALTITUDE_WANDER_M))
         self._wander_m = [self._noise.gauss(0.0, each) for each in self._wander_spread_m]
-        self._fix_s = -math.inf
+        self._fix_s = self._fix_due_s = -math.inf
         self._newest_fix: dict[str, Any] = {}
         self._coming: deque[tuple[float, float, dict[str, Any]]] = deque()
         self._compass_deg = 0.0
@@ -115,7 +117,7 @@ class PhoneSensors:
         while self._coming and self._coming[0][0] <= state.time_s + _TINY_S:
             _, taken_s, data = self._coming.popleft()
             found = taken_s, data
-        if found is None:
+        if found is None or state.time_s - found[0] > MAX_FIX_AGE_S:
             return None
         return {**found[1], "age_ms": round((state.time_s - found[0]) * 1000)}
 
@@ -157,9 +159,12 @@ class PhoneSensors:
     def _receive(self, state: FlightState) -> None:
         """Measure a fix when a second has passed; every measurement of the phone looks here."""
         passed_s = state.time_s - self._fix_s
-        if 0.0 <= passed_s < GPS_PERIOD_S - _TINY_S:
+        if 0.0 <= passed_s and state.time_s < self._fix_due_s - _TINY_S:
             return
         self._fix_s = state.time_s
+        due_s = self._fix_due_s + GPS_PERIOD_S
+        # The seconds of the receiver stay where they are when it is asked late.
+        self._fix_due_s = due_s if 0 < due_s - self._fix_s <= GPS_PERIOD_S else self._fix_s + GPS_PERIOD_S
         keep = math.exp(-min(passed_s, 1000.0) / GPS_WANDER_S) if passed_s > 0.0 else 1.0
         grow = math.sqrt(1.0 - keep * keep)
         self._wander_m = [

@@ -1,4 +1,4 @@
-"""Flights of the simulated glider with its compiled firmware, recorded for the estimator's tests."""
+"""Recorded flights of the simulated glider with the firmware, replayed to the estimator."""
 
 import functools
 import math
@@ -106,12 +106,11 @@ class Flight:
         self.estimator = estimator = Estimator(**airframe)
         self.frames = frames
         self.estimates = []
-        phone, turn = PhoneSensors(seed), 0
-        for frame in frames:
+        phone = PhoneSensors(seed)
+        for turn, frame in enumerate(frames):
             estimator.throttle(frame.throttle)
             angles = frame.roll_deg, frame.pitch_deg, frame.yaw_deg
             estimator.orientation(frame.time_s, *angles)
-            turn += 1
             if turn % round(PHONE_PERIOD_S / BEAT_S) == 0:
                 data = phone.location(frame.truth)
                 fix = data and change(fix_of(data, frame.time_s))
