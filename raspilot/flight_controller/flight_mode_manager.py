@@ -16,6 +16,7 @@ from raspilot.flight_controller.home import (
     target_of_place,
     telemetry_of,
 )
+from raspilot.modules.navigation_estimator import NavigationEstimator
 from raspilot.navigation.path_controller import PathController
 from up.commands.flight_state_command import FlightModeCommand, FlightStateCommand
 from up.commands.location_command import LocationCommand
@@ -60,6 +61,7 @@ class FlightModeManager(BaseFlightController):
 
     attitude_controller = wants(AttitudeController)
     location = wants(UpLocationProvider)
+    estimator = wants(NavigationEstimator)
 
     def __init__(self, config: Any = None, silent: bool = False) -> None:
         super().__init__(config, silent)
@@ -327,6 +329,8 @@ class FlightModeManager(BaseFlightController):
         self.home.set(command, self._navigation)
 
     def _on_home_changed(self, place: Place) -> None:
+        if self.estimator is not None:
+            self.estimator.home_altitude_m = place.altitude_m
         if self.location is not None:
             self.location.home = LocationCommand(
                 place.latitude_deg, place.longitude_deg, place.altitude_m
