@@ -110,6 +110,12 @@ class PhoneSensors:
         self.battery_percent = INITIAL_BATTERY_PERCENT
         self.battery_time_s = 0.0
 
+    @property
+    def wander_m(self) -> tuple[float, float, float]:
+        """Return the slow error of the fixes now: north, east, up."""
+        north_m, east_m, up_m = self._wander_m
+        return north_m, east_m, up_m
+
     def location(self, state: FlightState) -> dict[str, Any] | None:
         """Return the data of ``up.location.update`` of a fix that is newly available, or None."""
         self._receive(state)

@@ -8,6 +8,7 @@ from typing import cast
 
 from up_rig.imu import motion_at
 from up_simulator.aircraft.airframe_file import ImuConfig
+from up_simulator.aircraft.flight import FlightState
 from up_simulator.firmware.board import BoardCrashedError, Channel, ResetCause
 from up_simulator.firmware.imu_errors import ImuFault
 from up_simulator.firmware.wire import Command
@@ -70,6 +71,11 @@ class ScenarioFlight:
     @property
     def time_s(self) -> float:
         return self._steps * STEP_S
+
+    @property
+    def state(self) -> FlightState:
+        """Return the true state of the aircraft."""
+        return self._world.state
 
     @property
     def is_over(self) -> bool:
