@@ -30,7 +30,6 @@ _VALUES: dict[str, tuple[str, ...]] = {
     "ground.mode": ("flight controller", "black box", "black box (provisional)"),
     "ground.flight_mode": _MODES,
     "ground.flight_controller": ("arduino", "raspberry"),
-    "ground.flight_control.mode": tuple(SWITCH_MODES.values()),
 }
 _SEPARATORS = {"board.reset_cause": " ", "ground.arduino.reset_cause": ", "}
 """Separators for signals that may have several values at a time."""
