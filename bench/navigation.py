@@ -41,6 +41,7 @@ class Sample:
     mode: str | None
     navigation: dict[str, float] = field(default_factory=dict)
     target: dict[str, float] = field(default_factory=dict)
+    motor_stopped: bool = False
 
 
 def rows(quick: bool = False) -> Iterable[Row]:
@@ -148,6 +149,7 @@ def _sample(flight: ScenarioFlight) -> Sample:
         (ground.telemetry.get("flight_control") or {}).get("mode"),
         navigation,
         dict(navigation.get("target") or {}),
+        bool((ground.telemetry.get("counters") or {}).get("navigation", {}).get("motor_stopped")),
     )
 
 
@@ -248,7 +250,7 @@ def stop_motor(seed: int, controller: str, wind_m_s: float, turbulence: str) -> 
     scenario = _scenario(seed, controller, wind_m_s, turbulence, STOPPED_END_S, *events)
     samples = _fly(scenario)
     after = _between(samples, STOP_S, STOPPED_END_S)
-    noticed = [each.time_s for each in after if each.navigation.get("motor_stopped")]
+    noticed = [each.time_s for each in after if each.motor_stopped]
     return {
         "s until a stopped motor is noticed": noticed[0] - STOP_S if noticed else math.inf,
         "least airspeed over stall, motor stopped": _least(after),
