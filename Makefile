@@ -63,7 +63,7 @@ run: $(VENV)/.run-ready $(WEB)
 		$(if $(RADIO),--radio $(RADIO)) $(ARGS)
 
 scenarios: $(VENV)/.run-ready
-	@$(PY) -m up_simulator.cli $(if $(SCENARIO),fly $(SCENARIO),all)
+	@$(PY) -m up_simulator $(if $(SCENARIO),fly $(SCENARIO),all)
 
 # The tests start many programs. Where PYTHONDONTWRITEBYTECODE is set, each would compile its own.
 test: $(VENV)/.dev-ready $(WEB)

@@ -3,7 +3,7 @@
 import sys
 from pathlib import Path
 
-from raspilot.main import main
+from up.cli.entry import start
 
 if __name__ == "__main__":
-    sys.exit(main(sys.argv[1:], Path(__file__).resolve().parent))
+    sys.exit(start("raspilot.main", sys.argv[1:], Path(__file__).resolve().parent))

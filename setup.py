@@ -96,11 +96,11 @@ setup(
     },
     entry_points={
         "console_scripts": [
-            "up = up.cli.main:main",
-            "up-runner = up_runner.main:main",
-            "up-proxy = up_proxy.main:main",
-            "up-ground = up_ground.main:main",
-            "up-sim = up_simulator.cli:main",
+            "up = up.cli.__main__:main",
+            "up-runner = up_runner.__main__:main",
+            "up-proxy = up_proxy.__main__:main",
+            "up-ground = up_ground.__main__:main",
+            "up-sim = up_simulator.__main__:main",
         ],
         "up.config_files": [
             "runner = up_runner.config:RUNNER",

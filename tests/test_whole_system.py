@@ -10,7 +10,8 @@ from pathlib import Path
 import pytest
 
 from tests.support.firmware import build_firmware
-from tests.support.showcase import LIMIT_S, Showcase, steepest, wait
+from tests.support.showcase import Showcase, steepest
+from tests.support.waiting import DEADLINE_S, until
 
 ROOT = Path(__file__).parents[1]
 
@@ -56,7 +57,7 @@ def test_the_firmware_holds_the_attitude(flight):
 
 
 def test_the_page_serves_a_browser_and_forbids_other_content(flight):
-    with urllib.request.urlopen(flight.page, timeout=LIMIT_S) as answer:
+    with urllib.request.urlopen(flight.page, timeout=DEADLINE_S) as answer:
         assert answer.status == 200
         policy = answer.headers["content-security-policy"]
         assert b"<html" in answer.read()
@@ -112,7 +113,7 @@ def test_the_aircraft_does_not_claim_to_navigate(flight, quantity):
 def test_the_phone_received_its_commands(flight):
     assert flight.ground("send", "android.speak", "text=trees!").returncode == 0
     log = flight.folder / "aircraft.log"
-    wait(lambda: "trees!" in log.read_text(encoding="utf-8"), "the phone speaks")
+    until(lambda: "trees!" in log.read_text(encoding="utf-8"), "the phone speaks")
 
 
 def test_gains_set_from_the_ground_fly_in_the_firmware_and_are_saved(flight):
@@ -156,7 +157,7 @@ def test_an_unknown_command_is_refused_by_name(flight):
 def test_a_second_instance_says_which_port_is_taken(flight):
     result = subprocess.run(
         [sys.executable, str(ROOT / "main.py"), "--config", str(flight.folder / "config")],
-        capture_output=True, text=True, timeout=LIMIT_S, check=False,
+        capture_output=True, text=True, timeout=DEADLINE_S, check=False,
     )  # fmt: skip
     assert result.returncode == 1
     assert "port" in result.stderr and "in use" in result.stderr

@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from tests.support.program_output import AS_JSON, fields_of
-from tests.support.showcase import LIMIT_S, wait
+from tests.support.waiting import DEADLINE_S, until
 
 ROOT = Path(__file__).parents[1]
 
@@ -70,8 +70,8 @@ def test_black_box_flight_through_runner_and_proxy(tmp_path, short_folder, proce
     black_box.mkdir(parents=True)
     (config / "proxy.yml").write_text("airborne port: 0\nground port: 0\nmetrics port: 0\n")
     proxy = processes.start("proxy", "-m", "up_proxy.main", "--config", config)
-    ground = str(wait(lambda: proxy("port_open", side="ground"), "proxy")["port"])
-    airborne = wait(lambda: proxy("port_open", side="airborne"), "proxy")["port"]
+    ground = str(until(lambda: proxy("port_open", side="ground"), "proxy")["port"])
+    airborne = until(lambda: proxy("port_open", side="airborne"), "proxy")["port"]
     (black_box / "config.yml").write_text("mode: black box\n")
     (black_box / "mission_control.yml").write_text(
         f"remote_server: {{url: 127.0.0.1, port: {airborne}}}\n"
@@ -80,20 +80,22 @@ def test_black_box_flight_through_runner_and_proxy(tmp_path, short_folder, proce
         f"port: 0\nrun folder: {short_folder}\nstop instances on exit: true\ni_accept_root: true\n"
     )
     runner = processes.start("runner", "-m", "up_runner.main", "--config", config)
-    port = wait(lambda: runner("port_open"), "runner")["port"]
+    port = until(lambda: runner("port_open"), "runner")["port"]
     phone = processes.start(
         "phone", "-m", "up_simulator", "start", "--no-board", "--orientation", "tcp",
         "--runner", f"127.0.0.1:{port}", "--aircraft-name", "glider-7",
     )  # fmt: skip
-    wait(lambda: phone("phone_connected"), "phone")
+    until(lambda: phone("phone_connected"), "phone")
     watch = [sys.executable, "-m", "up_ground.main", "--port", ground, "--aircraft", "glider-7",
              "watch", "--json", "--count", "5"]  # fmt: skip
 
     def frames():
-        result = subprocess.run(watch, capture_output=True, text=True, timeout=LIMIT_S, check=True)
+        result = subprocess.run(
+            watch, capture_output=True, text=True, timeout=DEADLINE_S, check=True
+        )
         return [json.loads(line)["data"] for line in result.stdout.splitlines()]
 
-    wait(lambda: frames()[-1]["source"]["orientation"] == "android", "orientation by the phone")
+    until(lambda: frames()[-1]["source"]["orientation"] == "android", "orientation by the phone")
     newest = frames()[-1]
     assert newest["mode"] == "black box"
     assert newest["flight_controller"] is None
@@ -111,12 +113,12 @@ def test_provisional_black_box_and_back(tmp_path, processes):
     (tmp_path / "discovery.yml").write_text("port: 0\n")
     (tmp_path / "mission_control.yml").write_text("listener: {port: 0}\n")
     daemon = processes.start("daemon", ROOT / "main.py", "--config", tmp_path)
-    wait(lambda: daemon("mode_provisional"), "provisional")
+    until(lambda: daemon("mode_provisional"), "provisional")
     processes.start(
         "board", "-m", "up_simulator", "start", "--no-phone", "--board", "host",
         "--pty-link", board,
     )  # fmt: skip
-    wait(lambda: daemon("mode_restored"), "back")
+    until(lambda: daemon("mode_restored"), "back")
     assert '"traceback"' not in (tmp_path / "daemon.log").read_text(encoding="utf-8")
 
 
@@ -132,7 +134,7 @@ def test_without_any_port_there_is_nothing_to_run_for(tmp_path):
     (tmp_path / "discovery.yml").write_text("port: 0\n")
     result = subprocess.run(
         [sys.executable, str(ROOT / "main.py"), "--config", str(tmp_path)],
-        capture_output=True, text=True, timeout=LIMIT_S, check=False,
+        capture_output=True, text=True, timeout=DEADLINE_S, check=False,
         env={**os.environ, **AS_JSON},
     )  # fmt: skip
     taken.close()

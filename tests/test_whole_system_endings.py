@@ -4,7 +4,8 @@ import os
 import signal
 from pathlib import Path
 
-from tests.support.showcase import Showcase, child_with, wait
+from tests.support.showcase import Showcase, child_with
+from tests.support.waiting import until
 
 
 def test_ctrl_c_stops_everything_and_leaves_nothing(tmp_path):
@@ -30,7 +31,7 @@ def test_a_terminal_that_closes_leaves_nothing(tmp_path):
 def test_only_the_page_may_die_without_ending_the_flight(tmp_path):
     showcase = Showcase(tmp_path).ready()
     os.kill(child_with(showcase.process.pid, "serve"), signal.SIGKILL)
-    wait(lambda: showcase.said().count("signal 9") == 1, "its end")
+    until(lambda: showcase.said().count("signal 9") == 1, "its end")
     assert showcase.telemetry(1)[0]["armed"]
     os.kill(showcase.daemon_pid(), signal.SIGKILL)
     assert showcase.process.wait(20) == 1
@@ -41,4 +42,4 @@ def test_a_showcase_that_is_killed_leaves_nothing(tmp_path):
     showcase = Showcase(tmp_path).ready()
     daemon = showcase.daemon_pid()
     showcase.stop(signal.SIGKILL)
-    wait(lambda: not Path(f"/proc/{daemon}").exists(), "the daemon goes, too")
+    until(lambda: not Path(f"/proc/{daemon}").exists(), "the daemon goes, too")

@@ -18,7 +18,8 @@ from mcap.records import Attachment, Channel, Message, Metadata
 from mcap.stream_reader import StreamReader
 
 from tests.support.firmware import build_firmware
-from tests.support.showcase import LIMIT_S, Showcase, wait
+from tests.support.showcase import Showcase
+from tests.support.waiting import DEADLINE_S, until
 
 FLOWN_S = 8.0
 LOST_S = 1.0
@@ -68,10 +69,10 @@ class Flight:
         self.showcase = showcase = Showcase(folder).ready()
         sent = showcase.ground("send", "up.telemetry.frequency", "frequency=200")
         assert sent.returncode == 0, sent.stderr
-        wait(lambda: float(showcase.truth()[-1]["time_s"]) > FLOWN_S, "it has flown for a while")
+        until(lambda: float(showcase.truth()[-1]["time_s"]) > FLOWN_S, "it has flown for a while")
         self.killed_s = float(showcase.truth()[-1]["time_s"])
         os.kill(showcase.daemon_pid(), signal.SIGKILL)
-        assert showcase.process.wait(LIMIT_S) == 1
+        assert showcase.process.wait(DEADLINE_S) == 1
         (path,) = (folder / "flights").glob("*.mcap")
         self.log = Log(path)
 
@@ -148,7 +149,7 @@ def test_the_suggested_command_reads_the_log(flight):
     line = re.search(r"The flight's log: (.*)", said)[1]
     done = subprocess.run(
         shlex.split(line), cwd=flight.showcase.folder, capture_output=True, text=True,
-        timeout=LIMIT_S, check=False,
+        timeout=DEADLINE_S, check=False,
     )  # fmt: skip
     assert done.returncode == 0, done.stdout + done.stderr
     assert "Traceback" not in done.stderr
@@ -162,16 +163,16 @@ def test_the_suggested_command_replays_it_in_the_page(flight):
     )  # fmt: skip
     try:
         url = next(found[0] for said in replay.stdout if (found := re.search(r"http://\S+", said)))
-        with urllib.request.urlopen(url, timeout=LIMIT_S) as answer:
+        with urllib.request.urlopen(url, timeout=DEADLINE_S) as answer:
             assert answer.status == 200
     finally:
         replay.terminate()
-        replay.communicate(timeout=LIMIT_S)
+        replay.communicate(timeout=DEADLINE_S)
 
 
 def test_a_run_that_is_stopped_leaves_a_whole_log(tmp_path):
     showcase = Showcase(tmp_path, "--no-page", "--seconds", "3")
-    assert showcase.process.wait(LIMIT_S) == 0, showcase.said()
+    assert showcase.process.wait(DEADLINE_S) == 0, showcase.said()
     assert "  page " not in showcase.said()
     (path,) = (tmp_path / "flights").glob("*.mcap")
     with path.open("rb") as file:

@@ -8,10 +8,12 @@ import sys
 from collections.abc import Iterable, Mapping
 from typing import Any, Protocol
 
-from up.errors import Problem
+from up.errors import Problem, UserError
+from up.fields import printable
 
 FORMAT_VARIABLE = "UP_LOG_FORMAT"
 """In the environment of a program: ``json`` for output and log that another program reads."""
+_FORMATS = ("text", "json")
 
 
 class Echo(Protocol):
@@ -30,15 +32,28 @@ def print_problems(problems: Iterable[Problem], level: str = "error") -> None:
     """Show problems on stderr, each once; a warning's text begins with its level."""
     head = "" if level == "error" else f"{level}: "
     for text, each in {str(each): each for each in problems}.items():
-        line = program_line(text, each.code, each.fields, level) or f"{head}{text}"
+        line = program_line(text, each.code, each.fields, level) or _shown(f"{head}{text}")
         print(line, file=sys.stderr)  # noqa: T201 - the user's answer
+
+
+def check_format() -> None:
+    """Raise UserError for an unknown value of UP_LOG_FORMAT."""
+    value = os.environ.get(FORMAT_VARIABLE)
+    if value and value not in _FORMATS:
+        text = f"{FORMAT_VARIABLE}={value!r} must be {' or '.join(_FORMATS)}"
+        raise UserError(text, "log_format_unknown", value=value)
+
+
+def wants_json() -> bool:
+    """Return whether another program reads the output."""
+    return os.environ.get(FORMAT_VARIABLE) == "json"
 
 
 def program_line(
     text: str, code: str, fields: Mapping[str, object], level: str = "info"
 ) -> str | None:
     """Return a line of a program's own output as JSON with its code; None if text is wanted."""
-    if os.environ.get(FORMAT_VARIABLE) != "json":
+    if not wants_json():
         return None
     record = {"level": level, "text": text, "fields": {"code": code, **fields}}
     return json.dumps(record, default=str)
@@ -46,4 +61,9 @@ def program_line(
 
 def program_error(program: str, text: str, code: str, **fields: object) -> str:
     """Return the line with which a program reports an error: JSON, or its name and the text."""
-    return program_line(text, code, fields, "error") or f"{program}: {text}"
+    return program_line(text, code, fields, "error") or _shown(f"{program}: {text}")
+
+
+def _shown(text: str) -> str:
+    """Return lines with every non-printable character escaped."""
+    return "\n".join(map(printable, text.split("\n")))

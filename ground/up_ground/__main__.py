@@ -1,8 +1,11 @@
-"""`python -m up_ground` is the program itself."""
+"""Makes ``python -m up_ground`` run the program."""
 
 import sys
+from functools import partial
 
-from up_ground.main import main
+from up.cli.entry import start
+
+main = partial(start, "up_ground.main")
 
 if __name__ == "__main__":
     sys.exit(main())

@@ -7,7 +7,7 @@ import math
 from collections.abc import Mapping
 from typing import Any
 
-from up.cli.option_parser import OptionParser
+from up.cli.option_parser import OptionParser, add_json_option
 from up.cli.server_parser import port_number
 from up.cli.verb import add_verb
 from up.system.aircraft_name import AIRCRAFT_NAME, AIRCRAFT_NAME_RULE
@@ -101,7 +101,7 @@ def make_parser(environ: Mapping[str, str]) -> OptionParser:
     text = "list the Commands that a ground may send"
     commands = add_verb(verbs, "commands", "up_ground.main:commands", text)
     commands.add_argument("name", nargs="?", help="only this one")
-    commands.add_argument("--json", action="store_true", help="print one JSON document")
+    add_json_option(commands)
     return parser
 
 

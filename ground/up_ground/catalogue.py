@@ -8,7 +8,7 @@ import importlib
 import json
 import pkgutil
 import typing
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Collection, Iterable, Iterator, Mapping
 from importlib.metadata import packages_distributions
 from typing import Any
 
@@ -54,7 +54,7 @@ class Catalogue:
         return [
             cls
             for cls in self._registry
-            if role_of(cls) and cls.NAME not in _ANSWERS
+            if least_role(_all_roles(cls)) and cls.NAME not in _ANSWERS
         ]
 
     def suggestions(self, name: str) -> list[str]:
@@ -67,11 +67,15 @@ class Catalogue:
         return list(dict.fromkeys([*(names[each] for each in near), *sorted(within)]))[:3]
 
 
-def role_of(cls: type[BaseCommand]) -> str:
-    """Return the least role of a ground that may send it; empty: no ground may."""
-    if cls.ROLES_WHERE or cls.roles is not BaseCommand.roles:
-        return "depends"
-    return next((role.value for role in _GROUND_ROLES if role in cls.ROLES), "")
+def least_role(roles: Collection[Role]) -> str:
+    """Return the least role of a ground among them; empty: none is a ground's."""
+    return next((role.value for role in _GROUND_ROLES if role in roles), "")
+
+
+def _all_roles(cls: type[BaseCommand]) -> frozenset[Role]:
+    """Return the roles that may send it with some data."""
+    special = (roles for values in cls.ROLES_WHERE.values() for roles in values.values())
+    return cls.ROLES.union(*special)
 
 
 def roles_text(cls: type[BaseCommand]) -> str:
@@ -94,7 +98,7 @@ def _words(roles: frozenset[Role]) -> str:
 
 def describe(cls: type[BaseCommand]) -> Iterator[str]:
     """Return the lines that teach a Command: its name, its role, its fields with their bounds."""
-    role = roles_text(cls) if role_of(cls) else "no ground may send it"
+    role = roles_text(cls) if least_role(_all_roles(cls)) else "no ground may send it"
     yield f"{cls.NAME}   [{role}]"
     yield f"    {about(cls)}"
     if cls.ALIASES:
@@ -202,8 +206,12 @@ def command_fields(cls: type[BaseCommand]) -> dict[str, Any]:
     return {
         "name": cls.NAME,
         "aliases": list(cls.ALIASES),
-        # "depends": a field decides who may send it, checked by the aircraft and the server.
-        "role": role_of(cls),
+        "role": least_role(cls.ROLES),
+        "role_where": [
+            {"field": field, "value": given, "role": least_role(roles)}
+            for field, values in cls.ROLES_WHERE.items()
+            for given, roles in values.items()
+        ],
         "text": about(cls)[:MAX_TEXT],
         "needs_beacon": cls.NEEDS_BEACON,
         "fields": [_field(each, hints) for each in dataclasses.fields(cls)],

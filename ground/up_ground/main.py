@@ -10,10 +10,10 @@ import sys
 from collections.abc import Sequence
 from typing import Any
 
-from up.cli.cli_error import CliError, UsageError
-from up.cli.option_parser import EXIT_FAILED, EXIT_INTERRUPTED, EXIT_OK, EXIT_USAGE
+from up.cli.cli_error import UsageError
+from up.cli.option_parser import EXIT_FAILED, EXIT_OK, EXIT_USAGE
 from up.commands.command import BaseCommand
-from up.fields import printable
+from up.errors import UserError
 from up.output import echo
 from up.protocols.general_message import encode
 from up_ground.arguments import make_parser, settings_of
@@ -100,7 +100,7 @@ def commands(options: argparse.Namespace) -> int:
     else:
         echo("\n\n".join("\n".join(describe(each)) for each in chosen))
     for problem in catalogue.problems:
-        print_error(printable(problem), "cog_left_out")
+        print_error(problem, "cog_left_out")
     return EXIT_OK
 
 
@@ -160,18 +160,13 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except OSError as error:
         print_error(f"{error.filename or 'output'}: {error.strerror or error}", "os_error")
         return EXIT_FAILED
-    except KeyboardInterrupt:
-        return EXIT_INTERRUPTED
 
 
 def _carry_out(options: argparse.Namespace) -> int:
     try:
         status: int = options.carry_out(options)
-    except CliError as error:
-        first, *rest = map(printable, str(error).splitlines())
-        print_error(first, error.code)
-        for line in rest:
-            sys.stderr.write(f"{line}\n")
+    except UserError as error:
+        print_error(str(error), error.code)
         return error.status
     return status
 

@@ -11,7 +11,7 @@ from up.flight_modes.demand import AttitudeDemand
 from up.flight_modes.flight_mode import FlightMode, FlightSituation
 
 
-class Fbw(FlightMode):
+class FlyByWire(FlightMode):
     """The sticks demand bank and pitch, within the limits of airframe.yml; throttle and rudder are
     the pilot's. With ``flight controller: arduino`` the board's own FBW is flown instead."""
 

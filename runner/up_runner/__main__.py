@@ -1,8 +1,11 @@
-"""Makes `python -m up_runner` run the program."""
+"""Makes ``python -m up_runner`` run the program."""
 
 import sys
+from functools import partial
 
-from up_runner.main import main
+from up.cli.entry import start
+
+main = partial(start, "up_runner.main")
 
 if __name__ == "__main__":
     sys.exit(main())

@@ -22,8 +22,6 @@ from up_runner.paths import own_root
 @service()
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the program and return its exit status: 1 cannot start, 2 wrong configuration."""
-    # Until it serves, Ctrl-C simply ends it: there is nothing to clean up.
-    signal.signal(signal.SIGINT, signal.SIG_DFL)
     parser = ServerParser(
         RUNNER,
         ("--port",),

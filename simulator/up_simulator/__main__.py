@@ -1,7 +1,11 @@
-"""The program: ``python -m up_simulator VERB``, which is ``up-sim``."""
+"""Makes ``python -m up_simulator`` run ``up-sim``."""
 
 import sys
+from functools import partial
 
-from up_simulator.cli import main
+from up.cli.entry import start
 
-sys.exit(main())
+main = partial(start, "up_simulator.cli")
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -11,18 +11,15 @@ from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
+from up.cli.cli_error import UsageError
 from up.cli.option_parser import OptionParser
 from up.config import ConfigErrors
+from up.errors import UserError
 from up.fields import suggestion
+from up.output import print_problems, program_error
 from up.version import VERSION
 from up_simulator.harness.signal_handling import orderly_exit
-from up_simulator.verbs.catalogue import (
-    INTERRUPTED,
-    NOT_HELD,
-    WRONG_INPUT,
-    FailedError,
-    UsageError,
-)
+from up_simulator.verbs.catalogue import INTERRUPTED, NOT_HELD, WRONG_INPUT
 
 DESCRIPTION = """\
 The virtual aircraft: the firmware that goes on the Arduino and the daemon that goes on the
@@ -73,29 +70,27 @@ def _main(words: list[str]) -> int:
     verb = words[0]
     if verb.startswith("-"):
         parser.parse_args(words)
-        return _fail("a verb is missing; 'up-sim --help' lists them", WRONG_INPUT)
+        return _fail("a verb is missing; 'up-sim --help' lists them", WRONG_INPUT, "usage")
     if verb not in VERBS:
         hint = suggestion(verb, VERBS) or " ('up-sim --help' lists them)"
-        return _fail(f"unknown verb {verb[:60]!r}{hint}", WRONG_INPUT)
+        return _fail(f"unknown verb {verb[:60]!r}{hint}", WRONG_INPUT, "usage")
     try:
         carry_out: Callable[[list[str]], int] = _module(verb).main
         return carry_out(words[1:])
     except ConfigErrors as errors:
-        sys.stderr.write(f"{errors}\n")
+        print_problems(errors.problems)
         return WRONG_INPUT
-    except UsageError as error:
-        return _fail(str(error), WRONG_INPUT)
-    except FailedError as error:
-        return _fail(str(error), NOT_HELD)
+    except UserError as error:
+        return _fail(str(error), error.status, error.code)
     except BrokenPipeError:
         # The reader, such as 'head', has closed the pipe; nothing more can be written.
         sys.stderr.close()
         return NOT_HELD
     except OSError as error:
         where = f"{error.filename}: " if error.filename else ""
-        return _fail(f"{where}{error.strerror or error}", NOT_HELD)
+        return _fail(f"{where}{error.strerror or error}", NOT_HELD, "system_error")
     except KeyboardInterrupt:
-        return _fail("interrupted", INTERRUPTED)
+        return _fail("interrupted", INTERRUPTED, "interrupted")
 
 
 def _module(verb: str) -> Any:
@@ -105,9 +100,12 @@ def _module(verb: str) -> Any:
         return importlib.import_module(VERBS[verb][1])
     except ModuleNotFoundError as error:
         if error.name is not None and error.name.split(".")[0] in ("up_simulator", "tools"):
-            raise UsageError(f"'{verb}' is not built in here ({error.name})") from error
+            raise UsageError(
+                f"'{verb}' is not built in here ({error.name})", "not_built"
+            ) from error
         raise UsageError(
-            f"'{verb}' needs {error.name}, which is not installed: pip install -e '.[sim]'"
+            f"'{verb}' needs {error.name}, which is not installed: pip install -e '.[sim]'",
+            "import_missing",
         ) from error
 
 
@@ -133,10 +131,10 @@ def _open_closed_streams() -> None:
     sys.stderr = sys.stderr or open(2, "w", closefd=False)  # noqa: SIM115
 
 
-def _fail(text: str, status: int) -> int:
+def _fail(text: str, status: int, code: str) -> int:
     # The terminal may be closed already.
     with suppress(OSError):
-        sys.stderr.write(f"up-sim: {text}\n")
+        sys.stderr.write(f"{program_error('up-sim', text, code)}\n")
     return status
 
 

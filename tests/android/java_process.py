@@ -9,8 +9,8 @@ import time
 from contextlib import suppress
 from pathlib import Path
 
-from tests.cogs.arduino_cog.daemon import DEADLINE_S, wait
 from tests.support.java import java_program
+from tests.support.waiting import DEADLINE_S, until
 
 
 class JavaProcess:
@@ -58,7 +58,7 @@ class JavaProcess:
             return condition()
 
         try:
-            return wait(is_so, what)
+            return until(is_so, what)
         except AssertionError as never:
             last = [said for _, said in self.events[-8:]]
             raise AssertionError(f"{never}; it said at last: {last}") from None

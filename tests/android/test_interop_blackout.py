@@ -10,8 +10,8 @@ from tests.android.java_process import resident_bytes
 from tests.android.numbered_motion import numbers_of
 from tests.android.phone_program import PhoneProgram
 from tests.android.real_daemon import AIRCRAFT, RealDaemon
-from tests.cogs.arduino_cog.daemon import wait
 from tests.proxy.program import Program
+from tests.support.waiting import until
 
 DARK_S = 15.0
 """Longer than every limit of silence and the proxy's hold of the seat."""
@@ -81,7 +81,7 @@ def test_fifteen_seconds_of_darkness(system, radio):
     missed_s = time.monotonic() - dark_s
     ground.sees("the aircraft misses the phone", android__connected=False)
     sent.append(far.ask_later("black_box.mark", text="dark 2"))
-    wait(lambda: time.monotonic() >= dark_s + DARK_S, "the end of the night")
+    until(lambda: time.monotonic() >= dark_s + DARK_S, "the end of the night")
     assert not far.all("telemetry", dark_s + 1), "no frame came in it"
     radio.is_dark = False
     light_s = time.monotonic()

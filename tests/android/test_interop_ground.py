@@ -11,9 +11,9 @@ from tests.android.phone_program import PhoneProgram
 from tests.android.real_daemon import AIRCRAFT, RealDaemon
 from tests.android.slow_relay import SlowRelay
 from tests.cogs.arduino_cog.bench_board import BenchBoard
-from tests.cogs.arduino_cog.daemon import wait
 from tests.proxy.program import Client, Program
 from tests.support.firmware import build_firmware
+from tests.support.waiting import until
 
 VALUES = ("armed", "flight_mode", "arduino.connected", "arduino.switch", "servo.ailerons")
 WAY_S = 0.15
@@ -257,7 +257,7 @@ def test_the_seat_comes_back_by_its_token_after_a_cut(system, console):
         for cut in range(1, 4):
             cut_s = time.monotonic()
             relay.cut(1)
-            wait(lambda cut=cut: relay.cuts == cut, "the cut")
+            until(lambda cut=cut: relay.cuts == cut, "the cut")
             pilot.until(lambda at=cut_s: links(pilot, at)[-1:] == ["WAITING"], "the loss")
             pilot.until(lambda at=cut_s: links(pilot, at)[-1:] == ["OPEN"], "the next one")
             pilot.until(lambda: pilot.status["seat"], "its seat")

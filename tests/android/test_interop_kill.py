@@ -12,8 +12,8 @@ from tests.android.numbered_motion import numbers_of
 from tests.android.phone_program import PhoneProgram
 from tests.android.real_daemon import AIRCRAFT, RealDaemon
 from tests.android.slow_relay import SlowRelay
-from tests.cogs.arduino_cog.daemon import wait
 from tests.proxy.program import Client, Program
+from tests.support.waiting import until
 from up_simulator.harness.ports import choose_port_sets
 
 OTHER = b'{"name": "up.telemetry.update", "data": {"orientation": {"roll": 1.25}}, "beacon": 1}\n'
@@ -101,7 +101,7 @@ def test_both_come_back_and_nothing_is_crossed(system):
     system.flows("telemetry")
     # The daemon dies while a line of telemetry is half at the proxy.
     system.relay.cut(700)
-    wait(lambda: system.relay.cuts == 1, "half a line")
+    until(lambda: system.relay.cuts == 1, "half a line")
     assert daemon.end(signal.SIGKILL) == -signal.SIGKILL
     console.until(lambda: console.status["online"] is False, "that the aircraft is missed")
     phone.until(lambda: phone.all("lost"), "that the phone misses it")
@@ -118,7 +118,7 @@ def test_both_come_back_and_nothing_is_crossed(system):
     met = system.stranger.connections
     system.start_proxy()
     proxy_s = system.flows("telemetry through the new proxy")
-    wait(lambda: system.stranger.connections > met, "the other aircraft")
+    until(lambda: system.stranger.connections > met, "the other aircraft")
     console.holds()
     assert console.ask("android.speak", text="again")["outcome"] == "ACK"
     system.flows("telemetry beside the other aircraft's")

@@ -10,7 +10,7 @@ from tests.android.numbered_motion import numbers_of
 from tests.android.phone_program import PhoneProgram
 from tests.android.real_daemon import RealDaemon
 from tests.android.slow_relay import SlowRelay
-from tests.cogs.arduino_cog.daemon import wait
+from tests.support.waiting import until
 
 ORIENTATION = "up.orientation.update"
 FRAME_BYTES = 24
@@ -42,8 +42,8 @@ def test_lost_datagrams_are_missing_and_the_others_are_right(daemon):
         place = daemon.place_at("127.0.0.1", orientation=relay.port)
         with PhoneProgram(*place, "--orientation", "udp", "--orientation-hz", 200) as phone:
             phone.connected()
-            wait(lambda: relay.passed >= FRAMES and relay.lost >= 20, "frames enough")
-        wait(lambda: counter(daemon, "frames") == relay.passed, "all that was not lost")
+            until(lambda: relay.passed >= FRAMES and relay.lost >= 20, "frames enough")
+        until(lambda: counter(daemon, "frames") == relay.passed, "all that was not lost")
         assert counter(daemon, "dropped") == 0
     numbers = check(daemon)
     assert len(numbers) == relay.passed
@@ -59,13 +59,13 @@ def test_a_frame_cut_in_the_middle_dies_with_its_connection(daemon):
             phone.connected()
             for number, part in enumerate((1, 8, 11, 16, 23), 1):
                 begun = counter(daemon, "frames")
-                wait(lambda begun=begun: counter(daemon, "frames") > begun + 30, "frames flow")
+                until(lambda begun=begun: counter(daemon, "frames") > begun + 30, "frames flow")
                 # Whole frames so far: the next ones begin a frame.
                 relay.cut(10 * FRAME_BYTES + part)
-                wait(lambda number=number: relay.cuts == number, "the cut")
-                wait(lambda number=number: relay.connections > number, "a new connection")
+                until(lambda number=number: relay.cuts == number, "the cut")
+                until(lambda number=number: relay.connections > number, "a new connection")
             begun = counter(daemon, "frames")
-            wait(lambda: counter(daemon, "frames") > begun + 30, "frames flow again")
+            until(lambda: counter(daemon, "frames") > begun + 30, "frames flow again")
         assert counter(daemon, "dropped") == 0
         assert counter(daemon, "replaced") >= 0
     numbers = check(daemon)
@@ -79,7 +79,7 @@ def test_a_radio_that_loses_packets_costs_frames_and_spoils_none(daemon):
         options = ("--orientation", "tcp", "--orientation-hz", 100)
         with PhoneProgram(*daemon.place_at(HERE), *options, prefix=radio.prefix) as phone:
             phone.connected()
-            wait(lambda: counter(daemon, "frames") >= FRAMES, "frames enough")
+            until(lambda: counter(daemon, "frames") >= FRAMES, "frames enough")
             said = phone.number
         assert counter(daemon, "dropped") == 0
     numbers = check(daemon)

@@ -7,8 +7,9 @@ import pytest
 from tests.android.phone_program import PhoneProgram
 from tests.android.real_daemon import RealDaemon
 from tests.cogs.android_cog.flight import Flight
-from tests.cogs.arduino_cog.daemon import wait
-from tests.support.reactor import run_in_reactor, until
+from tests.support.reactor import run_in_reactor
+from tests.support.reactor import until as soon
+from tests.support.waiting import until
 from up.commands.location_command import LocationCommand
 from up.commands.orientation_command import OrientationCommand
 from up.commands.panic_command import PanicCommand
@@ -39,7 +40,7 @@ def test_the_load_guard_of_the_daemon_slows_the_phone(daemon):
         phone.until(lambda: phone.all("panic"), "that it hears of it")
         assert phone.all("panic")[0]["delay_ms"] == DELAY_MS
         told = ground.frames
-        wait(lambda: ground.frames > told + 2, "telemetry of after that")
+        until(lambda: ground.frames > told + 2, "telemetry of after that")
         begun_s = time.monotonic()
         begun = ground.at("counters.android.orientation_frames") or 0
         phone.until(lambda: time.monotonic() >= begun_s + WINDOW_S, "some time")
@@ -60,19 +61,19 @@ def test_when_it_is_over_the_phone_is_quick_again(tmp_path):
             place = f"127.0.0.1:{ports['general']}:{ports['orientation']}"
             aircraft.listen_to(OrientationCommand, LocationCommand)
             with PhoneProgram("--raspberry", place, "--orientation", "tcp") as phone:
-                await until(lambda: len(aircraft.heard) > 20, what="readings")
+                await soon(lambda: len(aircraft.heard) > 20, what="readings")
                 publish = aircraft.up.command_executor.execute_command
                 publish(PanicCommand(True, DELAY_MS, 91.5))
-                await until(lambda: phone.all("panic"), what="panic at the phone")
+                await soon(lambda: phone.all("panic"), what="panic at the phone")
                 slow, slow_s = await counted(aircraft, WINDOW_S)
                 assert slow["orientation"] <= MOST and slow["location"] <= MOST
                 assert slow["orientation"] >= 1 and slow["location"] >= 1
                 publish(PanicCommand(False, 20))
-                await until(lambda: len(phone.all("panic")) == 2, what="its end at the phone")
+                await soon(lambda: len(phone.all("panic")) == 2, what="its end at the phone")
                 assert phone.all("panic")[1]["delay_ms"] == 0
                 begun = len(aircraft.heard)
                 begun_s = time.monotonic()
-                await until(lambda: len(aircraft.heard) > begun + 60, what="quick readings")
+                await soon(lambda: len(aircraft.heard) > begun + 60, what="quick readings")
                 quick_s = time.monotonic() - begun_s
                 print(f"panic: {slow} in {slow_s:.1f} s; after it 60 in {quick_s:.1f} s")
 
@@ -83,7 +84,7 @@ async def counted(aircraft, window_s):
     """Return how many of each reading came within a time, and the time."""
     del aircraft.heard[:]
     begun_s = time.monotonic()
-    await until(lambda: time.monotonic() >= begun_s + window_s, what="some time")
+    await soon(lambda: time.monotonic() >= begun_s + window_s, what="some time")
     took_s = time.monotonic() - begun_s
     counts = {"orientation": 0, "location": 0}
     for command in list(aircraft.heard):

@@ -9,7 +9,7 @@ from tests.android.console_program import ConsoleProgram, number_in
 from tests.android.numbered_motion import numbers_of
 from tests.android.phone_program import ALTITUDE_M, FIX, PhoneProgram
 from tests.android.real_daemon import RealDaemon
-from tests.cogs.arduino_cog.daemon import wait
+from tests.support.waiting import until
 
 FRAMES = 200
 ORIENTATION = "up.orientation.update"
@@ -69,8 +69,8 @@ def test_every_attitude_that_arrives_is_one_that_the_sensors_said(daemon, transp
         def frames():
             return ground.at("counters.android.orientation_frames") or 0
 
-        begun, begun_s = wait(frames, "frames"), time.monotonic()
-        wait(lambda: frames() >= begun + FRAMES, "frames enough")
+        begun, begun_s = until(frames, "frames"), time.monotonic()
+        until(lambda: frames() >= begun + FRAMES, "frames enough")
         took_s = time.monotonic() - begun_s
         assert (frames() - begun) / (took_s + 0.2) < hz * 1.15, "not more than was asked for"
         assert ground.at("counters.android.orientation_dropped") == 0

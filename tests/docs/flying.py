@@ -9,13 +9,13 @@ import shutil
 import signal
 import subprocess
 import sys
-import time
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
 from tests.support.virtual_environment import REPOSITORY
+from tests.support.waiting import until
 
 LIMIT_S = 120.0
 SHOWCASE = [sys.executable, "-m", "up_simulator.demo", "--any-ports", "--no-watch"]
@@ -43,11 +43,12 @@ class Flight:
 
     def wait_for(self, condition: Callable[[], bool]) -> None:
         """Wait while everything runs; fails with the printed messages."""
-        deadline_s = time.monotonic() + LIMIT_S
-        while not condition():
+
+        def holds() -> bool:
             assert self.process.poll() is None, self.said.read_text()
-            assert time.monotonic() < deadline_s, self.said.read_text()
-            time.sleep(0.05)
+            return condition()
+
+        until(holds, self.said.read_text, LIMIT_S)
 
 
 def files_of(page: str) -> dict[str, str]:

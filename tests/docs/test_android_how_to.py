@@ -15,13 +15,13 @@ from contextlib import contextmanager
 import pytest
 
 from tests.android.real_daemon import RealDaemon
-from tests.cogs.arduino_cog.daemon import DEADLINE_S, wait
 from tests.docs.flying import lines_of
 from tests.ground.aircraft import Aircraft, frame
 from tests.proxy.program import Program as Proxy
 from tests.support.android import ANDROID, BUILD, JARS, lay_out, make, need_android, need_jdk
 from tests.support.application import plan_of, write_application
 from tests.support.virtual_environment import REPOSITORY
+from tests.support.waiting import DEADLINE_S, until
 from up.commands.roles import Role
 
 PAGE = "how-to/android.md"
@@ -80,7 +80,7 @@ class Said:
             self.lines.append(line.strip())
 
     def wait_for(self, line):
-        wait(lambda: line in self.lines or self.process.poll() is not None, line)
+        until(lambda: line in self.lines or self.process.poll() is not None, line)
         assert line in self.lines, self.lines
 
 
@@ -144,7 +144,7 @@ def test_the_provider_is_in_the_flight_log_of_a_real_daemon(compiled, tmp_path):
             compiled, "org.raspilot.plane.Aboard", "127.0.0.1", daemon.ports.general
         ) as aboard:
             aboard.wait_for(f"connected to 127.0.0.1:{daemon.ports.general}")
-            wait(lambda: len(daemon.log_of("phone.light")) >= 2, "two readings in the log")
+            until(lambda: len(daemon.log_of("phone.light")) >= 2, "two readings in the log")
         assert {each["lux"] for _, each in daemon.log_of("phone.light")} == {740.0}
         assert "provider_problem: location: no GPS" in aboard.lines
     finally:

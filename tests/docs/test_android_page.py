@@ -12,13 +12,13 @@ import xml.etree.ElementTree as ElementTree
 import pytest
 
 from tests.android.phone_program import PhoneProgram
-from tests.cogs.arduino_cog.daemon import DEADLINE_S, wait
 from tests.docs.flying import lines_of
 from tests.docs.test_pages import PAGES, name_of, text_of
 from tests.ground.aircraft import UP_GROUND
 from tests.support.android import ANDROID, make
 from tests.support.tools import need_tool
 from tests.support.virtual_environment import REPOSITORY
+from tests.support.waiting import DEADLINE_S, until
 from up_simulator.harness.ports import choose_port_sets
 
 TEXT = (REPOSITORY / "docs" / "android.md").read_text(encoding="utf-8")
@@ -198,7 +198,7 @@ def bench(tmp_path):
     with log.open("wb") as output:
         process = subprocess.Popen(words, cwd=REPOSITORY, stdout=output, stderr=subprocess.STDOUT)
     try:
-        found = wait(
+        found = until(
             lambda: re.search(r"ground listens on port (\d+)", log.read_text()),
             "the ground's port in the log",
         )

@@ -21,7 +21,7 @@ from twisted.python.failure import Failure
 from raspilot.flight_controller.attitude_controller import AttitudeController
 from raspilot.flight_controller.flight_mode_manager import FlightModeManager
 from raspilot.flight_modes.acro import Acro
-from raspilot.flight_modes.fbw import Fbw
+from raspilot.flight_modes.fbw import FlyByWire
 from tests.cogs.arduino_cog.board import BoardRig
 from tests.cogs.black_box_cog.flights import BOARD, Flight
 from tests.ground.aircraft import Aircraft as Kite
@@ -79,7 +79,13 @@ class Aircraft(BoardRig):
                 "config.yml": "flight controller: raspberry\n",
                 "mission_control.yml": "remote_server: {url: 127.0.0.1}\n",
             },
-            modules=[FlightModeManager, AttitudeController, Fbw, Acro, MissionControlProvider],
+            modules=[
+                FlightModeManager,
+                AttitudeController,
+                FlyByWire,
+                Acro,
+                MissionControlProvider,
+            ],
         )
         self.wire = Wire()
         self.reactor.connectTCP = self.connect_tcp
@@ -255,7 +261,7 @@ def test_what_runs_in_the_browser(proxy, tmp_path):
         done = subprocess.run([node, program, address], capture_output=True, text=True, timeout=120)
     assert done.returncode == 0, done.stderr
     called = json.loads(done.stdout)
-    later = [("js/link/pending_commands.js", "take"), ("js/panels/messages.js", "answerText")]
+    later = [("js/link/connection.js", "take"), ("js/panels/messages.js", "answerText")]
     assert all(f"{function}`" in PAGE for _, function in later)
     for name, more in (("page", []), ("click", later)):
         assert len(scripts(name)) > 5

@@ -9,7 +9,6 @@ import shlex
 import signal
 import subprocess
 import sys
-import time
 import urllib.request
 from contextlib import ExitStack
 from pathlib import Path
@@ -19,6 +18,7 @@ import pytest
 from tests.docs.flying import LIMIT_S, copy_of_the_tree, files_of, flying, lines_of
 from tests.support.tools import need_tool, unavailable
 from tests.support.virtual_environment import REPOSITORY, VirtualEnvironment
+from tests.support.waiting import until
 from up_flightlog.read.flight_log import FlightLog
 
 PAGE = "guide.md"
@@ -122,20 +122,20 @@ def test_a_dead_part_ends_the_run_and_by_hand_the_others_survive_it(tmp_path):
             start(proxy, "proxy")
             board, _said = start(simulator, "board 1")
             aircraft, log = start(daemon, "aircraft 1")
-            _wait_for("Controller: flies", log)
+            until(lambda: "Controller: flies" in log.read_text(), log.read_text)
             board.send_signal(signal.SIGINT)
-            _wait_for("does not fly", log)
-            _wait_for("provisionally in Black Box Mode", log)
+            until(lambda: "does not fly" in log.read_text(), log.read_text)
+            until(lambda: "provisionally in Black Box Mode" in log.read_text(), log.read_text)
             assert not (flight.tree / "run/demo/board").is_symlink()
             log.write_text("")
             board, board_said = start(simulator, "board 2")
-            _wait_for("Controller: flies", log)
-            _wait_for(OUTPUT, board_said)
+            until(lambda: "Controller: flies" in log.read_text(), log.read_text)
+            until(lambda: OUTPUT in board_said.read_text(), board_said.read_text)
             board_said.write_text("")
             aircraft.kill()
-            _wait_for(FBW, board_said)
+            until(lambda: FBW in board_said.read_text(), board_said.read_text)
             start(daemon, "aircraft 2")
-            _wait_for(OUTPUT, board_said)
+            until(lambda: OUTPUT in board_said.read_text(), board_said.read_text)
 
 
 def _look_at_the_flight(flight, said):
@@ -151,7 +151,7 @@ def _look_at_the_flight(flight, said):
     with ExitStack() as stack:
         words = flight.tree / "replay said"
         _started(stack, f"{line} --listen 127.0.0.1:0", flight.tree, flight.environ, words)
-        _wait_for("Ctrl-C ends it", words)
+        until(lambda: "Ctrl-C ends it" in words.read_text(), words.read_text)
         with urllib.request.urlopen(re.search(ADDRESS, words.read_text())[0]) as page:
             assert b"<title>Up ground station</title>" in page.read()
 
@@ -179,13 +179,6 @@ def _started(
     stack.callback(process.wait)
     stack.callback(process.kill)
     return process, log
-
-
-def _wait_for(words: str, log: Path) -> None:
-    deadline_s = time.monotonic() + LIMIT_S
-    while words not in log.read_text():
-        assert time.monotonic() < deadline_s, log.read_text()
-        time.sleep(0.05)
 
 
 def test_the_cog_from_outside_is_gathered_and_listed(tmp_path):

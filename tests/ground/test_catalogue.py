@@ -4,7 +4,13 @@ import re
 
 import pytest
 
-from up_ground.catalogue import Catalogue, describe, fault_of, role_of
+from up_ground.catalogue import (
+    Catalogue,
+    catalogue_message,
+    command_fields,
+    describe,
+    fault_of,
+)
 
 
 @pytest.fixture(scope="module")
@@ -51,9 +57,15 @@ def test_mistakes_are_found_before_anything_is_sent(catalogue, name, data, sente
 
 
 def test_roles(catalogue):
-    assert role_of(catalogue.get("up.arm")) == "pilot"
-    assert role_of(catalogue.get("up.heading.change")) == "depends"
-    assert role_of(catalogue.get("up.output.set")) == ""
+    commands = {each["name"]: each for each in catalogue_message(catalogue)["commands"]}
+    assert (commands["up.arm"]["role"], commands["up.arm"]["role_where"]) == ("pilot", [])
+    gains = commands["arduino.pids.tunings"]
+    assert gains["role"] == "pilot"
+    assert gains["role_where"] == [{"field": "request", "value": True, "role": "observer"}]
+    assert "up.output.set" not in commands
+    heading = command_fields(catalogue.get("up.heading.change"))
+    assert heading["role"] == ""
+    assert heading["role_where"] == [{"field": "mode", "value": "required", "role": "operator"}]
 
 
 def test_two_commands_of_one_name_are_told_and_survived():

@@ -5,7 +5,7 @@ from twisted.internet.task import Clock
 from raspilot.flight_controller.attitude_controller import AttitudeController
 from raspilot.flight_controller.flight_mode_manager import FlightModeManager
 from raspilot.flight_modes.acro import Acro
-from raspilot.flight_modes.fbw import Fbw
+from raspilot.flight_modes.fbw import FlyByWire
 from tests.support.system import build_up
 from up.commands.flight_state_command import (
     FlightModeCommand,
@@ -60,7 +60,7 @@ class Rig:
         gains=OTHER_GAINS,
         clock=None,
         mode=Mode.AUTO,
-        modes=(Fbw, Acro),
+        modes=(FlyByWire, Acro),
         modules=(),
         **config,
     ):

@@ -7,7 +7,7 @@ from typing import ClassVar
 import pytest
 
 from raspilot.flight_modes.acro import Acro
-from raspilot.flight_modes.fbw import Fbw
+from raspilot.flight_modes.fbw import FlyByWire
 from tests.raspilot.flight_controller_rig import (
     BOARD,
     FBW_MODE,
@@ -192,7 +192,7 @@ class TestThePast:
         assert abs(rig.outputs[-1].ailerons_us - before.ailerons_us) < 20
 
 
-class Impatient(Fbw):
+class Impatient(FlyByWire):
     """An author's mode that wants newer readings than the one it replaces."""
 
     NEEDS: ClassVar = {"rx": 0.03, "orientation": 0.02}

@@ -9,20 +9,10 @@ import re
 import signal
 import subprocess
 import sys
-import time
 from pathlib import Path
 
 from tests.support.program_output import fields_of
-
-LIMIT_S = 60.0
-
-
-def wait(condition, what, limit_s=LIMIT_S):
-    deadline = time.monotonic() + limit_s
-    while not (value := condition()):
-        assert time.monotonic() < deadline, f"not within {limit_s} s: {what}"
-        time.sleep(0.05)
-    return value
+from tests.support.waiting import DEADLINE_S, until
 
 
 class Showcase:
@@ -59,7 +49,7 @@ class Showcase:
                 showcase.process.wait()
 
     def ready(self):
-        wait(lambda: "Ctrl-C stops" in self.said() or self.process.poll() is not None, "start")
+        until(lambda: "Ctrl-C stops" in self.said() or self.process.poll() is not None, "start")
         assert self.process.poll() is None, self.said()
         return self
 
@@ -76,7 +66,7 @@ class Showcase:
         lines = (self.folder / "config" / "proxy.yml").read_text(encoding="utf-8").splitlines()
         return next(line.split()[-1] for line in lines if line.startswith("ground port"))
 
-    def ground(self, *arguments, timeout=LIMIT_S):
+    def ground(self, *arguments, timeout=DEADLINE_S):
         return subprocess.run(
             [sys.executable, "-m", "up_ground.main", "--port", self.ground_port, *arguments],
             capture_output=True, text=True, timeout=timeout,

@@ -2,13 +2,17 @@
 
 import time
 
-DEADLINE_S = 30.0
+DEADLINE_S = 90.0
 
 
 def until(condition, what, deadline_s=DEADLINE_S):
-    """Return the first true value of a condition; fail after a generous time."""
+    """Return the first true value of a condition; fail after a generous time.
+
+    `what` names the condition, or is called for the reason of the failure: the text of a log.
+    """
     end_s = time.monotonic() + deadline_s
     while not (value := condition()):
-        assert time.monotonic() < end_s, f"never came: {what}"
+        if time.monotonic() > end_s:
+            raise AssertionError(f"never came: {what() if callable(what) else what}")
         time.sleep(0.01)
     return value

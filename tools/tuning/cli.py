@@ -25,20 +25,23 @@ from tools.tuning.response_picture import draw_tuning
 from tools.tuning.trial import TrialError
 from tools.tuning.tune import TuneError, try_rough_air, tune_axis, tune_yaw
 from tools.tuning.workers import MAX_PROCESSES, Workers
+from up.cli.cli_error import CliError, UsageError
 from up.cli.option_parser import OptionParser
 from up.commands.gains import Gains, GainSet
 from up.config.atomic_writer import write_atomically
 from up.flight_controller.pids_file import PIDS, PidsConfig, gain_set_of
+from up_flightlog.plots.canvas import PictureError
+from up_flightlog.plots.chart import Mark
 from up_simulator.aircraft import DEFAULT_AIRFRAME, AirframeError, load_airframe
 from up_simulator.aircraft.flight import FlightUnavailableError
 from up_simulator.firmware.board import BoardCrashedError
 from up_simulator.firmware.build import BoardUnavailableError
 from up_simulator.firmware.preparation import PreparationError
 from up_simulator.firmware.settings_wire import SettingsError
-from up_simulator.picture.flight_picture import Mark, PictureError, draw_flight
+from up_simulator.picture.flight_picture import draw_flight
 from up_simulator.scenario.log import LogError, read_log
 from up_simulator.scenario.run import try_folder
-from up_simulator.verbs.catalogue import HELD, NOT_HELD, UsageError
+from up_simulator.verbs.catalogue import HELD, NOT_HELD
 
 FOLDER = Path("run") / "tuning"
 EPILOG = """\
@@ -66,16 +69,15 @@ def main(arguments: Sequence[str]) -> int:
     """Tune, or analyse a log; return the exit status. Raises ``UsageError`` and OSError."""
     options = _parser().parse_args(arguments)
     if options.log is not None and options.write is not None:
-        raise UsageError("--write needs gains that were flown: leave --log out")
+        raise UsageError("--write needs gains that were flown: leave --log out", "usage")
     try:
         return _look_at_log(options) if options.log is not None else _tune(options)
     except (AirframeError, LogError) as error:
-        raise UsageError(str(error)) from None
+        raise UsageError(str(error), "bad_input") from None
     except LogStepsError as error:
-        raise UsageError(f"{options.log}: {error}") from None
+        raise UsageError(f"{options.log}: {error}", "bad_input") from None
     except _SENTENCES as error:
-        sys.stderr.write(f"up-sim: {error}\n")
-        return NOT_HELD
+        raise CliError(str(error), NOT_HELD, "tuning_failed") from None
 
 
 def _parser() -> argparse.ArgumentParser:
@@ -202,7 +204,10 @@ def _look_at_log(options: argparse.Namespace) -> int:
         _out(line)
     path = options.pictures / f"{options.log.resolve().parent.name}-{options.log.stem}-steps.png"
     marks = [
-        Mark(step.at_s, f"{step.axis} {step.mode} {step.start:.0f} to {step.end:.0f} {step.unit}")
+        Mark(
+            step.at_s,
+            text=f"{step.axis} {step.mode} {step.start:.0f} to {step.end:.0f} {step.unit}",
+        )
         for step in steps
     ]
     draw = partial(
@@ -215,7 +220,7 @@ def _look_at_log(options: argparse.Namespace) -> int:
 
 def _gains_in(path: Path) -> GainSet:
     if not path.is_file():
-        raise UsageError(f"{path}: no such file")
+        raise UsageError(f"{path}: no such file", "no_such_file")
     return gain_set_of(PIDS.parse(path.read_bytes(), path))
 
 

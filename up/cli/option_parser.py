@@ -9,13 +9,19 @@ from typing import Any, NoReturn
 
 from up.errors import UserError
 from up.fields import suggestion
-from up.output import print_problems
+from up.output import FORMAT_VARIABLE, print_problems, wants_json
 
 EXIT_OK = 0
 EXIT_FAILED = 1
 EXIT_USAGE = 2
 """A mistake in the arguments or the configuration."""
 EXIT_INTERRUPTED = 130
+
+
+def add_json_option(parser: argparse.ArgumentParser) -> None:
+    """Add ``--json``: the answer is one JSON document; UP_LOG_FORMAT=json implies it."""
+    text = f"print one JSON document, as with {FORMAT_VARIABLE}=json"
+    parser.add_argument("--json", action="store_true", default=wants_json(), help=text)
 
 
 class OptionParser(argparse.ArgumentParser):

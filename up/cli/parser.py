@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from up.cli.option_parser import OptionParser
+from up.cli.option_parser import OptionParser, add_json_option
 from up.cli.plugin_verbs import UP_VERBS, add_plugin_verbs, verb_of
 from up.cli.verb import add_verb
 from up.mode import Mode
@@ -88,6 +88,7 @@ def make_parser(arguments: Sequence[str] | None = None) -> OptionParser:
     check.epilog = "exit status: 0 it would start; 2 mistakes, each with its place"
     modules = _add(verbs, "modules", "list the modules in order, and why others are left out")
     modules.epilog = 'example: up modules --mode "black box"'
+    add_json_option(modules)
     schemas = _add(verbs, "schemas", "write the JSON Schema of each configuration file for editors")
     schemas.add_argument("folder", type=Path, metavar="DIR", help="created if missing")
     update = add_verb(verbs, "update", "up.cli.update", "upgrade the framework", aliases=("u",))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import importlib.metadata
+import json
 import os
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
@@ -23,6 +24,7 @@ from up.errors import Problem
 from up.loading.application import UP_FILE_CONFIG, Application
 from up.loading.checking import Findings, check_application, no_configuration
 from up.loading.external_modules import EXTERNAL_MODULES
+from up.loading.plan import Plan
 from up.output import echo, print_problems
 from up.program import make_context, run_application
 
@@ -78,6 +80,28 @@ def modules(values: argparse.Namespace) -> int:
     system = system_of(values)
     findings = system.check()
     plan = findings.plan
+    if values.json:
+        echo(json.dumps(_document(system, plan), indent=1))
+    else:
+        _show(system, plan)
+    print_problems((*_cogfile_problems(system.application), *findings.problems))
+    return EXIT_USAGE if findings.problems else EXIT_OK
+
+
+def _document(system: System, plan: Plan) -> dict[str, Any]:
+    """Return the plan for programs; ``origin`` is empty for a module of Up itself."""
+    origins = plan.origins
+    return {
+        "mode": system.context.mode.value,
+        "modules": [
+            {"path": each.path, "origin": origins.get(each.path, "")} for each in plan.modules
+        ],
+        "rejected": [{"path": each.path, "reason": each.reason} for each in plan.rejected],
+        "commands": [cls.NAME for cls in plan.commands],
+    }
+
+
+def _show(system: System, plan: Plan) -> None:
     echo(f"mode: {system.context.mode.value}")
     echo("loaded, in this order:")
     _table(
@@ -90,8 +114,6 @@ def modules(values: argparse.Namespace) -> int:
     if plan.commands:
         echo("further Commands:")
         _table(("", cls.NAME, f"{cls.__module__}.{cls.__qualname__}") for cls in plan.commands)
-    print_problems((*_cogfile_problems(system.application), *findings.problems))
-    return EXIT_USAGE if findings.problems else EXIT_OK
 
 
 def schemas(values: argparse.Namespace) -> int:

@@ -11,7 +11,7 @@ from typing import Protocol
 
 import yaml
 
-from up.fields import printable
+from up.fields import printable, show
 
 MAX_DEPTH = 20
 MAX_NODES = 50_000
@@ -80,7 +80,7 @@ def compose(text: str, report: Report) -> Node | None:
         report(line, column, _syntax_sentence(error), "not_yaml")
     except yaml.reader.ReaderError as error:
         line, column = place_of(text, int(error.position))
-        what = f"the character U+{ord(text[error.position]):04X} is not allowed here"
+        what = f"the character {show(text[error.position])} is not allowed here"
         report(line, column, what, "not_yaml")
     except (ValueError, OverflowError):
         # PyYAML converts the digits of \U escapes and of %YAML to numbers without a size limit.

@@ -107,7 +107,8 @@ def _unwritable_log(context: Context) -> Iterator[UserError]:
             RotatingFile(Path(log_file), 0, 0).probe()
     except (OSError, ValueError) as error:
         reason = getattr(error, "strerror", None) or error
-        text = f"{file}: log file: this user cannot write {show(log_file)}: {reason}"
+        text = f"{file}: log file: the user of this check cannot write {show(log_file)}: {reason}"
+        text += " (a service runs as another user, who must be able to)"
         yield UserError(text, "log_file_unwritable", file=file, key="log file", value=log_file)
 
 

@@ -10,7 +10,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from up.cli.cli_error import CliError
+from up.cli.cli_error import UsageError
 from up.fields import printable
 from up_flightlog.cli.open_flight import flights_folder
 from up_flightlog.cli.overview import (
@@ -21,7 +21,7 @@ from up_flightlog.cli.overview import (
     overview_of,
 )
 from up_flightlog.cli.terminal import Progress, echo, table, warn
-from up_flightlog.read.flights import Flight, flights_in
+from up_flightlog.read.flights import Flight, demo_hint, flights_in
 from up_flightlog.read.spans import duration_text
 from up_flightlog.report.formatting import is_clock_right, size_text, start_text
 
@@ -53,7 +53,7 @@ def run(values: argparse.Namespace) -> int:
     """List the flights, newest last."""
     folder = flights_folder(values)
     if not folder.is_dir() and values.folder is not None:
-        raise CliError(f"{folder} is not a folder")
+        raise UsageError(f"{folder} is not a folder", "no_such_folder")
     flights = flights_in(folder) if folder.is_dir() else []
     lines = lines_of(flights, OverviewCache(cache_path(os.environ)))
     if values.json:
@@ -66,7 +66,7 @@ def run(values: argparse.Namespace) -> int:
                 " The numbers give the order."
             )
     else:
-        echo(f"no flight in {printable(str(folder))}")
+        echo(f"no flight in {printable(str(folder))}{demo_hint()}")
     return 0
 
 

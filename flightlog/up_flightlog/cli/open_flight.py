@@ -10,7 +10,7 @@ from collections.abc import Iterable
 from importlib.metadata import entry_points
 from pathlib import Path
 
-from up.cli.cli_error import CliError
+from up.cli.cli_error import UsageError
 from up.cli.locate import application_of
 from up.fields import printable
 from up.flight_log.flights_folder import default_folder, folder_of
@@ -28,7 +28,7 @@ def flights_folder(values: argparse.Namespace) -> Path:
     """Return ``--folder``, otherwise the folder in black_box.yml, otherwise the default one.
 
     Outside of an application, and without ``--config``, there is no black_box.yml. Raises
-    ConfigErrors, and CliError for a ``--file`` that does not exist.
+    ConfigErrors, and UsageError for a ``--file`` that does not exist.
     """
     if values.folder is not None:
         return Path(values.folder)
@@ -52,25 +52,25 @@ def flight_of(values: argparse.Namespace) -> Flight:
     return flight
 
 
-def unknown_topic(topic: str, log: FlightLog) -> CliError:
+def unknown_topic(topic: str, log: FlightLog) -> UsageError:
     """Return the error for a topic that the log does not have."""
     return _unknown("topic", topic, log.topics, "'up log info' lists all")
 
 
-def unknown_field(field: str, known: Iterable[str]) -> CliError:
+def unknown_field(field: str, known: Iterable[str]) -> UsageError:
     """Return the error for a field that no topic has."""
     return _unknown("numeric field", field, known, "'up log export' writes all of a topic")
 
 
-def _unknown(kind: str, name: str, known: Iterable[str], hint: str) -> CliError:
-    names = sorted(known)
+def _unknown(kind: str, name: str, known: Iterable[str], hint: str) -> UsageError:
+    names, code = sorted(known), f"no_such_{kind.split()[-1]}"
     text = f"no {kind} is called '{printable(name)}'"
     near = difflib.get_close_matches(name[:100], names, n=1, cutoff=0.5)
     if near:
-        return CliError(f"{text}, did you mean {printable(near[0])}?")
+        return UsageError(f"{text}, did you mean {printable(near[0])}?", code)
     if not names:
-        return CliError(f"{text}: the log has none")
+        return UsageError(f"{text}: the log has none", code)
     likely = difflib.get_close_matches(name[:100], names, n=MAX_LISTED, cutoff=0.0)
     listed = ", ".join(map(printable, sorted(likely)))
     more = f" and {len(names) - len(likely)} more ({hint})" if len(names) > len(likely) else ""
-    return CliError(f"{text}; the log has {listed}{more}")
+    return UsageError(f"{text}; the log has {listed}{more}", code)

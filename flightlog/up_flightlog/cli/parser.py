@@ -7,6 +7,7 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any, cast
 
+from up.cli.option_parser import add_json_option
 from up.cli.plugin_verbs import add_plugin_verbs
 from up.cli.verb import add_verb
 
@@ -114,7 +115,7 @@ def add_flight_argument(parser: argparse.ArgumentParser) -> None:
 def _add_list(verbs: Any) -> None:
     listing = add_verb(verbs, "list", "up_flightlog.cli.list_verb", "list the recorded flights")
     add_folder_options(listing)
-    listing.add_argument("--json", action="store_true", help="print one JSON document")
+    add_json_option(listing)
 
 
 def _add_info(verbs: Any) -> None:

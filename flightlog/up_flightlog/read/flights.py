@@ -15,12 +15,17 @@ from up.flight_log.mcap_format import FlightLogError
 
 SUFFIX = ".mcap"
 LAST = "last"
+_HINT = f" ('{LAST}', a number from 'up log list', a file or a folder)"
 _MAX_DIGITS = 9
 _MAX_SHOWN = 300
+_DEMO = Path("run/demo/flights")
+"""Where ``make run`` records, from the project's folder."""
 
 
 class FlightNotFoundError(FlightLogError):
-    """The flight does not exist; the text is one sentence."""
+    """The flight that the user names does not exist; the text is one sentence."""
+
+    status = 2
 
 
 @dataclass(frozen=True, slots=True)
@@ -63,6 +68,8 @@ def find_flight(name: str, folder: Callable[[], Path]) -> Flight:
     ``name`` is a number or ``last``, looked up in the folder that ``folder`` returns, or the path
     of a file or folder.
     """
+    if not name:
+        raise FlightNotFoundError(f"the name of the flight is empty{_HINT}", "no_such_flight")
     if name == LAST:
         return _flights_of(folder())[-1]
     if name.isascii() and name.isdigit() and len(name) <= _MAX_DIGITS:
@@ -75,7 +82,7 @@ def find_flight(name: str, folder: Callable[[], Path]) -> Flight:
         if path.exists():
             return _with_its_parts(path)
     name = name if len(name) <= _MAX_SHOWN else f"{name[:_MAX_SHOWN]}..."
-    hint = f" ('{LAST}', a number from 'up log list', a file or a folder)"
+    hint = _HINT
     if difflib.SequenceMatcher(None, name, LAST).ratio() > 0.7:
         hint = f", did you mean '{LAST}'?"
     raise FlightNotFoundError(f"{printable(name)}: no such flight{hint}", "no_such_flight")
@@ -107,11 +114,17 @@ def find_flight_of(names: Sequence[str], folder: Callable[[], Path]) -> Flight:
 
 def _flights_of(folder: Path) -> list[Flight]:
     if not folder.is_dir():
-        raise FlightNotFoundError(f"no flight recorded: no folder {folder}", "no_folder")
+        text = f"no flight recorded: no folder {folder}{demo_hint()}"
+        raise FlightNotFoundError(text, "no_folder")
     flights = flights_in(folder)
     if not flights:
-        raise FlightNotFoundError(f"no flight in {folder}", "no_flights")
+        raise FlightNotFoundError(f"no flight in {folder}{demo_hint()}", "no_flights")
     return flights
+
+
+def demo_hint() -> str:
+    """Return where the flights of ``make run`` are, if it recorded any below this folder."""
+    return f"; those of 'make run': --folder {_DEMO}" if any(_DEMO.glob(f"*{SUFFIX}")) else ""
 
 
 def _numbered(number: int, folder: Path) -> Flight:

@@ -89,8 +89,11 @@ class Player:
             self._advance()
 
     def set_speed(self, speed: float) -> None:
+        """Raises ValueError for a speed out of range."""
+        if not MIN_SPEED <= speed <= MAX_SPEED:
+            raise ValueError(f"the speed must be {MIN_SPEED:g} to {MAX_SPEED:g}")
         self._freeze()
-        self.speed = max(MIN_SPEED, min(MAX_SPEED, speed))
+        self.speed = speed
         self._changed()
         if self.is_playing:
             self._advance()

@@ -7,7 +7,6 @@ import os
 from pathlib import Path
 from typing import Any
 
-from up.cli.cli_error import UsageError
 from up.fields import printable
 from up.flight_log.flights_folder import folder_of
 from up.flight_log.mcap_format import FlightLogError
@@ -24,17 +23,14 @@ from up_ground.web.serve import PageOptions
 
 
 def run(options: argparse.Namespace) -> int:
-    """Serve the page with a flight; returns the exit status. Raises UsageError."""
+    """Serve the page with a flight; returns the exit status. Raises UsageError, FlightLogError."""
     page = PageOptions.of(options, os.environ)
-    try:
-        paths = find_flight_of(options.flight, lambda: _folder(options)).paths
-        echo(f"reading {printable(', '.join(path.name for path in paths))} ...")
-        log = FlightLog.read(paths)
-        timeline = ReplayTimeline(log, aircraft_of(log))
-    except FlightLogError as error:
-        raise UsageError(printable(str(error)), error.code) from None
+    paths = find_flight_of(options.flight, lambda: _folder(options)).paths
+    echo(f"reading {printable(', '.join(path.name for path in paths))} ...")
+    log = FlightLog.read(paths)
+    timeline = ReplayTimeline(log, aircraft_of(log))
     if not log.topics:
-        raise UsageError(f"{printable(paths[0].name)} holds no message", "empty_flight")
+        raise FlightLogError(f"{paths[0].name} holds no message", "empty_flight")
     for problem in log.problems[:5]:
         print_error(printable(problem.text), "log_damaged")
     title = sanitize_text(paths[0].name.removesuffix(".mcap"), 100)

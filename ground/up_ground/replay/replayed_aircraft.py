@@ -14,9 +14,9 @@ from up_ground.replay.player import Player
 from up_ground.replay.timeline import ReplayTimeline, past
 from up_ground.web.aircraft_source import AircraftSource
 from up_ground.web.answers import Answer
-from up_ground.web.client_session import ClientSession
+from up_ground.web.client_session import ClientSession, FrameMessage, message_bytes
 from up_ground.web.gains_history import GainsHistory
-from up_ground.web.messages import FrameMessage, PageFault, Reader, message_bytes
+from up_ground.web.messages import PageFault, Reader
 
 if TYPE_CHECKING:
     from up_ground.web.client_hub import ClientHub
@@ -106,7 +106,10 @@ class ReplayedAircraft(AircraftSource):
             if action == "seek":
                 self._seek(value)
             else:
-                self._player.set_speed(value)
+                try:
+                    self._player.set_speed(value)
+                except ValueError as error:
+                    raise PageFault(str(error)) from None
         elif action == "play":
             if self._player.time_s >= self._player.length_s:
                 self._seek(0.0)

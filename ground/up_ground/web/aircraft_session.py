@@ -15,13 +15,13 @@ from up_ground.settings import Settings
 from up_ground.telemetry import NAME, Telemetry
 from up_ground.token_store import TokenStore
 from up_ground.web.aircraft_source import AircraftSource
-from up_ground.web.client_session import ClientSession
+from up_ground.web.client_session import ClientSession, FrameMessage
 from up_ground.web.command_gate import CommandGate
 from up_ground.web.command_service import CommandService
 from up_ground.web.control import Control
 from up_ground.web.event_monitor import EventMonitor
 from up_ground.web.event_rules import LinkSnapshot, Report
-from up_ground.web.messages import FrameMessage, PageFault, Reader
+from up_ground.web.messages import PageFault, Reader
 from up_ground.web.proxy_lease import ProxyLease
 from up_ground.web.track import Home, Track, track_message
 

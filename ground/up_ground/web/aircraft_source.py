@@ -6,8 +6,8 @@ from abc import ABC, abstractmethod
 from collections.abc import Iterable
 from typing import Any
 
-from up_ground.web.client_session import ClientSession
-from up_ground.web.messages import FrameMessage, Reader
+from up_ground.web.client_session import ClientSession, FrameMessage
+from up_ground.web.messages import Reader
 
 
 class AircraftSource(ABC):

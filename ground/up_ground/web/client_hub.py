@@ -22,8 +22,9 @@ from up_ground.web.client_session import (
     AdmissionError,
     ClientSession,
     admit_page,
+    message_bytes,
 )
-from up_ground.web.messages import PageFault, Reader, message_bytes, read_message
+from up_ground.web.messages import PageFault, Reader, read_message
 
 if TYPE_CHECKING:
     from up_ground.web.page_link import PageLink

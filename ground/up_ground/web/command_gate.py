@@ -10,7 +10,7 @@ from up.commands.beacon import fresh_s
 from up.commands.command import BaseCommand
 from up.commands.roles import Role
 from up.system.clock import Clock
-from up_ground.catalogue import Catalogue, fault_of, role_of
+from up_ground.catalogue import Catalogue, fault_of, least_role
 from up_ground.ground_link import GroundLink
 from up_ground.link_status import ControlStatus
 from up_ground.telemetry import Telemetry
@@ -117,8 +117,9 @@ class CommandGate:
         role = self._telemetry.text("ground", "role")
         given = _ROLES.get(role or "")
         if given is not None and not roles & given.includes:
-            least = role_of(cls) if len(roles) != 1 else next(iter(roles)).value
-            reason = f"{name} takes the role {least}, and this aircraft's link is {role}"
+            reason = (
+                f"{name} takes the role {least_role(roles)}, and this aircraft's link is {role}"
+            )
             return Answer("refused", "forbidden", f"{reason} (mission_control.yml: role)")
         return None
 

@@ -1,4 +1,4 @@
-"""A page's WebSocket and its send buffer."""
+"""A page's WebSocket."""
 
 from __future__ import annotations
 
@@ -9,48 +9,12 @@ from autobahn.twisted.resource import WebSocketResource
 from autobahn.twisted.websocket import WebSocketServerFactory, WebSocketServerProtocol
 from twisted.internet.interfaces import IAddress
 
-from up.protocols.link_output import BaseOutput, Make
 from up.protocols.tcp_options import watch_peer
+from up_ground.web.client_session import PageSendBuffer
 from up_ground.web.messages import MAX_MESSAGE_BYTES
 
 if TYPE_CHECKING:
     from up_ground.web.client_hub import ClientHub
-
-PENDING_LIMIT = 1 << 20
-"""Bytes in order that wait for a page that does not read; more, and it is given up."""
-
-
-class PageSendBuffer(BaseOutput):
-    """The send buffer of a WebSocket.
-
-    A frame or a status is encoded when it is sent, not when it arrives, so that its age is right.
-    ``on_overrun`` is called when ``PENDING_LIMIT`` is exceeded; after that nothing is sent.
-    """
-
-    def __init__(self, on_overrun: Callable[[], object]) -> None:
-        super().__init__()
-        self._on_overrun = on_overrun
-
-    @property
-    def waiting_bytes(self) -> int:
-        return self._size
-
-    def send(self, message: bytes) -> None:
-        if self._transport is None:
-            return
-        self._put(message)
-        if self._size > PENDING_LIMIT:
-            self.stopProducing()
-            self._on_overrun()
-
-    def send_newest(self, kind: str, make: Make) -> None:
-        """Send the result of ``make`` in place of a queued one of this kind."""
-        if self._transport is not None:
-            self._put_news(kind, make, may_leave=self._is_drained)
-
-    def discard(self, kind: str) -> None:
-        self._news.pop(kind, None)
-
 
 USER_TIMEOUT_MS = 5000
 PING_S = 5.0

@@ -13,7 +13,7 @@ from typing import Any
 
 from up_simulator.aircraft import load_airframe
 from up_simulator.demo.config import FLIGHTS, write_config
-from up_simulator.demo.hints import hints, log_hints
+from up_simulator.demo.hints import hints, log_hints, recordings
 from up_simulator.demo.page import Page
 from up_simulator.harness.child import Child
 from up_simulator.harness.participants import ParticipantError
@@ -54,6 +54,7 @@ class DemoFlight:
         self._page: Page | None = None
         self._pending_lines: list[str] = []
         self._airframe = load_airframe(options.airframe)
+        self._earlier = recordings(folder / FLIGHTS)
         self._ports = Ports()
 
     def start(self) -> None:
@@ -129,7 +130,7 @@ class DemoFlight:
         (self._folder / "board").unlink(missing_ok=True)
         if self._children:
             self._log("Everything is stopped.")
-            for line in log_hints(self._folder / FLIGHTS):
+            for line in log_hints(self._folder / FLIGHTS, self._earlier):
                 self._log(line)
         self._children.clear()
 

@@ -36,10 +36,15 @@ def hints(ports: Ports, folder: Path, page: str | None) -> list[str]:
     ]
 
 
-def log_hints(flights: Path) -> list[str]:
-    """Return the commands that read the black box's recordings; empty without recordings."""
-    if not any(flights.glob("*.mcap")):
-        return []
+def recordings(flights: Path) -> set[Path]:
+    """Return the files of all flights that the black box recorded in a folder."""
+    return set(flights.glob("*.mcap"))
+
+
+def log_hints(flights: Path, earlier: set[Path]) -> list[str]:
+    """Return the commands that read the newest recording, unless all are ``earlier`` ones."""
+    if recordings(flights) <= earlier:
+        return ["It ended before the black box recorded anything: this flight has no log."]
     folder = os.path.relpath(flights) if flights.is_relative_to(Path.cwd()) else str(flights)
     last = f"last --folder {shlex.quote(folder)}"
     return [

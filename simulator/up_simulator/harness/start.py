@@ -10,6 +10,7 @@ from typing import Any
 from twisted.internet.defer import Deferred
 
 from up.cli.option_parser import EXIT_USAGE as WRONG_INPUT
+from up.output import program_error
 from up.system.pid_file import service
 from up_rig.pty_line import PtyLineError
 from up_simulator.aircraft import AirframeError
@@ -63,7 +64,7 @@ def main(arguments: list[str] | None = None) -> int:
             reactor, options, print_line, lambda: reactor.callLater(0, reactor.stop)
         )
     except FOR_THE_USER as error:
-        sys.stderr.write(f"up-sim: {error}\n")
+        sys.stderr.write(f"{program_error('up-sim', str(error), 'start_failed')}\n")
         return WRONG_INPUT if isinstance(error, AirframeError) else 1
     reactor.callWhenRunning(_end_on_hangup, reactor)
     reactor.callWhenRunning(aircraft.start, fail)
@@ -73,7 +74,8 @@ def main(arguments: list[str] | None = None) -> int:
     reactor.run()
     for failure in failures:
         if failure.check(*FOR_THE_USER):
-            sys.stderr.write(f"up-sim: {failure.getErrorMessage()}\n")
+            text = failure.getErrorMessage()
+            sys.stderr.write(f"{program_error('up-sim', text, 'flight_failed')}\n")
         else:
             failure.printTraceback()
     return 1 if failures else 0

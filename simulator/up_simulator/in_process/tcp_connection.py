@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import socket
-import struct
 from collections import deque
 from collections.abc import Callable, Iterable
 from typing import Any
@@ -18,6 +16,7 @@ from zope.interface import implementer
 
 from up.system.clock import cancel
 from up_simulator.in_process.network import ADDRESS, Route
+from up_simulator.in_process.socket_options import SocketOptions
 
 HEADER = 40
 """Bytes of an IPv4 and a TCP header, which a link carries too."""
@@ -27,48 +26,6 @@ WINDOW = 10 * SEGMENT
 BUFFER_LIMIT = 65536
 """Above this a streaming producer is paused, as in Twisted's own transports."""
 INITIAL_RETRY_S, MIN_RETRY_S, MAX_RETRY_S = 1.0, 0.2, 120.0
-GIVE_UP_S = 924.0
-"""Without a user timeout (Linux: 15 retries)."""
-_RTT_OFFSET = 68
-_TCP = socket.IPPROTO_TCP
-
-
-class SocketOptions:
-    """Takes socket options from programs; unknown options have no effect."""
-
-    def __init__(self) -> None:
-        self.round_trip_s = 0.0
-        self._values: dict[tuple[int, int], int] = {}
-
-    @property
-    def give_up_s(self) -> float:
-        """Return how long bytes may stay unacknowledged."""
-        return self.user_timeout_s or GIVE_UP_S
-
-    @property
-    def user_timeout_s(self) -> float:
-        return self._values.get((_TCP, socket.TCP_USER_TIMEOUT), 0) / 1000
-
-    @property
-    def keepalive(self) -> tuple[float, float, int]:
-        """Return the idle time before a probe, the probe interval, and the number of probes."""
-        values = self._values
-        return (
-            float(values.get((_TCP, socket.TCP_KEEPIDLE), 7200)),
-            float(values.get((_TCP, socket.TCP_KEEPINTVL), 75)),
-            values.get((_TCP, socket.TCP_KEEPCNT), 9),
-        )
-
-    def setsockopt(self, level: int, option: int, value: int) -> None:
-        self._values[level, option] = value
-
-    def getsockopt(self, level: int, option: int, size: int = 0) -> int | bytes:
-        """Return an option, as of a socket: of TCP_INFO the round trip is known."""
-        if (level, option) == (_TCP, socket.TCP_INFO):
-            info = bytearray(max(size, _RTT_OFFSET + 4))
-            struct.pack_into("=I", info, _RTT_OFFSET, round(self.round_trip_s * 1e6))
-            return bytes(info[:size])
-        return self._values.get((level, option), 0)
 
 
 @implementer(ITransport)

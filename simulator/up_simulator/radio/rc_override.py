@@ -10,6 +10,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 from up.cli.option_parser import OptionParser
+from up.output import program_error
 from up_simulator.harness.user_log import print_line
 from up_simulator.radio.axis_map import read_axis_map
 from up_simulator.radio.game_controller import GameController, controller_device
@@ -34,7 +35,7 @@ def main(arguments: list[str] | None = None) -> int:
         link = RadioLink(options.socket)
         return _override(link, options)
     except RadioError as error:
-        sys.stderr.write(f"up-sim radio: {error}\n")
+        sys.stderr.write(f"{program_error('up-sim radio', str(error), 'radio_failed')}\n")
         return 1
 
 

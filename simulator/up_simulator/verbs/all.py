@@ -18,6 +18,7 @@ from typing import TextIO
 from up.cli.option_parser import OptionParser
 from up.config import ConfigErrors
 from up.fields import printable
+from up.output import print_problems
 from up_simulator.harness.child import request_death_signal
 from up_simulator.scenario.file import read_scenario
 from up_simulator.scenario.run import FLIGHTS, REPORT, SUMMARY
@@ -123,7 +124,7 @@ def _jobs(options: argparse.Namespace) -> list[Job] | None:
         try:
             scenario = read_scenario(path)
         except ConfigErrors as errors:
-            sys.stderr.write(f"{errors}\n")
+            print_problems(errors.problems)
             has_mistakes = True
             continue
         tags.update(scenario.tags)

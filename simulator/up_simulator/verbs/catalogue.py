@@ -5,19 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterable
 from pathlib import Path
 
+from up.cli.cli_error import UsageError
 from up.fields import suggestion
 
 SHIPPED = Path(__file__).resolve().parents[1] / "scenarios"
 SUFFIXES = (".yml", ".yaml")
 HELD, NOT_HELD, WRONG_INPUT, INTERRUPTED = 0, 1, 2, 130
-
-
-class FailedError(Exception):
-    """The request cannot be carried out here: one sentence, exit status 1."""
-
-
-class UsageError(Exception):
-    """The request names a missing thing: one sentence, exit status 2."""
 
 
 def shipped_paths() -> list[Path]:
@@ -28,17 +21,24 @@ def shipped_paths() -> list[Path]:
 def find(name: str) -> Path:
     """Return the file of a shipped scenario, or a path unchanged.
 
-    Raises UsageError for an unknown name, with the nearest one.
+    Raises UsageError for an unknown name, with the nearest one, and for a path that is not a
+    scenario's.
     """
-    path = Path(name)
-    if path.suffix in SUFFIXES or path.is_file():
-        if path.exists():
-            return path
-        raise UsageError(f"no file {name}{_hint(path.stem)}")
     known = {each.stem: each for each in shipped_paths()}
     if name in known:
         return known[name]
-    raise UsageError(f"unknown scenario {name[:80]!r}{_hint(name)}")
+    path = Path(name)
+    if path.is_dir() and name:
+        text = f"{name} is a folder: name a file ('up-sim list {name}' lists those in it)"
+        raise UsageError(text, "not_a_file")
+    if path.suffix not in SUFFIXES and path.exists() and name:
+        text = f"{name} is not a scenario: its file ends in {SUFFIXES[0]}{_hint(path.stem)}"
+        raise UsageError(text, "not_a_scenario")
+    if path.suffix in SUFFIXES or "/" in name:
+        if path.exists():
+            return path
+        raise UsageError(f"no file {name}{_hint(path.stem)}", "no_such_file")
+    raise UsageError(f"unknown scenario {name[:80]!r}{_hint(name)}", "no_such_scenario")
 
 
 def _hint(name: str) -> str:
@@ -53,7 +53,7 @@ def no_such_tag(wanted: Iterable[str], known: Iterable[str]) -> UsageError:
     unknown = [tag for tag in wanted if tag not in names]
     hint = suggestion(unknown[0], names) if unknown else ""
     hint = hint or f": there are {', '.join(names)}"
-    return UsageError(f"no scenario has the tag {asked}{hint}")
+    return UsageError(f"no scenario has the tag {asked}{hint}", "no_such_tag")
 
 
 def name_of(path: Path) -> str:

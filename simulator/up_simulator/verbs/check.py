@@ -8,6 +8,7 @@ from collections.abc import Sequence
 from up.cli.option_parser import OptionParser
 from up.config import ConfigErrors
 from up.fields import printable
+from up.output import print_problems
 from up_simulator.scenario.file import read_scenario
 from up_simulator.verbs.catalogue import HELD, WRONG_INPUT, find
 
@@ -35,7 +36,7 @@ def main(arguments: Sequence[str]) -> int:
         try:
             scenario = read_scenario(path)
         except ConfigErrors as errors:
-            sys.stderr.write(f"{errors}\n")
+            print_problems(errors.problems)
             status = WRONG_INPUT
             continue
         count = len(scenario.expect)

@@ -8,8 +8,10 @@ from collections.abc import Iterable, Sequence
 from contextlib import suppress
 from pathlib import Path
 
+from up.cli.cli_error import CliError, UsageError
 from up.cli.option_parser import OptionParser
 from up.fields import printable
+from up.output import program_line
 from up_simulator.scenario.file import read_scenario
 from up_simulator.scenario.override import Override
 from up_simulator.scenario.progress import ProgressLine
@@ -28,8 +30,7 @@ from up_simulator.verbs.catalogue import (
     HELD,
     INTERRUPTED,
     NOT_HELD,
-    FailedError,
-    UsageError,
+    WRONG_INPUT,
     find,
     name_of,
 )
@@ -75,7 +76,9 @@ def try_output(output: Path, names: Iterable[str]) -> None:
             try_folder(output / name)
         except OSError as error:
             why = error.strerror or error
-            raise UsageError(f"--output {output}: cannot write there: {why}") from error
+            raise UsageError(
+                f"--output {output}: cannot write there: {why}", "cannot_write"
+            ) from error
 
 
 def _read(path: Path, options: argparse.Namespace) -> Scenario:
@@ -96,7 +99,7 @@ def _read(path: Path, options: argparse.Namespace) -> Scenario:
 def _override(text: str) -> Override:
     key, equals, value = text.partition("=")
     if not equals or not key:
-        raise UsageError(f"--set {text[:80]}: is not of the form key=value")
+        raise UsageError(f"--set {text[:80]}: is not of the form key=value", "bad_override")
     return Override(f"--set {text}", key, value)
 
 
@@ -105,8 +108,8 @@ def _fly(name: str, scenario: Scenario, options: argparse.Namespace) -> tuple[Re
     try:
         result = fly_scenario(name, scenario, progress, _note)
     except CannotFlyError as error:
-        kind = UsageError if error.is_wrong_input else FailedError
-        raise kind(f"{name}: {error}") from error
+        status = WRONG_INPUT if error.is_wrong_input else NOT_HELD
+        raise CliError(f"{name}: {error}", status, error.code) from error
     output = Output(options.output / name, has_picture=not options.no_picture)
     files = write_files(name, result, output, _note)
     if not options.quiet:
@@ -121,7 +124,8 @@ def _fly(name: str, scenario: Scenario, options: argparse.Namespace) -> tuple[Re
 def _note(text: str) -> None:
     # The terminal may be closed already.
     with suppress(OSError):
-        sys.stderr.write(f"up-sim: {text}\n")
+        line = program_line(text, "note", {}, "warning") or f"up-sim: {printable(text)}"
+        sys.stderr.write(f"{line}\n")
 
 
 def _print_table(results: list[tuple[str, Result]], count: int) -> None:

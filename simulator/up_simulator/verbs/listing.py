@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+import json
 import sys
 from collections.abc import Sequence
 from pathlib import Path
 
-from up.cli.option_parser import OptionParser
+from up.cli.option_parser import OptionParser, add_json_option
 from up.config import ConfigErrors
 from up.fields import printable
+from up.output import echo, print_problems
 from up_simulator.scenario.file import read_scenario
+from up_simulator.scenario.scenario import Scenario
 from up_simulator.verbs.catalogue import HELD, WRONG_INPUT, name_of, no_such_tag, shipped_paths
 
 EPILOG = """\
@@ -29,6 +32,7 @@ def main(arguments: Sequence[str]) -> int:
     )
     parser.add_argument("folder", nargs="?", type=Path, help="another folder than the shipped one")
     parser.add_argument("--tag", action="append", default=[], help="only those with this tag")
+    add_json_option(parser)
     options = parser.parse_args(arguments)
     if options.folder is None:
         paths = shipped_paths()
@@ -38,18 +42,22 @@ def main(arguments: Sequence[str]) -> int:
         parser.error(f"{options.folder} is not a folder")
     tags: set[str] = set()
     is_empty = True
+    rows: list[dict[str, object]] = []
     width = max((len(name_of(path)) for path in paths), default=0)
     status = HELD
     for path in paths:
         try:
             scenario = read_scenario(path)
         except ConfigErrors as errors:
-            sys.stderr.write(f"{errors}\n")
+            print_problems(errors.problems)
             status = WRONG_INPUT
             continue
         tags.update(scenario.tags)
         if set(options.tag) <= set(scenario.tags):
             is_empty = False
+            if options.json:
+                rows.append(_row(path, scenario))
+                continue
             pace = "real time" if scenario.is_real else ""
             title = scenario.title.strip()
             line = f"{name_of(path):<{width}}  {scenario.duration_s:>5g} s  {title}"
@@ -59,4 +67,18 @@ def main(arguments: Sequence[str]) -> int:
                 sys.stdout.write(printable(f"{'':<{width}}  guards: {scenario.guards}") + "\n")
     if is_empty and options.tag:
         raise no_such_tag(options.tag, tags)
+    if options.json:
+        echo(json.dumps(rows, indent=1))
     return status
+
+
+def _row(path: Path, scenario: Scenario) -> dict[str, object]:
+    return {
+        "name": name_of(path),
+        "file": str(path),
+        "duration_s": scenario.duration_s,
+        "title": scenario.title.strip(),
+        "tags": list(scenario.tags),
+        "is_real": scenario.is_real,
+        "guards": scenario.guards,
+    }

@@ -7,8 +7,9 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
+from up.cli.cli_error import CliError, UsageError
 from up.cli.option_parser import OptionParser
-from up_simulator.verbs.catalogue import HELD, FailedError, UsageError
+from up_simulator.verbs.catalogue import HELD
 
 TEMPLATE = "template.yml"
 EPILOG = """\
@@ -34,14 +35,14 @@ def main(arguments: Sequence[str]) -> int:
     try:
         path.open("x").close()
     except FileExistsError:
-        raise UsageError(f"{path} exists: choose another name") from None
+        raise UsageError(f"{path} exists: choose another name", "exists") from None
     except FileNotFoundError:
-        raise UsageError(f"{path.parent} is not a folder") from None
+        raise UsageError(f"{path.parent} is not a folder", "no_such_folder") from None
     try:
         path.write_text(text, encoding="utf-8")
     except OSError as error:
         path.unlink()
-        raise FailedError(f"cannot write {path}: {error.strerror}") from None
+        raise CliError(f"cannot write {path}: {error.strerror}", code="cannot_write") from None
     sys.stdout.write(f"{path} is written. Fly it:\n  up-sim fly {path}\n")
     return HELD
 
@@ -51,7 +52,9 @@ def _path(name: str) -> Path:
     if path.suffix not in (".yml", ".yaml"):
         path = path.with_name(f"{path.name}.yml") if path.name else path
     if not path.stem.replace("-", "").replace("_", "").isalnum():
-        raise UsageError(f"{name[:80]!r} cannot name a file: use letters, digits, - and _")
+        raise UsageError(
+            f"{name[:80]!r} cannot name a file: use letters, digits, - and _", "bad_name"
+        )
     return path
 
 

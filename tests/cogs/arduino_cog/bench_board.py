@@ -9,11 +9,11 @@ import tty
 from contextlib import contextmanager, suppress
 
 from tests.support.tools import unavailable
+from tests.support.waiting import DEADLINE_S, until
 from up.protocols.checked_framing import cobs_decode
 from up_rig import CYCLES_PER_US, Rig, RigUnavailableError
 
 STEP_US = 2000.0
-DEADLINE_S = 60.0
 
 
 class BenchBoard:
@@ -104,12 +104,12 @@ class BenchBoard:
 
     def wait(self, condition, what):
         """Wait for a condition; the death of the board is reported immediately."""
-        deadline_s = time.monotonic() + DEADLINE_S
-        while not (value := condition()):
+
+        def value():
             assert self._failure is None, self._failure
-            assert time.monotonic() < deadline_s, f"never came: {what}"
-            time.sleep(0.01)
-        return value
+            return condition()
+
+        return until(value, what)
 
     def pass_us(self, duration_us):
         """Wait until that much of the board's time has passed."""

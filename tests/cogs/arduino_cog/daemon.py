@@ -10,26 +10,17 @@ import socket
 import subprocess
 import sys
 import threading
-import time
 from contextlib import suppress
 from pathlib import Path
 
+from tests.support.waiting import DEADLINE_S, until
+
 ROOT = Path(__file__).parents[3]
-DEADLINE_S = 60.0
 CONFIG = {
     "mission_control.yml": "role: pilot\nlistener: {port: 0, address: 127.0.0.1}\n",
     "android.yml": "general port: 0\norientation port: 0\n",
     "discovery.yml": "port: 0\n",
 }
-
-
-def wait(condition, what):
-    """Wait for a condition and return its value."""
-    deadline_s = time.monotonic() + DEADLINE_S
-    while not (value := condition()):
-        assert time.monotonic() < deadline_s, f"never came: {what}"
-        time.sleep(0.01)
-    return value
 
 
 class Daemon:
@@ -57,7 +48,7 @@ class Daemon:
                 cwd=ROOT,
                 env={**os.environ, "UP_LOG_FORMAT": "json"},
             )
-        found = wait(lambda: self._port(start), "the ground's port in the log")
+        found = until(lambda: self._port(start), "the ground's port in the log")
         self.ground = Ground(int(found[1]))
         return self.ground
 
@@ -119,12 +110,12 @@ class Ground:
             answers = [each for each in self.messages if each["name"] in ("up.ack", "up.nack")]
             return next((each for each in answers if each["data"]["id"] == id_), None)
 
-        data = wait(answer, f"the answer to {name}")["data"]
+        data = until(answer, f"the answer to {name}")["data"]
         return data.get("detail") or data.get("code", "")
 
     def content(self, name):
         """Return the data of the newest message of a name."""
-        found = wait(lambda: [each for each in self.messages if each["name"] == name], name)
+        found = until(lambda: [each for each in self.messages if each["name"] == name], name)
         return found[-1]["data"]
 
     def sees(self, what, **wanted):
@@ -134,7 +125,7 @@ class Ground:
             return all(self.at(key.replace("__", ".")) == value for key, value in wanted.items())
 
         try:
-            wait(is_so, what)
+            until(is_so, what)
         except AssertionError:
             raise AssertionError(f"never came: {what}; telemetry: {self.data}") from None
 
@@ -146,7 +137,7 @@ class Ground:
             return value is not None and abs(value - wanted) <= tolerance
 
         try:
-            wait(is_near, path)
+            until(is_near, path)
         except AssertionError:
             raise AssertionError(f"{path} is {self.at(path)}, never near {wanted}") from None
 

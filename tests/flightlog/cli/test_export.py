@@ -125,14 +125,14 @@ def test_to_stdout(log, flights):
     ("options", "status", "named"),
     [
         ("--format gpx --topic x", 2, "gpx"),
-        ("--format csv --topic up.rx.updat", 1, "did you mean up.rx.update?"),
-        ("--format csv --topic zzz", 1, "up.location.update"),
+        ("--format csv --topic up.rx.updat", 2, "did you mean up.rx.update?"),
+        ("--format csv --topic zzz", 2, "up.location.update"),
         ("--format csv --rate 0", 2, "'0'"),
         ("--format csv --rate nan", 2, "'nan'"),
         ("--format xls", 2, "'xls'"),
         ("--format gpx -o file/", 1, "file"),
         ("--format gpx -o nowhere/x.gpx", 1, "nowhere"),
-        ("--format csv --topic up.rx.update --topic log -o nowhere/x", 1, ""),
+        ("--format csv --topic up.rx.update --topic up.location.update -o nowhere/x", 1, ""),
     ],
 )
 def test_wrong_options(log, flights, tmp_path, options, status, named):

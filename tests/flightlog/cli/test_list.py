@@ -70,7 +70,19 @@ def test_no_flight(log, flights, tmp_path):
         if flights.exists():
             flights.rmdir()
     outcome = log("list", "--folder", "nowhere")
-    assert outcome.status == 1 and "nowhere" in outcome.err
+    assert outcome.status == 2 and "nowhere" in outcome.err
+
+
+def test_the_flights_of_make_run_are_hinted_at(log, flights, tmp_path):
+    demo = tmp_path / "run/demo/flights"
+    for verb in (["list"], ["info", "last"]):
+        said = log(*verb)
+        assert "--folder" not in said.out + said.err
+    write_flight(demo, 1)
+    for verb in (["list"], ["info", "last"]):
+        said = log(*verb)
+        assert "--folder run/demo/flights" in said.out + said.err
+    assert log("info", "last", "--folder", "run/demo/flights").status == 0
 
 
 def test_control_characters_are_escaped(log, flights):

@@ -7,6 +7,7 @@ from tests.ground.replay.flight import LENGTH_S, write_flight
 from tests.ground.web.page import Page, Serve
 from tests.support.reactor import run_in_reactor
 from tests.support.reactor import until as soon
+from up.cli.main import main as up
 
 
 class Replay(Ground):
@@ -86,13 +87,14 @@ def test_nothing_of_the_past_can_be_commanded(replay):
     run_in_reactor(look)
 
 
-def test_what_is_no_flight_is_one_sentence(tmp_path):
+def test_what_is_no_flight_is_one_sentence_with_the_status_of_up_log(tmp_path):
     (tmp_path / "text.mcap").write_text("nothing of the kind")
     (tmp_path / "empty.mcap").write_bytes(b"")
-    for word in ("text.mcap", "empty.mcap", "absent.mcap"):
-        status, _, stderr = ground(tmp_path, 1, "replay", str(tmp_path / word))
-        assert status == 2
-        assert stderr.count("\n") == 1
+    for word, failed in {"text.mcap": 1, "empty.mcap": 1, "absent.mcap": 2, "": 2}.items():
+        path = str(tmp_path / word) if word else ""
+        status, _, stderr = ground(tmp_path, 1, "replay", path)
+        assert (status, stderr.count("\n")) == (failed, 1)
+        assert up(["log", "info", path]) == failed
 
 
 def test_a_flight_that_was_cut_off_is_played_as_far_as_it_goes(tmp_path):

@@ -48,6 +48,7 @@ def test_a_command_is_told_with_all_that_a_form_needs():
         "name": "tow.banner",
         "aliases": ["tow.rag"],
         "role": "pilot",
+        "role_where": [],
         "text": "Drops it.",
         "needs_beacon": True,
     }

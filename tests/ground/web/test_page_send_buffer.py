@@ -1,6 +1,6 @@
 """What waits for a page: never an old frame, never without bound."""
 
-from up_ground.web.page_link import PENDING_LIMIT, PageSendBuffer
+from up_ground.web.client_session import PENDING_LIMIT, PageSendBuffer
 
 
 class Transport:

@@ -223,7 +223,8 @@ def test_glide_turns_gently_without_a_home(tmp_path, has_navigation):
 
 
 def test_fly_by_wire_takes_the_limits_of_the_airframe(tmp_path):
-    up = build_up((FlyByWire,), Clock(), tmp_path)
+    config = {"config.yml": "flight controller: raspberry\n"}
+    up = build_up((FlyByWire,), Clock(), tmp_path, config=config)
     mode = up.get_module(FlyByWire)
     rig = ModeRig(mode, rx=sticks(2000, 1000, 1600))
     assert mode.step(rig.situation, 0.02) == AttitudeDemand(50.0, -25.0, None, 1600)

@@ -4,8 +4,8 @@ import pytest
 import yaml
 
 from up_simulator.aircraft import load_airframe
-from up_simulator.demo.__main__ import main
 from up_simulator.demo.config import write_config
+from up_simulator.demo.main import main
 from up_simulator.harness.ports import Ports
 
 SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)

@@ -3,26 +3,16 @@
 import signal
 import subprocess
 import sys
-import time
 from pathlib import Path
 
 import pytest
 
+from tests.support.waiting import DEADLINE_S, until
 from up_rig.pty_line import PtyLine
 from up_simulator.firmware.wire import checked_frame
 from up_simulator.harness.child import Child
 from up_simulator.harness.participants import ParticipantError
 from up_simulator.harness.programs import RealRaspilot
-
-DEADLINE_S = 60.0
-
-
-def wait(condition, what):
-    deadline_s = time.monotonic() + DEADLINE_S
-    while not (value := condition()):
-        assert time.monotonic() < deadline_s, f"never: {what}"
-        time.sleep(0.02)
-    return value
 
 
 def child(tmp_path, code):
@@ -63,7 +53,7 @@ def test_one_that_ends_before_it_is_ready_is_reported_with_its_log(tmp_path):
 
 def test_one_that_does_not_get_ready_times_out(tmp_path):
     made = child(tmp_path, f"import time; {READY}; time.sleep(600)")
-    wait(made.lines, "its first line")
+    until(made.lines, "its first line")
     with pytest.raises(ParticipantError, match="port=8"):
         made.wait_for("on", 0.1, port=8)
     assert made.end() == -signal.SIGTERM
@@ -88,7 +78,7 @@ def test_it_ends_when_we_are_killed(tmp_path):
     us.kill()
     us.wait()
     us.stdout.close()
-    wait(lambda: not is_running(pid), "its end")
+    until(lambda: not is_running(pid), "its end")
 
 
 def is_running(pid):

@@ -8,16 +8,15 @@ import signal
 import subprocess
 import sys
 import termios
-import time
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
 import pytest
 
 from tests.support.firmware import build_firmware
+from tests.support.waiting import DEADLINE_S, until
 from up_simulator.phone.java_program import choose_phone
 
-LIMIT_S = 90.0
 LONG = """\
 title: Long
 duration_s: 3000
@@ -41,14 +40,6 @@ def in_a_folder(tmp_path, monkeypatch):
     monkeypatch.setenv("TMPDIR", str(tmp_path / "tmp"))
     (tmp_path / "tmp").mkdir()
     return tmp_path
-
-
-def wait(condition, what):
-    deadline_s = time.monotonic() + LIMIT_S
-    while not (value := condition()):
-        assert time.monotonic() < deadline_s, f"never: {what}"
-        time.sleep(0.02)
-    return value
 
 
 def ours(folder):
@@ -130,7 +121,7 @@ def test_a_flight_ends_with_its_report_and_the_signals_status(in_a_folder, numbe
         os.close(other)
         wait_for_progress(own)
         process.send_signal(number)
-        output = process.communicate(timeout=LIMIT_S)[0].decode()
+        output = process.communicate(timeout=DEADLINE_S)[0].decode()
         os.close(own)
     assert process.returncode == 128 + number
     assert "Traceback" not in output
@@ -144,11 +135,11 @@ def test_a_flight_ends_with_its_report_and_the_signals_status(in_a_folder, numbe
 def test_real_programs_and_their_folder_end_with_the_flight(in_a_folder, number):
     Path("real.yml").write_text(WITH_DAEMON)
     with program(in_a_folder, "fly", "real.yml", "--no-picture") as process:
-        wait(lambda: len(ours(in_a_folder)) == 2 and left(in_a_folder), "the daemon")
+        until(lambda: len(ours(in_a_folder)) == 2 and left(in_a_folder), "the daemon")
         process.send_signal(number)
         # The terminal's end is reported twice: by the kernel and by the shell.
         process.send_signal(number)
-        output = process.communicate(timeout=LIMIT_S)[0].decode()
+        output = process.communicate(timeout=DEADLINE_S)[0].decode()
         assert ours(in_a_folder) == []
     assert process.returncode == 128 + number, output
     assert "Traceback" not in output
@@ -160,10 +151,10 @@ def test_all_ends_its_flights(in_a_folder, number):
     Path("one.yml").write_text(LONG)
     Path("two.yml").write_text(LONG)
     with program(in_a_folder, "all", code=CATALOGUE) as process:
-        wait(lambda: len(flights(in_a_folder)) == 2, "two flights")
+        until(lambda: len(flights(in_a_folder)) == 2, "two flights")
         process.send_signal(number)
-        process.wait(LIMIT_S)
-        wait(lambda: not ours(in_a_folder), "the end of the flights")
+        process.wait(DEADLINE_S)
+        until(lambda: not ours(in_a_folder), "the end of the flights")
     assert process.returncode == (-number if number == signal.SIGKILL else 128 + number)
 
 
@@ -182,7 +173,7 @@ def test_a_closed_terminal_ends_a_flight_with_its_report_in_the_file(in_a_folder
         os.close(other)
         wait_for_progress(own)
         os.close(own)
-        assert process.wait(LIMIT_S) == 128 + signal.SIGHUP
+        assert process.wait(DEADLINE_S) == 128 + signal.SIGHUP
     assert "interrupted" in (in_a_folder / "run/flights/one/report.txt").read_text()
 
 
@@ -194,22 +185,22 @@ def test_a_frozen_daemon_ends_with_a_killed_flight(in_a_folder):
         return stat.rpartition(")")[2].split()[0] == "T"
 
     with program(in_a_folder, "fly", "real.yml", "--no-picture") as process:
-        wait(lambda: any(map(is_frozen, ours(in_a_folder))), "the frozen daemon")
+        until(lambda: any(map(is_frozen, ours(in_a_folder))), "the frozen daemon")
         process.kill()
-        wait(lambda: not ours(in_a_folder), "its end")
+        until(lambda: not ours(in_a_folder), "its end")
 
 
 def test_the_folder_of_a_killed_flight_is_removed_by_the_next(in_a_folder):
     Path("real.yml").write_text(WITH_DAEMON)
     Path("short.yml").write_text(WITH_DAEMON.replace("3000", "0.1").replace("real", "in process"))
     with program(in_a_folder, "fly", "real.yml", "--no-picture") as process:
-        wait(lambda: len(ours(in_a_folder)) == 2, "the daemon")
+        until(lambda: len(ours(in_a_folder)) == 2, "the daemon")
         process.kill()
-        wait(lambda: not ours(in_a_folder), "the end of the daemon")
+        until(lambda: not ours(in_a_folder), "the end of the daemon")
         other = in_a_folder / "tmp" / "up-sim-of-another-user"
         other.mkdir()
         with program(in_a_folder, "fly", "short.yml", "--no-picture") as following:
-            following.communicate(timeout=LIMIT_S)
+            following.communicate(timeout=DEADLINE_S)
     assert left(in_a_folder) == [other.name]
 
 
@@ -217,13 +208,13 @@ def test_the_folder_of_a_killed_flight_is_removed_by_the_next(in_a_folder):
 def test_tuning_ends_its_workers(in_a_folder, number):
     with program(in_a_folder, "tune", "--quick", "--axis", "roll") as process:
         # Itself, what watches its semaphores, and two workers.
-        wait(lambda: len(ours(in_a_folder)) == 4, "two workers")
+        until(lambda: len(ours(in_a_folder)) == 4, "two workers")
         if number == signal.SIGKILL:
             # A worker whose parent is killed before it has started cannot be kept from complaining.
-            wait(lambda: sum(map(ignores_interrupts, ours(in_a_folder))) == 3, "their handlers")
+            until(lambda: sum(map(ignores_interrupts, ours(in_a_folder))) == 3, "their handlers")
         process.send_signal(number)
-        output = process.communicate(timeout=LIMIT_S)[0].decode()
-        wait(lambda: not ours(in_a_folder), "the end of the workers")
+        output = process.communicate(timeout=DEADLINE_S)[0].decode()
+        until(lambda: not ours(in_a_folder), "the end of the workers")
     assert process.returncode == (-number if number == signal.SIGKILL else 128 + number)
     assert "Traceback" not in output
     assert left(in_a_folder) == []
@@ -251,8 +242,8 @@ def test_an_aircraft_started_with_nohup_ignores_the_hangup(in_a_folder, module):
             if line.startswith("SigIgn")
         ]
         process.send_signal(signal.SIGTERM)
-        assert process.wait(LIMIT_S) == 0
-        wait(lambda: not ours(in_a_folder), "the end of all")
+        assert process.wait(DEADLINE_S) == 0
+        until(lambda: not ours(in_a_folder), "the end of all")
     assert int(ignored[0].split()[1], 16) >> (signal.SIGHUP - 1) & 1
     assert left(in_a_folder) == []
 
@@ -269,8 +260,8 @@ def test_the_demo_ends_all_its_processes(in_a_folder, number):
         # Itself, aircraft, proxy, daemon and the page.
         assert len(ours(in_a_folder)) == with_jvm(5)
         process.send_signal(number)
-        assert process.wait(LIMIT_S) == (-number if number == signal.SIGKILL else 0)
-        wait(lambda: not ours(in_a_folder), "the end of all")
+        assert process.wait(DEADLINE_S) == (-number if number == signal.SIGKILL else 0)
+        until(lambda: not ours(in_a_folder), "the end of all")
     assert left(in_a_folder) == []
     assert not (in_a_folder / "board").is_symlink() and not (in_a_folder / "radio").exists()
 
@@ -279,7 +270,7 @@ def test_a_flight_started_with_nohup_ignores_the_hangup(in_a_folder):
     Path("long.yml").write_text(LONG.replace("3000", "20"))
     words = ("fly", "long.yml", "--no-picture")
     with program(in_a_folder, *words, preexec_fn=ignore_hangup) as process:
-        wait(lambda: flights(in_a_folder), "a flight")
+        until(lambda: flights(in_a_folder), "a flight")
         process.send_signal(signal.SIGHUP)
-        output = process.communicate(timeout=LIMIT_S)[0].decode()
+        output = process.communicate(timeout=DEADLINE_S)[0].decode()
     assert process.returncode == 0, output

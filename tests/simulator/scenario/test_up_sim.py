@@ -8,9 +8,11 @@ from pathlib import Path
 import pytest
 
 from tests.support.firmware import build_firmware
+from tests.support.program_output import fields_of
 from up_simulator.cli import VERBS, main
 from up_simulator.scenario.log import read_log
 from up_simulator.scenario.result import NO_CRASH
+from up_simulator.scenario.signals import SIGNALS
 from up_simulator.verbs.catalogue import shipped_paths
 
 GOOD = """\
@@ -63,6 +65,27 @@ def test_a_wrong_argument_is_one_line_and_status_2(words, named, capsys):
 
 
 @pytest.mark.parametrize(
+    ("name", "code"),
+    [
+        ("", "no_such_scenario"),
+        ("reciever-lost", "no_such_scenario"),
+        ("folder", "not_a_file"),
+        ("../notes", "not_a_scenario"),
+        ("../nowhere", "no_such_file"),
+        ("nowhere.yml", "no_such_file"),
+    ],
+)
+def test_a_name_that_is_not_a_scenarios_has_a_code(in_a_folder, monkeypatch, capsys, name, code):
+    write("notes", "not a scenario")
+    (in_a_folder / "sub/folder").mkdir(parents=True)
+    monkeypatch.chdir("sub")
+    monkeypatch.setenv("UP_LOG_FORMAT", "json")
+    for verb in ("fly", "check"):
+        assert main([verb, name]) == 2
+        assert [each["code"] for each in fields_of(capsys.readouterr().err)] == [code]
+
+
+@pytest.mark.parametrize(
     ("words", "named"),
     [
         (["fly", "save", "--board", "hots"], "'host'"),
@@ -98,6 +121,19 @@ def test_the_list_names_every_scenario(capsys):
     assert all(line.split()[0] == "guards:" for line in lines[1::2])
     assert main(["list", "--tag", "step"]) == 0
     assert "fbw-roll-step" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    ("words", "names"),
+    [(["list"], [path.stem for path in shipped_paths()]), (["signals"], list(SIGNALS))],
+)
+def test_an_answer_for_programs_is_one_document(words, names, capsys, monkeypatch):
+    assert main([*words, "--json"]) == 0
+    document = json.loads(capsys.readouterr().out)
+    assert [each["name"] for each in document] == names
+    monkeypatch.setenv("UP_LOG_FORMAT", "json")
+    assert main(words) == 0
+    assert json.loads(capsys.readouterr().out) == document
 
 
 @pytest.mark.parametrize("closed", [">&-", "2>&-", ">&- 2>&-", "<&- >&- 2>&-"])

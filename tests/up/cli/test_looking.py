@@ -132,6 +132,10 @@ def test_modules_in_both_modes(up, application):
     loaded, _, left = box.partition("not loaded:")
     assert "GaugeModule" not in loaded
     assert "GaugeModule" in left
+    document = json.loads(up("modules", "--json").out)
+    assert document["mode"] == "auto"
+    assert any(each["path"].endswith("modules.gauge.GaugeModule") for each in document["modules"])
+    assert json.loads(up("modules", as_json=True).out) == document
 
 
 def test_the_mode_of_the_environment(up, application, tmp_path, monkeypatch):

@@ -70,6 +70,12 @@ export function short(value) {
   return value.toFixed(2);
 }
 
+/** A point on a circle around the middle, clockwise from above. */
+export function onCircle(angle_deg, radius) {
+  const angle = (angle_deg * Math.PI) / 180;
+  return [radius * Math.sin(angle), -radius * Math.cos(angle)];
+}
+
 /** Shows why the content of an input is wrong; problem: empty: it is right. */
 export function showProblem(input, note, problem) {
   input.setAttribute("aria-invalid", String(problem !== ""));

@@ -1,5 +1,5 @@
 import { html, setAttribute, setText } from "./dom.js";
-import { readingOf } from "./state/ages.js";
+import { readingOf } from "./state/newest_frame.js";
 import { ageText, UNKNOWN } from "./state/format.js";
 
 const PERIOD_S = 0.2;

@@ -89,10 +89,15 @@ test("the fields of an unknown Command are an object of JSON", () => {
 });
 
 test("a Command is found by its name and its aliases, with its role", () => {
-  const catalogue = new Catalogue([...COMMANDS, { name: "up.x", role: "depends", fields: [] }]);
+  const catalogue = new Catalogue([
+    ...COMMANDS,
+    { name: "up.x", role: "pilot", role_where: [{ field: "request", value: true, role: "observer" }, 7] },
+  ]);
   assert.equal(catalogue.get("banner").name, "tow.let_out");
   assert.equal(catalogue.role("banner"), "pilot");
-  assert.equal(catalogue.role("up.x"), null);
+  assert.equal(catalogue.role("up.x"), "pilot");
+  assert.equal(catalogue.role("up.x", { request: true }), "observer");
+  assert.equal(catalogue.role("up.x", { request: 1 }), "pilot");
   assert.equal(catalogue.get("constructor"), null);
   assert.equal(catalogue.role("other"), null);
 });

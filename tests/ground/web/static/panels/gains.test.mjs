@@ -1,8 +1,15 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { GainsEditor, setBefore } from "../../../../../ground/up_ground/web/static/js/panels/gains_editor.js";
-import { cellsOf, difference, gainText, readGain, setOf } from "../../../../../ground/up_ground/web/static/js/panels/gain_set.js";
+import {
+  cellsOf,
+  difference,
+  gainText,
+  GainsEditor,
+  readGain,
+  setBefore,
+  setOf,
+} from "../../../../../ground/up_ground/web/static/js/panels/gains_editor.js";
 
 const axis = (p, i = 0, d = 0) => ({ p, i, d });
 const loop = (roll, pitch, yaw) => ({ ailerons: axis(roll), elevator: axis(pitch), rudder: axis(yaw) });

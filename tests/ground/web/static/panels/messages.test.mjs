@@ -1,4 +1,5 @@
 import assert from "node:assert/strict";
+import { readFileSync } from "node:fs";
 import { test } from "node:test";
 
 import { controlTexts, offeredActions } from "../../../../../ground/up_ground/web/static/js/panels/control_requests.js";
@@ -7,7 +8,10 @@ import { FrameSize } from "../../../../../ground/up_ground/web/static/js/panels/
 import { profileParts } from "../../../../../ground/up_ground/web/static/js/panels/profile.js";
 import { disabledReason } from "../../../../../ground/up_ground/web/static/js/panels/disabled_reason.js";
 import { agoText, answerCode, answerText, clockText, commandText, costText } from "../../../../../ground/up_ground/web/static/js/panels/messages.js";
+import { Catalogue } from "../../../../../ground/up_ground/web/static/js/state/catalogue.js";
 
+// The server's catalogue, as `make schema` writes it for the app.
+const COMMANDS = new URL("../../../../../android/raspilot/assets/commands.json", import.meta.url);
 const WELCOME = { page: 1, may_control: true, denial: null, is_replay: false };
 
 test("an answer has the text and the code of its outcome", () => {
@@ -85,7 +89,8 @@ test("the actions for control are those of its state", () => {
 });
 
 test("why a Command is not offered", () => {
-  const store = (control, role = "pilot", link = {}) => ({ aircraft: "one", status: { control, role, link } });
+  const catalogue = new Catalogue(JSON.parse(readFileSync(COMMANDS, "utf-8")).commands);
+  const store = (control, role = "pilot", link = {}) => ({ aircraft: "one", catalogue, status: { control, role, link } });
   const connection = { isOpen: true, welcome: WELCOME };
   const code = (its, name = "up.arm", data = {}, to = connection) => disabledReason(its, to, name, data)?.code ?? null;
   const you = { holder: "you" };
@@ -95,6 +100,8 @@ test("why a Command is not offered", () => {
   assert.equal(code(store(you, "operator")), "role");
   assert.equal(code(store(you, "operator"), "up.flight_mode.set"), null);
   assert.equal(code(store(you, "operator"), "arduino.pids.tunings", { pids: {} }), "role");
+  assert.equal(code(store(you, "observer"), "a.cog"), "role");
+  assert.equal(code(store(you, "operator"), "a.cog"), null);
   assert.equal(code(store(you, null)), null);
   assert.equal(code(store(you), "up.arm", {}, { isOpen: false, welcome: null }), "no_server");
   assert.equal(code(store(you), "up.arm", {}, { isOpen: true, welcome: { ...WELCOME, is_replay: true } }), "replay");

@@ -2,7 +2,7 @@ import { History } from "./history.js";
 import { LineChart } from "./line_chart.js";
 import { html } from "../dom.js";
 import { storageOf } from "../link/storage.js";
-import { readingOf } from "../state/ages.js";
+import { readingOf } from "../state/newest_frame.js";
 import * as validate from "../state/validate.js";
 
 const KEY = "chart";

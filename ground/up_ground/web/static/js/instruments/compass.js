@@ -1,5 +1,4 @@
-import { drawing, hatch, setAttribute, setText, short, svg } from "../dom.js";
-import { onCircle } from "./geometry.js";
+import { drawing, hatch, onCircle, setAttribute, setText, short, svg } from "../dom.js";
 import { freshnessOf, oldText } from "../readout.js";
 import { distanceText } from "../state/earth.js";
 import { headingText, UNKNOWN } from "../state/format.js";

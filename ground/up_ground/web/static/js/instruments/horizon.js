@@ -1,11 +1,12 @@
-import { drawing, hatch, setAttribute, setText, short, svg } from "../dom.js";
-import { ballTransform, isWhole, onCircle, rollMarks, rungs, UNITS_PER_DEG } from "./geometry.js";
+import { drawing, hatch, onCircle, setAttribute, setText, short, svg } from "../dom.js";
 import { ageText } from "../state/format.js";
 import { rollDemand_deg } from "../state/pilot_input.js";
 
 export const VIEW = { x: -200, y: -140, width: 400, height: 280 };
 const FAR = 1200;
 const ROLL_RADIUS = 112;
+/** Distance of one degree of pitch in the drawing. */
+const UNITS_PER_DEG = 5;
 
 /** The artificial horizon: attitude as one sees it from the seat. */
 export function mount(element, store) {
@@ -136,4 +137,43 @@ function aircraftSymbol() {
     svg("path", { d: wings, class: "symbol-line" }),
     svg("rect", { x: -10.5, y: -3.5, width: 7, height: 7, class: "symbol-dot" }),
   );
+}
+
+/** The rungs of the pitch ladder: long with a number each 10 degrees, short each 5, near the horizon 2.5. */
+export function rungs() {
+  const all = [];
+  for (let pitch_deg = -90; pitch_deg <= 90; pitch_deg += 2.5) {
+    const isNear = Math.abs(pitch_deg) < 20;
+    if (pitch_deg === 0 || (pitch_deg % 5 !== 0 && !isNear)) {
+      continue;
+    }
+    const isTen = pitch_deg % 10 === 0;
+    const halfWidth = isTen ? 34 : pitch_deg % 5 === 0 ? 18 : 9;
+    all.push({ pitch_deg, halfWidth, label: isTen ? String(Math.abs(pitch_deg)) : "" });
+  }
+  return all;
+}
+
+/** The transform of the ball: right wing down turns it to the left, nose up moves it down. */
+export function ballTransform(roll_deg, pitch_deg) {
+  const shift = Math.max(-90, Math.min(90, pitch_deg)) * UNITS_PER_DEG;
+  return `rotate(${short(-roll_deg)}) translate(0 ${short(shift)})`;
+}
+
+/** Whether a rung's label, with its middle at x, y of the ladder, is whole within bank arc and picture. */
+export function isWhole(x, y, roll_deg, pitch_deg) {
+  const turn = (-roll_deg * Math.PI) / 180;
+  const down = y + Math.max(-90, Math.min(90, pitch_deg)) * UNITS_PER_DEG;
+  const across = x * Math.cos(turn) - down * Math.sin(turn);
+  const along = x * Math.sin(turn) + down * Math.cos(turn);
+  const isBelowArc = along > -40 || Math.hypot(across, along) < 95;
+  return isBelowArc && Math.abs(across) < (along < -10 ? 88 : 107) && along < 133;
+}
+
+export function rollMarks() {
+  const lengths = { 10: 6, 20: 6, 30: 12, 45: 7, 60: 12 };
+  return Object.entries(lengths).flatMap(([roll_deg, length]) => [
+    { roll_deg: -Number(roll_deg), length },
+    { roll_deg: Number(roll_deg), length },
+  ]);
 }

@@ -1,10 +1,11 @@
 import { html, setAttribute, setText } from "../dom.js";
-import { beyond, share } from "./geometry.js";
 import { freshnessOf, oldText, Readout } from "../readout.js";
-import { readingOf } from "../state/ages.js";
+import { readingOf } from "../state/newest_frame.js";
 import { numberText } from "../state/format.js";
 
 const CHANNELS = ["ailerons", "elevator", "throttle", "rudder", "aux1", "aux2"];
+const MIDDLE_US = 1500;
+const HALF_US = 500;
 
 /** Receiver inputs and servo outputs, channel by channel, 1000 to 2000 us. */
 export function mount(element, store) {
@@ -73,4 +74,18 @@ class Cell {
     }
     setAttribute(this.#bar, "data-beyond", beyond(pulse_us));
   }
+}
+
+/** -1 at 1000 us, 0 at 1500 us, 1 at 2000 us, and not beyond 1.1. */
+export function share(pulse_us) {
+  return Math.max(-1.1, Math.min(1.1, (pulse_us - MIDDLE_US) / HALF_US));
+}
+
+/** Whether it lies beyond the scale of 1000 to 2000 us. */
+export function beyond(pulse_us) {
+  return pulse_us < MIDDLE_US - HALF_US
+    ? "low"
+    : pulse_us > MIDDLE_US + HALF_US
+      ? "high"
+      : "within";
 }

@@ -1,7 +1,9 @@
 import { drawing, hatch, html, setAttribute, setText, svg } from "../dom.js";
-import { stickPlace } from "./geometry.js";
+import { share } from "./servos.js";
 import { storageOf } from "../link/storage.js";
 import { freshnessOf } from "../readout.js";
+
+const REACH = 44;
 
 /** Which channel moves which way: [across, along] of the left and of the right stick. */
 const MODES = {
@@ -62,5 +64,17 @@ function gimbalOf(side) {
         setAttribute(stick, "transform", `translate(${place.x} ${place.y})`);
       }
     },
+  };
+}
+
+/** A stick in its gimbal; nose up (above 1500 us) is a stick drawn down. along: the vertical channel. */
+export function stickPlace(x_us, y_us, along) {
+  if (x_us === null || y_us === null) {
+    return null;
+  }
+  const down = along === "elevator" ? 1 : -1;
+  return {
+    x: (share(x_us) * REACH).toFixed(1),
+    y: (down * share(y_us) * REACH).toFixed(1),
   };
 }

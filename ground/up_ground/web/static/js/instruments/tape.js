@@ -1,5 +1,4 @@
 import { hatch, setAttribute, setText, short, svg } from "../dom.js";
-import { TapeScale } from "./geometry.js";
 import { UNKNOWN } from "../state/format.js";
 
 const HEIGHT = 280;
@@ -96,4 +95,34 @@ function windowPath(x, width, isLeft) {
   return isLeft
     ? `M${x} -15H${x + width - 5}V-6L${x + width + 3} 0L${x + width - 5} 6V15H${x}Z`
     : `M${x + width} -15H${x + 5}V-6L${x - 3} 0L${x + 5} 6V15H${x + width}Z`;
+}
+
+/**
+ * A scale that moves past a pointer, greater values above.
+ *
+ * Only changes are reported: `first` is the lowest mark drawn and stays the same until the value
+ * has moved by a whole step; in between only `shift` changes.
+ */
+export class TapeScale {
+  /** step: between marks; units: of the drawing for a step; height: of the drawing. */
+  constructor({ step, units, height }) {
+    this.step = step;
+    this.units = units;
+    this.count = 2 * (Math.ceil(height / 2 / units) + 1) + 1;
+  }
+
+  /** value: at the pointer. Returns shift: how far down the marks move. */
+  at(value) {
+    const middle = Math.round(value / this.step);
+    const below = (this.count - 1) / 2;
+    return {
+      first: (middle - below) * this.step,
+      shift: (value / this.step - middle) * this.units,
+    };
+  }
+
+  /** place: of a mark, counted from the lowest. Returns where it is drawn while the shift is 0. */
+  y(place) {
+    return ((this.count - 1) / 2 - place) * this.units;
+  }
 }

@@ -1,5 +1,4 @@
 import { drawing, setAttribute, setText, short, svg } from "../dom.js";
-import { rootScale } from "./geometry.js";
 import { VIEW } from "./horizon.js";
 import { Tape } from "./tape.js";
 import { freshnessOf, oldText } from "../readout.js";
@@ -147,4 +146,10 @@ function climbOf() {
       setText(text, climbText(climb_m_s));
     },
   };
+}
+
+/** The needle of a scale that is finer around zero: the root of value / most, within the length. */
+export function rootScale(value, most, length) {
+  const share = Math.min(1, Math.abs(value) / most);
+  return Math.sign(value) * Math.sqrt(share) * length;
 }

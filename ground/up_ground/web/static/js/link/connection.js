@@ -1,6 +1,5 @@
 import { Backoff, now_s, TIMERS } from "./clock.js";
 import { OneWayDelayEstimator } from "./one_way_delay.js";
-import { PendingCommands } from "./pending_commands.js";
 import { storageOf } from "./storage.js";
 
 const PING_S = 1;
@@ -10,6 +9,8 @@ const PINGS_KEPT = 64;
 /** The closing code of a server with too many pages, and how long to wait then. */
 const FULL = 4013;
 const FULL_S = 5;
+/** Limit for the answer to a Command. */
+const ANSWER_S = 15;
 const LOST = { code: "connection_lost", reason: "the connection to the ground server was lost" };
 
 /**
@@ -242,6 +243,47 @@ export class Connection {
       } catch (error) {
         console.error(error);
       }
+    }
+  }
+}
+
+/** Commands that wait for their answers, each by its number. */
+class PendingCommands {
+  #last = 0;
+  #waiting = new Map();
+  #timers;
+
+  constructor(timers = TIMERS) {
+    this.#timers = timers;
+  }
+
+  add() {
+    this.#last += 1;
+    const ask = this.#last;
+    const answer = new Promise((resolve) => {
+      const timer = this.#timers.once(
+        () => this.take({ ask, outcome: "timeout", code: "no_answer", reason: "the ground server did not answer" }),
+        ANSWER_S,
+      );
+      this.#waiting.set(ask, { resolve, timer });
+    });
+    return { ask, answer };
+  }
+
+  take(message) {
+    const waiting = this.#waiting.get(message.ask);
+    if (waiting === undefined) {
+      return;
+    }
+    this.#waiting.delete(message.ask);
+    this.#timers.cancel(waiting.timer);
+    waiting.resolve({ code: null, reason: "", round_trip_ms: null, data: null, ...message });
+  }
+
+  /** cause: code and reason why no answer can arrive now: the outcome of the requests is unknown. */
+  giveUp(cause) {
+    for (const ask of [...this.#waiting.keys()]) {
+      this.take({ ask, outcome: "timeout", ...cause });
     }
   }
 }

@@ -143,7 +143,8 @@ function aboutText(name, command) {
   if (command === null) {
     return "Unknown to this ground station; the aircraft may have it.";
   }
-  const role = command.role === "depends" ? "" : ` [${command.role} or more]`;
+  const special = command.roleWhere.map(({ field, value, role }) => `; ${field} ${value}: ${role} or more`);
+  const role = ` [${command.role} or more${special.join("")}]`;
   const alias = name === command.name ? "" : `${command.name}: `;
   return `${alias}${command.text}${role}`;
 }

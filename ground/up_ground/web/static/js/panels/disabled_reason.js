@@ -4,16 +4,7 @@ import { switchMode } from "../state/pilot_input.js";
 
 /** Why something is not offered, as {code, text}; null: it is offered. Programs and tests read the code. */
 const GAINS = "arduino.pids.tunings";
-const RANK = { observer: 0, operator: 1, pilot: 2 };
-
-/** The least role for each Command (docs/protocols.md 5); Commands not listed: an operator. */
-const NEEDED = {
-  "arduino.profile.request": "observer",
-  "up.arm": "pilot",
-  "up.disarm": "pilot",
-  "arduino.calibrate": "pilot",
-  [GAINS]: "pilot",
-};
+const RANK = { observer: 0, operator: 1, pilot: 2, admin: 3 };
 
 /** Commands that are sent only by their held button. */
 const HELD_ONLY = { "up.arm": "Arm", "up.disarm": "Disarm" };
@@ -22,18 +13,9 @@ const OFFLINE = { code: "no_server", text: "Not connected to the ground server."
 const REPLAY = { code: "replay", text: "This is a replay: it takes no Commands." };
 export const SILENT = { code: "silent", text: "The aircraft is silent." };
 
-/** Whether a role allows a Command; unknown roles do. least: of the server's catalogue, null: the table's. */
-export function roleAllows(role, name, least = null) {
-  if (role === null || !Object.hasOwn(RANK, role)) {
-    return true;
-  }
-  const needed = least ?? (Object.hasOwn(NEEDED, name) ? NEEDED[name] : "operator");
-  return RANK[role] >= RANK[needed];
-}
-
-/** Whether a Command only requests data, and needs no control. */
-export function isOnlyRequest(name, data = {}) {
-  return name === "arduino.profile.request" || (name === GAINS && data.request === true);
+/** Whether the link's role includes the needed one; an unknown role does. needed: null: of an unknown Command. */
+function roleAllows(role, needed) {
+  return !Object.hasOwn(RANK, role ?? "") || RANK[role] >= RANK[needed ?? "operator"];
 }
 
 export function disabledReason(store, connection, name, data = {}) {
@@ -43,13 +25,15 @@ export function disabledReason(store, connection, name, data = {}) {
   if (connection.welcome.is_replay) {
     return REPLAY;
   }
-  const isRequest = isOnlyRequest(name, data);
+  const needed = store.catalogue.role(name, data);
+  // What an observer may send only requests data: it needs no control.
+  const isRequest = needed === "observer";
   const reason = (isRequest ? null : controlReason(store, connection)) ?? offlineReason(store);
   if (reason !== null) {
     return reason;
   }
   const role = store.status?.role ?? null;
-  if (isRequest || roleAllows(role, name, store.catalogue?.role(name))) {
+  if (roleAllows(role, needed)) {
     return null;
   }
   const text = `The aircraft's link has the role ${role}, which does not allow it (role in its mission_control.yml).`;
@@ -138,7 +122,7 @@ export function warningOf(store, name, data) {
 
 // A request that carries gains too counts as a change of gains, whatever the aircraft makes of it.
 function setsGains(name, data) {
-  return name === GAINS && (!isOnlyRequest(name, data) || Object.hasOwn(data, "pids"));
+  return name === GAINS && (data.request !== true || Object.hasOwn(data, "pids"));
 }
 
 /** Show a reason, or hide its element. otherwise: text without a reason. */

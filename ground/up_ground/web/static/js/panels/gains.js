@@ -2,8 +2,7 @@ import { confirm } from "../dialog.js";
 import { html, setAttribute, setText } from "../dom.js";
 import { CommandSender } from "./command_sender.js";
 import { gainsReason, gainsWarning, showReason } from "./disabled_reason.js";
-import { cellsOf, difference } from "./gain_set.js";
-import { GainsEditor, setBefore } from "./gains_editor.js";
+import { cellsOf, difference, GainsEditor, setBefore } from "./gains_editor.js";
 import { entriesOf, GainsHistory, GainsTable } from "./gains_table.js";
 import { ageText } from "../state/format.js";
 

@@ -10,7 +10,7 @@ import {
   LOOPS,
   readGain,
   TERMS,
-} from "./gain_set.js";
+} from "./gains_editor.js";
 import { agoText } from "./messages.js";
 import { capital } from "../state/format.js";
 

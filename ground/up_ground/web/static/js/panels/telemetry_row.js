@@ -1,5 +1,5 @@
 import { html, setAttribute, setText } from "../dom.js";
-import { readingOf } from "../state/ages.js";
+import { readingOf } from "../state/newest_frame.js";
 import { ageText, plainNumber } from "../state/format.js";
 
 export const MAX_LEAVES = 1000;

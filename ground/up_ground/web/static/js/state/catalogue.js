@@ -22,16 +22,19 @@ export class Catalogue {
   }
 
   /**
-   * name: or alias. Returns {name, aliases, role, text, needsBeacon, fields: [{name, type, unit,
-   * choices, minimum, maximum, longest, isNullable, isRequired, text}]}.
+   * name: or alias. Returns {name, aliases, role, roleWhere: [{field, value, role}], text,
+   * needsBeacon, fields: [{name, type, unit, choices, minimum, maximum, longest, isNullable,
+   * isRequired, text}]}.
    */
   get(name) {
     return this.#byName.get(name) ?? null;
   }
 
-  role(name) {
-    const role = this.get(name)?.role ?? "";
-    return role === "" || role === "depends" ? null : role;
+  /** The least role that may send a Command with these fields; empty: no ground may; null: unknown. */
+  role(name, data = {}) {
+    const command = this.get(name);
+    const isGiven = ({ field, value }) => Object.hasOwn(data, field) && data[field] === value;
+    return (command?.roleWhere.find(isGiven) ?? command)?.role ?? null;
   }
 }
 
@@ -46,10 +49,17 @@ function commandOf(found) {
     name,
     aliases: validate.texts(found.aliases) ?? [],
     role: validate.text(found.role) ?? "",
+    roleWhere: roleWhereOf(found.role_where),
     text: validate.text(found.text) ?? "",
     needsBeacon: found.needs_beacon === true,
     fields: read.filter((each) => each !== null),
   };
+}
+
+function roleWhereOf(found) {
+  return (Array.isArray(found) ? found.slice(0, MAX_FIELDS) : [])
+    .filter((each) => each !== null && typeof each === "object")
+    .map(({ field, value, role }) => ({ field: validate.text(field) ?? "", value, role: validate.text(role) ?? "" }));
 }
 
 function fieldOf(found) {

@@ -29,6 +29,10 @@ final class CatalogueEntry {
         return (Boolean) typed(key, Boolean.class, false);
     }
 
+    Object value(String key) throws MalformedException {
+        return typed(key, Object.class, false);
+    }
+
     Double optionalNumber(String key) throws MalformedException {
         Object number = typed(key, Number.class, true);
         return number == null ? null : (Double) ((Number) number).doubleValue();

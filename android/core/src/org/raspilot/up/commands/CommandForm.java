@@ -13,12 +13,12 @@ public final class CommandForm {
     public final String name;
     /** Older names of the Command; unmodifiable. */
     public final List<String> aliases;
-    /** The least role that may send it; {@code depends}: a field decides. */
-    public final String role;
     /** What it is for, one sentence. */
     public final String text;
     /** Whether the Command needs fresh telemetry, whose beacon it echoes. */
     public final boolean needsBeacon;
+    private final String role;
+    private final List<SpecialRole> specialRoles = new ArrayList<>();
     private final Map<String, CommandField> fields = new LinkedHashMap<>();
 
     private CommandForm(CatalogueEntry entry) throws MalformedException {
@@ -31,6 +31,9 @@ public final class CommandForm {
             names.add(String.valueOf(alias));
         }
         aliases = Collections.unmodifiableList(names);
+        for (Object special : entry.list("role_where")) {
+            specialRoles.add(new SpecialRole(CatalogueEntry.of(special)));
+        }
         for (Object described : entry.list("fields")) {
             CommandField field = CommandField.read(CatalogueEntry.of(described).description);
             fields.put(field.name, field);
@@ -40,6 +43,16 @@ public final class CommandForm {
     /** Reads a form out of a catalogue. */
     static CommandForm read(Object description) throws MalformedException {
         return new CommandForm(CatalogueEntry.of(description));
+    }
+
+    /** Returns the least role that may send it with such data; empty: no ground may. */
+    public String role(Map<String, ?> data) {
+        for (SpecialRole special : specialRoles) {
+            if (special.value.equals(data.get(special.field))) {
+                return special.role;
+            }
+        }
+        return role;
     }
 
     /** Returns the fields in their order; a copy. */
@@ -95,5 +108,18 @@ public final class CommandForm {
      */
     public BaseCommand command(Map<String, String> inputs) {
         return CommandRegistry.builtin().read(new GeneralMessage(name, parse(inputs)));
+    }
+
+    /** The role that one value of a field needs. */
+    private static final class SpecialRole {
+        final String field;
+        final Object value;
+        final String role;
+
+        SpecialRole(CatalogueEntry entry) throws MalformedException {
+            field = entry.text("field");
+            value = entry.value("value");
+            role = entry.text("role");
+        }
     }
 }

@@ -33,6 +33,7 @@ public final class GroundSide implements TelemetrySource {
     private final TelemetryStream stream = new TelemetryStream();
     private final ShownBeacons beacons = new ShownBeacons();
     private final PendingCommands answers;
+    private final CommandGate gate;
     private final CommandService desk;
     private final GainsService gains;
     private final HomeEstimator home = new HomeEstimator();
@@ -62,7 +63,8 @@ public final class GroundSide implements TelemetrySource {
         this.listener = listener;
         link = new GroundLink(loop, settings, tokens, new Links(), random);
         answers = new PendingCommands(loop, random);
-        desk = new CommandService(loop, settings, link, answers, beacons);
+        gate = new CommandGate(loop, settings, link, answers, beacons);
+        desk = new CommandService(loop, link, gate, answers, beacons);
         gains = new GainsService(loop, (command, shownBeacon, answered) ->
                 transmit(command, shownBeacon, answered));
     }
@@ -211,7 +213,7 @@ public final class GroundSide implements TelemetrySource {
         if (wasSilent != frame.isSilent(nowMs) || wasLate != frame.age.isLate(nowMs)) {
             reportStatus();
         }
-        if (desk.standing() == ControlStatus.OURS && !frame.isSilent(nowMs)) {
+        if (gate.standing() == ControlStatus.OURS && !frame.isSilent(nowMs)) {
             gains.onTick();
         }
         reportChanges();

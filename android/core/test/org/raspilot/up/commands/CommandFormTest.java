@@ -24,6 +24,7 @@ import org.raspilot.up.wire.Vectors;
 public final class CommandFormTest {
     private static final String ALL_TYPES = "{\"type\": \"catalogue\", \"commands\": [{"
             + "\"name\": \"app.all\", \"aliases\": [\"app.old\"], \"role\": \"operator\","
+            + " \"role_where\": [],"
             + " \"text\": \"All of them.\", \"needs_beacon\": true, \"fields\": ["
             + field("flag", "boolean", "null", "null", "null", "null", "true or false")
             + field("count", "integer", "1", "9", "null", "null", "a whole number from 1 to 9")
@@ -51,7 +52,7 @@ public final class CommandFormTest {
     public void theCatalogueOfTheAppIsRead() {
         CommandForm arm = installed.form("up.arm");
         assertTrue(arm.needsBeacon);
-        assertEquals("pilot", arm.role);
+        assertEquals("pilot", arm.role(Collections.<String, Object>emptyMap()));
         assertEquals(0, arm.fields().size());
         CommandField period = installed.form("up.telemetry.frequency").field("frequency");
         assertEquals("ms", period.unit);

@@ -10,12 +10,12 @@ import java.util.Collections;
 import java.util.List;
 import java.util.Map;
 import org.raspilot.app.R;
-import org.raspilot.app.commands.Permission.DisabledReason;
 import org.raspilot.up.android.GroundSnapshot;
 import org.raspilot.app.view.HoldButton;
 import org.raspilot.app.view.TextViews;
 import org.raspilot.up.commands.BaseCommand;
 import org.raspilot.up.commands.CommandForm;
+import org.raspilot.up.ground.CommandGate.DisabledReason;
 import org.raspilot.up.ground.Freshness;
 
 /** Arm and disarm, each by a press that is held: nothing happens by a slip of the hand. */

@@ -1,6 +1,9 @@
 package org.raspilot.app.commands;
 
 import java.util.Locale;
+import java.util.Map;
+import org.raspilot.up.commands.CommandForm;
+import org.raspilot.up.ground.CommandGate;
 
 /** What belongs together in the list of Commands. */
 enum CommandGroup {
@@ -27,6 +30,24 @@ enum CommandGroup {
             return BOARD;
         }
         return name.startsWith("android.") ? PHONE : OTHER;
+    }
+
+    /**
+     * Returns whether a Command needs a confirmation: every Command that changes the flight, and
+     * every unknown one. Requests, speech, marks and telemetry periods need none.
+     */
+    static boolean isConfirmed(CommandForm form, Map<String, ?> data) {
+        if (CommandGate.isOnlyRequest(form, data)) {
+            return false;
+        }
+        switch (of(form.name)) {
+            case DATA:
+                return false;
+            case PHONE:
+                return !form.name.equals("android.speak");
+            default:
+                return true;
+        }
     }
 
     /** Returns whether each of the words occurs in one of the texts, ignoring case. */

@@ -11,10 +11,10 @@ import java.util.BitSet;
 import java.util.Collections;
 import java.util.List;
 import org.raspilot.app.R;
-import org.raspilot.app.commands.Permission.DisabledReason;
 import org.raspilot.app.view.InstrumentColors;
 import org.raspilot.app.view.TextViews;
 import org.raspilot.up.commands.CommandForm;
+import org.raspilot.up.ground.CommandGate.DisabledReason;
 
 /** Every Command of the catalogue in groups, filtered by the searched words. */
 final class CommandList extends BaseAdapter {

@@ -3,8 +3,8 @@ package org.raspilot.app.commands;
 import android.content.res.Resources;
 import java.util.Map;
 import org.raspilot.app.R;
-import org.raspilot.app.commands.Permission.DisabledReason;
 import org.raspilot.up.android.GroundSnapshot;
+import org.raspilot.up.ground.CommandGate.DisabledReason;
 import org.raspilot.up.ground.Freshness;
 
 /** The English texts of the Commands: titles, groups, objections, and requests. */

@@ -13,7 +13,6 @@ import android.widget.TextView;
 import java.util.List;
 import java.util.Map;
 import org.raspilot.app.R;
-import org.raspilot.app.commands.Permission.DisabledReason;
 import org.raspilot.app.ground.ControlPanel;
 import org.raspilot.app.ground.FrameLine;
 import org.raspilot.up.android.GroundSnapshot;
@@ -23,6 +22,8 @@ import org.raspilot.up.android.TelemetryService;
 import org.raspilot.up.commands.BaseCommand;
 import org.raspilot.up.commands.CommandForm;
 import org.raspilot.up.commands.GainSet;
+import org.raspilot.up.ground.CommandGate;
+import org.raspilot.up.ground.CommandGate.DisabledReason;
 import org.raspilot.up.ground.GainsService;
 
 /** The list of Commands and the page of the one that is open, while their views live. */
@@ -154,8 +155,8 @@ final class CommandsScreen
     /** Returns why a Command is not offered now. */
     DisabledReason objection(CommandForm form, Map<String, ?> data) {
         GroundSnapshot picture = picture();
-        return Permission.objection(form.name, form.role, data, picture.status,
-                picture.telemetry, picture.nowMs);
+        return CommandGate.objection(form, data, picture.status, picture.telemetry,
+                picture.nowMs);
     }
 
     /** Returns the same as a sentence; empty: it is offered. */

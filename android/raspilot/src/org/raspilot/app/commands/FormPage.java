@@ -112,7 +112,7 @@ final class FormPage implements Page, View.OnClickListener {
         }
         String words = CommandTexts.asked(desk.context().getResources(), form.name,
                 command.data());
-        if (Permission.isConfirmed(form.name, command.data())) {
+        if (CommandGroup.isConfirmed(form, command.data())) {
             confirm(command, words);
         } else {
             desk.send(command, words);

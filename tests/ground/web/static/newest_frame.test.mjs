@@ -4,7 +4,7 @@ import {
   freshnessOf,
   isSilent,
   readingOf,
-} from "../../../../ground/up_ground/web/static/js/state/ages.js";
+} from "../../../../ground/up_ground/web/static/js/state/newest_frame.js";
 
 test("a page without a frame is silent and has nothing to show", () => {
   assert.equal(isSilent(null), true);

@@ -6,8 +6,8 @@ import math
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from up.merge import MAX_DEPTH, MAX_LENGTH, merge
 from up.protocols.general_message import encode
+from up.telemetry_controller import MAX_DEPTH, MAX_LENGTH, merge
 
 
 def merged(*contents):

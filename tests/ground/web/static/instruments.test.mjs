@@ -1,21 +1,11 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import {
-  ballTransform,
-  isWhole,
-  onCircle,
-  rollMarks,
-  rungs,
-} from "../../../../ground/up_ground/web/static/js/instruments/geometry.js";
-import {
-  beyond,
-  share,
-  stickPlace,
-} from "../../../../ground/up_ground/web/static/js/instruments/geometry.js";
-import {
-  rootScale,
-  TapeScale,
-} from "../../../../ground/up_ground/web/static/js/instruments/geometry.js";
+import { onCircle } from "../../../../ground/up_ground/web/static/js/dom.js";
+import { ballTransform, isWhole, rollMarks, rungs } from "../../../../ground/up_ground/web/static/js/instruments/horizon.js";
+import { beyond, share } from "../../../../ground/up_ground/web/static/js/instruments/servos.js";
+import { stickPlace } from "../../../../ground/up_ground/web/static/js/instruments/sticks.js";
+import { TapeScale } from "../../../../ground/up_ground/web/static/js/instruments/tape.js";
+import { rootScale } from "../../../../ground/up_ground/web/static/js/instruments/tapes.js";
 
 test("the ladder reaches from the nadir to the zenith and is the same on both sides", () => {
   const all = rungs().map((each) => each.pitch_deg);

@@ -1,0 +1,38 @@
+"""The first module of every program: until the program's own is imported, Ctrl-C ends it quietly.
+
+It must import nothing slow.
+"""
+
+from __future__ import annotations
+
+import signal
+from importlib import import_module
+from typing import Any
+
+
+def start(module: str, *arguments: Any) -> int:
+    """Import a program's module and return the exit status of its ``main(*arguments)``.
+
+    Nothing needs to be cleaned up before ``main`` runs: SIGINT ends the process, without a
+    traceback. An interrupt that ``main`` does not handle is not a traceback either. An unknown
+    UP_LOG_FORMAT ends every program.
+    """
+    before = signal.getsignal(signal.SIGINT)
+    if before is signal.default_int_handler:
+        signal.signal(signal.SIGINT, signal.SIG_DFL)
+    from up.cli.option_parser import EXIT_INTERRUPTED, EXIT_USAGE
+    from up.errors import UserError
+    from up.output import check_format, print_problems
+
+    try:
+        check_format()
+    except UserError as error:
+        print_problems(error.problems)
+        return EXIT_USAGE
+    main = import_module(module).main
+    signal.signal(signal.SIGINT, before)
+    try:
+        status: int = main(*arguments)
+    except KeyboardInterrupt:
+        return EXIT_INTERRUPTED
+    return status
