@@ -297,7 +297,7 @@ def test_navigation_stands_beside_the_rest_where_the_aircraft_has_it(size):
 
 def test_a_fallback_is_told_with_its_reason():
     fallen = navigating(mode="CIRCLE", fallback="navigation")
-    assert "flight mode CIRCLE  instead of RETURN" in text_of(fallen)
+    assert "flight mode CIRCLE instead of RETURN" in text_of(fallen)
     line = plain_line(fallen.status, fallen.telemetry, 100.0)
     assert "flight mode CIRCLE" in line
     assert "replaces RETURN: navigation missing or too old" in line
