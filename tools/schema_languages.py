@@ -126,7 +126,8 @@ def python_telemetry(schema: Schema) -> str:
           for r in schema.readings),
         "}", "FIELDS = (", *rows("Field", [field(r) for r in schema.fields if r.in_telemetry]),
         ")", "RULES = (", *rows("Rule", [_given(rule) for rule in schema.rules]),
-        f")\nMODE_REASONS = {schema.mode_reasons}", "EVENTS = {", *events, "}", f"ALARM_HOLDS_S = {schema.holds_s}",
+        f")\nMODE_REASONS = {schema.mode_reasons}", "EVENTS = {", *events, "}",
+        f"ALARM_HOLDS_S = {schema.holds_s}",
         f"PROPERTIES: dict[str, Any] = {json_tree(schema)!r}", "",
     ])  # fmt: skip
 

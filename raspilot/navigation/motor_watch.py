@@ -1,57 +1,47 @@
-"""Notices a motor that stopped silently: the energy does not follow the throttle."""
+"""Whether the motor gives the thrust that the throttle demands."""
 
 from __future__ import annotations
 
-from raspilot.navigation.airframe_model import AirframeModel
-
-DELAY_S = 1.0
-"""From the throttle to the estimate of the climb."""
-MISSING_PART = 0.5
-"""A stop is suspected while more than this part of the motor's power is missing."""
-MISSING_M = 1.5
-"""Energy (as height) that is missing beyond that when the motor counts as stopped."""
-MIN_MISSING_M_S = 0.5
-"""Less is never suspected: it may be a downdraught."""
-IDLE_PART, FORGET_M_S = 0.3, 0.3
-"""Below this part of the power of level flight nothing is known: a suspicion fades."""
-BIAS_S, MAX_BIAS_M_S = 30.0, 0.5
+STOPPED_EVIDENCE, WORKING_EVIDENCE = 6.0, 6.0
+MAX_EVIDENCE = 12.0
+MIN_THRUST_M_S = 0.3
+"""Airspeed given between two fixes below which they prove nothing."""
+GUST_M_S = 0.7
+"""Change of the wind within a second that does not come from the motor, standard deviation."""
 
 
 class MotorWatch:
-    """A cumulative sum of the missing energy; falls back to 0 when the motor pulls again.
+    """A cumulative likelihood ratio of two hypotheses: the motor works, or it has stopped.
 
-    A steady difference between the airframe and its numbers is learned, up to 0.5 m/s.
+    A stopped motor lets the aircraft lose, between two fixes, the airspeed that the model has
+    added for the thrust.
     """
 
-    def __init__(self, model: AirframeModel) -> None:
-        self._model = model
-        self.reset()
+    def __init__(self) -> None:
+        self.is_stopped = False
+        self._evidence = 0.0
+
+    def fix(self, faster_m_s: float, thrust_m_s: float, deviation_m_s: float, dt_s: float) -> bool:
+        """Take how much faster along the nose the ground velocity is than expected.
+
+        ``thrust_m_s`` is the airspeed that a working motor gives between the two fixes;
+        ``deviation_m_s`` the uncertainty of the difference. Return whether the verdict changed.
+        """
+        if thrust_m_s < MIN_THRUST_M_S:
+            self._evidence = max(0.0, self._evidence - 0.5)
+            return False
+        variance = deviation_m_s**2 + GUST_M_S**2 * dt_s
+        sign = 1.0 if self.is_stopped else -1.0
+        # log of p(error | the other verdict) / p(error | the present one)
+        ratio = (sign * faster_m_s * thrust_m_s - 0.5 * thrust_m_s**2) / variance
+        self._evidence = min(MAX_EVIDENCE, max(0.0, self._evidence + ratio))
+        needed = WORKING_EVIDENCE if self.is_stopped else STOPPED_EVIDENCE
+        if self._evidence < needed:
+            return False
+        self.is_stopped = not self.is_stopped
+        self._evidence = 0.0
+        return True
 
     def reset(self) -> None:
         self.is_stopped = False
-        self._power_m_s: float | None = None
-        self._missing_m = 0.0
-        self._bias_m_s = 0.0
-
-    def has_stopped(
-        self, energy_m_s: float, throttle: float, airspeed_m_s: float, load: float, dt_s: float
-    ) -> bool:
-        """Return whether the motor counts as stopped, after this energy rate (m/s of climb)."""
-        power_m_s = self._model.power_m_s(throttle)
-        if self._power_m_s is None:
-            self._power_m_s = power_m_s
-        self._power_m_s += (power_m_s - self._power_m_s) * min(1.0, dt_s / DELAY_S)
-        expected_m_s = self._power_m_s - self._model.sink_m_s(airspeed_m_s, load)
-        residual_m_s = energy_m_s - expected_m_s - self._bias_m_s
-        growth_m_s = -residual_m_s - max(MIN_MISSING_M_S, MISSING_PART * self._power_m_s)
-        if self._power_m_s < IDLE_PART * self._model.power_m_s(self._model.level_throttle):
-            growth_m_s = -FORGET_M_S
-        missing_m = self._missing_m + growth_m_s * dt_s
-        self._missing_m = max(0.0, min(2.0 * MISSING_M, missing_m))
-        if self._missing_m == 0.0:
-            self.is_stopped = False
-            bias_m_s = self._bias_m_s + residual_m_s * dt_s / BIAS_S
-            self._bias_m_s = max(-MAX_BIAS_M_S, min(MAX_BIAS_M_S, bias_m_s))
-        elif self._missing_m > MISSING_M:
-            self.is_stopped = True
-        return self.is_stopped
+        self._evidence = 0.0

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from raspilot.navigation.airframe_model import GRAVITY_M_S2, AirframeModel
-from raspilot.navigation.motor_watch import MotorWatch
+from raspilot.navigation.energy_watch import EnergyWatch
 from up.flight_modes.demand import PathDemand
 from up.flight_modes.navigation_file import Vertical
 from up.flight_modes.navigation_state import NavigationState
@@ -32,7 +32,7 @@ class EnergyControl:
     def __init__(self, config: Vertical, model: AirframeModel) -> None:
         self._config = config
         self._model = model
-        self.motor = MotorWatch(model)
+        self.motor = EnergyWatch(model)
         self.reset()
 
     def reset(self, airspeed_m_s: float | None = None) -> None:

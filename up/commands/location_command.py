@@ -11,7 +11,10 @@ from up.commands.roles import Role
 
 @dataclass(frozen=True, slots=True)
 class LocationCommand(BaseCommand):
-    """A position from a satellite receiver (thesis 3.3.5), WGS 84."""
+    """A position from a satellite receiver (thesis 3.3.5), WGS 84.
+
+    ``age_ms`` is the time from the measurement until it was sent; None: not known.
+    """
 
     NAME: ClassVar[str] = "up.location.update"
     ALIASES: ClassVar[tuple[str, ...]] = ("up.location.change",)
@@ -24,3 +27,4 @@ class LocationCommand(BaseCommand):
     bearing_deg: float | None = value(None, key="bearing", minimum=-360, maximum=360, unit="deg")
     distance_from_home_m: float | None = value(None, key="distance_from_home", unit="m")
     required_bearing_deg: float | None = value(None, key="required_bearing", unit="deg")
+    age_ms: float | None = value(None, minimum=0, maximum=60000, unit="ms")

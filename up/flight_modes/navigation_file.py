@@ -106,8 +106,8 @@ class NavigationConfig:
 
     auto_mode: str = key(
         "FBW",
-        "The flight mode of the Raspberry Pi that acts when the switch comes to AUTO. With"
-        " 'flight controller: arduino' the Arduino keeps flying FBW itself.",
+        "The flight mode of the Raspberry Pi that acts when the switch comes to AUTO. FBW without"
+        " the control loop on the Raspberry Pi: the board keeps flying its own.",
         max_length=16,
     )
     home_accuracy_m: float = key(

@@ -75,3 +75,13 @@ class NavigationState:
         """Return the direction of the ground velocity, deg clockwise from north, 0 to 360."""
         north, east = self.velocity_m_s
         return math.degrees(math.atan2(east, north)) % 360.0
+
+    @property
+    def wind_speed_m_s(self) -> float:
+        return math.hypot(*self.wind_m_s)
+
+    @property
+    def wind_from_deg(self) -> float:
+        """Return the direction that the wind comes from, deg clockwise from north, 0 to 360."""
+        north, east = self.wind_m_s
+        return math.degrees(math.atan2(-east, -north)) % 360.0

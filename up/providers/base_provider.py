@@ -48,7 +48,7 @@ class BaseProvider(BaseStartedModule, Generic[_T]):
 
     def fresh(self, max_age_s: float) -> Reading[_T] | None:
         """Return the newest reading when it is valid and at most ``max_age_s`` old."""
-        reading = self._reading
+        reading = self.reading
         if reading is None or not reading.valid or self._seconds() - reading.time_s > max_age_s:
             return None
         return reading
@@ -56,13 +56,13 @@ class BaseProvider(BaseStartedModule, Generic[_T]):
     @property
     def value(self) -> _T | None:
         """Return the newest value, whatever its age: for display, never for control."""
-        return None if self._reading is None else self._reading.value
+        reading = self.reading
+        return None if reading is None else reading.value
 
     @property
     def age_ms(self) -> int | None:
-        if self._reading is None:
-            return None
-        return round(self._reading.age_s(self._seconds()) * 1000)
+        reading = self.reading
+        return None if reading is None else round(reading.age_s(self._seconds()) * 1000)
 
     def _value_of(self, command: Any) -> _T | None:
         """Return the value in a Command, by default itself; None if not for this reading."""

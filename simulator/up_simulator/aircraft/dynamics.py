@@ -77,6 +77,7 @@ class FlightDynamics:
         self.airframe = airframe
         self.weather = weather or Weather()
         self.crash: str | None = None
+        self.motor_works = True
         self._seed = seed
         self._steps = 0
         self._owed_s = 0.0
@@ -137,7 +138,7 @@ class FlightDynamics:
         for set_surface, channel, neutral_us, travel in self._moves:
             set_surface((positions_us[channel] - neutral_us) * travel)
         if self._motor is not None:
-            throttle = (positions_us[2] - 1000.0) * 0.001
+            throttle = (positions_us[2] - 1000.0) * 0.001 if self.motor_works else 0.0
             thrust_n = self._motor.step(
                 0.0 if throttle < 0.0 else 1.0 if throttle > 1.0 else throttle,
                 self._read_airspeed() * FOOT_M,

@@ -64,6 +64,9 @@ class FlightState:
 class Dynamics(Protocol):
     """The flight as a board moves and feels it; it advances in steps of its simulated time."""
 
+    motor_works: bool
+    """Whether the motor gives thrust; it may change in flight, and nothing reports it."""
+
     @property
     def state(self) -> FlightState:
         """Return the newest state."""

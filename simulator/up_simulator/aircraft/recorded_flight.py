@@ -32,6 +32,8 @@ class RecordedFlight:
     ended, so that neither attitude nor position jumps.
     """
 
+    motor_works = True
+
     def __init__(self, states: list[FlightState]) -> None:
         start_s = states[0].time_s
         self._states = [replace(each, time_s=each.time_s - start_s) for each in states]

@@ -63,7 +63,7 @@ class Phone:
         self.panic_s = 0.0
         self.sensors = sensors = PhoneSensors(seed)
         self._streams = [
-            _Stream("up.location.update", 0.5, sensors.location),
+            _Stream("up.location.update", 0.1, sensors.location),
             _Stream("up.altitude.change", 0.2, sensors.altitude),
             _Stream("up.heading.change", 0.2, sensors.heading),
             _Stream("android.battery", 10.0, sensors.battery),

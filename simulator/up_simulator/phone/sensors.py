@@ -5,16 +5,19 @@ from __future__ import annotations
 import math
 import random
 from collections import deque
-from typing import Any, NamedTuple
+from typing import Any, Literal, NamedTuple
 
 from up_simulator.aircraft.flight import FlightState
 
 METRES_PER_DEG = 111_320.0
-GPS_DELAY_S = (0.3, 1.5)
-GPS_WANDER_M = 1.5
-GPS_JITTER_M = 0.3
-GPS_ALTITUDE_M = 3.0
-GPS_CORRELATION = 0.95
+GPS_PERIOD_S = 1.0
+GPS_DELAY_S, GPS_DELAY_JITTER_S, MIN_GPS_DELAY_S = (0.3, 1.5), 0.1, 0.2
+GPS_WANDER_M, GPS_ALTITUDE_WANDER_M, GPS_WANDER_S = (1.5, 3.0), (3.0, 4.0), 20.0
+"""A slow error of position and altitude, drawn by the seed, and its correlation time."""
+GPS_NOISE_M, GPS_VELOCITY_NOISE_M_S = 1.0, 0.3
+GPS_JUMP_M = 300.0
+MAX_FIX_AGE_S = 2.0
+"""An older fix is not sent; the app has the same limit."""
 BAROMETER_M = 0.3
 COMPASS_DEG = 1.5
 COMPASS_S = 0.2
@@ -26,6 +29,9 @@ PRESSURE_POWER = 9.80665 * 0.0289644 / (8.31446 * LAPSE_K_M)
 """Of the standard atmosphere (ISO 2533) up to 11 km."""
 _TINY_S = 1e-6
 _HALF = math.sqrt(0.5)
+
+
+GpsState = Literal["back", "lost", "jumped", "frozen"]
 
 
 class Quaternion(NamedTuple):
@@ -79,9 +85,10 @@ def body_to_world(roll_deg: float, pitch_deg: float, yaw_deg: float) -> Quaterni
 class PhoneSensors:
     """Turns the true state into the data of the Commands that a phone sends.
 
-    GPS errors wander slowly about the truth (some metres) and jitter a little, as real ones do;
-    a seed makes them repeatable. A fix is at least ``gps_delay_s`` old, 0.3 to 1.5 s drawn by the
-    seed; without ``has_gps`` none exists. The battery falls from ``battery_percent``, its
+    A fix is measured once a second and available after a delay with jitter, of a mean drawn by the
+    seed. Its error wanders slowly by some metres, as real ones do, plus noise; a seed makes it
+    repeatable. ``gps``: ``lost``: no fix; ``jumped``: 300 m beside the truth; ``frozen``: the last
+    fix again and again with new times. The battery falls from ``battery_percent``, its
     level at ``battery_time_s`` of the flight. The raw inputs of a phone's software are included:
     pressure, rotation and rate, of a phone mounted as in ``mounting`` (aircraft to device).
     """
@@ -89,43 +96,34 @@ class PhoneSensors:
     def __init__(self, seed: int = 1, mounting: Quaternion = MOUNTING) -> None:
         self._noise = random.Random(seed)
         self.gps_delay_s = random.Random(f"gps {seed}").uniform(*GPS_DELAY_S)
-        self.has_gps = True
-        self._past: deque[FlightState] = deque()
+        self.gps: GpsState = "back"
         self._mounting = mounting
-        self._wander_m = [0.0, 0.0, 0.0]
+        spread = random.Random(f"gps wander {seed}")
+        horizontal_m = spread.uniform(*GPS_WANDER_M)
+        self._wander_spread_m = (horizontal_m, horizontal_m, spread.uniform(*GPS_ALTITUDE_WANDER_M))
+        self._wander_m = [self._noise.gauss(0.0, each) for each in self._wander_spread_m]
+        self._fix_s = self._fix_due_s = -math.inf
+        self._newest_fix: dict[str, Any] = {}
+        self._coming: deque[tuple[float, float, dict[str, Any]]] = deque()
         self._compass_deg = 0.0
         self._compass_s = -math.inf
         self.battery_percent = INITIAL_BATTERY_PERCENT
         self.battery_time_s = 0.0
 
     def location(self, state: FlightState) -> dict[str, Any] | None:
-        """Return the data of ``up.location.update``; None without a fix."""
-        if not self.has_gps:
+        """Return the data of ``up.location.update`` of a fix that is newly available, or None."""
+        self._receive(state)
+        found: tuple[float, dict[str, Any]] | None = None
+        while self._coming and self._coming[0][0] <= state.time_s + _TINY_S:
+            _, taken_s, data = self._coming.popleft()
+            found = taken_s, data
+        if found is None or state.time_s - found[0] > MAX_FIX_AGE_S:
             return None
-        self._remember(state)
-        state = self._past[0]
-        grow = math.sqrt(1 - GPS_CORRELATION**2)
-        spreads_m = (GPS_WANDER_M, GPS_WANDER_M, GPS_ALTITUDE_M)
-        self._wander_m = [
-            GPS_CORRELATION * wander + grow * self._noise.gauss(0.0, spread)
-            for wander, spread in zip(self._wander_m, spreads_m, strict=True)
-        ]
-        north_m, east_m, up_m = (
-            wander + self._noise.gauss(0.0, GPS_JITTER_M) for wander in self._wander_m
-        )
-        metres_per_deg_east = METRES_PER_DEG * math.cos(math.radians(state.latitude_deg))
-        return {
-            "latitude": round(state.latitude_deg + north_m / METRES_PER_DEG, 7),
-            "longitude": round(state.longitude_deg + east_m / metres_per_deg_east, 7),
-            "altitude": round(state.altitude_m + up_m, 1),
-            "accuracy": round(2.0 + 2.0 * math.hypot(north_m, east_m) / GPS_WANDER_M, 1),
-            "speed": round(max(0.0, state.speed_m_s + self._noise.gauss(0.0, 0.2)), 2),
-            "bearing": round((state.track_deg + self._noise.gauss(0.0, 1.0)) % 360.0, 1) % 360.0,
-        }
+        return {**found[1], "age_ms": round((state.time_s - found[0]) * 1000)}
 
     def altitude(self, state: FlightState) -> dict[str, Any]:
         """Return the data of ``up.altitude.change``, by the barometer."""
-        self._remember(state)
+        self._receive(state)
         return {"altitude": round(state.altitude_m + self._noise.gauss(0.0, BAROMETER_M), 2)}
 
     def heading(self, state: FlightState) -> dict[str, Any]:
@@ -141,7 +139,7 @@ class PhoneSensors:
 
     def pressure_hpa(self, state: FlightState) -> float:
         """Return the barometer's reading, by the standard atmosphere."""
-        self._remember(state)
+        self._receive(state)
         altitude_m = state.altitude_m + self._noise.gauss(0.0, BAROMETER_M)
         part = 1 - LAPSE_K_M * altitude_m / SEA_LEVEL_K
         return round(SEA_LEVEL_HPA * math.pow(part, PRESSURE_POWER), 4)
@@ -158,10 +156,48 @@ class PhoneSensors:
         body = body_to_world(state.roll_deg, state.pitch_deg, yaw_deg)
         return [round(each, 9) for each in body.times(self._mounting.conjugate())]
 
-    def _remember(self, state: FlightState) -> None:
-        self._past.append(state)
-        while len(self._past) > 1 and self._past[1].time_s <= state.time_s - self.gps_delay_s:
-            self._past.popleft()
+    def _receive(self, state: FlightState) -> None:
+        """Measure a fix when a second has passed; every measurement of the phone looks here."""
+        passed_s = state.time_s - self._fix_s
+        if 0.0 <= passed_s and state.time_s < self._fix_due_s - _TINY_S:
+            return
+        self._fix_s = state.time_s
+        due_s = self._fix_due_s + GPS_PERIOD_S
+        # The seconds of the receiver stay where they are when it is asked late.
+        self._fix_due_s = due_s if 0 < due_s - self._fix_s <= GPS_PERIOD_S else self._fix_s + GPS_PERIOD_S
+        keep = math.exp(-min(passed_s, 1000.0) / GPS_WANDER_S) if passed_s > 0.0 else 1.0
+        grow = math.sqrt(1.0 - keep * keep)
+        self._wander_m = [
+            keep * wander + grow * self._noise.gauss(0.0, spread)
+            for wander, spread in zip(self._wander_m, self._wander_spread_m, strict=True)
+        ]
+        delay_s = self.gps_delay_s + self._noise.gauss(0.0, GPS_DELAY_JITTER_S)
+        fix = self._measure(state)
+        if self.gps == "lost":
+            return
+        if self.gps != "frozen" or not self._newest_fix:
+            self._newest_fix = fix
+        ready_s = state.time_s + max(MIN_GPS_DELAY_S, delay_s)
+        self._coming.append((ready_s, state.time_s, self._newest_fix))
+
+    def _measure(self, state: FlightState) -> dict[str, Any]:
+        gauss = self._noise.gauss
+        north_m, east_m, up_m = (each + gauss(0.0, GPS_NOISE_M) for each in self._wander_m)
+        if self.gps == "jumped":
+            north_m += GPS_JUMP_M
+        metres_per_deg_east = METRES_PER_DEG * math.cos(math.radians(state.latitude_deg))
+        track = math.radians(state.track_deg)
+        north_m_s = state.speed_m_s * math.cos(track) + gauss(0.0, GPS_VELOCITY_NOISE_M_S)
+        east_m_s = state.speed_m_s * math.sin(track) + gauss(0.0, GPS_VELOCITY_NOISE_M_S)
+        bearing_deg = math.degrees(math.atan2(east_m_s, north_m_s)) % 360.0
+        return {
+            "latitude": round(state.latitude_deg + north_m / METRES_PER_DEG, 7),
+            "longitude": round(state.longitude_deg + east_m / metres_per_deg_east, 7),
+            "altitude": round(state.altitude_m + up_m, 1),
+            "accuracy": round(2.0 + self._wander_spread_m[0], 1),
+            "speed": round(math.hypot(north_m_s, east_m_s), 2),
+            "bearing": round(bearing_deg, 1) % 360.0,
+        }
 
     def rate_rad_s(self, state: FlightState) -> list[float]:
         """Return the gyroscope's reading about the device's axes, rad/s."""

@@ -89,7 +89,14 @@ class Event:
         SerialNoise, "Noise on the serial line.", optional=True
     )
     phone: Literal["unplugged", "back"] | None = key(None, "The cable of the phone aboard.")
-    gps: Literal["lost", "back"] | None = key(None, "The GPS reception of the phone.")
+    gps: Literal["lost", "jumped", "frozen", "back"] | None = key(
+        None,
+        "The GPS of the phone. lost: no fix. jumped: 300 m beside the truth. frozen: the last fix"
+        " again and again.",
+    )
+    motor: Literal["stopped", "back"] | None = key(
+        None, "stopped: the motor gives no thrust, whatever the throttle, and nothing reports it."
+    )
     phone_battery: float | None = key(
         None, "Battery level of the phone from this time.", unit="%", minimum=0, maximum=100
     )

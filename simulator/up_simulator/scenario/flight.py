@@ -206,6 +206,8 @@ class ScenarioFlight:
                 board.set_channel(cast(Channel, event.channel_back), True)
             case "reset":
                 board.reset(cast(ResetCause, event.reset))
+            case "motor":
+                self._world.dynamics.motor_works = event.motor == "back"
             case "serial_noise":
                 assert event.serial_noise is not None
                 board.wires.set_noise(event.serial_noise, board.now_s)

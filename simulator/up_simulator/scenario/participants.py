@@ -134,7 +134,7 @@ class DaemonParticipants(Participants, ABC):
             case "phone" if phone is not None:
                 (phone.plug if event.phone == "back" else phone.unplug)()
             case "gps" if phone is not None:
-                phone.sensors.has_gps = event.gps == "back"
+                phone.sensors.gps = event.gps or "back"
             case "phone_battery" if phone is not None and event.phone_battery is not None:
                 phone.set_battery(event.phone_battery)
             case "link":

@@ -14,6 +14,19 @@ public final class Fix {
     public final Double speedMS;
     /** Degrees clockwise from north in which the device moves; or null. */
     public final Double bearingDeg;
+    /** Milliseconds from the measurement until the sensor delivered it; or null. */
+    public final Double ageMs;
+
+    /** Stores the values unchanged, of a fix whose age is unknown. */
+    public Fix(
+            double latitudeDeg,
+            double longitudeDeg,
+            Double altitudeM,
+            Double accuracyM,
+            Double speedMS,
+            Double bearingDeg) {
+        this(latitudeDeg, longitudeDeg, altitudeM, accuracyM, speedMS, bearingDeg, null);
+    }
 
     /** Stores the values unchanged; {@link LocationProvider} validates them. */
     public Fix(
@@ -22,12 +35,14 @@ public final class Fix {
             Double altitudeM,
             Double accuracyM,
             Double speedMS,
-            Double bearingDeg) {
+            Double bearingDeg,
+            Double ageMs) {
         this.latitudeDeg = latitudeDeg;
         this.longitudeDeg = longitudeDeg;
         this.altitudeM = altitudeM;
         this.accuracyM = accuracyM;
         this.speedMS = speedMS;
         this.bearingDeg = bearingDeg;
+        this.ageMs = ageMs;
     }
 }

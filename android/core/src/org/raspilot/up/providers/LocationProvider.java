@@ -12,6 +12,8 @@ public final class LocationProvider extends SensorProvider<Fix> {
     /** A fix of the mobile network, or an approximate one: home and the way back would be wrong. */
     private static final double MAX_ACCURACY_M = 50;
 
+    private static final double MAX_AGE_MS = 60000;
+
     /** Takes the GPS, and how often a fix leaves at most, ms. */
     public LocationProvider(SensorSource<Fix> source, int periodMs) {
         super(NAME, source, RatePolicy.stream(periodMs, SILENCE_MS));
@@ -29,12 +31,17 @@ public final class LocationProvider extends SensorProvider<Fix> {
                 "altitude", rounded(1, fix.altitudeM),
                 "accuracy", rounded(1, fix.accuracyM),
                 "speed", rounded(2, fix.speedMS),
-                "bearing", isKnown(fix.bearingDeg) ? Rounded.direction(fix.bearingDeg) : null);
+                "bearing", isKnown(fix.bearingDeg) ? Rounded.direction(fix.bearingDeg) : null,
+                "age_ms", isAge(fix.ageMs) ? Rounded.to(0, fix.ageMs) : null);
     }
 
     /** A value unknown to GPS must not prevent sending the position. */
     private static Double rounded(int decimals, Double value) {
         return isKnown(value) ? Rounded.to(decimals, value) : null;
+    }
+
+    private static boolean isAge(Double ageMs) {
+        return isKnown(ageMs) && ageMs >= 0 && ageMs <= MAX_AGE_MS;
     }
 
     private static boolean isKnown(Double value) {

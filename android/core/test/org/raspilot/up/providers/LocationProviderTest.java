@@ -13,6 +13,17 @@ public final class LocationProviderTest {
     private final LocationProvider provider = new LocationProvider(gps, 500);
 
     @Test
+    public void theAgeOfAFixIsSentWhereTheReceiverKnowsIt() {
+        bench.run(provider);
+        gps.give(new Fix(1, 2, null, null, null, null, 812.4));
+        assertEquals("up.location.update {latitude=1.0, longitude=2.0, age_ms=812.0}",
+                bench.sink.last());
+        bench.loop.advance(1000);
+        gps.give(new Fix(3, 4, null, null, null, null, -5.0));
+        assertEquals("up.location.update {latitude=3.0, longitude=4.0}", bench.sink.last());
+    }
+
+    @Test
     public void aFixLeavesAsALocationUpdate() {
         bench.run(provider);
         gps.give(new Fix(48.14859123456, 17.10774987654, 151.26, 3.14, 12.346, 271.27));

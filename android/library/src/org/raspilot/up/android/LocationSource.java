@@ -111,7 +111,8 @@ final class LocationSource implements SensorSource<Fix>, LocationListener {
                 location.hasAltitude() ? Double.valueOf(location.getAltitude()) : null,
                 location.hasAccuracy() ? Double.valueOf(location.getAccuracy()) : null,
                 location.hasSpeed() ? Double.valueOf(location.getSpeed()) : null,
-                location.hasBearing() ? Double.valueOf(location.getBearing()) : null);
+                location.hasBearing() ? Double.valueOf(location.getBearing()) : null,
+                Build.VERSION.SDK_INT >= 23 ? Double.valueOf(Api23.ageMs(location)) : null);
     }
 
     private static long ageMs(Location location) {

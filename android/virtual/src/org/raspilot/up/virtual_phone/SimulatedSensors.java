@@ -85,7 +85,8 @@ final class SimulatedSensors {
                 numberOrNull("fix.altitude", fields.get("altitude")),
                 numberOrNull("fix.accuracy", fields.get("accuracy")),
                 numberOrNull("fix.speed", fields.get("speed")),
-                numberOrNull("fix.bearing", fields.get("bearing")));
+                numberOrNull("fix.bearing", fields.get("bearing")),
+                numberOrNull("fix.age_ms", fields.get("age_ms")));
     }
 
     private static double[] numbers(String name, Object value, int count) throws OptionException {

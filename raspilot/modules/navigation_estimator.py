@@ -1,0 +1,181 @@
+"""The reading ``navigation``: where the aircraft is, how it moves, and how sure that is."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Mapping
+from typing import Any
+
+from raspilot.navigation.estimator import Estimator
+from raspilot.navigation.fix_gate import Fix
+from up.commands.altitude_command import AltitudeCommand
+from up.commands.heading_command import HeadingCommand
+from up.commands.location_command import LocationCommand
+from up.commands.orientation_command import OrientationCommand
+from up.commands.servo_command import ServoCommand
+from up.commands.telemetry_schema import READINGS
+from up.flight_modes.navigation_state import NavigationState
+from up.needs import needs
+from up.providers.base_provider import BaseProvider, Reading
+from up.providers.up_altitude_provider import UpAltitudeProvider
+from up.providers.up_heading_provider import UpHeadingProvider
+from up.providers.up_location_provider import UpLocationProvider
+from up.providers.up_orientation_provider import UpOrientationProvider
+
+ASSUMED_AGE_S = 0.8
+"""Age of a fix on arrival where its source does not measure it."""
+LOWEST_US, RANGE_US = 1000, 1000
+UNKNOWN_HEADING_SD_DEG, UNKNOWN_WIND_SD_M_S, UNKNOWN_ALTITUDE_SD_M = 60.0, 4.0, 100.0
+MIN_COURSE_M_S = 1.0
+
+
+class NavigationEstimator(BaseProvider[NavigationState]):
+    """Feeds the estimator with the readings that the providers follow.
+
+    ``state`` is the estimate at the newest orientation. The time of ``reading`` is that at which
+    the newest accepted fix was taken: ``fresh(3.0)`` is dead reckoning for at most 3 s.
+    ``home_altitude_m`` is set by the module that keeps home.
+    """
+
+    READING = "navigation"
+    MAX_AGE_S = READINGS[READING].source_s
+
+    orientation = needs(UpOrientationProvider)
+    location = needs(UpLocationProvider)
+    altitude = needs(UpAltitudeProvider)
+    heading = needs(UpHeadingProvider)
+
+    def __init__(self, config: Any = None, silent: bool = False) -> None:
+        super().__init__(config, silent)
+        self.estimator = Estimator()
+        self.home_altitude_m: float | None = None
+        self._state: NavigationState | None = None
+        self._is_old = True
+        self._used: dict[str, Reading[Any]] = {}
+        self._motor_stopped = False
+
+    def on_init(self) -> None:
+        self._seconds = self.context.reactor.seconds
+        register = self.up.command_executor.register_command
+        register(OrientationCommand, self._on_orientation)
+        register(LocationCommand, self._on_location)
+        register(AltitudeCommand, self._on_altitude)
+        register(HeadingCommand, self._on_heading)
+        register(ServoCommand, self._on_servos)
+
+    @property
+    def state(self) -> NavigationState | None:
+        """Return the estimate at the newest orientation; None before the first fix."""
+        if self._is_old:
+            self._state = self.estimator.state()
+            self._is_old = False
+        return self._state
+
+    @property
+    def reading(self) -> Reading[NavigationState] | None:
+        state, taken_s = self.state, self.estimator.fix_time_s
+        fix = self.location.reading
+        if state is None or taken_s is None or fix is None:
+            return None
+        return Reading(state, fix.source, taken_s)
+
+    @property
+    def telemetry_content(self) -> Mapping[str, Any]:
+        estimator = self.estimator
+        counters = Counter(estimator.rejected)
+        counters["motor_stopped"] = int(estimator.motor.is_stopped)
+        return {
+            "navigation": self._navigation(),
+            "counters": {"navigation": dict(counters)},
+            "age_ms": {self.READING: self.age_ms},
+        }
+
+    def _navigation(self) -> dict[str, Any]:
+        state = self.state
+        if state is None:
+            return {}
+        latitude, longitude = state.frame.degrees(state.position)
+        has_altitude = state.altitude_sd_m < UNKNOWN_ALTITUDE_SD_M
+        altitude_m = state.altitude_m if has_altitude else None
+        has_wind = state.wind_sd_m_s < UNKNOWN_WIND_SD_M_S
+        has_heading = state.heading_sd_deg < UNKNOWN_HEADING_SD_DEG
+        has_course = state.ground_speed_m_s > MIN_COURSE_M_S
+        in_flight = self.estimator.is_in_flight
+        home_m = self.home_altitude_m
+        height_m = None if altitude_m is None or home_m is None else altitude_m - home_m
+        return {
+            "latitude": latitude,
+            "longitude": longitude,
+            "altitude": altitude_m,
+            "height": height_m,
+            "speed": state.ground_speed_m_s,
+            "course": state.course_deg if has_course else None,
+            "climb": state.climb_m_s if has_altitude else None,
+            "airspeed": state.airspeed_m_s if in_flight else None,
+            "heading": state.heading_deg if has_heading else None,
+            "wind": {
+                "speed": state.wind_speed_m_s if has_wind else None,
+                "from": state.wind_from_deg if has_wind else None,
+            },
+            "sd": {
+                "position": state.position_sd_m,
+                "altitude": state.altitude_sd_m if has_altitude else None,
+                "wind": state.wind_sd_m_s if has_wind else None,
+                "airspeed": state.airspeed_sd_m_s if in_flight else None,
+                "heading": state.heading_sd_deg if has_heading else None,
+            },
+        }
+
+    def _news(self, provider: BaseProvider[Any]) -> Any:
+        """Return the provider's value if it is new and valid: it received the Command before."""
+        reading = provider.reading
+        if reading is None or reading is self._used.get(provider.READING) or not reading.valid:
+            return None
+        self._used[provider.READING] = reading
+        self._is_old = True
+        return reading.value
+
+    def _on_orientation(self, _command: OrientationCommand) -> None:
+        value = self._news(self.orientation)
+        if value is not None:
+            now_s = self._seconds()
+            self.estimator.orientation(now_s, value.roll_deg, value.pitch_deg, value.yaw_deg)
+
+    def _on_location(self, _command: LocationCommand) -> None:
+        value = self._news(self.location)
+        if value is None:
+            return
+        now_s = self._seconds()
+        age_s = ASSUMED_AGE_S if value.age_ms is None else value.age_ms / 1000
+        fix = Fix(
+            now_s - age_s,
+            value.latitude_deg,
+            value.longitude_deg,
+            value.altitude_m,
+            value.accuracy_m,
+            value.speed_m_s,
+            value.bearing_deg,
+        )
+        self.estimator.fix(fix, now_s)
+        self._report_motor()
+
+    def _on_altitude(self, _command: AltitudeCommand) -> None:
+        value = self._news(self.altitude)
+        if value is not None:
+            self.estimator.barometer(self._seconds(), value)
+
+    def _on_heading(self, _command: HeadingCommand) -> None:
+        value = self._news(self.heading)
+        if value is not None:
+            self.estimator.compass(self._seconds(), value)
+
+    def _on_servos(self, command: ServoCommand) -> None:
+        self.estimator.throttle((command.throttle_us - LOWEST_US) / RANGE_US)
+
+    def _report_motor(self) -> None:
+        is_stopped = self.estimator.motor.is_stopped
+        if is_stopped and not self._motor_stopped:
+            self.log.warn(
+                "the motor gives no thrust at the present throttle", code="motor_without_thrust"
+            )
+        self._motor_stopped = is_stopped

@@ -1,0 +1,96 @@
+"""The path through the air as running integrals, with their recent past."""
+
+from __future__ import annotations
+
+import math
+from bisect import bisect_right
+from typing import NamedTuple
+
+KEPT_S = 4.0
+_SPARE = 400
+
+
+class AirPoint(NamedTuple):
+    """The integrals at one time, and the motion through the air; angles as by the board's yaw.
+
+    ``north_m``, ``east_m`` and ``climb_m`` are the distance through the air; ``thrust_m_s`` the
+    airspeed that the motor has given.
+    """
+
+    time_s: float
+    north_m: float
+    east_m: float
+    climb_m: float
+    thrust_m_s: float
+    north_m_s: float
+    east_m_s: float
+    yaw_deg: float
+
+
+class AirPath:
+    """The last ``KEPT_S`` at least; what happened since a fix is the difference of two points."""
+
+    def __init__(self) -> None:
+        self._times: list[float] = []
+        self._points: list[AirPoint] = []
+
+    @property
+    def newest(self) -> AirPoint | None:
+        return self._points[-1] if self._points else None
+
+    def append(self, point: AirPoint) -> None:
+        """Add a point later than the newest."""
+        self._times.append(point.time_s)
+        self._points.append(point)
+        if len(self._times) > _SPARE and self._times[_SPARE // 2] < point.time_s - KEPT_S:
+            del self._times[: _SPARE // 2], self._points[: _SPARE // 2]
+
+    def at(self, time_s: float) -> AirPoint | None:
+        """Return the interpolated point; None if the time is before the buffer.
+
+        After the newest point the motion continues straight.
+        """
+        times, points = self._times, self._points
+        after = bisect_right(times, time_s)
+        if after == 0:
+            return None
+        left = points[after - 1]
+        passed_s = time_s - left.time_s
+        if passed_s == 0.0:
+            return left
+        if after == len(points):
+            return left._replace(
+                time_s=time_s,
+                north_m=left.north_m + left.north_m_s * passed_s,
+                east_m=left.east_m + left.east_m_s * passed_s,
+            )
+        right = points[after]
+        share = passed_s / (right.time_s - left.time_s)
+        # The yaw and the velocity of the nearer point: 20 ms apart, and the yaw wraps.
+        near = right if share > 0.5 else left
+        return AirPoint(
+            time_s,
+            left.north_m + share * (right.north_m - left.north_m),
+            left.east_m + share * (right.east_m - left.east_m),
+            left.climb_m + share * (right.climb_m - left.climb_m),
+            left.thrust_m_s + share * (right.thrust_m_s - left.thrust_m_s),
+            near.north_m_s,
+            near.east_m_s,
+            near.yaw_deg,
+        )
+
+    def turn(self, turned_rad: float) -> None:
+        """Turn the whole past, because the source's yaw has jumped."""
+        self._points = [turned(point, turned_rad) for point in self._points]
+
+
+def turned(point: AirPoint, turned_rad: float) -> AirPoint:
+    """Return a point as if the yaw had always been turned."""
+    cosine, sine = math.cos(turned_rad), math.sin(turned_rad)
+    return point._replace(
+        north_m=point.north_m * cosine - point.east_m * sine,
+        east_m=point.north_m * sine + point.east_m * cosine,
+        north_m_s=point.north_m_s * cosine - point.east_m_s * sine,
+        east_m_s=point.north_m_s * sine + point.east_m_s * cosine,
+        yaw_deg=point.yaw_deg + math.degrees(turned_rad),
+    )

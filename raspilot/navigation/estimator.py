@@ -1,0 +1,305 @@
+"""The navigation estimator: position, velocity, wind and airspeed from attitude and late fixes."""
+
+from __future__ import annotations
+
+import math
+
+from raspilot.navigation.air_path import AirPath, AirPoint, turned
+from raspilot.navigation.airspeed_model import Airframe, AirspeedModel
+from raspilot.navigation.fix_gate import Fix, FixGate
+from raspilot.navigation.flight_watch import FlightWatch
+from raspilot.navigation.horizontal_filter import (
+    AIRSPEED_R,
+    POSITION_R_M,
+    VELOCITY_R_M_S,
+    HorizontalFilter,
+)
+from raspilot.navigation.motor_watch import MotorWatch
+from raspilot.navigation.vertical_filter import VerticalFilter
+from raspilot.navigation.wind_mean import WindMean
+from up.flight_modes.navigation_state import LocalFrame, NavigationState, Point
+
+MAX_GAP_S = 0.5
+"""Longest time without orientation through which the airspeed is integrated."""
+YAW_JUMP_DEG = 20.0
+"""Change of the yaw between two frames that is another source or a restart, not a turn."""
+COMPASS_SD_DEG, COMPASS_INITIAL_SD_DEG = 60.0, 20.0
+"""A compass counts little in each fix, because its error is the same in all of them."""
+RECEIVER_SD_M, RECEIVER_ALTITUDE_SD_M = 2.0, 3.0
+"""The slow wander of a receiver, which no filter sees; part of the standard deviations."""
+MIN_WIND_SD_M_S, MIN_AIRSPEED_SD = 0.3, 0.03
+GROUND_Q_M, GROUND_SD_M_S = 0.5, 0.3
+JUMP_SD_RAD, MOTOR_SD = 0.1, 0.1
+GAP_SD_M_S = 5.0
+MOVED_SD_M = 10.0
+NEW_FRAME_M = 50_000.0
+
+
+class Estimator:
+    """Feed it with ``orientation`` (each frame), ``fix``, and what else exists; ask ``state``.
+
+    All times are of one monotonic clock, in seconds; an input that is not finite is ignored. The
+    filters hold the state at the time of the newest fix; ``state`` adds the air path flown since.
+    """
+
+    def __init__(self, airframe: Airframe | None = None) -> None:
+        self._model = AirspeedModel(airframe or Airframe())
+        self._path = AirPath()
+        self._gate = FixGate()
+        self._flight = FlightWatch()
+        self.motor = MotorWatch()
+        self._vertical = VerticalFilter()
+        self._wind = WindMean()
+        self._frame: LocalFrame | None = None
+        self._horizontal: HorizontalFilter | None = None
+        self._fixed: AirPoint | None = None
+        self._velocity_m_s = (0.0, 0.0)
+        self._roll_deg = self._pitch_deg = 0.0
+        self._throttle = 0.0
+        self._compass_offset_rad: float | None = None
+
+    @property
+    def rejected(self) -> dict[str, int]:
+        """Return how many fixes were rejected, by reason."""
+        return dict(self._gate.rejected)
+
+    @property
+    def is_in_flight(self) -> bool:
+        return self._flight.is_in_flight
+
+    @property
+    def fix_time_s(self) -> float | None:
+        """Return the time at which the newest accepted fix was taken."""
+        return None if self._fixed is None else self._fixed.time_s
+
+    def throttle(self, throttle: float) -> None:
+        """Take the throttle that the motor gets, 0 to 1."""
+        if math.isfinite(throttle):
+            self._throttle = min(1.0, max(0.0, throttle))
+
+    def compass(self, time_s: float, heading_deg: float) -> None:
+        """Take a measured heading; it counts little: magnets and motors are near."""
+        newest = self._path.newest
+        if newest is None or not math.isfinite(heading_deg) or abs(heading_deg) > 360:
+            return
+        if abs(time_s - newest.time_s) <= MAX_GAP_S:
+            self._compass_offset_rad = math.radians(heading_deg - newest.yaw_deg)
+
+    def barometer(self, time_s: float, altitude_m: float) -> None:
+        """Take an altitude whose changes are right; its offset is estimated."""
+        newest = self._path.newest
+        if newest is None or not math.isfinite(altitude_m) or abs(altitude_m) > 30_000:
+            return
+        if abs(time_s - newest.time_s) <= MAX_GAP_S:
+            self._vertical.fuse_barometer(newest.time_s, newest.climb_m, altitude_m)
+
+    def orientation(self, time_s: float, roll_deg: float, pitch_deg: float, yaw_deg: float) -> None:
+        """Take an attitude and advance the air path to its time."""
+        if not math.isfinite(time_s + roll_deg + pitch_deg + yaw_deg):
+            return
+        newest = self._path.newest
+        yaw = math.radians(yaw_deg)
+        if newest is None:
+            self._append(time_s, 0.0, 0.0, 0.0, 0.0, yaw, yaw_deg)
+            return
+        dt = time_s - newest.time_s
+        if dt <= 0.0:
+            return
+        turned_deg = math.remainder(yaw_deg - newest.yaw_deg, 360.0)
+        if abs(turned_deg) > YAW_JUMP_DEG + 200.0 * min(dt, MAX_GAP_S):
+            self._jump(math.radians(turned_deg))
+            newest = self._path.newest or newest
+        self._roll_deg, self._pitch_deg = roll_deg, pitch_deg
+        self._flight.attitude(dt, roll_deg, pitch_deg)
+        model = self._model
+        if dt > MAX_GAP_S:
+            if self._horizontal is not None:
+                self._horizontal.blur(GAP_SD_M_S * dt)
+        else:
+            error = self._vertical.climb_error_m_s
+            throttle = self._throttle
+            model.step(dt, math.radians(roll_deg), math.radians(pitch_deg), throttle, error)
+        speed = model.airspeed_m_s
+        # Trapezoid: the mean of the old and the new velocity through the air.
+        self._append(
+            time_s,
+            newest.north_m + 0.5 * dt * (newest.north_m_s + speed * math.cos(yaw)),
+            newest.east_m + 0.5 * dt * (newest.east_m_s + speed * math.sin(yaw)),
+            newest.climb_m + dt * (model.climb_m_s if self._flight.is_in_flight else 0.0),
+            newest.thrust_m_s + dt * model.thrust_m_s2,
+            yaw,
+            yaw_deg,
+        )
+
+    def fix(self, fix: Fix, now_s: float) -> bool:
+        """Take a fix at the time when it was taken; return whether it was accepted."""
+        in_flight = self._flight.is_in_flight
+        if self._gate.reason_against(fix, now_s, in_flight) is not None:
+            return False
+        at = self._path.at(fix.time_s)
+        if at is None:
+            self._gate.rejected["no_orientation"] += 1
+            return False
+        if self._frame is None or self._horizontal is None or self._fixed is None:
+            self._begin(fix, at)
+            return True
+        point = self._frame.point(fix.latitude_deg, fix.longitude_deg)
+        horizontal = self._horizontal
+        expected = self._position_at(at) if in_flight else Point(*horizontal.x[:2])
+        off = (point.north_m - expected.north_m, point.east_m - expected.east_m)
+        sd_m = math.sqrt(horizontal.position_variance(self._fixed, at))
+        verdict = self._gate.judge(fix, *off, sd_m, in_flight)
+        if verdict == "jump":
+            return False
+        if verdict == "moved":
+            if not in_flight and math.hypot(*point) > NEW_FRAME_M:
+                self._begin(fix, at)
+                return True
+            horizontal.reset_position(*point, MOVED_SD_M)
+            self._fixed = at
+        velocity = fix.velocity_m_s
+        became = self._flight.fix(fix.time_s, velocity)
+        if became or not in_flight:
+            self._rest(point, at, velocity)
+        else:
+            self._correct(fix, point, at, velocity)
+        if fix.altitude_m is not None:
+            self._vertical.fuse_fix(fix.time_s, at.climb_m, fix.altitude_m)
+        return True
+
+    def state(self, now_s: float | None = None) -> NavigationState | None:
+        """Return the estimate at the newest orientation, or ``now_s``; None before a fix."""
+        frame, filter_, then = self._frame, self._horizontal, self._fixed
+        now = self._path.newest
+        if frame is None or filter_ is None or then is None or now is None:
+            return None
+        if now_s is not None and now_s > now.time_s:
+            now = self._path.at(now_s) or now
+        vertical = self._vertical
+        x = filter_.x
+        along, across = filter_.variances()
+        speed = self._model.airspeed_m_s * math.hypot(x[2], x[3])
+        offset_rad = math.atan2(x[3], x[2])
+        in_flight = self._flight.is_in_flight
+        heading_sd = math.degrees(math.sqrt(across)) if filter_.is_oriented else 180.0
+        if in_flight:
+            position, velocity = self._position_at(now), self._velocity_at(now)
+            position_variance = filter_.position_variance(then, now)
+            airspeed_sd = speed * math.sqrt(along + MIN_AIRSPEED_SD**2)
+            climb = vertical.climb_error_m_s + self._model.climb_m_s
+        else:
+            position, velocity = Point(x[0], x[1]), Point(*self._velocity_m_s)
+            age_s = now.time_s - then.time_s
+            position_variance = filter_.p[0][0] + filter_.p[1][1] + (GROUND_SD_M_S * age_s) ** 2
+            speed, airspeed_sd, climb = 0.0, self._model.airspeed_m_s, 0.0
+        altitude_sd = vertical.sd_at(now.time_s)
+        return NavigationState(
+            time_s=now.time_s,
+            frame=frame,
+            position=position,
+            velocity_m_s=velocity,
+            altitude_m=vertical.altitude_at(now.time_s, now.climb_m),
+            climb_m_s=climb,
+            wind_m_s=Point(self._wind.north_m_s, self._wind.east_m_s),
+            airspeed_m_s=speed,
+            heading_deg=(now.yaw_deg + math.degrees(offset_rad)) % 360.0,
+            roll_deg=self._roll_deg,
+            pitch_deg=self._pitch_deg,
+            position_sd_m=math.sqrt(position_variance + RECEIVER_SD_M**2),
+            altitude_sd_m=math.hypot(altitude_sd, RECEIVER_ALTITUDE_SD_M),
+            wind_sd_m_s=math.sqrt(max(0.0, filter_.p[4][4] + filter_.p[5][5]) + MIN_WIND_SD_M_S**2),
+            airspeed_sd_m_s=airspeed_sd,
+            heading_sd_deg=min(180.0, heading_sd),
+            fix_age_s=now.time_s - then.time_s,
+        )
+
+    def _append(
+        self,
+        time_s: float,
+        north_m: float,
+        east_m: float,
+        climb_m: float,
+        thrust_m_s: float,
+        yaw_rad: float,
+        yaw_deg: float,
+    ) -> None:
+        speed = self._model.airspeed_m_s
+        u, v = speed * math.cos(yaw_rad), speed * math.sin(yaw_rad)
+        self._path.append(AirPoint(time_s, north_m, east_m, climb_m, thrust_m_s, u, v, yaw_deg))
+
+    def _jump(self, turned_rad: float) -> None:
+        """Keep the heading although the yaw has jumped."""
+        self._path.turn(turned_rad)
+        if self._fixed is not None:
+            self._fixed = turned(self._fixed, turned_rad)
+        if self._horizontal is not None:
+            self._horizontal.turn(-turned_rad, JUMP_SD_RAD)
+        self._compass_offset_rad = None
+
+    def _position_at(self, at: AirPoint) -> Point:
+        assert self._horizontal is not None and self._fixed is not None
+        x, then = self._horizontal.x, self._fixed
+        dt = at.time_s - then.time_s
+        north, east = at.north_m - then.north_m, at.east_m - then.east_m
+        return Point(
+            x[0] + x[2] * north - x[3] * east + x[4] * dt,
+            x[1] + x[2] * east + x[3] * north + x[5] * dt,
+        )
+
+    def _velocity_at(self, at: AirPoint) -> Point:
+        assert self._horizontal is not None
+        x, u, v = self._horizontal.x, at.north_m_s, at.east_m_s
+        return Point(x[2] * u - x[3] * v + x[4], x[2] * v + x[3] * u + x[5])
+
+    def _begin(self, fix: Fix, at: AirPoint) -> None:
+        """Start at a first position: the origin of the frame."""
+        self._frame = LocalFrame(fix.latitude_deg, fix.longitude_deg)
+        self._horizontal = HorizontalFilter(0.0, 0.0)
+        self._fixed = at
+        if fix.altitude_m is not None:
+            self._vertical.fuse_fix(fix.time_s, at.climb_m, fix.altitude_m)
+
+    def _rest(self, point: Point, at: AirPoint, velocity: tuple[float, float] | None) -> None:
+        """Take a fix on the ground, or the first one of the flight."""
+        assert self._horizontal is not None and self._fixed is not None
+        if self._flight.is_in_flight:
+            self._horizontal = HorizontalFilter(*point)
+            if self._compass_offset_rad is not None:
+                sd_rad = math.radians(COMPASS_INITIAL_SD_DEG)
+                self._horizontal.set_offset(self._compass_offset_rad, sd_rad)
+            if velocity is not None:
+                self._horizontal.fuse_velocity(at, *velocity, VELOCITY_R_M_S)
+            self.motor.reset()
+            self._model.has_thrust = True
+            self._wind = WindMean()
+        else:
+            self._horizontal.blur(GROUND_Q_M * math.sqrt(max(0.0, at.time_s - self._fixed.time_s)))
+            self._horizontal.fuse_position(*point, POSITION_R_M)
+        self._velocity_m_s = velocity or (0.0, 0.0)
+        self._fixed = at
+
+    def _correct(
+        self, fix: Fix, point: Point, at: AirPoint, velocity: tuple[float, float] | None
+    ) -> None:
+        """Take a fix in flight."""
+        horizontal, then = self._horizontal, self._fixed
+        assert horizontal is not None and then is not None
+        dt = at.time_s - then.time_s
+        horizontal.predict(then, at)
+        self._fixed = at
+        if velocity is not None and horizontal.is_oriented and dt > 0.0:
+            faster, sd = horizontal.along_nose(at, *velocity)
+            thrust_m_s = at.thrust_m_s - then.thrust_m_s
+            if self.motor.fix(faster, thrust_m_s, math.hypot(sd, VELOCITY_R_M_S), dt):
+                self._model.has_thrust = not self.motor.is_stopped
+                horizontal.widen_airspeed(MOTOR_SD)
+        horizontal.fuse_position(*point, max(POSITION_R_M, 0.5 * (fix.accuracy_m or 0.0)))
+        if velocity is not None:
+            horizontal.fuse_velocity(at, *velocity, VELOCITY_R_M_S)
+        if dt > 0.0:
+            horizontal.fuse_airspeed(1.0, AIRSPEED_R / math.sqrt(dt))
+        if self._compass_offset_rad is not None:
+            horizontal.fuse_offset(self._compass_offset_rad, math.radians(COMPASS_SD_DEG))
+            self._compass_offset_rad = None
+        variance = horizontal.p[4][4] + horizontal.p[5][5]
+        self._wind.add(horizontal.x[4], horizontal.x[5], variance, dt)
