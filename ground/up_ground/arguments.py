@@ -24,7 +24,7 @@ examples
   up-ground --aircraft glider-1 watch --once        one picture, then exit
   up-ground watch --json --count 10                 ten messages for a script
   up-ground commands                                Commands that can be sent
-  up-ground send up.flight_mode.set mode=FBW
+  up-ground send up.flight_mode.set mode=RETURN
   up-ground send arduino.pids.tunings request=true  prints the active gains
   up-ground serve                                   the page for browsers
   up-ground replay last                             a recorded flight, there
@@ -48,6 +48,10 @@ dots open an object. The newest beacon is echoed, so that a Command delayed by a
 bad link is refused.
 
 examples
+  up-ground send up.flight_mode.set mode=LOITER
+  up-ground send up.navigation.target latitude=50.1 longitude=8.6 height=80
+  up-ground send up.flight_mode.set mode=GUIDED     then flies there
+  up-ground send up.home.set                        home is where it is now
   up-ground send up.telemetry.frequency frequency=200
   up-ground send up.arm
 

@@ -6,7 +6,15 @@ import textwrap
 
 from up.commands.telemetry_schema import RULES
 from up_ground.screen_buffer import PanelWriter, Style
-from up_ground.status_text import UNKNOWN, busy_text, flag_text, number_text
+from up_ground.status_text import (
+    UNKNOWN,
+    acting_mode,
+    busy_text,
+    flag_text,
+    home_text,
+    number_text,
+    wind_text,
+)
 
 PANEL_COLUMNS = 38
 BATTERY_LOW = next(each.below or 0.0 for each in RULES if each.code == "battery_low")
@@ -23,9 +31,13 @@ def draw_flight(writer: PanelWriter, row: int, column: int) -> int:
     mode = telemetry.text("mode", limit=26) or UNKNOWN
     controller = telemetry.text("flight_controller", limit=9)
     writer.value(row + 1, column, mode + (f" ({controller})" if controller else ""))
-    flown = telemetry.text("flight_mode", limit=10) or UNKNOWN
+    flown = acting_mode(telemetry) or UNKNOWN
     switch = _word(writer, "arduino", "switch")
-    end = writer.value(row + 2, column, f"flight mode {flown}  switch {switch}")
+    replaced = telemetry.text("flight_control", "fallback") is not None
+    selected = telemetry.text("flight_control", "selected", limit=12)
+    more = f" instead of {selected}" if replaced else f"  switch {switch}"
+    style = Style.BAD if replaced else Style.PLAIN
+    end = writer.value(row + 2, column, f"flight mode {flown}{more}", style=style)
     if telemetry.flag("arduino", "failsafe"):
         writer.value(row + 2, end + 1, "FAILSAFE", style=Style.BAD)
     armed = telemetry.flag("armed")
@@ -49,9 +61,7 @@ def draw_position(writer: PanelWriter, row: int, column: int) -> int:
     latitude = number_text(number("location", "latitude"), 6, 11)
     longitude = number_text(number("location", "longitude"), 6, 11)
     writer.value(row + 1, column, f"{latitude} {longitude} deg", "location")
-    distance = number_text(number("home", "distance"), 0)
-    bearing = number_text(number("home", "bearing"), 0)
-    writer.value(row + 2, column, f"home {distance} m, bearing {bearing} deg", "location")
+    writer.value(row + 2, column, home_text(writer.telemetry), "location")
     end = writer.value(
         row + 3, column, f"altitude {number_text(number('altitude'), 1, 8)} m", "altitude"
     )
@@ -60,6 +70,38 @@ def draw_position(writer: PanelWriter, row: int, column: int) -> int:
     end = writer.value(row + 4, column, f"heading {actual} deg", "heading")
     writer.screen.put(row + 4, end + 1, writer.age("heading"), Style.DIM)
     return row + 5
+
+
+NAVIGATION_ROWS = 4
+
+
+def draw_navigation(writer: PanelWriter, row: int, column: int) -> int:
+    """Draw the aircraft's own estimate, if it has one; return the row below."""
+    if not has_navigation(writer):
+        return row
+    number = writer.telemetry.number
+    writer.title(row, column, "NAVIGATION", "navigation")
+    height = number_text(number("navigation", "height"))
+    climb = number_text(number("navigation", "climb"), 1, sign=True)
+    ground = number_text(number("navigation", "speed"))
+    air = number_text(number("navigation", "airspeed"))
+    sd_m = number("navigation", "sd", "position")
+    spread = number_text(None if sd_m is None else 2 * sd_m, 0)
+    for line, text in enumerate(
+        (
+            f"{height} m above home, climb {climb} m/s",
+            f"ground {ground} m/s, air {air} m/s",
+            f"{wind_text(writer.telemetry)}, +-{spread} m",
+        ),
+        row + 1,
+    ):
+        writer.value(line, column, text, "navigation")
+    return row + NAVIGATION_ROWS
+
+
+def has_navigation(writer: PanelWriter) -> bool:
+    """Return whether the aircraft estimates where it is."""
+    return writer.telemetry.number("navigation", "latitude") is not None
 
 
 def draw_power(writer: PanelWriter, row: int, column: int) -> int:

@@ -7,11 +7,14 @@ from dataclasses import dataclass
 
 from up_ground.link_status import LinkStatus
 from up_ground.panels import (
+    NAVIGATION_ROWS,
     draw_board,
     draw_channels,
     draw_flight,
+    draw_navigation,
     draw_position,
     draw_power,
+    has_navigation,
 )
 from up_ground.sanitize_text import sanitize_text
 from up_ground.screen_buffer import PanelWriter, ScreenBuffer, Style
@@ -134,6 +137,9 @@ def _presence_style(status: LinkStatus) -> Style:
 def _draw_wide(writer: PanelWriter, rows: int) -> None:
     spare = max(0, rows - 24)
     horizon_rows = max(_MIN_HORIZON_ROWS, min(_MAX_HORIZON_ROWS, 8 + min(spare, rows - 16)))
+    below = 8 + horizon_rows
+    if has_navigation(writer):
+        horizon_rows = max(_MIN_HORIZON_ROWS, horizon_rows - NAVIGATION_ROWS)
     _draw_attitude(writer, 3, 1)
     draw_horizon(
         writer.screen,
@@ -143,7 +149,7 @@ def _draw_wide(writer: PanelWriter, rows: int) -> None:
         _attitude(writer),
         writer.is_old("orientation"),
     )
-    below = 8 + horizon_rows
+    draw_navigation(writer, 7 + horizon_rows, 1)
     draw_channels(writer, below, 1, "rx", "RECEIVER us")
     row = draw_flight(writer, 3, RIGHT_COLUMN)
     row = draw_position(writer, row, RIGHT_COLUMN)
@@ -156,6 +162,7 @@ def _draw_narrow(writer: PanelWriter) -> None:
     row = draw_flight(writer, 3, 1)
     _draw_attitude(writer, row, 1)
     row = draw_position(writer, row + 4, 1)
+    row = draw_navigation(writer, row, 1)
     row = draw_power(writer, row, 1)
     row = draw_channels(writer, row, 1, "servo", "SERVOS us")
     row = draw_channels(writer, row, 1, "rx", "RECEIVER us")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 
-from up.commands.telemetry_schema import RULES
+from up.commands.telemetry_schema import MODE_REASONS, RULES
 from up_ground.link_status import LinkState, LinkStatus
 from up_ground.settings import Seat
 from up_ground.telemetry import Telemetry
@@ -57,6 +57,30 @@ def busy_text(telemetry: Telemetry) -> str:
     return fill(next(each.text for each in RULES if each.code == "panic"), telemetry)
 
 
+def acting_mode(telemetry: Telemetry) -> str | None:
+    """Return the flight mode that acts: the Raspberry Pi's while it flies; None: unknown."""
+    board = telemetry.text("flight_mode", limit=10)
+    if board in ("SETPOINT", "OUTPUT"):
+        return telemetry.text("flight_control", "mode", limit=12) or board
+    return board
+
+
+def home_text(telemetry: Telemetry) -> str:
+    """Return distance and bearing of home, and how long the way takes in this wind."""
+    distance = number_text(telemetry.number("home", "distance"), 0)
+    bearing = number_text(telemetry.number("home", "bearing"), 0)
+    time_s = telemetry.number("home", "time_s")
+    way = "" if time_s is None else f", {int(time_s) // 60}:{int(time_s) % 60:02}"
+    return f"home {distance} m, bearing {bearing} deg{way}"
+
+
+def wind_text(telemetry: Telemetry) -> str:
+    """Return the estimated wind."""
+    speed = number_text(telemetry.number("navigation", "wind", "speed"))
+    from_deg = number_text(telemetry.number("navigation", "wind", "from"), 0)
+    return f"wind {speed} m/s from {from_deg} deg"
+
+
 def control_text(status: LinkStatus) -> str:
     """Return the owner of control: ours, free, or the number of a ground."""
     if status.seat is None:
@@ -94,9 +118,16 @@ def plain_line(status: LinkStatus, telemetry: Telemetry, now_s: float) -> str:
         f"roll {roll} pitch {pitch} yaw {yaw}",
         f"altitude {altitude} m",
         f"heading {heading}",
-        f"flight mode {telemetry.text('flight_mode') or UNKNOWN}",
+        f"flight mode {acting_mode(telemetry) or UNKNOWN}",
         flag_text(telemetry.flag("armed"), "ARMED", "disarmed"),
     ]
+    if telemetry.number("navigation", "latitude") is not None:
+        is_old = telemetry.is_stale("navigation", now_s)
+        parts.append(UNKNOWN if is_old else f"{home_text(telemetry)} | {wind_text(telemetry)}")
+    fallback = telemetry.text("flight_control", "fallback")
+    if fallback is not None:
+        selected = telemetry.text("flight_control", "selected") or UNKNOWN
+        parts.append(f"replaces {selected}: {MODE_REASONS.get(fallback, fallback)}")
     competitor = telemetry.text("android", "competitor")
     if competitor is not None:
         parts.append(f"a second phone is refused: {competitor}")

@@ -57,6 +57,8 @@ test("the modes are those of the aircraft; one that is not offered is disabled w
   assert.equal(await ground.attribute('[data-mode="LOITER"]', "aria-pressed"), "true");
   assert.equal(await ground.text("#bar-mode"), "LOITER");
   assert.match(await ground.text('[data-mode="GLIDE"] small'), /altitude .*too old/);
+  const guided = await ground.text('[data-mode="GUIDED"] small');
+  assert.match(guided, /target/);
   const answer = await ground.answerTo(() => ground.press('[data-mode="RETURN"]'));
   assert.equal(answer.outcome, "ack", JSON.stringify(answer));
   assert.deepEqual(await sent(ground), [["up.flight_mode.set", { mode: "RETURN" }]]);

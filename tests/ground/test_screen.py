@@ -262,3 +262,44 @@ def test_vetoes_warn_only_where_it_is_not_armed():
     assert "vetoes AUX2 is low" in on_ground
     in_flight = text_of(state(frame(vetoes=["the throttle is not low"], armed=True)))
     assert "vetoes" not in in_flight
+
+
+NAVIGATION = {
+    "latitude": 50.0781, "longitude": 14.4422, "altitude": 401.6, "height": 89.6, "speed": 13.4,
+    "climb": 0.2, "airspeed": 14.9, "wind": {"speed": 4.2, "from": 255.0}, "sd": {"position": 3.1},
+}  # fmt: skip
+
+
+def navigating(**flight_control):
+    data = frame(flight_mode="SETPOINT", navigation=NAVIGATION)
+    data["home"] |= {"time_s": 65.0}
+    data["age_ms"] |= {"navigation": 700}
+    data["flight_control"] = {"mode": "RETURN", "selected": "RETURN", "fallback": None}
+    data["flight_control"] |= flight_control
+    return state(data)
+
+
+@pytest.mark.parametrize("size", [(80, 24), (60, 50)])
+def test_navigation_stands_beside_the_rest_where_the_aircraft_has_it(size):
+    picture = text_of(navigating(), size=size)
+    for text in (
+        "flight mode RETURN",
+        "home 1204 m, bearing 271 deg, 1:05",
+        "NAVIGATION 0.70 s",
+        "89.6 m above home, climb +0.2 m/s",
+        "ground 13.4 m/s, air 14.9 m/s",
+        "wind 4.2 m/s from 255 deg, +-6 m",
+        "Arduino connected, checked",
+    ):
+        assert text in picture, text
+    assert "NAVIGATION" not in text_of(state(frame()), size=size)
+
+
+def test_a_fallback_is_told_with_its_reason():
+    fallen = navigating(mode="CIRCLE", fallback="navigation")
+    assert "flight mode CIRCLE instead of RETURN" in text_of(fallen)
+    line = plain_line(fallen.status, fallen.telemetry, 100.0)
+    assert "flight mode CIRCLE" in line
+    assert "replaces RETURN: navigation missing or too old" in line
+    assert "wind 4.2 m/s from 255 deg" in line
+    assert "replaces" not in plain_line(navigating().status, navigating().telemetry, 100.0)

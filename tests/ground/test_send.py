@@ -92,7 +92,7 @@ def test_a_set_of_gains_typed_one_by_one_waits_for_no_values(proxy, tmp_path):
 @pytest.mark.parametrize(
     ("words", "code"),
     [
-        (["up.flight_mode.set", "mode=ACRO"], "invalid_data"),
+        (["up.telemetry.frequency", "frequency=1"], "invalid_data"),
         (["up.flight_mode.set", "FBW"], "invalid_field"),
         (["up.flightmode.set"], "unknown_command"),
         (["up.telemetry.frequency", "frequency=1e999"], "not_encodable"),

@@ -139,7 +139,7 @@ def test_mistakes_in_the_command_line_are_one_sentence(tmp_path):
 def test_help_teaches(tmp_path):
     status, said, _ = ground(tmp_path, 1, "--help")
     assert status == 0
-    assert "up-ground send up.flight_mode.set mode=FBW" in said
+    assert "up-ground send up.flight_mode.set mode=RETURN" in said
     assert "exit status" in ground(tmp_path, 1, "send", "--help")[1]
     listed = ground(tmp_path, 1, "commands")[1]
     assert "up.arm   [pilot" in listed

@@ -94,7 +94,8 @@ final class PlayedProxy extends Peer {
                 + "\"servo\": {\"ailerons\": 1581, \"elevator\": 1464, \"throttle\": 1640, "
                 + "\"rudder\": 1512}, "
                 + "\"location\": {\"latitude\": %.7f, \"longitude\": %.7f, \"altitude\": %.1f}, "
-                + "\"home\": {\"distance\": %.1f, \"bearing\": %.1f}, \"altitude\": %.1f, "
+                + "\"home\": {\"distance\": %.1f, \"bearing\": %.1f, "
+                + "\"altitude\": 310.0, \"time_s\": 41}, \"altitude\": %.1f, "
                 + "\"altitude_required\": null, "
                 + "\"heading\": {\"actual\": %.1f, \"required\": null}, "
                 + "\"android\": {\"connected\": true, \"batteryLevel\": 83}, "
@@ -104,14 +105,20 @@ final class PlayedProxy extends Peer {
                 + "\"load\": {\"cpu\": 12.0, \"ram\": 31.0, \"panic\": false, \"delay_ms\": 100}, "
                 + "\"mode\": \"flight controller\", \"flight_mode\": \"FBW\", "
                 + "\"flight_controller\": \"arduino\", \"armed\": true, \"vetoes\": [], "
+                + "\"flight_control\": {\"mode\": null, \"selected\": null, \"fallback\": null, "
+                + "\"modes\": {\"AUTO\": null, \"LOITER\": null, \"GLIDE\": \"navigation\"}, "
+                + "\"board_modes\": [\"FBW\", \"RATE\"]}, "
+                + "\"navigation\": {\"latitude\": %.7f, \"longitude\": %.7f, \"height\": 80.4, "
+                + "\"airspeed\": 14.2, \"speed\": 12.1, \"wind\": {\"speed\": 3.1, "
+                + "\"from\": 250}, \"sd\": {\"position\": 2.4}}, "
                 + "\"ground\": {\"role\": \"pilot\", \"tune_in_flight\": true}, "
                 + "\"age_ms\": {\"orientation\": 12, \"rx\": 20, \"servo\": 20, \"flight\": 30, "
-                + "\"location\": 300, \"altitude\": 30, \"heading\": 40, \"battery\": 4000}, "
+                + "\"location\": 300, \"altitude\": 30, \"heading\": 40, \"battery\": 4000, \"navigation\": 300}, "
                 + "\"source\": {\"orientation\": \"arduino\", \"location\": \"android\", "
                 + "\"altitude\": \"android\", \"heading\": \"arduino\"}, "
                 + "\"system\": {\"clock_ms\": %d, \"uptime_s\": %d}}}",
                 ++beacon, 18 + 3 * Math.sin(step / 7.0), 4 + 2 * Math.cos(step / 11.0), heading,
                 latitude, longitude, 312 + altitude, distance, bearing, altitude, heading,
-                System.nanoTime() / 1000000, step / 10);
+                latitude, longitude, System.nanoTime() / 1000000, step / 10);
     }
 }

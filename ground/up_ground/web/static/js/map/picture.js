@@ -57,14 +57,14 @@ export function homeText(picture) {
   const distance = distanceText(distance_m(picture.home, picture.aircraft));
   const back = headingText(bearing_deg(picture.aircraft, picture.home));
   const from = headingText(bearing_deg(picture.home, picture.aircraft));
-  return `${distance} from home at ${from}°, the way back ${back}°${timeText(picture)}${age}`;
+  return `${distance} from home at ${from}°, way back ${back}°${timeText(picture)}${age}`;
 }
 
 function timeText({ time_s }) {
   if (time_s === undefined) {
     return "";
   }
-  return time_s === null ? ", not reached in this wind" : ` takes ${clockText(time_s)}`;
+  return time_s === null ? ", not reached in this wind" : `, ${clockText(time_s)}`;
 }
 
 function headingOf(store) {

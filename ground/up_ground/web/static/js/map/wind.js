@@ -9,7 +9,7 @@ export class Wind {
   constructor() {
     const arrow = svg("svg", { viewBox: "-8 -8 16 16", width: 24, height: 24 }, this.#arrow);
     setAttribute(arrow, "aria-hidden", "true");
-    this.element = html("p.map-wind", { id: "map-wind", title: "Wind, two standard deviations", hidden: true }, "Wind", arrow, this.#words);
+    this.element = html("p.map-wind", { id: "map-wind", title: "The direction the wind comes from; its speed, two standard deviations", hidden: true }, arrow, this.#words);
   }
 
   show(store) {
@@ -18,9 +18,9 @@ export class Wind {
     this.element.hidden = from_deg === null || speed_m_s === null;
     if (!this.element.hidden) {
       const sd_m_s = store.number("navigation.sd.wind");
-      const spread = sd_m_s === null ? "" : ` ±${numberText(2 * sd_m_s, 1)}`;
+      const spread = sd_m_s === null ? "" : `\u00a0±${numberText(2 * sd_m_s, 1)}`;
       setAttribute(this.#arrow, "transform", `rotate(${from_deg.toFixed(0)})`);
-      setText(this.#words, `${numberText(speed_m_s, 1)}${spread} m/s from ${headingText(from_deg)}°`);
+      setText(this.#words, `Wind ${headingText(from_deg)}°, ${numberText(speed_m_s, 1)}${spread}\u00a0m/s`);
       setAttribute(this.element, "data-freshness", store.freshness("navigation"));
     }
   }

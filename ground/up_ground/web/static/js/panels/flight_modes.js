@@ -24,7 +24,7 @@ class ModeButtons {
     row.setAttribute("aria-label", title);
   }
 
-  /** modes: [{mode, reason: text or "", isActive, isEnabled}] */
+  /** modes: [{mode, code and reason: why not, null: it is offered, isActive, isEnabled}] */
   show(modes) {
     const names = modes.map(({ mode }) => mode);
     if (names.join("\n") !== this.#shown) {
@@ -32,10 +32,10 @@ class ModeButtons {
       this.#buttons = new Map(names.map((mode) => [mode, this.#buttons.get(mode) ?? this.#button(mode)]));
       this.#row.replaceChildren(...[...this.#buttons.values()].map(({ button }) => button));
     }
-    for (const { mode, code, isActive, isEnabled } of modes) {
+    for (const { mode, code, reason, isActive, isEnabled } of modes) {
       const { button, small } = this.#buttons.get(mode);
       button.disabled = code !== null || !isEnabled;
-      setText(small, code === null ? modeText(mode) : modeReason(code));
+      setText(small, code === null ? modeText(mode) : reason);
       setAttribute(button, "aria-pressed", String(isActive));
       setAttribute(button, "data-offered", String(code === null));
       setAttribute(button, "data-code", code ?? "");
@@ -100,7 +100,8 @@ export class FlightModes {
   }
 
   #of(mode, code, isActive) {
-    return { mode, code, isActive, isEnabled: this.#sender.disabledReason(NAME, { mode }) === null };
+    const isEnabled = this.#sender.disabledReason(NAME, { mode }) === null;
+    return { mode, code, reason: reasonText(this.#store, mode, code), isActive, isEnabled };
   }
 
   async #select(mode) {
@@ -120,6 +121,17 @@ export class FlightModes {
       ? ""
       : `The pilot's switch stands at ${selected}: the aircraft takes a mode only at AUTO.`;
   }
+}
+
+/** Why a mode is not offered; the refusals of the modes of this project are told apart. */
+export function reasonText(store, mode, code) {
+  if (code === "mode_refused" && mode === "GUIDED") {
+    return "it needs a target: click the map";
+  }
+  if (code === "mode_refused" && mode === "RETURN" && store.number("home.latitude") === null) {
+    return "home is not set";
+  }
+  return code === null ? "" : modeReason(code);
 }
 
 export function heading(text) {

@@ -20,6 +20,18 @@ public final class Earth {
         return Math.toRadians(shorterDeg) * RADIUS_M * Math.cos(Math.toRadians(latitudeDeg));
     }
 
+    /** Returns the latitude of a place so far north of another, degrees. */
+    public static double latitudeDeg(Home from, double northM) {
+        return from.latitudeDeg + Math.toDegrees(northM / RADIUS_M);
+    }
+
+    /** Returns the longitude of a place so far east of another, -180 to 180 degrees. */
+    public static double longitudeDeg(Home from, double eastM) {
+        final double cosine = Math.cos(Math.toRadians(from.latitudeDeg));
+        final double deg = from.longitudeDeg + Math.toDegrees(eastM / (RADIUS_M * cosine));
+        return deg - Math.rint(deg / 360) * 360;
+    }
+
     /** Returns how far two places are from each other, m; all in degrees. */
     public static double distanceM(double fromLatitudeDeg, double fromLongitudeDeg,
             double toLatitudeDeg, double toLongitudeDeg) {

@@ -28,6 +28,12 @@ public final class TelemetryText {
         return Collections.unmodifiableList(rows);
     }
 
+    /** Returns a number with its unit, such as {@code 12.3 m/s}; null: unknown. */
+    public static String value(Telemetry telemetry, String path) {
+        final Double number = telemetry.number(path);
+        return number == null ? null : text(path, number) + " " + TelemetrySchema.UNITS.get(path);
+    }
+
     /** Returns the load and the period of telemetry while the Raspberry Pi is busy. */
     public static String busy(Telemetry telemetry) {
         for (TelemetryRule each : TelemetrySchema.RULES) {

@@ -9,7 +9,7 @@ import org.raspilot.up.commands.CommandCatalogue;
 import org.raspilot.up.wire.MalformedException;
 
 /** The catalogue of Commands that came with the app. */
-final class CatalogueAsset {
+public final class CatalogueAsset {
     private static final String NAME = "commands.json";
 
     private CatalogueAsset() {
@@ -20,7 +20,7 @@ final class CatalogueAsset {
      *
      * @throws IOException when the app's package cannot be read or lacks a catalogue
      */
-    static CommandCatalogue read(Context context) throws IOException {
+    public static CommandCatalogue read(Context context) throws IOException {
         InputStream input = context.getAssets().open(NAME);
         try {
             ByteArrayOutputStream all = new ByteArrayOutputStream();

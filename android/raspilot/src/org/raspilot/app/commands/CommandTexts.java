@@ -5,10 +5,11 @@ import java.util.Map;
 import org.raspilot.app.R;
 import org.raspilot.up.android.GroundSnapshot;
 import org.raspilot.up.ground.CommandGate.DisabledReason;
+import org.raspilot.up.ground.FlightModes;
 import org.raspilot.up.ground.Freshness;
 
 /** The English texts of the Commands: titles, groups, objections, and requests. */
-final class CommandTexts {
+public final class CommandTexts {
     private CommandTexts() {
     }
 
@@ -45,7 +46,7 @@ final class CommandTexts {
     }
 
     /** Returns an objection as a sentence, or an empty text. */
-    static String objection(Resources words, DisabledReason objection, GroundSnapshot picture) {
+    public static String objection(Resources words, DisabledReason objection, GroundSnapshot picture) {
         switch (objection) {
             case NONE:
                 return "";
@@ -93,7 +94,7 @@ final class CommandTexts {
     }
 
     private static String mode(Resources words, GroundSnapshot picture) {
-        String mode = picture.telemetry.text("flight_mode");
+        String mode = FlightModes.acting(picture.telemetry);
         boolean isLive = picture.telemetry.freshness("flight_mode", picture.nowMs)
                 == Freshness.LIVE;
         return isLive && mode != null ? mode : words.getString(R.string.commands_not_known);

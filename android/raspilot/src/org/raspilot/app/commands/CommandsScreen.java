@@ -21,6 +21,7 @@ import org.raspilot.app.view.TextViews;
 import org.raspilot.up.android.TelemetryService;
 import org.raspilot.up.commands.BaseCommand;
 import org.raspilot.up.commands.CommandForm;
+import org.raspilot.up.commands.Commands;
 import org.raspilot.up.commands.GainSet;
 import org.raspilot.up.ground.CommandGate;
 import org.raspilot.up.ground.CommandGate.DisabledReason;
@@ -196,7 +197,7 @@ final class CommandsScreen
 
     /** Shows a confirmation; does nothing when the user declines or the screen is closed. */
     void confirm(String title, String text, String yes, Runnable then) {
-        confirmation.show(title, text, yes, then);
+        confirmation.show(title, text, yes, null, then);
     }
 
     /** Opens the form of a Command; empty or unknown: none. */
@@ -229,6 +230,9 @@ final class CommandsScreen
         }
         if (form.name.equals("arduino.pids.tunings")) {
             return new GainsPage(form, this);
+        }
+        if (form.name.equals(Commands.FLIGHT_MODE)) {
+            return new ModePage(form, this);
         }
         return new FormPage(form, this);
     }

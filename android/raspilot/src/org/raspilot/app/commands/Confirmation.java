@@ -2,24 +2,31 @@ package org.raspilot.app.commands;
 
 import android.app.AlertDialog;
 import android.content.Context;
+import android.view.View;
 import org.raspilot.app.R;
 
 /** A question before something is done; one at a time, and gone with the screen. */
-final class Confirmation {
+public final class Confirmation {
     private final Context context;
     private AlertDialog dialog;
 
     /** Makes it for an activity's context. */
-    Confirmation(Context context) {
+    public Confirmation(Context context) {
         this.context = context;
     }
 
-    /** Shows the dialog; {@code then} runs only when the user confirms. */
-    void show(String title, String text, String yes, final Runnable then) {
+    /**
+     * Shows the dialog.
+     *
+     * @param input an input below the text; null: none
+     * @param then runs only when the user confirms
+     */
+    public void show(String title, String text, String yes, View input, final Runnable then) {
         dismiss();
         dialog = new AlertDialog.Builder(context)
                 .setTitle(title)
                 .setMessage(text)
+                .setView(input)
                 .setNegativeButton(R.string.commands_leave, null)
                 .setPositiveButton(yes, (asked, which) -> then.run())
                 .create();
@@ -27,7 +34,7 @@ final class Confirmation {
     }
 
     /** Takes the question back; nothing is done. */
-    void dismiss() {
+    public void dismiss() {
         if (dialog != null) {
             dialog.dismiss();
             dialog = null;

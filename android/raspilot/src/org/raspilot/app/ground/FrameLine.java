@@ -7,6 +7,7 @@ import org.raspilot.app.view.InstrumentColors;
 import org.raspilot.app.view.TextViews;
 import org.raspilot.up.android.GroundSnapshot;
 import org.raspilot.up.ground.Age;
+import org.raspilot.up.ground.FlightModes;
 import org.raspilot.up.ground.Freshness;
 import org.raspilot.up.ground.Telemetry;
 
@@ -70,7 +71,7 @@ public final class FrameLine implements FrameText.DrawnListener {
     }
 
     private static String mode(GroundSnapshot picture, Resources words) {
-        String mode = picture.telemetry.text("flight_mode");
+        String mode = FlightModes.acting(picture.telemetry);
         return isLive(picture, "flight_mode") ? mode : words.getString(R.string.mode_unknown);
     }
 

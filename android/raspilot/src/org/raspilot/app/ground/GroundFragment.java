@@ -48,6 +48,9 @@ public final class GroundFragment extends WatchingFragment {
     @Override
     public void onStop() {
         super.onStop();
+        if (screen != null) {
+            screen.dismiss();
+        }
         sounder.release();
     }
 

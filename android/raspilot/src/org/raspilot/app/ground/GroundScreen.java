@@ -14,6 +14,7 @@ final class GroundScreen {
     private final ControlPanel seat;
     private final InstrumentPanel instruments;
     private final TrackPanel track;
+    private final FlightActions actions;
     private final StatePanel state;
     private final EventPanel events;
     private final ValuesPanel values;
@@ -26,6 +27,7 @@ final class GroundScreen {
         seat = new ControlPanel(root);
         instruments = new InstrumentPanel(root, speed);
         track = new TrackPanel(activity, root);
+        actions = new FlightActions(activity, root, frame);
         state = new StatePanel(root);
         events = new EventPanel(root);
         values = new ValuesPanel(root);
@@ -36,6 +38,11 @@ final class GroundScreen {
     void setGround(TelemetryService.Ground ground) {
         frame.clear();
         seat.setGround(ground);
+        actions.setGround(ground);
+    }
+
+    void dismiss() {
+        actions.dismiss();
     }
 
     /** Returns the visible panel; {@code otherwise} if all are. */
@@ -53,6 +60,7 @@ final class GroundScreen {
         showNewest(picture);
         alarms.update(picture);
         seat.update(picture);
+        actions.update(picture);
         state.update(picture);
         events.update(picture);
         values.update(picture);
@@ -60,6 +68,7 @@ final class GroundScreen {
 
     void close() {
         seat.setGround(null);
+        actions.setGround(null);
         frame.close();
     }
 }

@@ -8,15 +8,19 @@ import android.os.BatteryManager;
 import android.text.TextUtils;
 import android.view.View;
 import android.view.ViewGroup;
+import java.util.LinkedHashMap;
 import java.util.List;
 import java.util.Locale;
+import java.util.Map;
 import org.raspilot.app.R;
 import org.raspilot.app.view.InstrumentColors;
 import org.raspilot.up.android.GroundSnapshot;
 import org.raspilot.up.ground.Age;
 import org.raspilot.up.ground.Alarms;
+import org.raspilot.up.ground.FlightModes;
 import org.raspilot.up.ground.Freshness;
 import org.raspilot.up.ground.Telemetry;
+import org.raspilot.up.ground.TelemetrySchema;
 import org.raspilot.up.ground.TelemetryText;
 
 /** Control, mode, vetoes, and the state of board, phones and load. */
@@ -27,6 +31,7 @@ final class StatePanel {
     private final Context context;
     private final Resources words;
     private final Row mode;
+    private final Row fallback;
     private final Row armed;
     private final Row vetoes;
     private final Row raspilot;
@@ -42,6 +47,7 @@ final class StatePanel {
     private final Row aircraftBattery;
     private final Row phoneBattery;
     private final Row blackBox;
+    private final Map<String, Row> navigation = new LinkedHashMap<>();
     private String phonePercent = "";
     private boolean isPhoneLow;
     private long batteryLookedMs;
@@ -53,6 +59,7 @@ final class StatePanel {
         ViewGroup list = (ViewGroup) root.findViewById(R.id.ground_state);
         InstrumentColors colors = InstrumentColors.of(root.getContext());
         mode = Row.in(list, R.string.state_mode, colors);
+        fallback = Row.in(list, R.string.state_fallback, colors);
         armed = Row.in(list, R.string.state_motor, colors);
         vetoes = Row.in(list, R.string.state_vetoes, colors);
         failsafe = Row.in(list, R.string.state_failsafe, colors);
@@ -68,11 +75,19 @@ final class StatePanel {
         phoneBattery = Row.in(list, R.string.state_phone_battery, colors);
         load = Row.in(list, R.string.state_load, colors);
         blackBox = Row.in(list, R.string.state_black_box, colors);
+        for (Map.Entry<String, String> each : TelemetrySchema.NAVIGATION.entrySet()) {
+            Row row = Row.in(list, R.string.state_home, colors);
+            row.label(each.getKey());
+            navigation.put(each.getValue(), row);
+        }
     }
 
     void update(GroundSnapshot picture) {
         Telemetry telemetry = picture.telemetry;
-        text(mode, picture, "flight_mode");
+        show(mode, picture, "flight_mode", FlightModes.acting(telemetry), Row.Look.PLAIN);
+        String replaced = FlightModes.fallback(telemetry);
+        fallback.setVisible(replaced != null);
+        show(fallback, picture, "flight_control.fallback", replaced, Row.Look.ALARM);
         text(raspilot, picture, "mode");
         text(switchRow, picture, "arduino.switch");
         Boolean isArmed = telemetry.flag("armed");
@@ -93,6 +108,18 @@ final class StatePanel {
         showStale(picture);
         showBatteries(picture);
         showBlackBox(picture);
+        showNavigation(picture);
+    }
+
+    /** Shows what the aircraft estimates of its flight; without an estimate there are no rows. */
+    private void showNavigation(GroundSnapshot picture) {
+        boolean isThere = picture.telemetry.number("navigation.latitude") != null;
+        for (Map.Entry<String, Row> each : navigation.entrySet()) {
+            String path = each.getKey();
+            each.getValue().setVisible(isThere);
+            show(each.getValue(), picture, path, TelemetryText.value(picture.telemetry, path),
+                    Row.Look.PLAIN);
+        }
     }
 
     private void showVetoes(GroundSnapshot picture, Boolean isArmed) {

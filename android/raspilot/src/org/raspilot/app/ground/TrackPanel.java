@@ -12,7 +12,9 @@ import org.raspilot.app.R;
 import org.raspilot.app.view.TextViews;
 import org.raspilot.app.view.TrackView;
 import org.raspilot.up.android.GroundSnapshot;
+import org.raspilot.up.ground.Earth;
 import org.raspilot.up.ground.Freshness;
+import org.raspilot.up.ground.Home;
 import org.raspilot.up.ground.Telemetry;
 import org.raspilot.up.ground.Track.TrackPoint;
 import org.raspilot.up.ground.Track;
@@ -54,6 +56,7 @@ final class TrackPanel implements View.OnClickListener {
         view.setAircraft(newest == null ? null : newest.northM,
                 newest == null ? null : newest.eastM,
                 isHeadingLive ? telemetry.number("heading.actual") : null);
+        showTarget(track, telemetry);
         Freshness freshness = telemetry.freshness("location.latitude", picture.nowMs);
         if (!hasTrack) {
             freshness = Freshness.NONE;
@@ -99,6 +102,19 @@ final class TrackPanel implements View.OnClickListener {
             hasGapBefore[each] = point.isAfterSilence;
         }
         view.setTrack(north, east, hasGapBefore, track != null && track.isOriginHome);
+    }
+
+    private void showTarget(Track.Snapshot track, Telemetry telemetry) {
+        Double latitude = telemetry.number("navigation.target.latitude");
+        Double longitude = telemetry.number("navigation.target.longitude");
+        if (track == null || track.origin == null || latitude == null || longitude == null) {
+            view.setTarget(null, null, null);
+            return;
+        }
+        Home origin = track.origin;
+        view.setTarget(Earth.northM(origin.latitudeDeg, latitude),
+                Earth.eastM(origin.longitudeDeg, longitude, origin.latitudeDeg),
+                telemetry.number("navigation.target.radius"));
     }
 
     private void showPlace(GroundSnapshot picture, String age) {

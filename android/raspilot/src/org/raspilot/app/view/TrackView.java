@@ -25,6 +25,12 @@ public final class TrackView extends Instrument {
     private static final String EAST = "east";
     private static final String SCALE = "scale";
 
+    /** Called when a place was tapped. */
+    public interface TapListener {
+        /** Takes the place, metres from the origin of the track. */
+        void onTap(double northM, double eastM);
+    }
+
     private final TrackGeometry geometry = new TrackGeometry();
     private final ScaleGestureDetector pinch;
     private final GestureDetector drag;
@@ -40,6 +46,10 @@ public final class TrackView extends Instrument {
     private double aircraftNorthM = Double.NaN;
     private double aircraftEastM = Double.NaN;
     private double headingDeg = Double.NaN;
+    private double targetNorthM = Double.NaN;
+    private double targetEastM = Double.NaN;
+    private double targetRadiusM;
+    private TapListener tapListener;
     private double stepM;
     private String stepText = "";
 
@@ -90,6 +100,24 @@ public final class TrackView extends Instrument {
         refit();
     }
 
+    /**
+     * Takes the target of the flight mode.
+     *
+     * @param north metres; null: none
+     * @param east metres; null: none
+     * @param radius of the circle around it, metres; null: none
+     */
+    public void setTarget(Double north, Double east, Double radius) {
+        targetNorthM = north == null || east == null ? Double.NaN : north;
+        targetEastM = north == null || east == null ? Double.NaN : east;
+        targetRadiusM = radius == null ? 0 : radius;
+        invalidate();
+    }
+
+    public void setTapListener(TapListener listener) {
+        tapListener = listener;
+    }
+
     public void follow() {
         geometry.follow();
         refit();
@@ -131,6 +159,7 @@ public final class TrackView extends Instrument {
         drawGrid(canvas);
         drawTrack(canvas);
         drawHome(canvas);
+        drawTarget(canvas);
         drawAircraft(canvas);
         drawScale(canvas);
         drawNorth(canvas);
@@ -253,6 +282,16 @@ public final class TrackView extends Instrument {
         centred(canvas, homeLetter, x, y, 12, colors().good);
     }
 
+    private void drawTarget(Canvas canvas) {
+        if (!Double.isNaN(targetNorthM)) {
+            float x = geometry.x(targetEastM);
+            float y = geometry.y(targetNorthM);
+            canvas.drawCircle(x, y, dp(4), area(colors().warning));
+            float radius = (float) (targetRadiusM * geometry.pixelsPerM());
+            canvas.drawCircle(x, y, radius, line(colors().warning, 2));
+        }
+    }
+
     private void drawAircraft(Canvas canvas) {
         if (Double.isNaN(aircraftNorthM)) {
             return;
@@ -307,6 +346,14 @@ public final class TrackView extends Instrument {
         public boolean onScroll(MotionEvent from, MotionEvent to, float leftPx, float upPx) {
             geometry.drag(-leftPx, -upPx);
             refit();
+            return true;
+        }
+
+        @Override
+        public boolean onSingleTapConfirmed(MotionEvent event) {
+            if (tapListener != null) {
+                tapListener.onTap(geometry.northAt(event.getY()), geometry.eastAt(event.getX()));
+            }
             return true;
         }
 

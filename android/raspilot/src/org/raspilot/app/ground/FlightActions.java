@@ -1,0 +1,171 @@
+package org.raspilot.app.ground;
+
+import android.app.Activity;
+import android.text.InputType;
+import android.view.View;
+import android.widget.Button;
+import android.widget.EditText;
+import android.widget.Toast;
+import java.io.IOException;
+import java.util.Collections;
+import java.util.LinkedHashMap;
+import java.util.Map;
+import org.raspilot.app.R;
+import org.raspilot.app.commands.CatalogueAsset;
+import org.raspilot.app.commands.CommandTexts;
+import org.raspilot.app.commands.Confirmation;
+import org.raspilot.app.view.TrackView;
+import org.raspilot.up.android.GroundSnapshot;
+import org.raspilot.up.android.TelemetryService;
+import org.raspilot.up.commands.BaseCommand;
+import org.raspilot.up.commands.CommandCatalogue;
+import org.raspilot.up.commands.CommandForm;
+import org.raspilot.up.commands.Commands;
+import org.raspilot.up.commands.InvalidCommandException;
+import org.raspilot.up.ground.Answer;
+import org.raspilot.up.ground.CommandGate;
+import org.raspilot.up.ground.CommandGate.DisabledReason;
+import org.raspilot.up.ground.Earth;
+import org.raspilot.up.ground.FlightModes;
+import org.raspilot.up.ground.Home;
+import org.raspilot.up.ground.Telemetry;
+
+/** RETURN and LOITER by a button, GUIDED by a tap on the track; each after a confirmation. */
+final class FlightActions implements View.OnClickListener, TrackView.TapListener {
+    private static final String TARGET = "up.navigation.target";
+    private static final Map<String, Object> NOTHING = Collections.emptyMap();
+    private static final double MIN_HEIGHT_M = 30;
+
+    private final Activity activity;
+    private final FrameLine frame;
+    private final Confirmation confirmation;
+    private final Button home;
+    private final Button loiter;
+    private final CommandForm mode;
+    private final CommandForm target;
+    private TelemetryService.Ground ground;
+
+    FlightActions(Activity activity, View root, FrameLine frame) {
+        this.activity = activity;
+        this.frame = frame;
+        confirmation = new Confirmation(activity);
+        home = (Button) root.findViewById(R.id.ground_return);
+        loiter = (Button) root.findViewById(R.id.ground_loiter);
+        home.setOnClickListener(this);
+        loiter.setOnClickListener(this);
+        ((TrackView) root.findViewById(R.id.ground_track)).setTapListener(this);
+        CommandCatalogue catalogue = catalogue(activity);
+        mode = catalogue == null ? null : catalogue.form(Commands.FLIGHT_MODE);
+        target = catalogue == null ? null : catalogue.form(TARGET);
+    }
+
+    private static CommandCatalogue catalogue(Activity activity) {
+        try {
+            return CatalogueAsset.read(activity);
+        } catch (IOException missing) {
+            // The commands screen shows the fault.
+            return null;
+        }
+    }
+
+    /** Sets the ground; null: none. */
+    void setGround(TelemetryService.Ground newGround) {
+        ground = newGround;
+        dismiss();
+    }
+
+    /** Takes a question back: a dialog that is not visible must not be confirmed. */
+    void dismiss() {
+        confirmation.dismiss();
+    }
+
+    void update(GroundSnapshot picture) {
+        Map<String, String> modes = FlightModes.all(picture.telemetry);
+        boolean isOffered = objection(mode, picture) == DisabledReason.NONE;
+        home.setEnabled(isOffered && modes.get(FlightModes.RETURN) == null);
+        loiter.setEnabled(isOffered && modes.get(FlightModes.LOITER) == null);
+    }
+
+    @Override
+    public void onClick(View button) {
+        final String name = button == home ? FlightModes.RETURN : FlightModes.LOITER;
+        String now = FlightModes.acting(GroundSnapshot.of(ground).telemetry);
+        confirmation.show(activity.getString(R.string.fly_question, name),
+                activity.getString(R.string.fly_now, now), name, null, () -> select(name));
+    }
+
+    @Override
+    public void onTap(double northM, double eastM) {
+        GroundSnapshot picture = GroundSnapshot.of(ground);
+        if (picture.track == null || picture.track.origin == null) {
+            return;
+        }
+        DisabledReason reason = objection(target, picture);
+        if (reason != DisabledReason.NONE) {
+            say(CommandTexts.objection(activity.getResources(), reason, picture));
+            return;
+        }
+        final Home origin = picture.track.origin;
+        Telemetry telemetry = picture.telemetry;
+        final boolean isAboveHome = telemetry.number("home.altitude") != null;
+        Double known = telemetry.number(isAboveHome ? "navigation.height" : "navigation.altitude");
+        final EditText height = new EditText(activity);
+        height.setId(R.id.ground_height);
+        height.setInputType(InputType.TYPE_CLASS_NUMBER | InputType.TYPE_NUMBER_FLAG_DECIMAL);
+        if (known != null) {
+            double offeredM = isAboveHome ? Math.max(MIN_HEIGHT_M, known) : known;
+            height.setText(Long.toString(Math.round(offeredM)));
+        }
+        String text = activity.getString(
+                isAboveHome ? R.string.fly_height : R.string.fly_altitude,
+                Math.round(Math.hypot(northM, eastM)));
+        confirmation.show(activity.getString(R.string.fly_here), text,
+                activity.getString(R.string.fly_yes), height, () -> {
+                Map<String, String> fields = new LinkedHashMap<>();
+                fields.put("latitude", Double.toString(Earth.latitudeDeg(origin, northM)));
+                fields.put("longitude", Double.toString(Earth.longitudeDeg(origin, eastM)));
+                fields.put(isAboveHome ? "height" : "altitude", height.getText().toString());
+                flyTo(fields);
+            });
+    }
+
+    private void flyTo(Map<String, String> fields) {
+        BaseCommand command;
+        try {
+            command = target.command(fields);
+        } catch (InvalidCommandException wrong) {
+            say(wrong.getMessage());
+            return;
+        }
+        String selected = GroundSnapshot.of(ground).telemetry.text("flight_control.selected");
+        boolean isGuided = FlightModes.GUIDED.equals(selected);
+        send(command, isGuided ? null : () -> select(FlightModes.GUIDED));
+    }
+
+    private void select(String name) {
+        send(new BaseCommand(Commands.FLIGHT_MODE, Collections.singletonMap("mode", name)), null);
+    }
+
+    /** Sends a Command; {@code then} runs when the aircraft carried it out. */
+    private void send(BaseCommand command, Runnable then) {
+        if (ground == null) {
+            return;
+        }
+        ground.send(command, frame.shownBeacon(), answer -> {
+            if (answer.outcome != Answer.Outcome.ACK) {
+                say(answer.reason.isEmpty() ? answer.code : answer.reason);
+            } else if (then != null) {
+                then.run();
+            }
+        });
+    }
+
+    private static DisabledReason objection(CommandForm form, GroundSnapshot picture) {
+        return form == null ? DisabledReason.NO_LINK : CommandGate.objection(form, NOTHING,
+                picture.status, picture.telemetry, picture.nowMs);
+    }
+
+    private void say(String text) {
+        Toast.makeText(activity, text, Toast.LENGTH_LONG).show();
+    }
+}
