@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Iterable
 from typing import Any
 
 from tools.schema_definition import (
@@ -192,6 +193,7 @@ def _limits(schema: Schema) -> dict[str, float]:
             for code, above, below in limits if above != below}  # fmt: skip
 
 
+RULE = "new TelemetryRule("
 JAVA_TIMES = ("pause_s", "max_pause_s", "quiet_s", "silent_s", "new_clock_s")
 
 
@@ -201,13 +203,18 @@ def java(schema: Schema) -> str:
     def put(table: str, key: str, value: object) -> str:
         return f"        {table}.put({json.dumps(key)}, {value});\n"
 
-    def rule(columns: dict[str, Any]) -> str:
+    def grouped(table: str, values: list[tuple[str, Any]]) -> str:
+        """Return a call for each value, with all of its keys."""
+        keys: dict[Any, list[str]] = {}
+        for key, value in values:
+            keys.setdefault(value, []).append(key)
+        return "".join(_java_call(f"put({table}, ", map(json.dumps, [value, *names]), ");")
+                       for value, names in keys.items())  # fmt: skip
+
+    def rule(columns: dict[str, Any]) -> list[str]:
         texts = [(k, ",".join(v) if k == "awaits" else str(v).lower() if v in (True, False) else v)
                  for k, v in _given(columns).items() if k != "finding"]  # fmt: skip
-        pairs = ",\n                ".join(
-            f"{json.dumps(k)}, {json.dumps(str(v))}" for k, v in texts
-        )
-        return f"new TelemetryRule(\n                {pairs})"
+        return [f"{json.dumps(k)}, {json.dumps(str(v))}" for k, v in texts]
 
     shown = [each for each in schema.rules if each["event"] or each["alarm"]]
     fields = [each for each in schema.fields if each.in_telemetry]
@@ -245,15 +252,39 @@ public final class TelemetrySchema {{
     static {{
 {"".join(put("STALE_MS", r.name, f"{round(1000 * r.stale_s)}L") for r in schema.readings)}\
 {"".join(put("HOLDS_MS", k, f"{round(1000 * v)}L") for k, v in schema.holds_s.items())}\
-{"".join(put("READING_OF", r.name, json.dumps(r.reading)) for r in fields if r.reading)}\
-{"".join(put("UNITS", r.name, json.dumps(r.unit)) for r in fields if r.unit)}\
-{"".join(put("DECIMALS", r.name, r.decimals) for r in fields if r.decimals != 3)}\
+{grouped("READING_OF", [(r.name, r.reading) for r in fields if r.reading])}\
+{grouped("UNITS", [(r.name, r.unit) for r in fields if r.unit])}\
+{grouped("DECIMALS", [(r.name, r.decimals) for r in fields if r.decimals != 3])}\
 {"".join(put("LIMITS", k, float(v)) for k, v in _limits(schema).items())}\
-{"".join(f"        RULES.add({rule(each)});" + chr(10) for each in shown)}\
-{"".join(put("EVENTS", each.code, rule(event_rule(each))) for each in schema.events)}\
+{"".join(_java_call("RULES.add(" + RULE, rule(each), "));") for each in shown)}\
+{
+        "".join(
+            _java_call(
+                f"EVENTS.put({json.dumps(each.code)}, " + RULE, rule(event_rule(each)), "));"
+            )
+            for each in schema.events
+        )
+    }\
     }}
 
     private TelemetrySchema() {{
     }}
+
+    private static <T> void put(Map<String, T> table, T value, String... keys) {{
+        for (String key : keys) {{
+            table.put(key, value);
+        }}
+    }}
 }}
 """
+
+
+def _java_call(head: str, arguments: Iterable[str], end: str) -> str:
+    """Return a call whose arguments fill lines of at most 100 characters."""
+    lines = [" " * 8 + head]
+    *others, last = arguments
+    for piece in (*(f"{each}, " for each in others), last + end):
+        if len((lines[-1] + piece).rstrip()) > 100:
+            lines.append(" " * 16)
+        lines[-1] += piece
+    return "".join(f"{line.rstrip()}\n" for line in lines)

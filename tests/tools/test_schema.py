@@ -179,7 +179,7 @@ def test_they_are_in_the_app_and_in_the_documents(tree):
     for path, kind in (("arduino.brown_outs", "brown_outs"), ("load.temperature", "temperature")):
         assert f'"path", "{path}"' in table
         assert f'HOLDS_MS.put("{kind}", 5000L);' in table
-    assert 'UNITS.put("load.temperature", "degC");' in table
+    assert 'put(UNITS, "degC", "load.temperature");' in table
     page = (tree / "docs" / "protocols.md").read_text()
     rows = [[cell.strip() for cell in line.split("|")[1:-1]] for line in page.splitlines()]
     heads = [row[:3] for row in rows]
