@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import sys
 from collections.abc import Callable, Sequence
+from contextlib import suppress
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
@@ -29,13 +30,15 @@ from up.cli.option_parser import OptionParser
 from up.commands.gains import Gains, GainSet
 from up.config.atomic_writer import write_atomically
 from up.flight_controller.pids_file import PIDS, PidsConfig, gain_set_of
+from up_flightlog.plots.canvas import PictureError
+from up_flightlog.plots.chart import Mark
 from up_simulator.aircraft import DEFAULT_AIRFRAME, AirframeError, load_airframe
 from up_simulator.aircraft.flight import FlightUnavailableError
 from up_simulator.firmware.board import BoardCrashedError
 from up_simulator.firmware.build import BoardUnavailableError
 from up_simulator.firmware.preparation import PreparationError
 from up_simulator.firmware.settings_wire import SettingsError
-from up_simulator.picture.flight_picture import Mark, PictureError, draw_flight
+from up_simulator.picture.flight_picture import draw_flight
 from up_simulator.scenario.log import LogError, read_log
 from up_simulator.scenario.run import try_folder
 from up_simulator.verbs.catalogue import HELD, NOT_HELD, UsageError
@@ -202,7 +205,10 @@ def _look_at_log(options: argparse.Namespace) -> int:
         _out(line)
     path = options.pictures / f"{options.log.resolve().parent.name}-{options.log.stem}-steps.png"
     marks = [
-        Mark(step.at_s, f"{step.axis} {step.mode} {step.start:.0f} to {step.end:.0f} {step.unit}")
+        Mark(
+            step.at_s,
+            text=f"{step.axis} {step.mode} {step.start:.0f} to {step.end:.0f} {step.unit}",
+        )
         for step in steps
     ]
     draw = partial(
@@ -243,6 +249,9 @@ def _is_drawn(draw: Callable[[Path], None], path: Path) -> bool:
         _note(str(error))
         return False
     except OSError as error:
+        # Remove the incomplete picture.
+        with suppress(OSError):
+            path.unlink()
         _note(f"{path}: the picture cannot be written: {error.strerror or error}")
         return False
     return True

@@ -5,23 +5,15 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Sequence
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from tools.tuning.evaluation import Loop
 from tools.tuning.experiments import SETTLE_S, FlownSteps
 from tools.tuning.tune import AxisTuning
-from up_simulator.picture.canvas import sheet_for
-from up_simulator.picture.palette import (
-    BLUE,
-    DEMAND,
-    GREEN,
-    GRID,
-    INK,
-    MUTED,
-    ORANGE,
-    PURPLE,
-)
+from up_flightlog.plots.canvas import Sheet, png_of
+from up_flightlog.plots.theme import DAYLIGHT as THEME
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -30,35 +22,37 @@ WIDTH_IN = 15.0
 MARGIN_IN = 0.7
 HEAD_IN = 1.0
 BIG_IN = 2.9
+DPI = 110
 
 
 def draw_tuning(tuning: AxisTuning, path: Path, *, title: str) -> None:
-    """Draw the proposal and the loop's response with its margins. Raises ``PictureError``."""
-    with sheet_for(path) as sheet:
-        sheet.resize(WIDTH_IN, HEAD_IN + BIG_IN + 0.9)
-        sheet.text(MARGIN_IN, 0.2, title, size=15, weight="bold")
-        sheet.text(
-            MARGIN_IN,
-            0.5,
-            f"{tuning.axis} in FBW; proposed: {tuning.proposal.gains}",
-            size=9.5,
-            color=MUTED,
-        )
-        width = (WIDTH_IN - 2 * MARGIN_IN - 1.6) / 3
-        axes = [
-            sheet.axes(MARGIN_IN + number * (width + 0.8), HEAD_IN + 0.15, width, BIG_IN)
-            for number in range(3)
-        ]
-        _draw_comparison(axes[0], tuning)
-        _draw_loop(axes[1], axes[2], tuning)
+    """Draw the proposal and the loop's response with its margins.
+
+    Raises PictureError without matplotlib, and OSError.
+    """
+    paint = partial(_draw, tuning=tuning, title=title)
+    path.write_bytes(png_of(paint, WIDTH_IN, HEAD_IN + BIG_IN + 0.9, DPI, THEME))
+
+
+def _draw(sheet: Sheet, tuning: AxisTuning, title: str) -> None:
+    sheet.text(MARGIN_IN, 0.2, title, size=15, weight="bold")
+    subtitle = f"{tuning.axis} in FBW; proposed: {tuning.proposal.gains}"
+    sheet.text(MARGIN_IN, 0.5, subtitle, size=9.5, color=THEME.muted)
+    width = (WIDTH_IN - 2 * MARGIN_IN - 1.6) / 3
+    axes = [
+        sheet.axes(MARGIN_IN + number * (width + 0.8), HEAD_IN + 0.15, width, BIG_IN)
+        for number in range(3)
+    ]
+    _draw_comparison(axes[0], tuning)
+    _draw_loop(axes[1], axes[2], tuning)
 
 
 def _draw_comparison(axes: Axes, tuning: AxisTuning) -> None:
     plan = tuning.proposal.steps.plan
     _demand(axes, tuning.proposal.steps, len(plan.demands))
     for candidate, colour, words in (
-        (tuning.now, ORANGE, "as it was"),
-        (tuning.proposal, GREEN, "proposed"),
+        (tuning.now, THEME.orange, "as it was"),
+        (tuning.proposal, THEME.green, "proposed"),
     ):
         times_s, values = _shown(candidate.steps, len(plan.demands))
         axes.plot(times_s, values, color=colour, lw=1.6, label=f"{words}: {candidate.gains}")
@@ -71,8 +65,8 @@ def _draw_comparison(axes: Axes, tuning: AxisTuning) -> None:
 def _draw_loop(size_axes: Axes, phase_axes: Axes, tuning: AxisTuning) -> None:
     """Draw size and phase of the open loop with the proposed gains, and the margins."""
     curves: tuple[tuple[Loop, str, str, str], ...] = (
-        (tuning.cruise, "cruise", BLUE, "-"),
-        (tuning.dive, "dive", PURPLE, "--"),
+        (tuning.cruise, "cruise", THEME.blue, "-"),
+        (tuning.dive, "dive", THEME.purple, "--"),
     )
     for loop, words, colour, style in curves:
         points = loop.with_gains(tuning.proposal.gains)
@@ -104,7 +98,7 @@ def _draw_loop(size_axes: Axes, phase_axes: Axes, tuning: AxisTuning) -> None:
         (size_axes, 0.0, "Open loop: gain around the loop", "dB"),
         (phase_axes, -180.0, "Its phase", "deg"),
     ):
-        axes.axhline(level, color=INK, lw=0.8)
+        axes.axhline(level, color=THEME.ink, lw=0.8)
         axes.set_title(words, loc="left", size=10, weight="bold")
         axes.set_xlabel("frequency (Hz)")
         axes.set_ylabel(unit)
@@ -118,8 +112,8 @@ def _demand(axes: Axes, steps: FlownSteps, count: int) -> None:
     for number, demand in enumerate(plan.demands[:count]):
         times_s += [number * plan.hold_s, (number + 1) * plan.hold_s]
         values += [demand, demand]
-    axes.plot(times_s, values, color=DEMAND, ls=":", lw=1.2)
-    axes.axhline(0, color=GRID, lw=0.6)
+    axes.plot(times_s, values, color=THEME.ink, ls=":", lw=1.2)
+    axes.axhline(0, color=THEME.grid, lw=0.6)
 
 
 def _shown(steps: FlownSteps, count: int) -> tuple[list[float], list[float]]:

@@ -14,20 +14,18 @@ from up_flightlog.cli.terminal import echo
 from up_flightlog.export.csv_table import flat
 from up_flightlog.export.output import file_exists, write_file
 from up_flightlog.findings.flight_context import FlightContext
-from up_flightlog.plots.canvas import MISSING, Sheet, has_matplotlib, png_of
+from up_flightlog.plots.canvas import MISSING, has_matplotlib, png_of
 from up_flightlog.plots.chart import Background, Curve, Panel
+from up_flightlog.plots.overview import DPI, Overview, overview_png
 from up_flightlog.plots.theme import DAYLIGHT
 from up_flightlog.plots.timeline import draw_timeline, timeline_height_in
-from up_flightlog.plots.track_picture import TrackView, draw_track
 from up_flightlog.read.flight_log import FlightLog
 from up_flightlog.read.spans import duration_text
 from up_flightlog.report.content import report_content
 from up_flightlog.report.formatting import start_text
 from up_flightlog.report.report_data import bands_of
 
-WIDTH_IN, DPI = 11.0, 130
-OVERVIEW_IN, HEAD_IN = 15.0, 0.62
-_TRACK_IN, _BETWEEN_IN = 5.6, 0.3
+WIDTH_IN = 11.0
 MAX_FIELDS = 12
 _SAMPLE = 200
 _COLOURS = ("blue", "orange", "green", "vermilion", "purple", "sky")
@@ -58,16 +56,9 @@ def _overview(log: FlightLog, name: str) -> bytes:
     if not panels and content.track is None:
         raise CliError("the log has neither position nor attitude: name a FIELD")
     aircraft = printable(content.summary.aircraft) or "unnamed aircraft"
-    paint = partial(
-        _draw_overview,
-        title=aircraft[:60],
-        subtitle=f"{start_text(log.start_unix_s)}, {duration_text(log.length_s)}",
-        panels=panels,
-        background=content.background,
-        track=content.track,
-    )
-    return png_of(
-        paint, OVERVIEW_IN, _overview_height_in(panels, content.background), DPI, DAYLIGHT
+    subtitle = f"{start_text(log.start_unix_s)}, {duration_text(log.length_s)}"
+    return overview_png(
+        Overview(aircraft[:60], subtitle, panels, content.background, content.track)
     )
 
 
@@ -128,32 +119,3 @@ def _unit(log: FlightLog, topic: str, field: str) -> str:
     about = properties.get(field) if isinstance(properties, dict) else None
     unit = about.get("x-unit") if isinstance(about, dict) else None
     return unit if isinstance(unit, str) else ""
-
-
-def _overview_height_in(panels: Sequence[Panel], background: Background) -> float:
-    """Return the height of the picture."""
-    below_in = timeline_height_in(panels, background, _panels_in()) if panels else 0.0
-    return HEAD_IN + max(below_in, _TRACK_IN)
-
-
-def _draw_overview(
-    sheet: Sheet,
-    title: str,
-    subtitle: str,
-    panels: Sequence[Panel],
-    background: Background,
-    track: TrackView | None,
-) -> None:
-    """Draw both; a missing one leaves its place empty."""
-    sheet.text(0.62, 0.12, title, size=14, weight="bold")
-    sheet.text(0.62, 0.38, subtitle, size=9, color=sheet.theme.muted)
-    below_in = sheet.height - HEAD_IN
-    if panels:
-        draw_timeline(sheet.part(0.0, HEAD_IN, _panels_in(), below_in), panels, background)
-    if track is not None:
-        left_in = sheet.width - _TRACK_IN
-        draw_track(sheet.part(left_in, HEAD_IN, _TRACK_IN, _TRACK_IN), track)
-
-
-def _panels_in() -> float:
-    return OVERVIEW_IN - _TRACK_IN - _BETWEEN_IN

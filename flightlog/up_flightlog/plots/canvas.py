@@ -56,6 +56,12 @@ class Sheet:
         box = axes.get_position()
         return box.width * self._paper[0], box.height * self._paper[1]
 
+    def resize(self, width: float, height: float) -> None:
+        """Change the size of the whole paper, inches; call it before anything is placed."""
+        self._figure.set_size_inches(width, height)
+        self._paper = (width, height)
+        self.width, self.height = width, height
+
     def text(self, left: float, top: float, words: str, **options: Any) -> None:
         """Write text with its upper left corner at a position."""
         x, y = (self._left + left) / self._paper[0], 1 - (self._top + top) / self._paper[1]
@@ -128,5 +134,6 @@ def _style(theme: Theme) -> dict[str, Any]:
         "legend.frameon": False,
         "legend.fontsize": 8.5,
         "lines.linewidth": 1.3,
+        "hatch.linewidth": 0.6,
         "figure.facecolor": theme.paper,
     }

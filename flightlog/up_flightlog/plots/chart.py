@@ -32,6 +32,15 @@ class Curve:
 
 
 @dataclass(frozen=True, slots=True)
+class Shade:
+    """A hatched time span of a panel; ``height`` is its share of the panel, from the bottom."""
+
+    begin_s: float
+    end_s: float
+    height: float = 1.0
+
+
+@dataclass(frozen=True, slots=True)
 class Panel:
     """Curves over one axis; ``min_range`` keeps noise from looking like movement."""
 
@@ -42,6 +51,7 @@ class Panel:
     """A value marked by a thin line."""
     min_range: float = 0.0
     share: float = 1.0
+    shades: Sequence[Shade] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -55,10 +65,11 @@ class Band:
 
 @dataclass(frozen=True, slots=True)
 class Mark:
-    """A moment with an event."""
+    """A moment with an event; its text is a label above the panels."""
 
     at_s: float
     is_bad: bool = False
+    text: str = ""
 
 
 @dataclass(frozen=True, slots=True)

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from up_flightlog.plots.canvas import Sheet
 from up_flightlog.plots.chart import Background, Curve, Panel, drawable, is_drawable
+from up_flightlog.plots.mark_labels import ROW_IN, SIZE_PT, PlacedLabel
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -15,25 +16,33 @@ STRIP_IN, PANEL_IN, FOOT_IN = 0.22, 1.45, 0.42
 HEAD_IN, NARROW_HEAD_IN, NARROW_IN = 0.4, 0.58, 6.0
 """Space above a panel for its title and its legend, stacked where it is narrow."""
 LEFT_IN, RIGHT_IN = 0.62, 0.22
-_NAME_PT = 8.0
 _STEPS_S = (0.1, 0.2, 0.5, 1, 2, 5, 10, 15, 30, 60, 120, 300, 600, 900, 1800, 3600, 7200)
 _LABEL_IN = 0.8
 
 
-def timeline_height_in(panels: Sequence[Panel], background: Background, width_in: float) -> float:
-    """Return the height of the picture of these panels."""
-    strip_in = STRIP_IN if background.bands else 0.0
+def timeline_height_in(
+    panels: Sequence[Panel],
+    background: Background,
+    width_in: float,
+    labels: Sequence[PlacedLabel] = (),
+) -> float:
+    """Return the height of the picture of these panels, with the labels above them."""
     head_in = _head_in(width_in)
-    return strip_in + sum(head_in + PANEL_IN * panel.share for panel in panels) + FOOT_IN
+    panels_in = sum(head_in + PANEL_IN * panel.share for panel in panels)
+    return _strip_in(background, labels) + panels_in + FOOT_IN
 
 
-def draw_timeline(sheet: Sheet, panels: Sequence[Panel], background: Background) -> None:
+def draw_timeline(
+    sheet: Sheet,
+    panels: Sequence[Panel],
+    background: Background,
+    labels: Sequence[PlacedLabel] = (),
+) -> None:
     """Draw the panels onto a sheet of `timeline_height_in`."""
     width_in = sheet.width - LEFT_IN - RIGHT_IN
-    top_in = 0.0
-    if background.bands:
-        _draw_strip(sheet, background, width_in)
-        top_in = STRIP_IN
+    top_in = _strip_in(background, labels)
+    if top_in:
+        _draw_strip(sheet, background, labels, width_in)
     for number, panel in enumerate(panels, 1):
         top_in += _head_in(sheet.width)
         height_in = PANEL_IN * panel.share
@@ -77,19 +86,44 @@ def _end_s(background: Background) -> float:
     return max(background.length_s, 0.1)
 
 
-def _draw_strip(sheet: Sheet, background: Background, width_in: float) -> None:
-    axes = sheet.axes(LEFT_IN, 0.0, width_in, STRIP_IN)
+def _strip_in(background: Background, labels: Sequence[PlacedLabel]) -> float:
+    """Return the height of the strip: the bands, and the rows of labels above them."""
+    rows = 1 + max((label.row for label in labels), default=-1)
+    return rows * ROW_IN + (STRIP_IN if background.bands else 0.0)
+
+
+def _draw_strip(
+    sheet: Sheet, background: Background, labels: Sequence[PlacedLabel], width_in: float
+) -> None:
+    height_in = _strip_in(background, labels)
+    axes = sheet.axes(LEFT_IN, 0.0, width_in, height_in)
     axes.set_xlim(0.0, _end_s(background))
-    axes.set_ylim(0.0, 1.0)
+    axes.set_ylim(0.0, height_in)
     axes.set_axis_off()
+    style: dict[str, Any] = {"va": "center_baseline", "size": SIZE_PT}
     for band in background.bands:
         colour = sheet.theme.band(band.name)
-        axes.axvspan(band.begin_s, band.end_s, color=colour, lw=0)
+        axes.axvspan(band.begin_s, band.end_s, 0.0, STRIP_IN / height_in, color=colour, lw=0)
         room_in = (band.end_s - band.begin_s) / _end_s(background) * width_in
-        if sheet.text_width(band.name, _NAME_PT) + 0.06 <= room_in:
+        if sheet.text_width(band.name, SIZE_PT) + 0.06 <= room_in:
             middle_s = (band.begin_s + band.end_s) / 2
-            style: dict[str, Any] = {"ha": "center", "va": "center_baseline", "size": _NAME_PT}
-            axes.text(middle_s, 0.5, band.name, color=sheet.theme.muted, **style)
+            place = (middle_s, STRIP_IN / 2)
+            axes.text(*place, band.name, color=sheet.theme.muted, ha="center", **style)
+    foot_in = STRIP_IN if background.bands else 0.0
+    for label in labels:
+        low_in = foot_in + label.row * ROW_IN
+        line = sheet.theme.vermilion if label.mark.is_bad else sheet.theme.muted
+        axes.plot([label.mark.at_s] * 2, [0.0, low_in + ROW_IN - 0.02], color=line, lw=0.8)
+        axes.annotate(
+            label.text,
+            (label.mark.at_s, low_in + ROW_IN / 2),
+            xytext=(-4 if label.is_left else 4, 0),
+            textcoords="offset points",
+            ha="right" if label.is_left else "left",
+            color=sheet.theme.vermilion if label.mark.is_bad else sheet.theme.ink,
+            bbox={"facecolor": sheet.theme.paper, "edgecolor": "none", "pad": 0.8},
+            **style,
+        )
 
 
 def _draw_background(axes: Axes, background: Background, sheet: Sheet) -> None:
@@ -102,6 +136,17 @@ def _draw_background(axes: Axes, background: Background, sheet: Sheet) -> None:
 
 def _draw_panel(axes: Axes, panel: Panel, sheet: Sheet) -> None:
     handles = [line for curve in panel.curves for line in _draw_curve(axes, curve, sheet)]
+    for shade in panel.shades:
+        axes.axvspan(
+            shade.begin_s,
+            shade.end_s,
+            ymax=shade.height,
+            facecolor=sheet.theme.band("failsafe"),
+            edgecolor=sheet.theme.vermilion,
+            hatch="////",
+            lw=0,
+            zorder=0.5,
+        )
     if panel.about is not None:
         axes.axhline(panel.about, color=sheet.theme.muted, lw=0.6, zorder=1)
     ends = limits(panel)

@@ -44,6 +44,8 @@ class TrackView:
     wind: Wind | None = None
     marks: Sequence[float] = ()
     """Times of the user's marks, seconds."""
+    is_crash: bool = False
+    """The track ends in a crash."""
 
 
 def draw_track(sheet: Sheet, view: TrackView) -> None:
@@ -71,12 +73,12 @@ def draw_track(sheet: Sheet, view: TrackView) -> None:
     axes.plot(
         path.east_m[last],
         path.north_m[last],
-        *("s",),
+        "X" if view.is_crash else "s",
         ms=7,
-        color=theme.ink,
+        color=theme.vermilion if view.is_crash else theme.ink,
         mec=theme.paper,
         zorder=5,
-        label="end",
+        label="crash" if view.is_crash else "end",
     )
     for at in (_index_at(path, known, time_s) for time_s in view.marks):
         axes.plot(path.east_m[at], path.north_m[at], "D", ms=6, color=theme.purple, zorder=5)

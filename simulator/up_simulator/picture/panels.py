@@ -2,61 +2,53 @@
 
 from __future__ import annotations
 
-import math
-from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
 
-from up_simulator.picture.palette import (
-    BLUE,
-    CHANNELS,
-    DEMAND,
-    ESTIMATE,
-    GREEN,
-    ORANGE,
-    PURPLE,
-    SHADE,
-    SHADE_EDGE,
-    TRUTH,
-    VERMILION,
-)
-from up_simulator.picture.series import Log, numbers, thinned
+from up_flightlog.plots.chart import Curve, Panel
+from up_simulator.picture.series import numbers
+from up_simulator.scenario.log import FlightLog
 
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
+_COLOURS = {"ailerons": "blue", "elevator": "vermilion", "throttle": "green", "rudder": "purple"}
+_STYLES = {"ailerons": "-", "elevator": "--", "throttle": "-.", "rudder": ":"}
 
 
 @dataclass(frozen=True, slots=True)
 class Line:
-    """A signal and its style."""
+    """A signal and its style; the colour is one of the theme."""
 
     signal: str
     label: str
     colour: str
     style: str = "-"
     width: float = 1.3
-    is_right: bool = False
 
 
 @dataclass(frozen=True, slots=True)
-class Panel:
-    """Signals over one time axis; ``needed`` leaves the panel out where that one is not known."""
+class SignalPanel:
+    """Signals over one time axis; ``needed`` leaves the panel out if that signal is unknown."""
 
     title: str
     unit: str
     lines: tuple[Line, ...]
     needed: str = ""
-    right_unit: str = ""
     share: float = 1.0
     about: float | None = None
     """A level that gets a thin line."""
-    least_range: float = 0.0
+    min_range: float = 0.0
 
-    def known(self, log: Log) -> list[tuple[Line, list[float]]]:
+    def of(self, log: FlightLog) -> Panel | None:
+        """Return the panel of a log, None without a known signal."""
         if self.needed and numbers(log, self.needed) is None:
-            return []
-        found = ((line, numbers(log, line.signal)) for line in self.lines)
-        return [(line, values) for line, values in found if values is not None]
+            return None
+        times_s = log.numbers("time_s")
+        curves = [
+            Curve(line.label, times_s, values, line.colour, line.style, line.width)
+            for line in self.lines
+            if (values := numbers(log, line.signal)) is not None
+        ]
+        if not curves:
+            return None
+        return Panel(self.title, self.unit, curves, self.about, self.min_range, self.share)
 
     def shows(self, signal: str) -> bool:
         """Return whether a signal is drawn here, or is the error of one that is."""
@@ -64,45 +56,44 @@ class Panel:
         return any(line.signal in (signal, axis) for line in self.lines)
 
 
-def _attitude(axis: str, title: str) -> Panel:
-    return Panel(
+def _attitude(axis: str, title: str) -> SignalPanel:
+    return SignalPanel(
         title,
         "deg",
         (
-            Line(f"truth.{axis}_deg", "truth", TRUTH, width=1.6),
-            Line(f"board.{axis}_deg", "estimate of the board", ESTIMATE, "--"),
-            Line(f"demand.{axis}_deg", "demand", DEMAND, ":", 1.4),
+            Line(f"truth.{axis}_deg", "truth", "blue", width=1.6),
+            Line(f"board.{axis}_deg", "estimate of the board", "orange", "--"),
+            Line(f"demand.{axis}_deg", "demand", "ink", ":", 1.4),
         ),
         share=1.4,
-        least_range=10.0,
+        min_range=10.0,
     )
 
 
-def _rate(axis: str, title: str) -> Panel:
-    return Panel(
+def _rate(axis: str, title: str) -> SignalPanel:
+    return SignalPanel(
         title,
         "deg/s",
         (
-            Line(f"truth.{axis}_rate_deg_s", "truth", TRUTH, width=1.6),
-            Line(f"board.{axis}_rate_deg_s", "gyroscope", ESTIMATE, "--"),
-            Line(f"demand.{axis}_rate_deg_s", "demand", DEMAND, ":", 1.4),
+            Line(f"truth.{axis}_rate_deg_s", "truth", "blue", width=1.6),
+            Line(f"board.{axis}_rate_deg_s", "gyroscope", "orange", "--"),
+            Line(f"demand.{axis}_rate_deg_s", "demand", "ink", ":", 1.4),
         ),
         needed=f"demand.{axis}_rate_deg_s",
-        least_range=10.0,
+        min_range=10.0,
     )
 
 
-def _pulses(source: str, title: str) -> Panel:
-    styles = {"ailerons": "-", "elevator": "--", "throttle": "-.", "rudder": ":"}
-    return Panel(
+def _pulses(source: str, title: str) -> SignalPanel:
+    return SignalPanel(
         title,
         "us",
         tuple(
-            Line(f"{source}.{channel}_us", channel, colour, styles[channel])
-            for channel, colour in CHANNELS.items()
+            Line(f"{source}.{channel}_us", channel, colour, _STYLES[channel])
+            for channel, colour in _COLOURS.items()
         ),
         about=1500.0,
-        least_range=200.0,
+        min_range=200.0,
     )
 
 
@@ -113,105 +104,27 @@ PANELS = (
     _rate("pitch", "Pitch rate"),
     _pulses("stick", "Sticks"),
     _pulses("servo", "Servo pulses"),
-    Panel(
-        "Height and airspeed",
-        "m",
-        (
-            Line("truth.height_m", "height above ground (m)", BLUE),
-            Line("truth.airspeed_m_s", "airspeed (m/s, right)", VERMILION, "--", is_right=True),
-        ),
-        right_unit="m/s",
-        least_range=5.0,
+    SignalPanel(
+        "Height above ground", "m", (Line("truth.height_m", "height", "blue"),), min_range=5.0
     ),
-    Panel(
+    SignalPanel("Airspeed", "m/s", (Line("truth.airspeed_m_s", "airspeed", "sky"),), min_range=5.0),
+    SignalPanel(
         "Load factor",
         "g",
-        (Line("truth.load_factor_g", "load factor", PURPLE),),
+        (Line("truth.load_factor_g", "load factor", "purple"),),
         share=0.75,
         about=1.0,
-        least_range=1.0,
+        min_range=1.0,
     ),
-    Panel(
+    SignalPanel(
         "Ages",
         "s",
         (
-            Line("ground.age_s", "telemetry on the ground", GREEN),
-            Line("board.status_age_s", "status of the board", ORANGE, "--"),
+            Line("ground.age_s", "telemetry on the ground", "green"),
+            Line("board.status_age_s", "status of the board", "orange", "--"),
         ),
         needed="ground.age_s",
         share=0.75,
-        least_range=1.0,
+        min_range=1.0,
     ),
 )
-
-
-def draw_panel(
-    axes: Axes,
-    panel: Panel,
-    known: Sequence[tuple[Line, list[float]]],
-    times_s: Sequence[float],
-) -> None:
-    """Draw the lines of a panel with title and legend above it."""
-    right = None
-    if any(line.is_right for line, _ in known):
-        right = axes.twinx()
-        right.grid(False)
-        right.set_ylabel(panel.right_unit)
-        right.spines["right"].set_visible(True)
-    handles: list[Any] = []
-    for line, values in known:
-        into = right if line.is_right and right is not None else axes
-        drawn = into.plot(
-            *thinned(times_s, values),
-            color=line.colour,
-            linestyle=line.style,
-            linewidth=line.width,
-            label=line.label,
-            zorder=3,
-        )
-        handles += drawn
-    if panel.about is not None:
-        axes.axhline(panel.about, color=DEMAND, lw=0.5, zorder=1)
-    _widen(axes, panel.least_range, [values for line, values in known if not line.is_right])
-    if right is not None:
-        _widen(right, 5.0, [values for line, values in known if line.is_right])
-        for into, is_right in ((axes, False), (right, True)):
-            colour = next((line.colour for line, _ in known if line.is_right == is_right), None)
-            if colour:
-                into.tick_params(axis="y", labelcolor=colour)
-                into.yaxis.label.set_color(colour)
-    axes.set_ylabel(panel.unit)
-    axes.set_title(panel.title, loc="left", size=10, weight="bold", pad=5)
-    axes.legend(
-        handles=handles,
-        loc="lower right",
-        bbox_to_anchor=(1.0, 1.0),
-        ncol=len(handles),
-        borderaxespad=0.1,
-        handlelength=2.4,
-        columnspacing=1.4,
-    )
-
-
-def shade_failure(axes: Axes, begin_s: float, end_s: float, *, is_shown: bool) -> None:
-    """Shade where an expectation was not held; only the foot where its signal is not shown."""
-    axes.axvspan(
-        begin_s,
-        end_s,
-        ymax=1.0 if is_shown else 0.07,
-        facecolor=SHADE,
-        edgecolor=SHADE_EDGE,
-        hatch="////",
-        lw=0,
-        zorder=0.5,
-    )
-
-
-def _widen(axes: Axes, least: float, series: Sequence[Sequence[float]]) -> None:
-    """Set limits with a margin, and wide enough that noise does not look like movement."""
-    known = [value for values in series for value in values if math.isfinite(value)]
-    if not known:
-        return
-    low, high = min(known), max(known)
-    extra = max(0.0, least - (high - low)) / 2 + 0.06 * max(high - low, least)
-    axes.set_ylim(low - extra, high + extra)

@@ -10,6 +10,8 @@ from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
 
+from up_flightlog.plots.canvas import PictureError
+from up_flightlog.plots.track_picture import Wind
 from up_simulator.aircraft import AirframeError
 from up_simulator.aircraft.flight import FlightUnavailableError
 from up_simulator.firmware.board import BoardCrashedError
@@ -18,7 +20,7 @@ from up_simulator.firmware.preparation import PreparationError
 from up_simulator.firmware.settings_wire import SettingsError
 from up_simulator.harness.participants import ParticipantError
 from up_simulator.harness.signal_handling import interrupts_between_steps
-from up_simulator.picture.flight_picture import Failure, PictureError, Wind, draw_flight
+from up_simulator.picture.flight_picture import draw_flight
 from up_simulator.scenario.build import build_flight
 from up_simulator.scenario.flight_mcap import write_flight
 from up_simulator.scenario.flight_record import FlightRecord
@@ -185,25 +187,16 @@ def _write_below(data: bytes, path: Path) -> None:
 def _draw(result: Result, path: Path, files: Files, notify: Notify) -> None:
     record = result.record
     weather = record.scenario.weather
-    failures = [
-        Failure(part.signal, part.begin_s, part.end_s, part.text) for part in failed_parts(result)
-    ]
+    failures = list(failed_parts(result))
 
-    def draw(path: Path) -> None:
-        try:
-            draw_flight(
-                record.log,
-                path,
-                title=record.scenario.title,
-                subtitle=_subtitle(record),
-                failures=failures,
-                wind=Wind(weather.wind_m_s, weather.wind_from_deg) if weather.wind_m_s else None,
-            )
-        except PictureError as error:
-            if isinstance(error.__cause__, OSError):
-                raise error.__cause__ from None
-            raise
-
+    draw = partial(
+        draw_flight,
+        record.log,
+        title=record.scenario.title,
+        subtitle=_subtitle(record),
+        failures=failures,
+        wind=Wind(weather.wind_m_s, weather.wind_from_deg) if weather.wind_m_s else None,
+    )
     try:
         if files.put(path, draw):
             files.written.append(path)

@@ -1,27 +1,7 @@
-"""What of a log is drawn: thinned without losing peaks, modes as spans, the track in metres."""
+"""What of a log is drawn: modes as bands, the track in metres."""
 
-import math
-
-from hypothesis import given
-from hypothesis import strategies as st
-
-from up_simulator.picture.series import crash_index, mode_spans, numbers, thinned, track
+from up_simulator.picture.series import crash_index, mode_bands, numbers, track
 from up_simulator.scenario.log import FlightLog
-
-VALUES = st.lists(st.floats(-1e6, 1e6) | st.just(math.nan), min_size=1, max_size=400)
-
-
-@given(VALUES, st.integers(10, 60))
-def test_thinning_keeps_the_extremes_and_the_order(values, most):
-    times = [float(row) for row in range(len(values))]
-    kept_s, kept = thinned(times, values, most)
-    assert kept_s == sorted(set(kept_s))
-    for time_s, value in zip(kept_s, kept, strict=True):
-        assert value == values[int(time_s)] or math.isnan(value)
-    known = [value for value in values if math.isfinite(value)]
-    still = [value for value in kept if math.isfinite(value)]
-    assert (min(known), max(known)) == (min(still), max(still)) if known else not still
-    assert any(map(math.isnan, kept)) == any(map(math.isnan, values))
 
 
 def log_of(**columns):
@@ -37,17 +17,17 @@ def test_modes_are_spans_and_a_lost_receiver_is_its_own():
     log = log_of(
         board__mode=["", "ACRO", "ACRO", "FBW", "FBW", "FBW"], board__failsafe=[0, 0, 0, 0, 1, 1]
     )
-    assert [(span.begin_s, span.end_s, span.name) for span in mode_spans(log)] == [
+    assert [(span.begin_s, span.end_s, span.name) for span in mode_bands(log)] == [
         (1.0, 3.0, "ACRO"),
         (3.0, 4.0, "FBW"),
-        (4.0, 5.0, "FAILSAFE"),
+        (4.0, 5.0, "failsafe"),
     ]
-    assert mode_spans(log_of(truth__roll_deg=[1, 2])) == []
+    assert mode_bands(log_of(truth__roll_deg=[1, 2])) == []
 
 
 def test_metres_are_taken_as_they_are():
-    log = log_of(truth__north_m=[0, 3], truth__east_m=[0, 4])
-    assert track(log) == ([0, 4], [0, 3])
+    path = track(log_of(truth__north_m=[0, 3], truth__east_m=[0, 4]))
+    assert (path.times_s, path.east_m, path.north_m) == ([0, 1], [0, 4], [0, 3])
     assert track(log_of(truth__roll_deg=[1])) is None
 
 

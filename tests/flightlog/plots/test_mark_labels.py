@@ -5,7 +5,8 @@ import itertools
 from hypothesis import given
 from hypothesis import strategies as st
 
-from up_simulator.picture.timeline_strip import GAP_IN, MAX_ROWS, Mark, place_marks
+from up_flightlog.plots.chart import Mark
+from up_flightlog.plots.mark_labels import GAP_IN, MAX_ROWS, place_labels
 
 WIDTH_IN, SECONDS = 8.6, 40.0
 
@@ -23,14 +24,14 @@ def extent(placed):
 
 
 MARKS = st.lists(
-    st.builds(Mark, st.floats(0, SECONDS), st.text("abcdefgh ", min_size=1, max_size=90)),
+    st.builds(Mark, st.floats(0, SECONDS), text=st.text("abcdefgh ", min_size=1, max_size=90)),
     max_size=40,
 )
 
 
 @given(MARKS)
 def test_no_label_covers_another(marks):
-    placed, left_out = place_marks(marks, 0, SECONDS, WIDTH_IN, measure)
+    placed, left_out = place_labels(marks, SECONDS, WIDTH_IN, measure)
     assert len(placed) + left_out == len(marks)
     for one, other in itertools.combinations(placed, 2):
         if one.row == other.row:
@@ -41,7 +42,7 @@ def test_no_label_covers_another(marks):
 
 @given(MARKS)
 def test_no_label_reaches_beyond_the_panels(marks):
-    placed, _ = place_marks(marks, 0, SECONDS, WIDTH_IN, measure)
+    placed, _ = place_labels(marks, SECONDS, WIDTH_IN, measure)
     for each in placed:
         low, high = extent(each)
         wide = measure(each.text) + GAP_IN
@@ -50,21 +51,24 @@ def test_no_label_reaches_beyond_the_panels(marks):
 
 
 def test_one_label_needs_one_row_and_marks_outside_the_flight_need_none():
-    placed, left_out = place_marks(
-        [Mark(10, "gust"), Mark(-1, "before"), Mark(99, "after")], 0, SECONDS, WIDTH_IN, measure
+    placed, left_out = place_labels(
+        [Mark(10, text="gust"), Mark(-1, text="before"), Mark(99, text="after")],
+        SECONDS,
+        WIDTH_IN,
+        measure,
     )
     assert [(each.text, each.row) for each in placed] == [("gust", 0)]
     assert left_out == 0
 
 
 def test_the_earlier_of_two_stands_higher_so_that_no_line_crosses_it():
-    placed, _ = place_marks(
-        [Mark(10, "receiver lost"), Mark(10.5, "gust")], 0, SECONDS, WIDTH_IN, measure
+    placed, _ = place_labels(
+        [Mark(10, text="receiver lost"), Mark(10.5, text="gust")], SECONDS, WIDTH_IN, measure
     )
     assert [each.row for each in placed] == [1, 0]
 
 
 def test_long_labels_are_cut():
-    placed, _ = place_marks([Mark(1, "x" * 300)], 0, SECONDS, WIDTH_IN, measure)
+    placed, _ = place_labels([Mark(1, text="x" * 300)], SECONDS, WIDTH_IN, measure)
     assert len(placed[0].text) == 60
     assert placed[0].text.endswith("…")
