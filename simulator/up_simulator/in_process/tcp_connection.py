@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import socket
-import struct
 from collections import deque
 from collections.abc import Callable, Iterable
 from typing import Any
@@ -29,7 +28,6 @@ BUFFER_LIMIT = 65536
 INITIAL_RETRY_S, MIN_RETRY_S, MAX_RETRY_S = 1.0, 0.2, 120.0
 GIVE_UP_S = 924.0
 """Without a user timeout (Linux: 15 retries)."""
-_RTT_OFFSET = 68
 _TCP = socket.IPPROTO_TCP
 
 
@@ -37,7 +35,6 @@ class SocketOptions:
     """Takes socket options from programs; unknown options have no effect."""
 
     def __init__(self) -> None:
-        self.round_trip_s = 0.0
         self._values: dict[tuple[int, int], int] = {}
 
     @property
@@ -61,14 +58,6 @@ class SocketOptions:
 
     def setsockopt(self, level: int, option: int, value: int) -> None:
         self._values[level, option] = value
-
-    def getsockopt(self, level: int, option: int, size: int = 0) -> int | bytes:
-        """Return an option, as of a socket: of TCP_INFO the round trip is known."""
-        if (level, option) == (_TCP, socket.TCP_INFO):
-            info = bytearray(max(size, _RTT_OFFSET + 4))
-            struct.pack_into("=I", info, _RTT_OFFSET, round(self.round_trip_s * 1e6))
-            return bytes(info[:size])
-        return self._values.get((level, option), 0)
 
 
 @implementer(ITransport)
@@ -257,8 +246,7 @@ class TcpConnection:
         while waiting and waiting[0][0] + len(waiting[0][1]) + waiting[0][2] <= offset:
             self._in_flight -= len(waiting.popleft()[1])
         self._progress_s = self._clock.seconds()
-        self.options.round_trip_s = self._progress_s - sent_s
-        self._retry_s = max(MIN_RETRY_S, 2 * self.options.round_trip_s)
+        self._retry_s = max(MIN_RETRY_S, 2 * (self._progress_s - sent_s))
         if not waiting:
             cancel(self._retry)
             self._retry = None
