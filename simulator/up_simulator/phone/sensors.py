@@ -165,7 +165,7 @@ class PhoneSensors:
     def _receive(self, state: FlightState) -> None:
         """Measure a fix when a second has passed; every measurement of the phone looks here."""
         passed_s = state.time_s - self._fix_s
-        if 0.0 <= passed_s and state.time_s < self._fix_due_s - _TINY_S:
+        if passed_s >= 0.0 and state.time_s < self._fix_due_s - _TINY_S:
             return
         self._fix_s = state.time_s
         due_s = self._fix_due_s + GPS_PERIOD_S

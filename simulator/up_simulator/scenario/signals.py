@@ -10,7 +10,6 @@ from up.commands.board_schema import (
     DATA,
     FLIGHT_MODES,
     RESET_CAUSES,
-    SWITCH_MODES,
     SWITCH_POSITIONS,
 )
 from up.commands.telemetry_schema import FIELDS
