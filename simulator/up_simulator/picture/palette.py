@@ -26,6 +26,7 @@ BANDS = {
     "RATE": "#fdf1d3",
     "FBW": "#dcefe8",
     "SETPOINT": "#dbeaf6",
+    "RETURN": "#dbeaf6",
     "OUTPUT": "#e7e1f3",
     "AUTO": "#dbeaf6",
     "RTH": "#f6e3ee",

@@ -42,14 +42,14 @@ class DemandModel:
         self.setpoint: Demand | None = None
 
     def receive_setpoint(self, payload: bytes) -> None:
-        """Take the Setpoint that the Raspberry Pi sent (``S`` of protocols 2.3)."""
+        """Take the Setpoint that the Raspberry Pi sent (``S`` or ``R`` of protocols 2.3)."""
         if len(payload) == _SETPOINT.size:
             roll_cdeg, pitch_cdeg, *_ = _SETPOINT.unpack(payload)
             self.setpoint = Demand(roll_cdeg / 100, pitch_cdeg / 100)
 
     def at(self, mode: str, is_failsafe: bool, sticks_us: Mapping[str, float]) -> Demand:
         """Return the demand in a mode (``OUTPUT``: the Raspberry Pi flies by the sticks)."""
-        if is_failsafe:
+        if is_failsafe and mode != "RETURN":
             return self._circle
         ailerons = _deflection(sticks_us["ailerons"])
         elevator = _deflection(sticks_us["elevator"])
@@ -58,7 +58,7 @@ class DemandModel:
                 roll_rate_deg_s=ailerons * ROLL_STICK_DEG_S,
                 pitch_rate_deg_s=elevator * PITCH_STICK_DEG_S,
             )
-        if mode == "SETPOINT":
+        if mode in ("SETPOINT", "RETURN"):
             return self.setpoint or Demand()
         if mode in ("FBW", "OUTPUT"):
             limit_deg = self._up_deg if elevator >= 0 else self._down_deg

@@ -159,7 +159,7 @@ class ScenarioFlight:
         self.participants.exchange(STEP_S)
 
     def _on_command(self, command: Command) -> None:
-        if command.type == "S":
+        if command.type in "SR":
             self._demand.receive_setpoint(command.payload)
 
     def _move_sticks(self, time_s: float) -> None:

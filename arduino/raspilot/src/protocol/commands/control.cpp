@@ -1,4 +1,4 @@
-/** `u` and `S`: the Raspberry Pi flies, by servo positions or by an attitude demand. */
+/** `u`, `S`, `R`: the Raspberry Pi flies, by servo positions or by an attitude demand. */
 #include "../../core/autopilot.h"
 #include "../../store/fields.h"
 #include "../command_executor.h"
@@ -29,16 +29,28 @@ Reason on_output(Autopilot& autopilot, const Request& request) {
   return autopilot.authority.accept_outputs(fields.pulses_us, age_us, request.now_us);
 }
 
-Reason on_setpoint(Autopilot& autopilot, const Request& request) {
-  if (!are_in_range(SETPOINT_FIELDS, COUNT, request.payload)) return Reason::OUT_OF_RANGE;
-  SetpointFields fields;
+bool read_setpoint(const Request& request, SetpointFields& fields) {
+  if (!are_in_range(SETPOINT_FIELDS, COUNT, request.payload)) return false;
   read_fields(SETPOINT_FIELDS, COUNT, request.payload, &fields);
+  return true;
+}
+
+Reason on_setpoint(Autopilot& autopilot, const Request& request) {
+  SetpointFields fields;
+  if (!read_setpoint(request, fields)) return Reason::OUT_OF_RANGE;
   return autopilot.authority.accept_setpoint(fields.setpoint, fields.lifetime_ms, request.now_us);
+}
+
+Reason on_return(Autopilot& autopilot, const Request& request) {
+  SetpointFields fields;
+  if (!read_setpoint(request, fields)) return Reason::OUT_OF_RANGE;
+  return autopilot.authority.accept_return(fields.setpoint, fields.lifetime_ms, request.now_us);
 }
 
 const CommandDefinition COMMANDS[] PROGMEM = {
     {'u', 10, Framing::CHECKED, Answer::UNANSWERED, on_output},
     {'S', 10, Framing::CHECKED, Answer::UNANSWERED, on_setpoint},
+    {'R', 10, Framing::CHECKED, Answer::UNANSWERED, on_return},
 };
 CommandGroup group(COMMANDS);
 

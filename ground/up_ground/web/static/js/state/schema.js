@@ -18,6 +18,10 @@ export const MODES = {
     "about": "the Raspberry Pi sets the attitude",
     "holder": "Arduino"
   },
+  "RETURN": {
+    "about": "the Raspberry Pi sets the attitude in receiver failsafe",
+    "holder": "Arduino"
+  },
   "OUTPUT": {
     "about": "the Raspberry Pi sets the servo positions",
     "holder": "Raspberry Pi"
