@@ -19,6 +19,7 @@ SUBJECTS = {
     "flight_log": "writing and reading flight logs beside the official package",
     "relay": "the proxy beside HAProxy and socat",
     "firmware": "the compiled firmware in the AVR simulator",
+    "navigation": "loiter, legs, return, lost position and a stopped motor with a phone's GPS",
     "attitude": "the firmware's attitude beside the truth, with the gyro errors of each seed",
     "simulator": "the virtual aircraft against the clock",
     "demo": "CPU of every process of make run",

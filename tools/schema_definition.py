@@ -17,6 +17,7 @@ MODE = {"letter": None, "name": None, "about": None, "holder": "", "switch": Fal
         "flown": True, "firmware": True}  # fmt: skip
 REFUSAL = {"code": None, "name": None, "text": None}
 ANSWER = {"code": None, "text": None}
+OUTCOME = {"code": None, "text": None, "level": "info"}
 ALARM: dict[str, Any] = {
          "kind": None, "when": "", "above": "", "below": "", "back": 0, "level": "warning",
          "armed": "", "code": "", "text": "", "end_code": "", "end": "", "event": "source",
@@ -104,6 +105,7 @@ class Schema:
 
     def _read_commands(self, data: dict[str, Any]) -> None:
         self.answers = [_item(ANSWER, each) for each in data["answers"]]
+        self.outcomes = [_item(OUTCOME, each) for each in data["outcomes"]]
 
     def _fields_of(self, row: Item) -> Iterator[Item]:
         """Yield the fields that a row of the table of telemetry stands for."""

@@ -16,7 +16,7 @@ from tools.schema_definition import (
 
 NOTE = "Generated from schema/{} by tools/schema.py; do not edit."
 BOARD_NOTE = NOTE.format("status.yml")
-TELEMETRY_NOTE = NOTE.format("{telemetry,events,status}.yml")
+TELEMETRY_NOTE = NOTE.format("{telemetry,events,status,commands}.yml")
 
 
 def cpp(schema: Schema) -> str:
@@ -127,6 +127,7 @@ def python_telemetry(schema: Schema) -> str:
         "}", "FIELDS = (", *rows("Field", [field(r) for r in schema.fields if r.in_telemetry]),
         ")", "RULES = (", *rows("Rule", [_given(rule) for rule in schema.rules]),
         f")\nMODE_REASONS = {schema.mode_reasons}", "EVENTS = {", *events, "}",
+        f"OUTCOMES = { {each.code: (each.level, each.text) for each in schema.outcomes} }",
         f"ALARM_HOLDS_S = {schema.holds_s}",
         f"PROPERTIES: dict[str, Any] = {json_tree(schema)!r}", "",
     ])  # fmt: skip
@@ -188,6 +189,8 @@ def javascript(schema: Schema) -> str:
         "The reading whose age a field has.": (
             "READING_OF", {each.name: each.reading for each in schema.fields if each.reading}),
         "Limits of the alarms of numbers.": ("LIMITS", _limits(schema)),
+        "The outcomes of sent Commands.": (
+            "OUTCOMES", {each.code: each.text for each in schema.outcomes}),
     }  # fmt: skip
     return f"// {TELEMETRY_NOTE}\n" + "".join(
         f"\n/** {about} */\nexport const {name} = {json.dumps(value, indent=2)};\n"
@@ -260,6 +263,8 @@ public final class TelemetrySchema {{
     static final List<TelemetryRule> RULES = new ArrayList<>();
     /** Events without a field, by code. */
     static final Map<String, TelemetryRule> EVENTS = new HashMap<>();
+    /** The outcomes of sent Commands. */
+    static final Map<String, String> OUTCOMES = new HashMap<>();
 
     static {{
 {"".join(put("STALE_MS", r.name, f"{round(1000 * r.stale_s)}L") for r in schema.readings)}\
@@ -279,6 +284,7 @@ public final class TelemetrySchema {{
             for each in schema.events
         )
     }\
+{"".join(put("OUTCOMES", r.code, json.dumps(r.text)) for r in schema.outcomes)}\
     }}
 
     private TelemetrySchema() {{

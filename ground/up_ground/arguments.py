@@ -126,7 +126,7 @@ def _add_connection(
 
     given = environ or {}
     host = given.get("UP_GROUND_HOST") or DEFAULT_HOST
-    add("--host", "the Ground Station Proxy, or the aircraft itself", host)
+    add("--host", "the Ground Station Proxy, or the aircraft itself", host, type=_host)
     port = given.get("UP_GROUND_PORT") or DEFAULT_PORT
     text = "its port: 3004 of a proxy, 50002 of an aircraft"
     add("--port", text, port, type=_port, metavar="N")
@@ -224,10 +224,17 @@ def _aircraft(text: str) -> str:
     return text
 
 
+def _host(text: str) -> str:
+    if not text.isprintable() or not text or " " in text or len(text) > 253:
+        raise argparse.ArgumentTypeError(f"{text[:60]!r} cannot be a host")
+    return text
+
+
 def _count(text: str) -> int:
     count = int(text) if text.isascii() and text.isdigit() and len(text) < 10 else 0
     if count < 1:
-        raise argparse.ArgumentTypeError(f"must be a whole number of at least 1, not {text!r}")
+        message = f"must be a whole number from 1 to 999999999, not {text[:60]!r}"
+        raise argparse.ArgumentTypeError(message)
     return count
 
 
@@ -237,5 +244,7 @@ def _seconds(text: str) -> float:
     except ValueError:
         seconds = math.nan
     if not 0 < seconds <= _MAX_S:
-        raise argparse.ArgumentTypeError(f"must be a number of seconds above 0, not {text!r}")
+        raise argparse.ArgumentTypeError(
+            f"must be above 0 and at most {_MAX_S:.0f} seconds, not {text[:60]!r}"
+        )
     return seconds

@@ -14,6 +14,7 @@ from up.cli.cli_error import UsageError
 from up.cli.option_parser import EXIT_FAILED, EXIT_OK, EXIT_USAGE
 from up.commands.command import BaseCommand
 from up.errors import UserError
+from up.fields import show
 from up.output import echo
 from up.protocols.general_message import encode
 from up_ground.arguments import make_parser, settings_of
@@ -94,7 +95,7 @@ def control(options: argparse.Namespace) -> int:
 def commands(options: argparse.Namespace) -> int:
     """List the Commands that a ground may send."""
     catalogue = Catalogue.installed()
-    chosen = [_known(catalogue, options.name)] if options.name else catalogue.sendable()
+    chosen = [_known(catalogue, options.name)] if options.name is not None else catalogue.sendable()
     if options.json:
         echo(json.dumps([command_fields(each) for each in chosen], indent=1))
     else:
@@ -121,13 +122,13 @@ def _known(catalogue: Catalogue, name: str) -> type[BaseCommand]:
     """Return a Command by its name; raises UsageError with the similar ones."""
     if cls := catalogue.get(name):
         return cls
-    near = catalogue.suggestions(name)
-    lines = [f"unknown Command {name}; did you mean {' or '.join(near)}?"]
+    near, shown = catalogue.suggestions(name), show(name)
+    lines = [f"unknown Command {shown}; did you mean {' or '.join(near)}?"]
     for each in near:
         if similar := catalogue.get(each):
             lines += describe(similar)
     if not near:
-        lines = [f"unknown Command {name}; known Commands:"]
+        lines = [f"unknown Command {shown}; known Commands:"]
         lines += [f"    {each.NAME}" for each in catalogue.sendable()]
     lines.append("--force sends a name that this version does not know")
     raise UsageError("\n".join(lines), "unknown_command")
@@ -148,7 +149,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     options = parser.parse_args(arguments)
     if getattr(options, "carry_out", None) is None:
         parser.print_help()
-        return EXIT_FAILED
+        return EXIT_USAGE
     try:
         return _carry_out(options)
     except BrokenPipeError:

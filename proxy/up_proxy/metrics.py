@@ -1,8 +1,8 @@
 """The metrics of the proxy, in the Prometheus text exposition format, version 0.0.4."""
 
-import os
 from collections.abc import Callable, Iterable, Mapping
-from pathlib import Path
+
+import psutil
 
 from up_proxy.acceptor import Acceptor
 from up_proxy.aircraft import AircraftSession
@@ -73,7 +73,12 @@ def render(
         ("loop_lag_seconds", "Lateness of the last tick.", one(tick.lag_s)),
         ("loop_lag_max_seconds", "Maximum lateness in a minute.", one(tick.lag_max_s)),
     ]
-    resident = ("process_resident_memory_bytes", "gauge", "Resident memory.", one(resident_bytes()))
+    resident = (
+        "process_resident_memory_bytes",
+        "gauge",
+        "Resident memory.",
+        one(psutil.Process().memory_info().rss),
+    )
     return page(
         [
             *(
@@ -104,12 +109,3 @@ def _escape(text: str) -> str:
 def _waiting_bytes(craft: AircraftSession) -> int:
     peers = (craft.air_lease.owner, *craft.grounds.connections)
     return sum(peer.waiting_bytes for peer in peers if peer is not None)
-
-
-def resident_bytes() -> int:
-    """Return this process's resident memory; 0 without /proc."""
-    try:
-        pages = int(Path("/proc/self/statm").read_text(encoding="ascii").split()[1])
-    except (OSError, ValueError, IndexError):
-        return 0
-    return pages * os.sysconf("SC_PAGE_SIZE")

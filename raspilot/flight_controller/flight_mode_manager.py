@@ -16,6 +16,7 @@ from raspilot.flight_controller.home import (
     target_of_place,
     telemetry_of,
 )
+from raspilot.modules.navigation_estimator import NavigationEstimator
 from raspilot.navigation.path_controller import PathController
 from up.commands.flight_state_command import FlightModeCommand, FlightStateCommand
 from up.commands.location_command import LocationCommand
@@ -60,12 +61,12 @@ class FlightModeManager(BaseFlightController):
 
     attitude_controller = wants(AttitudeController)
     location = wants(UpLocationProvider)
+    estimator = wants(NavigationEstimator)
 
     def __init__(self, config: Any = None, silent: bool = False) -> None:
         super().__init__(config, silent)
         self.published = 0
         self._is_asked = True
-        self._is_board_ready = False
         self._asked_at_s = float("-inf")
         self._state: FlightStateCommand | None = None
         self._stepped_at_s = float("-inf")
@@ -92,6 +93,8 @@ class FlightModeManager(BaseFlightController):
         self._selector.select(self._auto)
         self._path_controller = PathController(self.config)
         self._has_motor = self.config.performance.motor
+        is_output = self.attitude_controller is not None
+        self._followed_mode = "OUTPUT" if is_output else "SETPOINT"
         # With its origin the bus need not search the publisher of each Command.
         self._origin = Origin(self.class_name, Role.INTERNAL)
         self.home = HomeKeeper(
@@ -135,8 +138,20 @@ class FlightModeManager(BaseFlightController):
 
     @property
     def is_flying(self) -> bool:
-        """Return whether its Commands reach the board: another module may have control."""
-        return self._is_board_ready and self._executor.control.owner == self.class_name
+        """Return whether the board follows its Commands: another module may have control."""
+        return self._is_followed and self._executor.control.owner == self.class_name
+
+    @property
+    def _is_followed(self) -> bool:
+        """Return whether the board follows Commands of the Raspberry Pi now."""
+        return self._state is not None and self._state.flight_mode == self._followed_mode
+
+    @property
+    def _may_publish(self) -> bool:
+        """Return whether the board may follow: it waits for set-points, and asks for Outputs."""
+        if self.attitude_controller is not None:
+            return self._is_followed
+        return self._state is not None and self._state.is_auto
 
     @property
     def _target_content(self) -> Mapping[str, float | None]:
@@ -175,7 +190,7 @@ class FlightModeManager(BaseFlightController):
             self._requests.get("altitude"),
         )
         selector = self._selector
-        if not self._is_board_ready or selector.selected is None:
+        if selector.selected is None or not self._may_publish:
             return
         dt_s = now_s - self._stepped_at_s
         self._stepped_at_s = now_s
@@ -247,19 +262,20 @@ class FlightModeManager(BaseFlightController):
         self.home.memory.update(mode=name or "", target=None)
 
     def _on_flight_state(self, command: FlightStateCommand) -> None:
-        ready = command.flight_mode in ("OUTPUT", "SETPOINT")
-        was_ready, self._is_board_ready = self._is_board_ready, ready
-        if was_ready or not ready:
+        was_followed = self._is_followed
+        previous, self._state = self._state, command
+        if was_followed or not self._is_followed:
             # Not at the first state: its first Command takes control.
             self._log_change_of_control()
-        previous, self._state = self._state, command
         if previous is None and command.is_in_flight:
             self._resume(command)
         elif not command.is_auto:
             self._is_asked = True
             if self._selector.selected != self._auto:
                 self._select(self._auto)
-        if command.is_auto and not ready and self._is_asked and self._auto is not None:
+        if not command.is_auto or self._is_followed or self._auto is None:
+            return
+        if self._is_asked:
             self._request_control(command != previous)
 
     def _resume(self, state: FlightStateCommand) -> None:
@@ -279,7 +295,7 @@ class FlightModeManager(BaseFlightController):
 
     def _log_change_of_control(self) -> None:
         owner = self._executor.control.owner
-        if not self._is_board_ready:
+        if not self._is_followed:
             text = _NOT_PERMITTED
         elif self.is_flying:
             text = "flies"
@@ -292,7 +308,7 @@ class FlightModeManager(BaseFlightController):
                 text=text,
                 code="control_changed",
                 flies=self.is_flying,
-                permitted=self._is_board_ready,
+                permitted=self._is_followed,
                 owner=owner,
             )
 
@@ -314,7 +330,9 @@ class FlightModeManager(BaseFlightController):
                 self._select(self._auto if name == AUTO else None)
             return None
         self._selector.check(name, self._situation)
-        if self._is_board_ready:
+        if self._state is not None and self._state.is_in_flight is False:
+            raise CommandRefusedError(f"{name} needs an armed aircraft", detail="not_armed")
+        if self._is_followed:
             self._select(name)
             return None
         done = self._executor.execute_and_wait(FlightModeCommand(AUTO), self._origin)
@@ -327,6 +345,8 @@ class FlightModeManager(BaseFlightController):
         self.home.set(command, self._navigation)
 
     def _on_home_changed(self, place: Place) -> None:
+        if self.estimator is not None:
+            self.estimator.home_altitude_m = place.altitude_m
         if self.location is not None:
             self.location.home = LocationCommand(
                 place.latitude_deg, place.longitude_deg, place.altitude_m

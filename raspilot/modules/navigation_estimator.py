@@ -6,6 +6,7 @@ from collections import Counter
 from collections.abc import Mapping
 from typing import Any
 
+from raspilot.navigation.airspeed_model import airframe_of
 from raspilot.navigation.estimator import Estimator
 from raspilot.navigation.fix_gate import Fix
 from up.commands.altitude_command import AltitudeCommand
@@ -14,6 +15,7 @@ from up.commands.location_command import LocationCommand
 from up.commands.orientation_command import OrientationCommand
 from up.commands.servo_command import ServoCommand
 from up.commands.telemetry_schema import READINGS
+from up.flight_modes.navigation_file import NAVIGATION
 from up.flight_modes.navigation_state import NavigationState
 from up.needs import needs
 from up.providers.base_provider import BaseProvider, Reading
@@ -55,6 +57,8 @@ class NavigationEstimator(BaseProvider[NavigationState]):
         self._motor_stopped = False
 
     def on_init(self) -> None:
+        navigation = self.context.config(NAVIGATION)
+        self.estimator = Estimator(airframe_of(navigation.airspeed, navigation.performance))
         self._seconds = self.context.reactor.seconds
         register = self.up.command_executor.register_command
         register(OrientationCommand, self._on_orientation)

@@ -24,6 +24,11 @@ class AirframeModel:
         self.level_throttle = config.performance.level_throttle
         self._least_sink_m_s = self.speeds.best_glide_m_s / config.performance.glide_ratio
         self._cruise_sink_m_s = self.sink_m_s(self.speeds.cruise_m_s, 1.0)
+        level = config.performance.level_throttle
+        full_m_s = self._cruise_sink_m_s + config.performance.full_throttle_climb_m_s
+        # Quadratic, through the level flight and the climb at full throttle.
+        self._power_2 = max(0.0, (self._cruise_sink_m_s / level - full_m_s) / (level - 1.0))
+        self._power_1 = full_m_s - self._power_2
         self._stall_squared = self.speeds.stall_m_s * self.speeds.stall_m_s
         self._cruise_lift = self._lift(self.speeds.cruise_m_s, 1.0)
 
@@ -46,21 +51,19 @@ class AirframeModel:
 
     def throttle(self, power_m_s: float) -> float:
         """Return the throttle for a power over the weight: the climb that no drag would allow."""
-        performance = self._performance
-        level = performance.level_throttle
-        more = power_m_s - self._cruise_sink_m_s
-        if more <= 0.0:
-            return max(0.0, level * power_m_s / self._cruise_sink_m_s)
-        return min(1.0, level + (1.0 - level) * more / performance.full_throttle_climb_m_s)
+        squared, linear = self._power_2, self._power_1
+        if squared <= 0.0:
+            return max(0.0, min(1.0, power_m_s / linear))
+        if power_m_s <= 0.0:
+            # Where a windmilling propeller begins to pull; below, the throttle closes gradually.
+            idle = max(0.0, -linear / squared)
+            return max(0.0, idle * (1.0 + power_m_s / self._cruise_sink_m_s))
+        root = math.sqrt(linear * linear + 4.0 * squared * power_m_s)
+        return min(1.0, (root - linear) / (2.0 * squared))
 
     def power_m_s(self, throttle: float) -> float:
         """Return the power over the weight of a throttle, the inverse of ``throttle``."""
-        performance = self._performance
-        more = throttle - performance.level_throttle
-        if more <= 0.0:
-            return self._cruise_sink_m_s * throttle / performance.level_throttle
-        climb_m_s = performance.full_throttle_climb_m_s
-        return self._cruise_sink_m_s + climb_m_s * more / (1.0 - performance.level_throttle)
+        return max(0.0, throttle * (self._power_2 * throttle + self._power_1))
 
     def bank_limit_deg(self, airspeed_m_s: float) -> float:
         """Return the bank whose stall is still ``STALL_MARGIN`` below the airspeed."""

@@ -5,6 +5,8 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
+from up.flight_modes.navigation_file import Airspeed, Performance
+
 GRAVITY_M_S2 = 9.80665
 MAX_STEP_S = 0.1
 CLIMB_SHARE = 0.5
@@ -26,6 +28,20 @@ class Airframe:
     full_throttle_climb_m_s: float = 4.0
     cruise_pitch_deg: float = 0.4
     stall_pitch_deg: float = 7.5
+
+
+def airframe_of(airspeed: Airspeed, performance: Performance) -> Airframe:
+    """Return the numbers of ``navigation.yml``."""
+    return Airframe(
+        airspeed.stall_m_s,
+        airspeed.best_glide_m_s,
+        airspeed.cruise_m_s,
+        performance.glide_ratio,
+        performance.level_throttle,
+        performance.full_throttle_climb_m_s,
+        performance.cruise_pitch_deg,
+        performance.stall_pitch_deg,
+    )
 
 
 class AirspeedModel:

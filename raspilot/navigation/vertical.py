@@ -18,6 +18,8 @@ CLIMB_CHANGE_M_S2 = 1.5
 """How fast the demanded climb changes: no faster than the motor follows."""
 SPEED_PITCH_DEG = 6.0
 """Greatest sum of the airspeed's integral, either way."""
+GLIDE_MARGIN = 1.08
+"""Airspeed after the motor has stopped, over that of the best glide: gusts take some of it."""
 SPEED_INTEGRAL, MAX_SUMMED_ERROR_M_S = 0.15, 1.0
 
 
@@ -73,12 +75,10 @@ class EnergyControl:
 
         wanted_energy, energy = wanted_climb + wanted_stored, climb + stored
         throttle = self._throttle(wanted_energy, wanted_energy - energy, airspeed, load, dt_s)
-        if self.motor.is_stopped:
-            throttle = min(throttle, model.level_throttle)
         if self.motor.has_stopped(energy, throttle, airspeed, load, dt_s):
-            glide = max(least, min(wanted, model.speeds.best_glide_m_s * math.sqrt(load)))
-            pitch = self._glide(airspeed, glide, acceleration, load, dt_s)
-            return pitch, throttle
+            # The throttle stays: a motor that pulls again, or pulled all along, is noticed by it.
+            best = GLIDE_MARGIN * max(least, model.speeds.best_glide_m_s * math.sqrt(load))
+            return self._glide(airspeed, best, acceleration, load, dt_s), throttle
         # The climb that the motor gives is the one that was seen, not the one that was expected.
         self._energy += (energy - self._energy) * min(1.0, dt_s / RATE_S)
         highest = self._speed_pitch(airspeed, least, acceleration, self._energy, load)

@@ -247,6 +247,23 @@ def scripts(name):
     return re.findall(r"^\| `([^`]+)` \| `(?:\w+\.)?([^`]+)` \|", table, re.MULTILINE)
 
 
+def test_an_attitude_passes_at_most_28_files_on_its_way_to_the_pixel():
+    """From the serial line through the proxy, without the control step and the events."""
+
+    def until_step(name, last):
+        files = [path for path, _ in steps(name)]
+        return files[: [function for _, function in steps(name)].index(last)]
+
+    files = {
+        *until_step("frame", "RaspilotFlightController._on_orientation"),
+        *(path for path, _ in steps("telemetry")),
+        *re.findall(r"`(proxy/[a-z_/]+\.py)`", PAGE.split("### To the pixel")[0]),
+        *until_step("page", "AircraftSession._process"),
+        *(path for path, _ in scripts("page")),
+    }
+    assert len(files) <= 28, sorted(files)
+
+
 def test_what_runs_in_the_browser(proxy, tmp_path):
     node = need_tool("node", "nodejs")
     need_tool("npm")

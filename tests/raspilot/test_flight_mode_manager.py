@@ -117,7 +117,9 @@ class NavigationRig(Rig):
 @pytest.fixture
 def rig(tmp_path):
     made = NavigationRig(tmp_path)
-    made.state("FBW", in_flight=False)
+    made.state("FBW", armed=False, in_flight=False)
+    made.setpoint()
+    made.state("FBW")
     made.setpoint()
     return made
 
@@ -129,12 +131,18 @@ def refusal(got):
 def test_a_mode_is_requested_of_the_board_first_and_acts_when_it_agrees(rig):
     done = rig.outcome(FlightModeCommand("BANK"))
     assert (done, rig.board.asked, rig.shown()["selected"]) == ([], ["AUTO"], None)
+    assert rig.setpoint() is None
     rig.board.answer.callback(None)
     assert (done, rig.shown()["selected"]) == ([None], "BANK")
-    assert rig.setpoint() is None
-    rig.state()
     assert rig.setpoint() == SetpointCommand(20.0, 5.0, throttle_us=1500)
+    assert rig.shown()["mode"] is None, "the board does not follow yet"
+    rig.state()
     assert (rig.shown()["mode"], rig.shown()["fallback"]) == ("BANK", None)
+
+
+def test_nothing_is_selected_before_the_aircraft_is_armed(rig):
+    rig.state("FBW", armed=False, in_flight=False)
+    assert refusal(rig.outcome(FlightModeCommand("BANK"))) == "not_armed"
 
 
 def test_where_the_board_flies_for_the_pi_a_mode_acts_at_once(rig):

@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import sys
 from collections.abc import Callable, Sequence
+from contextlib import suppress
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
@@ -248,6 +249,9 @@ def _is_drawn(draw: Callable[[Path], None], path: Path) -> bool:
         _note(str(error))
         return False
     except OSError as error:
+        # Remove the incomplete picture.
+        with suppress(OSError):
+            path.unlink()
         _note(f"{path}: the picture cannot be written: {error.strerror or error}")
         return False
     return True

@@ -11,13 +11,13 @@ from tools.tuning.gain_set import CHANNELS, Axis
 from tools.tuning.margins import LoopPoint, MarginsError, Multisine, loop_response
 from tools.tuning.trial import Recording, StickMove, Trial
 from up.commands.gains import GainSet
+from up.flight_controller.airframe_profile import DEFAULT_LIMITS_DEG
 from up_simulator.aircraft import Airframe, Weather
 from up_simulator.firmware.board import BoardKind
 from up_simulator.harness.world import STEP_S
 from up_simulator.scenario.step_response import StepError, StepResponse, analyse_step
 
 SETTLE_S = 4.0
-_LIMITS = {"roll_deg": 50.0, "pitch_up_deg": 20.0, "pitch_down_deg": 25.0}
 DIVE_DEG = -20.0
 DIVE_SETTLE_S = 9.0
 
@@ -120,7 +120,7 @@ def stick_us(airframe: Airframe, axis: Axis, demand: float) -> float:
     name = "roll_deg" if axis == "roll" else "pitch_up_deg"
     if axis == "pitch" and demand < 0:
         name = "pitch_down_deg"
-    limits: dict[str, float] = {**_LIMITS, **(airframe.profile.get("fly_by_wire") or {})}
+    limits: dict[str, float] = {**DEFAULT_LIMITS_DEG, **(airframe.profile.get("fly_by_wire") or {})}
     return 1500.0 + 500.0 * max(-1.0, min(1.0, demand / limits[name]))
 
 

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 from tools.tuning.gain_set import Axis
-from up_simulator.picture.series import Log
+from up_simulator.scenario.log import FlightLog
 from up_simulator.scenario.step_response import StepError, StepResponse, analyse_step
 
 MIN_STEP = {"deg": 5.0, "deg/s": 10.0}
@@ -46,7 +46,7 @@ class LogStep:
     """Why the response is missing."""
 
 
-def steps_of(log: Log, axes: Sequence[Axis] = ("roll", "pitch")) -> list[LogStep]:
+def steps_of(log: FlightLog, axes: Sequence[Axis] = ("roll", "pitch")) -> list[LogStep]:
     """Return every step of the demand in FBW and RATE, in order of time.
 
     The response is the aircraft's true attitude if the log has it, otherwise the board's estimate.
@@ -69,7 +69,7 @@ def steps_of(log: Log, axes: Sequence[Axis] = ("roll", "pitch")) -> list[LogStep
     return sorted(found, key=lambda step: (step.at_s, step.axis))
 
 
-def _flown(log: Log, name: str) -> list[float] | None:
+def _flown(log: FlightLog, name: str) -> list[float] | None:
     for source in ("truth", "board"):
         if f"{source}.{name}" in log:
             values = log.numbers(f"{source}.{name}")

@@ -12,7 +12,6 @@ from typing import TYPE_CHECKING
 from tools.tuning.evaluation import Loop
 from tools.tuning.experiments import SETTLE_S, FlownSteps
 from tools.tuning.tune import AxisTuning
-from up.config.atomic_writer import write_atomically
 from up_flightlog.plots.canvas import Sheet, png_of
 from up_flightlog.plots.theme import DAYLIGHT as THEME
 
@@ -32,7 +31,7 @@ def draw_tuning(tuning: AxisTuning, path: Path, *, title: str) -> None:
     Raises PictureError without matplotlib, and OSError.
     """
     paint = partial(_draw, tuning=tuning, title=title)
-    write_atomically(path, png_of(paint, WIDTH_IN, HEAD_IN + BIG_IN + 0.9, DPI, THEME))
+    path.write_bytes(png_of(paint, WIDTH_IN, HEAD_IN + BIG_IN + 0.9, DPI, THEME))
 
 
 def _draw(sheet: Sheet, tuning: AxisTuning, title: str) -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import sys
 from collections.abc import Sequence
 
-from up.cli.option_parser import EXIT_FAILED, EXIT_INTERRUPTED
+from up.cli.option_parser import EXIT_FAILED, EXIT_INTERRUPTED, EXIT_USAGE
 from up.cli.parser import make_parser
 from up.errors import UserError
 from up.output import print_problems
@@ -21,7 +21,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     values = parser.parse_args(words)
     if getattr(values, "carry_out", None) is None:
         (getattr(values, "parser", None) or parser).print_help()
-        return EXIT_FAILED
+        return EXIT_USAGE
     try:
         status: int = values.carry_out(values)
     except UserError as error:
@@ -31,7 +31,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
         sys.stderr.close()
         return EXIT_FAILED
     except OSError as error:
-        return _fail(UserError(f"up: {error}", "system_error"), EXIT_FAILED)
+        where = f"{error.filename}: " if error.filename else ""
+        return _fail(
+            UserError(f"up: {where}{error.strerror or error}", "system_error"), EXIT_FAILED
+        )
     except KeyboardInterrupt:
         return _fail(UserError("interrupted", "interrupted"), EXIT_INTERRUPTED)
     return status

@@ -7,7 +7,7 @@ import re
 import sys
 from dataclasses import dataclass
 
-from up.cli.cli_error import CliError
+from up.cli.cli_error import UsageError
 
 _GIVEN = re.compile(r"[A-Za-z][A-Za-z0-9_ -]*", re.ASCII)
 _IDENTIFIER = re.compile(r"[a-z][a-z0-9_]*(\.[a-z0-9_]+)+", re.ASCII)
@@ -27,21 +27,21 @@ class Name:
     def of(cls, given: str, ending: str = "") -> Name:
         """Read ``FuelGauge``, ``fuel_gauge``, ``fuel-gauge`` or ``fuel gauge``.
 
-        Drops an ``ending`` that the generated name gets anyway. Raises CliError.
+        Drops an ``ending`` that the generated name gets anyway. Raises UsageError.
         """
         words = tuple(word.lower() for word in _WORD.findall(given))
         if not _GIVEN.fullmatch(given) or len("_".join(words)) > _MAX_NAME:
-            raise CliError(
+            raise UsageError(
                 f'"{given[:40]}" cannot be a name: use letters, digits and _, beginning with'
                 " a letter, like FuelGauge",
-                code="name_invalid",
+                "name_invalid",
             )
         if len(words) > 1 and words[-1] == ending:
             words = words[:-1]
         if keyword.iskeyword("_".join(words)):
-            raise CliError(
+            raise UsageError(
                 f'"{given}" cannot be a name: Python has another use for that word',
-                code="name_invalid",
+                "name_invalid",
             )
         return cls(words)
 
@@ -62,26 +62,26 @@ class Name:
 
     def check_free(self) -> None:
         if self.snake in _TAKEN or self.snake in sys.stdlib_module_names:
-            raise CliError(
+            raise UsageError(
                 f"{self.snake} is the name of another Python package: choose one more",
-                code="name_taken",
+                "name_taken",
             )
 
 
 def check_identifier(identifier: str) -> str:
-    """Return a Command's name; raises CliError for an invalid or taken name."""
+    """Return a Command's name; raises UsageError for an invalid or taken name."""
     from up.commands.builtin import BUILTIN_COMMANDS
 
     if not _IDENTIFIER.fullmatch(identifier) or len(identifier) > _MAX_IDENTIFIER:
-        raise CliError(
+        raise UsageError(
             f'"{identifier[:40]}" cannot name a Command: use at most {_MAX_IDENTIFIER}'
             " characters, words with dots between, like plane.bay.open",
-            code="name_invalid",
+            "name_invalid",
         )
     for cls in BUILTIN_COMMANDS:
         if identifier in (cls.NAME, *cls.ALIASES):
-            raise CliError(
+            raise UsageError(
                 f"{identifier} is a Command of Up ({cls.__name__}): choose another name",
-                code="name_taken",
+                "name_taken",
             )
     return identifier

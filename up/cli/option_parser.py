@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import functools
 from collections.abc import Iterable
+from pathlib import Path
 from typing import Any, NoReturn
 
 from up.errors import UserError
@@ -50,6 +51,12 @@ class OptionParser(argparse.ArgumentParser):
         text = f"{self.prog}: {message} ('{self.prog} --help' explains)"
         print_problems([UserError(text, "usage", program=self.prog)])
         self.exit(EXIT_USAGE)
+
+    def _get_value(self, action: argparse.Action, arg_string: str) -> Any:
+        # Path("") is the current folder, and an empty text often an unset variable of a script.
+        if action.type is Path and not arg_string:
+            raise argparse.ArgumentError(action, "the path is empty")
+        return super()._get_value(action, arg_string)
 
     def _check_value(self, action: argparse.Action, value: Any) -> None:
         choices: Iterable[Any] | None = action.choices

@@ -42,7 +42,7 @@ class Performance:
         0.49, "Throttle that holds the altitude at cruise.", minimum=0.05, maximum=0.95
     )
     full_throttle_climb_m_s: float = key(
-        4.0, "Climb at cruise and full throttle.", unit="m/s", minimum=0.5, maximum=30
+        7.5, "Climb at cruise and full throttle.", unit="m/s", minimum=0.5, maximum=30
     )
     cruise_pitch_deg: float = key(
         0.4, "Pitch that holds the altitude at cruise.", unit="deg", minimum=-15, maximum=15

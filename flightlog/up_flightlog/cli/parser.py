@@ -7,7 +7,7 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any, cast
 
-from up.cli.option_parser import add_json_option
+from up.cli.option_parser import OptionParser, add_json_option
 from up.cli.plugin_verbs import add_plugin_verbs
 from up.cli.verb import add_verb
 
@@ -50,7 +50,7 @@ examples:
 """
 
 
-class MixedParser(argparse.ArgumentParser):
+class MixedParser(OptionParser):
     """A parser that, with ``is_mixed``, accepts positional arguments before and after options.
 
     argparse accepts no positional arguments after an option: it has ``parse_intermixed_args`` for

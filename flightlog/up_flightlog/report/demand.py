@@ -1,23 +1,20 @@
-"""The required attitude: from the sticks in Fly By Wire, from setpoints, from the failsafe."""
+"""The required attitude over a log: from the sticks in Fly By Wire, setpoints, the failsafe."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 from typing import Any
 
-from up.flight_controller.airframe_profile import DEFAULT_LIMITS_DEG
 from up.flight_log.json_message import number_at
+from up_flightlog.read.demand import Demand, DemandModel
 from up_flightlog.read.flight_log import FlightLog
 from up_flightlog.read.series import Series
 
 STATE, STICKS, SETPOINT = "up.flight.state", "up.rx.update", "up.setpoint.set"
 PROFILE = "arduino.profile.values"
-_CENTRE_US, _HALF_TRAVEL_US = 1500.0, 500.0
-_CIRCLE = {"circle_bank_deg": 20.0, "glide_pitch_deg": -3.0}
-"""The Arduino's default (docs/airframe.md), until the log contains its profile."""
 
 
-class Demand:
+class DemandSeries:
     """The required bank and pitch, in the modes that have a required attitude."""
 
     def __init__(self, log: FlightLog) -> None:
@@ -25,8 +22,7 @@ class Demand:
         self.pitch = Series()
         self._mode: object = None
         self._is_failsafe = False
-        self._limits = dict(DEFAULT_LIMITS_DEG)
-        self._circle = dict(_CIRCLE)
+        self._model = DemandModel()
         handlers = {
             STATE: self._on_state,
             STICKS: self._on_sticks,
@@ -41,32 +37,16 @@ class Demand:
         self._is_failsafe = data.get("failsafe") is True
 
     def _on_profile(self, time_s: float, data: Mapping[str, Any]) -> None:
-        for part, known in (("fly_by_wire", self._limits), ("receiver_lost", self._circle)):
-            for name in known:
-                value = number_at(data, (part, name))
-                if value is not None:
-                    known[name] = value
+        self._model.take_profile(data)
 
     def _on_setpoint(self, time_s: float, data: Mapping[str, Any]) -> None:
         if self._mode == "SETPOINT" and not self._is_failsafe:
-            self.roll.add(time_s, number_at(data, ("roll",)))
-            self.pitch.add(time_s, number_at(data, ("pitch",)))
+            self._add(time_s, Demand(number_at(data, ("roll",)), number_at(data, ("pitch",))))
 
     def _on_sticks(self, time_s: float, data: Mapping[str, Any]) -> None:
-        if self._is_failsafe:
-            self.roll.add(time_s, self._circle["circle_bank_deg"])
-            self.pitch.add(time_s, self._circle["glide_pitch_deg"])
-        elif self._mode in ("FBW", "OUTPUT"):
-            ailerons, elevator = _deflection(data, "ailerons"), _deflection(data, "elevator")
-            if ailerons is not None:
-                self.roll.add(time_s, ailerons * self._limits["roll_deg"])
-            if elevator is not None:
-                limit = "pitch_up_deg" if elevator >= 0 else "pitch_down_deg"
-                self.pitch.add(time_s, elevator * self._limits[limit])
+        if self._mode != "SETPOINT" or self._is_failsafe:
+            self._add(time_s, self._model.at(self._mode, self._is_failsafe, data))
 
-
-def _deflection(data: Mapping[str, Any], channel: str) -> float | None:
-    pulse_us = number_at(data, (channel,))
-    if pulse_us is None:
-        return None
-    return max(-1.0, min(1.0, (pulse_us - _CENTRE_US) / _HALF_TRAVEL_US))
+    def _add(self, time_s: float, demand: Demand) -> None:
+        self.roll.add(time_s, demand.roll_deg)
+        self.pitch.add(time_s, demand.pitch_deg)

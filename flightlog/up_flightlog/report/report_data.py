@@ -16,7 +16,7 @@ from up_flightlog.read.flight_log import FlightLog
 from up_flightlog.read.series import Columns, Series, columns
 from up_flightlog.read.source_filter import from_selected_source
 from up_flightlog.read.telemetry_frames import frames
-from up_flightlog.report.demand import Demand
+from up_flightlog.report.demand import DemandSeries
 
 STICKS, SERVOS = "up.rx.update", "up.servo.update"
 STATUS, STATE = "arduino.status", "up.flight.state"
@@ -47,7 +47,7 @@ class ReportData:
 
     log: FlightLog
     attitude: dict[str, Series]
-    demand: Demand
+    demand: DemandSeries
     sticks: dict[str, Series]
     servos: dict[str, Series]
     status: dict[str, Series]
@@ -73,7 +73,7 @@ def read_report_data(log: FlightLog, context: FlightContext) -> ReportData:
     return ReportData(
         log=log,
         attitude={name: attitude[name] or known[f"orientation.{name}"] for name in ANGLES},
-        demand=Demand(log),
+        demand=DemandSeries(log),
         sticks={name: sticks[name] or known[f"rx.{name}"] for name in INPUTS},
         servos={name: servos[name] or known[f"servo.{name}"] for name in CHANNELS},
         status=columns(read(STATUS), ("loop_us", "late_us")),

@@ -7,12 +7,13 @@ from collections.abc import Callable, Mapping
 from dataclasses import asdict, dataclass
 from typing import Any
 
+from up.commands.telemetry_schema import OUTCOMES
 from up.flight_log.gain_changes import changes_text
 from up.protocols.general_message import GeneralMessage
 from up.system.clock import Clock, Timer, cancel
 from up_ground.catalogue import GAINS, requested_content
 from up_ground.sanitize_text import sanitize_text
-from up_ground.web.event_rules import INFO, WARNING, Report
+from up_ground.web.event_rules import Report
 
 ANSWER_LIMIT_S = 5.0
 
@@ -146,19 +147,15 @@ def outcome_event(
     """Return kind and report; ``before`` are the gains that flew before, None: not known."""
     text, field = _TEXTS.get(name, ("{}", ""))
     what = text.format(str(data.get(field)).replace("_", " ") if field else name)
-    kind, done = "command", f": {what} carried out"
+    level, outcome = OUTCOMES[answer.outcome]
+    kind, done = "command", f": {what} {outcome}"
     if name == GAINS and data.get("request") is not True:
         changes = changes_text(before, data.get("pids"), _SHOWN) or "nothing differs"
         kind, what, done = "gains", f"gains ({changes})", f" changed gains: {changes}"
     elif name == MARK:
         kind, what, done = "mark", f"mark {data.get('text')}", f" marks: {data.get('text')}"
     if answer.outcome != "ack":
-        outcome = _OUTCOMES.get(answer.outcome, answer.outcome)
         reason = answer.reason.rstrip(". ") or answer.code
         done = f": {what} {outcome}" + (f": {reason}" if reason else "")
     fields = {"name": name, "outcome": answer.outcome, "code": answer.code, "by": who}
-    level = INFO if answer.outcome == "ack" else WARNING
     return kind, Report(level, f"{kind}_{answer.outcome}", sanitize_text(who + done, 400), fields)
-
-
-_OUTCOMES = {"nack": "refused", "timeout": "outcome unknown", "unsent": "not sent"}

@@ -50,8 +50,9 @@ class AirframeError(Exception):
 class Airframe:
     """An aircraft of the simulator.
 
-    ``profile`` and ``gains`` have the shape of ``config/airframe.yml`` and ``config/pids.yml``;
-    the profile holds only the keys that the airframe sets.
+    ``profile``, ``gains`` and ``navigation`` have the shape of ``config/airframe.yml``,
+    ``config/pids.yml`` and ``config/navigation.yml``; the profile holds only the keys that the
+    airframe sets.
     """
 
     name: str
@@ -68,6 +69,7 @@ class Airframe:
     limits: LimitsConfig
     profile: dict[str, Any]
     gains: dict[str, Any]
+    navigation: dict[str, Any]
 
     @property
     def model_path(self) -> Path:
@@ -123,6 +125,7 @@ def load_airframe(name_or_path: str | Path) -> Airframe:
         limits=file.limits,
         profile=_without_nulls(dataclasses.asdict(file.profile)),
         gains={"units": "degrees per second", **dataclasses.asdict(file.gains)},
+        navigation=dataclasses.asdict(file.navigation),
     )
     if SHIPPED not in path.resolve().parents:
         _check(path, airframe)

@@ -10,6 +10,7 @@ from up.config import ConfigFile, key, mapping, section
 from up.fields import Constraint
 from up.flight_controller.airframe_profile import AirframeProfile
 from up.flight_controller.pids_file import Rate, Stabilize
+from up.flight_modes.navigation_file import Airspeed, Performance
 
 _PROPERTY = Constraint(str, max_length=80)
 _TRAVEL = Constraint(float, minimum=-90.0, maximum=90.0)
@@ -116,6 +117,14 @@ class GainsConfig:
 
 
 @dataclass(frozen=True, slots=True)
+class AirframeNavigation:
+    """Its airspeeds and performance, as in navigation.yml."""
+
+    airspeed: Airspeed = section(Airspeed)
+    performance: Performance = section(Performance)
+
+
+@dataclass(frozen=True, slots=True)
 class AirframeFile:
     """A virtual aircraft. The model is JSBSim's; profile and gains are the Arduino's."""
 
@@ -136,6 +145,7 @@ class AirframeFile:
         AirframeProfile, "Profile of the Arduino, as in config/airframe.yml."
     )
     gains: GainsConfig = section(GainsConfig)
+    navigation: AirframeNavigation = section(AirframeNavigation)
 
     def problems(self) -> Iterator[tuple[str, str]]:
         if not self.title:

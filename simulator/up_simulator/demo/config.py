@@ -43,6 +43,7 @@ def write_config(
             "role: pilot\n"
             "tune_in_flight: true\n"
         ),
+        "navigation.yml": yaml.safe_dump(airframe.navigation, sort_keys=False),
         "proxy.yml": (
             f"airborne port: {ports.airborne}\n"
             f"ground port: {ports.ground}\n"

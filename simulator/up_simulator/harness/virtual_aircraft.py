@@ -23,9 +23,10 @@ from up_simulator.harness.uplink import make_uplink
 from up_simulator.harness.user_log import Log
 from up_simulator.link.relay import LinkRelay
 from up_simulator.phone.address import RaspberryPi, Runner, discover, spawn
-from up_simulator.phone.handset import Handset, PythonHandset
+from up_simulator.phone.handset import Handset
 from up_simulator.phone.java_handset import JavaHandset
 from up_simulator.phone.java_program import choose_phone
+from up_simulator.phone.link import PythonHandset
 from up_simulator.radio.choice import choose_radio
 from up_simulator.radio.remote import RemoteRadio
 from up_simulator.radio.sticks import Radio

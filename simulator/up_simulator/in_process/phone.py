@@ -10,8 +10,7 @@ from up_simulator.in_process.network import ADDRESS
 from up_simulator.in_process.reactor import SimulatedReactor
 from up_simulator.link.model import LinkModel, LinkSettings
 from up_simulator.phone.address import RaspberryPi
-from up_simulator.phone.handset import PythonHandset
-from up_simulator.phone.link import OrientationBy
+from up_simulator.phone.link import OrientationBy, PythonHandset
 
 GENERAL_PORT, ORIENTATION_PORT = 50001, 50000
 TICK_S = 0.01

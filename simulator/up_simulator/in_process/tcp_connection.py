@@ -214,8 +214,7 @@ class TcpConnection:
         while waiting and waiting[0][0] + len(waiting[0][1]) + waiting[0][2] <= offset:
             self._in_flight -= len(waiting.popleft()[1])
         self._progress_s = self._clock.seconds()
-        self.options.round_trip_s = self._progress_s - sent_s
-        self._retry_s = max(MIN_RETRY_S, 2 * self.options.round_trip_s)
+        self._retry_s = max(MIN_RETRY_S, 2 * (self._progress_s - sent_s))
         if not waiting:
             cancel(self._retry)
             self._retry = None

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import socket
 from collections.abc import Callable
-from typing import Any
-from typing import Protocol as Interface
+from typing import TYPE_CHECKING, Any
 
 from twisted.internet.error import ConnectionDone
 from twisted.internet.interfaces import IHalfCloseableProtocol, IPushProducer
@@ -13,28 +12,14 @@ from twisted.internet.protocol import ClientFactory, Protocol, connectionDone
 from twisted.python.failure import Failure
 from zope.interface import implementer
 
-from up.system.clock import Clock
 from up_simulator.link.model import LinkModel
 from up_simulator.link.stream import LinkStream, Signal
 
+if TYPE_CHECKING:
+    from up_simulator.link.relay import LinkRelay
+
 SYSTEM_BUFFER = 32 * 1024
 """The system's buffer for a socket of the relay, small enough not to act as part of the link."""
-
-
-class RelayContext(Interface):
-    """The interface of a relay to its connections."""
-
-    up: LinkModel
-    down: LinkModel
-    window: int
-    user_timeout_s: float | None
-    clock: Clock
-
-    def connect(self, factory: ClientFactory) -> Any:
-        """Connect to the target."""
-
-    def discard(self, connection: RelayedConnection) -> None:
-        """Forget a connection that is over."""
 
 
 @implementer(IHalfCloseableProtocol, IPushProducer)
@@ -147,7 +132,7 @@ class RelayedConnection:
     The target is called when the opening has arrived, the client is read when the answer has.
     """
 
-    def __init__(self, relay: RelayContext) -> None:
+    def __init__(self, relay: LinkRelay) -> None:
         self._relay = relay
         self._finished = 0
         self._connector: Any = None

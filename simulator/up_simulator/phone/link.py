@@ -15,8 +15,10 @@ from twisted.protocols.basic import LineOnlyReceiver
 from zope.interface import implementer
 
 from up.protocols.line_decoder import MAX_LINE_BYTES
+from up_simulator.aircraft.flight import FlightSource
 from up_simulator.harness.user_log import Log
 from up_simulator.phone.address import NotFoundError, RaspberryPi
+from up_simulator.phone.handset import Record
 from up_simulator.phone.phone import Phone
 
 CONNECT_S = 2.0
@@ -56,24 +58,33 @@ class DroppingWriter:
         self._is_open = False
 
 
-class PhoneLink:
-    """Keeps a phone's two links to the Raspberry Pi open, independently and without a limit.
+class PythonHandset:
+    """The stub of the phone in Python: for scenarios, and for machines without Java.
 
-    ``find`` is called before every attempt of the General Message link; the orientation link uses
-    its result. A lost link is retried after 0.5 to 2 s; data for a stalled link is dropped, never
-    queued.
+    Keeps its two links to the Raspberry Pi open, independently and without a limit. ``find`` is
+    called before every attempt of the General Message link; the orientation link uses its result.
+    A lost link is retried after 0.5 to 2 s; data for a stalled link is dropped, never queued.
     """
 
     def __init__(
         self,
         reactor: Any,
-        phone: Phone,
+        flight: FlightSource,
         find: Find,
         orientation: OrientationBy,
         log: Log,
+        *,
+        seed: int = 1,
+        identity: str = "",
+        record: Record | None = None,
     ) -> None:
         self._reactor = reactor
-        self._phone = phone
+        self._phone = phone = Phone(
+            flight, reactor, seed=seed, identity=identity, log=log, record=record
+        )
+        self.sensors = phone.sensors
+        self.tick = phone.tick
+        self.set_battery = phone.set_battery
         self._find = find
         self._log = log
         self._last_text = ""
@@ -170,7 +181,7 @@ class _GeneralLink(LineOnlyReceiver):
     delimiter = b"\n"
     MAX_LENGTH = MAX_LINE_BYTES
 
-    def __init__(self, phone: Phone, link: PhoneLink) -> None:
+    def __init__(self, phone: Phone, link: PythonHandset) -> None:
         self._phone = phone
         self._link = link
 
@@ -194,7 +205,7 @@ class _GeneralLink(LineOnlyReceiver):
 class _OrientationLink(Protocol):
     """One connection of the orientation link."""
 
-    def __init__(self, phone: Phone, link: PhoneLink) -> None:
+    def __init__(self, phone: Phone, link: PythonHandset) -> None:
         self._phone = phone
         self._link = link
 

@@ -110,6 +110,12 @@ class PhoneSensors:
         self.battery_percent = INITIAL_BATTERY_PERCENT
         self.battery_time_s = 0.0
 
+    @property
+    def wander_m(self) -> tuple[float, float, float]:
+        """Return the slow error of the fixes now: north, east, up."""
+        north_m, east_m, up_m = self._wander_m
+        return north_m, east_m, up_m
+
     def location(self, state: FlightState) -> dict[str, Any] | None:
         """Return the data of ``up.location.update`` of a fix that is newly available, or None."""
         self._receive(state)
@@ -159,12 +165,14 @@ class PhoneSensors:
     def _receive(self, state: FlightState) -> None:
         """Measure a fix when a second has passed; every measurement of the phone looks here."""
         passed_s = state.time_s - self._fix_s
-        if 0.0 <= passed_s and state.time_s < self._fix_due_s - _TINY_S:
+        if passed_s >= 0.0 and state.time_s < self._fix_due_s - _TINY_S:
             return
         self._fix_s = state.time_s
         due_s = self._fix_due_s + GPS_PERIOD_S
         # The seconds of the receiver stay where they are when it is asked late.
-        self._fix_due_s = due_s if 0 < due_s - self._fix_s <= GPS_PERIOD_S else self._fix_s + GPS_PERIOD_S
+        self._fix_due_s = (
+            due_s if 0 < due_s - self._fix_s <= GPS_PERIOD_S else self._fix_s + GPS_PERIOD_S
+        )
         keep = math.exp(-min(passed_s, 1000.0) / GPS_WANDER_S) if passed_s > 0.0 else 1.0
         grow = math.sqrt(1.0 - keep * keep)
         self._wander_m = [

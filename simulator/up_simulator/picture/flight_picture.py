@@ -8,13 +8,13 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from up.config.atomic_writer import write_atomically
 from up_flightlog.plots.canvas import PictureError
 from up_flightlog.plots.chart import Background, Mark, Panel, Shade
 from up_flightlog.plots.overview import Line, Overview, overview_png
 from up_flightlog.plots.track_picture import TrackView, Wind
 from up_simulator.picture.panels import PANELS, SignalPanel
-from up_simulator.picture.series import Log, crash_index, mode_bands, numbers, track
+from up_simulator.picture.series import crash_index, mode_bands, numbers, track
+from up_simulator.scenario.log import FlightLog
 
 COLUMN = 66
 """Characters of a line below the track."""
@@ -33,7 +33,7 @@ class Failure:
 
 
 def draw_flight(
-    log: Log,
+    log: FlightLog,
     path: Path,
     *,
     title: str = "",
@@ -48,11 +48,11 @@ def draw_flight(
     Raises PictureError (no matplotlib, or nothing to draw) and OSError.
     """
     overview = overview_of(log, title, subtitle, marks, failures, wind)
-    write_atomically(path, overview_png(overview))
+    path.write_bytes(overview_png(overview))
 
 
 def overview_of(
-    log: Log,
+    log: FlightLog,
     title: str = "",
     subtitle: str = "",
     marks: Sequence[Mark] | None = None,
@@ -103,7 +103,7 @@ def _shaded(
     ]
 
 
-def _lines(log: Log, failures: Sequence[Failure]) -> list[Line]:
+def _lines(log: FlightLog, failures: Sequence[Failure]) -> list[Line]:
     """Return the figures and sentences below the track."""
     lines: list[Line] = []
     times_s = log.numbers("time_s")

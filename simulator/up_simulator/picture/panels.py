@@ -5,7 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from up_flightlog.plots.chart import Curve, Panel
-from up_simulator.picture.series import Log, numbers
+from up_simulator.picture.series import numbers
+from up_simulator.scenario.log import FlightLog
 
 _COLOURS = {"ailerons": "blue", "elevator": "vermilion", "throttle": "green", "rudder": "purple"}
 _STYLES = {"ailerons": "-", "elevator": "--", "throttle": "-.", "rudder": ":"}
@@ -35,7 +36,7 @@ class SignalPanel:
     """A level that gets a thin line."""
     min_range: float = 0.0
 
-    def of(self, log: Log) -> Panel | None:
+    def of(self, log: FlightLog) -> Panel | None:
         """Return the panel of a log, None without a known signal."""
         if self.needed and numbers(log, self.needed) is None:
             return None

@@ -4,30 +4,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from typing import Protocol
 
 from up_flightlog.plots.chart import Band
 from up_flightlog.plots.track_picture import Path
+from up_simulator.scenario.log import FlightLog
 
 
-class Log(Protocol):
-    """The part of a flight's log that pictures and analyses use (``scenario.log.FlightLog``)."""
-
-    def __contains__(self, column: object) -> bool:
-        """Return whether there is a column of that name."""
-
-    def numbers(self, name: str) -> list[float]:
-        """Return a column of numbers; not a number where the value is not known."""
-
-    def column(self, name: str) -> Sequence[float | str]:
-        """Return a column."""
-
-    @property
-    def events(self) -> list[tuple[float, str]]:
-        """Return time and name of the events."""
-
-
-def numbers(log: Log, name: str) -> list[float] | None:
+def numbers(log: FlightLog, name: str) -> list[float] | None:
     """Return a column, or ``None`` if it is missing or entirely unknown."""
     if name not in log:
         return None
@@ -35,7 +18,7 @@ def numbers(log: Log, name: str) -> list[float] | None:
     return values if any(math.isfinite(value) for value in values) else None
 
 
-def mode_bands(log: Log) -> list[Band]:
+def mode_bands(log: FlightLog) -> list[Band]:
     """Return the modes with their times; a lost receiver's circle is the mode failsafe."""
     if "board.mode" not in log:
         return []
@@ -46,13 +29,13 @@ def mode_bands(log: Log) -> list[Band]:
     return list(_runs(log.numbers("time_s"), modes))
 
 
-def track(log: Log) -> Path | None:
+def track(log: FlightLog) -> Path | None:
     """Return metres east and north of the start; ``None`` if the log lacks them."""
     north, east = numbers(log, "truth.north_m"), numbers(log, "truth.east_m")
     return None if north is None or east is None else Path(log.numbers("time_s"), east, north)
 
 
-def crash_index(log: Log) -> int | None:
+def crash_index(log: FlightLog) -> int | None:
     """Return the row at which it crashed."""
     flags = numbers(log, "truth.crashed")
     return None if flags is None or 1.0 not in flags else flags.index(1.0)

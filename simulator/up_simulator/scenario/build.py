@@ -6,6 +6,7 @@ import random
 from collections.abc import Callable, Mapping
 from typing import Any
 
+from up_flightlog.read.demand import DemandModel
 from up_simulator.aircraft import Airframe, FlightDynamics, Start, Weather, load_airframe
 from up_simulator.aircraft import Gust as AirGust
 from up_simulator.firmware.build import choose_board
@@ -13,7 +14,6 @@ from up_simulator.firmware.preparation import cached_eeprom
 from up_simulator.harness.user_log import text_log
 from up_simulator.harness.world import World
 from up_simulator.in_process.config_folder import merge
-from up_simulator.scenario.demand import DemandModel
 from up_simulator.scenario.flight import ScenarioFlight
 from up_simulator.scenario.line_board import LineBoard, SerialWires
 from up_simulator.scenario.participants import Participants
@@ -46,6 +46,7 @@ def _settings(scenario: Scenario, airframe: Airframe) -> dict[str, dict[str, Any
     return {
         "airframe.yml": profile_of(scenario, airframe.profile),
         "pids.yml": gains_of(scenario, airframe.gains),
+        "navigation.yml": airframe.navigation,
     }
 
 

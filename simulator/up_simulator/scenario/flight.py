@@ -2,18 +2,20 @@
 
 from __future__ import annotations
 
+import struct
 import time
 from collections.abc import Callable
 from typing import cast
 
+from up_flightlog.read.demand import Demand, DemandModel
 from up_rig.imu import motion_at
 from up_simulator.aircraft.airframe_file import ImuConfig
+from up_simulator.aircraft.flight import FlightState
 from up_simulator.firmware.board import BoardCrashedError, Channel, ResetCause
 from up_simulator.firmware.imu_errors import ImuFault
 from up_simulator.firmware.wire import Command
 from up_simulator.harness.participants import ParticipantError
 from up_simulator.harness.world import STEP_S, World
-from up_simulator.scenario.demand import DemandModel
 from up_simulator.scenario.event import Event
 from up_simulator.scenario.flight_record import FlightRecord, PendingCommand
 from up_simulator.scenario.line_board import LineBoard
@@ -29,6 +31,14 @@ READY_S = 15.0
 READY_STEP_US = 20_000.0
 LOG_TAIL = 20
 _HALF_STEP_S = STEP_S / 2
+
+_SETPOINT = struct.Struct(">hhhHH")
+
+
+def setpoint_of(payload: bytes) -> Demand:
+    """Return the demand in a Setpoint of the Raspberry Pi (``S`` of protocols 2.3)."""
+    roll_cdeg, pitch_cdeg, *_ = _SETPOINT.unpack(payload)
+    return Demand(roll_cdeg / 100, pitch_cdeg / 100)
 
 
 class ScenarioFlight:
@@ -70,6 +80,11 @@ class ScenarioFlight:
     @property
     def time_s(self) -> float:
         return self._steps * STEP_S
+
+    @property
+    def state(self) -> FlightState:
+        """Return the true state of the aircraft."""
+        return self._world.state
 
     @property
     def is_over(self) -> bool:
@@ -159,8 +174,8 @@ class ScenarioFlight:
         self.participants.exchange(STEP_S)
 
     def _on_command(self, command: Command) -> None:
-        if command.type == "S":
-            self._demand.receive_setpoint(command.payload)
+        if command.type == "S" and len(command.payload) == _SETPOINT.size:
+            self._demand.setpoint = setpoint_of(command.payload)
 
     def _move_sticks(self, time_s: float) -> None:
         for channel in CHANNELS:

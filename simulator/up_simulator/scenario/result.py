@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
+from up_simulator.picture.flight_picture import Failure
 from up_simulator.scenario.expectation import Expectation, Verdict
 from up_simulator.scenario.flight_record import FlightRecord
 from up_simulator.scenario.measures import MEASURES, limit_text
@@ -77,17 +78,7 @@ def verdicts_of(record: FlightRecord) -> list[Verdict]:
     return verdicts
 
 
-@dataclass(frozen=True, slots=True)
-class FailedPart:
-    """Where in the flight an expectation was not held, for a picture."""
-
-    signal: str
-    begin_s: float
-    end_s: float
-    text: str
-
-
-def failed_parts(result: Result) -> Iterator[FailedPart]:
+def failed_parts(result: Result) -> Iterator[Failure]:
     """Yield signal and window of every expectation that did not hold."""
     record = result.record
     for expectation, verdict in zip(record.scenario.expect, result.verdicts, strict=False):
@@ -97,7 +88,7 @@ def failed_parts(result: Result) -> Iterator[FailedPart]:
         end_s = record.flown_s if expectation.to_s is None else offset_s + expectation.to_s
         text = f"{expectation.name}: {verdict.figure} ({verdict.limit})"
         begin_s = min(offset_s + expectation.from_s, record.flown_s)
-        yield FailedPart(expectation.signal, begin_s, max(begin_s, end_s), text)
+        yield Failure(expectation.signal, begin_s, max(begin_s, end_s), text)
 
 
 def control_scenario(scenario: Scenario) -> Scenario:

@@ -20,7 +20,7 @@ from up_simulator.firmware.preparation import PreparationError
 from up_simulator.firmware.settings_wire import SettingsError
 from up_simulator.harness.participants import ParticipantError
 from up_simulator.harness.signal_handling import interrupts_between_steps
-from up_simulator.picture.flight_picture import Failure, draw_flight
+from up_simulator.picture.flight_picture import draw_flight
 from up_simulator.scenario.build import build_flight
 from up_simulator.scenario.flight_mcap import write_flight
 from up_simulator.scenario.flight_record import FlightRecord
@@ -187,9 +187,7 @@ def _write_below(data: bytes, path: Path) -> None:
 def _draw(result: Result, path: Path, files: Files, notify: Notify) -> None:
     record = result.record
     weather = record.scenario.weather
-    failures = [
-        Failure(part.signal, part.begin_s, part.end_s, part.text) for part in failed_parts(result)
-    ]
+    failures = list(failed_parts(result))
 
     draw = partial(
         draw_flight,

@@ -7,11 +7,11 @@ from collections.abc import Iterable, Mapping
 from typing import Any
 
 from up.commands.board_schema import DATA, FLIGHT_MODES, RESET_CAUSES, SWITCH_POSITIONS
+from up_flightlog.read.demand import DemandModel
 from up_simulator.aircraft.flight import Dynamics
 from up_simulator.firmware.line_monitor import LineMonitor
 from up_simulator.harness.world import World
 from up_simulator.in_process.ground import InProcessGround
-from up_simulator.scenario.demand import DemandModel
 from up_simulator.scenario.line_board import LineBoard
 from up_simulator.scenario.participants import Participants
 from up_simulator.scenario.scenario import Scenario

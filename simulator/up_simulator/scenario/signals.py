@@ -10,7 +10,6 @@ from up.commands.board_schema import (
     DATA,
     FLIGHT_MODES,
     RESET_CAUSES,
-    SWITCH_MODES,
     SWITCH_POSITIONS,
 )
 from up.commands.telemetry_schema import FIELDS
@@ -30,7 +29,6 @@ _VALUES: dict[str, tuple[str, ...]] = {
     "ground.mode": ("flight controller", "black box", "black box (provisional)"),
     "ground.flight_mode": _MODES,
     "ground.flight_controller": ("arduino", "raspberry"),
-    "ground.flight_control.mode": tuple(SWITCH_MODES.values()),
 }
 _SEPARATORS = {"board.reset_cause": " ", "ground.arduino.reset_cause": ", "}
 """Separators for signals that may have several values at a time."""

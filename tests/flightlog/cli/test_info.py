@@ -64,7 +64,7 @@ def test_a_file_that_is_not_a_flight(log, tmp_path):
 
 def test_log_alone_shows_its_verbs(log):
     outcome = log()
-    assert outcome.status == 1
+    assert outcome.status == 2
     for verb in ("list", "info", "export", "plot", "report"):
         assert f"    {verb} " in outcome.out
         assert f"usage: up log {verb}" in log(verb, "--help").out

@@ -10,6 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from up.flight_controller.pids_file import PIDS
+from up.flight_modes.navigation_file import NAVIGATION
 from up_simulator.aircraft import (
     DEFAULT_AIRFRAME,
     AirframeError,
@@ -67,7 +68,7 @@ def test_the_firmware_mixes_the_elevons_of_the_wing():
 
 
 @pytest.mark.parametrize("name", airframe_names())
-def test_profile_and_gains_are_valid_configuration_of_the_daemon(name, tmp_path):
+def test_its_settings_are_valid_configuration_of_the_daemon(name, tmp_path):
     """The simulator may not import the cog, so the test compares: both read the same profile."""
     import yaml
 
@@ -77,6 +78,9 @@ def test_profile_and_gains_are_valid_configuration_of_the_daemon(name, tmp_path)
     assert read.motor == airframe.profile["motor"]
     gains = PIDS.parse(yaml.safe_dump(airframe.gains), tmp_path / "pids.yml", whole=False)
     assert gains.rate.ailerons.p == airframe.gains["rate"]["ailerons"]["p"]
+    navigation = NAVIGATION.parse(yaml.safe_dump(airframe.navigation), tmp_path / "navigation.yml")
+    assert navigation.airspeed.cruise_m_s == airframe.launch.airspeed_m_s
+    assert navigation.performance.level_throttle == airframe.launch.level_throttle
 
 
 def test_an_airframe_without_a_model_flies_by_its_geometry(tmp_path):

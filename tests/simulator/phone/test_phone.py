@@ -33,9 +33,7 @@ class Bench:
         for _ in range(round(duration_s / TICK_S)):
             self.phone.tick()
             self.clock.advance(TICK_S)
-            self.flight.state = replace(
-                self.flight.state, time_s=self.flight.state.time_s + TICK_S
-            )
+            self.flight.state = replace(self.flight.state, time_s=self.flight.state.time_s + TICK_S)
 
     def take(self, name=None):
         messages = [json.loads(line) for line in self.lines]

@@ -58,7 +58,7 @@ def test_a_background_job_ignores_the_interrupt_of_its_shell(tmp_path):
         signal.signal(signal.SIGINT, signal.SIG_IGN)
 
     process = interrupted_at("up.cli.parser", "up.cli", cwd=tmp_path, preexec_fn=ignore)
-    assert process.returncode == 1 and "usage: up" in process.stdout
+    assert process.returncode == 2 and "usage: up" in process.stdout
 
 
 @pytest.mark.parametrize("program", PROGRAMS)

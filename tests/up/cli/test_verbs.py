@@ -12,10 +12,10 @@ from up.version import VERSION
 
 def test_without_a_verb_help_is_shown(up):
     outcome = up()
-    assert outcome.status == 1
+    assert outcome.status == 2
     for verb in ("create (c)", "start (s)", "gather (g)", "register (r)", "explore (e)", "check"):
         assert verb in outcome.out
-    assert up("create").status == 1
+    assert up("create").status == 2
 
 
 def test_the_version(up):
@@ -51,7 +51,7 @@ def test_outside_an_application(up, verb):
 
 def test_a_file_that_leads_nowhere(up):
     outcome = up("-f", "nowhere", "check", as_json=True)
-    assert (outcome.status, outcome.problem["code"]) == (1, "file_missing")
+    assert (outcome.status, outcome.problem["code"]) == (2, "file_missing")
 
 
 def test_several_applications_are_named(up, tmp_path):

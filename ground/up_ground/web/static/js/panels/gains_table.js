@@ -13,6 +13,7 @@ import {
 } from "./gains_editor.js";
 import { agoText } from "./messages.js";
 import { capital } from "../state/format.js";
+import { OUTCOMES } from "../state/schema.js";
 
 /** The fields of a set of gains: a table for each loop, a row for each axis. */
 export class GainsTable {
@@ -92,8 +93,6 @@ export class GainsTable {
     this.#onInput();
   }
 }
-
-const OUTCOMES = { ack: "carried out", nack: "refused", timeout: "no answer", unsent: "not sent", refused: "refused" };
 
 /** The sent sets: time, sender, changes and outcome. */
 export class GainsHistory {

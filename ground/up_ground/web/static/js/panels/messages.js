@@ -1,4 +1,4 @@
-import { MODES } from "../state/schema.js";
+import { MODES, OUTCOMES } from "../state/schema.js";
 
 /** The effect of a flight mode, in a few words; empty for an unknown one. */
 export function modeText(mode) {
@@ -39,23 +39,11 @@ export function answerText(answer) {
   const reason = String(answer.reason ?? "").replace(/[.\s]+$/, "") || String(answer.code ?? "");
   const after_ms = answer.round_trip_ms;
   const because = reason === "" ? "" : `: ${reason}`;
-  switch (answer.outcome) {
-    case "ack":
-      if (reason) {
-        return reason;
-      }
-      return Number.isFinite(after_ms) ? `carried out after ${Math.round(after_ms)} ms` : "carried out";
-    case "nack":
-      return `refused${because}`;
-    case "timeout":
-      return `outcome unknown${because}`;
-    case "unsent":
-      return `not sent${because}`;
-    case "refused":
-      return `refused by the ground server${because}`;
-    default:
-      return `unknown outcome ${answer.outcome}`;
+  const text = Object.hasOwn(OUTCOMES, answer.outcome) ? OUTCOMES[answer.outcome] : `unknown outcome ${answer.outcome}`;
+  if (answer.outcome !== "ack") {
+    return `${text}${because}`;
   }
+  return reason || (Number.isFinite(after_ms) ? `${text} after ${Math.round(after_ms)} ms` : text);
 }
 
 /** The outcome for programs: `ack`, `nack forbidden`, `unsent no_link`. */

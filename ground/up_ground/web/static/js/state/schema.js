@@ -1,4 +1,4 @@
-// Generated from schema/{telemetry,events,status}.yml by tools/schema.py; do not edit.
+// Generated from schema/{telemetry,events,status,commands}.yml by tools/schema.py; do not edit.
 
 /** Effect and holder of each flight mode. */
 export const MODES = {
@@ -371,4 +371,13 @@ export const READING_OF = {
 export const LIMITS = {
   "battery_low": 20,
   "battery_empty": 10
+};
+
+/** The outcomes of sent Commands. */
+export const OUTCOMES = {
+  "ack": "carried out",
+  "nack": "refused",
+  "timeout": "outcome unknown",
+  "unsent": "not sent",
+  "refused": "refused by the ground station"
 };

@@ -10,19 +10,28 @@ public final class Answer {
         ACK,
         /** The aircraft refused it. */
         NACK,
-        /** Sent and not answered in time: it may or may not have been executed. */
+        /** Sent, and not answered in time or before the link was lost: it may have been executed. */
         TIMEOUT,
-        /** Sent, and the link was lost before an answer: it may or may not have been executed. */
-        LOST,
         /** It was not sent. */
-        REFUSED
+        REFUSED;
+
+        /** Returns the code of schema/commands.yml. */
+        String code() {
+            return this == REFUSED ? "unsent" : name().toLowerCase(Locale.ROOT);
+        }
+
+        /** Returns what happened, without a full stop. */
+        String text() {
+            return TelemetrySchema.OUTCOMES.get(code());
+        }
     }
 
     public final Outcome outcome;
     public final String name;
     /**
      * The aircraft's code of a NACK (docs/protocols.md 4), for REFUSED one of {@code
-     * no_link no_aircraft no_seat no_beacon stale forbidden invalid busy}, otherwise an empty text.
+     * no_link no_aircraft no_control no_beacon stale invalid busy}, for TIMEOUT {@code no_answer}
+     * or {@code link_lost}, otherwise an empty text.
      */
     public final String code;
     /** The reason, safe to display, or an empty text. */
@@ -54,19 +63,11 @@ public final class Answer {
 
     /** Returns a sentence for the pilot, without a full stop. */
     public String sentence() {
-        switch (outcome) {
-            case ACK:
-                final String done = name + " carried out";
-                final String after = roundTripMs == null ? done : String.format(Locale.ROOT,
-                        "%s after %d ms", done, roundTripMs);
-                return reason.isEmpty() ? after : after + ": " + reason;
-            case NACK:
-                return "the aircraft refused " + name + ": " + (reason.isEmpty() ? code : reason);
-            case REFUSED:
-                return name + " was not sent: " + reason;
-            default:
-                return name + ": " + reason;
-        }
+        final String done = name + ": " + outcome.text();
+        final String after = roundTripMs == null || !isAck() ? done
+                : String.format(Locale.ROOT, "%s after %d ms", done, roundTripMs);
+        final String why = reason.isEmpty() ? code : reason;
+        return why.isEmpty() ? after : after + ": " + why;
     }
 
     @Override

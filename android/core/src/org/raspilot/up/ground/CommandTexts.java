@@ -50,15 +50,9 @@ final class CommandTexts {
 
     /** Returns the outcome of a sent Command. */
     static String outcome(String words, Answer answer) {
-        switch (answer.outcome) {
-            case ACK:
-                return words + ": carried out";
-            case NACK:
-                return words + ": refused by the aircraft: "
-                        + (answer.reason.isEmpty() ? answer.code : answer.reason);
-            default:
-                return words + ": " + answer.reason;
-        }
+        final String why = answer.reason.isEmpty() ? answer.code : answer.reason;
+        return words + ": " + answer.outcome.text()
+                + (answer.isAck() || why.isEmpty() ? "" : ": " + why);
     }
 
     private static void put(String name, String words, String field) {

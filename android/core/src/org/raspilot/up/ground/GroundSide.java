@@ -1,6 +1,5 @@
 package org.raspilot.up.ground;
 
-import java.util.Locale;
 import java.util.Random;
 import org.raspilot.up.commands.BaseCommand;
 import org.raspilot.up.commands.CommandExecutor;
@@ -192,7 +191,7 @@ public final class GroundSide implements TelemetrySource {
                 events.add(loop.nowMs(),
                         answer.isAck() ? EventLevel.INFO : EventLevel.WARNING,
                         (set == null ? "command_" : "gains_")
-                                + answer.outcome.name().toLowerCase(Locale.ROOT),
+                                + answer.outcome.code(),
                         CommandTexts.outcome(words, answer));
             }
             answered.onAnswer(answer);

@@ -50,8 +50,7 @@ final class PendingCommands {
 
         @Override
         public void run() {
-            endUnanswered(this, Answer.Outcome.TIMEOUT,
-                    "no answer within " + LIMIT_MS / 1000 + " s");
+            endUnanswered(this, "no_answer", "no answer within " + LIMIT_MS / 1000 + " s");
         }
     }
 
@@ -128,7 +127,7 @@ final class PendingCommands {
     /** Called when the link is lost: sent Commands may or may not have arrived. */
     void onLost() {
         for (Sent each : new ArrayList<>(sent.values())) {
-            endUnanswered(each, Answer.Outcome.LOST, "the link was lost before an answer came");
+            endUnanswered(each, "link_lost", "the link was lost before an answer came");
         }
     }
 
@@ -143,11 +142,11 @@ final class PendingCommands {
         }
     }
 
-    private void endUnanswered(Sent each, Answer.Outcome outcome, String why) {
+    private void endUnanswered(Sent each, String code, String why) {
         if (each.ackedMs != null) {
             end(each, Answer.Outcome.ACK, "", "the requested data did not arrive", each.ackedMs);
         } else {
-            end(each, outcome, "", why + "; it is not known whether it was carried out", null);
+            end(each, Answer.Outcome.TIMEOUT, code, why, null);
         }
     }
 

@@ -7,7 +7,7 @@ import java.util.List;
 import java.util.Map;
 
 /** Tables of telemetry.
- *  Generated from schema/{telemetry,events,status}.yml by tools/schema.py; do not edit. */
+ *  Generated from schema/{telemetry,events,status,commands}.yml by tools/schema.py; do not edit. */
 public final class TelemetrySchema {
     static final long PAUSE_MS = 3000;
     static final long MAX_PAUSE_MS = 30000;
@@ -33,6 +33,8 @@ public final class TelemetrySchema {
     static final List<TelemetryRule> RULES = new ArrayList<>();
     /** Events without a field, by code. */
     static final Map<String, TelemetryRule> EVENTS = new HashMap<>();
+    /** The outcomes of sent Commands. */
+    static final Map<String, String> OUTCOMES = new HashMap<>();
 
     static {
         STALE_MS.put("orientation", 900L);
@@ -232,6 +234,11 @@ public final class TelemetrySchema {
                 "text", "the aircraft is not connected to the proxy", "alarm", "silent"));
         EVENTS.put("gains_invalid", new TelemetryRule("event", "gains", "code", "gains_invalid",
                 "level", "warning", "text", "the aircraft sent an incomplete set of gains"));
+        OUTCOMES.put("ack", "carried out");
+        OUTCOMES.put("nack", "refused");
+        OUTCOMES.put("timeout", "outcome unknown");
+        OUTCOMES.put("unsent", "not sent");
+        OUTCOMES.put("refused", "refused by the ground station");
     }
 
     private TelemetrySchema() {

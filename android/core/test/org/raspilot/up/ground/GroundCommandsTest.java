@@ -252,7 +252,7 @@ public final class GroundCommandsTest {
         flySeen(1, 3);
         send(new BaseCommand(Commands.DISARM));
         bench.peer().end("lost");
-        assertEquals(Answer.Outcome.LOST, bench.answer().outcome);
+        assertEquals("link_lost", bench.answer().code);
         bench.loop.advance(700);
         bench.accept(ProxyRole.COMMAND);
         bench.loop.advance(5000);
@@ -266,7 +266,7 @@ public final class GroundCommandsTest {
         flySeen(1, 3);
         send(new BaseCommand(Commands.DISARM));
         bench.ground.stop();
-        assertEquals(Answer.Outcome.LOST, bench.answer().outcome);
+        assertEquals("link_lost", bench.answer().code);
     }
 
     @Test

@@ -6,8 +6,9 @@ from pathlib import Path
 
 import pytest
 
-from up_simulator.scenario import demand
-from up_simulator.scenario.demand import Demand, DemandModel
+from up_flightlog.read import demand
+from up_flightlog.read.demand import Demand, DemandModel
+from up_simulator.scenario.flight import setpoint_of
 
 CENTRED = {"ailerons": 1500.0, "elevator": 1500.0}
 HEADER = Path(__file__).parents[3] / "arduino/raspilot/src/control/flight_controller.h"
@@ -42,10 +43,12 @@ def test_failsafe_demands_the_circle():
 def test_a_set_point_is_that_of_the_raspberry_pi():
     model = DemandModel({})
     assert model.at("SETPOINT", False, CENTRED) == Demand()
-    model.receive_setpoint(struct.pack(">hhhHH", 1250, -300, 0, 0, 250))
+    model.setpoint = setpoint_of(struct.pack(">hhhHH", 1250, -300, 0, 0, 250))
     assert model.at("SETPOINT", False, CENTRED) == Demand(12.5, -3.0)
-    model.receive_setpoint(b"short")
-    assert model.at("SETPOINT", False, CENTRED) == Demand(12.5, -3.0)
+
+
+def test_a_stick_without_a_pulse_demands_nothing():
+    assert DemandModel().at("FBW", False, {"elevator": 1500.0}) == Demand(None, 0.0)
 
 
 @pytest.mark.parametrize("mode", ["ACRO", "RTH", "None"])
