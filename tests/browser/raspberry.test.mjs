@@ -8,7 +8,7 @@ import { startShowcase } from "./support/showcase.mjs";
 import { until } from "./support/wait.mjs";
 
 /** What the board flies when the ground selects a mode. */
-const FLOWN = { RATE: "RATE", FBW: "FBW", AUTO: "OUTPUT" };
+const FLOWN = { RATE: "RATE", FBW: "FBW", AUTO: "OUTPUT", LOITER: "OUTPUT", RETURN: "OUTPUT" };
 let showcase;
 let ground;
 
@@ -20,10 +20,11 @@ before(async () => {
 
 test("every mode is offered and flown, whichever is flown before", async () => {
   await until(async () => (await ground.frame()).flight_mode === "OUTPUT" || null, "the controller's Outputs");
-  for (const mode of ["RATE", "FBW", "AUTO", "FBW", "RATE", "AUTO"]) {
+  for (const mode of ["RATE", "FBW", "AUTO", "FBW", "LOITER", "RATE", "RETURN", "AUTO"]) {
     await ground.until(
-      () => [...document.querySelectorAll("[data-mode]")].every((button) => !button.disabled),
-      "three modes offered",
+      (mode) => document.querySelector(`[data-mode="${mode}"]`)?.disabled === false,
+      `${mode} offered`,
+      mode,
     );
     const answer = await ground.answerTo(() => ground.press(`[data-mode="${mode}"]`));
     assert.equal(answer.outcome, "ack", JSON.stringify(answer));

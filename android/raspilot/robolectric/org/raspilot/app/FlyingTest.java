@@ -52,9 +52,11 @@ public final class FlyingTest extends AppBench {
         return all;
     }
 
-    private static void confirm() {
+    private void confirm() {
         AlertDialog asked = ShadowAlertDialog.getLatestAlertDialog();
         assertTrue(asked.isShowing());
+        // Only what was seen is commanded by.
+        Drawing.of(handset.window.get());
         asked.getButton(DialogInterface.BUTTON_POSITIVE).performClick();
         Wait.pass(0);
     }

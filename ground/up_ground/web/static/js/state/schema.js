@@ -31,7 +31,7 @@ export const MODES = {
     "holder": "Arduino"
   },
   "AUTO": {
-    "about": "modules on the Raspberry Pi may fly; without one the sticks ask for attitude",
+    "about": "the flight mode that the aircraft's navigation.yml names",
     "holder": ""
   },
   "CRUISE": {
