@@ -35,6 +35,7 @@ from up.flight_modes.navigation_state import NavigationState
 from up.flight_modes.selector import REFUSED, DemandError, FlightModeSelector
 from up.mode import WITH_BOARD, Mode
 from up.needs import wants
+from up.providers.base_provider import Reading
 from up.providers.up_location_provider import UpLocationProvider
 
 BOARD_MODES = ("FBW", "RATE")
@@ -47,7 +48,7 @@ FOLLOW_S = 1.0
 """The board reports five times a second whether it follows."""
 RESUME_S = 3.0
 """After a restart in flight the readings get this time before a fallback acts."""
-MAX_RX_AGE_S, MAX_ORIENTATION_AGE_S, MAX_NAVIGATION_AGE_S = 0.25, 0.1, 3.0
+MAX_RX_AGE_S, MAX_NAVIGATION_AGE_S = 0.25, 3.0
 _NOT_PERMITTED = "does not fly: the board does not let it"
 
 
@@ -108,8 +109,8 @@ class FlightModeManager(BaseFlightController):
             self.config.home_accuracy_m,
             self._on_home_changed,
         )
+        self.orientation.subscribe(self._on_orientation)
         executor = self._executor = self.up.command_executor
-        executor.register_command(OrientationCommand, self._on_orientation)
         executor.register_command(FlightStateCommand, self._on_flight_state)
         executor.register_command(FlightModeCommand, self._on_flight_mode)
         executor.register_command(NavigationTargetCommand, self._on_target)
@@ -175,12 +176,10 @@ class FlightModeManager(BaseFlightController):
         state: NavigationState = provider.state
         return state
 
-    def _on_orientation(self, command: OrientationCommand) -> None:
+    def _on_orientation(self, reading: Reading[OrientationCommand]) -> None:
+        command = reading.value
         # A phone's frame could carry a sequence too; only the board's is valid.
         if command.sequence is None or self._executor.origin.role is not Role.BOARD:
-            return
-        reading = self.orientation.fresh(MAX_ORIENTATION_AGE_S)
-        if reading is None or reading.value is not command:
             return
         navigation = self._navigation
         self.home.update(navigation, self._state)
