@@ -133,9 +133,7 @@ class NavigationEstimator(BaseProvider[NavigationState]):
     def _on_orientation(self, reading: Reading[OrientationCommand]) -> None:
         value = reading.value
         self._is_old = True
-        self.estimator.orientation(
-            reading.time_s, value.roll_deg, value.pitch_deg, value.yaw_deg
-        )
+        self.estimator.orientation(reading.time_s, value.roll_deg, value.pitch_deg, value.yaw_deg)
 
     def _on_location(self, reading: Reading[LocationCommand]) -> None:
         value, now_s = reading.value, reading.time_s
