@@ -28,6 +28,7 @@ from up.commands.output_command import OutputCommand, SetpointCommand
 from up.commands.refusal import CommandRefusedError
 from up.commands.roles import Role
 from up.flight_controller.base_flight_controller import BaseFlightController
+from up.flight_modes.declarations import GROUND_MODES, auto_mode_problem
 from up.flight_modes.demand import AttitudeDemand, Circle, Demand, PathDemand, SurfacesDemand
 from up.flight_modes.flight_mode import FlightMode, FlightSituation, Target
 from up.flight_modes.navigation_file import NAVIGATION
@@ -38,7 +39,6 @@ from up.needs import wants
 from up.providers.base_provider import Reading
 from up.providers.up_location_provider import UpLocationProvider
 
-BOARD_MODES = ("FBW", "RATE")
 AUTO = "AUTO"
 MIN_STEP_S, MAX_STEP_S = 1e-3, 0.1
 REQUEST_PERIOD_S = 5.0
@@ -93,9 +93,9 @@ class FlightModeManager(BaseFlightController):
             self.up.vetoes.set(path, problem)
         modes, auto = self._selector.modes, self.config.auto_mode
         self._auto = auto if auto in modes else None
-        if self._auto is None and auto not in BOARD_MODES:
-            text = f"navigation.yml: auto_mode: no flight mode {auto!r} is loaded"
-            self.up.vetoes.set("navigation.yml", text)
+        problem_of_auto = auto_mode_problem(auto, modes)
+        if problem_of_auto:
+            self.up.vetoes.set("navigation.yml", problem_of_auto)
         self._selector.select(self._auto)
         self._path_controller = PathController(self.config)
         self._has_motor = self.config.performance.motor
@@ -135,7 +135,7 @@ class FlightModeManager(BaseFlightController):
                 "selected": selector.selected,
                 "fallback": selector.reason if is_flying else None,
                 "modes": offers,
-                "board_modes": list(BOARD_MODES),
+                "board_modes": list(GROUND_MODES),
             },
             "navigation": {"target": self._target_content},
             "home": self.home.telemetry(self._navigation, self.config.airspeed.cruise_m_s),
@@ -334,7 +334,7 @@ class FlightModeManager(BaseFlightController):
         name = command.mode
         if self._executor.origin == self._origin:
             return None
-        if name == AUTO or name in BOARD_MODES:
+        if name == AUTO or name in GROUND_MODES:
             # The board accepts a mode only with the switch at AUTO; a refused one does not count.
             if self._state is not None and self._state.is_auto:
                 self._is_asked = name == AUTO
