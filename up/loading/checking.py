@@ -61,6 +61,8 @@ def check_application(
     findings.warnings += _unknown(context.config_folder, findings.files)
     findings.warnings += _disabled_for_nothing(disabled, found)
     findings.warnings += _unwritable_log(context)
+    for file in findings.files:
+        findings.warnings += file.ignored_keys(context.config_folder)
     return findings
 
 

@@ -45,6 +45,11 @@ def test_check_tells_everything_at_once(up, application, tmp_path):
             "Cogfile.yml": "gone_cog: {pypi: gone}\nother_cog:\n",
             "config/config.yml": "log levl: info\nmode: sideways\nlog file: /dev/null/up.jsonl\n",
             "config/gauge.yml": "interval_s: 10\n",
+            "config/pids.yml": "navigation: {}\n",
+            "modules/pids.py": (
+                "from up import Module\nfrom up.flight_controller.pids_file import PIDS\n"
+                "class Pids(Module):\n    CONFIG = PIDS\n"
+            ),
             "config/disabled_modules.yml": "disabled modules:\n  - nobody.knows.This\n",
             "config/old.yml": "a: 1\n",
             "external_modules.yml": (
@@ -70,6 +75,7 @@ def test_check_tells_everything_at_once(up, application, tmp_path):
         ("cog_import_failed", "", None),
         ("syntax_error", "broken.py", 1),
         ("build_failed", "raises.py", 12),
+        ("key_removed", "pids.yml", 1),
         ("file_unused", "old.yml", None),
         ("module_unknown", "disabled_modules.yml", None),
     }
