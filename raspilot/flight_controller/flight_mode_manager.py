@@ -10,7 +10,7 @@ from twisted.internet.defer import Deferred
 from twisted.internet.task import deferLater
 
 from raspilot.flight_controller.attitude_controller import AttitudeController
-from raspilot.flight_controller.flight_memory import Place
+from raspilot.flight_controller.flight_memory import MEMORY, Place
 from raspilot.flight_controller.home import (
     HomeKeeper,
     place_of_target,
@@ -62,6 +62,7 @@ class FlightModeManager(BaseFlightController):
     MODES: ClassVar[frozenset[Mode]] = WITH_BOARD
     LOAD_ORDER: ClassVar[int] = 100
     CONFIG = NAVIGATION
+    WRITTEN_FILES = (MEMORY,)
     SELECTS_MODES: ClassVar[bool] = True
 
     attitude_controller = wants(AttitudeController)
