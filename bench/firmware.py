@@ -96,7 +96,7 @@ class Flight:
         if letter == "u":
             newest = self.tap.orientation.sequence if self.tap.orientation else 0
             payload = struct.pack(">5H", 1500, 1500, 0, 1500, newest)
-        elif letter == "S":
+        elif letter in "SR":
             payload = struct.pack(">3h2H", 1000, 200, 0, 0, 250)
         elif letter == "M":
             payload = self._random.choice((b"f", b"r"))

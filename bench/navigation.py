@@ -259,7 +259,12 @@ def stop_motor(seed: int, controller: str, wind_m_s: float, turbulence: str) -> 
 
 def come_home(seed: int, controller: str, wind_m_s: float, turbulence: str) -> Figures:
     """Return the figures of RETURN from about 1 km against the wind."""
-    events = (_mode(2.0, "LOITER"), _mode(30.0, "CRUISE"), _mode(AWAY_S, "RETURN"))
+    downwind = CommandPart("up.heading.change", {"heading": 180.0, "mode": "required"})
+    events = (
+        _mode(2.0, "CRUISE"),
+        Event(3.0, command=downwind),
+        _mode(AWAY_S, "RETURN"),
+    )
     samples = _fly(_scenario(seed, controller, wind_m_s, turbulence, RETURN_END_S, *events))
     back = _between(samples, AWAY_S + 1.0, RETURN_END_S)
     home = back[-1].target

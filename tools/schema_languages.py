@@ -230,7 +230,7 @@ def java(schema: Schema) -> str:
     shown = [each for each in schema.rules if each["event"] or each["alarm"]]
     fields = [each for each in schema.fields if each.in_telemetry]
     imports = "".join(f"import java.util.{each};\n" for each in (
-        "ArrayList", "HashMap", "LinkedHashMap", "List", "Map"))  # fmt: skip
+        "ArrayList", "Collections", "HashMap", "LinkedHashMap", "List", "Map"))  # fmt: skip
     times = "".join(
         f"    static final {kind} {name} = {value};\n"
         for name, kind, value in (
@@ -258,8 +258,7 @@ public final class TelemetrySchema {{
     static final Map<String, Double> LIMITS = new HashMap<>();
     /** Why a flight mode is not offered, or was replaced, by code. */
     static final Map<String, String> MODE_REASONS = new HashMap<>();
-    /** Paths of the values of navigation, by label in the order of display. */
-    public static final Map<String, String> NAVIGATION = new LinkedHashMap<>();
+    private static final Map<String, String> NAVIGATION = new LinkedHashMap<>();
     static final List<TelemetryRule> RULES = new ArrayList<>();
     /** Events without a field, by code. */
     static final Map<String, TelemetryRule> EVENTS = new HashMap<>();
@@ -285,6 +284,11 @@ public final class TelemetrySchema {{
         )
     }\
 {"".join(put("OUTCOMES", r.code, json.dumps(r.text)) for r in schema.outcomes)}\
+    }}
+
+    /** Paths of the values of navigation, by label in the order of display. */
+    public static Map<String, String> navigation() {{
+        return Collections.unmodifiableMap(NAVIGATION);
     }}
 
     private TelemetrySchema() {{

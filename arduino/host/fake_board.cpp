@@ -52,14 +52,20 @@ namespace board {
 
 uint8_t serial_room() { return static_cast<uint8_t>(SERIAL_CAPACITY - fake_board().queued); }
 
-void serial_write(uint8_t byte) {
+void serial_put(uint8_t at, uint8_t byte) {
   FakeBoard& fake = fake_board();
-  if (fake.queued >= SERIAL_CAPACITY) {
+  if (fake.queued + at >= SERIAL_CAPACITY) {
     ++fake.violations;
     return;
   }
-  ++fake.queued;
-  fake.sent.push_back(byte);
+  fake.put[at] = byte;
+}
+
+void serial_send(uint8_t count) {
+  FakeBoard& fake = fake_board();
+  count = std::min(count, serial_room());
+  fake.queued += count;
+  fake.sent.insert(fake.sent.end(), fake.put, fake.put + count);
 }
 
 bool eeprom_is_ready() { return fake_board().eeprom_busy_us == 0; }

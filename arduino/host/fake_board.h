@@ -35,6 +35,8 @@ class FakeBoard {
   uint32_t queued;
   uint32_t baud;
   std::vector<uint8_t> sent;
+  /** Put and not yet sent. */
+  uint8_t put[SERIAL_CAPACITY];
   uint32_t eeprom_busy_us;
 
  private:

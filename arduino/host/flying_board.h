@@ -12,7 +12,7 @@
 #include "moving_imu.h"
 #include "pilot_bench.h"
 #include "protocol/checked_reader.h"
-#include "protocol/frame.h"
+#include "frame_bytes.h"
 
 namespace raspilot {
 
@@ -54,10 +54,10 @@ class FlyingBoard {
     run_until([this] { return !autopilot.attitude.is_calibrating(); }, 12000);
   }
   void send(char type, const std::vector<uint8_t>& payload = {}) {
-    outgoing().clear();
-    write_frame(sequence++, type, payload.data(), static_cast<uint8_t>(payload.size()),
-                [](uint8_t byte) { outgoing().push_back(byte); });
-    for (uint8_t byte : outgoing()) autopilot.link.on_byte(byte, now_us());
+    for (uint8_t byte : frame_bytes(sequence++, type, payload.data(),
+                                    static_cast<uint8_t>(payload.size()))) {
+      autopilot.link.on_byte(byte, now_us());
+    }
   }
   uint16_t output_us(Channel channel) const {
     return ticks_to_us(autopilot.controller.outputs().ticks[channel]);
@@ -83,10 +83,6 @@ class FlyingBoard {
   std::vector<SentFrame> frames;
 
  private:
-  static std::vector<uint8_t>& outgoing() {
-    static std::vector<uint8_t> bytes;
-    return bytes;
-  }
 
   void slot() {
     autopilot.meter.on_slot(now_us(), now_us());

@@ -6,7 +6,7 @@
 
 #include "core/autopilot.h"
 #include "fake_board.h"
-#include "protocol/frame.h"
+#include "frame_bytes.h"
 
 namespace raspilot {
 
@@ -65,11 +65,7 @@ class LinkBench {
   void drain() { fake_board().queued = 0; }
 
   static Bytes frame_of(uint8_t sequence, char type, const Bytes& payload) {
-    static Bytes written;
-    written.clear();
-    write_frame(sequence, type, payload.data(), static_cast<uint8_t>(payload.size()),
-                [](uint8_t byte) { written.push_back(byte); });
-    return written;
+    return frame_bytes(sequence, type, payload.data(), static_cast<uint8_t>(payload.size()));
   }
 
   Autopilot autopilot;

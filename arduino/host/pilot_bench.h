@@ -114,6 +114,9 @@ class PilotBench {
   Reason demand(int16_t roll_cdeg, uint16_t throttle, uint16_t lifetime_ms = 250) {
     return authority.accept_setpoint(Setpoint{roll_cdeg, 0, 0, throttle}, lifetime_ms, clock_us());
   }
+  Reason return_by(int16_t roll_cdeg, uint16_t throttle, uint16_t lifetime_ms = 250) {
+    return authority.accept_return(Setpoint{roll_cdeg, 0, 0, throttle}, lifetime_ms, clock_us());
+  }
   Reason ask(char letter) { return authority.request_mode(letter, clock_us()); }
   Reason arm() { return authority.arm(clock_us()); }
   Reason disarm() { return authority.disarm(clock_us()); }

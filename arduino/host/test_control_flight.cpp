@@ -3,6 +3,7 @@
 #include <cmath>
 #include <random>
 
+#include "control/fixed_point.h"
 #include "control/flight_controller.h"
 #include "moving_imu.h"
 
@@ -393,4 +394,49 @@ TEST_CASE("no stick, attitude or gain lets a servo out of its end points") {
       CHECK(output <= 4000);
     }
   }
+}
+
+TEST_CASE("RETURN: the set-point within FBW's limits, the rudder without its stick") {
+  Flight flight;
+  flight.tune(only_p(1.0f, 2.0f));
+  flight.demand.mode = Mode::RETURN;
+  flight.demand.is_failsafe = true;
+  flight.stick(RUDDER, 1900);
+  flight.demand.setpoint = Setpoint{1000, 500, 0, 0};
+  CHECK(flight.us(AILERONS) == doctest::Approx(1525).epsilon(0.001));
+  CHECK(flight.us(ELEVATOR) == doctest::Approx(1512.5).epsilon(0.001));
+  CHECK(flight.us(RUDDER) == 1500);
+  flight.demand.setpoint = Setpoint{18000, -9000, 0, 0};
+  const double steepest = flight.us(AILERONS);
+  const double lowest = flight.us(ELEVATOR);
+  flight.demand.setpoint = Setpoint{flight.profile.roll_limit_cdeg,
+                                    negative(flight.profile.pitch_down_limit_cdeg), 0, 0};
+  CHECK(flight.us(AILERONS) == steepest);
+  CHECK(flight.us(ELEVATOR) == lowest);
+}
+
+TEST_CASE("the slew limit slows a motor's rise to 5 %/s a step and never its fall") {
+  for (uint8_t steps : {uint8_t{1}, uint8_t{20}}) {
+    Flight flight;
+    flight.demand.mode = Mode::FBW;
+    flight.profile.flags = static_cast<uint8_t>(steps * SLEW_UNIT);
+    flight.demand.throttle = us_to_ticks(2000);
+    flight.fly(250);
+    // Half a second at 5 % of 1000 us a second and step.
+    CHECK(flight.us(THROTTLE) == doctest::Approx(1000 + 25 * steps).epsilon(0.001));
+    flight.demand.throttle = us_to_ticks(1000);
+    CHECK(flight.us(THROTTLE) == 1000);
+  }
+}
+
+TEST_CASE("the slew limit is off by default, and no glider's brake has one") {
+  Flight flight;
+  flight.demand.throttle = us_to_ticks(2000);
+  CHECK(flight.us(THROTTLE) == 2000);
+  flight.profile.flags = SLEW_UNIT;
+  flight.profile.has_motor = false;
+  flight.demand.throttle = us_to_ticks(1000);
+  flight.fly(2);
+  flight.demand.throttle = us_to_ticks(2000);
+  CHECK(flight.us(THROTTLE) == 2000);
 }

@@ -96,7 +96,9 @@ TEST_CASE("each field of a profile lands in its place") {
   CHECK(profile.preset_ailerons_us == 2200);
   CHECK(profile.preset_elevator_us == 801);
   CHECK(profile.preset_rudder_us == 802);
-  CHECK(profile.may_return_with_motor);
+  CHECK(profile.may_return_with_motor());
+  CHECK_FALSE(profile.may_pi_fly());
+  CHECK(profile.throttle_slew() == 0);
 }
 
 TEST_CASE("a profile with one value out of range is refused whole") {
@@ -118,8 +120,15 @@ TEST_CASE("a profile with one value out of range is refused whole") {
   check_word(43, 800, 2200);
   check_word(45, 0, 2200);
   for (size_t preset = 47; preset <= 51; preset += 2) check_word(preset, 800, 2200);
-  CHECK(is_taken(put_u8(wire, 53, 1)));
-  CHECK_FALSE(is_taken(put_u8(wire, 53, 2)));
+}
+
+TEST_CASE("the last byte of a profile has two bits, and the throttle's slew limit above them") {
+  Profile profile = DEFAULT_PROFILE;
+  CHECK(profile.flags == 0);
+  CHECK(read_profile(put_u8(wire_of(DEFAULT_PROFILE), 53, 63 * 4 + 2).data(), profile));
+  CHECK_FALSE(profile.may_return_with_motor());
+  CHECK(profile.may_pi_fly());
+  CHECK(profile.throttle_slew() == 63);
 }
 
 TEST_CASE("the switch selects ACRO, RATE, FBW and AUTO, and nothing else") {

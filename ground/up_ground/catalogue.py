@@ -206,7 +206,8 @@ def command_fields(cls: type[BaseCommand]) -> dict[str, Any]:
     return {
         "name": cls.NAME,
         "aliases": list(cls.ALIASES),
-        "role": least_role(cls.ROLES),
+        # Without the fields it is offered to a ground that may send it with some.
+        "role": least_role(cls.ROLES) or least_role(_all_roles(cls)),
         "role_where": [
             {"field": field, "value": given, "role": least_role(roles)}
             for field, values in cls.ROLES_WHERE.items()

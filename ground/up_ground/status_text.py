@@ -60,7 +60,7 @@ def busy_text(telemetry: Telemetry) -> str:
 def acting_mode(telemetry: Telemetry) -> str | None:
     """Return the flight mode that acts: the Raspberry Pi's while it flies; None: unknown."""
     board = telemetry.text("flight_mode", limit=10)
-    if board in ("SETPOINT", "OUTPUT"):
+    if board in ("SETPOINT", "RETURN", "OUTPUT"):
         return telemetry.text("flight_control", "mode", limit=12) or board
     return board
 

@@ -7,9 +7,10 @@ from dataclasses import replace
 from typing import Any, ClassVar
 
 from twisted.internet.defer import Deferred
+from twisted.internet.task import deferLater
 
 from raspilot.flight_controller.attitude_controller import AttitudeController
-from raspilot.flight_controller.flight_memory import Place
+from raspilot.flight_controller.flight_memory import MEMORY, Place
 from raspilot.flight_controller.home import (
     HomeKeeper,
     place_of_target,
@@ -40,6 +41,10 @@ BOARD_MODES = ("FBW", "RATE")
 AUTO = "AUTO"
 MIN_STEP_S, MAX_STEP_S = 1e-3, 0.1
 REQUEST_PERIOD_S = 5.0
+FAILSAFE_MODE = "RETURN"
+"""The board's mode while it follows set-points in receiver failsafe."""
+FOLLOW_S = 1.0
+"""The board reports five times a second whether it follows."""
 RESUME_S = 3.0
 """After a restart in flight the readings get this time before a fallback acts."""
 MAX_RX_AGE_S, MAX_ORIENTATION_AGE_S, MAX_NAVIGATION_AGE_S = 0.25, 0.1, 3.0
@@ -57,6 +62,7 @@ class FlightModeManager(BaseFlightController):
     MODES: ClassVar[frozenset[Mode]] = WITH_BOARD
     LOAD_ORDER: ClassVar[int] = 100
     CONFIG = NAVIGATION
+    WRITTEN_FILES = (MEMORY,)
     SELECTS_MODES: ClassVar[bool] = True
 
     attitude_controller = wants(AttitudeController)
@@ -69,6 +75,7 @@ class FlightModeManager(BaseFlightController):
         self._is_asked = True
         self._asked_at_s = float("-inf")
         self._state: FlightStateCommand | None = None
+        self._has_begun = False
         self._stepped_at_s = float("-inf")
         self._resumed_at_s = float("-inf")
         self._logged = _NOT_PERMITTED
@@ -144,14 +151,19 @@ class FlightModeManager(BaseFlightController):
     @property
     def _is_followed(self) -> bool:
         """Return whether the board follows Commands of the Raspberry Pi now."""
-        return self._state is not None and self._state.flight_mode == self._followed_mode
+        state = self._state
+        return state is not None and state.flight_mode in (self._followed_mode, FAILSAFE_MODE)
 
     @property
     def _may_publish(self) -> bool:
         """Return whether the board may follow: it waits for set-points, and asks for Outputs."""
-        if self.attitude_controller is not None:
-            return self._is_followed
+        if self._is_failsafe or self.attitude_controller is not None:
+            return self._is_failsafe or self._is_followed
         return self._state is not None and self._state.is_auto
+
+    @property
+    def _is_failsafe(self) -> bool:
+        return self._state is not None and self._state.is_failsafe
 
     @property
     def _target_content(self) -> Mapping[str, float | None]:
@@ -211,7 +223,8 @@ class FlightModeManager(BaseFlightController):
     ) -> OutputCommand | SetpointCommand:
         if isinstance(demand, PathDemand):
             demand = self._attitude_of(demand, situation, dt_s)
-        if self.attitude_controller is not None:
+        # In receiver failsafe the board follows nothing but set-points that are marked so.
+        if self.attitude_controller is not None and not self._is_failsafe:
             return self.attitude_controller.output(demand, situation.orientation, dt_s)
         if isinstance(demand, SurfacesDemand):
             raise DemandError("the Arduino's control loop takes attitudes, not surfaces")
@@ -220,6 +233,7 @@ class FlightModeManager(BaseFlightController):
             max(-90.0, min(90.0, demand.roll_deg)),
             max(-90.0, min(90.0, demand.pitch_deg)),
             throttle_us=None if throttle is None else round(1000 + 1000 * _part(throttle)),
+            is_failsafe=self._is_failsafe,
         )
 
     def _attitude_of(
@@ -267,9 +281,13 @@ class FlightModeManager(BaseFlightController):
         if was_followed or not self._is_followed:
             # Not at the first state: its first Command takes control.
             self._log_change_of_control()
-        if previous is None and command.is_in_flight:
-            self._resume(command)
-        elif not command.is_auto:
+        if not self._has_begun and command.is_in_flight is not None:
+            self._has_begun = True
+            if command.is_in_flight:
+                self._resume(command)
+            else:
+                self.home.memory.clear()
+        elif not command.is_auto and not command.is_failsafe:
             self._is_asked = True
             if self._selector.selected != self._auto:
                 self._select(self._auto)
@@ -335,8 +353,20 @@ class FlightModeManager(BaseFlightController):
         if self._is_followed:
             self._select(name)
             return None
+        if self._is_failsafe:
+            self._select(name)
+            return deferLater(self.context.reactor, FOLLOW_S, self._check_followed)
         done = self._executor.execute_and_wait(FlightModeCommand(AUTO), self._origin)
         return done.addCallback(lambda _: self._select(name))
+
+    def _check_followed(self) -> None:
+        if not self._is_followed:
+            self._select(self._auto)
+            raise CommandRefusedError(
+                "the board does not follow the Raspberry Pi without the receiver"
+                " (airframe.yml: receiver_lost: pi_may_fly)",
+                detail="not_allowed",
+            )
 
     def _on_target(self, command: NavigationTargetCommand) -> None:
         self._target = self.home.target_of(command, self._navigation)

@@ -91,7 +91,7 @@ class NavigationEstimator(BaseProvider[NavigationState]):
         return {
             "navigation": self._navigation(),
             "counters": {"navigation": dict(counters)},
-            "age_ms": {self.READING: self.age_ms},
+            **self._ages(),
         }
 
     def _navigation(self) -> dict[str, Any]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import cmath
 import math
 from bisect import bisect_right
 from typing import NamedTuple
@@ -79,18 +80,19 @@ class AirPath:
             near.yaw_deg,
         )
 
-    def turn(self, turned_rad: float) -> None:
-        """Turn the whole past, because the source's yaw has jumped."""
-        self._points = [turned(point, turned_rad) for point in self._points]
+    def multiply(self, factor: complex) -> None:
+        """Turn and stretch the whole past by a complex number (north + i east)."""
+        self._points = [multiplied(point, factor) for point in self._points]
 
 
-def turned(point: AirPoint, turned_rad: float) -> AirPoint:
-    """Return a point as if the yaw had always been turned."""
-    cosine, sine = math.cos(turned_rad), math.sin(turned_rad)
+def multiplied(point: AirPoint, factor: complex) -> AirPoint:
+    """Return a point as if the path had always been turned and stretched."""
+    path = complex(point.north_m, point.east_m) * factor
+    velocity = complex(point.north_m_s, point.east_m_s) * factor
     return point._replace(
-        north_m=point.north_m * cosine - point.east_m * sine,
-        east_m=point.north_m * sine + point.east_m * cosine,
-        north_m_s=point.north_m_s * cosine - point.east_m_s * sine,
-        east_m_s=point.north_m_s * sine + point.east_m_s * cosine,
-        yaw_deg=point.yaw_deg + math.degrees(turned_rad),
+        north_m=path.real,
+        east_m=path.imag,
+        north_m_s=velocity.real,
+        east_m_s=velocity.imag,
+        yaw_deg=point.yaw_deg + math.degrees(cmath.phase(factor)),
     )

@@ -8,9 +8,6 @@ from dataclasses import dataclass
 from up.flight_modes.navigation_file import Airspeed, Performance
 
 GRAVITY_M_S2 = 9.80665
-MAX_STEP_S = 0.1
-CLIMB_SHARE = 0.5
-"""Part of the measured climb error that counts as climb through the air: the rest is the air's."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,15 +45,15 @@ class AirspeedModel:
     """Integrates the airspeed from the energy: thrust, a parabolic polar, and the climb.
 
     The angle of attack of the present lift gives the climb from the pitch. ``thrust_m_s2`` is the
-    thrust over the mass of a working motor; with ``has_thrust`` false it does not act.
+    thrust over the mass of a working motor; without ``has_thrust`` it does not act.
     """
 
-    def __init__(self, airframe: Airframe) -> None:
+    def __init__(self, airframe: Airframe, has_thrust: bool = True) -> None:
         stall, cruise = airframe.stall_m_s, airframe.cruise_m_s
         self.airspeed_m_s = cruise
         self.climb_m_s = 0.0
         self.thrust_m_s2 = 0.0
-        self.has_thrust = True
+        self._has_thrust = has_thrust
         self._slowest, self._fastest = 0.85 * stall, 2.5 * cruise
         stall_rad = math.radians(airframe.stall_pitch_deg)
         cruise_rad = math.radians(airframe.cruise_pitch_deg)
@@ -70,10 +67,8 @@ class AirspeedModel:
         self._power_2 = (power / level - full) / (level - 1.0)
         self._power_1 = full - self._power_2
 
-    def step(
-        self, dt_s: float, roll_rad: float, pitch_rad: float, throttle: float, error_m_s: float
-    ) -> None:
-        """Advance; ``error_m_s`` is how much faster it climbs than the model, as measured."""
+    def step(self, dt_s: float, roll_rad: float, pitch_rad: float, throttle: float) -> None:
+        """Advance; ``climb_m_s`` is then the climb through the air."""
         speed = self.airspeed_m_s
         cosine = math.cos(roll_rad)
         attack = self._zero_lift_rad * cosine + self._lift / (speed * speed)
@@ -85,10 +80,10 @@ class AirspeedModel:
             if power > 0.0:
                 thrust = power / speed
         self.thrust_m_s2 = GRAVITY_M_S2 * thrust
-        if not self.has_thrust:
+        if not self._has_thrust:
             thrust = 0.0
         load = 1.0 / cosine if cosine > 0.5 else 2.0
-        total = thrust - self._drag_of(speed, load) - sine - CLIMB_SHARE * error_m_s / speed
+        total = thrust - self._drag_of(speed, load) - sine
         speed += GRAVITY_M_S2 * total * dt_s
         if speed < self._slowest:
             speed = self._slowest

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import cmath
 import math
 
-from raspilot.navigation.air_path import AirPath, AirPoint, turned
+from raspilot.navigation.air_path import AirPath, AirPoint, multiplied
 from raspilot.navigation.airspeed_model import Airframe, AirspeedModel
 from raspilot.navigation.fix_gate import Fix, FixGate
 from raspilot.navigation.flight_watch import FlightWatch
@@ -19,6 +20,7 @@ from raspilot.navigation.vertical_filter import VerticalFilter
 from raspilot.navigation.wind_mean import WindMean
 from up.flight_modes.navigation_state import LocalFrame, NavigationState, Point
 
+MAX_TIME_S = 1e9
 MAX_GAP_S = 0.5
 """Longest time without orientation through which the airspeed is integrated."""
 YAW_JUMP_DEG = 20.0
@@ -43,7 +45,9 @@ class Estimator:
     """
 
     def __init__(self, airframe: Airframe | None = None) -> None:
-        self._model = AirspeedModel(airframe or Airframe())
+        airframe = airframe or Airframe()
+        self._powered = self._model = AirspeedModel(airframe)
+        self._glide = AirspeedModel(airframe, has_thrust=False)
         self._path = AirPath()
         self._gate = FixGate()
         self._flight = FlightWatch()
@@ -95,7 +99,8 @@ class Estimator:
 
     def orientation(self, time_s: float, roll_deg: float, pitch_deg: float, yaw_deg: float) -> None:
         """Take an attitude and advance the air path to its time."""
-        if not math.isfinite(time_s + roll_deg + pitch_deg + yaw_deg):
+        angles = (roll_deg, pitch_deg, yaw_deg)
+        if not abs(time_s) < MAX_TIME_S or not all(abs(each) <= 360.0 for each in angles):
             return
         newest = self._path.newest
         yaw = math.radians(yaw_deg)
@@ -116,9 +121,9 @@ class Estimator:
             if self._horizontal is not None:
                 self._horizontal.blur(GAP_SD_M_S * dt)
         else:
-            error = self._vertical.climb_error_m_s
-            throttle = self._throttle
-            model.step(dt, math.radians(roll_deg), math.radians(pitch_deg), throttle, error)
+            attitude = math.radians(roll_deg), math.radians(pitch_deg)
+            self._powered.step(dt, *attitude, self._throttle)
+            self._glide.step(dt, *attitude, self._throttle)
         speed = model.airspeed_m_s
         # Trapezoid: the mean of the old and the new velocity through the air.
         self._append(
@@ -229,12 +234,18 @@ class Estimator:
 
     def _jump(self, turned_rad: float) -> None:
         """Keep the heading although the yaw has jumped."""
-        self._path.turn(turned_rad)
-        if self._fixed is not None:
-            self._fixed = turned(self._fixed, turned_rad)
+        self._multiply(cmath.rect(1.0, turned_rad))
         if self._horizontal is not None:
-            self._horizontal.turn(-turned_rad, JUMP_SD_RAD)
+            self._horizontal.widen(0.0, JUMP_SD_RAD**2)
         self._compass_offset_rad = None
+
+    def _multiply(self, factor: complex) -> None:
+        """Multiply the air path by a number, and divide the filter's factor by it."""
+        self._path.multiply(factor)
+        if self._fixed is not None:
+            self._fixed = multiplied(self._fixed, factor)
+        if self._horizontal is not None:
+            self._horizontal.divide(factor)
 
     def _position_at(self, at: AirPoint) -> Point:
         assert self._horizontal is not None and self._fixed is not None
@@ -269,8 +280,8 @@ class Estimator:
                 self._horizontal.set_offset(self._compass_offset_rad, sd_rad)
             if velocity is not None:
                 self._horizontal.fuse_velocity(at, *velocity, VELOCITY_R_M_S)
-            self.motor.reset()
-            self._model.has_thrust = True
+            self.motor = MotorWatch()
+            self._model = self._powered
             self._wind = WindMean()
         else:
             self._horizontal.blur(GROUND_Q_M * math.sqrt(max(0.0, at.time_s - self._fixed.time_s)))
@@ -287,12 +298,6 @@ class Estimator:
         dt = at.time_s - then.time_s
         horizontal.predict(then, at)
         self._fixed = at
-        if velocity is not None and horizontal.is_oriented and dt > 0.0:
-            faster, sd = horizontal.along_nose(at, *velocity)
-            thrust_m_s = at.thrust_m_s - then.thrust_m_s
-            if self.motor.fix(faster, thrust_m_s, math.hypot(sd, VELOCITY_R_M_S), dt):
-                self._model.has_thrust = not self.motor.is_stopped
-                horizontal.widen_airspeed(MOTOR_SD)
         horizontal.fuse_position(*point, max(POSITION_R_M, 0.5 * (fix.accuracy_m or 0.0)))
         if velocity is not None:
             horizontal.fuse_velocity(at, *velocity, VELOCITY_R_M_S)
@@ -301,5 +306,12 @@ class Estimator:
         if self._compass_offset_rad is not None:
             horizontal.fuse_offset(self._compass_offset_rad, math.radians(COMPASS_SD_DEG))
             self._compass_offset_rad = None
+        airspeed_m_s = self._model.airspeed_m_s * abs(horizontal.factor)
+        if self.motor.fix(airspeed_m_s, self._powered.airspeed_m_s, self._glide.airspeed_m_s):
+            # The other model continues from the estimate, with a factor of length 1.
+            self._model = self._glide if self.motor.is_stopped else self._powered
+            self._model.airspeed_m_s = airspeed_m_s
+            self._multiply(complex(abs(horizontal.factor)))
+            horizontal.widen(MOTOR_SD**2, 0.0)
         variance = horizontal.p[4][4] + horizontal.p[5][5]
         self._wind.add(horizontal.x[4], horizontal.x[5], variance, dt)

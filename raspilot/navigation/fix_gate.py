@@ -38,6 +38,7 @@ class Fix:
             return False
         return (
             abs(self.latitude_deg) < 89.0
+            and abs(self.time_s) < 1e9
             and abs(self.longitude_deg) <= 180.0
             and -1000.0 <= (self.altitude_m or 0.0) <= 20000.0
             and 0.0 <= (self.speed_m_s or 0.0) <= 150.0

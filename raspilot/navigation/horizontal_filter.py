@@ -8,15 +8,16 @@ from raspilot.navigation.air_path import AirPoint
 
 POSITION_R_M = 2.0
 VELOCITY_R_M_S = 0.4
-POSITION_Q_M, AIRSPEED_Q, THRUST_Q, YAW_Q_RAD, WIND_Q_M_S = 0.3, 0.012, 0.03, 0.006, 0.12
-"""Standard deviations after a second. The airspeed's is a part of it; ``THRUST_Q`` is added for a
-throttle of 1, whose effect is uncertain."""
-AIRSPEED_R = 0.5
+POSITION_Q_M, AIRSPEED_Q, THRUST_Q, YAW_Q_RAD, WIND_Q_M_S = 0.3, 0.012, 0.02, 0.006, 0.12
+"""Standard deviations after a second. The airspeed's is a part of it; ``THRUST_Q`` is added for
+each m/s that the motor has given, which is uncertain."""
+AIRSPEED_R = 0.25
 """Standard deviation, for one second, of the knowledge that the airspeed model is right."""
 WIND_SD_M_S, FACTOR_SD, POSITION_SD_M = 5.0, 0.15, 10.0
 """Standard deviations before the first fix in flight."""
 LIMIT_SIGMA = 5.0
 """Innovations beyond are cut to this."""
+MIN_FACTOR = 0.3
 MAX_SD_M, MAX_WIND_SD_M_S = 1e5, 15.0
 
 
@@ -37,29 +38,42 @@ class HorizontalFilter:
         self.p = _diagonal(POSITION_SD_M, POSITION_SD_M, 1.0, 1.0, WIND_SD_M_S, WIND_SD_M_S)
 
     @property
+    def factor(self) -> complex:
+        return complex(self.x[2], self.x[3])
+
+    @property
     def is_oriented(self) -> bool:
         """Return whether the offset of the yaw is known at all."""
-        return math.hypot(self.x[2], self.x[3]) > 0.3
+        return abs(self.factor) > MIN_FACTOR
 
     def set_offset(self, offset_rad: float, sd_rad: float) -> None:
         """Start with a known offset of the yaw, for example from a compass."""
         self.x[2], self.x[3] = math.cos(offset_rad), math.sin(offset_rad)
         self.p[2][2] = self.p[3][3] = self.p[2][3] = self.p[3][2] = 0.0
-        self._widen(FACTOR_SD**2, sd_rad**2)
+        self.widen(FACTOR_SD**2, sd_rad**2)
 
-    def turn(self, angle_rad: float, sd_rad: float) -> None:
-        """Turn the factor against a jump of the yaw, which leaves this uncertainty."""
-        cosine, sine = math.cos(angle_rad), math.sin(angle_rad)
-        a, b = self.x[2], self.x[3]
-        self.x[2], self.x[3] = a * cosine - b * sine, a * sine + b * cosine
+    def divide(self, factor: complex) -> None:
+        """Divide the factor of the path by a number by which the path was multiplied."""
+        inverse = 1.0 / factor
+        c, s = inverse.real, inverse.imag
         rows = self.p
-        for row in rows:
-            row[2], row[3] = row[2] * cosine - row[3] * sine, row[2] * sine + row[3] * cosine
+        for row in [self.x, *rows]:
+            row[2], row[3] = row[2] * c - row[3] * s, row[2] * s + row[3] * c
         for k in range(6):
             above, below = rows[2][k], rows[3][k]
-            rows[2][k] = above * cosine - below * sine
-            rows[3][k] = above * sine + below * cosine
-        self._widen(0.0, sd_rad**2)
+            rows[2][k], rows[3][k] = above * c - below * s, above * s + below * c
+
+    def widen(self, along: float, across: float) -> None:
+        """Add variances of the factor along (airspeed) and across itself (heading)."""
+        a, b = self.x[2], self.x[3]
+        length = math.hypot(a, b)
+        a, b = (a / length, b / length) if length > 0.0 else (1.0, 0.0)
+        rows = self.p
+        rows[2][2] += a * a * along + b * b * across
+        rows[3][3] += b * b * along + a * a * across
+        cross = a * b * (along - across)
+        rows[2][3] += cross
+        rows[3][2] += cross
 
     def predict(self, then: AirPoint, now: AirPoint) -> None:
         """Move the state from one point of the air path to a later one."""
@@ -90,7 +104,7 @@ class HorizontalFilter:
         if r4[4] < MAX_WIND_SD_M_S**2:
             r4[4] += wind
             r5[5] += wind
-        self._widen(radial, across)
+        self.widen(radial, across)
 
     def fuse_position(self, north_m: float, east_m: float, sd_m: float) -> None:
         variance = sd_m * sd_m
@@ -112,7 +126,7 @@ class HorizontalFilter:
         """Fuse the airspeed over the modelled one: from a sensor, or 1 from the model itself."""
         a, b = self.x[2], self.x[3]
         length = math.hypot(a, b)
-        if length < 0.3:
+        if length < MIN_FACTOR:
             return
         a, b = a / length, b / length
         column = [a * row[2] + b * row[3] for row in self.p]
@@ -122,7 +136,7 @@ class HorizontalFilter:
         """Fuse an offset of the yaw: the compass minus the yaw."""
         a, b = self.x[2], self.x[3]
         length = math.hypot(a, b)
-        if length < 0.3:
+        if length < MIN_FACTOR:
             return
         error = math.remainder(offset_rad - math.atan2(b, a), 2 * math.pi) * length
         a, b = -b / length, a / length
@@ -135,7 +149,7 @@ class HorizontalFilter:
         a, b = self.x[2], self.x[3]
         squared = a * a + b * b
         aa, ab, bb = self.p[2][2], self.p[2][3], self.p[3][3]
-        if squared < 0.09:
+        if squared < MIN_FACTOR**2:
             return aa + bb, aa + bb
         along = (a * a * aa + 2 * a * b * ab + b * b * bb) / (squared * squared)
         across = (b * b * aa - 2 * a * b * ab + a * a * bb) / (squared * squared)
@@ -158,22 +172,6 @@ class HorizontalFilter:
             total += (2.0 * WIND_Q_M_S**2 * dt * dt * dt + factor * path) / 3.0
         return min(max(total, 0.0), 2.0 * MAX_SD_M**2)
 
-    def along_nose(self, at: AirPoint, north_m_s: float, east_m_s: float) -> tuple[float, float]:
-        """Return how much faster along the nose a ground velocity is, and the deviation of it."""
-        x, u, v = self.x, at.north_m_s, at.east_m_s
-        north, east = x[2] * u - x[3] * v, x[2] * v + x[3] * u
-        length = math.hypot(north, east) or 1.0
-        faster = ((north_m_s - x[4] - north) * north + (east_m_s - x[5] - east) * east) / length
-        dn, de = north / length, east / length
-        h = (dn * u + de * v, de * u - dn * v, dn, de)
-        rows = self.p[2:]
-        variance = sum(h[i] * sum(h[k] * rows[i][2 + k] for k in range(4)) for i in range(4))
-        return faster, math.sqrt(max(0.0, variance))
-
-    def widen_airspeed(self, sd: float) -> None:
-        """Add an uncertainty of the airspeed, a part of it."""
-        self._widen(sd * sd, 0.0)
-
     def blur(self, sd_m: float) -> None:
         """Add an uncertainty of the position."""
         for index in (0, 1):
@@ -186,18 +184,6 @@ class HorizontalFilter:
             for k in range(6):
                 self.p[index][k] = self.p[k][index] = 0.0
             self.p[index][index] = sd_m * sd_m
-
-    def _widen(self, along: float, across: float) -> None:
-        """Add variances of the factor along and across itself."""
-        a, b = self.x[2], self.x[3]
-        length = math.hypot(a, b)
-        a, b = (a / length, b / length) if length > 0.0 else (1.0, 0.0)
-        rows = self.p
-        rows[2][2] += a * a * along + b * b * across
-        rows[3][3] += b * b * along + a * a * across
-        cross = a * b * (along - across)
-        rows[2][3] += cross
-        rows[3][2] += cross
 
     def _correct(self, column: list[float], variance: float, innovation: float) -> None:
         """Apply one scalar measurement: the column is P Hᵀ, the variance that of the innovation."""

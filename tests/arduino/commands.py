@@ -22,7 +22,7 @@ AIRFRAME = {
     "preset_ailerons_us": 1500,
     "preset_elevator_us": 1500,
     "preset_rudder_us": 1500,
-    "return_with_motor": 0,
+    "flags": 0,
 }
 
 

@@ -64,7 +64,7 @@ def test_roles(catalogue):
     assert gains["role_where"] == [{"field": "request", "value": True, "role": "observer"}]
     assert "up.output.set" not in commands
     heading = command_fields(catalogue.get("up.heading.change"))
-    assert heading["role"] == ""
+    assert heading["role"] == "operator"
     assert heading["role_where"] == [{"field": "mode", "value": "required", "role": "operator"}]
 
 

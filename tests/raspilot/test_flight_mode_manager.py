@@ -153,6 +153,25 @@ def test_where_the_board_flies_for_the_pi_a_mode_acts_at_once(rig):
     assert rig.setpoint() == SetpointCommand(0.0, 0.0)
 
 
+@pytest.mark.parametrize("controller", ["arduino", "raspberry"])
+def test_without_the_receiver_set_points_are_marked_and_refused_unless_followed(
+    tmp_path, controller
+):
+    rig = NavigationRig(tmp_path, f"flight controller: {controller}\n")
+    lost = FlightStateCommand("FBW", True, False, True, True)
+    rig.setpoint()
+    for mode, outcome in (("FBW", "not_allowed"), ("RETURN", None)):
+        rig.bus.execute_command(lost, BOARD)
+        rig.setpoint()
+        done = rig.outcome(FlightModeCommand("LEVEL"))
+        assert rig.setpoint() == SetpointCommand(0.0, 0.0, is_failsafe=True)
+        rig.bus.execute_command(replace(lost, flight_mode=mode), BOARD)
+        rig.clock.advance(1.0)
+        assert (refusal(done) if outcome else done[0]) == outcome
+    assert rig.shown()["selected"] == "LEVEL"
+    assert not rig.outputs
+
+
 def test_the_arduinos_loop_takes_no_surfaces(rig):
     rig.state()
     rig.outcome(FlightModeCommand("SERVOS"))
@@ -344,6 +363,10 @@ class TestRestart:
         rig.outcome(FlightModeCommand("BANK"))
         rig.manager.home.memory.wait()
         again = NavigationRig(tmp_path, gains=None)
+        again.state(None, in_flight=None)
         again.state(in_flight=False)
         assert again.shown()["selected"] is None
-        assert again.manager.home.place is None
+        again.manager.home.memory.wait()
+        later = NavigationRig(tmp_path, gains=None)
+        later.state()
+        assert later.manager.home.place is None, "the home of an earlier flight"

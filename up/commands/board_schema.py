@@ -13,13 +13,13 @@ from up.commands.schema_rows import Datum
 
 VERSION = 1
 STATUS = Struct('>BBBBBBHHHHHHH')
-FLIGHT_MODES = {'a': 'ACRO', 'r': 'RATE', 'f': 'FBW', 's': 'SETPOINT', 'u': 'OUTPUT', 'h': 'RTH'}
-MODE_TEXTS = {'ACRO': 'the sticks move the surfaces', 'RATE': 'the sticks ask for rotation', 'FBW': 'the sticks ask for attitude, within limits', 'SETPOINT': 'the Raspberry Pi sets the attitude', 'OUTPUT': 'the Raspberry Pi sets the servo positions', 'RTH': 'return home, sent by old firmware; without behaviour'}
+FLIGHT_MODES = {'a': 'ACRO', 'r': 'RATE', 'f': 'FBW', 's': 'SETPOINT', 'R': 'RETURN', 'u': 'OUTPUT', 'h': 'RTH'}
+MODE_TEXTS = {'ACRO': 'the sticks move the surfaces', 'RATE': 'the sticks ask for rotation', 'FBW': 'the sticks ask for attitude, within limits', 'SETPOINT': 'the Raspberry Pi sets the attitude', 'RETURN': 'the Raspberry Pi sets the attitude in receiver failsafe', 'OUTPUT': 'the Raspberry Pi sets the servo positions', 'RTH': 'return home, sent by old firmware; without behaviour'}
 SWITCH_MODES = {'a': 'ACRO', 'r': 'RATE', 'f': 'FBW', 'A': 'AUTO'}
 SWITCH_POSITIONS = {0: 'low', 1: 'middle', 2: 'high'}
 VETOES = ('the throttle is not low', 'the receiver is invalid', 'the IMU is invalid', 'AUX2 is low', 'the Raspberry Pi vetoes', 'calibrating', 'the profile is invalid', 'a veto that this program does not know')
 RESET_CAUSES = {0: 'power-on', 1: 'external', 2: 'brown-out', 3: 'watchdog', 7: 'state restored'}
-REASONS = {1: 'unknown type', 2: 'wrong size', 3: 'out of range', 4: 'only on the ground, not in flight', 5: 'not while in thesis framing', 6: 'too old', 7: 'the switch is not at AUTO', 8: 'the throttle is not low', 9: 'the receiver is invalid', 10: 'the IMU is invalid', 11: 'a veto', 12: 'not still enough', 13: 'not supported: nothing on the Arduino uses it'}
+REASONS = {1: 'unknown type', 2: 'wrong size', 3: 'out of range', 4: 'only on the ground, not in flight', 5: 'not while in thesis framing', 6: 'too old', 7: 'the switch is not at AUTO', 8: 'the throttle is not low', 9: 'the receiver is invalid', 10: 'the IMU is invalid', 11: 'a veto', 12: 'not still enough', 13: 'not supported: nothing on the Arduino uses it', 14: 'the profile does not allow it', 15: "the receiver's failsafe does not act"}
 
 
 class Reason(IntEnum):
@@ -36,6 +36,8 @@ class Reason(IntEnum):
     VETO = 11
     NOT_STILL = 12
     NOT_SUPPORTED = 13
+    NOT_ALLOWED = 14
+    NOT_IN_FAILSAFE = 15
 
 
 class Veto(IntFlag):

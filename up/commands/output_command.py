@@ -26,7 +26,11 @@ class OutputCommand(BaseCommand):
 
 @dataclass(frozen=True, slots=True)
 class SetpointCommand(BaseCommand):
-    """An attitude asked of the board; after ``lifetime_ms`` it levels the aircraft."""
+    """An attitude asked of the board; after ``lifetime_ms`` it levels the aircraft.
+
+    One marked as failsafe is followed in the receiver's failsafe only, if the board's profile
+    allows it (airframe.yml: receiver_lost: pi_may_fly); after ``lifetime_ms`` the board circles.
+    """
 
     NAME: ClassVar[str] = "up.setpoint.set"
     NEEDS_CONTROL: ClassVar[bool] = True
@@ -35,3 +39,4 @@ class SetpointCommand(BaseCommand):
     yaw_rate_deg_s: float = value(0.0, key="yaw_rate", minimum=-300, maximum=300, unit="deg/s")
     throttle_us: int | None = value(None, key="throttle", minimum=1000, maximum=2000, unit="us")
     lifetime_ms: int = value(250, minimum=1, maximum=250, unit="ms")
+    is_failsafe: bool = value(False, key="failsafe")

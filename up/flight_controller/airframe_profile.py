@@ -22,6 +22,10 @@ def _angle(comment: str, least: float = 0.0) -> float | None:
     return key(None, comment, unit="deg", minimum=least, maximum=90)
 
 
+SLEW_STEP_PERCENT_S = 5
+MAX_SLEW_PERCENT_S = 63 * SLEW_STEP_PERCENT_S
+
+
 def _default(limit: str) -> str:
     return f"Board default: {DEFAULT_LIMITS_DEG[limit]:g}."
 
@@ -88,7 +92,13 @@ class ReceiverLost:
     elevator_us: int | None = _pulse("The elevator without IMU. Board default: 1500.")
     rudder_us: int | None = _pulse("The rudder without IMU. Board default: 1500.")
     return_with_motor: bool | None = key(
-        None, "Whether returning home may use the motor. Board default: false."
+        None,
+        "Whether the Raspberry Pi's set-points may use the motor then. Board default: false.",
+    )
+    pi_may_fly: bool | None = key(
+        None,
+        "Whether the board then follows the Raspberry Pi's set-points for the return flight instead"
+        " of circling. Board default: false.",
     )
 
 
@@ -117,6 +127,14 @@ class AirframeProfile:
         None,
         "Whether the throttle drives a motor, which needs arming. false is a glider, whose Outputs"
         " need no arming. Board default: true.",
+    )
+    throttle_slew_percent_s: int | None = key(
+        None,
+        "How fast a motor's throttle rises at most; it falls at once. In steps of"
+        f" {SLEW_STEP_PERCENT_S}; 0 is no limit. Board default: 0.",
+        minimum=0,
+        maximum=MAX_SLEW_PERCENT_S,
+        unit="%/s",
     )
     switch: Switch = section(Switch)
     fly_by_wire: FlyByWire = section(FlyByWire)

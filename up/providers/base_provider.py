@@ -114,7 +114,8 @@ class BaseProvider(BaseStartedModule, Generic[_T]):
 
     def _ages(self) -> dict[str, Any]:
         """Return the part of telemetry common to all readings."""
-        source = None if self._reading is None else self._reading.source
+        reading = self.reading
+        source = None if reading is None else reading.source
         return {"age_ms": {self.READING: self.age_ms}, "source": {self.READING: source}}
 
 

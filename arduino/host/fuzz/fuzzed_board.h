@@ -8,7 +8,7 @@
 #include "core/autopilot.h"
 #include "fake_board.h"
 #include "pilot_bench.h"
-#include "protocol/frame.h"
+#include "frame_bytes.h"
 #include "second_reading.h"
 
 namespace raspilot {
@@ -45,12 +45,10 @@ class FuzzedBoard {
   }
   /** A checked frame arrives, valid except perhaps for type and size. */
   void receive_frame(uint8_t type, const Bytes& payload) {
-    outgoing().clear();
-    write_frame(sequence_++, static_cast<char>(type), payload.data(),
-                static_cast<uint8_t>(payload.size()),
-                [](uint8_t byte) { outgoing().push_back(byte); });
-    const Bytes wire = outgoing();
-    for (uint8_t byte : wire) receive(byte);
+    for (uint8_t byte : frame_bytes(sequence_++, static_cast<char>(type), payload.data(),
+                                    static_cast<uint8_t>(payload.size()))) {
+      receive(byte);
+    }
   }
   /** Slots run as on the chip. */
   void run(uint32_t slots) {
@@ -74,10 +72,6 @@ class FuzzedBoard {
   static constexpr uint32_t SLOT_US = 2000;
   static constexpr uint32_t BYTE_US = 87;
 
-  static Bytes& outgoing() {
-    static Bytes bytes;
-    return bytes;
-  }
   uint32_t clock_us() const { return begin_us_ + static_cast<uint32_t>(passed_us_); }
 
   void pass(uint32_t us) {

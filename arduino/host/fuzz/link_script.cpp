@@ -8,7 +8,7 @@
 #include "core/autopilot.h"
 #include "fake_board.h"
 #include "pilot_bench.h"
-#include "protocol/frame.h"
+#include "frame_bytes.h"
 
 namespace raspilot {
 
@@ -114,10 +114,8 @@ class Conversation {
   }
 
   void send(char type, const uint8_t* payload, uint8_t size) {
-    static std::vector<uint8_t> written;
-    written.assign(1, 0);
-    write_frame(sequence_++, type, payload, size, [](uint8_t byte) { written.push_back(byte); });
-    for (uint8_t byte : written) receive(byte);
+    receive(0);
+    for (uint8_t byte : frame_bytes(sequence_++, type, payload, size)) receive(byte);
   }
 
   void slots(uint32_t count) {

@@ -9,7 +9,12 @@ from typing import Any, NamedTuple
 
 from up.commands.board_schema import SWITCH_MODES
 from up.config import ConfigFile
-from up.flight_controller.airframe_profile import MIXES, AirframeProfile
+from up.flight_controller.airframe_profile import (
+    MAX_SLEW_PERCENT_S,
+    MIXES,
+    SLEW_STEP_PERCENT_S,
+    AirframeProfile,
+)
 
 AIRFRAME = ConfigFile("airframe.yml", AirframeProfile)
 """The required profile of the Arduino; null values stay unchanged."""
@@ -30,6 +35,8 @@ class _Field(NamedTuple):
     format: str
     encode: Callable[[Any], int]
     decode: Callable[[int], Any]
+    shift: int = 0
+    """Place of its lowest bit in a byte that it shares with the fields before it."""
 
 
 def _flag(key: str, decode: Callable[[int], bool] = lambda number: bool(number & 1)) -> _Field:
@@ -83,6 +90,17 @@ def _fields() -> Iterator[_Field]:
     for servo in ("ailerons", "elevator", "rudder"):
         yield _number(f"receiver_lost.{servo}_us", 800, 2200)
     yield _flag("receiver_lost.return_with_motor")
+    yield _flag("receiver_lost.pi_may_fly")._replace(format="", shift=1)
+    yield _slew("throttle_slew_percent_s")
+
+
+def _slew(key: str) -> _Field:
+    def encode(percent_s: int) -> int:
+        within: int = _within(key, 0, MAX_SLEW_PERCENT_S, percent_s)
+        # Rounded up: 0 is no limit.
+        return -(-within // SLEW_STEP_PERCENT_S)
+
+    return _Field(key, "", encode, lambda steps: steps * SLEW_STEP_PERCENT_S, shift=2)
 
 
 _FIELDS = tuple(_fields())
@@ -95,13 +113,26 @@ def pack_profile(profile: Profile) -> bytes:
     for servo in _SERVOS:
         if not profile[f"{servo}.lowest_us"] < profile[f"{servo}.highest_us"]:
             raise ValueError(f"{servo}.highest_us must be above {servo}.lowest_us")
-    return _PROFILE.pack(*(each.encode(profile[each.key]) for each in _FIELDS))
+    numbers: list[int] = []
+    for each in _FIELDS:
+        number = each.encode(profile[each.key])
+        if each.shift:
+            numbers[-1] |= number << each.shift
+        else:
+            numbers.append(number)
+    return _PROFILE.pack(*numbers)
 
 
 def read_profile(payload: bytes) -> Profile:
     """Decode the payload of `C`; raises ValueError naming the key of an unknown mix or mode."""
-    values = zip(_FIELDS, _PROFILE.unpack(payload), strict=True)
-    return {each.key: each.decode(number) for each, number in values}
+    numbers = iter(_PROFILE.unpack(payload))
+    profile: Profile = {}
+    number = 0
+    for each in _FIELDS:
+        if not each.shift:
+            number = next(numbers)
+        profile[each.key] = each.decode(number >> each.shift)
+    return profile
 
 
 def nested(profile: Profile) -> dict[str, Any]:

@@ -63,7 +63,7 @@ def pack_setpoint(
     throttle_us: int | None,
     lifetime_ms: int,
 ) -> bytes:
-    """Return the payload of `S`; a throttle of None leaves it to the stick.
+    """Return the payload of `S` and `R`; a throttle of None leaves it to the stick.
 
     Raises ValueError for a value that is not finite or out of the range of its field.
     """

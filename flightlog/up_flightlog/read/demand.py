@@ -48,7 +48,7 @@ class DemandModel:
 
         The demand of a stick without a pulse is unknown.
         """
-        if is_failsafe:
+        if is_failsafe and mode != "RETURN":
             return Demand(self._circle_deg["circle_bank_deg"], self._circle_deg["glide_pitch_deg"])
         ailerons, elevator = _deflection(sticks_us, "ailerons"), _deflection(sticks_us, "elevator")
         if mode == "RATE":
@@ -56,7 +56,7 @@ class DemandModel:
                 roll_rate_deg_s=_times(ailerons, ROLL_STICK_DEG_S),
                 pitch_rate_deg_s=_times(elevator, PITCH_STICK_DEG_S),
             )
-        if mode == "SETPOINT":
+        if mode in ("SETPOINT", "RETURN"):
             return self.setpoint
         if mode in ("FBW", "OUTPUT"):
             limit = "pitch_up_deg" if (elevator or 0.0) >= 0 else "pitch_down_deg"

@@ -40,11 +40,11 @@ class DemandSeries:
         self._model.take_profile(data)
 
     def _on_setpoint(self, time_s: float, data: Mapping[str, Any]) -> None:
-        if self._mode == "SETPOINT" and not self._is_failsafe:
+        if self._mode == ("RETURN" if self._is_failsafe else "SETPOINT"):
             self._add(time_s, Demand(number_at(data, ("roll",)), number_at(data, ("pitch",))))
 
     def _on_sticks(self, time_s: float, data: Mapping[str, Any]) -> None:
-        if self._mode != "SETPOINT" or self._is_failsafe:
+        if self._mode != ("RETURN" if self._is_failsafe else "SETPOINT"):
             self._add(time_s, self._model.at(self._mode, self._is_failsafe, data))
 
     def _add(self, time_s: float, demand: Demand) -> None:

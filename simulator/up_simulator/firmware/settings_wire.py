@@ -35,9 +35,11 @@ _PLACES = {
     "receiver_lost.ailerons_us": 26,
     "receiver_lost.elevator_us": 27,
     "receiver_lost.rudder_us": 28,
-    "receiver_lost.return_with_motor": 29,
 }
 """The position of each key among the fields of a profile (protocols 2.6)."""
+_FLAGS = 29
+_BITS = {"receiver_lost.return_with_motor": 1, "receiver_lost.pi_may_fly": 2}
+_SLEW, _SLEW_UNIT, _SLEW_STEP = "throttle_slew_percent_s", 4, 5
 _SWITCH, _ANGLES = 18, range(19, 24)
 _POSITIONS = ("switch.low", "switch.middle", "switch.high")
 _LOOPS, _AXES, _TERMS = ("rate", "stabilize"), ("ailerons", "elevator", "rudder"), "pid"
@@ -69,6 +71,12 @@ def profile_bytes(settings: Mapping[str, Any], held: bytes) -> bytes:
             letters[_POSITIONS.index(key)] = _choice(key, value, MODES)
         elif key == "mix":
             fields[_PLACES[key]] = _choice(key, value, {name: at for at, name in enumerate(MIXES)})
+        elif key in _BITS:
+            without = fields[_FLAGS] & ~_BITS[key]
+            fields[_FLAGS] = without | _BITS[key] * round(_number(key, value))
+        elif key == _SLEW:
+            bits = fields[_FLAGS] % _SLEW_UNIT
+            fields[_FLAGS] = bits + _SLEW_UNIT * math.ceil(_number(key, value) / _SLEW_STEP)
         elif key not in _PLACES:
             raise SettingsError(
                 f"unknown key of a profile: {key}", code="unknown_profile_key", key=key
@@ -117,7 +125,7 @@ def _is_in_range(fields: Sequence[Any]) -> bool:
         and all(abs(each) <= 9000 for each in angles_cdeg[3:])
         and all(800 <= each <= 2200 for each in (failsafe_us, *preset_us))
         and lost_us <= 2200
-        and max(fields[17], fields[29]) <= 1
+        and fields[17] <= 1
     )
 
 

@@ -168,11 +168,9 @@ class PhoneSensors:
         if passed_s >= 0.0 and state.time_s < self._fix_due_s - _TINY_S:
             return
         self._fix_s = state.time_s
-        due_s = self._fix_due_s + GPS_PERIOD_S
-        # The seconds of the receiver stay where they are when it is asked late.
-        self._fix_due_s = (
-            due_s if 0 < due_s - self._fix_s <= GPS_PERIOD_S else self._fix_s + GPS_PERIOD_S
-        )
+        # The receiver keeps its seconds when it is asked late.
+        late_s = state.time_s - self._fix_due_s
+        self._fix_due_s = state.time_s + GPS_PERIOD_S - (late_s if 0 <= late_s < 1 else 0.0)
         keep = math.exp(-min(passed_s, 1000.0) / GPS_WANDER_S) if passed_s > 0.0 else 1.0
         grow = math.sqrt(1.0 - keep * keep)
         self._wander_m = [

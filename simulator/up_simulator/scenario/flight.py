@@ -174,7 +174,7 @@ class ScenarioFlight:
         self.participants.exchange(STEP_S)
 
     def _on_command(self, command: Command) -> None:
-        if command.type == "S" and len(command.payload) == _SETPOINT.size:
+        if command.type in "SR" and len(command.payload) == _SETPOINT.size:
             self._demand.setpoint = setpoint_of(command.payload)
 
     def _move_sticks(self, time_s: float) -> None:

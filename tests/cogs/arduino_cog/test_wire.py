@@ -46,7 +46,7 @@ def build(type_, fields):
             return wire.pack_location(fields["latitude_deg"], fields["longitude_deg"])
         case "u":
             return wire.OUTPUT.pack(*fields.values())
-        case "S":
+        case "S" | "R":
             roll, pitch, yaw_rate, throttle, lifetime = fields.values()
             return wire.pack_setpoint(
                 roll / 100, pitch / 100, yaw_rate / 100, throttle or None, lifetime

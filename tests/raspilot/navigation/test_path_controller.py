@@ -141,6 +141,29 @@ def test_the_sums_are_frozen_at_the_limits():
     assert max(each.altitude_m for each in track) < begin + 3.0
 
 
+def stepped(controller, demand, state, duration_s):
+    """Step with a state that does not change; return the last attitude."""
+    for _ in range(round(duration_s / 0.02)):
+        attitude = controller.step(demand, state, 0.02)
+    return attitude
+
+
+def test_pitch_does_not_climb_at_the_least_airspeed():
+    state = replace(PointMass().state, airspeed_m_s=SPEEDS.minimum_m_s - 0.5)
+    climb = PathDemand(Bank(0.0), 400.0, airspeed_m_s=SPEEDS.minimum_m_s)
+    assert stepped(PathController(CONFIG), climb, state, 1.0).pitch_deg < 5.0
+    fast = replace(state, airspeed_m_s=SPEEDS.cruise_m_s)
+    assert stepped(PathController(CONFIG), climb, fast, 1.0).pitch_deg > 6.0
+
+
+def test_the_throttle_is_not_wound_up_by_an_unreachable_climb():
+    controller, state = PathController(CONFIG), replace(PointMass().state, climb_m_s=1.0)
+    assert stepped(controller, PathDemand(Bank(0.0), 400.0, 0.0, 15.0), state, 60).throttle == 1.0
+    level = replace(state, climb_m_s=0.0)
+    throttle = stepped(controller, PathDemand(Bank(0.0), 300.0), level, 3).throttle
+    assert throttle == pytest.approx(CONFIG.performance.level_throttle, abs=0.15)
+
+
 def test_it_begins_from_the_present_attitude():
     plane = PointMass(roll=-30.0, pitch=10.0)
     first = plane.controller.step(PathDemand(CIRCLE, 350.0), plane.state, 0.02)

@@ -1,6 +1,7 @@
 #include "uart.h"
 
 #include "../core/board.h"
+#include "../core/compiler.h"
 #include "../protocol/frame.h"
 #include "interrupts_off.h"
 
@@ -20,6 +21,12 @@ static volatile uint8_t rx_head, rx_tail, tx_head, tx_tail;
 static inline uint8_t after(uint8_t place, uint8_t size) {
   place = static_cast<uint8_t>(place + 1);
   return place == size ? 0 : place;
+}
+
+/** The place `at` places behind what is queued. */
+static uint8_t tx_place(uint8_t at) {
+  const uint8_t place = static_cast<uint8_t>(tx_head + at);
+  return place < TX_SIZE ? place : static_cast<uint8_t>(place - TX_SIZE);
 }
 
 void begin() {
@@ -50,10 +57,10 @@ uint8_t serial_room() {
   return static_cast<uint8_t>(tail - head - 1 + (tail > head ? 0 : uart::TX_SIZE));
 }
 
-void serial_write(uint8_t byte) {
-  const uint8_t head = uart::tx_head;
-  uart::tx[head] = byte;
-  uart::tx_head = uart::after(head, uart::TX_SIZE);
+OUT_OF_LINE void serial_put(uint8_t at, uint8_t byte) { uart::tx[uart::tx_place(at)] = byte; }
+
+void serial_send(uint8_t count) {
+  uart::tx_head = uart::tx_place(count);
   InterruptsOff off;
   UCSR0B |= _BV(UDRIE0);
 }

@@ -279,7 +279,7 @@ void AttitudeFilter::find_gravity() {
   for (uint8_t axis = 0; axis < 3; ++axis) {
     int32_t& gravity = state_.gravity_q30[axis];
     if (found_groups_ == 0) gravity = 0;
-    gravity += shifted(product(measured_[axis], ONE_Q14) * 8, FINDING_SHIFT) - shifted(gravity, FINDING_SHIFT);
+    gravity += product(measured_[axis], ONE_Q14) * 2 - shifted(gravity, FINDING_SHIFT);
   }
   if (++found_groups_ < FINDING_GROUPS) return;
   has_gravity_ = true;

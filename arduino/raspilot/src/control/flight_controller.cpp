@@ -15,6 +15,8 @@ constexpr uint8_t RATE_LOOPS = 3;
 constexpr uint8_t LOOPS = 5;
 
 constexpr Ticks NEUTRAL = us_to_ticks(1500);
+// The slew limit's steps are 10 ms apart.
+constexpr uint8_t SLEW_SLOTS = 5;
 constexpr int16_t FULL_STICK = 1000;
 // Thirty-seconds of a full stick's 1000 ticks to Q15: 32.766 in Q14 less five bits.
 constexpr int16_t STICK_TO_Q15 = 16776;
@@ -54,6 +56,11 @@ int16_t shorter_way_cdeg(int16_t to, int16_t from) {
 }
 
 int16_t to_128ths(int16_t cdeg) { return times_q14(cdeg, CDEG_TO_128THS); }
+
+/** The Raspberry Pi demands bank, pitch and yaw rate. */
+bool has_setpoint(const Demand& demand) {
+  return demand.mode == (demand.is_failsafe ? Mode::RETURN : Mode::SETPOINT);
+}
 
 Ticks preset(uint16_t us) { return us_to_ticks(static_cast<int16_t>(us)); }
 
@@ -102,9 +109,21 @@ const Outputs& FlightController::update(const Demand& demand,
   Ticks demands[OUTPUTS];
   pass_through(demand, demands);
   if (hold_ != Hold::NOTHING) hold_rates(demand, attitude, demands);
-  demands[THROTTLE] = demand.throttle;
+  demands[THROTTLE] = slewed(demand.throttle);
   to_servos(profile_, demands, outputs_);
   return outputs_;
+}
+
+/** The throttle of a motor rises by the profile's limit, from the pulse before; it falls freely. */
+Ticks FlightController::slewed(Ticks throttle) {
+  const uint8_t step = profile_.throttle_slew();
+  if (step == 0 || !profile_.has_motor) return throttle;
+  Ticks most = outputs_.ticks[THROTTLE];
+  if (++slots_to_slew_ == SLEW_SLOTS) {
+    slots_to_slew_ = 0;
+    most = static_cast<Ticks>(most + step);
+  }
+  return throttle < most ? throttle : most;
 }
 
 void FlightController::pass_through(const Demand& demand, Ticks* demands) const {
@@ -130,7 +149,8 @@ OUT_OF_LINE void FlightController::hold_rates(const Demand& demand, const Attitu
   int16_t yaw_16 = 0;
   if (demand.is_failsafe) {
     demands[RUDDER] = NEUTRAL;
-  } else if (demand.mode == Mode::SETPOINT) {
+  }
+  if (has_setpoint(demand)) {
     yaw_16 = times_q15(demand.setpoint.yaw_rate_cdeg_s, CDEG_TO_16THS);
   }
   const int16_t swinging = swinging_16(attitude.yaw_rate_16);
@@ -174,8 +194,10 @@ int16_t FlightController::pitch_rate_in_turn_16(int16_t wanted_16, const Attitud
 int16_t FlightController::wanted_angle_cdeg(Channel channel,
                                                         const Demand& demand) const {
   const bool is_roll = channel == AILERONS;
-  if (demand.is_failsafe) return is_roll ? profile_.circle_bank_cdeg : profile_.glide_pitch_cdeg;
-  const bool is_asked = demand.mode == Mode::SETPOINT;
+  const bool is_asked = has_setpoint(demand);
+  if (demand.is_failsafe && !is_asked) {
+    return is_roll ? profile_.circle_bank_cdeg : profile_.glide_pitch_cdeg;
+  }
   const int16_t asked = is_roll ? demand.setpoint.roll_cdeg : demand.setpoint.pitch_cdeg;
   const int16_t stick = deflection_q15(demand.sticks[channel]);
   const bool is_down = (is_asked ? asked : stick) < 0;

@@ -39,6 +39,7 @@ struct ControllerMemory {
   Hold hold_;
   bool has_steady_;
   uint8_t tuned_loops_;
+  uint8_t slots_to_slew_;
   int32_t steady_;     // yaw rate of the turn, 2^-16 of a sixteenth of a deg/s
   Pid rate_[3];        // ailerons, elevator, rudder: sixteenths of a deg/s to 1.25 us
   Pid stabilize_[2];   // ailerons, elevator: degrees / 128 to deg/s
@@ -51,7 +52,7 @@ struct ControllerMemory {
  *
  * ACRO and OUTPUT pass through. RATE: the stick is a rate. FBW: the stick is a bank and a pitch.
  * SETPOINT: both come from the Raspberry Pi, within the limits of FBW. In the last three the rudder
- * is the stick plus the yaw damper. Without a valid IMU every mode passes the sticks through.
+ * is the stick plus the yaw damper. RETURN: SETPOINT without a stick, in receiver failsafe. Without a valid IMU every mode passes the sticks through.
  */
 class FlightController : private ControllerMemory {
  public:
@@ -67,6 +68,7 @@ class FlightController : private ControllerMemory {
   void tune_one();
   void engage(Hold hold);
   static Hold hold_of(const Demand& demand);
+  Ticks slewed(Ticks throttle);
   void pass_through(const Demand& demand, Ticks* demands) const;
   void hold_rates(const Demand& demand, const Attitude& attitude, Ticks* demands);
   int16_t wanted_rate_16(Channel channel, const Demand& demand, const Attitude& attitude);

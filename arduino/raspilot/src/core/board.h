@@ -11,8 +11,10 @@ namespace board {
 
 /** Bytes that the serial line's output buffer takes now. */
 uint8_t serial_room();
-/** Queues one byte; the caller has checked serial_room() before. */
-void serial_write(uint8_t byte);
+/** Puts a byte `at` places behind what is queued; the caller has checked serial_room() before. */
+void serial_put(uint8_t at, uint8_t byte);
+/** Queues the first `count` bytes that were put. */
+void serial_send(uint8_t count);
 
 /** Whether EEPROM takes a write now (a byte takes 3.4 ms, data sheet 8.6.3). */
 bool eeprom_is_ready();

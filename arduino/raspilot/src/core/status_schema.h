@@ -15,6 +15,7 @@ enum class Mode : char {
   RATE = 'r',
   FBW = 'f',
   SETPOINT = 's',
+  RETURN = 'R',
   OUTPUT = 'u'
 };
 
@@ -33,7 +34,9 @@ enum class Reason : uint8_t {
   IMU_INVALID = 10,
   VETO = 11,
   NOT_STILL = 12,
-  NOT_SUPPORTED = 13
+  NOT_SUPPORTED = 13,
+  NOT_ALLOWED = 14,
+  NOT_IN_FAILSAFE = 15
 };
 
 /** Veto bits of the status. */

@@ -21,6 +21,10 @@ constexpr uint32_t MAX_ORIENTATION_AGE_US = 100000;
 constexpr Ticks LOW_THROTTLE = us_to_ticks(1050);
 constexpr Ticks MOTOR_OFF = us_to_ticks(1000);
 
+// A pilot whose receiver is back takes over after this, by a fifth of a stick's travel.
+constexpr uint16_t BACK_UNITS = units_at_least(1000);
+constexpr Ticks TAKE_OVER = us_to_ticks(200);
+
 char letter_of(Mode mode) { return static_cast<char>(mode); }
 
 }  // namespace
@@ -79,16 +83,45 @@ void Authority::follow_receiver(uint16_t passed_units) {
 
 void Authority::follow_failsafe(bool is_own_failsafe, uint16_t passed_units) {
   if (has_receiver()) {
+    if (is_failsafe_ && timeouts_[RETURNING].is_running() && !is_pilot_back(passed_units)) return;
     is_failsafe_ = false;
+    timeouts_[RETURNING].end();
+    motor_off_.start();
+    back_.start();
     lost_.start();
     return;
   }
+  back_.start();
   if (!was_heard()) return;
   lost_.pass(passed_units);
   if (is_own_failsafe || lost_.units() >= LOSS_UNITS) is_failsafe_ = true;
   if (!is_failsafe_) return;
   end_demands();
   if (lost_.units() > LATCH_UNITS) is_latched_ = true;
+  if (timeouts_[RETURNING].is_running() && may_use_motor()) {
+    motor_off_.start();
+  } else {
+    motor_off_.pass(passed_units);
+  }
+}
+
+/** In a return flight: the mere return of pulses gives the pilot nothing. */
+bool Authority::is_pilot_back(uint16_t passed_units) {
+  const bool was_long = back_.units() >= BACK_UNITS;
+  back_.pass(passed_units);
+  bool has_moved = false;
+  for (uint8_t channel = 0; channel < OUTPUTS; ++channel) {
+    const Ticks pulse = receiver_.pulse(static_cast<Channel>(channel));
+    if (!was_long) rest_[channel] = pulse;
+    const Ticks way = static_cast<Ticks>(pulse - rest_[channel]);
+    if (way > TAKE_OVER || way < -TAKE_OVER) has_moved = true;
+  }
+  return has_moved || (was_long && !is_auto());
+}
+
+/** A motor that stood for 5 s of failsafe does not start again. */
+bool Authority::may_use_motor() const {
+  return profile_.may_return_with_motor() && motor_off_.units() <= LATCH_UNITS;
 }
 
 void Authority::follow_arming(uint16_t passed_units) {
@@ -105,6 +138,7 @@ Mode Authority::mode() const {
 Mode Authority::flown_mode() const {
   if (!has_imu()) return Mode::ACRO;
   const uint8_t position = switch_.position();
+  if (is_failsafe_ && timeouts_[RETURNING].is_running()) return Mode::RETURN;
   if (is_failsafe_ || position == SWITCH_UNKNOWN) return Mode::FBW;
   const char letter = profile_.switch_modes[position];
   if (letter == letter_of(Mode::ACRO)) return Mode::ACRO;
@@ -136,11 +170,15 @@ uint8_t Authority::vetoes() const {
 
 Ticks Authority::throttle() const {
   if (profile_.has_motor && !is_armed_) return MOTOR_OFF;
-  if (is_failsafe_ || is_latched_ || !was_heard()) {
-    return us_to_ticks(static_cast<int16_t>(profile_.throttle_failsafe_us));
-  }
   const Mode mode = flown_mode();
   uint16_t demand_us = 0;
+  if (is_failsafe_ || is_latched_ || !was_heard()) {
+    demand_us = profile_.throttle_failsafe_us;
+    if (mode == Mode::RETURN && may_use_motor() && setpoint_.throttle_us != 0) {
+      demand_us = setpoint_.throttle_us;
+    }
+    return us_to_ticks(static_cast<int16_t>(demand_us));
+  }
   if (mode == Mode::SETPOINT) demand_us = setpoint_.throttle_us;
   if (mode == Mode::OUTPUT) demand_us = ticks_to_us(requested_outputs_.ticks[THROTTLE]);
   return demand_us != 0 ? us_to_ticks(static_cast<int16_t>(demand_us)) : receiver_.pulse(THROTTLE);
@@ -170,7 +208,7 @@ Reason Authority::request_mode(char letter, uint32_t) {
     return Reason::OUT_OF_RANGE;
   }
   if (!is_auto()) return Reason::NOT_AT_AUTO;
-  if (!has_receiver()) return Reason::RECEIVER_INVALID;
+  if (!has_receiver() || is_failsafe_) return Reason::RECEIVER_INVALID;
   if (mode == Mode::OUTPUT && !has_imu()) return Reason::IMU_INVALID;
   requested_mode_ = letter;
   timeouts_[ASKED].start(ASKED_OUTPUT_UNITS);
@@ -182,7 +220,8 @@ Reason Authority::request_mode(char letter, uint32_t) {
 Reason Authority::authority_for(Mode mode) const {
   if (!is_auto()) return Reason::NOT_AT_AUTO;
   if (requested_mode_ != 0 && requested_mode_ != letter_of(mode)) return Reason::NOT_AT_AUTO;
-  if (!has_receiver()) return Reason::RECEIVER_INVALID;
+  // In a return flight with a receiver a Setpoint would take the place of the return set-point.
+  if (!has_receiver() || is_failsafe_) return Reason::RECEIVER_INVALID;
   if (!has_imu()) return Reason::IMU_INVALID;
   if (profile_.has_motor && !is_armed_) return Reason::VETO;
   return Reason::NONE;
@@ -204,12 +243,25 @@ Reason Authority::accept_outputs(const uint16_t* pulses_us, uint32_t age_us, uin
 Reason Authority::accept_setpoint(const Setpoint& setpoint, uint16_t lifetime_ms, uint32_t) {
   const Reason reason = authority_for(Mode::SETPOINT);
   if (reason != Reason::NONE) return reason;
+  follow(DEMAND, setpoint, lifetime_ms);
+  return Reason::NONE;
+}
+
+Reason Authority::accept_return(const Setpoint& setpoint, uint16_t lifetime_ms, uint32_t) {
+  if (!profile_.may_pi_fly()) return Reason::NOT_ALLOWED;
+  if (!is_failsafe_) return Reason::NOT_IN_FAILSAFE;
+  if (!has_imu()) return Reason::IMU_INVALID;
+  if (slot_vetoes_ & VETO_PROFILE_INVALID) return Reason::VETO;
+  follow(RETURNING, setpoint, lifetime_ms);
+  return Reason::NONE;
+}
+
+void Authority::follow(Life life, const Setpoint& setpoint, uint16_t lifetime_ms) {
   setpoint_ = setpoint;
   const uint16_t bounded_ms = lifetime_ms < MAX_SETPOINT_MS ? lifetime_ms : MAX_SETPOINT_MS;
   // Rather a unit too short than one too long.
-  timeouts_[DEMAND].start(static_cast<uint16_t>(bounded_ms * 31 / 32));
+  timeouts_[life].start(static_cast<uint16_t>(bounded_ms * 31 / 32));
   timeouts_[OUTPUT].end();
-  return Reason::NONE;
 }
 
 void Authority::accept_veto(bool is_vetoed, uint32_t) {
@@ -230,6 +282,7 @@ void Authority::restore(const AuthorityState& state, uint32_t now_us) {
   switch_.restore(state.switch_position);
   requested_mode_ = state.requested_mode;
   is_latched_ = state.is_throttle_latched;
+  if (is_latched_) motor_off_.pass(65535);
   is_failsafe_ = state.is_failsafe;
   updated_at_ = to_units(now_us);
 }

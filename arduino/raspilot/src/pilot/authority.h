@@ -66,7 +66,7 @@ class Authority {
 
   /** The throttle pulse for the ESC by every rule, ticks; 1000 us while disarmed with a motor. */
   Ticks throttle() const;
-  /** Means something in mode SETPOINT only. */
+  /** Means something in modes SETPOINT and RETURN only. */
   const Setpoint& setpoint() const { return setpoint_; }
   /** Means something in flown mode OUTPUT only; throttle 0 is the stick's: see throttle(). */
   const Outputs& requested_outputs() const { return requested_outputs_; }
@@ -83,6 +83,11 @@ class Authority {
    */
   Reason accept_outputs(const uint16_t* pulses_us, uint32_t age_us, uint32_t now_us);
   Reason accept_setpoint(const Setpoint& setpoint, uint16_t lifetime_ms, uint32_t now_us);
+  /**
+   * `R`: as a Setpoint, in receiver failsafe only and where the profile allows it. When the receiver
+   * is back it goes on until the pilot leaves AUTO or moves a stick, or until it is not renewed.
+   */
+  Reason accept_return(const Setpoint& setpoint, uint16_t lifetime_ms, uint32_t now_us);
   /** `v`: holds for 1 s. */
   void accept_veto(bool is_vetoed, uint32_t now_us);
 
@@ -92,11 +97,14 @@ class Authority {
 
  private:
   /** States with a lifetime. */
-  enum Life : uint8_t { ASKED, OUTPUT, DEMAND, PI_VETO, TIMEOUTS };
+  enum Life : uint8_t { ASKED, OUTPUT, DEMAND, RETURNING, PI_VETO, TIMEOUTS };
 
   void follow_receiver(uint16_t passed_units);
   void follow_failsafe(bool is_own_failsafe, uint16_t passed_units);
   void follow_arming(uint16_t passed_units);
+  bool is_pilot_back(uint16_t passed_units);
+  bool may_use_motor() const;
+  void follow(Life life, const Setpoint& setpoint, uint16_t lifetime_ms);
   bool has_imu() const { return !(slot_vetoes_ & VETO_IMU_INVALID); }
   bool is_throttle_low() const;
   bool was_heard() const { return switch_.position() != SWITCH_UNKNOWN; }
@@ -113,6 +121,11 @@ class Authority {
   Stopwatch rx_ok_timer_;
   Stopwatch lost_;
   Stopwatch away_;
+  /** In failsafe, without a return set-point. */
+  Stopwatch motor_off_;
+  /** Frames were valid again in failsafe; where the sticks stood after a second of them. */
+  Stopwatch back_;
+  Ticks rest_[OUTPUTS] ZEROED;
   // The newer of the two: flown_mode() returns which it is.
   union {
     Setpoint setpoint_ ZEROED;

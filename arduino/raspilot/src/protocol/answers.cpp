@@ -9,6 +9,12 @@ uint8_t stamp_of(uint32_t now_us) { return static_cast<uint8_t>(now_us >> 16); }
 
 constexpr uint8_t SECOND = 16;
 
+/** Moves `count` bytes down to `to` from `step` bytes above it. */
+OUT_OF_LINE void move_down(void* to, uint8_t step, uint8_t count) {
+  uint8_t* at = static_cast<uint8_t*>(to);
+  for (; count != 0; --count, ++at) *at = at[step];
+}
+
 }  // namespace
 
 constexpr uint8_t PendingAnswer::CONFIRM;
@@ -24,7 +30,7 @@ void Answers::push(uint8_t what, char type, uint8_t sequence) {
 
 void Answers::pop() {
   --count_;
-  for (uint8_t index = 0; index < count_; ++index) waiting_[index] = waiting_[index + 1];
+  move_down(waiting_, sizeof *waiting_, static_cast<uint8_t>(count_ * sizeof *waiting_));
 }
 
 bool RefusalLimit::allows(char type, uint32_t now_us) {
@@ -48,7 +54,7 @@ void RefusalLimit::check(uint32_t now_us) {
 
 void RefusalLimit::discard_oldest() {
   --count_;
-  for (uint8_t index = 0; index < count_; ++index) refused_[index] = refused_[index + 1];
+  move_down(refused_, sizeof *refused_, static_cast<uint8_t>(count_ * sizeof *refused_));
 }
 
 }  // namespace raspilot

@@ -36,8 +36,8 @@ class Answers {
 };
 
 /**
- * Limits refusals of each type to one a second (docs/protocols.md 2.5). It holds eight types, one
- * more than there are streams; when more are refused within a second it forgets the oldest.
+ * Limits refusals of each type to one a second (docs/protocols.md 2.5). It holds eight types, as
+ * many as there are streams; when more are refused within a second it forgets the oldest.
  */
 class RefusalLimit {
  public:

@@ -38,31 +38,35 @@ class CobsDecoder {
   bool is_zero_next_ ZEROED;
 };
 
-/** Writes one encoded frame into a buffer that has room for one byte more than the plain bytes. */
+/** Writes one encoded frame: `put` takes each byte with its place, not always the next one. */
 class CobsEncoder {
  public:
-  explicit CobsEncoder(uint8_t* buffer) : code_(buffer), end_(buffer + 1) {}
+  typedef void (*Put)(uint8_t at, uint8_t byte);
+
+  explicit CobsEncoder(Put sink) : put_(sink) {}
 
   /** At most 253 bytes: longer blocks would need a code of 255, which no frame of ours has. */
   void put(uint8_t byte) {
-    if (byte != 0) {
-      *end_++ = byte;
-      return;
+    if (byte == 0) {
+      close();
+      code_ = end_;
+    } else {
+      put_(end_, byte);
     }
-    close();
-    code_ = end_++;
+    ++end_;
   }
   /** Ends the frame and returns where its zero belongs. */
-  uint8_t* finish() {
+  uint8_t finish() {
     close();
     return end_;
   }
 
  private:
-  void close() { *code_ = static_cast<uint8_t>(end_ - code_); }
+  void close() { put_(code_, static_cast<uint8_t>(end_ - code_)); }
 
-  uint8_t* code_;
-  uint8_t* end_;
+  Put put_;
+  uint8_t code_ = 0;
+  uint8_t end_ = 1;
 };
 
 }  // namespace raspilot

@@ -5,10 +5,9 @@
 
 namespace raspilot {
 
-void write_frame(uint8_t sequence, char type, const uint8_t* payload, uint8_t size,
-                 void (*write)(uint8_t byte)) {
-  uint8_t encoded[MAX_FRAME + 1];
-  CobsEncoder cobs(encoded);
+uint8_t write_frame(uint8_t sequence, char type, const uint8_t* payload, uint8_t size,
+                    void (*put)(uint8_t at, uint8_t byte)) {
+  CobsEncoder cobs(put);
   Crc16 crc;
   const uint8_t check_at = static_cast<uint8_t>(size + 2);
   for (uint8_t index = 0; index < check_at + 2; ++index) {
@@ -26,9 +25,9 @@ void write_frame(uint8_t sequence, char type, const uint8_t* payload, uint8_t si
     cobs.put(byte);
     crc.put(byte);
   }
-  const uint8_t* end = cobs.finish();
-  for (const uint8_t* at = encoded; at != end; ++at) write(*at);
-  write(0);
+  const uint8_t end = cobs.finish();
+  put(end, 0);
+  return static_cast<uint8_t>(end + 1);
 }
 
 }  // namespace raspilot

@@ -39,8 +39,11 @@ struct ReceiveBuffer {
   uint8_t bytes[MAX_COMMAND + 2];
 };
 
-/** Gives `write` one byte after the other: the frame and its zero, size + 6 bytes. */
-void write_frame(uint8_t sequence, char type, const uint8_t* payload, uint8_t size,
-                 void (*write)(uint8_t byte));
+/**
+ * Gives `put` the frame and its zero, each byte with its place; some places twice, the second byte
+ * counts. Returns the count, size + 6.
+ */
+uint8_t write_frame(uint8_t sequence, char type, const uint8_t* payload, uint8_t size,
+                    void (*put)(uint8_t at, uint8_t byte));
 
 }  // namespace raspilot

@@ -18,7 +18,9 @@ Link::Link(Autopilot& autopilot)
     : autopilot_(autopilot), forwarder_(autopilot), reader_(buffer_), receiver_(buffer_) {}
 
 void Link::open() {
-  if (!is_thesis_ && board::serial_room() != 0) board::serial_write(0);
+  if (is_thesis_ || board::serial_room() == 0) return;
+  board::serial_put(0, 0);
+  board::serial_send(1);
 }
 
 void Link::on_byte(uint8_t byte, uint32_t now_us) {
@@ -54,12 +56,17 @@ bool Link::has_room(uint8_t size) const {
 
 bool Link::send(char type, const uint8_t* payload, uint8_t size) {
   if (size > MAX_COMMAND || !has_room(size)) return false;
-  if (is_thesis_) {
-    board::serial_write(static_cast<uint8_t>(type));
-    for (uint8_t index = 0; index < size; ++index) board::serial_write(payload[index]);
+  if (!is_thesis_) {
+    board::serial_send(write_frame(sequence_++, type, payload, size, board::serial_put));
     return true;
   }
-  write_frame(sequence_++, type, payload, size, board::serial_write);
+  board::serial_put(0, static_cast<uint8_t>(type));
+  uint8_t at = 0;
+  while (at < size) {
+    const uint8_t byte = payload[at];
+    board::serial_put(++at, byte);
+  }
+  board::serial_send(static_cast<uint8_t>(size + 1));
   return true;
 }
 

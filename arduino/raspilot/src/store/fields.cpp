@@ -16,7 +16,9 @@ struct Range {
 
 /** In the order of Field. */
 const Range RANGES[] PROGMEM = {{0, 1},    {0, 2},    {0, 255},       {-200, 200}, {800, 2200},
-                                {0, 2200}, {0, 9000}, {-9000, 9000}, {-640, 640}, {-3000, 3000}};
+                                {0, 2200}, {0, 9000}, {-9000, 9000}, {-640, 640}, {-3000, 3000},
+                                {-18000, 18000}, {-32768, 32767}, {1000, 2000}, {1000, 2000},
+                                {1, 250}};
 
 bool is_wide(uint8_t field) { return field >= TRIM; }
 
@@ -34,6 +36,7 @@ bool are_in_range(const uint8_t* fields, uint8_t count, const uint8_t* wire) {
     const uint8_t field = pgm_read_byte(fields + at);
     // Words of 32768 and more become negative and are below every range that is for pulses.
     const int16_t value = is_wide(field) ? reader.i16() : reader.u8();
+    if (field == STICK_OR_0 && value == 0) continue;
     if (value < static_cast<int16_t>(pgm_read_word(&RANGES[field].least))) return false;
     if (value > static_cast<int16_t>(pgm_read_word(&RANGES[field].most))) return false;
   }

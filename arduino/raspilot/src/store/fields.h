@@ -22,7 +22,12 @@ enum Field : uint8_t {
   LIMIT,   ///< 0 to 9000 cdeg
   ANGLE,   ///< -9000 to 9000 cdeg
   BIAS,    ///< 40 deg/s in sixteenths: twice what the MPU6050's data sheet (6.1) allows
-  LEVEL    ///< -3000 to 3000 cdeg
+  LEVEL,   ///< -3000 to 3000 cdeg
+  BANK,    ///< -18000 to 18000 cdeg
+  WORD,    ///< any
+  STICK,   ///< 1000 to 2000 us
+  STICK_OR_0,
+  LIFETIME  ///< 1 to 250 ms
 };
 
 /** Whether every field of the wire is in its range. `fields` lies in flash. */

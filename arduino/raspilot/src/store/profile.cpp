@@ -17,7 +17,7 @@ const uint8_t FIELDS[] PROGMEM = {
     FLAG,   TRIM,   PULSE,  PULSE,                       // rudder
     MIX,    FLAG,   LETTER, LETTER, LETTER,              // mix, motor, switch
     LIMIT,  LIMIT,  LIMIT,  ANGLE,  ANGLE,               // limits, glide pitch, circle bank
-    PULSE,  FLOOR,  PULSE,  PULSE,  PULSE,  FLAG         // throttle, presets, return
+    PULSE,  FLOOR,  PULSE,  PULSE,  PULSE,  LETTER       // throttle, presets, flags
 };
 constexpr uint8_t SERVO_SIZE = 7;
 constexpr uint8_t MIN_AT = 3;
@@ -58,7 +58,7 @@ const Profile DEFAULT_PROFILE PROGMEM = {
     1500,  // receiver lost and no attitude: ailerons, elevator, rudder
     1500,
     1500,
-    false,  // may_return_with_motor
+    0,  // flags
 };
 
 bool read_profile(const uint8_t* wire, Profile& profile) {

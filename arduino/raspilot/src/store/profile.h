@@ -19,6 +19,11 @@ struct ServoSetup {
   uint16_t highest_us;
 };
 
+/** Bits of Profile::flags: what the Raspberry Pi may do while the receiver is lost. */
+constexpr uint8_t RETURN_WITH_MOTOR = 1;
+constexpr uint8_t PI_MAY_FLY = 2;
+constexpr uint8_t SLEW_UNIT = 4;
+
 /** Everything that differs from airframe to airframe. */
 struct Profile {
   ServoSetup servos[OUTPUTS];
@@ -36,7 +41,13 @@ struct Profile {
   uint16_t preset_ailerons_us;
   uint16_t preset_elevator_us;
   uint16_t preset_rudder_us;
-  bool may_return_with_motor;
+  /** The two bits above, and in units of SLEW_UNIT the throttle's slew limit. */
+  uint8_t flags;
+
+  bool may_return_with_motor() const { return flags & RETURN_WITH_MOTOR; }
+  bool may_pi_fly() const { return flags & PI_MAY_FLY; }
+  /** How far the throttle may rise in 10 ms, ticks: 1 is 5 %/s; 0 is no limit. */
+  uint8_t throttle_slew() const { return static_cast<uint8_t>(flags / SLEW_UNIT); }
 };
 
 /** The profile that the firmware boots with while EEPROM holds none. In flash: copy with memcpy_P. */

@@ -13,7 +13,7 @@ _pack_output = OUTPUT.pack
 
 
 class ArduinoOutput(BaseModule):
-    """Sends `up.output.set` as `u` and `up.setpoint.set` as `S`; never in thesis framing.
+    """Sends `up.output.set` as `u`, `up.setpoint.set` as `S` or `R`; never in thesis framing.
 
     An Output that is still unsent is replaced by the next one: an old one is worthless.
     """
@@ -56,4 +56,4 @@ class ArduinoOutput(BaseModule):
             command.throttle_us,
             command.lifetime_ms,
         )
-        self._send_command("S", payload, True)
+        self._send_command("R" if command.is_failsafe else "S", payload, True)

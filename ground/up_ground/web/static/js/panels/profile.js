@@ -82,6 +82,7 @@ function lostRows(lost) {
     ["Pitch of the circle", degrees(lost?.glide_pitch_deg, true)],
     ["Bank of the circle", sideways(lost?.circle_bank_deg)],
     ["Surfaces without IMU", surfaces ? `${surfaces} us` : ""],
+    ["Raspberry Pi then", wordOf({ true: "may fly", false: "may not fly" }, lost?.pi_may_fly)],
     ["Returning home", wordOf(motor, lost?.return_with_motor)],
   ];
 }

@@ -2,7 +2,7 @@ import { MODE_REASONS, MODES } from "./schema.js";
 import * as validate from "./validate.js";
 
 /** The board's modes while the Raspberry Pi flies: its attitude or its servo positions. */
-const FLOWN_AT_AUTO = ["SETPOINT", "OUTPUT"];
+const FLOWN_AT_AUTO = ["SETPOINT", "RETURN", "OUTPUT"];
 /** What a ground may select of an aircraft that does not report it. */
 const BOARD_MODES = ["RATE", "FBW"];
 const MAX_MODES = 32;

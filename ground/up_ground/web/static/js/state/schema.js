@@ -18,6 +18,10 @@ export const MODES = {
     "about": "the Raspberry Pi sets the attitude",
     "holder": "Raspberry Pi; the Arduino holds the attitude"
   },
+  "RETURN": {
+    "about": "the aircraft flies home and circles there",
+    "holder": ""
+  },
   "OUTPUT": {
     "about": "the Raspberry Pi sets the servo positions",
     "holder": "Raspberry Pi"
@@ -40,10 +44,6 @@ export const MODES = {
   },
   "GUIDED": {
     "about": "the aircraft flies to the target and circles there",
-    "holder": ""
-  },
-  "RETURN": {
-    "about": "the aircraft flies home and circles there",
     "holder": ""
   },
   "CIRCLE": {

@@ -1,6 +1,7 @@
 package org.raspilot.up.ground;
 
 import java.util.ArrayList;
+import java.util.Collections;
 import java.util.HashMap;
 import java.util.LinkedHashMap;
 import java.util.List;
@@ -28,8 +29,7 @@ public final class TelemetrySchema {
     static final Map<String, Double> LIMITS = new HashMap<>();
     /** Why a flight mode is not offered, or was replaced, by code. */
     static final Map<String, String> MODE_REASONS = new HashMap<>();
-    /** Paths of the values of navigation, by label in the order of display. */
-    public static final Map<String, String> NAVIGATION = new LinkedHashMap<>();
+    private static final Map<String, String> NAVIGATION = new LinkedHashMap<>();
     static final List<TelemetryRule> RULES = new ArrayList<>();
     /** Events without a field, by code. */
     static final Map<String, TelemetryRule> EVENTS = new HashMap<>();
@@ -239,6 +239,11 @@ public final class TelemetrySchema {
         OUTCOMES.put("timeout", "outcome unknown");
         OUTCOMES.put("unsent", "not sent");
         OUTCOMES.put("refused", "refused by the ground station");
+    }
+
+    /** Paths of the values of navigation, by label in the order of display. */
+    public static Map<String, String> navigation() {
+        return Collections.unmodifiableMap(NAVIGATION);
     }
 
     private TelemetrySchema() {

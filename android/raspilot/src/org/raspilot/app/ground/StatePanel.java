@@ -75,7 +75,7 @@ final class StatePanel {
         phoneBattery = Row.in(list, R.string.state_phone_battery, colors);
         load = Row.in(list, R.string.state_load, colors);
         blackBox = Row.in(list, R.string.state_black_box, colors);
-        for (Map.Entry<String, String> each : TelemetrySchema.NAVIGATION.entrySet()) {
+        for (Map.Entry<String, String> each : TelemetrySchema.navigation().entrySet()) {
             Row row = Row.in(list, R.string.state_home, colors);
             row.label(each.getKey());
             navigation.put(each.getValue(), row);
