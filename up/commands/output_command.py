@@ -28,8 +28,8 @@ class OutputCommand(BaseCommand):
 class SetpointCommand(BaseCommand):
     """An attitude asked of the board; after ``lifetime_ms`` it levels the aircraft.
 
-    One marked as failsafe is followed in the receiver's failsafe only, if the board's profile allows
-    it (airframe.yml: receiver_lost: pi_may_fly); after ``lifetime_ms`` the board circles.
+    One marked as failsafe is followed in the receiver's failsafe only, if the board's profile
+    allows it (airframe.yml: receiver_lost: pi_may_fly); after ``lifetime_ms`` the board circles.
     """
 
     NAME: ClassVar[str] = "up.setpoint.set"
