@@ -6,7 +6,7 @@ from bench.firmware import BUSY, LATE_US, SERVOS
 from bench.firmware import Flight as BusyFlight
 from tests.support.firmware import build_firmware
 
-MIN_UNTOUCHED_RAM = 260
+MIN_UNTOUCHED_RAM = 230
 
 
 @pytest.mark.parametrize("mix", ["vvvvS", "t", "v", "vvvva"])

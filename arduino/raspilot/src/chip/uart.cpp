@@ -8,8 +8,8 @@
 namespace raspilot {
 namespace uart {
 
-/** 8 ms of bytes: two slots that are too full to read, and the longest Command. */
-static constexpr uint8_t RX_SIZE = 96;
+/** Two of the longest Commands arrive faster than a full slot reads them: 11 ms of bytes. */
+static constexpr uint8_t RX_SIZE = 128;
 /** The longest message that is ever sent, and one place that stays empty. */
 static constexpr uint8_t TX_SIZE = MAX_COMMAND + FRAME_OVERHEAD + COBS_OVERHEAD + 1;
 static constexpr uint16_t DIVIDER = (F_CPU / 4 / RASPILOT_BAUD - 1) / 2;
