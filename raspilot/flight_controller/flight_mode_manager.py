@@ -10,7 +10,7 @@ from twisted.internet.defer import Deferred
 from twisted.internet.task import deferLater
 
 from raspilot.flight_controller.attitude_controller import AttitudeController
-from raspilot.flight_controller.flight_memory import Place
+from raspilot.flight_controller.flight_memory import MEMORY, Place
 from raspilot.flight_controller.home import (
     HomeKeeper,
     place_of_target,
@@ -65,6 +65,7 @@ class FlightModeManager(BaseFlightController):
     MODES: ClassVar[frozenset[Mode]] = WITH_BOARD
     LOAD_ORDER: ClassVar[int] = 100
     CONFIG = NAVIGATION
+    WRITTEN_FILES = (MEMORY,)
     SELECTS_MODES: ClassVar[bool] = True
 
     attitude_controller = wants(AttitudeController)
@@ -77,6 +78,7 @@ class FlightModeManager(BaseFlightController):
         self._is_asked = True
         self._asked_at_s = float("-inf")
         self._state: FlightStateCommand | None = None
+        self._has_begun = False
         self._stepped_at_s = float("-inf")
         self._resumed_at_s = float("-inf")
         self._logged = _NOT_PERMITTED
@@ -281,8 +283,12 @@ class FlightModeManager(BaseFlightController):
         if was_followed or not self._is_followed:
             # Not at the first state: its first Command takes control.
             self._log_change_of_control()
-        if previous is None and command.is_in_flight:
-            self._resume(command)
+        if not self._has_begun and command.is_in_flight is not None:
+            self._has_begun = True
+            if command.is_in_flight:
+                self._resume(command)
+            else:
+                self.home.memory.clear()
         elif not command.is_auto and not command.is_failsafe:
             self._is_asked = True
             if self._selector.selected != self._auto:
