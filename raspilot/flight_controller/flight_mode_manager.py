@@ -40,9 +40,9 @@ from up.providers.up_location_provider import UpLocationProvider
 BOARD_MODES = ("FBW", "RATE")
 AUTO = "AUTO"
 MIN_STEP_S, MAX_STEP_S = 1e-3, 0.25
-PAUSE_S = 0.5
-"""After a longer pause what was summed belongs to an earlier part of the flight. In Panic Mode the
-frames come every 150 ms."""
+ATTITUDE_PAUSE_S, PATH_PAUSE_S = 0.1, 0.5
+"""After a longer pause what a control loop summed belongs to an earlier part of the flight. While
+the board holds the attitude, Panic Mode lets frames come every 150 ms."""
 REQUEST_PERIOD_S = 5.0
 FAILSAFE_MODE = "RETURN"
 """The board's mode while it follows set-points in receiver failsafe."""
@@ -209,7 +209,7 @@ class FlightModeManager(BaseFlightController):
             return
         dt_s = now_s - self._stepped_at_s
         self._stepped_at_s = now_s
-        if dt_s > PAUSE_S:
+        if dt_s > ATTITUDE_PAUSE_S:
             self._reset()
         dt_s = min(dt_s, MAX_STEP_S)
         if now_s - self._resumed_at_s < RESUME_S and selector.missing_for(selector.selected):
@@ -244,7 +244,7 @@ class FlightModeManager(BaseFlightController):
         navigation = situation.navigation
         if navigation is None:
             raise DemandError("a path needs a position", "navigation")
-        if situation.time_s - self._path_at_s > PAUSE_S:
+        if situation.time_s - self._path_at_s > PATH_PAUSE_S:
             self._path_controller.reset()
         self._path_at_s = situation.time_s
         if isinstance(demand.path, Circle):
@@ -305,6 +305,8 @@ class FlightModeManager(BaseFlightController):
         self.home.resume()
         name = memory.mode if state.is_auto and memory.mode in self._selector.modes else self._auto
         self._select(name)
+        # Another restart may come before a position does.
+        self.home.memory.update(target=memory.target)
         self._resumed_place = memory.target
         self.log.warn(
             "the program started in flight: home and flight mode {mode} are resumed",
