@@ -40,7 +40,10 @@ from up.providers.base_provider import Reading
 from up.providers.up_location_provider import UpLocationProvider
 
 AUTO = "AUTO"
-MIN_STEP_S, MAX_STEP_S = 1e-3, 0.1
+MIN_STEP_S, MAX_STEP_S = 1e-3, 0.25
+ATTITUDE_PAUSE_S, PATH_PAUSE_S = 0.1, 0.5
+"""After a longer pause what a control loop summed belongs to an earlier part of the flight. While
+the board holds the attitude, Panic Mode lets frames come every 150 ms."""
 REQUEST_PERIOD_S = 5.0
 FAILSAFE_MODE = "RETURN"
 """The board's mode while it follows set-points in receiver failsafe."""
@@ -205,10 +208,9 @@ class FlightModeManager(BaseFlightController):
             return
         dt_s = now_s - self._stepped_at_s
         self._stepped_at_s = now_s
-        if dt_s > MAX_STEP_S:
-            # The loop paused: its state belongs to an earlier part of the flight.
+        if dt_s > ATTITUDE_PAUSE_S:
             self._reset()
-            dt_s = MAX_STEP_S
+        dt_s = min(dt_s, MAX_STEP_S)
         if now_s - self._resumed_at_s < RESUME_S and selector.missing_for(selector.selected):
             return
         made = selector.step(situation, max(dt_s, MIN_STEP_S), self._carry_out)
@@ -241,7 +243,7 @@ class FlightModeManager(BaseFlightController):
         navigation = situation.navigation
         if navigation is None:
             raise DemandError("a path needs a position", "navigation")
-        if situation.time_s - self._path_at_s > MAX_STEP_S:
+        if situation.time_s - self._path_at_s > PATH_PAUSE_S:
             self._path_controller.reset()
         self._path_at_s = situation.time_s
         if isinstance(demand.path, Circle):
@@ -302,6 +304,8 @@ class FlightModeManager(BaseFlightController):
         self.home.resume()
         name = memory.mode if state.is_auto and memory.mode in self._selector.modes else self._auto
         self._select(name)
+        # Another restart may come before a position does.
+        self.home.memory.update(target=memory.target)
         self._resumed_place = memory.target
         self.log.warn(
             "the program started in flight: home and flight mode {mode} are resumed",

@@ -7,6 +7,7 @@ from collections.abc import Iterable, Mapping
 from typing import Any
 
 from up.commands.board_schema import DATA, FLIGHT_MODES, RESET_CAUSES, SWITCH_POSITIONS
+from up.earth import distance_m
 from up_flightlog.read.demand import DemandModel
 from up_simulator.aircraft.flight import Dynamics
 from up_simulator.firmware.line_monitor import LineMonitor
@@ -20,6 +21,7 @@ from up_simulator.scenario.sticks import CHANNELS
 
 Values = dict[str, float | bool | str | None]
 _SERVOS = CHANNELS[:4]
+_PLACES = {"estimate": "navigation", "home": "home", "target": "navigation.target"}
 
 
 def columns_of(scenario: Scenario) -> list[str]:
@@ -41,7 +43,7 @@ def sources_of(scenario: Scenario) -> set[str]:
     if scenario.phone is not None:
         sources.add("phone")
     if scenario.ground is not None:
-        sources.add("ground")
+        sources |= {"ground", "distance"}
     return sources
 
 
@@ -83,6 +85,7 @@ class Sampler:
             values["phone.plugged"] = participants.phone.is_plugged
         if participants.ground is not None:
             values.update(_ground(participants.ground, participants.seconds()))
+            values.update(_distances(values))
         return values
 
     def _add_demand(self, values: Values, sticks_us: Mapping[str, float]) -> None:
@@ -139,6 +142,18 @@ def _ground(ground: InProcessGround, now_s: float) -> Iterable[tuple[str, Any]]:
     yield "ground.age_s", None if ground.newest_s is None else now_s - ground.newest_s
     yield "ground.latency_s", ground.take_latency_s()
     yield from _flat("ground", ground.telemetry)
+
+
+def _distances(values: Values) -> Iterable[tuple[str, float]]:
+    for name, place in _PLACES.items():
+        degrees = [
+            value
+            for source in ("truth.{}_deg", f"ground.{place}.{{}}")
+            for axis in ("latitude", "longitude")
+            if isinstance(value := values.get(source.format(axis)), float)
+        ]
+        if len(degrees) == 4:
+            yield f"distance.{name}_m", distance_m(*degrees)
 
 
 def _flat(prefix: str, values: Mapping[str, Any]) -> Iterable[tuple[str, Any]]:
