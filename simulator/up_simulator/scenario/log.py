@@ -61,9 +61,9 @@ class FlightLog:
             value = values.get(name)
             texts.append("" if value is None else sys.intern(str(value)))
         for name, numbers in self._numbers.items():
-            value = values.get(name)
-            is_number = isinstance(value, bool | int | float)
-            numbers.append(_rounded(float(value)) if is_number else math.nan)  # type: ignore[arg-type]
+            value = values.get(name, math.nan)
+            is_number = isinstance(value, (int, float))
+            numbers.append(_rounded(value) if is_number else math.nan)  # type: ignore[arg-type]
         self._count += 1
 
     @property
