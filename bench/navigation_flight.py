@@ -8,7 +8,8 @@ from dataclasses import dataclass, replace
 from time import thread_time_ns
 from typing import Any
 
-from twisted.logger import LogEvent, globalLogPublisher
+from twisted.logger import ILogObserver, LogEvent, globalLogPublisher
+from zope.interface import implementer
 
 from raspilot.flight_controller.flight_mode_manager import FlightModeManager
 from raspilot.modules.navigation_estimator import NavigationEstimator
@@ -114,6 +115,7 @@ def fly(
     prepare(flight)
     flown = Flown([], [], None, [])
 
+    @implementer(ILogObserver)
     def note(event: LogEvent) -> None:
         if event.get("code"):
             flown.codes.append((flight.time_s, str(event["code"])))
@@ -159,7 +161,7 @@ class _Probe:
         assert isinstance(estimator, NavigationEstimator)
         self._estimator = estimator
         self._newest: tuple[str, Demand] | None = None
-        for mode in daemon.up.get_modules(FlightMode):  # type: ignore[type-abstract]
+        for mode in daemon.up.get_modules(FlightMode):
             self._watch(mode)
 
     def _watch(self, mode: FlightMode) -> None:
