@@ -28,14 +28,19 @@ def test_a_terminal_that_closes_leaves_nothing(tmp_path):
     assert not Path(f"/proc/{daemon}").exists()
 
 
-def test_only_the_page_may_die_without_ending_the_flight(tmp_path):
+def test_only_the_page_and_the_daemon_may_die_without_ending_the_flight(tmp_path):
     showcase = Showcase(tmp_path).ready()
     os.kill(child_with(showcase.process.pid, "serve"), signal.SIGKILL)
     until(lambda: showcase.said().count("signal 9") == 1, "its end")
     assert showcase.telemetry(1)[0]["armed"]
-    os.kill(showcase.daemon_pid(), signal.SIGKILL)
+    daemon = showcase.daemon_pid()
+    os.kill(daemon, signal.SIGKILL)
+    until(lambda: showcase.said().count("signal 9") == 2, "its end")
+    until(lambda: showcase.telemetry(1)[0]["system"]["uptime_s"] < 60, "another daemon")
+    assert showcase.daemon_pid() != daemon
+    os.kill(child_with(showcase.process.pid, "up_proxy.main"), signal.SIGKILL)
     assert showcase.process.wait(20) == 1
-    assert showcase.said().count("signal 9") == 2
+    assert showcase.said().count("signal 9") == 3
 
 
 def test_a_showcase_that_is_killed_leaves_nothing(tmp_path):

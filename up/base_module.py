@@ -26,6 +26,8 @@ class BaseModule:
 
     LOAD_ORDER: ClassVar[int] = 0
     CONFIG: ClassVar[ConfigFile[Any] | None] = None
+    WRITTEN_FILES: ClassVar[tuple[ConfigFile[Any], ...]] = ()
+    """Files of the configuration folder that the module itself writes."""
     MODES: ClassVar[frozenset[Mode]] = IN_EVERY_MODE
 
     up: Up

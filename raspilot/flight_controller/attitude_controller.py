@@ -7,8 +7,10 @@ from typing import ClassVar
 from twisted.internet.defer import Deferred
 from twisted.python.failure import Failure
 
+from raspilot.flight_controller import sticks
 from raspilot.flight_controller.cascade import Cascade, YawDamper, pitch_rate_in_turn
 from up.base_module import BaseModule
+from up.commands.flight_state_command import FlyByWireLimitsCommand
 from up.commands.gains import Gains
 from up.commands.orientation_command import OrientationCommand
 from up.commands.output_command import OutputCommand
@@ -33,7 +35,9 @@ _NO_GAINS = Gains(0.0)
 class AttitudeController(BaseModule):
     """Turns the demands of flight modes into Outputs, with gains that the ground may set.
 
-    The rudder is the pilot's, plus a yaw damper. Loaded with ``flight controller: raspberry``.
+    The rudder is the pilot's, plus a yaw damper. An attitude is held within the limits of Fly By
+    Wire in airframe.yml, as the board holds set-points. Loaded with
+    ``flight controller: raspberry``.
     """
 
     MODES: ClassVar[frozenset[Mode]] = WITH_BOARD
@@ -56,7 +60,9 @@ class AttitudeController(BaseModule):
         self._pitch = Cascade(rate.elevator, stabilize.elevator, PITCH_RATE_LIMIT_DEG_S)
         self._yaw = YawDamper(rate.rudder or _NO_GAINS)
         self._is_reset = True
+        self._limits = sticks.DEFAULT_LIMITS
         self.up.command_executor.register_command(PIDTuningsCommand, self._on_tunings)
+        self.up.command_executor.register_command(FlyByWireLimitsCommand, self._on_limits)
 
     def reset(self) -> None:
         """Forget what belongs to an earlier part of the flight."""
@@ -88,10 +94,11 @@ class AttitudeController(BaseModule):
             if roll_rate is None or pitch_rate is None or yaw_rate is None:
                 raise DemandError("the board's frame has no rotation rates", "rates")
             roll_deg = attitude.roll_deg
-            ailerons_us = CENTRE_US + self._roll.hold_angle(
-                demand.roll_deg, roll_deg, roll_rate, dt_s
-            )
-            wanted_deg_s = self._pitch.rate_towards(demand.pitch_deg, attitude.pitch_deg, dt_s)
+            limits = self._limits
+            bank_deg = max(-limits.roll_deg, min(limits.roll_deg, demand.roll_deg))
+            nose_deg = max(-limits.pitch_down_deg, min(limits.pitch_up_deg, demand.pitch_deg))
+            ailerons_us = CENTRE_US + self._roll.hold_angle(bank_deg, roll_deg, roll_rate, dt_s)
+            wanted_deg_s = self._pitch.rate_towards(nose_deg, attitude.pitch_deg, dt_s)
             turn_deg_s = pitch_rate_in_turn(wanted_deg_s, roll_deg, yaw_rate)
             elevator_us = CENTRE_US + self._pitch.hold_rate(turn_deg_s, pitch_rate, dt_s)
             rudder_us = demand.rudder_us + self._yaw.deflection_us(yaw_rate, dt_s)
@@ -102,6 +109,9 @@ class AttitudeController(BaseModule):
             _pulse(rudder_us),
             attitude.sequence or 0,
         )
+
+    def _on_limits(self, command: FlyByWireLimitsCommand) -> None:
+        self._limits = sticks.Limits.of(command)
 
     def _on_tunings(self, command: PIDTuningsCommand) -> Deferred[None] | None:
         gains = command.gains

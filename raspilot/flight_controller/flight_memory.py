@@ -52,6 +52,10 @@ class FlightMemory:
         if problem:
             self.log.warn("{reason}", reason=str(problem), code="flight_state_invalid")
 
+    def clear(self) -> None:
+        """Forget an earlier flight; called when the program starts on the ground."""
+        self.update(mode="", home=None, target=None)
+
     def update(self, **changes: Any) -> None:
         """Change values, and save them if they are others."""
         values = replace(self.values, **changes)

@@ -10,7 +10,7 @@ from twisted.internet.defer import Deferred
 from twisted.internet.task import deferLater
 
 from raspilot.flight_controller.attitude_controller import AttitudeController
-from raspilot.flight_controller.flight_memory import Place
+from raspilot.flight_controller.flight_memory import MEMORY, Place
 from raspilot.flight_controller.home import (
     HomeKeeper,
     place_of_target,
@@ -40,7 +40,10 @@ from up.providers.base_provider import Reading
 from up.providers.up_location_provider import UpLocationProvider
 
 AUTO = "AUTO"
-MIN_STEP_S, MAX_STEP_S = 1e-3, 0.1
+MIN_STEP_S, MAX_STEP_S = 1e-3, 0.25
+ATTITUDE_PAUSE_S, PATH_PAUSE_S = 0.1, 0.5
+"""After a longer pause what a control loop summed belongs to an earlier part of the flight. While
+the board holds the attitude, Panic Mode lets frames come every 150 ms."""
 REQUEST_PERIOD_S = 5.0
 FAILSAFE_MODE = "RETURN"
 """The board's mode while it follows set-points in receiver failsafe."""
@@ -63,6 +66,7 @@ class FlightModeManager(BaseFlightController):
     MODES: ClassVar[frozenset[Mode]] = WITH_BOARD
     LOAD_ORDER: ClassVar[int] = 100
     CONFIG = NAVIGATION
+    WRITTEN_FILES = (MEMORY,)
     SELECTS_MODES: ClassVar[bool] = True
 
     attitude_controller = wants(AttitudeController)
@@ -75,6 +79,7 @@ class FlightModeManager(BaseFlightController):
         self._is_asked = True
         self._asked_at_s = float("-inf")
         self._state: FlightStateCommand | None = None
+        self._has_begun = False
         self._stepped_at_s = float("-inf")
         self._resumed_at_s = float("-inf")
         self._logged = _NOT_PERMITTED
@@ -203,10 +208,9 @@ class FlightModeManager(BaseFlightController):
             return
         dt_s = now_s - self._stepped_at_s
         self._stepped_at_s = now_s
-        if dt_s > MAX_STEP_S:
-            # The loop paused: its state belongs to an earlier part of the flight.
+        if dt_s > ATTITUDE_PAUSE_S:
             self._reset()
-            dt_s = MAX_STEP_S
+        dt_s = min(dt_s, MAX_STEP_S)
         if now_s - self._resumed_at_s < RESUME_S and selector.missing_for(selector.selected):
             return
         made = selector.step(situation, max(dt_s, MIN_STEP_S), self._carry_out)
@@ -239,7 +243,7 @@ class FlightModeManager(BaseFlightController):
         navigation = situation.navigation
         if navigation is None:
             raise DemandError("a path needs a position", "navigation")
-        if situation.time_s - self._path_at_s > MAX_STEP_S:
+        if situation.time_s - self._path_at_s > PATH_PAUSE_S:
             self._path_controller.reset()
         self._path_at_s = situation.time_s
         if isinstance(demand.path, Circle):
@@ -278,8 +282,12 @@ class FlightModeManager(BaseFlightController):
         if was_followed or not self._is_followed:
             # Not at the first state: its first Command takes control.
             self._log_change_of_control()
-        if previous is None and command.is_in_flight:
-            self._resume(command)
+        if not self._has_begun and command.is_in_flight is not None:
+            self._has_begun = True
+            if command.is_in_flight:
+                self._resume(command)
+            else:
+                self.home.memory.clear()
         elif not command.is_auto and not command.is_failsafe:
             self._is_asked = True
             if self._selector.selected != self._auto:
@@ -296,6 +304,8 @@ class FlightModeManager(BaseFlightController):
         self.home.resume()
         name = memory.mode if state.is_auto and memory.mode in self._selector.modes else self._auto
         self._select(name)
+        # Another restart may come before a position does.
+        self.home.memory.update(target=memory.target)
         self._resumed_place = memory.target
         self.log.warn(
             "the program started in flight: home and flight mode {mode} are resumed",

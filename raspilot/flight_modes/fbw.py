@@ -17,7 +17,7 @@ class FlyByWire(FlightMode):
 
     SELECTABLE: ClassVar[bool] = False
     NAME: ClassVar[str] = "FBW"
-    NEEDS: ClassVar[Mapping[str, float]] = {"rx": 0.25, "orientation": 0.1}
+    NEEDS: ClassVar[Mapping[str, float]] = {"rx": 0.25, "orientation": 0.25}
     FALLBACK: ClassVar[str] = "ACRO"
 
     def load(self) -> bool:

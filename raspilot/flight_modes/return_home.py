@@ -45,7 +45,7 @@ class Return(FlightMode):
     """
 
     NAME: ClassVar[str] = "RETURN"
-    NEEDS: ClassVar[Mapping[str, float]] = {"navigation": 3.0, "orientation": 0.1}
+    NEEDS: ClassVar[Mapping[str, float]] = {"navigation": 3.0, "orientation": 0.25}
     FALLBACK: ClassVar[str] = "GLIDE"
     CONFIG = RETURN
 

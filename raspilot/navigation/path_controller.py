@@ -9,7 +9,7 @@ from up.flight_modes.demand import AttitudeDemand, PathDemand
 from up.flight_modes.navigation_file import NavigationConfig
 from up.flight_modes.navigation_state import NavigationState
 
-MAX_STEP_S = 0.1
+MAX_STEP_S = 0.25
 THROTTLE_PER_S = 1.0
 """How fast the demanded throttle changes."""
 
@@ -40,7 +40,7 @@ class PathController:
         self._throttle = throttle
 
     def step(self, demand: PathDemand, state: NavigationState, dt_s: float) -> AttitudeDemand:
-        """Return the attitude after ``dt_s``, of which at most 0.1 s counts."""
+        """Return the attitude after ``dt_s``, of which at most 0.25 s counts."""
         dt_s = max(0.0, min(MAX_STEP_S, dt_s))
         lateral, vertical = self._config.lateral, self._config.vertical
         if self._roll_deg is None:

@@ -24,7 +24,15 @@ from up_runner.config import RUNNER
 
 ROOT = Path(__file__).parents[2]
 PAGE = ROOT / "docs" / "configuration.md"
-_ERRORS = ("cli/*.py", "cogs/*.py", "loading/*.py", "program.py", "life_cycle.py", "registrar.py")
+_ERRORS = (
+    "output.py",
+    "cli/*.py",
+    "cogs/*.py",
+    "loading/*.py",
+    "program.py",
+    "life_cycle.py",
+    "registrar.py",
+)
 _ERROR = re.compile(r"Error$|(^|\.)_?(problem|problem_of|cog_error|import_error)$|LoadProblem$")
 _CODE = re.compile(r"[a-z]+(_[a-z]+)+|usage|exists|locked|interrupted")
 BEGIN = "<!-- tables: begin -->\n"

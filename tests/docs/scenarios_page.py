@@ -22,6 +22,7 @@ GROUPS = {
     "estimate_error": "estimate_error: estimate of the Arduino minus truth",
     "raspilot": "raspilot: the daemon",
     "phone": "phone: the phone aboard",
+    "distance": "distance: of the true position from places in telemetry",
     "ground": "ground: telemetry at the ground station, by its names",
 }
 

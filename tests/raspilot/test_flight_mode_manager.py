@@ -363,6 +363,10 @@ class TestRestart:
         rig.outcome(FlightModeCommand("BANK"))
         rig.manager.home.memory.wait()
         again = NavigationRig(tmp_path, gains=None)
+        again.state(None, in_flight=None)
         again.state(in_flight=False)
         assert again.shown()["selected"] is None
-        assert again.manager.home.place is None
+        again.manager.home.memory.wait()
+        later = NavigationRig(tmp_path, gains=None)
+        later.state()
+        assert later.manager.home.place is None, "the home of an earlier flight"

@@ -60,7 +60,7 @@ class FlightMode(BaseModule):
     """
 
     NAME: ClassVar[str] = ""
-    NEEDS: ClassVar[Mapping[str, float]] = {"orientation": 0.1}
+    NEEDS: ClassVar[Mapping[str, float]] = {"orientation": 0.25}
     FALLBACK: ClassVar[str] = "GLIDE"
     REQUESTS: ClassVar[frozenset[str]] = frozenset()
     SELECTABLE: ClassVar[bool] = True

@@ -12,7 +12,7 @@ from twisted.logger import Logger
 from up.commands.refusal import Code, CommandRefusedError
 from up.fields import suggestion
 from up.flight_modes.declarations import usable
-from up.flight_modes.demand import AttitudeDemand, Demand, PathDemand, SurfacesDemand
+from up.flight_modes.demand import AttitudeDemand, Circle, Demand, PathDemand, SurfacesDemand
 from up.flight_modes.flight_mode import FlightMode, FlightSituation
 from up.flight_modes.step_timer import StepTimer
 
@@ -151,6 +151,9 @@ class FlightModeSelector:
             raise DemandError(f"step returned {demand!r:.80}, not a Demand")
         if not _is_finite(demand):
             raise DemandError(f"{demand!r:.200} is not finite")
+        path = demand.path if isinstance(demand, PathDemand) else None
+        if isinstance(path, Circle) and path.radius_m <= 0:
+            raise DemandError(f"the radius of a circle is {path.radius_m:g} m, not above 0")
         return carry_out(demand, situation, dt_s)
 
     def _note_failure(self, name: str, error: BaseException) -> str:

@@ -134,7 +134,8 @@ def _unwritable_log(context: Context) -> Iterator[UserError]:
 def config_files(modules: Iterable[BaseModule | type[BaseModule]]) -> list[ConfigFile[Any]]:
     """Return the files of the application as a whole and of the modules, each once."""
     files: list[ConfigFile[Any]] = [APPLICATION, DISABLED_MODULES]
-    files += [module.CONFIG for module in modules if module.CONFIG is not None]
+    for module in modules:
+        files += (*filter(None, (module.CONFIG,)), *module.WRITTEN_FILES)
     return list(dict.fromkeys(files))
 
 

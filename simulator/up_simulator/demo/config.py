@@ -50,6 +50,8 @@ def write_config(
             f"metrics port: {ports.metrics}\n"
         ),
     }
+    # This flight is another one than that of which an earlier run kept home and flight mode.
+    (folder / "flight_state.yml").unlink(missing_ok=True)
     for name, text in files.items():
         head = "# Written by 'make run', at every start.\n"
         (folder / name).write_text(head + text, encoding="utf-8")

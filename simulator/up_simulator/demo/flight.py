@@ -51,6 +51,7 @@ class DemoFlight:
         self._root = root
         self._log = log
         self._children: list[Child] = []
+        self._daemon: Child | None = None
         self._page: Page | None = None
         self._pending_lines: list[str] = []
         self._airframe = load_airframe(options.airframe)
@@ -75,7 +76,7 @@ class DemoFlight:
             self._page = Page(folder, ports, options.page)
             self._children.append(self._page.child)
         aircraft.wait_for("board_selected", BUILD_LIMIT_S, on_line=self._log_part)
-        daemon = self._add("raspilot", self._root / "main.py", "--config", folder / "config")
+        daemon = self._daemon = self._start_daemon()
         aircraft.wait_for("board_ready", START_LIMIT_S)
         daemon.wait_for("started", START_LIMIT_S)
         log(f"  raspilot   the daemon; the phone on ports {ports.general}, {ports.orientation}")
@@ -111,6 +112,11 @@ class DemoFlight:
                     self._on_screen_end(status, terminal)
                 elif status is not None and self._page is not None and child is self._page.child:
                     self._on_page_end(self._page)
+                elif status is not None and status < 0 and child is self._daemon:
+                    self._children.remove(child)
+                    text = f"{child.name} ended with signal {-status}. It is started again."
+                    self._pending_lines.append(text)
+                    self._daemon = self._start_daemon(resumes=True)
                 elif status is not None:
                     raise ParticipantError(child.exit_report(status))
             if screen is None:
@@ -168,6 +174,11 @@ class DemoFlight:
             uplink_port=self._ports.uplink if self._options.link else 0,
         )
 
+    def _start_daemon(self, *, resumes: bool = False) -> Child:
+        return self._add(
+            "raspilot", self._root / "main.py", "--config", self._folder / "config", resumes=resumes
+        )
+
     def _start_aircraft(self) -> Child:
         options, ports, folder = self._options, self._ports, self._folder
         radio = options.radio if options.radio.startswith(("js", "/")) else "circle"
@@ -188,8 +199,9 @@ class DemoFlight:
             words += ["--state-log", options.state_log]
         return self._add("aircraft", *words)
 
-    def _add(self, name: str, *words: str | Path) -> Child:
-        (self._folder / f"{name}.log").unlink(missing_ok=True)
+    def _add(self, name: str, *words: str | Path, resumes: bool = False) -> Child:
+        if not resumes:
+            (self._folder / f"{name}.log").unlink(missing_ok=True)
         child = Child(name, [sys.executable, *map(str, words)], self._folder)
         self._children.append(child)
         return child

@@ -27,6 +27,7 @@ _PARTS = {
     "estimate_error": "a flight computer ('board: direct' has none)",
     "raspilot": "a Raspberry Pi: add 'raspilot: {runs: in process}'",
     "phone": "a phone: add 'phone: {}' with its keys",
+    "distance": "a ground station: add 'ground: {role: pilot}'",
     "ground": "a ground station: add 'ground: {role: pilot}'",
 }
 

@@ -158,6 +158,15 @@ def _demand() -> Iterator[Signal]:
         yield Signal(f"estimate_error.{name}", f"board.{name} minus truth.{name}", "deg")
 
 
+def _distance() -> Iterator[Signal]:
+    for name, place in (
+        ("estimate", "position that telemetry reports: it includes the way since then"),
+        ("home", "home that telemetry reports"),
+        ("target", "target that telemetry reports: where the flight mode flies to"),
+    ):
+        yield Signal(f"distance.{name}_m", f"distance from the {place}", "m")
+
+
 def _daemon() -> Iterator[Signal]:
     yield Signal("raspilot.running", "the daemon's process runs", kind=_FLAG)
     yield Signal("phone.plugged", "the cable of the phone is plugged in", kind=_FLAG)
@@ -186,6 +195,7 @@ def _all() -> Iterator[Signal]:
     yield from _board()
     yield from _demand()
     yield from _daemon()
+    yield from _distance()
     yield from _ground()
 
 

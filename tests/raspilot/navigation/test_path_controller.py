@@ -43,6 +43,25 @@ def test_a_line_is_flown_in_wind(wind):
     assert rms(each.position.east_m for each in plane.fly(path, 40)) < 0.3
 
 
+@pytest.mark.parametrize(
+    ("airspeed_error", "wind_error"), [(-1.5, (0, 0)), (1.5, (0, 0)), (0, (1, 1))]
+)
+def test_an_error_of_airspeed_or_wind_causes_no_steady_error_of_the_track(
+    airspeed_error, wind_error
+):
+    state = PointMass(wind=(0.0, 6.0), heading=-33.0).state
+    estimate = replace(
+        state,
+        airspeed_m_s=state.airspeed_m_s + airspeed_error,
+        wind_m_s=Point(*(a + b for a, b in zip(state.wind_m_s, wind_error, strict=True))),
+    )
+    demand = PathDemand(Line(Point(0.0, 0.0), state.course_deg), 300.0)
+    controller = PathController(CONFIG)
+    for _ in range(50):
+        attitude = controller.step(demand, estimate, 0.02)
+    assert attitude.roll_deg == pytest.approx(0.0, abs=0.1)
+
+
 def test_a_course_is_a_direction_over_the_ground():
     plane = PointMass(wind=(6.0, 0.0))
     last = plane.fly(PathDemand(Course(90.0), 300.0), 30)[-1]
