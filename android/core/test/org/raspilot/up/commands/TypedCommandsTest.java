@@ -23,7 +23,7 @@ public final class TypedCommandsTest {
                 Commands.of(Commands.LOCATION, "latitude", Double.NaN, "longitude", 0L));
         assertRefused("out_of_range frequency", () ->
                 Commands.of(Commands.TELEMETRY_PERIOD, "frequency", 19.9));
-        assertRefused("empty mode", () -> Commands.flightMode(""));
+        assertRefused("missing mode", () -> Commands.flightMode(null));
         assertRefused("missing text", () -> Commands.of(Commands.SPEAK, "text", null));
         assertRefused("empty text", () -> Commands.of(Commands.MARK, "text", " \u00a0"));
         assertRefused("malformed topic", () -> Commands.record("alone", Collections.emptyMap()));
