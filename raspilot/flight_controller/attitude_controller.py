@@ -36,7 +36,7 @@ class AttitudeController(BaseModule):
     """Turns the demands of flight modes into Outputs, with gains that the ground may set.
 
     The rudder is the pilot's, plus a yaw damper. An attitude is held within the limits of Fly By
-    Wire in airframe.yml, as the board holds set-points. Loaded with ``flight controller: raspberry``.
+    Wire, as the board holds set-points. Loaded with ``flight controller: raspberry``.
     """
 
     MODES: ClassVar[frozenset[Mode]] = WITH_BOARD

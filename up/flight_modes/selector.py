@@ -175,9 +175,9 @@ class FlightModeSelector:
             raise DemandError(f"step returned {demand!r:.80}, not a Demand")
         if not _is_finite(demand):
             raise DemandError(f"{demand!r:.200} is not finite")
-        if isinstance(demand, PathDemand) and isinstance(circle := demand.path, Circle):
-            if circle.radius_m <= 0:
-                raise DemandError(f"the radius of a circle is {circle.radius_m:g} m, not above 0")
+        path = demand.path if isinstance(demand, PathDemand) else None
+        if isinstance(path, Circle) and path.radius_m <= 0:
+            raise DemandError(f"the radius of a circle is {path.radius_m:g} m, not above 0")
         return carry_out(demand, situation, dt_s)
 
     def _note_failure(self, name: str, error: BaseException) -> str:
