@@ -36,8 +36,7 @@ class AttitudeController(BaseModule):
     """Turns the demands of flight modes into Outputs, with gains that the ground may set.
 
     The rudder is the pilot's, plus a yaw damper. An attitude is held within the limits of Fly By
-    Wire in airframe.yml, as the board holds set-points. Loaded with
-    ``flight controller: raspberry``.
+    Wire, as the board holds set-points. Loaded with ``flight controller: raspberry``.
     """
 
     MODES: ClassVar[frozenset[Mode]] = WITH_BOARD
@@ -116,7 +115,7 @@ class AttitudeController(BaseModule):
     def _on_tunings(self, command: PIDTuningsCommand) -> Deferred[None] | None:
         gains = command.gains
         if gains is not None:
-            refuse_unused(command, gains, self.gains)
+            refuse_unused(gains, self.gains)
             self.gains = gains.completed(self.gains)
             self._roll.tune(self.gains.rate.ailerons, self.gains.stabilize.ailerons)
             self._pitch.tune(self.gains.rate.elevator, self.gains.stabilize.elevator)

@@ -42,8 +42,7 @@ from up.providers.up_location_provider import UpLocationProvider
 AUTO = "AUTO"
 MIN_STEP_S, MAX_STEP_S = 1e-3, 0.25
 ATTITUDE_PAUSE_S, PATH_PAUSE_S = 0.1, 0.5
-"""After a longer pause what a control loop summed belongs to an earlier part of the flight. While
-the board holds the attitude, Panic Mode lets frames come every 150 ms."""
+"""A longer pause resets the control loop; in Panic Mode the board's frames come every 150 ms."""
 REQUEST_PERIOD_S = 5.0
 FAILSAFE_MODE = "RETURN"
 """The board's mode while it follows set-points in receiver failsafe."""
@@ -208,8 +207,8 @@ class FlightModeManager(BaseFlightController):
             return
         dt_s = now_s - self._stepped_at_s
         self._stepped_at_s = now_s
-        if dt_s > ATTITUDE_PAUSE_S:
-            self._reset()
+        if dt_s > ATTITUDE_PAUSE_S and self.attitude_controller is not None:
+            self.attitude_controller.reset()
         dt_s = min(dt_s, MAX_STEP_S)
         if now_s - self._resumed_at_s < RESUME_S and selector.missing_for(selector.selected):
             return
@@ -229,11 +228,11 @@ class FlightModeManager(BaseFlightController):
             return self.attitude_controller.output(demand, situation.orientation, dt_s)
         if isinstance(demand, SurfacesDemand):
             raise DemandError("the Arduino's control loop takes attitudes, not surfaces")
-        throttle = demand.throttle
+        throttle = None if demand.throttle is None else max(0.0, min(1.0, demand.throttle))
         return SetpointCommand(
             max(-90.0, min(90.0, demand.roll_deg)),
             max(-90.0, min(90.0, demand.pitch_deg)),
-            throttle_us=None if throttle is None else round(1000 + 1000 * _part(throttle)),
+            throttle_us=None if throttle is None else round(1000 + 1000 * throttle),
             is_failsafe=self._is_failsafe,
         )
 
@@ -262,10 +261,6 @@ class FlightModeManager(BaseFlightController):
             altitude_m = navigation.altitude_m if altitude_m is None else altitude_m
             target = Target(circle.centre, altitude_m, circle.radius_m)
             self.home.memory.update(target=place_of_target(target, navigation.frame))
-
-    def _reset(self) -> None:
-        if self.attitude_controller is not None:
-            self.attitude_controller.reset()
 
     def _select(self, name: str | None) -> None:
         selector = self._selector
@@ -402,7 +397,3 @@ class FlightModeManager(BaseFlightController):
     def required(self, what: str) -> float | None:
         """Return the course or altitude that the ground requested of the present mode."""
         return self._requests.get(what)
-
-
-def _part(throttle: float) -> float:
-    return max(0.0, min(1.0, throttle))

@@ -114,8 +114,9 @@ class DemoFlight:
                     self._on_page_end(self._page)
                 elif status is not None and status < 0 and child is self._daemon:
                     self._children.remove(child)
-                    text = f"{child.name} ended with signal {-status}. It is started again."
-                    self._pending_lines.append(text)
+                    self._pending_lines.append(
+                        f"{child.name} ended with signal {-status}. It is started again."
+                    )
                     self._daemon = self._start_daemon(resumes=True)
                 elif status is not None:
                     raise ParticipantError(child.exit_report(status))

@@ -11,6 +11,7 @@ from up_simulator.verbs.catalogue import shipped_paths
 
 # Expectations that check only who controls the aircraft need no separate number.
 MIN_EXPECTATIONS = 2
+PAIRS = (("controller-on", "OUTPUT"), ("loiter-on", "OUTPUT"), ("return-on", None))
 ATTITUDE = ("truth.roll_deg", "truth.pitch_deg", "error.roll_deg", "error.pitch_deg")
 CONTROLLERS = ("controller-on-arduino", "controller-on-raspberry")
 
@@ -26,7 +27,8 @@ def test_it_says_what_it_shows_and_by_which_figures(name):
     assert scenario.title and scenario.about and scenario.tags
     assert len(scenario.expect) >= MIN_EXPECTATIONS
     assert any(any(each.isdigit() for each in limit_text(limit)) for limit in scenario.expect)
-    assert scenario.board in ("auto", "direct") and not scenario.may_crash
+    assert scenario.board in ("auto", "direct", "host") and not scenario.may_crash
+    assert (scenario.board == "host") == ("navigation" in scenario.tags)
 
 
 def test_each_guards_a_rule_and_was_seen_to_fail_without_it():
@@ -79,19 +81,21 @@ def test_what_could_succeed_by_itself_has_a_control_run(name):
     assert control is not None and control.fails
 
 
-def test_the_controller_moves_by_configuration_only():
-    on_arduino, on_raspberry = (SCENARIOS[name] for name in CONTROLLERS)
-    config = {"config.yml": {"flight controller": "raspberry"}}
+@pytest.mark.parametrize(("pair", "mode"), PAIRS)
+def test_the_controller_moves_by_configuration_only(pair, mode):
+    on_arduino, on_raspberry = (SCENARIOS[f"{pair}-{each}"] for each in ("arduino", "raspberry"))
+    config = {**on_arduino.raspilot.config, "config.yml": {"flight controller": "raspberry"}}
     where = on_arduino.expect[0]
-    assert where.is_ == "FBW"
     moved = dataclasses.replace(
         on_arduino,
         title=on_raspberry.title,
+        about=on_raspberry.about,
         guards=on_raspberry.guards,
         raspilot=dataclasses.replace(on_arduino.raspilot, config=config),
-        expect=(dataclasses.replace(where, is_="OUTPUT"), *on_arduino.expect[1:]),
+        expect=(dataclasses.replace(where, is_=mode or where.is_), *on_arduino.expect[1:]),
     )
-    assert on_arduino.raspilot.config == {"config.yml": {"flight controller": "arduino"}}
+    assert on_arduino.raspilot.config["config.yml"] == {"flight controller": "arduino"}
+    assert where.is_ != mode
     assert moved == on_raspberry
 
 
