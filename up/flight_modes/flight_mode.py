@@ -35,7 +35,8 @@ class FlightSituation:
     """What a mode sees in one step.
 
     A reading is None unless it is valid and as fresh as the mode's ``NEEDS`` require; those that
-    are needed are never None. ``required_course_deg`` and ``required_altitude_m`` are the ground's
+    are needed are never None. ``navigation`` may be dead reckoning, without a fix for up to 120 s, for
+    a mode that does not need it: look at its deviations. ``required_course_deg`` and ``required_altitude_m`` are the ground's
     requests since the mode was entered.
     """
 
