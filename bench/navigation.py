@@ -189,6 +189,9 @@ def hold(seed: int, controller: str, air: str) -> Figures:
         f"{LEG}, truth": rms(line_errors(leg, 0.0)),
         "height rms, GPS frame": rms(height_errors(circling, 1.0)),
         "height rms, truth": rms(height_errors(circling, 0.0)),
+        "LOITER 50 m, bank, standard deviation, deg": statistics.pstdev(
+            each.truth.roll_deg for each in circling
+        ),
         **_wind(flown, weather.wind_m_s),
         **_lost(flown),
         STOPPED[0].format("LOITER"): flown.after(MOTOR_CODE, STOP_S),

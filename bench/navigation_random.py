@@ -18,9 +18,10 @@ MODES = ("CRUISE", "LOITER", "GUIDED", "RETURN", "CIRCLE")
 FAULTS = ("jumped", "frozen", "lost")
 TURBULENCE = ("none", "light", "moderate")
 MAX_WIND_M_S = 8.0
-FIRST_S, SECOND_S, RETURN_S, END_S = 4.0, 34.0, 60.0, 100.0
+FIRST_S, SECOND_S, RETURN_S, END_S = 4.0, 30.0, 55.0, 95.0
+FAULT_S, FAULT_FOR_S = (8.0, 65.0), (2.0, 20.0)
 NEAR_M = 150.0
-STALL, MIN_PROGRESS_M = 1.0, 60.0
+STALL, MIN_PROGRESS_M = 1.0, 20.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,8 +45,8 @@ def fly_at_random(seed: int) -> Outcome:
     from_deg, turbulence = draw.uniform(0.0, 360.0), draw.choice(TURBULENCE)
     weather = WeatherPart(wind_m_s=wind_m_s, wind_from_deg=from_deg, turbulence=turbulence)  # type: ignore[arg-type]
     modes = draw.choice(MODES), draw.choice(MODES)
-    fault, fault_s = draw.choice(FAULTS), draw.uniform(8.0, 40.0)
-    for_s = draw.uniform(2.0, 12.0)
+    fault, fault_s = draw.choice(FAULTS), draw.uniform(*FAULT_S)
+    for_s = draw.uniform(*FAULT_FOR_S)
     target = CommandPart("up.navigation.target", _beside(draw))
     events = (
         Event(2.0, command=target),

@@ -51,6 +51,8 @@ FOLLOW_S = 1.0
 RESUME_S = 3.0
 """After a restart in flight the readings get this time before a fallback acts."""
 MAX_RX_AGE_S, MAX_NAVIGATION_AGE_S = 0.25, 3.0
+MAX_DEAD_RECKONING_S = 120.0
+"""How long without a fix the modes get the estimate; those that need a fix end earlier."""
 _NOT_PERMITTED = "does not fly: the board does not let it"
 
 
@@ -174,8 +176,11 @@ class FlightModeManager(BaseFlightController):
 
     @property
     def _navigation(self) -> NavigationState | None:
+        return self._estimate(MAX_NAVIGATION_AGE_S)
+
+    def _estimate(self, max_age_s: float) -> NavigationState | None:
         provider: Any = self._providers.get("navigation")
-        if provider is None or provider.fresh(MAX_NAVIGATION_AGE_S) is None:
+        if provider is None or provider.fresh(max_age_s) is None:
             return None
         state: NavigationState = provider.state
         return state
@@ -190,6 +195,8 @@ class FlightModeManager(BaseFlightController):
         if navigation is not None and self._resumed_place is not None:
             self._target = target_of_place(self._resumed_place, navigation.frame)
             self._resumed_place = None
+        if navigation is None:
+            navigation = self._estimate(MAX_DEAD_RECKONING_S)
         rx = self.rx.fresh(MAX_RX_AGE_S)
         now_s = reading.time_s
         situation = self._situation = FlightSituation(

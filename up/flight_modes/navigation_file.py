@@ -58,7 +58,7 @@ class Lateral:
 
     bank_limit_deg: float = key(42.0, "Greatest bank.", unit="deg", minimum=10, maximum=60)
     period_s: float = key(
-        6.0, "Period of the approach to the path: less is sharper.", unit="s", minimum=3, maximum=30
+        8.0, "Period of the approach to the path: less is sharper.", unit="s", minimum=3, maximum=30
     )
     damping: float = key(0.75, "Damping of the approach.", minimum=0.4, maximum=1.5)
     roll_rate_deg_s: float = key(
