@@ -6,7 +6,7 @@ from collections import Counter
 from collections.abc import Mapping
 from typing import Any
 
-from raspilot.navigation.airspeed_model import airframe_of
+from raspilot.navigation.airframe_model import AirframeModel
 from raspilot.navigation.estimator import Estimator
 from raspilot.navigation.fix_gate import Fix
 from up.commands.altitude_command import AltitudeCommand
@@ -57,8 +57,7 @@ class NavigationEstimator(BaseProvider[NavigationState]):
         self._motor_stopped = False
 
     def on_init(self) -> None:
-        navigation = self.context.config(NAVIGATION)
-        self.estimator = Estimator(airframe_of(navigation.airspeed, navigation.performance))
+        self.estimator = Estimator(AirframeModel(self.context.config(NAVIGATION)))
         self._seconds = self.context.reactor.seconds
         register = self.up.command_executor.register_command
         register(OrientationCommand, self._on_orientation)
