@@ -149,7 +149,7 @@ def _sample(flight: ScenarioFlight) -> Sample:
         (ground.telemetry.get("flight_control") or {}).get("mode"),
         navigation,
         dict(navigation.get("target") or {}),
-        bool((ground.telemetry.get("counters") or {}).get("navigation", {}).get("motor_stopped")),
+        bool(navigation.get("motor_stopped")),
     )
 
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Mapping
 from typing import Any
 
@@ -85,11 +84,9 @@ class NavigationEstimator(BaseProvider[NavigationState]):
     @property
     def telemetry_content(self) -> Mapping[str, Any]:
         estimator = self.estimator
-        counters = Counter(estimator.rejected)
-        counters["motor_stopped"] = int(estimator.motor.is_stopped)
         return {
             "navigation": self._navigation(),
-            "counters": {"navigation": dict(counters)},
+            "counters": {"navigation": estimator.rejected},
             **self._ages(),
         }
 
@@ -116,6 +113,7 @@ class NavigationEstimator(BaseProvider[NavigationState]):
             "climb": state.climb_m_s if has_altitude else None,
             "airspeed": state.airspeed_m_s if in_flight else None,
             "heading": state.heading_deg if has_heading else None,
+            "motor_stopped": state.motor_stopped,
             "wind": {
                 "speed": state.wind_speed_m_s if has_wind else None,
                 "from": state.wind_from_deg if has_wind else None,
@@ -179,6 +177,6 @@ class NavigationEstimator(BaseProvider[NavigationState]):
         is_stopped = self.estimator.motor.is_stopped
         if is_stopped and not self._motor_stopped:
             self.log.warn(
-                "the motor gives no thrust at the present throttle", code="motor_without_thrust"
+                "the motor gives no thrust at the present throttle", code="motor_stopped"
             )
         self._motor_stopped = is_stopped

@@ -64,6 +64,8 @@ class AirframeModel:
 
     def power_m_s(self, throttle: float) -> float:
         """Return the power over the weight of a throttle, the inverse of ``throttle``."""
+        if not self.has_motor:
+            return 0.0
         return max(0.0, throttle * (self._power_2 * throttle + self._power_1))
 
     def bank_limit_deg(self, airspeed_m_s: float) -> float:

@@ -10,34 +10,38 @@ from raspilot.navigation.airframe_model import GRAVITY_M_S2, AirframeModel, load
 class AirspeedModel:
     """Integrates the airspeed from the energy: thrust, drag, and the climb.
 
-    The angle of attack of the present lift gives the climb from the pitch. ``factor`` is the
-    estimated airspeed over the modelled one: ``climb_m_s``, ``thrust_m_s2`` (the acceleration by a
-    working motor) and ``coast_m_s2`` (by drag and climb) are those of the estimated airspeed. The
-    thrust acts on the model unless ``motor_stopped``.
+    The angle of attack of the present lift gives the climb from the pitch. ``thrust_m_s2`` is the
+    acceleration by a working motor, ``coast_m_s2`` that by drag and climb. With ``motor_stopped``
+    the model has no thrust, and both are those of ``measured_m_s``, the airspeed that the last fix
+    has shown: if the motor works, the model is far from it.
     """
 
     def __init__(self, model: AirframeModel) -> None:
         self._model = model
-        self.motor_stopped = False
-        self.airspeed_m_s = model.speeds.cruise_m_s
-        self.seen_m_s = self.airspeed_m_s
         self.climb_m_s = self.thrust_m_s2 = self.coast_m_s2 = 0.0
         self._slowest = 0.85 * model.speeds.stall_m_s
         self._fastest = 2.5 * model.speeds.cruise_m_s
+        self.measured_m_s = model.speeds.cruise_m_s
+        self.restart(self.measured_m_s, motor_stopped=False)
+
+    def restart(self, airspeed_m_s: float, *, motor_stopped: bool) -> None:
+        """Continue from an airspeed, with or without thrust."""
+        self.airspeed_m_s = self._limited(airspeed_m_s)
+        self.motor_stopped = motor_stopped
 
     def step(self, dt_s: float, roll_deg: float, pitch_deg: float, throttle: float) -> None:
         """Advance by ``dt_s``."""
         speed, load = self.airspeed_m_s, load_of(roll_deg)
         self.climb_m_s, self.coast_m_s2 = self._motion(speed, load, pitch_deg)
-        self.thrust_m_s2 = GRAVITY_M_S2 * self._model.power_m_s(throttle) / speed
+        change = self.coast_m_s2
         if self.motor_stopped:
-            self.airspeed_m_s = self._limited(speed + self.coast_m_s2 * dt_s)
-            seen = self._limited(self.seen_m_s)
-            _, self.coast_m_s2 = self._motion(seen, load, pitch_deg)
-            self.thrust_m_s2 *= speed / seen
+            measured = self._limited(self.measured_m_s)
+            _, self.coast_m_s2 = self._motion(measured, load, pitch_deg)
+            self.thrust_m_s2 = GRAVITY_M_S2 * self._model.power_m_s(throttle) / measured
         else:
-            change = self.coast_m_s2 + self.thrust_m_s2
-            self.airspeed_m_s = self._limited(speed + change * dt_s)
+            self.thrust_m_s2 = GRAVITY_M_S2 * self._model.power_m_s(throttle) / speed
+            change += self.thrust_m_s2
+        self.airspeed_m_s = self._limited(speed + change * dt_s)
 
     def _motion(self, speed: float, load: float, pitch_deg: float) -> tuple[float, float]:
         """Return the climb and the acceleration without thrust."""

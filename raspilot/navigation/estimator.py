@@ -282,7 +282,7 @@ class Estimator:
             if velocity is not None:
                 self._horizontal.fuse_velocity(at, *velocity, VELOCITY_R_M_S)
             self.motor = MotorWatch()
-            self._model.motor_stopped = False
+            self._model.restart(self._model.airspeed_m_s, motor_stopped=False)
             self._wind = WindMean()
         else:
             self._horizontal.blur(GROUND_Q_M * math.sqrt(max(0.0, at.time_s - self._fixed.time_s)))
@@ -319,12 +319,19 @@ class Estimator:
         length = abs(horizontal.factor)
         nose = horizontal.factor * cmath.rect(1.0 / length, math.radians(at.yaw_deg))
         ground, wind = complex(*velocity), complex(self._wind.north_m_s, self._wind.east_m_s)
-        self._model.seen_m_s = ((ground - wind) * nose.conjugate()).real
+        self._model.measured_m_s = ((ground - wind) * nose.conjugate()).real
         variance = horizontal.p[4][4] + horizontal.p[5][5]
-        if self.motor.fix(at, ground, nose, wind, variance):
-            # The model continues from the estimate, with a factor of length 1.
-            model = self._model
-            model.motor_stopped = self.motor.is_stopped
-            model.airspeed_m_s *= length
-            self._multiply(complex(length))
-            horizontal.widen(MOTOR_SD**2, 0.0)
+        if self.motor.fix(at, ground, nose, wind, variance, length):
+            self._change_thrust(at)
+
+    def _change_thrust(self, at: AirPoint) -> None:
+        """Continue with or without thrust from the airspeed that the last fix has shown."""
+        newest = self._path.newest
+        assert self._horizontal is not None and newest is not None
+        airspeed_m_s = self._model.measured_m_s + newest.coast_m_s - at.coast_m_s
+        if not self.motor.is_stopped:
+            airspeed_m_s += newest.thrust_m_s - at.thrust_m_s
+        self._model.restart(airspeed_m_s, motor_stopped=self.motor.is_stopped)
+        # The path is that of the estimate until now: a factor of length 1.
+        self._multiply(complex(abs(self._horizontal.factor)))
+        self._horizontal.widen(MOTOR_SD**2, 0.0)

@@ -17,7 +17,7 @@ CLIMB_CHANGE_M_S2 = 1.5
 """How fast the demanded climb changes: no faster than the motor follows."""
 SPEED_PITCH_DEG = 6.0
 """Greatest sum of the airspeed's integral, either way."""
-GLIDE_MARGIN = 1.08
+GLIDE_MARGIN = 1.15
 """Airspeed after the motor has stopped, over that of the best glide: gusts take some of it."""
 PROBE_M_S = 1.0
 """Climb that the throttle would give after the motor has stopped."""
