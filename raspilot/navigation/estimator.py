@@ -321,7 +321,8 @@ class Estimator:
         ground, wind = complex(*velocity), complex(self._wind.north_m_s, self._wind.east_m_s)
         self._model.measured_m_s = ((ground - wind) * nose.conjugate()).real
         variance = horizontal.p[4][4] + horizontal.p[5][5]
-        if self.motor.fix(at, ground, nose, wind, variance, length):
+        factor = self._model.measured_m_s / math.hypot(at.north_m_s, at.east_m_s)
+        if self.motor.fix(at, ground, nose, wind, variance, factor):
             self._change_thrust(at)
 
     def _change_thrust(self, at: AirPoint) -> None:

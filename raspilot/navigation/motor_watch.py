@@ -56,7 +56,7 @@ class MotorWatch:
     ) -> bool:
         """Take a fix's ground velocity; return whether the verdict changed.
 
-        ``factor`` is the estimated airspeed over that of the model.
+        ``factor`` is the measured airspeed over that of the model.
         """
         seen = self._seen
         if seen and at.time_s - seen[-1].time_s > MAX_GAP_S:

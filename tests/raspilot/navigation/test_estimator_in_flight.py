@@ -8,7 +8,6 @@ import pytest
 from tests.raspilot.navigation.recordings import (
     Flight,
     circles,
-    cruise,
     mixed,
     off_m,
     record,
@@ -81,14 +80,6 @@ def test_thirty_seconds_without_fixes_end_inside_the_stated_uncertainty(windy, s
     assert off_m(last, true) < 2.5 * last.position_sd_m
     assert last.position_sd_m < 60
     assert off_m(*flight.pairs(175)[0]) < 8, "and the position is right again soon"
-
-
-def test_a_motor_that_stops_is_noticed_and_its_thrust_no_longer_believed():
-    frames = record(cruise, 110, 4.0, "light", 4, 90.0)
-    flight = Flight(frames)
-    lost = [e.airspeed_m_s - t.airspeed_m_s for e, t in flight.pairs(97)]
-    assert rms(lost) < 1.5
-    assert flight.estimator.motor.is_stopped
 
 
 def test_a_motor_that_works_is_not_suspected(windy_flight):
