@@ -90,3 +90,16 @@ def test_circling_takes_no_calibrated_yaw():
     flight = Flight(record(circles, 60))
     ratio = [(e.heading_deg - t.yaw_deg + 180) % 360 - 180 for e, t in flight.pairs(50)]
     assert rms(ratio) < 8
+
+
+def altitude_errors(flight, from_s, to_s=math.inf):
+    return [e.altitude_m - t.altitude_m for e, t in flight.pairs(from_s, to_s)]
+
+
+def test_with_a_barometer_the_wander_of_the_receiver_does_not_move_the_altitude(windy, windy_flight):
+    errors = altitude_errors(Flight(windy, barometer=True), 60)
+    mean = sum(errors) / len(errors)
+    assert rms(each - mean for each in errors) < 1.0
+    errors = altitude_errors(windy_flight, 60)
+    mean = sum(errors) / len(errors)
+    assert 2.0 < rms(each - mean for each in errors) < 5.0, "without one it does"

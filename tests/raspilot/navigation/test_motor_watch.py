@@ -77,11 +77,11 @@ def test_a_single_gust_takes_more_speed_than_the_thrust_and_is_no_stop(fixes):
     assert fixes.fly(10) is None
 
 
-def test_in_gusts_a_verdict_takes_more(fixes):
-    calm = Fixes()
-    calm.fly(60)
-    rough = Fixes()
-    rough.fly(120, gusts=(0.0, 0.6, 1.2, 1.2, 0.6, 0.0, -1.0, -1.0))
+def test_after_gusts_a_verdict_takes_more():
+    calm, rough = Fixes(), Fixes()
+    calm.fly(80)
+    rough.fly(80, gusts=(0.0, 0.6, 1.2, 1.2, 0.6, 0.0, -1.0, -1.0))
+    assert calm.fly(8) is rough.fly(8) is None
     assert calm.fly(10, lost=0.75) < (rough.fly(10, lost=0.75) or 99)
 
 
