@@ -176,7 +176,5 @@ class NavigationEstimator(BaseProvider[NavigationState]):
     def _report_motor(self) -> None:
         is_stopped = self.estimator.motor.is_stopped
         if is_stopped and not self._motor_stopped:
-            self.log.warn(
-                "the motor gives no thrust at the present throttle", code="motor_stopped"
-            )
+            self.log.warn("the motor gives no thrust at the present throttle", code="motor_stopped")
         self._motor_stopped = is_stopped

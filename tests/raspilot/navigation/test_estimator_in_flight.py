@@ -96,7 +96,7 @@ def altitude_errors(flight, from_s, to_s=math.inf):
     return [e.altitude_m - t.altitude_m for e, t in flight.pairs(from_s, to_s)]
 
 
-def test_with_a_barometer_the_wander_of_the_receiver_does_not_move_the_altitude(windy, windy_flight):
+def test_with_a_barometer_the_wander_does_not_move_the_altitude(windy, windy_flight):
     errors = altitude_errors(Flight(windy, barometer=True), 60)
     mean = sum(errors) / len(errors)
     assert rms(each - mean for each in errors) < 1.0
