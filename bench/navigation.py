@@ -43,7 +43,7 @@ AIRS = {
 AGAINST = WeatherPart(wind_m_s=7.7, wind_from_deg=WIND_FROM_DEG)
 """70 % of the airspeed of cruise."""
 RADIUS_M = 50.0
-MOTOR_CODE, OVERRUN_CODE = "motor_without_thrust", "mode_overrun"
+MOTOR_CODE, OVERRUN_CODE = "motor_stopped", "mode_overrun"
 LOITER_S, CIRCLING_S, TWO_CIRCLES_S, CRUISE_S, LEG_S = 5.0, 35.0, 65.0, 110.0, 130.0
 AGAIN_S, LOST_S, BACK_S, STOP_S, HOLD_END_S = 170.0, 190.0, 220.0, 240.0, 265.0
 EXACT_CRUISE_S, EXACT_LEG_S, EXACT_END_S = 80.0, 95.0, 120.0

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Mapping
 from typing import Any, ClassVar
 
-from raspilot.navigation.airspeed_model import airframe_of
+from raspilot.navigation.airframe_model import AirframeModel
 from raspilot.navigation.estimator import Estimator
 from raspilot.navigation.fix_gate import Fix
 from up.commands.command import BaseCommand
@@ -56,8 +55,7 @@ class NavigationEstimator(BaseProvider[NavigationState]):
         self._motor_stopped = False
 
     def on_init(self) -> None:
-        navigation = self.context.config(NAVIGATION)
-        self.estimator = Estimator(airframe_of(navigation.airspeed, navigation.performance))
+        self.estimator = Estimator(AirframeModel(self.context.config(NAVIGATION)))
         self._seconds = self.context.reactor.seconds
         self.orientation.subscribe(self._on_orientation)
         self.location.subscribe(self._on_location)
@@ -86,11 +84,9 @@ class NavigationEstimator(BaseProvider[NavigationState]):
     @property
     def telemetry_content(self) -> Mapping[str, Any]:
         estimator = self.estimator
-        counters = Counter(estimator.rejected)
-        counters["motor_stopped"] = int(estimator.motor.is_stopped)
         return {
             "navigation": self._navigation(),
-            "counters": {"navigation": dict(counters)},
+            "counters": {"navigation": estimator.rejected},
             **self._ages(),
         }
 
@@ -117,6 +113,7 @@ class NavigationEstimator(BaseProvider[NavigationState]):
             "climb": state.climb_m_s if has_altitude else None,
             "airspeed": state.airspeed_m_s if in_flight else None,
             "heading": state.heading_deg if has_heading else None,
+            "motor_stopped": state.motor_stopped,
             "wind": {
                 "speed": state.wind_speed_m_s if has_wind else None,
                 "from": state.wind_from_deg if has_wind else None,
@@ -165,7 +162,5 @@ class NavigationEstimator(BaseProvider[NavigationState]):
     def _report_motor(self) -> None:
         is_stopped = self.estimator.motor.is_stopped
         if is_stopped and not self._motor_stopped:
-            self.log.warn(
-                "the motor gives no thrust at the present throttle", code="motor_without_thrust"
-            )
+            self.log.warn("the motor gives no thrust at the present throttle", code="motor_stopped")
         self._motor_stopped = is_stopped
