@@ -326,10 +326,16 @@ class Estimator:
             self._change_thrust(at)
 
     def _change_thrust(self, at: AirPoint) -> None:
-        """Continue with or without thrust from the airspeed that the last fix has shown."""
+        """Continue with or without thrust.
+
+        The airspeed is the mean of the estimate, which believed in the other verdict until now,
+        and of the one that the last fix has shown, which gusts and an error of the wind move.
+        """
         newest = self._path.newest
         assert self._horizontal is not None and newest is not None
-        airspeed_m_s = self._model.measured_m_s + newest.coast_m_s - at.coast_m_s
+        believed_m_s = math.hypot(at.north_m_s, at.east_m_s) * abs(self._horizontal.factor)
+        airspeed_m_s = 0.5 * (believed_m_s + self._model.measured_m_s)
+        airspeed_m_s += newest.coast_m_s - at.coast_m_s
         if not self.motor.is_stopped:
             airspeed_m_s += newest.thrust_m_s - at.thrust_m_s
         self._model.restart(airspeed_m_s, motor_stopped=self.motor.is_stopped)

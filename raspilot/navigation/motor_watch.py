@@ -17,7 +17,7 @@ MAX_GAP_S = 3.0
 GUSTS, LEAST_GUSTS, MOST_GUSTS = 0.1, 0.02, 0.5
 """Variance (m2/s2) that gusts add to the ground velocity along the nose each second."""
 GUSTS_TAU_S = 30.0
-MAX_FACTOR = 1.25
+MAX_FACTOR = 1.4
 """A glide that is faster than its model by this factor is none."""
 
 
