@@ -3,283 +3,291 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
-from dataclasses import dataclass, field
+import statistics
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
 
+from bench.navigation_cost import cost_rows
+from bench.navigation_flight import (
+    HEIGHT_M,
+    Flown,
+    Sample,
+    course_at,
+    fly,
+    least_over_stall,
+    mode_at,
+    rms,
+    scenario_of,
+)
+from bench.navigation_random import fly_at_random, random_rows
 from bench.table import LeftOutError, Row
 from tools.tuning.workers import MAX_PROCESSES, Workers
-from up.earth import bearing_deg, distance_m
-from up_simulator.aircraft.flight import FlightState, FlightUnavailableError
+from up.flight_modes.demand import Circle, Line, PathDemand
+from up_simulator.aircraft.flight import FlightUnavailableError
 from up_simulator.firmware.build import BoardUnavailableError
 from up_simulator.firmware.preparation import PreparationError
-from up_simulator.scenario.build import build_flight
-from up_simulator.scenario.event import CommandPart, Event
+from up_simulator.scenario.event import Event
 from up_simulator.scenario.flight import ScenarioFlight
-from up_simulator.scenario.initial_conditions import StartPart, WeatherPart
-from up_simulator.scenario.scenario import GroundPart, PhonePart, RaspilotPart, Scenario
-from up_simulator.scenario.sticks import StickPoint
+from up_simulator.scenario.initial_conditions import WeatherPart
 
-SEEDS = 10
+SEEDS, QUICK_SEEDS = 10, 1
+RANDOM_FLIGHTS, QUICK_RANDOM_FLIGHTS = 40, 4
 CONTROLLERS = ("arduino", "raspberry")
-AIRS = {"calm": (0.0, "none"), "6 m/s, moderate": (6.0, "moderate")}
-STALL_M_S, RADIUS_M = 6.5, 50.0
-SAMPLE_STEPS = 10
-LOITER_S, CIRCLING_S, CRUISE_S, LEG_S, END_S = 10.0, 60.0, 130.0, 145.0, 190.0
-STOP_S, STOPPED_END_S = 90.0, 120.0
-LOST_S, LOST_END_S = 80.0, 110.0
-AWAY_S, RETURN_END_S = 62.0, 330.0
+WIND_FROM_DEG = 0.0
+AIRS = {
+    "calm": WeatherPart(wind_from_deg=WIND_FROM_DEG),
+    "6 m/s, moderate": WeatherPart(
+        wind_m_s=6.0, wind_from_deg=WIND_FROM_DEG, turbulence="moderate"
+    ),
+}
+AGAINST = WeatherPart(wind_m_s=7.7, wind_from_deg=WIND_FROM_DEG)
+"""70 % of the airspeed of cruise."""
+RADIUS_M = 50.0
+MOTOR_CODE, OVERRUN_CODE = "motor_stopped", "mode_overrun"
+LOITER_S, CIRCLING_S, TWO_CIRCLES_S, CRUISE_S, LEG_S = 5.0, 35.0, 65.0, 110.0, 130.0
+AGAIN_S, LOST_S, BACK_S, STOP_S, HOLD_END_S = 170.0, 190.0, 220.0, 240.0, 265.0
+EXACT_CRUISE_S, EXACT_LEG_S, EXACT_END_S = 80.0, 95.0, 120.0
+AWAY_S, HOME_STOP_S, HOME_END_S = 62.0, 270.0, 300.0
 Figures = dict[str, float]
 
 
 @dataclass(frozen=True, slots=True)
-class Sample:
-    """The truth, the slow error of the GPS (north, east, up), and what the daemon reports."""
+class Target:
+    """A limit in calm air and in wind: of the mean of the seeds, or of the worst of them."""
 
-    time_s: float
-    truth: FlightState
-    wander_m: tuple[float, float, float]
-    mode: str | None
-    navigation: dict[str, float] = field(default_factory=dict)
-    target: dict[str, float] = field(default_factory=dict)
-    motor_stopped: bool = False
+    calm: float
+    wind: float
+    of_worst: bool = False
+    is_least: bool = False
+
+
+LOITER, LEG = "LOITER 50 m, radius rms", "leg, cross track rms from the commanded line"
+STOPPED = "motor stopped in {}, s until logged", "motor stopped in {}, least airspeed over stall"
+TARGETS = {
+    f"{LOITER}, GPS frame": Target(1.5, 2.4),
+    f"{LOITER}, truth": Target(2.0, 2.5),
+    f"{LEG}, GPS frame": Target(1.5, 1.8),
+    "height rms, GPS frame": Target(1.8, 2.8),
+    "height rms with barometer, truth": Target(1.0, 2.5),
+    "wind error after two circles, m/s": Target(1.0, 1.0),
+    "wind direction error after two circles, deg": Target(15.0, 15.0),
+    "position error after 30 s without fixes": Target(30.0, 60.0, of_worst=True),
+    "the same over its stated deviation": Target(2.0, 2.0, of_worst=True),
+    "height error after 30 s without fixes": Target(12.0, 40.0, of_worst=True),
+    "exact 10 Hz GPS: LOITER 50 m, radius rms": Target(0.3, 0.8),
+    "exact 10 Hz GPS: leg, cross track rms": Target(0.3, 0.3),
+    "RETURN, s until home": Target(HOME_STOP_S - AWAY_S, HOME_STOP_S - AWAY_S, of_worst=True),
+    "RETURN, least airspeed over stall": Target(1.2, 1.2, of_worst=True, is_least=True),
+    "RETURN, least height above home, m": Target(-10.0, -10.0, of_worst=True, is_least=True),
+    **{STOPPED[0].format(mode): Target(3.0, 3.0, of_worst=True) for mode in ("LOITER", "RETURN")},
+    **{
+        STOPPED[1].format(mode): Target(1.1, 1.1, of_worst=True, is_least=True)
+        for mode in ("LOITER", "RETURN")
+    },
+}
+OVERRUNS, LOOP_US, CRASHES = "overruns of a mode's step", "loop step of the manager, us", "crashes"
 
 
 def rows(quick: bool = False) -> Iterable[Row]:
-    seeds = range(1, 3 if quick else SEEDS + 1)
+    seeds = range(1, 1 + (QUICK_SEEDS if quick else SEEDS))
     try:
+        yield from cost_rows()
         with Workers(MAX_PROCESSES) as workers:
-            for controller in CONTROLLERS:
-                for air, (wind_m_s, turbulence) in AIRS.items():
-                    flights = [(seed, controller, wind_m_s, turbulence) for seed in seeds]
-                    where = f"{controller}, {air}"
-                    yield from _rows(where, workers.fly(hold, flights), wind_m_s > 0)
-                    yield from _rows(where, workers.fly(lose_position, flights), wind_m_s > 0)
-                    yield from _rows(where, workers.fly(stop_motor, flights), wind_m_s > 0)
-                against = [(seed, controller, 7.7, "none") for seed in seeds]
-                where = f"{controller}, against 7.7 m/s"
-                yield from _rows(where, workers.fly(come_home, against), True)
+            for flight, controller, air in plan():
+                found = workers.fly(flight, [(seed, controller, air) for seed in seeds])
+                yield from rows_of(f"{controller}, {air}", list(seeds), found)
+            count = QUICK_RANDOM_FLIGHTS if quick else RANDOM_FLIGHTS
+            seeds = range(1, count + 1)
+            yield from random_rows(workers.fly(fly_at_random, [(seed,) for seed in seeds]))
     except (BoardUnavailableError, FlightUnavailableError, PreparationError) as error:
         raise LeftOutError(str(error)) from error
 
 
-TARGETS: dict[str, tuple[float, float]] = {
-    "LOITER 50 m, radius rms, GPS frame": (1.5, 2.4),
-    "LOITER 50 m, radius rms, truth": (2.0, 2.5),
-    "leg, cross track rms, GPS frame": (1.5, 1.8),
-    "height rms, truth": (1.0, 2.5),
-    "wind error after two circles": (1.0, 1.0),
-    "position error after 30 s without fixes": (30.0, 60.0),
-    "height error after 30 s without fixes": (12.0, 40.0),
-    "s until a stopped motor is noticed": (3.0, 3.0),
-}
-"""At most this: calm, and in wind."""
-LEAST: dict[str, float] = {
-    "least airspeed over stall, motor stopped": 1.1,
-    "least airspeed over stall, RETURN": 1.2,
-}
+def plan() -> Iterable[tuple[Callable[[int, str, str], Figures], str, str]]:
+    """Return the kinds of flights, each with the place of the control loop and the air."""
+    for controller in CONTROLLERS:
+        for air in AIRS:
+            yield hold, controller, air
+            yield hold_with_barometer, controller, air
+            yield hold_with_exact_gps, controller, air
+        yield come_home, controller, "against 7.7 m/s"
 
 
-def _rows(where: str, found: list[Figures], has_wind: bool) -> Iterable[Row]:
+def rows_of(where: str, seeds: list[int], found: list[Figures]) -> Iterable[Row]:
+    """Return a row for each figure: mean of the seeds, and the worst with its seed."""
     for what in found[0]:
         values = [each.get(what, math.inf) for each in found]
-        is_least = what in LEAST
+        limit = TARGETS.get(what)
+        is_least = limit is not None and limit.is_least
         worst = (min if is_least else max)(values)
-        seed = values.index(worst) + 1
-        mean = sum(values) / len(values)
+        mean = statistics.fmean(values)
         target, met = "", None
-        if is_least:
-            target, met = f">= {LEAST[what]:g}", worst >= LEAST[what]
-        elif what in TARGETS:
-            limit = TARGETS[what][has_wind]
-            target, met = f"<= {limit:g}", mean <= limit
-        text = f"{mean:.2f}, worst {worst:.2f} (seed {seed})"
+        if limit is not None:
+            bound = limit.calm if where.endswith("calm") else limit.wind
+            judged = worst if limit.of_worst else mean
+            target = f"{'worst' if limit.of_worst else 'mean'} {'>=' if is_least else '<='} "
+            target += f"{bound:g}"
+            met = judged >= bound if is_least else judged <= bound
+        text = f"{mean:.2f}, worst {worst:.2f} (seed {seeds[values.index(worst)]})"
         yield Row(f"{what}: {where}", text, target=target, met=met)
 
 
-def _scenario(
-    seed: int, controller: str, wind_m_s: float, turbulence: str, duration_s: float, *events: Event
-) -> Scenario:
-    return Scenario(
-        title="navigation",
-        seed=seed,
-        duration_s=duration_s,
-        board="host",
-        may_crash=True,
-        start=StartPart(height_m=120.0),
-        weather=WeatherPart(wind_m_s=wind_m_s, wind_from_deg=0.0, turbulence=turbulence),  # type: ignore[arg-type]
-        raspilot=RaspilotPart("in process", {"config.yml": {"flight controller": controller}}),
-        phone=PhonePart(),
-        ground=GroundPart(period_ms=100),
-        sticks=(StickPoint(at_s=0.0, mode="AUTO", arm=True, throttle=0.55),),
-        events=events,
-    )
-
-
-def _mode(at_s: float, mode: str) -> Event:
-    return Event(at_s, command=CommandPart("up.flight_mode.set", {"mode": mode}))
-
-
-def _fly(scenario: Scenario) -> list[Sample]:
-    """Return a sample each 20 ms; a crash ends the flight."""
-    flight = build_flight(scenario)
-    samples: list[Sample] = []
-    try:
-        flight.boot()
-        steps = 0
-        while not flight.is_over:
-            flight.step()
-            steps += 1
-            if steps % SAMPLE_STEPS == 0:
-                samples.append(_sample(flight))
-    finally:
-        flight.participants.stop()
-    if flight.record.failure:
-        raise RuntimeError(flight.record.failure)
-    return samples
-
-
-def _sample(flight: ScenarioFlight) -> Sample:
-    ground, phone = flight.participants.ground, flight.participants.phone
-    assert ground is not None and phone is not None
-    navigation = dict(ground.telemetry.get("navigation") or {})
-    return Sample(
-        flight.time_s,
-        flight.state,
-        phone.sensors.wander_m,
-        (ground.telemetry.get("flight_control") or {}).get("mode"),
-        navigation,
-        dict(navigation.get("target") or {}),
-        bool((ground.telemetry.get("counters") or {}).get("navigation", {}).get("motor_stopped")),
-    )
-
-
-def _between(samples: list[Sample], begin_s: float, end_s: float) -> list[Sample]:
-    return [each for each in samples if begin_s <= each.time_s < end_s]
-
-
-def _rms(values: Iterable[float]) -> float:
-    found = list(values)
-    return math.sqrt(sum(each * each for each in found) / len(found)) if found else math.inf
-
-
-def _off_m(sample: Sample, latitude: float, longitude: float) -> tuple[float, float]:
-    """Return how far the truth is north and east of a position."""
-    truth = sample.truth
-    there = (latitude, longitude, truth.latitude_deg, truth.longitude_deg)
-    away_m, bearing = distance_m(*there), math.radians(bearing_deg(*there))
-    return away_m * math.cos(bearing), away_m * math.sin(bearing)
-
-
-def _radius_errors(samples: list[Sample], part: float) -> list[float]:
-    """Return the radius errors; ``part`` of the wander is added: 1 is the GPS frame."""
+def radius_errors(samples: list[Sample], wander: float) -> list[float]:
+    """Return the radius errors, m; ``wander`` is the part of the GPS's error added."""
     errors = []
     for each in samples:
-        if each.target.get("radius") is None:
+        path = each.path
+        if not isinstance(path, Circle):
             return []
-        north_m, east_m = _off_m(each, each.target["latitude"], each.target["longitude"])
-        north_m += part * each.wander_m[0]
-        east_m += part * each.wander_m[1]
-        errors.append(math.hypot(north_m, east_m) - each.target["radius"])
+        errors.append(math.hypot(*each.off_m(*path.centre, wander)) - path.radius_m)
     return errors
 
 
-def hold(seed: int, controller: str, wind_m_s: float, turbulence: str) -> Figures:
-    """Return the figures of LOITER, then of a leg in CRUISE."""
-    events = (_mode(LOITER_S, "LOITER"), _mode(CRUISE_S, "CRUISE"))
-    samples = _fly(_scenario(seed, controller, wind_m_s, turbulence, END_S, *events))
-    circling = _between(samples, CIRCLING_S, CRUISE_S)
-    leg = _between(samples, LEG_S, END_S)
-    wind = _between(samples, 80.0, 81.0)[0].navigation.get("wind") or {}
-    from_rad = math.radians(wind.get("from") or 0.0)
-    speed = wind.get("speed") or 0.0
-    wind_error = math.hypot(speed * math.cos(from_rad) - wind_m_s, speed * math.sin(from_rad))
+def line_errors(samples: list[Sample], wander: float) -> list[float]:
+    """Return the distances from the commanded line, m."""
+    errors = []
+    for each in samples:
+        path = each.path
+        if not isinstance(path, Line):
+            return []
+        north_m, east_m = each.off_m(*path.point, wander)
+        course = math.radians(path.course_deg)
+        errors.append(math.cos(course) * east_m - math.sin(course) * north_m)
+    return errors
+
+
+def height_errors(samples: list[Sample], wander: float) -> list[float]:
+    errors = []
+    for each in samples:
+        demand = each.demand
+        if not isinstance(demand, PathDemand) or demand.altitude_m is None:
+            return []
+        errors.append(each.truth.altitude_m + wander * each.wander_m[2] - demand.altitude_m)
+    return errors
+
+
+def hold(seed: int, controller: str, air: str) -> Figures:
+    """LOITER, a leg across the wind, 30 s without fixes, a stopped motor; no barometer."""
+    events = (
+        mode_at(LOITER_S, "LOITER"),
+        mode_at(CRUISE_S, "CRUISE"),
+        course_at(CRUISE_S + 1.0, 90.0),
+        mode_at(AGAIN_S, "LOITER"),
+        Event(LOST_S, gps="lost"),
+        Event(BACK_S, gps="back"),
+        Event(STOP_S, motor="stopped"),
+    )
+    weather = AIRS[air]
+    flown = fly(scenario_of(seed, controller, weather, HOLD_END_S, *events), _no_barometer)
+    circling = flown.between(CIRCLING_S, CRUISE_S)
+    leg = flown.between(LEG_S, AGAIN_S)
+    stopped = flown.between(STOP_S, HOLD_END_S)
     figures = {
-        "LOITER 50 m, radius rms, GPS frame": _rms(_radius_errors(circling, 1.0)),
-        "LOITER 50 m, radius rms, truth": _rms(_radius_errors(circling, 0.0)),
-        "leg, cross track rms, GPS frame": _rms(_across(leg, 1.0)),
-        "leg, cross track rms, truth": _rms(_across(leg, 0.0)),
-        "wind error after two circles": wind_error,
+        f"{LOITER}, GPS frame": rms(radius_errors(circling, 1.0)),
+        f"{LOITER}, truth": rms(radius_errors(circling, 0.0)),
+        f"{LEG}, GPS frame": rms(line_errors(leg, 1.0)),
+        f"{LEG}, truth": rms(line_errors(leg, 0.0)),
+        "height rms, GPS frame": rms(height_errors(circling, 1.0)),
+        "height rms, truth": rms(height_errors(circling, 0.0)),
+        "LOITER 50 m, bank, standard deviation, deg": statistics.pstdev(
+            each.truth.roll_deg for each in circling
+        ),
+        **_wind(flown, weather.wind_m_s),
+        **_lost(flown),
+        STOPPED[0].format("LOITER"): flown.after(MOTOR_CODE, STOP_S),
+        STOPPED[1].format("LOITER"): least_over_stall(stopped),
+        "least airspeed over stall, motor on": least_over_stall(flown.between(LOITER_S, STOP_S)),
     }
-    altitudes = [each.target.get("altitude") or math.nan for each in circling]
-    off = [each.truth.altitude_m - at for each, at in zip(circling, altitudes, strict=True)]
-    figures["height rms, truth"] = _rms(off)
-    wander = [each.wander_m[2] for each in circling]
-    figures["height rms, GPS frame"] = _rms(a + b for a, b in zip(off, wander, strict=True))
-    figures["least airspeed over stall, RETURN"] = _least(samples)
+    return figures | _common(flown)
+
+
+def _no_barometer(flight: ScenarioFlight) -> None:
+    assert flight.participants.phone is not None
+    flight.participants.phone.sensors.has_barometer = False
+
+
+def _wind(flown: Flown, wind_m_s: float) -> Figures:
+    at = flown.between(TWO_CIRCLES_S, TWO_CIRCLES_S + 1.0)
+    if not at or at[0].state is None:
+        return {"wind error after two circles, m/s": math.inf}
+    state = at[0].state
+    north, east = state.wind_m_s
+    figures = {"wind error after two circles, m/s": math.hypot(north + wind_m_s, east)}
+    if wind_m_s:
+        turned = math.remainder(state.wind_from_deg - WIND_FROM_DEG, 360.0)
+        figures["wind direction error after two circles, deg"] = abs(turned)
     return figures
 
 
-def _across(leg: list[Sample], part: float) -> list[float]:
-    """Return the distances from the straight line that fits the leg best."""
-    if not leg or leg[0].mode != "CRUISE":
-        return []
-    points = [
-        (each.truth.north_m + part * each.wander_m[0], each.truth.east_m + part * each.wander_m[1])
-        for each in leg
-    ]
-    north = sum(point[0] for point in points) / len(points)
-    east = sum(point[1] for point in points) / len(points)
-    xx = sum((point[0] - north) ** 2 for point in points)
-    yy = sum((point[1] - east) ** 2 for point in points)
-    xy = sum((point[0] - north) * (point[1] - east) for point in points)
-    course = 0.5 * math.atan2(2 * xy, xx - yy)
-    sine, cosine = math.sin(course), math.cos(course)
-    return [cosine * (point[1] - east) - sine * (point[0] - north) for point in points]
-
-
-def lose_position(seed: int, controller: str, wind_m_s: float, turbulence: str) -> Figures:
-    """Return the errors of 30 s of dead reckoning."""
-    events = (_mode(LOITER_S, "LOITER"), Event(LOST_S, gps="lost"))
-    samples = _fly(_scenario(seed, controller, wind_m_s, turbulence, LOST_END_S, *events))
-    last = samples[-1]
-    if last.truth.time_s < LOST_END_S - 1.0:
+def _lost(flown: Flown) -> Figures:
+    """Return the errors when the last fix was taken 30 s ago."""
+    at = flown.between(BACK_S - 0.1, BACK_S)
+    if not at or at[-1].state is None:
         return {"position error after 30 s without fixes": math.inf}
-    north_m, east_m = _off_m(last, last.navigation["latitude"], last.navigation["longitude"])
+    last, state = at[-1], at[-1].state
+    error_m = math.hypot(*last.off_m(*state.position, 0.0))
     return {
-        "position error after 30 s without fixes": math.hypot(north_m, east_m),
-        "height error after 30 s without fixes": abs(
-            last.truth.altitude_m - last.navigation["altitude"]
-        ),
-        "least airspeed over stall, RETURN": _least(samples),
+        "position error after 30 s without fixes": error_m,
+        "the same over its stated deviation": error_m / state.position_sd_m,
+        "height error after 30 s without fixes": abs(last.truth.altitude_m - state.altitude_m),
     }
 
 
-def stop_motor(seed: int, controller: str, wind_m_s: float, turbulence: str) -> Figures:
-    """Return when a stopped motor was noticed in LOITER, and the least airspeed."""
-    events = (_mode(LOITER_S, "LOITER"), Event(STOP_S, motor="stopped"))
-    scenario = _scenario(seed, controller, wind_m_s, turbulence, STOPPED_END_S, *events)
-    samples = _fly(scenario)
-    after = _between(samples, STOP_S, STOPPED_END_S)
-    noticed = [each.time_s for each in after if each.motor_stopped]
+def _common(flown: Flown) -> Figures:
+    overruns = sum(code == OVERRUN_CODE for _, code in flown.codes)
     return {
-        "s until a stopped motor is noticed": noticed[0] - STOP_S if noticed else math.inf,
-        "least airspeed over stall, motor stopped": _least(after),
+        LOOP_US: statistics.median(flown.step_us),
+        OVERRUNS: float(overruns),
+        CRASHES: float(flown.crash is not None),
     }
 
 
-def come_home(seed: int, controller: str, wind_m_s: float, turbulence: str) -> Figures:
-    """Return the figures of RETURN from about 1 km against the wind."""
-    downwind = CommandPart("up.heading.change", {"heading": 180.0, "mode": "required"})
+def hold_with_barometer(seed: int, controller: str, air: str) -> Figures:
+    """LOITER with the barometer of the phone."""
+    scenario = scenario_of(seed, controller, AIRS[air], CRUISE_S, mode_at(LOITER_S, "LOITER"))
+    circling = fly(scenario).between(CIRCLING_S, CRUISE_S)
+    return {"height rms with barometer, truth": rms(height_errors(circling, 0.0))}
+
+
+def hold_with_exact_gps(seed: int, controller: str, air: str) -> Figures:
+    """LOITER and a leg with ten exact fixes a second."""
     events = (
-        _mode(2.0, "CRUISE"),
-        Event(3.0, command=downwind),
-        _mode(AWAY_S, "RETURN"),
+        mode_at(LOITER_S, "LOITER"),
+        mode_at(EXACT_CRUISE_S, "CRUISE"),
+        course_at(EXACT_CRUISE_S + 1.0, 90.0),
     )
-    samples = _fly(_scenario(seed, controller, wind_m_s, turbulence, RETURN_END_S, *events))
-    back = _between(samples, AWAY_S + 1.0, RETURN_END_S)
-    home = back[-1].target
-    away = [
-        math.hypot(*_off_m(each, home["latitude"], home["longitude"])) for each in (back[0], *back)
-    ]
-    arrived = [each.time_s for each, far in zip(back, away[1:], strict=True) if far < 2 * RADIUS_M]
+    flown = fly(scenario_of(seed, controller, AIRS[air], EXACT_END_S, *events), _exact_gps)
+    circling = flown.between(CIRCLING_S, EXACT_CRUISE_S)
+    leg = flown.between(EXACT_LEG_S, EXACT_END_S)
+    return {
+        "exact 10 Hz GPS: LOITER 50 m, radius rms": rms(radius_errors(circling, 0.0)),
+        "exact 10 Hz GPS: leg, cross track rms": rms(line_errors(leg, 0.0)),
+    }
+
+
+def _exact_gps(flight: ScenarioFlight) -> None:
+    assert flight.participants.phone is not None
+    flight.participants.phone.sensors.use_exact_receiver(0.1)
+
+
+def come_home(seed: int, controller: str, _air: str) -> Figures:
+    """A kilometre downwind, RETURN against the wind, then the motor stops at home."""
+    events = (
+        mode_at(2.0, "CRUISE"),
+        course_at(3.0, 180.0 + WIND_FROM_DEG),
+        mode_at(AWAY_S, "RETURN"),
+        Event(HOME_STOP_S, motor="stopped"),
+    )
+    flown = fly(scenario_of(seed, controller, AGAINST, HOME_END_S, *events), _no_barometer)
+    back, stopped = flown.between(AWAY_S + 1.0, HOME_STOP_S), flown.between(HOME_STOP_S, HOME_END_S)
+    away = [math.hypot(each.truth.north_m, each.truth.east_m) for each in back]
+    near = [each.time_s for each, m in zip(back, away, strict=True) if m < 2 * RADIUS_M]
     return {
         "RETURN, m away at the start": away[0],
-        "RETURN, s until home": arrived[0] - AWAY_S if arrived else math.inf,
-        "least airspeed over stall, RETURN": _least(back),
-        "RETURN, greatest loss of height, m": back[0].truth.altitude_m
-        - min(each.truth.altitude_m for each in back),
+        "RETURN, s until home": near[0] - AWAY_S if near else math.inf,
+        "RETURN, least airspeed over stall": least_over_stall(back),
+        "RETURN, least height above home, m": min(each.truth.height_m for each in back) - HEIGHT_M,
+        STOPPED[0].format("RETURN"): flown.after(MOTOR_CODE, HOME_STOP_S),
+        STOPPED[1].format("RETURN"): least_over_stall(stopped),
+        **_common(flown),
     }
-
-
-def _least(samples: list[Sample]) -> float:
-    return min(each.truth.airspeed_m_s for each in samples) / STALL_M_S

@@ -23,27 +23,54 @@ if TYPE_CHECKING:
     from up.commands.roles import Role
     from up.config import ConfigErrors, ConfigFile, items, key, mapping, section
     from up.flight_controller.base_flight_controller import BaseFlightController as FlightController
+    from up.flight_modes.demand import (
+        AttitudeDemand,
+        Bank,
+        Circle,
+        Course,
+        Demand,
+        Line,
+        PathDemand,
+        SurfacesDemand,
+    )
+    from up.flight_modes.flight_mode import FlightMode, FlightSituation, Home, Target
+    from up.flight_modes.navigation_state import LocalFrame, NavigationState, Point
     from up.mode import Mode
     from up.needs import needs, wants
     from up.providers.base_provider import BaseProvider as Provider
     from up.providers.base_provider import Reading
 
 _PLACES = {
+    "AttitudeDemand": "flight_modes.demand",
+    "Bank": "flight_modes.demand",
+    "Circle": "flight_modes.demand",
     "Code": "commands.refusal",
     "Command": "commands.command:BaseCommand",
     "CommandHandler": "commands.base_command_handler:BaseCommandHandler",
     "CommandRefusedError": "commands.refusal",
     "ConfigErrors": "config",
     "ConfigFile": "config",
+    "Course": "flight_modes.demand",
+    "Demand": "flight_modes.demand",
     "FlightController": "flight_controller.base_flight_controller:BaseFlightController",
+    "FlightMode": "flight_modes.flight_mode",
+    "FlightSituation": "flight_modes.flight_mode",
+    "Home": "flight_modes.flight_mode",
+    "Line": "flight_modes.demand",
+    "LocalFrame": "flight_modes.navigation_state",
     "Mode": "mode",
     "Module": "base_module:BaseModule",
+    "NavigationState": "flight_modes.navigation_state",
+    "PathDemand": "flight_modes.demand",
+    "Point": "flight_modes.navigation_state",
     "Provider": "providers.base_provider:BaseProvider",
     "Reading": "providers.base_provider",
     "Role": "commands.roles",
     "StartFailedError": "base_started_module",
     "StartResult": "base_started_module",
     "StartedModule": "base_started_module:BaseStartedModule",
+    "SurfacesDemand": "flight_modes.demand",
+    "Target": "flight_modes.flight_mode",
     "ThreadModule": "base_thread_module:BaseThreadModule",
     "items": "config",
     "key": "config",
@@ -55,21 +82,36 @@ _PLACES = {
 }
 
 __all__ = [
+    "AttitudeDemand",
+    "Bank",
+    "Circle",
     "Code",
     "Command",
     "CommandHandler",
     "CommandRefusedError",
     "ConfigErrors",
     "ConfigFile",
+    "Course",
+    "Demand",
     "FlightController",
+    "FlightMode",
+    "FlightSituation",
+    "Home",
+    "Line",
+    "LocalFrame",
     "Mode",
     "Module",
+    "NavigationState",
+    "PathDemand",
+    "Point",
     "Provider",
     "Reading",
     "Role",
     "StartFailedError",
     "StartResult",
     "StartedModule",
+    "SurfacesDemand",
+    "Target",
     "ThreadModule",
     "items",
     "key",

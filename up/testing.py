@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import queue
 import time
 from collections.abc import Callable, Coroutine
@@ -12,7 +13,10 @@ from twisted.internet.defer import Deferred
 from twisted.internet.task import Clock
 
 from up.base_module import BaseModule
+from up.commands.orientation_command import OrientationCommand
 from up.context import Context
+from up.flight_modes.flight_mode import FlightSituation
+from up.flight_modes.navigation_state import LocalFrame, NavigationState, Point
 from up.life_cycle import LifeCycle
 from up.loading.order import order
 from up.loading.plan import Plan
@@ -90,3 +94,41 @@ class Bench:
             self.clock.advance(_STEP_S)
         if hasattr(outcome[0], "raiseException"):
             outcome[0].raiseException()
+
+
+def situation_at(
+    north_m: float = 0.0,
+    east_m: float = 0.0,
+    *,
+    altitude_m: float = 200.0,
+    course_deg: float = 0.0,
+    time_s: float = 0.0,
+    **given: Any,
+) -> FlightSituation:
+    """Return what a flight mode sees in level flight at 11 m/s in calm air.
+
+    ``given`` are other fields of FlightSituation, such as ``home`` and ``target``.
+    """
+    course = math.radians(course_deg)
+    velocity_m_s = Point(11.0 * math.cos(course), 11.0 * math.sin(course))
+    state = NavigationState(
+        time_s=time_s,
+        frame=LocalFrame(48.0, 17.0),
+        position=Point(north_m, east_m),
+        velocity_m_s=velocity_m_s,
+        altitude_m=altitude_m,
+        climb_m_s=0.0,
+        wind_m_s=Point(0.0, 0.0),
+        airspeed_m_s=11.0,
+        heading_deg=course_deg,
+        roll_deg=0.0,
+        pitch_deg=0.0,
+        position_sd_m=2.0,
+        altitude_sd_m=3.0,
+        wind_sd_m_s=0.5,
+        airspeed_sd_m_s=0.5,
+        heading_sd_deg=2.0,
+        fix_age_s=0.5,
+    )
+    orientation = OrientationCommand(0.0, 0.0, course_deg, 0.0, 0.0, 0.0, sequence=1)
+    return FlightSituation(time_s, orientation, **{"navigation": state, **given})

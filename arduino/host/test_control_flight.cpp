@@ -402,6 +402,7 @@ TEST_CASE("RETURN: the set-point within FBW's limits, the rudder without its sti
   flight.demand.mode = Mode::RETURN;
   flight.demand.is_failsafe = true;
   flight.stick(RUDDER, 1900);
+  flight.profile.preset_rudder_us = 1300;
   flight.demand.setpoint = Setpoint{1000, 500, 0, 0};
   CHECK(flight.us(AILERONS) == doctest::Approx(1525).epsilon(0.001));
   CHECK(flight.us(ELEVATOR) == doctest::Approx(1512.5).epsilon(0.001));

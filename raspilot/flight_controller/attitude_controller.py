@@ -115,7 +115,7 @@ class AttitudeController(BaseModule):
     def _on_tunings(self, command: PIDTuningsCommand) -> Deferred[None] | None:
         gains = command.gains
         if gains is not None:
-            refuse_unused(gains, self.gains)
+            refuse_unused(command, gains, self.gains)
             self.gains = gains.completed(self.gains)
             self._roll.tune(self.gains.rate.ailerons, self.gains.stabilize.ailerons)
             self._pitch.tune(self.gains.rate.elevator, self.gains.stabilize.elevator)

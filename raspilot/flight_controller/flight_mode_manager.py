@@ -28,6 +28,7 @@ from up.commands.output_command import OutputCommand, SetpointCommand
 from up.commands.refusal import CommandRefusedError
 from up.commands.roles import Role
 from up.flight_controller.base_flight_controller import BaseFlightController
+from up.flight_modes.declarations import GROUND_MODES, auto_mode_problem
 from up.flight_modes.demand import AttitudeDemand, Circle, Demand, PathDemand, SurfacesDemand
 from up.flight_modes.flight_mode import FlightMode, FlightSituation, Target
 from up.flight_modes.navigation_file import NAVIGATION
@@ -35,9 +36,9 @@ from up.flight_modes.navigation_state import NavigationState
 from up.flight_modes.selector import REFUSED, DemandError, FlightModeSelector
 from up.mode import WITH_BOARD, Mode
 from up.needs import wants
+from up.providers.base_provider import Reading
 from up.providers.up_location_provider import UpLocationProvider
 
-BOARD_MODES = ("FBW", "RATE")
 AUTO = "AUTO"
 MIN_STEP_S, MAX_STEP_S = 1e-3, 0.25
 ATTITUDE_PAUSE_S, PATH_PAUSE_S = 0.1, 0.5
@@ -49,7 +50,9 @@ FOLLOW_S = 1.0
 """The board reports five times a second whether it follows."""
 RESUME_S = 3.0
 """After a restart in flight the readings get this time before a fallback acts."""
-MAX_RX_AGE_S, MAX_ORIENTATION_AGE_S, MAX_NAVIGATION_AGE_S = 0.25, 0.1, 3.0
+MAX_RX_AGE_S, MAX_NAVIGATION_AGE_S = 0.25, 3.0
+MAX_DEAD_RECKONING_S = 120.0
+"""How long without a fix the modes get the estimate; those that need a fix end earlier."""
 _NOT_PERMITTED = "does not fly: the board does not let it"
 
 
@@ -96,9 +99,9 @@ class FlightModeManager(BaseFlightController):
             self.up.vetoes.set(path, problem)
         modes, auto = self._selector.modes, self.config.auto_mode
         self._auto = auto if auto in modes else None
-        if self._auto is None and auto not in BOARD_MODES:
-            text = f"navigation.yml: auto_mode: no flight mode {auto!r} is loaded"
-            self.up.vetoes.set("navigation.yml", text)
+        problem_of_auto = auto_mode_problem(auto, modes)
+        if problem_of_auto:
+            self.up.vetoes.set("navigation.yml", problem_of_auto)
         self._selector.select(self._auto)
         self._path_controller = PathController(self.config)
         self._has_motor = self.config.performance.motor
@@ -112,8 +115,8 @@ class FlightModeManager(BaseFlightController):
             self.config.home_accuracy_m,
             self._on_home_changed,
         )
+        self.orientation.subscribe(self._on_orientation)
         executor = self._executor = self.up.command_executor
-        executor.register_command(OrientationCommand, self._on_orientation)
         executor.register_command(FlightStateCommand, self._on_flight_state)
         executor.register_command(FlightModeCommand, self._on_flight_mode)
         executor.register_command(NavigationTargetCommand, self._on_target)
@@ -138,7 +141,7 @@ class FlightModeManager(BaseFlightController):
                 "selected": selector.selected,
                 "fallback": selector.reason if is_flying else None,
                 "modes": offers,
-                "board_modes": list(BOARD_MODES),
+                "board_modes": list(GROUND_MODES),
             },
             "navigation": {"target": self._target_content},
             "home": self.home.telemetry(self._navigation, self.config.airspeed.cruise_m_s),
@@ -173,24 +176,27 @@ class FlightModeManager(BaseFlightController):
 
     @property
     def _navigation(self) -> NavigationState | None:
+        return self._estimate(MAX_NAVIGATION_AGE_S)
+
+    def _estimate(self, max_age_s: float) -> NavigationState | None:
         provider: Any = self._providers.get("navigation")
-        if provider is None or provider.fresh(MAX_NAVIGATION_AGE_S) is None:
+        if provider is None or provider.fresh(max_age_s) is None:
             return None
         state: NavigationState = provider.state
         return state
 
-    def _on_orientation(self, command: OrientationCommand) -> None:
+    def _on_orientation(self, reading: Reading[OrientationCommand]) -> None:
+        command = reading.value
         # A phone's frame could carry a sequence too; only the board's is valid.
         if command.sequence is None or self._executor.origin.role is not Role.BOARD:
-            return
-        reading = self.orientation.fresh(MAX_ORIENTATION_AGE_S)
-        if reading is None or reading.value is not command:
             return
         navigation = self._navigation
         self.home.update(navigation, self._state)
         if navigation is not None and self._resumed_place is not None:
             self._target = target_of_place(self._resumed_place, navigation.frame)
             self._resumed_place = None
+        if navigation is None:
+            navigation = self._estimate(MAX_DEAD_RECKONING_S)
         rx = self.rx.fresh(MAX_RX_AGE_S)
         now_s = reading.time_s
         situation = self._situation = FlightSituation(
@@ -340,7 +346,7 @@ class FlightModeManager(BaseFlightController):
         name = command.mode
         if self._executor.origin == self._origin:
             return None
-        if name == AUTO or name in BOARD_MODES:
+        if name == AUTO or name in GROUND_MODES:
             # The board accepts a mode only with the switch at AUTO; a refused one does not count.
             if self._state is not None and self._state.is_auto:
                 self._is_asked = name == AUTO

@@ -22,10 +22,12 @@ class CircleConfig:
 
 
 CIRCLE = ConfigFile("circle.yml", CircleConfig)
+MAX_ALTITUDE_SD_M = 25.0
+"""Above it the altitude is unknown; without barometer and fixes after about 25 s."""
 
 
 class CircleMode(FlightMode):
-    """Banks and holds the altitude at entry; without an estimate it glides, motor off."""
+    """Banks and holds the altitude at entry, by dead reckoning too; else it glides, motor off."""
 
     NAME: ClassVar[str] = "CIRCLE"
     FALLBACK: ClassVar[str] = "GLIDE"
@@ -36,7 +38,7 @@ class CircleMode(FlightMode):
 
     def step(self, situation: FlightSituation, dt_s: float) -> Demand:
         state, bank_deg = situation.navigation, self.config.bank_deg
-        if state is None:
+        if state is None or state.altitude_sd_m > MAX_ALTITUDE_SD_M:
             self._altitude_m = None
             model = AirframeModel(self.context.config(NAVIGATION))
             pitch_deg = model.glide_pitch_deg(model.speeds.minimum_m_s * 1.1, load_of(bank_deg))

@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Mapping
-from typing import Any
+from typing import Any, ClassVar
 
-from raspilot.navigation.airspeed_model import airframe_of
+from raspilot.navigation.airframe_model import AirframeModel
 from raspilot.navigation.estimator import Estimator
 from raspilot.navigation.fix_gate import Fix
-from up.commands.altitude_command import AltitudeCommand
-from up.commands.heading_command import HeadingCommand
+from up.commands.command import BaseCommand
 from up.commands.location_command import LocationCommand
 from up.commands.orientation_command import OrientationCommand
 from up.commands.servo_command import ServoCommand
@@ -40,6 +38,7 @@ class NavigationEstimator(BaseProvider[NavigationState]):
     """
 
     READING = "navigation"
+    COMMAND: ClassVar[type[BaseCommand]] = OrientationCommand
     MAX_AGE_S = READINGS[READING].source_s
 
     orientation = needs(UpOrientationProvider)
@@ -53,19 +52,16 @@ class NavigationEstimator(BaseProvider[NavigationState]):
         self.home_altitude_m: float | None = None
         self._state: NavigationState | None = None
         self._is_old = True
-        self._used: dict[str, Reading[Any]] = {}
         self._motor_stopped = False
 
     def on_init(self) -> None:
-        navigation = self.context.config(NAVIGATION)
-        self.estimator = Estimator(airframe_of(navigation.airspeed, navigation.performance))
+        self.estimator = Estimator(AirframeModel(self.context.config(NAVIGATION)))
         self._seconds = self.context.reactor.seconds
-        register = self.up.command_executor.register_command
-        register(OrientationCommand, self._on_orientation)
-        register(LocationCommand, self._on_location)
-        register(AltitudeCommand, self._on_altitude)
-        register(HeadingCommand, self._on_heading)
-        register(ServoCommand, self._on_servos)
+        self.orientation.subscribe(self._on_orientation)
+        self.location.subscribe(self._on_location)
+        self.altitude.subscribe(self._on_altitude)
+        self.heading.subscribe(self._on_heading)
+        self.up.command_executor.register_command(ServoCommand, self._on_servos)
 
     @property
     def state(self) -> NavigationState | None:
@@ -81,16 +77,16 @@ class NavigationEstimator(BaseProvider[NavigationState]):
         fix = self.location.reading
         if state is None or taken_s is None or fix is None:
             return None
-        return Reading(state, fix.source, taken_s)
+        if self._reading is None or self._reading.value is not state:
+            self._reading = Reading(state, fix.source, taken_s)
+        return self._reading
 
     @property
     def telemetry_content(self) -> Mapping[str, Any]:
         estimator = self.estimator
-        counters = Counter(estimator.rejected)
-        counters["motor_stopped"] = int(estimator.motor.is_stopped)
         return {
             "navigation": self._navigation(),
-            "counters": {"navigation": dict(counters)},
+            "counters": {"navigation": estimator.rejected},
             **self._ages(),
         }
 
@@ -117,6 +113,7 @@ class NavigationEstimator(BaseProvider[NavigationState]):
             "climb": state.climb_m_s if has_altitude else None,
             "airspeed": state.airspeed_m_s if in_flight else None,
             "heading": state.heading_deg if has_heading else None,
+            "motor_stopped": state.motor_stopped,
             "wind": {
                 "speed": state.wind_speed_m_s if has_wind else None,
                 "from": state.wind_from_deg if has_wind else None,
@@ -130,26 +127,14 @@ class NavigationEstimator(BaseProvider[NavigationState]):
             },
         }
 
-    def _news(self, provider: BaseProvider[Any]) -> Any:
-        """Return the provider's value if it is new and valid: it received the Command before."""
-        reading = provider.reading
-        if reading is None or reading is self._used.get(provider.READING) or not reading.valid:
-            return None
-        self._used[provider.READING] = reading
+    def _on_orientation(self, reading: Reading[OrientationCommand]) -> None:
+        value = reading.value
         self._is_old = True
-        return reading.value
+        self.estimator.orientation(reading.time_s, value.roll_deg, value.pitch_deg, value.yaw_deg)
 
-    def _on_orientation(self, _command: OrientationCommand) -> None:
-        value = self._news(self.orientation)
-        if value is not None:
-            now_s = self._seconds()
-            self.estimator.orientation(now_s, value.roll_deg, value.pitch_deg, value.yaw_deg)
-
-    def _on_location(self, _command: LocationCommand) -> None:
-        value = self._news(self.location)
-        if value is None:
-            return
-        now_s = self._seconds()
+    def _on_location(self, reading: Reading[LocationCommand]) -> None:
+        value, now_s = reading.value, reading.time_s
+        self._is_old = True
         age_s = ASSUMED_AGE_S if value.age_ms is None else value.age_ms / 1000
         fix = Fix(
             now_s - age_s,
@@ -163,15 +148,13 @@ class NavigationEstimator(BaseProvider[NavigationState]):
         self.estimator.fix(fix, now_s)
         self._report_motor()
 
-    def _on_altitude(self, _command: AltitudeCommand) -> None:
-        value = self._news(self.altitude)
-        if value is not None:
-            self.estimator.barometer(self._seconds(), value)
+    def _on_altitude(self, reading: Reading[float]) -> None:
+        self._is_old = True
+        self.estimator.barometer(reading.time_s, reading.value)
 
-    def _on_heading(self, _command: HeadingCommand) -> None:
-        value = self._news(self.heading)
-        if value is not None:
-            self.estimator.compass(self._seconds(), value)
+    def _on_heading(self, reading: Reading[float]) -> None:
+        self._is_old = True
+        self.estimator.compass(reading.time_s, reading.value)
 
     def _on_servos(self, command: ServoCommand) -> None:
         self.estimator.throttle((command.throttle_us - LOWEST_US) / RANGE_US)
@@ -179,7 +162,5 @@ class NavigationEstimator(BaseProvider[NavigationState]):
     def _report_motor(self) -> None:
         is_stopped = self.estimator.motor.is_stopped
         if is_stopped and not self._motor_stopped:
-            self.log.warn(
-                "the motor gives no thrust at the present throttle", code="motor_without_thrust"
-            )
+            self.log.warn("the motor gives no thrust at the present throttle", code="motor_stopped")
         self._motor_stopped = is_stopped

@@ -15,7 +15,7 @@ class AirPoint(NamedTuple):
     """The integrals at one time, and the motion through the air; angles as by the board's yaw.
 
     ``north_m``, ``east_m`` and ``climb_m`` are the distance through the air; ``thrust_m_s`` the
-    airspeed that the motor has given.
+    airspeed that a working motor has given, ``coast_m_s`` the one that drag and climb have.
     """
 
     time_s: float
@@ -23,6 +23,7 @@ class AirPoint(NamedTuple):
     east_m: float
     climb_m: float
     thrust_m_s: float
+    coast_m_s: float
     north_m_s: float
     east_m_s: float
     yaw_deg: float
@@ -75,6 +76,7 @@ class AirPath:
             left.east_m + share * (right.east_m - left.east_m),
             left.climb_m + share * (right.climb_m - left.climb_m),
             left.thrust_m_s + share * (right.thrust_m_s - left.thrust_m_s),
+            left.coast_m_s + share * (right.coast_m_s - left.coast_m_s),
             near.north_m_s,
             near.east_m_s,
             near.yaw_deg,

@@ -12,14 +12,14 @@ STALL_MARGIN = 1.15
 
 
 class AirframeModel:
-    """The polar and the throttle of ``navigation.yml``, for the feed-forward of the control.
+    """The polar and the throttle of ``navigation.yml``, for the control and for the estimator.
 
     The load factor ``load`` is the lift over the weight: 1 level, more in a turn.
     """
 
-    def __init__(self, config: NavigationConfig) -> None:
+    def __init__(self, config: NavigationConfig | None = None) -> None:
+        config = config or NavigationConfig()
         self.speeds = config.airspeed
-        self._performance = config.performance
         self.has_motor = config.performance.motor
         self.level_throttle = config.performance.level_throttle
         self._least_sink_m_s = self.speeds.best_glide_m_s / config.performance.glide_ratio
@@ -30,7 +30,10 @@ class AirframeModel:
         self._power_2 = max(0.0, (self._cruise_sink_m_s / level - full_m_s) / (level - 1.0))
         self._power_1 = full_m_s - self._power_2
         self._stall_squared = self.speeds.stall_m_s * self.speeds.stall_m_s
-        self._cruise_lift = self._lift(self.speeds.cruise_m_s, 1.0)
+        performance, cruise_lift = config.performance, self._lift(self.speeds.cruise_m_s, 1.0)
+        span_deg = performance.stall_pitch_deg - performance.cruise_pitch_deg
+        self._lift_deg = span_deg / (1.0 - cruise_lift)
+        self._zero_lift_deg = performance.stall_pitch_deg - self._lift_deg
 
     def sink_m_s(self, airspeed_m_s: float, load: float) -> float:
         """Return the sink without motor: a parabolic polar."""
@@ -38,11 +41,9 @@ class AirframeModel:
         return 0.5 * self._least_sink_m_s * (part * part * part + load * load / part)
 
     def level_pitch_deg(self, airspeed_m_s: float, load: float) -> float:
-        """Return the angle of attack, as the pitch that holds the altitude."""
-        performance = self._performance
-        part = (self._lift(airspeed_m_s, load) - self._cruise_lift) / (1.0 - self._cruise_lift)
-        span_deg = performance.stall_pitch_deg - performance.cruise_pitch_deg
-        return performance.cruise_pitch_deg + span_deg * min(part, 1.0)
+        """Return the pitch that holds the altitude: the part of the angle of attack upwards."""
+        attack_deg = self._zero_lift_deg + self._lift_deg * min(self._lift(airspeed_m_s, load), 1.0)
+        return attack_deg / load
 
     def glide_pitch_deg(self, airspeed_m_s: float, load: float) -> float:
         """Return the pitch of a glide at this airspeed without motor."""
@@ -63,6 +64,8 @@ class AirframeModel:
 
     def power_m_s(self, throttle: float) -> float:
         """Return the power over the weight of a throttle, the inverse of ``throttle``."""
+        if not self.has_motor:
+            return 0.0
         return max(0.0, throttle * (self._power_2 * throttle + self._power_1))
 
     def bank_limit_deg(self, airspeed_m_s: float) -> float:

@@ -6,7 +6,8 @@ import cmath
 import math
 
 from raspilot.navigation.air_path import AirPath, AirPoint, multiplied
-from raspilot.navigation.airspeed_model import Airframe, AirspeedModel
+from raspilot.navigation.airframe_model import AirframeModel
+from raspilot.navigation.airspeed_model import AirspeedModel
 from raspilot.navigation.fix_gate import Fix, FixGate
 from raspilot.navigation.flight_watch import FlightWatch
 from raspilot.navigation.horizontal_filter import (
@@ -44,10 +45,8 @@ class Estimator:
     filters hold the state at the time of the newest fix; ``state`` adds the air path flown since.
     """
 
-    def __init__(self, airframe: Airframe | None = None) -> None:
-        airframe = airframe or Airframe()
-        self._powered = self._model = AirspeedModel(airframe)
-        self._glide = AirspeedModel(airframe, has_thrust=False)
+    def __init__(self, model: AirframeModel | None = None) -> None:
+        self._model = AirspeedModel(model or AirframeModel())
         self._path = AirPath()
         self._gate = FixGate()
         self._flight = FlightWatch()
@@ -105,7 +104,7 @@ class Estimator:
         newest = self._path.newest
         yaw = math.radians(yaw_deg)
         if newest is None:
-            self._append(time_s, 0.0, 0.0, 0.0, 0.0, yaw, yaw_deg)
+            self._append(time_s, 0.0, 0.0, 0.0, 0.0, 0.0, yaw, yaw_deg)
             return
         dt = time_s - newest.time_s
         if dt <= 0.0:
@@ -121,9 +120,7 @@ class Estimator:
             if self._horizontal is not None:
                 self._horizontal.blur(GAP_SD_M_S * dt)
         else:
-            attitude = math.radians(roll_deg), math.radians(pitch_deg)
-            self._powered.step(dt, *attitude, self._throttle)
-            self._glide.step(dt, *attitude, self._throttle)
+            model.step(dt, roll_deg, pitch_deg, self._throttle)
         speed = model.airspeed_m_s
         # Trapezoid: the mean of the old and the new velocity through the air.
         self._append(
@@ -132,6 +129,7 @@ class Estimator:
             newest.east_m + 0.5 * dt * (newest.east_m_s + speed * math.sin(yaw)),
             newest.climb_m + dt * (model.climb_m_s if self._flight.is_in_flight else 0.0),
             newest.thrust_m_s + dt * model.thrust_m_s2,
+            newest.coast_m_s + dt * model.coast_m_s2,
             yaw,
             yaw_deg,
         )
@@ -216,6 +214,7 @@ class Estimator:
             airspeed_sd_m_s=airspeed_sd,
             heading_sd_deg=min(180.0, heading_sd),
             fix_age_s=now.time_s - then.time_s,
+            motor_stopped=self.motor.is_stopped,
         )
 
     def _append(
@@ -225,12 +224,14 @@ class Estimator:
         east_m: float,
         climb_m: float,
         thrust_m_s: float,
+        coast_m_s: float,
         yaw_rad: float,
         yaw_deg: float,
     ) -> None:
         speed = self._model.airspeed_m_s
         u, v = speed * math.cos(yaw_rad), speed * math.sin(yaw_rad)
-        self._path.append(AirPoint(time_s, north_m, east_m, climb_m, thrust_m_s, u, v, yaw_deg))
+        integrals = north_m, east_m, climb_m, thrust_m_s, coast_m_s
+        self._path.append(AirPoint(time_s, *integrals, u, v, yaw_deg))
 
     def _jump(self, turned_rad: float) -> None:
         """Keep the heading although the yaw has jumped."""
@@ -281,7 +282,7 @@ class Estimator:
             if velocity is not None:
                 self._horizontal.fuse_velocity(at, *velocity, VELOCITY_R_M_S)
             self.motor = MotorWatch()
-            self._model = self._powered
+            self._model.restart(self._model.airspeed_m_s, motor_stopped=False)
             self._wind = WindMean()
         else:
             self._horizontal.blur(GROUND_Q_M * math.sqrt(max(0.0, at.time_s - self._fixed.time_s)))
@@ -306,12 +307,32 @@ class Estimator:
         if self._compass_offset_rad is not None:
             horizontal.fuse_offset(self._compass_offset_rad, math.radians(COMPASS_SD_DEG))
             self._compass_offset_rad = None
-        airspeed_m_s = self._model.airspeed_m_s * abs(horizontal.factor)
-        if self.motor.fix(airspeed_m_s, self._powered.airspeed_m_s, self._glide.airspeed_m_s):
-            # The other model continues from the estimate, with a factor of length 1.
-            self._model = self._glide if self.motor.is_stopped else self._powered
-            self._model.airspeed_m_s = airspeed_m_s
-            self._multiply(complex(abs(horizontal.factor)))
-            horizontal.widen(MOTOR_SD**2, 0.0)
+        if velocity is not None and horizontal.is_oriented:
+            self._watch_motor(at, velocity)
         variance = horizontal.p[4][4] + horizontal.p[5][5]
         self._wind.add(horizontal.x[4], horizontal.x[5], variance, dt)
+
+    def _watch_motor(self, at: AirPoint, velocity: tuple[float, float]) -> None:
+        """Compare the change of the airspeed with the thrust that the throttle demands."""
+        horizontal = self._horizontal
+        assert horizontal is not None
+        length = abs(horizontal.factor)
+        nose = horizontal.factor * cmath.rect(1.0 / length, math.radians(at.yaw_deg))
+        ground, wind = complex(*velocity), complex(self._wind.north_m_s, self._wind.east_m_s)
+        self._model.measured_m_s = ((ground - wind) * nose.conjugate()).real
+        variance = horizontal.p[4][4] + horizontal.p[5][5]
+        factor = self._model.measured_m_s / math.hypot(at.north_m_s, at.east_m_s)
+        if self.motor.fix(at, ground, nose, wind, variance, factor):
+            self._change_thrust(at)
+
+    def _change_thrust(self, at: AirPoint) -> None:
+        """Continue with or without thrust from the airspeed that the last fix has shown."""
+        newest = self._path.newest
+        assert self._horizontal is not None and newest is not None
+        airspeed_m_s = self._model.measured_m_s + newest.coast_m_s - at.coast_m_s
+        if not self.motor.is_stopped:
+            airspeed_m_s += newest.thrust_m_s - at.thrust_m_s
+        self._model.restart(airspeed_m_s, motor_stopped=self.motor.is_stopped)
+        # The path is that of the estimate until now: a factor of length 1.
+        self._multiply(complex(abs(self._horizontal.factor)))
+        self._horizontal.widen(MOTOR_SD**2, 0.0)

@@ -22,8 +22,8 @@ class LateralGuidance:
     The reference point at the L1 distance gives the course over the ground; the wind triangle
     gives the heading that makes it good. Where no heading does, because the wind is stronger than
     the airspeed, the nearest one is flown, finally straight into the wind: no limit cycle. The
-    air's velocity is the ground velocity minus the wind, so an error of the wind causes no steady
-    error of the track.
+    air's velocity is the ground velocity minus the wind, in direction and length, so an error of
+    the wind or of the airspeed causes no steady error of the track.
     """
 
     def __init__(self, config: Lateral, model: AirframeModel) -> None:
@@ -46,13 +46,14 @@ class LateralGuidance:
         wind_north, wind_east = state.wind_m_s
         air_north = state.velocity_m_s.north_m - wind_north
         air_east = state.velocity_m_s.east_m - wind_east
-        if math.hypot(air_north, air_east) < 0.5 * self._model.speeds.stall_m_s:
-            heading_rad = math.radians(state.heading_deg)
+        through_air_m_s = math.hypot(air_north, air_east)
+        if through_air_m_s < 0.5 * self._model.speeds.stall_m_s:
+            through_air_m_s, heading_rad = airspeed_m_s, math.radians(state.heading_deg)
         else:
             heading_rad = math.atan2(air_east, air_north)
         turning = GRAVITY_M_S2 * math.tan(math.radians(_bank(state.roll_deg))) / airspeed_m_s
         heading_rad += turning * self._config.roll_delay_s
-        wanted_rad, rate_factor = _heading(course_rad, airspeed_m_s, wind_north, wind_east)
+        wanted_rad, rate_factor = _heading(course_rad, through_air_m_s, wind_north, wind_east)
         error_rad = self._error(wanted_rad - heading_rad)
         limit = 0.5 * math.pi
         rate = self._course_gain * max(-limit, min(limit, error_rad)) + rate_factor * course_rate

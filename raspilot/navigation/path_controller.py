@@ -28,11 +28,6 @@ class PathController:
         self._vertical = EnergyControl(config.vertical, model)
         self.reset()
 
-    @property
-    def is_motor_stopped(self) -> bool:
-        """Return whether the energy did not follow the throttle: a glider until it does."""
-        return self._vertical.motor.is_stopped
-
     def reset(self, throttle: float | None = None) -> None:
         """Begin again at the next step, from this throttle (0 to 1; None: from any)."""
         self._roll_deg: float | None = None

@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 
 from raspilot.navigation.airframe_model import GRAVITY_M_S2, AirframeModel
-from raspilot.navigation.energy_watch import EnergyWatch
 from up.flight_modes.demand import PathDemand
 from up.flight_modes.navigation_file import Vertical
 from up.flight_modes.navigation_state import NavigationState
@@ -18,8 +17,10 @@ CLIMB_CHANGE_M_S2 = 1.5
 """How fast the demanded climb changes: no faster than the motor follows."""
 SPEED_PITCH_DEG = 6.0
 """Greatest sum of the airspeed's integral, either way."""
-GLIDE_MARGIN = 1.08
+GLIDE_MARGIN = 1.15
 """Airspeed after the motor has stopped, over that of the best glide: gusts take some of it."""
+PROBE_M_S = 1.0
+"""Climb that the throttle would give after the motor has stopped."""
 SPEED_INTEGRAL, MAX_SUMMED_ERROR_M_S = 0.15, 1.0
 
 
@@ -34,7 +35,6 @@ class EnergyControl:
     def __init__(self, config: Vertical, model: AirframeModel) -> None:
         self._config = config
         self._model = model
-        self.motor = EnergyWatch(model)
         self.reset()
 
     def reset(self, airspeed_m_s: float | None = None) -> None:
@@ -44,7 +44,6 @@ class EnergyControl:
         self._speed_sum = 0.0
         self._energy = 0.0
         self._wanted_climb = 0.0
-        self.motor.reset()
 
     def step(
         self, demand: PathDemand, state: NavigationState, load: float, dt_s: float
@@ -70,13 +69,13 @@ class EnergyControl:
         wanted_climb = self._climb(demand, state, dt_s)
 
         if not demand.motor or not model.has_motor:
-            self.motor.reset()
             return self._glide(airspeed, wanted, acceleration, load, dt_s), 0.0
 
         wanted_energy, energy = wanted_climb + wanted_stored, climb + stored
         throttle = self._throttle(wanted_energy, wanted_energy - energy, airspeed, load, dt_s)
-        if self.motor.has_stopped(energy, throttle, airspeed, load, dt_s):
-            # The throttle stays: a motor that pulls again, or pulled all along, is noticed by it.
+        if state.motor_stopped:
+            # A motor that pulls again, or pulled all along, is noticed by some throttle.
+            throttle = min(throttle, model.throttle(model.sink_m_s(airspeed, load) + PROBE_M_S))
             best = GLIDE_MARGIN * max(least, model.speeds.best_glide_m_s * math.sqrt(load))
             return self._glide(airspeed, best, acceleration, load, dt_s), throttle
         # The climb that the motor gives is the one that was seen, not the one that was expected.

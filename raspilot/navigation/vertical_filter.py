@@ -4,7 +4,11 @@ from __future__ import annotations
 
 import math
 
-FIX_R_M, BAROMETER_R_M = 3.0, 0.7
+FIX_R_M, WITH_BAROMETER_R_M, BAROMETER_R_M = 2.0, 15.0, 0.7
+"""Of a fix, without and with a barometer, and of the barometer. With one, the receiver's slow
+wander must not move the altitude: its fixes of one second count as white noise of 15 m.
+"""
+BAROMETER_LOST_S = 5.0
 ALTITUDE_Q_M, CLIMB_Q_M_S, OFFSET_Q_M = 0.5, 0.3, 0.05
 """Standard deviations after a second; ``OFFSET_Q_M`` is the barometer's."""
 WITH_BAROMETER_Q_M = 0.1
@@ -31,7 +35,7 @@ class VerticalFilter:
             [0.0, CLIMB_SD_M_S**2, 0.0],
             [0.0, 0.0, OFFSET_SD_M**2],
         ]
-        self._has_barometer = False
+        self._barometer_s = -math.inf
 
     def altitude_at(self, time_s: float, climb_m: float) -> float:
         passed_s = 0.0 if self._time_s is None else time_s - self._time_s
@@ -48,9 +52,7 @@ class VerticalFilter:
     def climb_sd_m_s(self) -> float:
         return math.sqrt(max(self._p[1][1], 0.0))
 
-    def fuse_fix(
-        self, taken_s: float, climb_then_m: float, altitude_m: float, sd_m: float = FIX_R_M
-    ) -> None:
+    def fuse_fix(self, taken_s: float, climb_then_m: float, altitude_m: float) -> None:
         """Fuse a fix that was taken in the past: it is compared with the altitude at that time."""
         lag_s = 0.0 if self._time_s is None else max(0.0, self._time_s - taken_s)
         if lag_s == 0.0:
@@ -58,13 +60,17 @@ class VerticalFilter:
         elif self._p[0][0] >= ALTITUDE_SD_M**2:
             lag_s = 0.0
         error = altitude_m - self.altitude_at(taken_s, climb_then_m)
+        sd_m = WITH_BAROMETER_R_M if self._has_barometer(taken_s) else FIX_R_M
         self._correct(1.0, -lag_s, 0.0, error, sd_m)
 
     def fuse_barometer(self, time_s: float, climb_m: float, altitude_m: float) -> None:
-        self._has_barometer = True
+        self._barometer_s = time_s
         self._advance(time_s, climb_m)
         error = altitude_m - self.altitude_m - self.offset_m
         self._correct(1.0, 0.0, 1.0, error, BAROMETER_R_M)
+
+    def _has_barometer(self, time_s: float) -> bool:
+        return time_s - self._barometer_s < BAROMETER_LOST_S
 
     def _advance(self, time_s: float, climb_m: float) -> None:
         if self._time_s is None:
@@ -78,7 +84,7 @@ class VerticalFilter:
         keep = max(0.0, 1.0 - dt / CLIMB_TAU_S)
         self.climb_error_m_s *= keep
         p0, p1, p2 = self._p
-        noise = WITH_BAROMETER_Q_M if self._has_barometer else ALTITUDE_Q_M
+        noise = WITH_BAROMETER_Q_M if self._has_barometer(time_s) else ALTITUDE_Q_M
         p0[0] += 2.0 * dt * p0[1] + dt * dt * p1[1] + noise**2 * dt + CLIMB_Q_M_S**2 * dt**3 / 3.0
         p0[0] = min(p0[0], MAX_VARIANCE)
         p0[1] = p1[0] = (p0[1] + dt * p1[1]) * keep

@@ -14,6 +14,9 @@ OPTIBOOT_ROOM = 32256
 CLASSIC_NANO_ROOM = 30720
 RAM = 2048
 MIN_STACK = 400
+# Above the targets of arduino/Makefile (27000, 1400): to be lowered with the firmware.
+MAX_FLASH = 29_650
+MAX_RAM = 1_502
 FUZZ = Path(__file__).parents[2] / "arduino" / "host" / "fuzz"
 
 
@@ -22,6 +25,12 @@ def test_every_variant_fits_the_board(options):
     firmware = read_firmware(build_firmware(*options))
     assert firmware.size <= CLASSIC_NANO_ROOM < OPTIBOOT_ROOM
     assert RAM - (firmware.symbols["_end"].address - 0x100) >= MIN_STACK
+
+
+def test_the_default_variant_grows_no_further():
+    firmware = read_firmware(build_firmware())
+    assert firmware.size <= MAX_FLASH
+    assert firmware.symbols["_end"].address - 0x100 <= MAX_RAM
 
 
 def test_it_fits_behind_optiboot_as_the_arduino_ide_compiles_it():

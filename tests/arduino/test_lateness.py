@@ -2,9 +2,11 @@
 
 import pytest
 
-from bench.firmware import LATE_US, SERVOS
+from bench.firmware import BUSY, LATE_US, SERVOS
 from bench.firmware import Flight as BusyFlight
 from tests.support.firmware import build_firmware
+
+MIN_UNTOUCHED_RAM = 230
 
 
 @pytest.mark.parametrize("mix", ["vvvvS", "t", "v", "vvvva"])
@@ -12,3 +14,10 @@ def test_the_loop_is_on_time_under_the_worst_mixes(mix):
     flight = BusyFlight(build_firmware(), mix="v", aux1_us=2000, seed=4)
     flight.moving = set(SERVOS)
     assert 0 < flight.latest_us(mix) <= LATE_US
+
+
+def test_the_stack_leaves_room_at_its_deepest():
+    flight = BusyFlight(build_firmware(), mix=BUSY, aux1_us=1500, seed=3)
+    for mix in (BUSY, "G", "C"):
+        flight.latest_us(mix)
+    assert flight.rig.untouched_ram() >= MIN_UNTOUCHED_RAM

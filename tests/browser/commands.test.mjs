@@ -33,11 +33,12 @@ async function answers() {
 }
 
 test("a flight mode is flown after a question, and its ack is shown", async () => {
-  for (const mode of ["RATE", "FBW"]) {
-    const answer = await ground.answerTo(() => ground.press(`[data-mode="${mode}"]`));
+  for (const mode of ["RATE", "RETURN", "LOITER", "FBW"]) {
+    const answer = await ground.fly(mode);
     assert.equal(answer.outcome, "ack", JSON.stringify(answer));
     assert.equal(answer.code_shown, "ack");
-    await flies((frame) => frame.flight_mode === mode, `${mode} in telemetry`);
+    const acts = ({ flight_mode, flight_control }) => (flight_mode === "SETPOINT" ? flight_control.mode : flight_mode);
+    await flies((frame) => acts(frame) === mode, `${mode} in telemetry`);
     await ground.until(
       (mode) => document.querySelector('[data-key="flight_mode"]').textContent === mode,
       `${mode} on the page`,

@@ -255,7 +255,7 @@ def test_an_attitude_passes_at_most_28_files_on_its_way_to_the_pixel():
         return files[: [function for _, function in steps(name)].index(last)]
 
     files = {
-        *until_step("frame", "RaspilotFlightController._on_orientation"),
+        *until_step("frame", "FlightModeManager._on_orientation"),
         *(path for path, _ in steps("telemetry")),
         *re.findall(r"`(proxy/[a-z_/]+\.py)`", PAGE.split("### To the pixel")[0]),
         *until_step("page", "AircraftSession._process"),

@@ -1,55 +1,129 @@
-"""The flight modes of docs/how-to/flight-mode.md fly."""
+"""The flight modes and the controller of docs/how-to/flight-mode.md fly."""
 
 from __future__ import annotations
 
+import os
 import re
+import subprocess
 import sys
 
 import pytest
 
-from tests.docs.flying import files_of, flying, lines_of
-from tests.support.application import plan_of, write_application
+from tests.docs.flying import copy_of_the_tree, files_of, flying, lines_of
+from tests.raspilot.flight_controller_rig import FBW_MODE
+from tests.raspilot.flight_controller_rig import Rig as ManagerRig
+from tests.support.application import importable, plan_of, write_application
 from tests.support.virtual_environment import REPOSITORY
-from up.commands.flight_state_command import FlightStateCommand
+from up.commands.flight_state_command import FlightModeCommand, FlightStateCommand
 from up.commands.orientation_command import OrientationCommand
 from up.commands.origin import Origin
-from up.commands.output_command import OutputCommand
-from up.commands.refusal import CommandRefusedError
+from up.commands.output_command import OutputCommand, SetpointCommand
 from up.commands.roles import Role
 from up.commands.rx_command import RXCommand
+from up.flight_modes.flight_mode import FlightMode
 from up.providers.base_rx_provider import UpRXProvider
 from up.providers.up_orientation_provider import UpOrientationProvider
 from up.testing import Bench
 
 PAGE = "how-to/flight-mode.md"
 BOARD = Origin("arduino", Role.BOARD, priority=10)
-LEVEL = "flight_controller/level_flight_controller.py"
 
 
-def leveller_source():
+def shown(marker):
+    """Return the file that the page shows below this marker."""
     text = (REPOSITORY / "docs" / PAGE).read_text(encoding="utf-8")
-    return re.search(r"<!-- file: plane: \S+ -->\n```python\n(.*?)```", text, re.DOTALL)[1]
+    return re.search(rf"<!-- {marker} -->\n```\w+\n(.*?)```", text, re.DOTALL)[1]
 
 
 @pytest.fixture
-def controllers(tmp_path):
-    """The controllers of an application that holds a file of the page, by name."""
+def load(tmp_path):
+    """Load an application of files of the page, with the cog; return its modules' classes."""
     packages = []
 
-    def load(name, text):
-        files = {
-            f"flight_controller/{name}.py": text,
-            "config/config.yml": "flight controller: raspberry\n",
-        }
-        application = write_application(tmp_path / name, files)
+    def load(files):
+        for name in ("flight_modes/level.py", "registered_modules.yml"):
+            path = tmp_path / "cogs" / "level_cog" / name
+            path.parent.mkdir(parents=True, exist_ok=True)
+            path.write_text(shown(f"file: cog: level_cog/{name}"))
+        lines = shown("file: cog: level_cog/registered_modules.yml").splitlines(keepends=True)
+        registered = "level_cog:\n" + "".join(f"  {line}" for line in lines)
+        application = write_application(
+            tmp_path / "plane", {"external_modules.yml": registered, **files}
+        )
         packages.append(application.package)
         plan = plan_of(application)
         assert not plan.problems
         return {module.class_name: type(module) for module in plan.modules}
 
-    yield load
+    with importable(tmp_path / "cogs", "level_cog"):
+        yield load
     for name in [name for name in sys.modules if name.split(".")[0] in packages]:
         del sys.modules[name]
+
+
+@pytest.fixture(scope="module")
+def tree(tmp_path_factory):
+    """A copy of the tree with the flight mode, its test and its scenario."""
+    tree = copy_of_the_tree(tmp_path_factory.mktemp("flight_mode") / "tree")
+    for name, text in files_of(PAGE).items():
+        (tree / "raspilot" / name).write_text(text)
+    (tree / "tests").mkdir()
+    (tree / "tests" / "test_eight.py").write_text(shown("test: tests/test_eight.py"))
+    (tree / "eight.yml").write_text(shown("scenario: eight.yml"))
+    return tree
+
+
+def run(tree, *arguments):
+    return subprocess.run(
+        [sys.executable, "-m", *arguments],
+        cwd=tree,
+        env={**os.environ, "PYTHONPATH": f"{tree}:{tree / 'simulator'}"},
+        capture_output=True,
+        text=True,
+        timeout=300,
+    )
+
+
+def test_two_modes_of_two_authors_are_offered_and_fly(load, tmp_path):
+    loaded = load(files_of(PAGE))
+    modes = [cls for cls in loaded.values() if issubclass(cls, FlightMode)]
+    assert {cls.NAME for cls in modes} >= {"EIGHT", "LEVEL"}
+    wanted = {
+        ("raspberry", "OUTPUT"): OutputCommand(1500, 1506, 0, 1600, 2),
+        ("arduino", "SETPOINT"): SetpointCommand(0.0, 2.0),
+    }
+    for (controller, followed), published in wanted.items():
+        rig = ManagerRig(
+            tmp_path / controller,
+            modes=[loaded["Eight"], loaded["Level"]],
+            navigation="auto_mode: LEVEL\n",
+            config=f"flight controller: {controller}\n",
+        )
+        rig.state(FBW_MODE)
+        rig.sticks(ailerons=1900, rudder=1600)
+        rig.frame()
+        rig.state(FlightStateCommand(followed, True, True, False))
+        rig.attitude()
+        modes = rig.manager.telemetry_content["flight_control"]["modes"]
+        assert {**modes, "LEVEL": None, "EIGHT": "navigation"} == modes
+        assert rig.outcome(FlightModeCommand("EIGHT"))[0].value.detail == "reading_stale"
+        assert [*rig.outputs, *rig.setpoints][-1:] == [published]
+
+
+def test_the_authors_test_passes(tree):
+    done = run(tree, "pytest", "-q", "-p", "no:cacheprovider", "tests/test_eight.py")
+    assert "1 passed" in done.stdout, done.stdout + done.stderr
+
+
+@pytest.mark.parametrize("controller", ["arduino", "raspberry"])
+def test_it_flies_its_scenario_with_both_controllers(tree, controller):
+    scenario = (tree / "eight.yml").read_text()
+    assert "flight controller: arduino" in scenario
+    name = f"eight-{controller}"
+    changed = scenario.replace("flight controller: arduino", f"flight controller: {controller}")
+    (tree / f"{name}.yml").write_text(changed)
+    done = run(tree, "up_simulator", "fly", f"{name}.yml", "--no-picture")
+    assert done.returncode == 0, done.stdout + done.stderr
 
 
 class Rig:
@@ -79,40 +153,19 @@ class Rig:
         return self.output
 
 
-def test_level_ignores_the_sticks_and_only_when_it_is_on(controllers, tmp_path):
-    # As on the page it extends Raspilot's controller, here as a separate application.
-    loaded = controllers("level_flight_controller", files_of(PAGE)[LEVEL])
-    controller = loaded["LevelFlightController"]
-    level = sys.modules[controller.__module__].LevelCommand
-    rig = Rig(controller, tmp_path / "config")
-    with pytest.raises(CommandRefusedError, match="rx, orientation"):
-        rig.controller.on_level(level(on=True))
-    rig.publish(FlightStateCommand("OUTPUT", True, True, False))
-    assert rig.fly(1900, 0.0).ailerons_us > 1550
-    rig.publish(level(on=True))
-    resets = []
-    rig.controller._reset = lambda: resets.append(1)
-    assert rig.fly(1900, 0.0).ailerons_us == 1500
-    assert rig.fly(1900, 10.0).ailerons_us < 1500
-    assert rig.controller.flight_mode == "LEVEL"
-    assert not resets, "a mode of one's own must not cost the controllers their memory"
-    rig.publish(level(on=False))
-    assert rig.fly(1900, 0.0).ailerons_us > 1550
-    rig.bench.stop()
+def test_it_is_selected_from_the_ground(tmp_path):
+    assert "`make run`" in (REPOSITORY / "docs" / PAGE).read_text(encoding="utf-8")
+    with flying(tmp_path, files_of(PAGE)) as flight:
+        select, look = lines_of(PAGE, "eight")
+        # Home and position are known some seconds after the start.
+        flight.wait_for(lambda: "ack after" in flight.run(select).stdout)
+        flight.wait_for(lambda: '"mode": "EIGHT"' in flight.run(look).stdout)
 
 
-def test_level_is_switched_from_the_ground_in_flight(tmp_path):
-    make_run = "make run CONTROLLER=raspberry"
-    assert f"`{make_run}`" in (REPOSITORY / "docs" / PAGE).read_text(encoding="utf-8")
-    with flying(tmp_path, files_of(PAGE), make_run) as flight:
-        on, look = lines_of(PAGE, "level")
-        done = flight.run(on)
-        assert "ack after" in done.stdout, done.stdout + done.stderr
-        flight.wait_for(lambda: '"mode": "LEVEL"' in flight.run(look).stdout)
-
-
-def test_the_wing_leveller_levels_and_is_silent_without_readings(controllers, tmp_path):
-    loaded = controllers("wing_leveller", leveller_source())
+def test_the_wing_leveller_levels_and_is_silent_without_readings(load, tmp_path):
+    source = shown("file: plane: flight_controller/wing_leveller.py")
+    config = {"config/config.yml": "flight controller: raspberry\n"}
+    loaded = load({"flight_controller/wing_leveller.py": source, **config})
     rig = Rig(loaded["WingLeveller"], tmp_path / "config")
     rig.publish(OrientationCommand(20.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1))
     assert rig.output is None

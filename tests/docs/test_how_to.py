@@ -19,11 +19,13 @@ from tests.support.application import plan_of, write_application
 from tests.support.tools import need_tool, unavailable
 from tests.support.virtual_environment import REPOSITORY, VirtualEnvironment
 from up.commands.altitude_command import AltitudeCommand
+from up.commands.location_command import LocationCommand
 from up.commands.origin import INTERNAL, Origin
 from up.commands.refusal import CommandRefusedError
 from up.commands.roles import Role
 from up.loading.application import Application
 from up.providers.up_altitude_provider import UpAltitudeProvider
+from up.providers.up_location_provider import UpLocationProvider
 from up.testing import Bench
 
 _EXAMPLE = re.compile(r"<!-- file: (\S+) -->\n```\w+\n(.*?)```", re.DOTALL)
@@ -135,6 +137,21 @@ def test_the_sensor_is_followed_while_it_sends_and_named_sources_come_first(plan
     (tmp_path / "ordered").mkdir()
     (tmp_path / "ordered" / "providers.yml").write_text("altitude: [android, lidar]\n")
     assert fly(tmp_path / "ordered") == ("android", "android")
+
+
+def test_the_light_follows_the_selected_position_and_shows_its_loss(plane, tmp_path):
+    loaded = {type(each).__name__: type(each) for each in plan_of(plane("module.md")).modules}
+    light = loaded["PositionLightModule"]
+    bench = Bench(light, UpLocationProvider, config_folder=tmp_path)
+    bench.start()
+    colors = [bench.module(light).color]
+    bench.up.command_executor.execute_command(LocationCommand(48.0, 17.0), INTERNAL)
+    colors.append(bench.module(light).color)
+    for _ in range(2):
+        bench.advance(1.6)
+        colors.append(bench.module(light).color)
+    assert colors == ["red", "green", "green", "red"]
+    bench.stop()
 
 
 def test_the_table_of_sources_names_every_provider_and_its_commands_fields():

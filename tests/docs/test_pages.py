@@ -129,7 +129,7 @@ def test_the_paths_that_it_names_exist(page):
     made_by_readers = {
         "raspilot/modules/bank_module.py",
         "raspilot/commands/remark_command.py",
-        "raspilot/flight_controller/level_flight_controller.py",
+        "raspilot/flight_modes/eight.py",
         "config/lidar.yml",
     }
     made_when_used = {"config/config.yml", "config/disabled_modules.yml", "config/providers.yml"}

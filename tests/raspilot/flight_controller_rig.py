@@ -1,5 +1,7 @@
 """The flight mode manager with a board, a ground and a pilot, for its tests."""
 
+from dataclasses import replace
+
 from twisted.internet.task import Clock
 
 from raspilot.flight_controller.attitude_controller import AttitudeController
@@ -29,7 +31,7 @@ OUTPUT_MODE = FlightStateCommand("OUTPUT", True, True, False)
 FBW_MODE = FlightStateCommand("FBW", True, True, False)
 MANUAL = FlightStateCommand("FBW", True, False, False)
 LOOP = LoopGains(Gains(3.0, 0.5, 0.1), Gains(1.5), Gains(0.25))
-OTHER_GAINS = GainSet(LOOP, LOOP)
+OTHER_GAINS = GainSet(LOOP, replace(LOOP, rudder=Gains(0.0)))
 
 
 class Ground(BaseMissionControlProvider):

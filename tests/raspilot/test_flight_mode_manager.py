@@ -218,6 +218,22 @@ def test_the_pilot_ends_a_mode_by_the_switch_and_gets_no_surprise_later(rig):
     assert rig.shown()["selected"] is None
 
 
+def test_without_fixes_loiter_becomes_a_circle_by_dead_reckoning_and_later_a_glide(rig):
+    rig.state()
+    rig.outcome(FlightModeCommand("LOITER"))
+    assert rig.setpoint().throttle_us > 1000
+    shown = {}
+    for after_s in (2.0, 3.0, 118.0, 121.0):
+        rig.clock.advance(after_s - max(shown, default=0.0))
+        for _ in range(3):
+            rig.frame()
+        shown[after_s] = (rig.shown()["mode"], rig.setpoints[-1].throttle_us > 1000)
+    assert shown == {
+        2.0: ("LOITER", True), 3.0: ("CIRCLE", True), 118.0: ("CIRCLE", True),
+        121.0: ("CIRCLE", False),
+    }  # fmt: skip
+
+
 def test_a_board_mode_ends_a_mode_of_the_pi(rig):
     rig.state()
     rig.outcome(FlightModeCommand("BANK"))

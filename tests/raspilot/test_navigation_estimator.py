@@ -30,6 +30,7 @@ class Rig:
         self.clock = Clock()
         self.up = build_up((NavigationEstimator,), self.clock, folder)
         self.module = self.up.get_module(NavigationEstimator)
+        self.throttle_us = 1490
         self.roll_deg = math.degrees(math.atan(SPEED_M_S**2 / RADIUS_M / 9.80665))
 
     def publish(self, command, origin):
@@ -55,7 +56,7 @@ class Rig:
             self.clock.advance(0.02)
             now_s = self.clock.seconds()
             yaw_deg = (math.degrees(self.heading_rad(now_s)) - 40) % 360
-            self.publish(ServoCommand(1500, 1500, 1490, 1500), BOARD)
+            self.publish(ServoCommand(1500, 1500, self.throttle_us, 1500), BOARD)
             self.publish(OrientationCommand(self.roll_deg, 0.9, yaw_deg), BOARD)
             if round(now_s * 50) % 50 == 0:
                 self.location(now_s - DELAY_S, **changes)
@@ -134,3 +135,21 @@ def test_only_the_followed_source_and_valid_values_are_used(rig):
     rig.publish(AltitudeCommand(900.0, "required"), Origin("ground", Role.OPERATOR, 0))
     rig.publish(HeadingCommand(90.0, "required"), Origin("ground", Role.OPERATOR, 0))
     assert rig.module.state == before
+
+
+def test_a_throttle_that_holds_no_speed_is_a_stopped_motor(rig):
+    rig.fly(40)
+    assert rig.module.telemetry_content["navigation"]["motor_stopped"] is False
+    for passed_s in range(1, 5):
+        rig.fly(1, speed_m_s=SPEED_M_S - 0.9 * passed_s)
+    assert rig.module.state.motor_stopped
+    assert rig.module.telemetry_content["navigation"]["motor_stopped"] is True
+
+
+def test_an_airframe_without_motor_has_none_that_stops(tmp_path):
+    (tmp_path / "navigation.yml").write_text("performance:\n  motor: false\n")
+    rig = Rig(tmp_path)
+    rig.fly(40)
+    for passed_s in range(1, 5):
+        rig.fly(1, speed_m_s=SPEED_M_S - 0.9 * passed_s)
+    assert rig.module.telemetry_content["navigation"]["motor_stopped"] is False

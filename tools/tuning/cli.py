@@ -6,7 +6,6 @@ import argparse
 import sys
 from collections.abc import Callable, Sequence
 from contextlib import suppress
-from dataclasses import replace
 from functools import partial
 from pathlib import Path
 
@@ -30,7 +29,7 @@ from up.cli.cli_error import CliError, UsageError
 from up.cli.option_parser import OptionParser
 from up.commands.gains import Gains, GainSet
 from up.config.atomic_writer import write_atomically
-from up.flight_controller.pids_file import PIDS, PidsConfig, gain_set_of
+from up.flight_controller.pids_file import PIDS, gain_set_of
 from up_flightlog.plots.canvas import PictureError
 from up_flightlog.plots.chart import Mark
 from up_simulator.aircraft import DEFAULT_AIRFRAME, AirframeError, load_airframe
@@ -132,7 +131,7 @@ def _parser() -> argparse.ArgumentParser:
 def _tune(options: argparse.Namespace) -> int:
     airframe = load_airframe(options.airframe)
     if options.write is not None:
-        _held(options.write)
+        _check_is_ours(options.write)
         try_folder(options.write.parent)
     gains = gains_of(airframe.gains)
     if options.begin is not None:
@@ -226,18 +225,20 @@ def _gains_in(path: Path) -> GainSet:
 
 
 def _write(path: Path, gains: GainSet) -> None:
-    """Write pids.yml whole, with its comments; its navigation gains stay.
+    """Write pids.yml whole, with its comments.
 
     Raises ConfigErrors if the existing file is not a valid pids.yml; it is left alone.
     """
-    values = replace(PIDS.parse(pids_block(gains), path), navigation=_held(path).navigation)
+    _check_is_ours(path)
+    values = PIDS.parse(pids_block(gains), path)
     path.parent.mkdir(parents=True, exist_ok=True)
     write_atomically(path, PIDS.render(values).encode())
 
 
-def _held(path: Path) -> PidsConfig:
-    """Return the content of a file to be overwritten; raises ConfigErrors if it is not ours."""
-    return PIDS.parse(path.read_bytes(), path) if path.exists() else PidsConfig()
+def _check_is_ours(path: Path) -> None:
+    """Raise ConfigErrors if a file to be overwritten is not a valid pids.yml."""
+    if path.exists():
+        PIDS.parse(path.read_bytes(), path)
 
 
 def _is_drawn(draw: Callable[[Path], None], path: Path) -> bool:

@@ -38,7 +38,6 @@ def with_axis(gains: GainSet, axis: Axis, new: AxisGains) -> GainSet:
     return GainSet(
         replace(gains.rate, **{channel: new.rate}),
         replace(gains.stabilize, **{channel: new.stabilize}),
-        gains.navigation,
     )
 
 
@@ -72,6 +71,8 @@ def pids_block(gains: GainSet) -> str:
     for loop, axes in mapping_of(gains).items():
         lines.append(f"{loop}:  # P in {_UNITS[loop]}")
         for channel, terms in axes.items():
+            if (loop, channel) == ("stabilize", "rudder"):
+                continue
             values = ", ".join(f"{term}: {value:g}" for term, value in terms.items())
             lines.append(f"  {channel}: {{{values}}}")
     return "\n".join(lines) + "\n"

@@ -21,6 +21,7 @@ from up.cogs.cogfile import COGFILE, load_cogfile
 from up.config import ConfigErrors, ConfigFile, write_schemas
 from up.context import Context
 from up.errors import Problem
+from up.flight_modes.flight_mode import FlightMode
 from up.loading.application import UP_FILE_CONFIG, Application
 from up.loading.checking import Findings, check_application, no_configuration
 from up.loading.external_modules import EXTERNAL_MODULES
@@ -94,7 +95,12 @@ def _document(system: System, plan: Plan) -> dict[str, Any]:
     return {
         "mode": system.context.mode.value,
         "modules": [
-            {"path": each.path, "origin": origins.get(each.path, "")} for each in plan.modules
+            {
+                "path": each.path,
+                "origin": origins.get(each.path, ""),
+                **({"flight_mode": each.NAME} if isinstance(each, FlightMode) else {}),
+            }
+            for each in plan.modules
         ],
         "rejected": [{"path": each.path, "reason": each.reason} for each in plan.rejected],
         "commands": [cls.NAME for cls in plan.commands],
@@ -108,6 +114,13 @@ def _show(system: System, plan: Plan) -> None:
         (str(number), module.path, plan.origins.get(module.path, ""))
         for number, module in enumerate(plan.modules, 1)
     )
+    modes = [each for each in plan.modules if isinstance(each, FlightMode)]
+    if modes:
+        echo("flight modes:")
+        _table(
+            ("", each.NAME, f"falls back to {each.FALLBACK}" if each.FALLBACK else "")
+            for each in modes
+        )
     if plan.rejected:
         echo("not loaded:")
         _table(("", each.path, each.reason) for each in plan.rejected)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 from up.fields import Constraint
@@ -43,57 +43,54 @@ class LoopGains:
 
 @dataclass(frozen=True, slots=True)
 class GainSet:
-    """A complete set: rate (1.25 us per deg/s), stabilize (deg/s per deg), navigation."""
+    """A complete set: rate (1.25 us per deg/s), stabilize (deg/s per deg).
+
+    No controller uses the rudder's stabilize gains; the wire has them.
+    """
 
     rate: LoopGains
     stabilize: LoopGains
-    navigation: LoopGains | None = None
 
     @property
     def has_rudder(self) -> bool:
         """Return whether this is the three-axis form."""
         return self.rate.rudder is not None
 
-    @property
-    def unused(self) -> list[tuple[float, ...]]:
-        """Return the gains that no controller uses: the rudder's of the angle loop, navigation."""
-        loop = self.navigation
-        axes = (None,) * len(AXES) if loop is None else (loop.ailerons, loop.elevator, loop.rudder)
-        return [tuple(each or Gains(0.0)) for each in (self.stabilize.rudder, *axes)]
-
     def completed(self, other: GainSet) -> GainSet:
-        """Return this set with its missing gains (rudder, navigation) taken from another."""
+        """Return this set with a missing rudder taken from another."""
         if self.has_rudder:
-            rate, stabilize = self.rate, self.stabilize
-        else:
-            rate = LoopGains(self.rate.ailerons, self.rate.elevator, other.rate.rudder)
-            stabilize = LoopGains(
-                self.stabilize.ailerons, self.stabilize.elevator, other.stabilize.rudder
-            )
-        return GainSet(rate, stabilize, self.navigation or other.navigation)
+            return self
+        return GainSet(
+            replace(self.rate, rudder=other.rate.rudder),
+            replace(self.stabilize, rudder=other.stabilize.rudder),
+        )
 
 
 def gain_set_from_data(data: Mapping[str, Any]) -> GainSet:
     """Build a set from ``{ratePIDs, stabPIDs, navPIDs?}``; raises ValueError naming the place.
 
     A set is accepted or refused as a whole: a missing axis or gain, an unknown key, a number that
-    is not finite or out of range refuses all of it.
+    is not finite or out of range refuses all of it. The result has no ``navPIDs``: no controller
+    uses them.
     """
     _only(data, {"ratePIDs", "stabPIDs"}, {"navPIDs"}, "pids")
     rate = _loop(data["ratePIDs"], "ratePIDs")
     stabilize = _loop(data["stabPIDs"], "stabPIDs")
     if (rate.rudder is None) != (stabilize.rudder is None):
         raise ValueError("pids must have a rudder in both loops or in none")
+    navigation_of(data)
+    return GainSet(rate, stabilize)
+
+
+def navigation_of(data: Mapping[str, Any]) -> LoopGains | None:
+    """Return the ``navPIDs`` that a ground station of the thesis sends; raises ValueError."""
     navigation = data.get("navPIDs")
-    return GainSet(rate, stabilize, None if navigation is None else _loop(navigation, "navPIDs"))
+    return None if navigation is None else _loop(navigation, "navPIDs")
 
 
 def gain_set_to_data(gains: GainSet) -> dict[str, Any]:
     """Return a set in the form of a PIDTuningsValuesCommand, without rounding."""
-    data = {"ratePIDs": _loop_data(gains.rate), "stabPIDs": _loop_data(gains.stabilize)}
-    if gains.navigation is not None:
-        data["navPIDs"] = _loop_data(gains.navigation)
-    return data
+    return {"ratePIDs": _loop_data(gains.rate), "stabPIDs": _loop_data(gains.stabilize)}
 
 
 def _loop(data: Any, place: str) -> LoopGains:

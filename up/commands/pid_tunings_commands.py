@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any, ClassVar
 
 from up.commands.command import BaseCommand, RolesWhere, value
@@ -36,17 +36,14 @@ class PIDTuningsCommand(BaseCommand):
 
 @dataclass(frozen=True, slots=True)
 class PIDTuningsValuesCommand(BaseCommand):
-    """The gains in use now, in full precision, in the form that PIDTuningsCommand takes.
-
-    Without navigation's, which nothing uses.
-    """
+    """The gains in use now, in full precision, in the form that PIDTuningsCommand takes."""
 
     NAME: ClassVar[str] = "arduino.pids.values"
     pids: dict[str, Any] = value()
 
     @classmethod
     def of(cls, gains: GainSet) -> PIDTuningsValuesCommand:
-        return cls(gain_set_to_data(replace(gains, navigation=None)))
+        return cls(gain_set_to_data(gains))
 
     @property
     def data(self) -> dict[str, Any]:

@@ -24,13 +24,15 @@ class ConfigFile(Generic[T]):
     """One YAML file of a configuration folder, read into the frozen dataclass `cls`.
 
     ``removed`` maps an old key (dotted inside a section) that is no longer used, or has another
-    meaning, to the sentence that names its replacement. Raises TypeError or ValueError when `cls`
-    is declared wrongly.
+    meaning, to the sentence that names its replacement; ``ignored`` maps one that has no effect any
+    more to the sentence why: it is no mistake. Raises TypeError or ValueError when `cls` is
+    declared wrongly.
     """
 
     filename: str
     cls: type[T]
     removed: Mapping[str, str] = field(default_factory=dict)
+    ignored: Mapping[str, str] = field(default_factory=dict)
     schema: Schema = field(init=False, repr=False)
 
     def __post_init__(self) -> None:
@@ -47,6 +49,15 @@ class ConfigFile(Generic[T]):
         value = self.cls() if text is None else self._parse(text, problems, whole=False)
         problems.raise_if_any()
         return value
+
+    def ignored_keys(self, folder: Path) -> list[ConfigProblem]:
+        """Return the keys of the file in `folder` that have no effect any more, for a warning."""
+        path = Path(folder) / self.filename
+        problems = Problems(path)
+        root = read_tree(path, problems.report) if self.ignored else None
+        if root is not None:
+            Validator(problems.report, dict(self.ignored)).read(self.schema, root)
+        return [each for each in problems.found if each.key in self.ignored]
 
     def parse(self, text: str | bytes, path: Path, *, whole: bool = False) -> T:
         """Return the values in a text; `path` appears only in problems. Raises ConfigErrors.
@@ -77,7 +88,8 @@ class ConfigFile(Generic[T]):
             if whole and not problems.found:
                 problems.report(1, 1, "is empty", "file_empty")
             return self.cls()
-        value: T = Validator(problems.report, dict(self.removed), whole).read(self.schema, root)
+        removed = {**self.removed, **dict.fromkeys(self.ignored, "")}
+        value: T = Validator(problems.report, removed, whole).read(self.schema, root)
         return value
 
 

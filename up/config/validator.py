@@ -35,7 +35,8 @@ class Validator:
 
     With `valued` every key in the file needs a value; null does not count as one.
 
-    `removed` maps the dotted name of an old key to the sentence that names its replacement.
+    `removed` maps the dotted name of an old key to the sentence that names its replacement; a key
+    with an empty one is ignored.
     """
 
     def __init__(
@@ -168,6 +169,8 @@ class Validator:
 
     def _unknown(self, schema: Schema, name: str, node: Node, path: str) -> None:
         sentence = self._removed.get(_join(path, name))
+        if sentence == "":
+            return
         if sentence is not None:
             what = f"the key {show(name)} was removed: {sentence}"
             self._refuse(node, path, what, "key_removed", name)

@@ -8,15 +8,24 @@ from typing import Any
 
 from twisted.internet.defer import Deferred
 
-from up.commands.gains import GainSet
+from up.commands.gains import GainSet, navigation_of
+from up.commands.pid_tunings_commands import PIDTuningsCommand
 from up.commands.refusal import Code, CommandRefusedError
 from up.flight_controller.pids_file import PidsFile
 
 
-def refuse_unused(gains: GainSet, held: GainSet) -> None:
-    """Raise CommandRefusedError if a set changes a gain that no controller uses."""
-    if gains.completed(held).unused != held.unused:
-        text = "no controller uses the rudder's stabilize gains and the navigation gains yet"
+def refuse_unused(command: PIDTuningsCommand, gains: GainSet, held: GainSet) -> None:
+    """Raise CommandRefusedError if a set changes a gain that no controller uses.
+
+    The rudder's stabilize gains must be those held, ``navPIDs`` must be 0.
+    """
+    navigation = navigation_of(command.pids or {})
+    has_navigation = navigation is not None and any(map(any, navigation.axes))
+    if has_navigation or gains.completed(held).stabilize.rudder != held.stabilize.rudder:
+        text = (
+            "no controller uses the rudder's stabilize gains and navPIDs (the numbers of the path"
+            " controller are in navigation.yml)"
+        )
         raise CommandRefusedError(text, Code.NOT_SUPPORTED)
 
 

@@ -68,20 +68,10 @@ class Rate:
 
 @dataclass(frozen=True, slots=True)
 class Stabilize:
-    """The stabilize loop: angle to rotation rate. The rudder's are kept and not used."""
+    """The stabilize loop: angle to rotation rate."""
 
     ailerons: AileronsStabilize = section(AileronsStabilize)
     elevator: ElevatorStabilize = section(ElevatorStabilize)
-    rudder: Controller = section(Controller)
-
-
-@dataclass(frozen=True, slots=True)
-class Navigation:
-    """The navigation loop: heading to angle. Kept and not used: nothing navigates yet."""
-
-    ailerons: Controller = section(Controller)
-    elevator: Controller = section(Controller)
-    rudder: Controller = section(Controller)
 
 
 @dataclass(frozen=True, slots=True)
@@ -98,10 +88,16 @@ class PidsConfig:
     )
     rate: Rate = section(Rate)
     stabilize: Stabilize = section(Stabilize)
-    navigation: Navigation | None = section(Navigation, optional=True)
 
 
-PIDS = ConfigFile("pids.yml", PidsConfig)
+PIDS = ConfigFile(
+    "pids.yml",
+    PidsConfig,
+    ignored={
+        "stabilize.rudder": "no controller holds a yaw angle",
+        "navigation": "the numbers of the path controller are in navigation.yml",
+    },
+)
 
 
 class PidsFile:
@@ -126,40 +122,27 @@ class PidsFile:
 
 def gain_set_of(values: PidsConfig) -> GainSet:
     """Return the gains in a configuration."""
-    navigation = values.navigation
+    rate, stabilize = values.rate, values.stabilize
     return GainSet(
-        _loop_of(values.rate),
-        _loop_of(values.stabilize),
-        None if navigation is None else _loop_of(navigation),
+        LoopGains(_gains(rate.ailerons), _gains(rate.elevator), _gains(rate.rudder)),
+        LoopGains(_gains(stabilize.ailerons), _gains(stabilize.elevator), Gains(0.0)),
     )
 
 
-def _loop_of(loop: Rate | Stabilize | Navigation) -> LoopGains:
-    def gains(controller: Controller) -> Gains:
-        return Gains(controller.p, controller.i, controller.d)
-
-    return LoopGains(gains(loop.ailerons), gains(loop.elevator), gains(loop.rudder))
+def _gains(controller: Controller) -> Gains:
+    return Gains(controller.p, controller.i, controller.d)
 
 
 def _config_of(gains: GainSet) -> PidsConfig:
-    rate, stabilize, navigation = gains.rate, gains.stabilize, gains.navigation
-    zero = Gains(0.0)
+    rate, stabilize = gains.rate, gains.stabilize
     return PidsConfig(
         rate=Rate(
             AileronsRate(*rate.ailerons),
             ElevatorRate(*rate.elevator),
-            RudderRate(*(rate.rudder or zero)),
+            RudderRate(*(rate.rudder or Gains(0.0))),
         ),
         stabilize=Stabilize(
             AileronsStabilize(*stabilize.ailerons),
             ElevatorStabilize(*stabilize.elevator),
-            Controller(*(stabilize.rudder or zero)),
-        ),
-        navigation=None
-        if navigation is None
-        else Navigation(
-            Controller(*navigation.ailerons),
-            Controller(*navigation.elevator),
-            Controller(*(navigation.rudder or zero)),
         ),
     )

@@ -35,8 +35,9 @@ class FlightSituation:
     """What a mode sees in one step.
 
     A reading is None unless it is valid and as fresh as the mode's ``NEEDS`` require; those that
-    are needed are never None. ``required_course_deg`` and ``required_altitude_m`` are the ground's
-    requests since the mode was entered.
+    are needed are never None. For a mode that does not need it ``navigation`` may be dead
+    reckoning, without a fix for up to 120 s: look at its deviations. ``required_course_deg`` and
+    ``required_altitude_m`` are the ground's requests since the mode was entered.
     """
 
     time_s: float

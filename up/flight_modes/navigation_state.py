@@ -45,7 +45,8 @@ class NavigationState:
 
     Positions are in ``frame``; altitudes above sea level, as the receiver reports them. The wind
     is the velocity of the air over the ground. ``fix_age_s`` is the time since the newest accepted
-    fix was taken: until the next one the position is dead reckoning.
+    fix was taken: until the next one the position is dead reckoning. ``motor_stopped``: the motor
+    gives no thrust although the throttle is open.
     """
 
     time_s: float
@@ -65,6 +66,7 @@ class NavigationState:
     airspeed_sd_m_s: float
     heading_sd_deg: float
     fix_age_s: float
+    motor_stopped: bool = False
 
     @property
     def ground_speed_m_s(self) -> float:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import re
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import fields, is_dataclass
 from typing import Any, TypeVar
@@ -12,6 +11,7 @@ from twisted.logger import Logger
 
 from up.commands.refusal import Code, CommandRefusedError
 from up.fields import suggestion
+from up.flight_modes.declarations import usable
 from up.flight_modes.demand import AttitudeDemand, Circle, Demand, PathDemand, SurfacesDemand
 from up.flight_modes.flight_mode import FlightMode, FlightSituation
 from up.flight_modes.step_timer import StepTimer
@@ -24,10 +24,6 @@ FAILED, OVERRUN, INVALID, REFUSED, UNKNOWN = (
     "mode_unknown",
 )
 _T = TypeVar("_T")
-_NAME = re.compile(r"[A-Z][A-Z0-9_]{1,15}")
-RESERVED = ("AUTO", "RATE")
-BOARD_MODES = ("FBW", "RATE", "ACRO")
-"""A fallback to one of these, where the Raspberry Pi has none of that name, is the board's."""
 _FAULTS = (Exception, SystemExit)
 
 
@@ -51,11 +47,7 @@ class FlightModeSelector:
     log = Logger()
 
     def __init__(self, modes: Iterable[FlightMode], is_fresh: Callable[[str, float], bool]) -> None:
-        self.modes: dict[str, FlightMode] = {}
-        self.problems: dict[str, str] = {}
-        for mode in modes:
-            self._add(mode)
-        self._check_fallbacks()
+        self.modes, self.problems = usable(modes)
         self.selected: str | None = None
         self.active: str | None = None
         self.reason: str | None = None
@@ -63,22 +55,6 @@ class FlightModeSelector:
         self._broken: dict[str, str] = {}
         self._entered: set[str] = set()
         self.timer = StepTimer()
-
-    def _add(self, mode: FlightMode) -> None:
-        name, other = mode.NAME, self.modes.get(mode.NAME)
-        if not _NAME.fullmatch(name) or name in RESERVED:
-            text = f"{mode.path}: NAME {name!r} must be 2 to 16 capital letters, digits and _"
-            self.problems[mode.path] = f"{text}, and not {' or '.join(RESERVED)}"
-        elif other is not None:
-            self.problems[mode.path] = f"{mode.path} and {other.path} are both named {name}"
-        else:
-            self.modes[name] = mode
-
-    def _check_fallbacks(self) -> None:
-        for mode in self.modes.values():
-            if mode.FALLBACK not in {"", *BOARD_MODES, *self.modes}:
-                text = f"{mode.path}: FALLBACK {mode.FALLBACK!r} is no loaded flight mode"
-                self.problems[mode.path] = text
 
     def missing_for(self, name: str) -> list[str]:
         """Return the readings that keep a mode from acting."""

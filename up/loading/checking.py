@@ -14,6 +14,9 @@ from up.config.application import APPLICATION, DISABLED_MODULES
 from up.context import Context
 from up.errors import Problem, UserError
 from up.fields import show
+from up.flight_modes.declarations import auto_mode_problem, usable
+from up.flight_modes.flight_mode import FlightMode
+from up.flight_modes.navigation_file import NAVIGATION
 from up.loading.application import Application
 from up.loading.commands import add_commands
 from up.loading.discovery import Discovered, survey
@@ -54,9 +57,12 @@ def check_application(
     read_files(context, findings.files, findings)
     _check_graph(context, found, disabled, findings)
     findings.problems += findings.plan.problems
+    findings.problems += _flight_mode_problems(context, findings.plan)
     findings.warnings += _unknown(context.config_folder, findings.files)
     findings.warnings += _disabled_for_nothing(disabled, found)
     findings.warnings += _unwritable_log(context)
+    for file in findings.files:
+        findings.warnings += file.ignored_keys(context.config_folder)
     return findings
 
 
@@ -82,6 +88,19 @@ def _check_graph(
             plan.modules = order(plan.modules, plan.left_out)
     except BootError as error:
         findings.problems += error.problems
+
+
+def _flight_mode_problems(context: Context, plan: Plan) -> Iterator[Problem]:
+    """Yield what a start would report as an arming veto."""
+    modes, problems = usable(each for each in plan.modules if isinstance(each, FlightMode))
+    for path, text in problems.items():
+        yield UserError(text, "flight_mode_invalid", name=path, origin=plan.origins[path])
+    if any(each.CONFIG is NAVIGATION for each in plan.modules):
+        name = context.config(NAVIGATION).auto_mode
+        text = auto_mode_problem(name, modes) or ""
+        if text:
+            file = context.config_folder / NAVIGATION.filename
+            yield UserError(text, "flight_mode_unknown", file=file, key="auto_mode", value=name)
 
 
 def _unknown(folder: Path, files: Iterable[ConfigFile[Any]]) -> Iterator[UserError]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any, ClassVar, Generic, TypeVar
 
@@ -12,6 +12,7 @@ from up.commands.refusal import NO_NAVIGATION, Code, CommandRefusedError
 from up.commands.system_commands import SourceSelectedCommand
 from up.config.application import PROVIDERS
 from up.providers.source_arbiter import SourceArbiter
+from up.providers.subscription import Subscription
 
 _T = TypeVar("_T")
 
@@ -52,6 +53,20 @@ class BaseProvider(BaseStartedModule, Generic[_T]):
         if reading is None or not reading.valid or self._seconds() - reading.time_s > max_age_s:
             return None
         return reading
+
+    def subscribe(
+        self,
+        on_changed: Callable[[Reading[_T]], Any],
+        on_stale: Callable[[], object] | None = None,
+        max_age_s: float | None = None,
+    ) -> None:
+        """Call ``on_changed`` with each new valid reading of the followed source.
+
+        ``on_stale`` is called once when the newest becomes invalid or older than ``max_age_s``
+        (default: MAX_AGE_S), and again after further readings. The calls end with the module that
+        subscribes in its ``on_init`` or ``on_start``.
+        """
+        Subscription(self, on_changed, on_stale, max_age_s or self.MAX_AGE_S)
 
     @property
     def value(self) -> _T | None:

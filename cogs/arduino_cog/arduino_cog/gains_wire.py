@@ -49,7 +49,6 @@ def without_rudder(gains: GainSet) -> GainSet:
     return GainSet(
         LoopGains(gains.rate.ailerons, gains.rate.elevator),
         LoopGains(gains.stabilize.ailerons, gains.stabilize.elevator),
-        gains.navigation,
     )
 
 

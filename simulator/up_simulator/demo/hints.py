@@ -29,7 +29,7 @@ def hints(ports: Ports, folder: Path, page: str | None) -> list[str]:
         f"  {ground} send{port} up.telemetry.frequency frequency=200",
         f"  {ground} send{port} arduino.pids.tunings request=true   the gains; see the guide",
         f"  {ground} send{port} up.flight_mode.set mode=RATE        and mode=FBW",
-        f"  {ground} send{port} up.flight_mode.set mode=RETURN      home; AUTO ends it",
+        f"  {ground} send{port} up.flight_mode.set mode=RETURN      flies home; mode=AUTO ends it",
         f"  {ground} send{port} android.speak text=hello",
         f"  {sim} radio{socket}          the sticks on your keyboard; q releases them",
         f"  {sim} fly save       a scenario: the pilot takes over",

@@ -104,7 +104,7 @@ def gains_bytes(settings: Mapping[str, Any], held: bytes) -> bytes:
     for key, value in _flat(settings):
         loop, _, rest = key.partition(".")
         axis, _, term = rest.partition(".")
-        if key == "units" or loop == "navigation":
+        if key == "units":
             continue
         if loop not in _LOOPS or axis not in _AXES or term not in tuple(_TERMS):
             raise SettingsError(f"unknown gain {key}", code="unknown_gain", key=key)

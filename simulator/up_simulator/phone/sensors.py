@@ -91,12 +91,16 @@ class PhoneSensors:
     fix again and again with new times. The battery falls from ``battery_percent``, its
     level at ``battery_time_s`` of the flight. The raw inputs of a phone's software are included:
     pressure, rotation and rate, of a phone mounted as in ``mounting`` (aircraft to device).
+    ``has_barometer``: whether it measures the altitude by pressure.
     """
 
     def __init__(self, seed: int = 1, mounting: Quaternion = MOUNTING) -> None:
         self._noise = random.Random(seed)
         self.gps_delay_s = random.Random(f"gps {seed}").uniform(*GPS_DELAY_S)
         self.gps: GpsState = "back"
+        self.has_barometer = True
+        self._period_s = GPS_PERIOD_S
+        self._fix_noise, self._delay_jitter_s = 1.0, GPS_DELAY_JITTER_S
         self._mounting = mounting
         spread = random.Random(f"gps wander {seed}")
         horizontal_m = spread.uniform(*GPS_WANDER_M)
@@ -109,6 +113,14 @@ class PhoneSensors:
         self._compass_s = -math.inf
         self.battery_percent = INITIAL_BATTERY_PERCENT
         self.battery_time_s = 0.0
+
+    def use_exact_receiver(self, period_s: float) -> None:
+        """Replace the GPS from now on by one without errors; a fix is 0.2 s old on arrival."""
+        self._period_s = period_s
+        self._fix_noise = self._delay_jitter_s = 0.0
+        self.gps_delay_s = MIN_GPS_DELAY_S
+        self._wander_spread_m = (0.0, 0.0, 0.0)
+        self._wander_m = [0.0, 0.0, 0.0]
 
     @property
     def wander_m(self) -> tuple[float, float, float]:
@@ -127,9 +139,11 @@ class PhoneSensors:
             return None
         return {**found[1], "age_ms": round((state.time_s - found[0]) * 1000)}
 
-    def altitude(self, state: FlightState) -> dict[str, Any]:
-        """Return the data of ``up.altitude.change``, by the barometer."""
+    def altitude(self, state: FlightState) -> dict[str, Any] | None:
+        """Return the data of ``up.altitude.change``, by the barometer; None without one."""
         self._receive(state)
+        if not self.has_barometer:
+            return None
         return {"altitude": round(state.altitude_m + self._noise.gauss(0.0, BAROMETER_M), 2)}
 
     def heading(self, state: FlightState) -> dict[str, Any]:
@@ -170,14 +184,14 @@ class PhoneSensors:
         self._fix_s = state.time_s
         # The receiver keeps its seconds when it is asked late.
         late_s = state.time_s - self._fix_due_s
-        self._fix_due_s = state.time_s + GPS_PERIOD_S - (late_s if 0 <= late_s < 1 else 0.0)
+        self._fix_due_s = state.time_s + self._period_s - (late_s if 0 <= late_s < 1 else 0.0)
         keep = math.exp(-min(passed_s, 1000.0) / GPS_WANDER_S) if passed_s > 0.0 else 1.0
         grow = math.sqrt(1.0 - keep * keep)
         self._wander_m = [
             keep * wander + grow * self._noise.gauss(0.0, spread)
             for wander, spread in zip(self._wander_m, self._wander_spread_m, strict=True)
         ]
-        delay_s = self.gps_delay_s + self._noise.gauss(0.0, GPS_DELAY_JITTER_S)
+        delay_s = self.gps_delay_s + self._noise.gauss(0.0, self._delay_jitter_s)
         fix = self._measure(state)
         if self.gps == "lost":
             return
@@ -187,14 +201,16 @@ class PhoneSensors:
         self._coming.append((ready_s, state.time_s, self._newest_fix))
 
     def _measure(self, state: FlightState) -> dict[str, Any]:
-        gauss = self._noise.gauss
-        north_m, east_m, up_m = (each + gauss(0.0, GPS_NOISE_M) for each in self._wander_m)
+        def noise(spread: float) -> float:
+            return self._fix_noise * self._noise.gauss(0.0, spread)
+
+        north_m, east_m, up_m = (each + noise(GPS_NOISE_M) for each in self._wander_m)
         if self.gps == "jumped":
             north_m += GPS_JUMP_M
         metres_per_deg_east = METRES_PER_DEG * math.cos(math.radians(state.latitude_deg))
         track = math.radians(state.track_deg)
-        north_m_s = state.speed_m_s * math.cos(track) + gauss(0.0, GPS_VELOCITY_NOISE_M_S)
-        east_m_s = state.speed_m_s * math.sin(track) + gauss(0.0, GPS_VELOCITY_NOISE_M_S)
+        north_m_s = state.speed_m_s * math.cos(track) + noise(GPS_VELOCITY_NOISE_M_S)
+        east_m_s = state.speed_m_s * math.sin(track) + noise(GPS_VELOCITY_NOISE_M_S)
         bearing_deg = math.degrees(math.atan2(east_m_s, north_m_s)) % 360.0
         return {
             "latitude": round(state.latitude_deg + north_m / METRES_PER_DEG, 7),

@@ -35,8 +35,8 @@ class LogError(Exception):
 class FlightLog:
     """The value of every signal at every row; ``columns`` begin with time_s and end with event.
 
-    Numbers are rounded to six decimals on append, so that a log read from the disk equals
-    the one that was written.
+    Numbers are rounded to six decimals, so that a log read from the disk equals the one that was
+    written; a column when it is read, because most are never read.
     """
 
     def __init__(self, columns: Sequence[str]) -> None:
@@ -44,6 +44,7 @@ class FlightLog:
         self._numbers: dict[str, array[float]] = {}
         self._texts: dict[str, list[str]] = {}
         self._count = 0
+        self._rounded: dict[str, int] = {}
         for name in self.columns:
             if is_text(name):
                 self._texts[name] = []
@@ -61,9 +62,10 @@ class FlightLog:
             value = values.get(name)
             texts.append("" if value is None else sys.intern(str(value)))
         for name, numbers in self._numbers.items():
-            value = values.get(name)
-            is_number = isinstance(value, bool | int | float)
-            numbers.append(_rounded(float(value)) if is_number else math.nan)  # type: ignore[arg-type]
+            try:
+                numbers.append(values.get(name, math.nan))  # type: ignore[arg-type]
+            except TypeError:
+                numbers.append(math.nan)
         self._count += 1
 
     @property
@@ -76,13 +78,19 @@ class FlightLog:
 
     def _values(self, name: str) -> Sequence[Value]:
         texts = self._texts.get(name)
-        return self._numbers[name] if texts is None else texts
+        if texts is not None:
+            return texts
+        numbers = self._numbers[name]
+        for at in range(self._rounded.get(name, 0), len(numbers)):
+            numbers[at] = _rounded(numbers[at])
+        self._rounded[name] = len(numbers)
+        return numbers
 
     def numbers(self, name: str) -> list[float]:
         """Return a column of numbers; raises KeyError, and TypeError for a column of texts."""
         if name in self._texts:
             raise TypeError(f"{name} holds text")
-        return list(self._numbers[name])
+        return [float(value) for value in self._values(name)]
 
     def has_text(self, name: str) -> bool:
         return name in self._texts

@@ -9,7 +9,7 @@ from typing import Any
 from up.commands.board_schema import DATA, FLIGHT_MODES, RESET_CAUSES, SWITCH_POSITIONS
 from up.earth import distance_m
 from up_flightlog.read.demand import DemandModel
-from up_simulator.aircraft.flight import Dynamics
+from up_simulator.aircraft.flight import Dynamics, FlightState
 from up_simulator.firmware.line_monitor import LineMonitor
 from up_simulator.harness.world import World
 from up_simulator.in_process.ground import InProcessGround
@@ -22,6 +22,11 @@ from up_simulator.scenario.sticks import CHANNELS
 Values = dict[str, float | bool | str | None]
 _SERVOS = CHANNELS[:4]
 _PLACES = {"estimate": "navigation", "home": "home", "target": "navigation.target"}
+_TRUTH = [
+    (f"truth.{field.name}", field.name)
+    for field in dataclasses.fields(FlightState)
+    if field.name != "time_s"
+]
 
 
 def columns_of(scenario: Scenario) -> list[str]:
@@ -64,6 +69,8 @@ class Sampler:
         self._demand = demand
         self._participants = participants
         self._has_computer = has_flight_computer
+        self._telemetry: Mapping[str, Any] = {}
+        self._flat_telemetry: Values = {}
 
     def row(self, time_s: float, sticks_us: Mapping[str, float]) -> Values:
         values: Values = {"time_s": time_s}
@@ -85,8 +92,16 @@ class Sampler:
             values["phone.plugged"] = participants.phone.is_plugged
         if participants.ground is not None:
             values.update(_ground(participants.ground, participants.seconds()))
+            values.update(self._flat_of(participants.ground.telemetry))
             values.update(_distances(values))
         return values
+
+    def _flat_of(self, telemetry: Mapping[str, Any]) -> Values:
+        """Return the values of a frame by their names; a frame serves several rows."""
+        if telemetry is not self._telemetry:
+            self._telemetry = telemetry
+            self._flat_telemetry = dict(_flat("ground", telemetry))
+        return self._flat_telemetry
 
     def _add_demand(self, values: Values, sticks_us: Mapping[str, float]) -> None:
         mode, is_failsafe = values.get("board.mode"), values.get("board.failsafe")
@@ -108,9 +123,8 @@ def _wrapped(difference: float, name: str) -> float:
 
 def _truth(dynamics: Dynamics) -> Iterable[tuple[str, Any]]:
     state = dynamics.state
-    for field in dataclasses.fields(state):
-        if field.name != "time_s":
-            yield f"truth.{field.name}", getattr(state, field.name)
+    for name, attribute in _TRUTH:
+        yield name, getattr(state, attribute)
     yield "truth.crashed", getattr(dynamics, "crash", None) is not None
 
 
@@ -141,7 +155,6 @@ def _ground(ground: InProcessGround, now_s: float) -> Iterable[tuple[str, Any]]:
     yield "ground.connected", ground.is_connected
     yield "ground.age_s", None if ground.newest_s is None else now_s - ground.newest_s
     yield "ground.latency_s", ground.take_latency_s()
-    yield from _flat("ground", ground.telemetry)
 
 
 def _distances(values: Values) -> Iterable[tuple[str, float]]:

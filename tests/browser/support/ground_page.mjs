@@ -149,6 +149,18 @@ export class GroundPage {
     };
   }
 
+  /** Select a flight mode by its button until it is taken: on a busy machine a reading may be too old now. */
+  async fly(mode) {
+    for (;;) {
+      const isOffered = (mode) => document.querySelector(`[data-mode="${mode}"]`)?.disabled === false;
+      await this.until(isOffered, `${mode} offered`, mode);
+      const answer = await this.answerTo(() => this.press(`[data-mode="${mode}"]`));
+      if (answer.detail !== "reading_stale") {
+        return answer;
+      }
+    }
+  }
+
   /**
    * Hold a button until it does what it says.
    * @param {string} selector

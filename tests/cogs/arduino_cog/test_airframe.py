@@ -134,3 +134,28 @@ def test_any_bytes_are_read_or_refused_by_name(payload):
         assert str(error).partition(":")[0] in {"mix", "switch.low", "switch.middle", "switch.high"}
     else:
         assert profile.keys() == FACTORY.keys()
+
+
+@pytest.mark.parametrize(
+    ("percent_s", "may_fly", "with_motor", "byte"),
+    [
+        (0, False, False, 0),
+        (0, True, False, 2),
+        (1, False, True, 5),
+        (100, True, True, 83),
+        (315, False, False, 252),
+    ],
+)
+def test_the_last_byte_holds_what_the_pi_may_do_and_the_slew_limit(
+    percent_s, may_fly, with_motor, byte
+):
+    wanted = {
+        **FACTORY,
+        "receiver_lost.pi_may_fly": may_fly,
+        "receiver_lost.return_with_motor": with_motor,
+        "throttle_slew_percent_s": percent_s,
+    }
+    payload = pack_profile(wanted)
+    assert payload[-1] == byte
+    held = -(-percent_s // 5) * 5
+    assert read_profile(payload) == {**wanted, "throttle_slew_percent_s": held}

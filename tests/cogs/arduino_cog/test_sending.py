@@ -32,6 +32,13 @@ def test_a_setpoint_is_sent_in_hundredths(rig):
     ]
 
 
+def test_a_setpoint_marked_as_failsafe_is_a_return_setpoint(rig):
+    rig.connect()
+    rig.publish(SetpointCommand(15.0, -2.5, 1.0, 1550, 200, is_failsafe=True))
+    assert rig.sent("R") == [struct.pack(">3h2H", 1500, -250, 100, 1550, 200)]
+    assert rig.sent("S") == []
+
+
 def test_neither_is_ever_sent_in_thesis_framing(make_rig):
     rig = make_rig("thesis")
     rig.start()

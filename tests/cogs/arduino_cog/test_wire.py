@@ -101,7 +101,7 @@ def test_what_comes_means_the_vector(vector):
 
 
 def test_every_type_with_a_payload_has_a_vector():
-    assert {each["type"] for each in TO_ARDUINO} == set("MptghbBluSvCe")
+    assert {each["type"] for each in TO_ARDUINO} == set("MptghbBluSRvCe")
     assert {each["type"] for each in FROM_ARDUINO} == set("rioOxK!mTGC")
 
 

@@ -202,6 +202,15 @@ def test_circle_holds_the_altitude_while_it_is_known(tmp_path):
     assert -1.2 < track[-1].climb_m_s < -0.4
 
 
+def test_circle_glides_while_the_altitude_is_too_uncertain(tmp_path):
+    rig = ModeRig(bound(CircleMode, tmp_path)).enter()
+    situation = rig.situation
+    guess = replace(situation.navigation, fix_age_s=20.0, altitude_sd_m=24.0)
+    assert rig.mode.step(replace(situation, navigation=guess), 0.02).altitude_m == 300.0
+    guess = replace(guess, altitude_sd_m=26.0)
+    assert rig.mode.step(replace(situation, navigation=guess), 0.02).throttle == 0.0
+
+
 def test_glide_goes_home_with_the_motor_off(tmp_path):
     plane = PointMass(wind=(-3.0, 0.0), north=-300.0, altitude=400.0, heading=90.0)
     rig = ModeRig(bound(Glide, tmp_path), plane, home=HOME).enter()

@@ -31,6 +31,7 @@ class PointMass:
     pitch: float = 0.0
     thrust: float = 1.0
     drag: float = 1.0
+    motor_stopped: bool = False
     time_s: float = 0.0
     track: list = field(default_factory=list)
 
@@ -52,6 +53,7 @@ class PointMass:
             self.time_s, FRAME, Point(self.north, self.east), self.velocity, self.altitude,
             self.airspeed * math.sin(self.climb_angle), Point(*self.wind), self.airspeed,
             self.heading, self.roll, self.pitch, 1.0, 1.0, 0.3, 0.3, 3.0, 0.1,
+            self.motor_stopped,
         )  # fmt: skip
 
     def move(self, attitude):

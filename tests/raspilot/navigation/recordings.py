@@ -48,29 +48,29 @@ def mixed(time_s, state):
     return {"course": 100}
 
 
-def cruise(time_s, state):
-    """Circles, then a straight leg at a fixed height."""
-    return None if time_s < 60 else {"course": 100}
-
-
-@functools.cache
-def record(plan, duration_s, wind_m_s=0.0, turbulence="none", seed=1, stops_s=math.inf):
-    """Fly once; the pilot circles unless the plan knows better. ``stops_s``: the motor stops."""
+def booted(seed, wind_m_s, turbulence):
     flown = Flown(
         seed=seed, kind="host", boots=False,
         errors=drawn_errors(seed, vibration_deg_s=1, vibration_m_s2=1),
     )  # fmt: skip
     weather = Weather(wind_m_s, 270.0, turbulence)
-    dynamics = FlightDynamics(flown.airframe, Start(height_m=150), weather, seed)
-    flown.world = world = World(dynamics, flown.board)
-    pilot = CirclingPilot(switch="FBW")
-    world.boot(arms=True)
+    flown.dynamics = FlightDynamics(flown.airframe, Start(height_m=150), weather, seed)
+    flown.world = World(flown.dynamics, flown.board)
+    flown.world.boot(arms=True)
     flown.listen()
+    return flown
+
+
+@functools.cache
+def record(plan, duration_s, wind_m_s=0.0, turbulence="none", seed=1):
+    """Fly once; the pilot circles unless the plan knows better."""
+    flown = booted(seed, wind_m_s, turbulence)
+    world, dynamics = flown.world, flown.dynamics
+    pilot = CirclingPilot(switch="FBW")
     frames = []
     for beat in range(round(duration_s / BEAT_S)):
         time_s, state = beat * BEAT_S, dynamics.state
         _steer(flown.board, pilot.sticks(time_s, state), plan(time_s, state), state)
-        dynamics.motor_works = time_s < stops_s
         flown.fly(BEAT_S)
         told = flown.tap.orientation
         if told is not None:

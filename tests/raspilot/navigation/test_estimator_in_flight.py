@@ -8,7 +8,6 @@ import pytest
 from tests.raspilot.navigation.recordings import (
     Flight,
     circles,
-    cruise,
     mixed,
     off_m,
     record,
@@ -83,14 +82,6 @@ def test_thirty_seconds_without_fixes_end_inside_the_stated_uncertainty(windy, s
     assert off_m(*flight.pairs(175)[0]) < 8, "and the position is right again soon"
 
 
-def test_a_motor_that_stops_is_noticed_and_its_thrust_no_longer_believed():
-    frames = record(cruise, 110, 4.0, "light", 4, 90.0)
-    flight = Flight(frames)
-    lost = [e.airspeed_m_s - t.airspeed_m_s for e, t in flight.pairs(97)]
-    assert rms(lost) < 1.5
-    assert flight.estimator.motor.is_stopped
-
-
 def test_a_motor_that_works_is_not_suspected(windy_flight):
     assert not windy_flight.estimator.motor.is_stopped
 
@@ -99,3 +90,16 @@ def test_circling_takes_no_calibrated_yaw():
     flight = Flight(record(circles, 60))
     ratio = [(e.heading_deg - t.yaw_deg + 180) % 360 - 180 for e, t in flight.pairs(50)]
     assert rms(ratio) < 8
+
+
+def altitude_errors(flight, from_s, to_s=math.inf):
+    return [e.altitude_m - t.altitude_m for e, t in flight.pairs(from_s, to_s)]
+
+
+def test_with_a_barometer_the_wander_does_not_move_the_altitude(windy, windy_flight):
+    errors = altitude_errors(Flight(windy, barometer=True), 60)
+    mean = sum(errors) / len(errors)
+    assert rms(each - mean for each in errors) < 1.0
+    errors = altitude_errors(windy_flight, 60)
+    mean = sum(errors) / len(errors)
+    assert 2.0 < rms(each - mean for each in errors) < 5.0, "without one it does"

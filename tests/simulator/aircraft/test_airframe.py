@@ -58,7 +58,6 @@ def test_the_glider_has_the_figures_of_its_class():
     assert airframe.has_motor
     assert airframe.profile == {"mix": "none", "motor": True}
     assert set(airframe.gains) == {"units", "rate", "stabilize"}
-    assert airframe.gains["stabilize"]["rudder"] == {"p": 0.0, "i": 0.0, "d": 0.0}
 
 
 def test_the_firmware_mixes_the_elevons_of_the_wing():

@@ -275,6 +275,27 @@ def test_a_fix_comes_once_a_second_with_the_delay_of_the_seed_and_says_how_old_i
     assert len({fix["age_ms"] for *_, fix in fixes}) > 1, "the delay has jitter"
 
 
+def test_an_exact_receiver_has_no_error_and_a_fix_at_each_of_its_periods():
+    gps = Gps()
+    gps.sensors.use_exact_receiver(0.1)
+    fixes = gps.fly(5)
+    assert len(fixes) >= 48
+    for came_s, at_s, fix in fixes:
+        assert fix["age_ms"] == 200
+        # The latitude is rounded to 1 cm, which is 0.1 ms here.
+        assert at_s == pytest.approx(came_s - 0.2, abs=2e-4)
+    assert gps.sensors.wander_m == (0.0, 0.0, 0.0)
+
+
+def test_without_a_barometer_the_phone_sends_no_altitude():
+    bench = Bench()
+    bench.phone.sensors.has_barometer = False
+    bench.run(2.0)
+    assert not bench.take("up.altitude.change")
+    bench.run(2.0)
+    assert bench.take("up.heading.change")
+
+
 def test_a_gps_is_lost_jumps_and_freezes():
     gps = Gps()
     gps.fly(5)

@@ -45,6 +45,11 @@ def test_check_tells_everything_at_once(up, application, tmp_path):
             "Cogfile.yml": "gone_cog: {pypi: gone}\nother_cog:\n",
             "config/config.yml": "log levl: info\nmode: sideways\nlog file: /dev/null/up.jsonl\n",
             "config/gauge.yml": "interval_s: 10\n",
+            "config/pids.yml": "navigation: {}\n",
+            "modules/pids.py": (
+                "from up import Module\nfrom up.flight_controller.pids_file import PIDS\n"
+                "class Pids(Module):\n    CONFIG = PIDS\n"
+            ),
             "config/disabled_modules.yml": "disabled modules:\n  - nobody.knows.This\n",
             "config/old.yml": "a: 1\n",
             "external_modules.yml": (
@@ -70,6 +75,7 @@ def test_check_tells_everything_at_once(up, application, tmp_path):
         ("cog_import_failed", "", None),
         ("syntax_error", "broken.py", 1),
         ("build_failed", "raises.py", 12),
+        ("key_removed", "pids.yml", 1),
         ("file_unused", "old.yml", None),
         ("module_unknown", "disabled_modules.yml", None),
     }
@@ -105,6 +111,46 @@ def test_check_of_the_module_graph(up, tmp_path):
     assert up("check", "--defaults").status == 0
     outcome = up("check", "--defaults", "--mode", "black box", as_json=True)
     assert outcome.codes == ["need_missing", "need_missing", "check_failed"]
+
+
+FLIGHT_MODE = (
+    "from up import FlightMode\n"
+    "class {cls}(FlightMode):\n    NAME = {name!r}\n    FALLBACK = {fallback!r}\n"
+)
+MANAGER = (
+    "from up import Module\nfrom up.flight_modes.navigation_file import NAVIGATION\n"
+    "class Manager(Module):\n    CONFIG = NAVIGATION\n"
+)
+
+
+def test_flight_modes_are_listed_by_their_names(up, tmp_path):
+    mode = FLIGHT_MODE.format(cls="Eight", name="EIGHT", fallback="")
+    files = {"flight_modes/eight.py": mode, "flight_controller/manager.py": MANAGER}
+    files["config/navigation.yml"] = "auto_mode: EIGHT\n"
+    write_application(tmp_path, files)
+    assert up("check", "--defaults").status == 0
+    assert "EIGHT" in up("modules").out
+    modules = json.loads(up("modules", "--json").out)["modules"]
+    assert [each["flight_mode"] for each in modules if "flight_mode" in each] == ["EIGHT"]
+
+
+@pytest.mark.parametrize(
+    ("modes", "auto", "code"),
+    [
+        ([("EIGHT", ""), ("EIGHT", "")], "EIGHT", "flight_mode_invalid"),
+        ([("EIGHT", "CRICLE")], "EIGHT", "flight_mode_invalid"),
+        ([("Eight", "")], "FBW", "flight_mode_invalid"),
+        ([("EIGHT", "FBW")], "EIGTH", "flight_mode_unknown"),
+    ],
+)
+def test_check_of_flight_modes(up, tmp_path, modes, auto, code):
+    files = {"config/navigation.yml": f"auto_mode: {auto}\n", "flight_controller/m.py": MANAGER}
+    for number, (name, fallback) in enumerate(modes):
+        mode = FLIGHT_MODE.format(cls=f"Mode{number}", name=name, fallback=fallback)
+        files[f"flight_modes/mode_{number}.py"] = mode
+    write_application(tmp_path, files)
+    outcome = up("check", as_json=True)
+    assert (outcome.status, outcome.codes) == (2, [code, "check_failed"])
 
 
 def test_a_wanted_cog_that_is_not_registered_is_a_mistake(up, application, tmp_path):

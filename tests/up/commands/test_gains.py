@@ -49,10 +49,9 @@ def test_the_three_axis_and_the_two_axis_form():
     assert gain_set_from_data(WHOLE).rate.ailerons == Gains(2.1, 0.125, 0.003)
     two = {axis: LOOP[axis] for axis in ("ailerons", "elevator")}
     gains = gain_set_from_data({"ratePIDs": two, "stabPIDs": two})
-    assert not gains.has_rudder and gains.navigation is None
+    assert not gains.has_rudder
     completed = gains.completed(gain_set_from_data(WHOLE))
     assert completed.rate.rudder == Gains(0.5) and completed.stabilize.rudder == Gains(0.5)
-    assert completed.navigation is not None
 
 
 @pytest.mark.parametrize(
@@ -90,7 +89,7 @@ def test_what_is_no_object_is_refused(path, bad):
 @given(FIELDS, FIELDS, FIELDS)
 def test_nothing_is_rounded_on_the_way_there_and_back(a, b, c):
     loop = LoopGains(a, b, c)
-    gains = GainSet(loop, loop, None)
+    gains = GainSet(loop, loop)
     assert gain_set_from_data(gain_set_to_data(gains)) == gains
     assert PIDTuningsValuesCommand.of(gains).data == gain_set_to_data(gains)
 

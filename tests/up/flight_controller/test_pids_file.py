@@ -1,14 +1,16 @@
 """pids.yml: never a flight with rubbish, never a lost set."""
 
+from dataclasses import replace
+
 import pytest
 import yaml
 
 from up.commands.gains import Gains, GainSet, LoopGains
-from up.flight_controller.pids_file import PidsConfig, PidsFile, gain_set_of
+from up.flight_controller.pids_file import PIDS, PidsConfig, PidsFile, gain_set_of
 
 DEFAULT = gain_set_of(PidsConfig())
 LOOP = LoopGains(Gains(3.0, 0.25, 0.003), Gains(1.0), Gains(0.5))
-OURS = GainSet(LOOP, LOOP, LOOP)
+OURS = GainSet(LOOP, replace(LOOP, rudder=Gains(0.0)))
 PROTOTYPE = """\
 rate:
   ailerons: {p: 6.0, i: 0.0, d: 0.0}
@@ -40,7 +42,21 @@ def test_a_set_without_a_rudder_keeps_the_saved_one(pids):
     gains, problem = pids.load()
     assert problem is None
     assert gains.rate == LoopGains(Gains(4.0), Gains(5.0), LOOP.rudder)
-    assert gains.navigation == LOOP
+    assert gains.stabilize == LoopGains(Gains(4.0), Gains(5.0), Gains(0.0))
+
+
+def test_an_old_file_with_gains_that_nothing_uses_is_valid(pids, tmp_path):
+    pids.save(OURS)
+    file = tmp_path / "pids.yml"
+    values = yaml.safe_load(file.read_text())
+    values["stabilize"]["rudder"] = {"p": 1.0, "i": 0.0, "d": 0.0}
+    values["navigation"] = {"ailerons": {"p": 0.5, "i": 0.0, "d": 0.0}}
+    file.write_text(yaml.safe_dump(values))
+    assert PidsFile(tmp_path).load() == (OURS, None)
+    ignored = {(each.code, each.key) for each in PIDS.ignored_keys(tmp_path)}
+    assert ignored == {("key_removed", "stabilize.rudder"), ("key_removed", "navigation")}
+    PidsFile(tmp_path).save(OURS)
+    assert PIDS.ignored_keys(tmp_path) == []
 
 
 @pytest.mark.parametrize(

@@ -10,8 +10,6 @@ from arduino_cog.modules.arduino_provider import ArduinoProvider
 from arduino_cog.on_change_sender import OnChangeSender
 from arduino_cog.wire import pack_altitude, pack_heading, pack_location
 from up.base_started_module import BaseStartedModule
-from up.commands.altitude_command import AltitudeCommand
-from up.commands.heading_command import HeadingCommand
 from up.commands.location_command import LocationCommand
 from up.mode import WITH_BOARD
 from up.needs import needs
@@ -24,18 +22,14 @@ from up.providers.up_location_provider import UpLocationProvider
 class ReadingForward(BaseStartedModule):
     """Forwards each new valid reading of ``source`` once, as the stream ``LETTER``.
 
-    A subclass names the ``COMMAND`` that delivers readings, the provider as ``source``, and the
-    packing of a value.
+    A subclass names the provider as ``source``, and the packing of a value.
     """
 
     MODES = WITH_BOARD
-    COMMAND: type[Any]
     LETTER: str
 
     arduino = needs(ArduinoProvider)
     source: Any
-
-    _forwarded: Reading[Any] | None = None
 
     def load(self) -> bool:
         """Return whether the firmware is the thesis's."""
@@ -49,24 +43,19 @@ class ReadingForward(BaseStartedModule):
             self.context.reactor, lambda payload: self.arduino.send_stream(self.LETTER, payload)
         )
         self.arduino.add_board_listener(self._sender.reset)
-        self.up.command_executor.register_command(self.COMMAND, self.on_reading)
+        self.source.subscribe(self.on_reading)
 
     def on_stop(self) -> None:
         self._sender.stop()
 
-    def on_reading(self, command: Any) -> None:
-        """Forward the provider's reading if it is new: the provider received the Command before."""
-        reading = self.source.reading
-        if self.started and reading is not None and reading is not self._forwarded:
-            self._forwarded = reading
-            if reading.valid:
-                self._sender.offer(self.pack(reading.value))
+    def on_reading(self, reading: Reading[Any]) -> None:
+        if self.started:
+            self._sender.offer(self.pack(reading.value))
 
 
 class ArduinoAltitudeModule(ReadingForward):
     """Forwards the altitude that the provider follows, in whole metres."""
 
-    COMMAND = AltitudeCommand
     LETTER = "h"
     source = needs(UpAltitudeProvider)
 
@@ -77,7 +66,6 @@ class ArduinoAltitudeModule(ReadingForward):
 class ArduinoHeadingModule(ReadingForward):
     """Forwards the heading that the provider follows, in whole degrees."""
 
-    COMMAND = HeadingCommand
     LETTER = "b"
     source = needs(UpHeadingProvider)
 
@@ -88,7 +76,6 @@ class ArduinoHeadingModule(ReadingForward):
 class ArduinoLocationModule(ReadingForward):
     """Forwards the position that the provider follows."""
 
-    COMMAND = LocationCommand
     LETTER = "l"
     source = needs(UpLocationProvider)
 

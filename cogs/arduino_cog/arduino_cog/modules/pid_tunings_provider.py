@@ -56,7 +56,7 @@ class PIDTuningsProvider(BaseModule):
 
     @property
     def pids(self) -> GainSet | None:
-        """Return the Arduino's gains, with pids.yml's navigation; None while unknown."""
+        """Return the Arduino's gains, a missing rudder from pids.yml; None while unknown."""
         return None if self.current is None else self.current.completed(self._saved)
 
     def on_init(self) -> None:
@@ -89,7 +89,9 @@ class PIDTuningsProvider(BaseModule):
     def on_tunings(self, command: PIDTuningsCommand) -> Deferred[Any]:
         """Answer a request, or set the gains: the outcome is the Arduino's."""
         gains = command.gains
-        return self._answer() if gains is None else self._set(gains)
+        if gains is None:
+            return self._answer()
+        return self._set(gains, command)
 
     def _load(self) -> None:
         self._saved, problem = self._file.load()
@@ -163,14 +165,14 @@ class PIDTuningsProvider(BaseModule):
         current = self.current
         return current is None or pack_gains(current) != pack_gains(wanted)
 
-    def _set(self, gains: GainSet) -> Deferred[Any]:
+    def _set(self, gains: GainSet, command: PIDTuningsCommand) -> Deferred[Any]:
         if self._is_thesis and gains.has_rudder:
             raise CommandRefusedError(
                 "an old firmware (framing: thesis) has no rudder gains", detail="old_firmware"
             )
         if self._board.is_setting:
             raise CommandRefusedError("another set of gains is being sent", detail="busy")
-        refuse_unused(gains, (self.current or gains).completed(self._saved))
+        refuse_unused(command, gains, (self.current or gains).completed(self._saved))
         return self._transmit(gains).addCallback(self._save, gains)
 
     def _transmit(self, gains: GainSet) -> Deferred[Any]:

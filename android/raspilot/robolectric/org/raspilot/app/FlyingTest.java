@@ -105,6 +105,17 @@ public final class FlyingTest extends AppBench {
     }
 
     @Test
+    public void aQuestionGoesWithItsScreen() throws Exception {
+        untilEnabled(R.id.ground_loiter);
+        find(R.id.ground_loiter).performClick();
+        AlertDialog asked = ShadowAlertDialog.getLatestAlertDialog();
+        assertTrue(asked.isShowing());
+        handset.window.pause().stop();
+        assertFalse(asked.isShowing());
+        handset.window.start().resume();
+    }
+
+    @Test
     public void theCommandsScreenHasAButtonForEachModeOfTheAircraft() throws Exception {
         untilEnabled(R.id.ground_loiter);
         handset.choose(Screen.COMMANDS);

@@ -347,6 +347,7 @@ export const READING_OF = {
   "navigation.sd.wind": "navigation",
   "navigation.sd.airspeed": "navigation",
   "navigation.sd.heading": "navigation",
+  "navigation.motor_stopped": "navigation",
   "altitude": "altitude",
   "heading.actual": "heading",
   "heading.required": "heading",

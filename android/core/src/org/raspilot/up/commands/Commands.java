@@ -32,9 +32,6 @@ public final class Commands {
     public static final String SPEAK = "android.speak";
     public static final String TELEMETRY = "up.telemetry.update";
     public static final String TELEMETRY_PERIOD = "up.telemetry.frequency";
-    /** The modes that may be requested; never ACRO. */
-    public static final List<String> FLIGHT_MODES =
-            Collections.unmodifiableList(Arrays.asList("RATE", "FBW", "AUTO"));
     private static final List<String> VALUES = Arrays.asList("actual", "required");
     private static final CommandRegistry BUILTIN = CommandRegistry.builtin();
 
@@ -51,7 +48,7 @@ public final class Commands {
         registry.register(ARM, rule(fields -> { }));
         registry.register(BATTERY, rule(fields -> fields.number("level", 0, 100)));
         registry.register(DISARM, rule(fields -> { }));
-        registry.register(FLIGHT_MODE, rule(fields -> fields.choice("mode", FLIGHT_MODES)));
+        registry.register(FLIGHT_MODE, rule(fields -> fields.text("mode", 32)));
         registry.register(HEADING, rule(fields -> {
             fields.number("heading", -360, 360);
             fields.choice("mode", VALUES);
@@ -107,7 +104,7 @@ public final class Commands {
         return of(NACK, "id", id, "code", code, "reason", reason);
     }
 
-    /** Creates a requested flight mode, one of {@link #FLIGHT_MODES}. */
+    /** Creates a requested flight mode; the aircraft knows which exist. */
     public static BaseCommand flightMode(String mode) {
         return of(FLIGHT_MODE, "mode", mode);
     }

@@ -7,7 +7,7 @@ import java.util.List;
 import java.util.Map;
 
 /**
- * A complete set of gains: rate (1.25 us per deg/s), stabilize (deg/s per deg), navigation.
+ * A complete set of gains: rate (1.25 us per deg/s), stabilize (deg/s per deg).
  *
  * <p>Source: docs/protocols.md 5, {@code arduino.pids.tunings} and {@code arduino.pids.values}.
  */
@@ -16,19 +16,16 @@ public final class GainSet {
 
     public final LoopGains rate;
     public final LoopGains stabilize;
-    /** The gains of navigation, or null. */
-    public final LoopGains navigation;
 
-    /** Creates a set; with {@code navigation} null the navigation gains do not change. */
-    public GainSet(LoopGains rate, LoopGains stabilize, LoopGains navigation) {
+    public GainSet(LoopGains rate, LoopGains stabilize) {
         this.rate = rate;
         this.stabilize = stabilize;
-        this.navigation = navigation;
     }
 
     /**
      * Parses {@code {ratePIDs, stabPIDs, navPIDs?}}, the form that {@code arduino.pids.values} uses
-     * too; a set is accepted whole or not at all.
+     * too; a set is accepted whole or not at all. The result is without {@code navPIDs}, which no
+     * controller uses.
      *
      * @throws InvalidCommandException with one sentence that names the place
      */
@@ -41,8 +38,10 @@ public final class GainSet {
                     "must have a rudder in both loops or in none");
         }
         Object navigation = data.get("navPIDs");
-        return new GainSet(rate, stabilize,
-                navigation == null ? null : loop(navigation, "navPIDs"));
+        if (navigation != null) {
+            loop(navigation, "navPIDs");
+        }
+        return new GainSet(rate, stabilize);
     }
 
     /** Returns the set in the form of the wire; nothing is rounded. */
@@ -50,7 +49,6 @@ public final class GainSet {
         Map<String, Object> data = new LinkedHashMap<>();
         put(data, "ratePIDs", loopData(rate));
         put(data, "stabPIDs", loopData(stabilize));
-        put(data, "navPIDs", loopData(navigation));
         return data;
     }
 

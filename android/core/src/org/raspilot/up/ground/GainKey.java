@@ -10,15 +10,15 @@ import org.raspilot.up.commands.GainSet;
 
 /** Names one gain: loop, axis and term. Immutable. */
 public final class GainKey {
-    /** The loops under their names on the wire: rate, stabilize, navigation. */
-    public static final List<String> LOOPS = list("ratePIDs", "stabPIDs", "navPIDs");
+    /** The loops under their names on the wire: rate, stabilize. */
+    public static final List<String> LOOPS = list("ratePIDs", "stabPIDs");
     /** The axes under their names on the wire. */
     public static final List<String> AXES = list("ailerons", "elevator", "rudder");
     public static final List<String> TERMS = list("p", "i", "d");
-    /** All 27 gains: loops, in them axes, in them terms. */
+    /** All 18 gains: loops, in them axes, in them terms. */
     public static final List<GainKey> ALL = all();
 
-    private static final String[] LOOP_WORDS = {"rate", "stabilize", "navigation"};
+    private static final String[] LOOP_WORDS = {"rate", "stabilize"};
     private static final String[] AXIS_WORDS = {"roll", "pitch", "yaw"};
 
     private final int loop;
@@ -56,9 +56,9 @@ public final class GainKey {
         return LOOP_WORDS[loop] + " " + AXIS_WORDS[axis] + " " + term().toUpperCase(Locale.ROOT);
     }
 
-    /** Returns whether a controller uses it; none holds a yaw angle or navigates yet. */
+    /** Returns whether a controller uses it; none holds a yaw angle. */
     public boolean isUsed() {
-        return loop == 0 || loop == 1 && axis < 2;
+        return loop == 0 || axis < 2;
     }
 
     /** Returns this gain of a set; null: the set has none or is null. */
@@ -84,12 +84,12 @@ public final class GainKey {
     }
 
     private LoopGains loopOf(GainSet set) {
-        return loop == 0 ? set.rate : loop == 1 ? set.stabilize : set.navigation;
+        return loop == 0 ? set.rate : set.stabilize;
     }
 
     private static List<GainKey> all() {
         final List<GainKey> keys = new ArrayList<>();
-        for (int each = 0; each < 27; each++) {
+        for (int each = 0; each < 18; each++) {
             keys.add(new GainKey(each / 9, each / 3 % 3, each % 3));
         }
         return Collections.unmodifiableList(keys);

@@ -20,7 +20,7 @@ public final class GainsForm {
      * Returns the active set with a person's edits; unedited values stay exactly as they are.
      *
      * <p>Rate and stabilize must be complete for ailerons and elevator; the rudder is in both or in
-     * neither; navigation is complete or empty, its rudder may be empty.
+     * neither.
      *
      * @param edits the typed texts; an empty one takes the gain out
      * @param active null: none

@@ -47,6 +47,7 @@ public final class TelemetrySchema {
         STALE_MS.put("battery", 120000L);
         STALE_MS.put("navigation", 3000L);
         HOLDS_MS.put("silent", 2000L);
+        HOLDS_MS.put("motor_stopped", 2000L);
         HOLDS_MS.put("receiver", 2000L);
         HOLDS_MS.put("imu", 2000L);
         HOLDS_MS.put("failsafe", 2000L);
@@ -66,7 +67,7 @@ public final class TelemetrySchema {
                 "navigation.airspeed", "navigation.course", "navigation.heading",
                 "navigation.wind.speed", "navigation.wind.from", "navigation.sd.position",
                 "navigation.sd.altitude", "navigation.sd.wind", "navigation.sd.airspeed",
-                "navigation.sd.heading");
+                "navigation.sd.heading", "navigation.motor_stopped");
         put(READING_OF, "altitude", "altitude");
         put(READING_OF, "heading", "heading.actual", "heading.required");
         put(READING_OF, "flight", "flight_mode", "armed", "in_flight", "arduino.switch",
@@ -132,6 +133,11 @@ public final class TelemetrySchema {
         NAVIGATION.put("Wind from", "navigation.wind.from");
         NAVIGATION.put("Position sd", "navigation.sd.position");
         NAVIGATION.put("Altitude sd", "navigation.sd.altitude");
+        RULES.add(new TelemetryRule("path", "navigation.motor_stopped", "type", "flag",
+                "event", "motor", "code", "motor_stopped", "level", "alarm",
+                "text", "the motor gives no thrust", "end", "the motor gives thrust",
+                "end_code", "motor_works", "alarm", "motor_stopped", "level_armed", "alarm",
+                "when", "true"));
         RULES.add(new TelemetryRule("event", "mode", "code", "flight_mode", "level", "info",
                 "text", "flight mode {value} (was {before})", "path", "flight_mode",
                 "type", "text"));

@@ -59,8 +59,8 @@ public final class CommandFormTest {
         assertEquals(Double.valueOf(20), period.minimum);
         assertEquals(Double.valueOf(10000), period.maximum);
         assertTrue(period.isRequired());
-        assertEquals(Arrays.<Object>asList("RATE", "FBW", "AUTO"),
-                installed.form("up.flight_mode.set").field("mode").choices);
+        assertEquals(Integer.valueOf(32),
+                installed.form("up.flight_mode.set").field("mode").maxLength);
         assertEquals(Integer.valueOf(200),
                 installed.form("android.speak").field("text").maxLength);
         assertNull(installed.form("up.location.update"));

@@ -30,4 +30,13 @@ public final class EarthTest {
         assertEquals(-22.2, Earth.eastM(-179.9999, 179.9999, 0), 0.1);
         assertEquals(111195 / 2.0, Earth.eastM(14, 15, 60), 1);
     }
+
+    @Test
+    public void metresFromAPlaceLeadToDegreesAndBack() {
+        Home home = new Home(60, 179.999);
+        assertEquals(61, Earth.latitudeDeg(home, 111195), 1e-4);
+        double eastDeg = Earth.longitudeDeg(home, 400);
+        assertEquals(-179.9938, eastDeg, 1e-3);
+        assertEquals(400, Earth.eastM(home.longitudeDeg, eastDeg, 60), 0.01);
+    }
 }

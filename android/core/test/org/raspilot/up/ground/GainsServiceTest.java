@@ -30,7 +30,7 @@ public final class GainsServiceTest {
         final LoopGains loop = new LoopGains(new Gains(2, 0.1, 0.02), new Gains(2, 0.1, 0.02),
                 new Gains(1, 0, 0));
         return new GainSet(new LoopGains(new Gains(rateRollP, 0.5, 0.25), new Gains(3, 0.5, 0.25),
-                new Gains(1, 0, 0)), loop, null);
+                new Gains(1, 0, 0)), loop);
     }
 
     private void flyWith(GainSet flying) {
@@ -156,12 +156,11 @@ public final class GainsServiceTest {
         final LoopGains whole = set(3).rate;
         final LoopGains noRudder = new LoopGains(whole.ailerons, whole.elevator, null);
         final LoopGains noPitch = new LoopGains(whole.ailerons, null, whole.rudder);
-        refused(new GainSet(whole, null, null), "pids.stabPIDs");
-        refused(new GainSet(whole, noRudder, null), "pids");
-        refused(new GainSet(noPitch, whole, null), "ratePIDs.elevator");
-        refused(new GainSet(whole, whole, noPitch), "navPIDs.elevator");
+        refused(new GainSet(whole, null), "pids.stabPIDs");
+        refused(new GainSet(whole, noRudder), "pids");
+        refused(new GainSet(noPitch, whole), "ratePIDs.elevator");
         assertTrue(bench.ground.gains().snapshot().history.isEmpty());
-        setGains(new GainSet(noRudder, noRudder, noRudder));
+        setGains(new GainSet(noRudder, noRudder));
     }
 
     private void refused(GainSet gains, String place) {

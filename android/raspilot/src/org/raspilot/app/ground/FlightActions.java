@@ -68,14 +68,9 @@ final class FlightActions implements View.OnClickListener, TrackView.TapListener
         }
     }
 
-    /** Sets the ground; null: none. */
+    /** Sets the ground; null: none, as on a screen that is not visible, which must not be confirmed. */
     void setGround(TelemetryService.Ground newGround) {
         ground = newGround;
-        dismiss();
-    }
-
-    /** Takes a question back: a dialog that is not visible must not be confirmed. */
-    void dismiss() {
         confirmation.dismiss();
     }
 

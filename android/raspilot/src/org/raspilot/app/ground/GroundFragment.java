@@ -48,9 +48,6 @@ public final class GroundFragment extends WatchingFragment {
     @Override
     public void onStop() {
         super.onStop();
-        if (screen != null) {
-            screen.dismiss();
-        }
         sounder.release();
     }
 

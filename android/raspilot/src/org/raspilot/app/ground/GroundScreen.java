@@ -41,10 +41,6 @@ final class GroundScreen {
         actions.setGround(ground);
     }
 
-    void dismiss() {
-        actions.dismiss();
-    }
-
     /** Returns the visible panel; {@code otherwise} if all are. */
     int panel(int otherwise) {
         return panels.chosen(otherwise);

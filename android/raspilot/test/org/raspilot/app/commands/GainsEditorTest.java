@@ -24,7 +24,7 @@ public final class GainsEditorTest {
     private static GainSet set(double rollP) {
         LoopGains rate = new LoopGains(new Gains(rollP, 0, 0.1), new Gains(2, SINGLE, 0), null);
         LoopGains stabilize = new LoopGains(new Gains(4, 0, 0), new Gains(5, 0, 0), null);
-        return new GainSet(rate, stabilize, null);
+        return new GainSet(rate, stabilize);
     }
 
     @Test
@@ -35,7 +35,6 @@ public final class GainsEditorTest {
         assertEquals(2.4, wanted.rate.ailerons.p, 0);
         assertEquals(SINGLE, wanted.rate.elevator.i, 0);
         assertEquals(null, wanted.rate.rudder);
-        assertEquals(null, wanted.navigation);
     }
 
     @Test

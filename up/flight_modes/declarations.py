@@ -1,0 +1,43 @@
+"""Checks how flight modes are declared: their names, fallbacks, and ``auto_mode``."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Container, Iterable
+
+from up.fields import suggestion
+from up.flight_modes.flight_mode import FlightMode
+
+_NAME = re.compile(r"[A-Z][A-Z0-9_]{1,15}")
+RESERVED = ("AUTO", "RATE")
+BOARD_MODES = ("FBW", "RATE", "ACRO")
+"""A fallback to one of these, where the Raspberry Pi has none of that name, is the board's."""
+GROUND_MODES = ("FBW", "RATE")
+"""The board's modes that a ground may select."""
+
+
+def usable(modes: Iterable[FlightMode]) -> tuple[dict[str, FlightMode], dict[str, str]]:
+    """Return the modes by name, and by path what is wrong with others or with a fallback."""
+    found: dict[str, FlightMode] = {}
+    problems: dict[str, str] = {}
+    for mode in modes:
+        name, other = mode.NAME, found.get(mode.NAME)
+        if not _NAME.fullmatch(name) or name in RESERVED:
+            text = f"{mode.path}: NAME {name!r} must be 2 to 16 capital letters, digits and _"
+            problems[mode.path] = f"{text}, and not {' or '.join(RESERVED)}"
+        elif other is not None:
+            problems[mode.path] = f"{mode.path} and {other.path} are both named {name}"
+        else:
+            found[name] = mode
+    for mode in found.values():
+        if mode.FALLBACK not in {"", *BOARD_MODES, *found}:
+            text = f"{mode.path}: FALLBACK {mode.FALLBACK!r} is no loaded flight mode"
+            problems[mode.path] = text + suggestion(mode.FALLBACK, found)
+    return found, problems
+
+
+def auto_mode_problem(name: str, modes: Container[str]) -> str | None:
+    """Return why ``navigation.yml: auto_mode`` cannot be this mode; None: it can."""
+    if name in modes or name in GROUND_MODES:
+        return None
+    return f"navigation.yml: auto_mode: no flight mode {name!r} is loaded"
