@@ -23,7 +23,7 @@ class Cruise(FlightMode):
     """
 
     NAME: ClassVar[str] = "CRUISE"
-    NEEDS: ClassVar[Mapping[str, float]] = {"navigation": 3.0, "orientation": 0.25}
+    NEEDS: ClassVar[Mapping[str, float]] = {"navigation": 3.0, "orientation": 1.0}
     FALLBACK: ClassVar[str] = "FBW"
     REQUESTS: ClassVar[frozenset[str]] = frozenset({"course", "altitude"})
 

@@ -17,7 +17,7 @@ class FlyByWire(FlightMode):
 
     SELECTABLE: ClassVar[bool] = False
     NAME: ClassVar[str] = "FBW"
-    NEEDS: ClassVar[Mapping[str, float]] = {"rx": 0.25, "orientation": 0.25}
+    NEEDS: ClassVar[Mapping[str, float]] = {"rx": 0.25, "orientation": 1.0}
     FALLBACK: ClassVar[str] = "ACRO"
 
     def load(self) -> bool:

@@ -35,7 +35,7 @@ class Guided(FlightMode):
     """Flies to the target and circles there; a new target is followed if it is permitted."""
 
     NAME: ClassVar[str] = "GUIDED"
-    NEEDS: ClassVar[Mapping[str, float]] = {"navigation": 3.0, "orientation": 0.25}
+    NEEDS: ClassVar[Mapping[str, float]] = {"navigation": 3.0, "orientation": 1.0}
     FALLBACK: ClassVar[str] = "LOITER"
     REQUESTS: ClassVar[frozenset[str]] = frozenset({"target"})
     CONFIG = GUIDED

@@ -32,7 +32,7 @@ class Loiter(FlightMode):
     """
 
     NAME: ClassVar[str] = "LOITER"
-    NEEDS: ClassVar[Mapping[str, float]] = {"navigation": 3.0, "orientation": 0.25}
+    NEEDS: ClassVar[Mapping[str, float]] = {"navigation": 3.0, "orientation": 1.0}
     FALLBACK: ClassVar[str] = "CIRCLE"
     REQUESTS: ClassVar[frozenset[str]] = frozenset({"altitude"})
     CONFIG = LOITER

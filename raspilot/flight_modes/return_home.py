@@ -45,7 +45,7 @@ class Return(FlightMode):
     """
 
     NAME: ClassVar[str] = "RETURN"
-    NEEDS: ClassVar[Mapping[str, float]] = {"navigation": 3.0, "orientation": 0.25}
+    NEEDS: ClassVar[Mapping[str, float]] = {"navigation": 3.0, "orientation": 1.0}
     FALLBACK: ClassVar[str] = "GLIDE"
     CONFIG = RETURN
 

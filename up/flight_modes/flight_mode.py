@@ -61,7 +61,7 @@ class FlightMode(BaseModule):
     """
 
     NAME: ClassVar[str] = ""
-    NEEDS: ClassVar[Mapping[str, float]] = {"orientation": 0.25}
+    NEEDS: ClassVar[Mapping[str, float]] = {"orientation": 1.0}
     FALLBACK: ClassVar[str] = "GLIDE"
     REQUESTS: ClassVar[frozenset[str]] = frozenset()
     SELECTABLE: ClassVar[bool] = True

@@ -20,7 +20,7 @@ from up.flight_modes.navigation_state import Point
 ORBIT = """
 class Orbit(FlightMode):
     NAME = "ORBIT"
-    NEEDS = {"navigation": 3.0, "orientation": 0.25}
+    NEEDS = {"navigation": 3.0, "orientation": 1.0}
     FALLBACK = "CIRCLE"
 
     def enter(self, situation):
