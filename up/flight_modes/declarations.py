@@ -24,8 +24,8 @@ def usable(modes: Iterable[FlightMode]) -> tuple[dict[str, FlightMode], dict[str
     for mode in modes:
         name, other = mode.NAME, found.get(mode.NAME)
         if not _NAME.fullmatch(name) or name in RESERVED:
-            text = f"{mode.path}: NAME {name!r} must be 2 to {MAX_NAME} capital letters, digits and _"
-            problems[mode.path] = f"{text}, and not {' or '.join(RESERVED)}"
+            text = f"NAME {name!r} must be 2 to {MAX_NAME} capital letters, digits and _"
+            problems[mode.path] = f"{mode.path}: {text}, and not {' or '.join(RESERVED)}"
         elif other is not None:
             problems[mode.path] = f"{mode.path} and {other.path} are both named {name}"
         else:
