@@ -1,4 +1,4 @@
-"""``up create``: writes a working application, module, handler or cog."""
+"""``up create``: writes a working application, module, flight mode, handler or cog."""
 
 from __future__ import annotations
 
@@ -15,6 +15,7 @@ from up.cli.explore import package_at
 from up.cli.names import Name, check_identifier
 from up.cogs.manifest import MANIFEST_FILE, write_manifest
 from up.config import write_template
+from up.flight_modes.declarations import MAX_NAME
 from up.loading.application import Application
 from up.loading.checking import config_files
 from up.loading.external_modules import ModuleEntry
@@ -49,6 +50,12 @@ _COG = {
     "$package/commands/__init__.py": "cog_commands",
     "tests/test_$package.py": "cog_test",
 }
+_PARTS = {
+    "module": ("module", "modules"),
+    "flight-mode": ("mode", "flight_modes"),
+    "handler": ("command", "commands"),
+}
+"""The ending of its name, and its folder."""
 
 
 def may_overwrite(path: Path, yes: bool) -> bool:
@@ -122,29 +129,32 @@ def _create_cog(values: argparse.Namespace) -> int:
 
 
 def _create_part(values: argparse.Namespace) -> int:
-    """Write a module or a handler, and its test where there is a folder of tests."""
-    is_module = values.kind == "module"
-    ending = "module" if is_module else "command"
+    """Write a module, flight mode or handler, and its test where there is a folder of tests."""
+    is_handler = values.kind == "handler"
+    ending, folder = _PARTS[values.kind]
     name = Name.of(values.name, ending=ending)
     place = None if values.file else package_at(Path.cwd())
     words = _words(name, package=place.package if place else "")
-    if is_module:
-        template = f"module_{values.type}"
-    else:
+    template = "flight_mode"
+    if is_handler:
         template = "handler"
         words["identifier"] = check_identifier(values.identifier)
+    elif values.kind == "module":
+        template = f"module_{values.type}"
     file_name = f"{name.snake}_{ending}.py"
     if place is None:
         path = Path(values.file)
     else:
-        path = place.root / ("modules" if is_module else "commands") / file_name
+        path = place.root / folder / file_name
+        if values.kind == "flight-mode" and not (path.parent / "__init__.py").exists():
+            _write(path.parent / "__init__.py", "flight_modes", words)
     if (path.exists() or path.is_symlink()) and not may_overwrite(path, values.yes):
         return 0
     _write(path, template, words)
     echo(f"created {path}", "created", path=path)
     if place is not None:
         _write_test(place, file_name, f"{template}_test", words)
-        if is_module and (place.root / MANIFEST_FILE).is_file():
+        if not is_handler and (place.root / MANIFEST_FILE).is_file():
             echo(f"next: 'up explore -w' lists it in {MANIFEST_FILE}")
     return 0
 
@@ -172,6 +182,7 @@ def _words(name: Name, package: str) -> dict[str, str]:
         "snake": name.snake,
         "camel": name.camel,
         "constant": name.snake.upper(),
+        "mode_name": name.snake.upper()[:MAX_NAME].rstrip("_"),
         "words": name.text,
         "package": package,
         "distribution": f"raspilot-{'-'.join(name.words)}-cog",

@@ -30,6 +30,7 @@ _CREATE_EPILOG = """\
 examples:
   up create new -n my_plane
   up create module -n Altimeter
+  up create flight-mode -n Eight
   up create module -n Camera -t thread
   up create handler -n OpenBay -i my_plane.bay.open
   up create cog -n Lidar
@@ -128,7 +129,7 @@ def _add_create(verbs: Any) -> None:
     create = verbs.add_parser(
         "create",
         aliases=["c"],
-        help="write a new application, module, handler or cog",
+        help="write a new application, module, flight mode, handler or cog",
         epilog=_CREATE_EPILOG,
     )
     create.set_defaults(parser=create)
@@ -136,6 +137,7 @@ def _add_create(verbs: Any) -> None:
     for name, aliases, text in (
         ("new", ("n",), "a runnable application"),
         ("module", ("m",), "a module in ./modules"),
+        ("flight-mode", ("f",), "a flight mode in ./flight_modes"),
         ("handler", ("h",), "a Command and its handler in ./commands"),
         ("cog", (), "a plug-in with packaging, registrar, manifest, module, test and README"),
     ):

@@ -8,7 +8,8 @@ from collections.abc import Container, Iterable
 from up.fields import suggestion
 from up.flight_modes.flight_mode import FlightMode
 
-_NAME = re.compile(r"[A-Z][A-Z0-9_]{1,15}")
+MAX_NAME = 16
+_NAME = re.compile(rf"[A-Z][A-Z0-9_]{{1,{MAX_NAME - 1}}}")
 RESERVED = ("AUTO", "RATE")
 BOARD_MODES = ("FBW", "RATE", "ACRO")
 """A fallback to one of these, where the Raspberry Pi has none of that name, is the board's."""
@@ -23,8 +24,8 @@ def usable(modes: Iterable[FlightMode]) -> tuple[dict[str, FlightMode], dict[str
     for mode in modes:
         name, other = mode.NAME, found.get(mode.NAME)
         if not _NAME.fullmatch(name) or name in RESERVED:
-            text = f"{mode.path}: NAME {name!r} must be 2 to 16 capital letters, digits and _"
-            problems[mode.path] = f"{text}, and not {' or '.join(RESERVED)}"
+            text = f"NAME {name!r} must be 2 to {MAX_NAME} capital letters, digits and _"
+            problems[mode.path] = f"{mode.path}: {text}, and not {' or '.join(RESERVED)}"
         elif other is not None:
             problems[mode.path] = f"{mode.path} and {other.path} are both named {name}"
         else:

@@ -53,16 +53,18 @@ def test_an_application_with_parts_passes_every_check(own_process, passes, tmp_p
         (tmp_path, ("new", "-n", name)),
         (root, ("module", "-n", name)),
         (root, ("m", "-n", "Camera", "-t", "thread")),
+        (root, ("flight-mode", "-n", name)),
         (root, ("h", "-n", name, "-i", "some.plane.that_opens.its_bomb_bay.at_last")),
     ):
         done = own_process(*create, *arguments, cwd=cwd)
         assert done.returncode == 0, done.stderr
     passes(root)
     tests = sorted(path.name for path in (root / "tests").glob("test_*.py"))
-    assert len(tests) == 5, "each part has its test"
+    assert len(tests) == 6, "each part has its test"
     done = own_process("up.cli", "check", cwd=root)
     assert done.returncode == 0, done.stderr
     modules = own_process("up.cli", "modules", cwd=root).stdout
+    assert snake.upper()[:16] in modules
     assert "HeartbeatModule" in modules and "CameraModule" in modules
     assert "some.plane.that_opens.its_bomb_bay.at_last" in modules
 
