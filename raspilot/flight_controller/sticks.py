@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
-from up.commands.flight_state_command import FlyByWireLimitsCommand
-from up.flight_controller.airframe_profile import DEFAULT_LIMITS_DEG
+from up.commands.flight_state_command import DEFAULT_LIMITS_DEG, FlyByWireLimitsCommand
 
 CENTRE_US = 1500
 HALF_TRAVEL_US = 500

@@ -46,7 +46,7 @@ class Return(FlightMode):
 
     NAME: ClassVar[str] = "RETURN"
     NEEDS: ClassVar[Mapping[str, float]] = {"navigation": 3.0, "orientation": 1.0}
-    FALLBACK: ClassVar[str] = "GLIDE"
+    FALLBACK: ClassVar[str] = "CIRCLE"
     CONFIG = RETURN
 
     def refusal(self, situation: FlightSituation) -> str | None:

@@ -2,7 +2,7 @@
 
 import struct
 
-from up.flight_controller.airframe_profile import DEFAULT_LIMITS_DEG
+from up.commands.flight_state_command import DEFAULT_LIMITS_DEG
 
 SERVOS = ("ailerons", "elevator", "throttle", "rudder")
 # docs/protocols.md 2.6, with what the firmware boots with.

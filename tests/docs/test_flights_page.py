@@ -40,7 +40,11 @@ def test_its_expectations_and_limits_are_those_of_the_file(name):
 
 @pytest.mark.parametrize("page", PAGES, ids=name_of)
 def test_the_scenarios_that_it_names_are_shipped(page):
-    assert set(_NAMED.findall(text_of(page))) <= set(SCENARIOS) | {"first-flight", "my-flight", "eight"}
+    assert set(_NAMED.findall(text_of(page))) <= set(SCENARIOS) | {
+        "first-flight",
+        "my-flight",
+        "eight",
+    }
 
 
 def test_every_scenario_about_safety_stands_among_the_failures():

@@ -37,6 +37,7 @@ WORDS = {
     "cpu_load_percent": "processor load",
     "command": "",
     "mark": "",
+    "motor": "motor stopped",
 }
 """The page's words for each kind of event; a Command and a mark are no fault."""
 

@@ -141,12 +141,12 @@ def test_help_teaches(tmp_path):
     assert status == 0
     assert "up-ground send up.flight_mode.set mode=RETURN" in said
     assert "exit status" in ground(tmp_path, 1, "send", "--help")[1]
-    listed = ground(tmp_path, 1, "commands")[1]
+    listed = ground(tmp_path, 1, "commands", UP_LOG_FORMAT="text")[1]
     assert "up.arm   [pilot" in listed
     assert "``" not in listed
     (arm,) = json.loads(ground(tmp_path, 1, "commands", "up.arm", "--json")[1])
     assert (arm["name"], arm["role"], arm["needs_beacon"]) == ("up.arm", "pilot", True)
-    assert ground(tmp_path, 1)[0] == 1
+    assert ground(tmp_path, 1)[0] == 2
 
 
 def test_a_closed_stdout_is_one_sentence(tmp_path):

@@ -10,8 +10,8 @@ from statistics import fmean
 from tools.tuning.gain_set import CHANNELS, Axis
 from tools.tuning.margins import LoopPoint, MarginsError, Multisine, loop_response
 from tools.tuning.trial import Recording, StickMove, Trial
+from up.commands.flight_state_command import DEFAULT_LIMITS_DEG
 from up.commands.gains import GainSet
-from up.flight_controller.airframe_profile import DEFAULT_LIMITS_DEG
 from up_simulator.aircraft import Airframe, Weather
 from up_simulator.firmware.board import BoardKind
 from up_simulator.harness.world import STEP_S

@@ -37,6 +37,10 @@ class FlightModeCommand(BaseCommand):
     mode: str = value(max_length=32)
 
 
+DEFAULT_LIMITS_DEG = {"roll_deg": 50.0, "pitch_up_deg": 20.0, "pitch_down_deg": 25.0}
+"""How far the sticks bank and pitch in FBW by default; the firmware's are in store/profile.cpp."""
+
+
 @dataclass(frozen=True, slots=True)
 class FlyByWireLimitsCommand(BaseCommand):
     """What the airframe's configuration says of the limits; None: it says nothing.

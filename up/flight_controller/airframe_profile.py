@@ -6,12 +6,11 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from up.commands.board_schema import SWITCH_MODES
+from up.commands.flight_state_command import DEFAULT_LIMITS_DEG
 from up.config import key, section
 
 MIXES = ("none", "elevon", "V-tail")
 MODES = tuple(SWITCH_MODES.values())
-DEFAULT_LIMITS_DEG = {"roll_deg": 50.0, "pitch_up_deg": 20.0, "pitch_down_deg": 25.0}
-"""How far the sticks bank and pitch in FBW by default; the firmware's are in store/profile.cpp."""
 
 
 def _pulse(comment: str, least: int = 800, most: int = 2200) -> int | None:

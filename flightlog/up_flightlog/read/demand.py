@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from up.flight_controller.airframe_profile import DEFAULT_LIMITS_DEG
+from up.commands.flight_state_command import DEFAULT_LIMITS_DEG
 from up.flight_log.json_message import number_at
 
 CENTRE_US, HALF_TRAVEL_US = 1500.0, 500.0

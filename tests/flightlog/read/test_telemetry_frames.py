@@ -103,6 +103,7 @@ def test_without_telemetry_the_tree_is_put_together(tmp_path):
         "altitude": 750,
         "heading": 750,
         "battery": 750,
+        "navigation": None,
     }
     assert fourth["source"]["orientation"] == "arduino"
     assert fourth["source"]["battery"] == "android"

@@ -1,6 +1,7 @@
 """``up-sim start`` with its board: a real process, a real pty, real time."""
 
 import csv
+import json
 import os
 import signal
 import struct
@@ -144,7 +145,7 @@ def test_a_flight_that_cannot_start_ends_with_one_line_that_names_the_cause(tmp_
     with board(tmp_path, *arguments) as program:
         assert program.process.wait(60) == 1
         error = program.error()
-    assert error.startswith("up-sim: ") and error.count("\n") == 1, error
+    assert json.loads(error)["fields"]["code"] == "start_failed" and error.count("\n") == 1, error
     assert arguments[1] in error
     assert not (tmp_path / "board").is_symlink()
 

@@ -37,6 +37,8 @@ _SPECIAL = {
     "pids": {"ratePIDs": GAINS, "stabPIDs": GAINS},
     "topic": "companion.airspeed",
     "id": "7f3c",
+    # Instead of an altitude.
+    "height": None,
 }
 
 
