@@ -35,7 +35,7 @@ def test_moving_the_controller_to_the_pi_is_configuration_only(tmp_path):
     assert all(frame["flight_control"]["mode"] == "FBW" for frame in frames)
     assert steepest(frames) < 45
     before, after = frames[0]["counters"], frames[-1]["counters"]
-    sent = after["flight_control"]["outputs"] - before["flight_control"]["outputs"]
+    sent = after["flight_control"]["published"] - before["flight_control"]["published"]
     assert sent > 60
 
 

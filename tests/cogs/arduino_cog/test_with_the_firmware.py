@@ -159,7 +159,7 @@ def test_modes_are_taken_at_auto_only(flight):
     ground.sees("RATE", flight_mode="RATE")
     assert ground.ask("up.flight_mode.set", mode="FBW") == ""
     ground.sees("FBW", flight_mode="FBW")
-    assert ground.ask("up.flight_mode.set", mode="ACRO") == "invalid"
+    assert ground.ask("up.flight_mode.set", mode="ACRO") == "mode_unknown"
     board.move(aux1=1000)
     ground.sees("the switch", arduino__switch="low", flight_mode="ACRO")
     assert ground.ask("up.flight_mode.set", mode="RATE") == "not_at_auto"
