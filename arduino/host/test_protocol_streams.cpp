@@ -116,6 +116,9 @@ TEST_CASE("panic stretches the forwarded streams immediately and reversibly, nev
 }
 
 TEST_CASE("panic does not slow what the Raspberry Pi's flight controller consumes") {
+  Mode mode = Mode::OUTPUT;
+  SUBCASE("for Outputs") {}
+  SUBCASE("for set-points") { mode = Mode::SETPOINT; }
   Awake board;
   board.sticks[AUX1] = 2000;
   board.flick_aux2();
@@ -126,14 +129,18 @@ TEST_CASE("panic does not slow what the Raspberry Pi's flight controller consume
     board.run(20);
     const SentFrame orientation = board.take('O');
     // Outputs that follow keep the mode, as those of a flight controller do.
-    if (count == 0) board.send('M', {'u'});
+    if (count == 0) board.send('M', {static_cast<uint8_t>(mode)});
     if (orientation.type != 'O') continue;
+    if (mode == Mode::SETPOINT) {
+      board.send('S', {0, 0, 0, 0, 0, 0, 0, 0, 0, 250});
+      continue;
+    }
     Bytes output = {0x05, 0xDC, 0x05, 0xDC, 0, 0, 0x05, 0xDC};
     output.push_back(orientation.payload[0]);
     output.push_back(orientation.payload[1]);
     board.send('u', output);
   }
-  REQUIRE(board.autopilot.authority.mode() == Mode::OUTPUT);
+  REQUIRE(board.autopilot.authority.mode() == mode);
   board.frames.clear();
   board.run(200);
   const auto count = [&board](char type) {

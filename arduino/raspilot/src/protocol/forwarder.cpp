@@ -74,8 +74,9 @@ OUT_OF_LINE Forwarder::Steps Forwarder::period(uint8_t stream) const {
   if (period_ms_ == 0) return usual;
   // A millisecond is 31 1/4 steps.
   const Steps asked = static_cast<Steps>(period_ms_ * 31 + period_ms_ / 4);
-  const bool is_consumed = stream != OUTPUTS_STREAM && autopilot_.authority.mode() == Mode::OUTPUT;
-  if (is_consumed && asked > usual) return usual;
+  const Mode mode = autopilot_.authority.mode();
+  const bool is_consumed = mode == Mode::OUTPUT || mode == Mode::SETPOINT || mode == Mode::RETURN;
+  if (is_consumed && stream != OUTPUTS_STREAM && asked > usual) return usual;
   const Steps least = is_thesis ? THESIS_PERIOD : MIN_PERIOD;
   return asked < least ? least : asked;
 }
