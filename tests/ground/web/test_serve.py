@@ -66,7 +66,7 @@ def test_a_refusal_of_the_aircraft_and_one_of_the_ground(proxy, server):
         )
         for name, data, code in (
             ("up.flight_mode.sett", {}, "unknown"),
-            (MODE, {"mode": "ACRO"}, "invalid"),
+            (MODE, {"mode": 5}, "invalid"),
             (MODE, {"mode": "FBW", "more": 1}, "invalid"),
             ("up.system.stop", {}, "forbidden"),
             ("up.ack", {"id": "1"}, "forbidden"),
