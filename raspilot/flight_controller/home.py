@@ -20,9 +20,12 @@ from up.flight_modes.navigation_state import LocalFrame, NavigationState
 MAX_DISTANCE_M = 100_000.0
 """No target is farther away: the plane of the estimator would no longer fit the Earth."""
 
+STANDING_M_S = 3.0
+"""A faster aircraft that is armed is in the air, for example after a brown-out."""
+
 
 class HomeKeeper:
-    """Home is the first accurate position, then the one at which the flight begins (arming).
+    """Home is the first accurate position, then that of the standing aircraft when it is armed.
 
     In flight only a Command moves it. ``place`` is None while home is not known; ``on_changed`` is
     called with every new one.
@@ -56,13 +59,15 @@ class HomeKeeper:
         """Set home, if this is the moment; called for every orientation frame."""
         is_in_flight = None if state is None else state.is_in_flight
         begins = is_in_flight and self._was_in_flight is False
-        if not begins and (self.place is not None or is_in_flight is None):
-            self._was_in_flight = is_in_flight
-            return
+        # Without an accurate position at this moment home stays: a later one would be in the air.
+        self._was_in_flight = is_in_flight
         if navigation is None or navigation.position_sd_m > self._accuracy_m:
             return
-        self._was_in_flight = is_in_flight
-        self._set(_place_of(navigation), "flight_begins" if begins else "first_position")
+        if self.place is None:
+            if is_in_flight is not None:
+                self._set(_place_of(navigation), "first_position")
+        elif begins and navigation.ground_speed_m_s <= STANDING_M_S:
+            self._set(_place_of(navigation), "flight_begins")
 
     def set(self, command: HomeCommand, navigation: NavigationState | None) -> None:
         """Set home by a Command; raises CommandRefusedError without a position."""

@@ -26,6 +26,7 @@ NAVIGATION = NavigationState(
     0.0, FRAME, Point(100.0, 50.0), Point(14.0, 0.0), 250.0, 0.0, Point(0.0, 0.0), 14.0, 0.0, 0.0,
     0.0, 2.0, 3.0, 0.5, 0.5, 2.0, 0.5,
 )  # fmt: skip
+STANDING = replace(NAVIGATION, velocity_m_s=Point(0.0, 0.0))
 ARDUINO = "flight controller: arduino\n"
 
 
@@ -268,10 +269,10 @@ class TestHome:
         rig.state("FBW", armed=False, in_flight=False)
         rig.setpoint()
         assert self.home(rig) is None
-        rig.navigation.state = NAVIGATION
+        rig.navigation.state = STANDING
         rig.setpoint()
         assert self.home(rig) == pytest.approx((100.0, 50.0), abs=0.01)
-        rig.navigation.state = replace(NAVIGATION, position=Point(0.0, 10.0))
+        rig.navigation.state = replace(STANDING, position=Point(0.0, 10.0))
         rig.setpoint()
         assert self.home(rig) == pytest.approx((100.0, 50.0), abs=0.01)
         rig.state("FBW")
@@ -282,6 +283,23 @@ class TestHome:
         assert self.home(rig) == pytest.approx((0.0, 10.0), abs=0.01)
         assert rig.outcome(HomeCommand()) == [None]
         assert self.home(rig) == pytest.approx((900.0, 0.0), abs=0.01)
+
+    @pytest.mark.parametrize(
+        "at_arming", [{"position_sd_m": 6.0}, {"velocity_m_s": Point(12.0, 0.0)}]
+    )
+    def test_it_stays_when_the_flight_begins_without_a_fix_or_the_aircraft_arms_in_the_air(
+        self, tmp_path, at_arming
+    ):
+        rig = NavigationRig(tmp_path)
+        rig.state("FBW", armed=False, in_flight=False)
+        rig.navigation.state = STANDING
+        rig.setpoint()
+        rig.navigation.state = replace(STANDING, position=Point(300.0, 0.0), **at_arming)
+        rig.state("FBW")
+        rig.setpoint()
+        rig.navigation.state = replace(STANDING, position=Point(900.0, 0.0))
+        rig.setpoint()
+        assert self.home(rig) == pytest.approx((100.0, 50.0), abs=0.01)
 
     def test_a_command_far_away_or_without_a_position_is_refused(self, tmp_path):
         rig = NavigationRig(tmp_path)
