@@ -122,9 +122,6 @@ class FlightModeManager(BaseFlightController):
         executor.register_command(NavigationTargetCommand, self._on_target)
         executor.register_command(HomeCommand, self._on_home)
 
-    def on_stop(self) -> None:
-        self._selector.timer.close()
-
     @property
     def telemetry_content(self) -> Mapping[str, Any]:
         """Return the flight modes, home and target; counts only delivered Commands."""

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Mapping
 from dataclasses import replace
 from pathlib import Path
@@ -11,6 +10,7 @@ from typing import Any
 from twisted.logger import Logger
 
 from raspilot.flight_controller.flight_memory import FlightMemory, Place
+from raspilot.navigation.planning import course_to_deg, distance_m, ground_speed_m_s
 from up.commands.flight_state_command import FlightStateCommand
 from up.commands.navigation_commands import HomeCommand, NavigationTargetCommand
 from up.commands.refusal import Code, CommandRefusedError
@@ -20,6 +20,7 @@ from up.flight_modes.navigation_state import LocalFrame, NavigationState
 MAX_DISTANCE_M = 100_000.0
 """No target is farther away: the plane of the estimator would no longer fit the Earth."""
 
+MIN_PROGRESS_M_S = 0.5
 STANDING_M_S = 3.0
 """A faster aircraft that is armed is in the air, for example after a brown-out."""
 
@@ -128,19 +129,12 @@ class HomeKeeper:
 
 def time_home_s(navigation: NavigationState, home: Home, airspeed_m_s: float) -> float | None:
     """Return how long the straight way home takes in this wind; None: it does not arrive."""
-    north_m = home.point.north_m - navigation.position.north_m
-    east_m = home.point.east_m - navigation.position.east_m
-    distance_m = math.hypot(north_m, east_m)
-    if distance_m < 1.0:
-        return 0.0
-    north, east = north_m / distance_m, east_m / distance_m
-    wind = navigation.wind_m_s
-    along_m_s = wind.north_m * north + wind.east_m * east
-    across_m_s = wind.east_m * north - wind.north_m * east
-    if abs(across_m_s) >= airspeed_m_s:
+    course_deg = course_to_deg(navigation.position, home.point)
+    speed_m_s = ground_speed_m_s(airspeed_m_s, course_deg, navigation.wind_m_s)
+    # Against a wind of its own speed only the rounding moves it.
+    if speed_m_s is None or speed_m_s < MIN_PROGRESS_M_S:
         return None
-    speed_m_s = along_m_s + math.sqrt(airspeed_m_s**2 - across_m_s**2)
-    return distance_m / speed_m_s if speed_m_s > 0.5 else None
+    return distance_m(navigation.position, home.point) / speed_m_s
 
 
 def require_position(navigation: NavigationState | None) -> NavigationState:
@@ -178,10 +172,10 @@ def _check_distance(
     if navigation is None:
         return
     point = navigation.frame.point(latitude_deg, longitude_deg)
-    distance_m = math.dist(point, navigation.position)
-    if distance_m > MAX_DISTANCE_M:
+    away_m = distance_m(point, navigation.position)
+    if away_m > MAX_DISTANCE_M:
         raise CommandRefusedError(
-            f"that point is {distance_m / 1000:.0f} km away: at most"
+            f"that point is {away_m / 1000:.0f} km away: at most"
             f" {MAX_DISTANCE_M / 1000:.0f} km is possible",
             detail="too_far",
         )

@@ -10,6 +10,20 @@ from typing import Any
 LIMIT_S = 0.02
 
 
+class _Collections:
+    """The time that Python has spent collecting garbage; counted once for the whole process."""
+
+    total_s = 0.0
+    began_s = 0.0
+
+    @classmethod
+    def note(cls, phase: str, _: dict[str, Any]) -> None:
+        if phase == "start":
+            cls.began_s = perf_counter()
+        else:
+            cls.total_s += perf_counter() - cls.began_s
+
+
 class StepTimer:
     """Tells a step that computes or waits too long from one that the system interrupted.
 
@@ -21,31 +35,22 @@ class StepTimer:
     def __init__(self, limit_s: float = LIMIT_S) -> None:
         self.limit_s = limit_s
         self.last_s = 0.0
-        self._collecting_s = self._collected_s = 0.0
-        gc.callbacks.append(self._on_collection)
-
-    def close(self) -> None:
-        """Stop watching the garbage collector."""
-        gc.callbacks.remove(self._on_collection)
+        if _Collections.note not in gc.callbacks:
+            gc.callbacks.append(_Collections.note)
 
     def start(self) -> None:
         """Begin a step."""
-        self._collected_s = 0.0
+        self._collected_s = _Collections.total_s
         self._used = resource.getrusage(resource.RUSAGE_THREAD)
         self._started_s = perf_counter()
 
     def is_overrun(self) -> bool:
         """Return whether the step since ``start`` took too long, and set ``last_s``."""
-        self.last_s = perf_counter() - self._started_s - self._collected_s
+        collected_s = _Collections.total_s - self._collected_s
+        self.last_s = perf_counter() - self._started_s - collected_s
         if self.last_s <= self.limit_s:
             return False
         used, before = resource.getrusage(resource.RUSAGE_THREAD), self._used
         processor_s = used.ru_utime + used.ru_stime - before.ru_utime - before.ru_stime
         has_waited = used.ru_nvcsw > before.ru_nvcsw
-        return has_waited or processor_s - self._collected_s > self.limit_s
-
-    def _on_collection(self, phase: str, _: dict[str, Any]) -> None:
-        if phase == "start":
-            self._collecting_s = perf_counter()
-        else:
-            self._collected_s += perf_counter() - self._collecting_s
+        return has_waited or processor_s - collected_s > self.limit_s
