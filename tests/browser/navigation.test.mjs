@@ -71,6 +71,14 @@ test("the modes are those of the aircraft; one that is not offered is disabled w
   ground.assertClean();
 });
 
+test("satellites are shown where the receiver reports them", async () => {
+  const ground = await openWith(navigating());
+  await ground.until(() => document.querySelector('[data-key="location.satellites"]').textContent === "9", "satellites");
+  assert.equal(await ground.page.isVisible('[data-key="location.satellites"]'), true);
+  flight.tell({ data: { ...navigating(), location: { latitude: 50.07805, longitude: 14.44205, altitude: 401 } } });
+  await ground.until(() => document.querySelector('[data-key="location.satellites"]').closest("[hidden]") !== null, "none");
+});
+
 test("a fallback is shown until the selected mode acts again", async () => {
   const ground = await openWith(navigating());
   flight.tell({ data: navigating({ mode: "CIRCLE", selected: "LOITER", fallback: "navigation" }) });

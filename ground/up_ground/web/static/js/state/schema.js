@@ -186,61 +186,78 @@ export const NAVIGATION_ROWS = [
     "label": "Time home",
     "path": "home.time_s",
     "unit": "s",
-    "decimals": 0
+    "decimals": 0,
+    "optional": false
   },
   {
     "label": "Above sea level",
     "path": "navigation.altitude",
     "unit": "m",
-    "decimals": 1
+    "decimals": 1,
+    "optional": false
   },
   {
     "label": "Above home",
     "path": "navigation.height",
     "unit": "m",
-    "decimals": 1
+    "decimals": 1,
+    "optional": false
   },
   {
     "label": "Ground speed",
     "path": "navigation.speed",
     "unit": "m/s",
-    "decimals": 1
+    "decimals": 1,
+    "optional": false
   },
   {
     "label": "Climb",
     "path": "navigation.climb",
     "unit": "m/s",
-    "decimals": 1
+    "decimals": 1,
+    "optional": false
   },
   {
     "label": "Airspeed",
     "path": "navigation.airspeed",
     "unit": "m/s",
-    "decimals": 1
+    "decimals": 1,
+    "optional": false
   },
   {
     "label": "Wind",
     "path": "navigation.wind.speed",
     "unit": "m/s",
-    "decimals": 1
+    "decimals": 1,
+    "optional": false
   },
   {
     "label": "Wind from",
     "path": "navigation.wind.from",
     "unit": "deg",
-    "decimals": 0
+    "decimals": 0,
+    "optional": false
   },
   {
     "label": "Position sd",
     "path": "navigation.sd.position",
     "unit": "m",
-    "decimals": 1
+    "decimals": 1,
+    "optional": false
   },
   {
     "label": "Altitude sd",
     "path": "navigation.sd.altitude",
     "unit": "m",
-    "decimals": 1
+    "decimals": 1,
+    "optional": false
+  },
+  {
+    "label": "Satellites",
+    "path": "location.satellites",
+    "unit": "",
+    "decimals": 0,
+    "optional": true
   }
 ];
 
@@ -347,6 +364,7 @@ export const READING_OF = {
   "navigation.sd.wind": "navigation",
   "navigation.sd.airspeed": "navigation",
   "navigation.sd.heading": "navigation",
+  "location.satellites": "location",
   "navigation.motor_stopped": "navigation",
   "altitude": "altitude",
   "heading.actual": "heading",
