@@ -52,7 +52,7 @@ test("the modes are those of the aircraft; one that is not offered is disabled w
   );
   assert.deepEqual(states, {
     RETURN: ["", false], LOITER: ["", false], AUTO: ["", false], CRUISE: ["", false], CIRCLE: ["", false],
-    GUIDED: ["mode_refused", true], GLIDE: ["altitude", true], FBW: ["", false], RATE: ["", false],
+    GUIDED: ["no_target", true], GLIDE: ["altitude", true], FBW: ["", false], RATE: ["", false],
   });
   assert.equal(await ground.attribute('[data-mode="LOITER"]', "aria-pressed"), "true");
   assert.equal(await ground.text("#bar-mode"), "LOITER");

@@ -5,7 +5,7 @@ const AGES = { orientation: 12, rx: 20, servo: 20, location: 600, altitude: 30, 
 /** more: fields of flight_control, `flight_control` for all of them. */
 export function navigating({ flight_control = null, ...more } = {}) {
   const modes = {
-    AUTO: null, CRUISE: null, LOITER: null, GUIDED: "mode_refused", RETURN: null, CIRCLE: null, GLIDE: "altitude",
+    AUTO: null, CRUISE: null, LOITER: null, GUIDED: "no_target", RETURN: null, CIRCLE: null, GLIDE: "altitude",
   };
   return {
     flight_mode: "SETPOINT",

@@ -115,6 +115,14 @@ public final class TelemetrySchema {
         MODE_REASONS.put("demand_invalid", "it demanded what is not possible");
         MODE_REASONS.put("mode_refused", "it cannot be entered now");
         MODE_REASONS.put("mode_unknown", "no module provides it");
+        MODE_REASONS.put("no_home", "home is not set");
+        MODE_REASONS.put("home_too_far", "home is too far away");
+        MODE_REASONS.put("no_target", "it needs a target: choose a place on the map");
+        MODE_REASONS.put("target_too_far", "the target is too far away");
+        MODE_REASONS.put("target_too_high", "the target is too far above the aircraft");
+        MODE_REASONS.put("target_too_low", "the target is too far below the aircraft");
+        MODE_REASONS.put("target_below_home", "the target is below home");
+        MODE_REASONS.put("target_radius", "the radius of the target is not above 0");
         MODE_REASONS.put("orientation", "orientation missing or too old");
         MODE_REASONS.put("rx", "receiver missing or too old");
         MODE_REASONS.put("servo", "servos missing or too old");
