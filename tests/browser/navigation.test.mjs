@@ -112,7 +112,11 @@ test("a click on the map sends a target above home, then selects GUIDED", async 
 
 test("a refused target does not select GUIDED; without home a height is above sea level", async () => {
   const home = { latitude: null, longitude: null, altitude: null, distance: null, bearing: null, time_s: null };
-  const ground = await openWith({ ...navigating(), home });
+  const { modes } = navigating().flight_control;
+  const ground = await openWith({ ...navigating({ modes: { ...modes, RETURN: "no_home" } }), home });
+  const button = '[data-mode="RETURN"]';
+  assert.deepEqual([await ground.attribute(button, "data-code"), await ground.page.isDisabled(button)], ["no_home", true]);
+  assert.match(await ground.text(`${button} small`), /home is not set/);
   flight.tell({ nack: "too far" });
   await ground.page.focus(".map-canvas");
   await ground.page.keyboard.press("Enter");
