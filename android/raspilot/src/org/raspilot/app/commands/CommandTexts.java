@@ -93,6 +93,12 @@ public final class CommandTexts {
         return "";
     }
 
+    /** Returns a flight mode as its button shows it; {@code code}: why it is not offered, or null. */
+    public static String mode(Resources words, String mode, String code) {
+        return code == null ? mode
+                : words.getString(R.string.mode_why, mode, FlightModes.reason(code));
+    }
+
     private static String mode(Resources words, GroundSnapshot picture) {
         String mode = FlightModes.acting(picture.telemetry);
         boolean isLive = picture.telemetry.freshness("flight_mode", picture.nowMs)

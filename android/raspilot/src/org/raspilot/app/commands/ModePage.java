@@ -55,8 +55,7 @@ final class ModePage implements Page {
         for (Map.Entry<String, String> mode : modes.entrySet()) {
             Button button = buttons.get(mode.getKey());
             String code = mode.getValue();
-            TextViews.show(button, code == null ? mode.getKey()
-                    : words.getString(R.string.mode_why, mode.getKey(), FlightModes.reason(code)));
+            TextViews.show(button, CommandTexts.mode(words, mode.getKey(), code));
             button.setEnabled(code == null && objection.isEmpty());
         }
     }
