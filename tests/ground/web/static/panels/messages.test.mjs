@@ -26,10 +26,13 @@ test("an answer has the text and the code of its outcome", () => {
 });
 
 test("a Command has a name that a person understands", () => {
-  assert.equal(commandText("up.flight_mode.set", { mode: "FBW" }), "Flight mode FBW");
-  assert.equal(commandText("arduino.pids.tunings", { request: true }), "Request the gains");
-  assert.equal(commandText("arduino.pids.tunings", { pids: {} }), "New gains");
-  assert.equal(commandText("some.cog.thing", {}), "some.cog.thing");
+  const catalogue = new Catalogue(JSON.parse(readFileSync(COMMANDS)).commands);
+  const text = (name, data) => commandText(catalogue.get(name).title, data);
+  assert.equal(text("up.flight_mode.set", { mode: "FBW" }), "Flight mode FBW");
+  assert.equal(text("arduino.calibrate", { what: "gyroscope_bias" }), "Calibrate gyroscope bias");
+  assert.equal(text("android.speak", { text: "$& {}" }), 'Speak "$& {}"');
+  assert.equal(text("up.home.set", { latitude: 1, longitude: 2 }), "Set home");
+  assert.equal(new Catalogue([{ name: "some.cog.thing" }]).get("some.cog.thing").title, "some.cog.thing");
 });
 
 test("a period says what it costs", () => {
