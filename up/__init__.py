@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from up.commands.refusal import Code, CommandRefusedError
     from up.commands.roles import Role
     from up.config import ConfigErrors, ConfigFile, items, key, mapping, section
+    from up.failures import FailureSource
     from up.flight_controller.base_flight_controller import BaseFlightController as FlightController
     from up.flight_modes.demand import (
         AttitudeDemand,
@@ -52,6 +53,7 @@ _PLACES = {
     "ConfigFile": "config",
     "Course": "flight_modes.demand",
     "Demand": "flight_modes.demand",
+    "FailureSource": "failures",
     "FlightController": "flight_controller.base_flight_controller:BaseFlightController",
     "FlightMode": "flight_modes.flight_mode",
     "FlightSituation": "flight_modes.flight_mode",
@@ -94,6 +96,7 @@ __all__ = [
     "ConfigFile",
     "Course",
     "Demand",
+    "FailureSource",
     "FlightController",
     "FlightMode",
     "FlightSituation",

@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass, fields
 
-from up.config import ConfigFile, key, section
+from up.config import ConfigFile, key, mapping, section
+from up.fields import Constraint
 
 WARN = "warn"
 
@@ -42,11 +43,26 @@ class UplinkLost:
 
 @dataclass(frozen=True, slots=True)
 class PhoneBattery:
-    """The phone's battery is low: with it go position and uplink."""
+    """The phone's battery is low (android.yml: low battery): with it go position and uplink."""
 
     action: str = _action(WARN)
     delay_s: float = _delay(20.0)
-    below_percent: int = key(10, "The limit.", unit="%", minimum=1, maximum=90)
+
+
+@dataclass(frozen=True, slots=True)
+class NoProgress:
+    """In RETURN the aircraft comes no nearer: the head wind is stronger than its airspeed."""
+
+    action: str = _action(WARN)
+    delay_s: float = _delay(30.0)
+
+
+@dataclass(frozen=True, slots=True)
+class Other:
+    """A failure that a module of an application or cog reports."""
+
+    action: str = _action(WARN)
+    delay_s: float = _delay(5.0)
 
 
 @dataclass(frozen=True, slots=True)
@@ -75,7 +91,7 @@ class Fence:
             yield "floor_m", "must be below ceiling_m"
 
 
-Trigger = ReceiverLost | UplinkLost | PhoneBattery | Fence
+Trigger = ReceiverLost | UplinkLost | PhoneBattery | NoProgress | Fence | Other
 
 
 @dataclass(frozen=True, slots=True)
@@ -91,11 +107,21 @@ class FailsafeConfig:
     receiver_lost: ReceiverLost = section(ReceiverLost)
     uplink_lost: UplinkLost = section(UplinkLost)
     phone_battery: PhoneBattery = section(PhoneBattery)
+    no_progress: NoProgress = section(NoProgress)
+    others: dict[str, Other] = mapping(
+        Constraint(str, max_length=32), Other, "Failures of other modules by code.", max_length=32
+    )
 
     @property
     def triggers(self) -> dict[str, Trigger]:
         """Return the triggers by code, the one that decides first first."""
-        return {each.name: getattr(self, each.name) for each in fields(self)}
+        own = [each.name for each in fields(self) if each.name != "others"]
+        return {**{name: getattr(self, name) for name in own}, **self.others}
+
+    def problems(self) -> Iterator[tuple[str, str]]:
+        for each in fields(self):
+            if each.name in self.others:
+                yield "others", f"must not contain {each.name}, which is a key of its own"
 
 
 FAILSAFE = ConfigFile("failsafe.yml", FailsafeConfig)

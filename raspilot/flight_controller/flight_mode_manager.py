@@ -135,7 +135,7 @@ class FlightModeManager(BaseFlightController):
             offers = {AUTO: missing[0] if missing else None, **offers}
         return {
             "flight_control": {
-                "mode": selector.active if is_flying else None,
+                "mode": self.acting_mode,
                 "selected": selector.selected,
                 "fallback": selector.reason if is_flying else None,
                 "modes": offers,
@@ -145,6 +145,11 @@ class FlightModeManager(BaseFlightController):
             "home": self.home.telemetry(self._navigation, self.config.airspeed.cruise_m_s),
             "counters": {"flight_control": {"published": self.published - dropped}},
         }
+
+    @property
+    def acting_mode(self) -> str | None:
+        """Return the flight mode that the aircraft flies now; None: none of the Raspberry Pi."""
+        return self._selector.active if self.is_flying else None
 
     @property
     def is_flying(self) -> bool:

@@ -12,17 +12,21 @@ from twisted.python.failure import Failure
 from raspilot.failsafe.config import FAILSAFE, WARN
 from raspilot.failsafe.engine import FailsafeEngine
 from raspilot.failsafe.fence import FenceWatch
+from raspilot.failsafe.progress import ProgressWatch
 from raspilot.flight_controller.flight_mode_manager import FlightModeManager
 from raspilot.flight_modes.return_home import RETURN, Return
+from raspilot.navigation.planning import distance_m
 from up.base_started_module import BaseStartedModule
+from up.failures import FailureSource
 from up.fields import suggestion
-from up.flight_modes.flight_mode import FlightMode
+from up.flight_modes.flight_mode import FlightMode, FlightSituation
+from up.log.limits import Once
 from up.mode import WITH_BOARD, Mode
 from up.needs import needs
 from up.providers.base_mission_control_provider import BaseMissionControlProvider
-from up.providers.base_provider import BaseProvider
 
 PERIOD_S = 0.2
+ARRIVED_RADII = 3.0
 
 
 class Failsafes(BaseStartedModule):
@@ -44,15 +48,15 @@ class Failsafes(BaseStartedModule):
         self._is_entering = False
         self._choices = 0
         self._was_linked = False
-        self._reported: list[str] = []
+        self._logged: list[str] = []
+        self._said = Once()
 
     def on_init(self) -> None:
         self._engine = FailsafeEngine(self.config.triggers)
         self._fence = FenceWatch(self.config.fence)
+        self._progress = ProgressWatch()
         self._grounds = self.up.get_modules(BaseMissionControlProvider)
-        self._batteries = [
-            each for each in self.up.get_modules(BaseProvider) if each.READING == "battery"
-        ]
+        self._sources = self.up.get_modules(FailureSource)
         for number, problem in enumerate(self._contradictions()):
             self.up.vetoes.set(f"failsafe.yml.{number}", problem)
         reactor = self.context.reactor
@@ -61,7 +65,12 @@ class Failsafes(BaseStartedModule):
         self._loop.clock = reactor
 
     def on_start(self) -> bool:
-        self._loop.start(PERIOD_S, now=False)
+        reported = self._reported_failures()
+        for code in self.config.others.keys() - reported.keys():
+            hint = suggestion(code, reported)
+            text = f"failsafe.yml: others: {code}: no module reports this failure{hint}"
+            self.up.vetoes.set(f"failsafe.yml.{code}", text)
+        self._loop.start(PERIOD_S, now=False).addErrback(self._on_fault)
         return True
 
     def on_stop(self) -> None:
@@ -73,6 +82,11 @@ class Failsafes(BaseStartedModule):
         """Return the failures, and the one because of which the present mode flies."""
         cause = self._acting if self.flight.is_flying else None
         return {"failsafe": {"active": self._engine.active, "cause": cause}}
+
+    def _on_fault(self, failure: Failure) -> None:
+        """Go on after a fault of this module: without it nothing would act any more."""
+        self.log.failure("the failsafes failed", failure, code="failsafe_failed")
+        self._loop.start(PERIOD_S, now=False).addErrback(self._on_fault)
 
     def _contradictions(self) -> Iterator[str]:
         modes = {each.NAME for each in self.up.get_modules(FlightMode)}
@@ -120,21 +134,37 @@ class Failsafes(BaseStartedModule):
                 self._act(code)
 
     def _conditions(self) -> dict[str, bool]:
-        flight, limits = self.flight, self.config.phone_battery
-        situation = flight.situation
+        flight, situation = self.flight, self.flight.situation
         is_linked = any(each.wants_telemetry for each in self._grounds)
         # A restart in flight does not forget that there was a ground.
         self._was_linked = self._was_linked or is_linked or flight.is_resumed
-        levels = [each.fresh(each.MAX_AGE_S) for each in self._batteries]
+        away_m = self._distance_to_return_m(situation)
         return {
+            **self._reported_failures(),
             "fence": situation is not None
             and self._fence.is_crossed(situation.navigation, situation.home),
             "receiver_lost": flight.board.is_failsafe,
             "uplink_lost": self._was_linked and not is_linked,
-            "phone_battery": any(
-                level is not None and level.value < limits.below_percent for level in levels
-            ),
+            "no_progress": self._progress.stalled_s(self._seconds(), away_m) > 0.0,
         }
+
+    def _reported_failures(self) -> dict[str, bool]:
+        found: dict[str, bool] = {}
+        for source in self._sources:
+            try:
+                found.update(source.failures)
+            except (Exception, SystemExit):  # noqa: BLE001 - a fault costs one module's part only
+                if self._said.first(source):
+                    self.log.failure("a module's failures are unknown", code="failures_unknown")
+        return found
+
+    def _distance_to_return_m(self, situation: FlightSituation | None) -> float | None:
+        """Return how far RETURN has to fly; None in another mode, or at home."""
+        if situation is None or situation.navigation is None or situation.home is None:
+            return None
+        away_m = distance_m(situation.navigation.position, situation.home.point)
+        is_away = away_m > ARRIVED_RADII * self.context.config(RETURN).radius_m
+        return away_m if is_away and self.flight.acting_mode == Return.NAME else None
 
     def _act(self, code: str) -> None:
         action = self.config.triggers[code].action
@@ -163,6 +193,6 @@ class Failsafes(BaseStartedModule):
 
     def _report(self) -> None:
         active = self._engine.active
-        if active != self._reported:
-            self._reported = list(active)
+        if active != self._logged:
+            self._logged = list(active)
             self.log.warn("failures: {active}", active=active, code="failsafe_active")

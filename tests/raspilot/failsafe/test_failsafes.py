@@ -3,14 +3,17 @@
 from dataclasses import replace
 
 import pytest
+from twisted.logger import capturedLogs
 
 from raspilot.flight_modes.return_home import Return
 from raspilot.modules.failsafes import Failsafes
+from tests.docs.test_how_to import examples
 from tests.raspilot.flight_controller_rig import BOARD
 from tests.raspilot.navigation_rig import NAVIGATION, STANDING, NavigationRig
+from up.base_module import BaseModule
 from up.commands.flight_state_command import FlightModeCommand, FlightStateCommand
+from up.failures import FailureSource
 from up.flight_modes.navigation_state import Point
-from up.providers.base_provider import BaseProvider, Reading
 
 CONFIG = """
 fence: {radius_m: 500}
@@ -21,22 +24,21 @@ FAR = replace(NAVIGATION, position=Point(580.0, 50.0))
 INACCURATE = replace(NAVIGATION, position_sd_m=20.0)
 
 
-class Battery(BaseProvider):
-    """The phone's battery, which the test sets."""
+class Battery(BaseModule, FailureSource):
+    """The phone's battery, which the test empties."""
 
-    READING = "battery"
-    MAX_AGE_S = 120.0
+    is_low = False
 
-    def on_init(self):
-        self._seconds = self.context.reactor.seconds
-
-    def set(self, level):
-        self._reading = Reading(level, "test", self.context.reactor.seconds())
+    @property
+    def failures(self):
+        return {"phone_battery": self.is_low}
 
 
 class FailsafeRig(NavigationRig):
-    def __init__(self, folder, config="flight controller: arduino\n", failsafe=CONFIG, **more):
-        super().__init__(folder, config, (Return,), (Failsafes, Battery), failsafe=failsafe, **more)
+    def __init__(self, folder, failsafe=CONFIG, modules=()):
+        super().__init__(
+            folder, modes=(Return,), modules=(Failsafes, Battery, *modules), failsafe=failsafe
+        )
         self.failsafes = self.up.get_module(Failsafes)
         self.battery = self.up.get_module(Battery)
         self.failsafes.on_start()
@@ -98,6 +100,7 @@ def test_with_the_switch_elsewhere_nothing_acts(rig):
     rig.navigation.set(FAR)
     rig.fly(30.0)
     assert rig.seen() == (["fence", "uplink_lost"], None, None)
+    assert rig.board.asked == [], "nothing is requested of the board"
 
 
 def test_the_sticks_fly_on_without_an_uplink(tmp_path):
@@ -121,14 +124,14 @@ def test_before_the_fence_is_crossed_it_returns_and_a_less_important_failure_cha
     rig.navigation.set(FAR)
     rig.fly(0.5)
     assert rig.seen() == (["fence"], "fence", "RETURN")
-    rig.battery.set(5.0)
+    rig.battery.is_low = True
     rig.fly(6.0)
     assert rig.seen() == (["fence", "phone_battery"], "fence", "RETURN")
 
 
 def test_a_low_battery_acts_after_its_delay_and_the_fence_takes_over(rig):
     rig.outcome(FlightModeCommand("BANK"))
-    rig.battery.set(5.0)
+    rig.battery.is_low = True
     rig.fly(4.5)
     assert rig.seen()[2] == "BANK"
     rig.fly(1.0)
@@ -143,12 +146,14 @@ def test_without_the_receiver_it_returns_if_the_board_lets_it(tmp_path, follows)
     rig = FailsafeRig(tmp_path)
     rig.take_off()
     lost = FlightStateCommand("FBW", True, False, True, True)
-    rig.bus.execute_command(lost, BOARD)
-    rig.fly(1.5)
-    assert rig.setpoint().is_failsafe
-    if follows:
-        rig.bus.execute_command(replace(lost, flight_mode="RETURN"), BOARD)
-    rig.fly(2.0)
+    with capturedLogs() as events:
+        rig.bus.execute_command(lost, BOARD)
+        rig.fly(1.5)
+        assert rig.setpoint().is_failsafe
+        if follows:
+            rig.bus.execute_command(replace(lost, flight_mode="RETURN"), BOARD)
+        rig.fly(4.0)
+    assert [each.get("log_code", each.get("code")) for each in events].count("failsafe_acts") == 1
     if follows:
         assert rig.seen() == (["receiver_lost"], "receiver_lost", "RETURN")
     else:
@@ -191,3 +196,43 @@ def test_on_the_ground_nothing_is_a_failure(rig):
 def test_contradictions_are_vetoes_against_arming(tmp_path, failsafe, count):
     rig = FailsafeRig(tmp_path, failsafe=failsafe)
     assert len(rig.up.vetoes.own) == count
+
+
+class Faulty(BaseModule, FailureSource):
+    @property
+    def failures(self):
+        raise ValueError("no sensor")
+
+
+def test_the_failure_of_the_how_to_page_returns_and_a_faulty_module_costs_nothing_else(tmp_path):
+    names = {}
+    page = examples("failsafe.md")
+    exec(page["plane/modules/flight_time.py"], names)
+    more = (names["FlightTime"], Faulty)
+    rig = FailsafeRig(tmp_path, modules=more, failsafe=page["plane/config/failsafe.yml"])
+    with capturedLogs():
+        rig.take_off()
+        rig.outcome(FlightModeCommand("LOITER"))
+        rig.fly(1.0)
+        rig.clock.advance(names["LIMIT_S"])
+        rig.fly(1.0)
+    assert rig.seen() == (["flight_time"], "flight_time", "RETURN")
+    assert not rig.up.vetoes.own
+
+
+def test_a_failure_that_no_module_reports_is_a_veto(tmp_path):
+    rig = FailsafeRig(tmp_path, failsafe="others: {flight_tmie: {action: RETURN}}\n")
+    assert list(rig.up.vetoes.own) == ["failsafe.yml.flight_tmie"]
+
+
+def test_no_progress_home_is_noticed_after_its_delay(rig):
+    rig.navigation.set(replace(NAVIGATION, position=Point(100.0, 450.0)))
+    rig.outcome(FlightModeCommand("RETURN"))
+    rig.fly(31.0)
+    assert rig.seen() == (["no_progress"], None, "RETURN")
+    rig.navigation.set(replace(NAVIGATION, position=Point(100.0, 430.0)))
+    rig.fly(1.0)
+    assert rig.seen() == ([], None, "RETURN")
+    rig.navigation.set(replace(NAVIGATION, position=Point(100.0, 80.0)))
+    rig.fly(35.0)
+    assert rig.seen() == ([], None, "RETURN"), "it circles at home"

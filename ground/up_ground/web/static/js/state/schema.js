@@ -272,6 +272,7 @@ export const MODE_REASONS = {
   "receiver_lost": "the receiver is lost",
   "uplink_lost": "the uplink is lost",
   "phone_battery": "the phone's battery is low",
+  "no_progress": "the wind is stronger than the aircraft",
   "no_home": "home is not set",
   "home_too_far": "home is too far away",
   "no_target": "it needs a target: choose a place on the map",
