@@ -117,14 +117,14 @@ class Failsafes(BaseStartedModule):
             self._acting, self._was_linked = None, False
             self._report()
             return
+        if flight.choices != self._choices and not self._is_entering:
+            self._choices = flight.choices
+            self._acting = None
+            self._engine.override()
         self._engine.update(self._seconds(), self._conditions())
         self._report()
         if self._is_entering:
             return
-        if flight.choices != self._choices:
-            self._choices = flight.choices
-            self._acting = None
-            self._engine.override()
         if state.is_auto or state.is_failsafe:
             by_sticks = flight.is_flown_by_sticks
             code = self._engine.wanted(
