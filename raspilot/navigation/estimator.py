@@ -46,9 +46,10 @@ class Estimator:
     """
 
     def __init__(self, model: AirframeModel | None = None) -> None:
-        self._model = AirspeedModel(model or AirframeModel())
+        model = model or AirframeModel()
+        self._model = AirspeedModel(model)
         self._path = AirPath()
-        self._gate = FixGate()
+        self._gate = FixGate(model.speeds.maximum_m_s)
         self._flight = FlightWatch()
         self.motor = MotorWatch()
         self._vertical = VerticalFilter()
