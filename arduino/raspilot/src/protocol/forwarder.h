@@ -53,7 +53,6 @@ class Forwarder {
   bool send_inputs();
   bool send_outputs();
   bool send_orientation(Steps now);
-  bool send_attitude();
   bool send_status(uint32_t now_us);
   void remember(Steps now);
 

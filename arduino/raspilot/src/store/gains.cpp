@@ -11,6 +11,7 @@ namespace {
 
 static_assert(sizeof(Gains) == GAINS_SIZE, "the copies below count on it");
 
+constexpr uint8_t GAINS = 18;
 constexpr uint8_t GAINS_A_LOOP = 9;
 constexpr uint8_t WIRED_GAINS_A_LOOP = 6;
 /** 50.0f. Positive floats are ordered as their bits are, and infinity and NaN lie above every number. */
@@ -34,19 +35,6 @@ bool read(const uint8_t* wire, Gains& gains, uint8_t gains_a_loop) {
   return true;
 }
 
-void write(const Gains& gains, uint8_t* wire, uint8_t gains_a_loop) {
-  WireWriter writer(wire);
-  const uint8_t* next = reinterpret_cast<const uint8_t*>(&gains);
-  for (uint8_t loop = 0; loop < 2; ++loop) {
-    for (uint8_t count = 0; count < gains_a_loop; ++count) {
-      uint32_t bits;
-      memcpy(&bits, next + count * sizeof bits, sizeof bits);
-      writer.u32(bits);
-    }
-    next += GAINS_A_LOOP * sizeof(float);
-  }
-}
-
 }  // namespace
 
 bool is_gain(uint32_t bits) { return bits <= MAX_GAIN_BITS || bits == MINUS_ZERO_BITS; }
@@ -62,8 +50,15 @@ bool read_two_axes(const uint8_t* wire, Gains& gains) {
   return read(wire, gains, WIRED_GAINS_A_LOOP);
 }
 
-void write_three_axes(const Gains& gains, uint8_t* wire) { write(gains, wire, GAINS_A_LOOP); }
-
-void write_two_axes(const Gains& gains, uint8_t* wire) { write(gains, wire, WIRED_GAINS_A_LOOP); }
+void write_three_axes(const Gains& gains, uint8_t* wire) {
+  WireWriter writer(wire);
+  const uint8_t* next = reinterpret_cast<const uint8_t*>(&gains);
+  for (uint8_t count = 0; count < GAINS; ++count) {
+    uint32_t bits;
+    memcpy(&bits, next, sizeof bits);
+    writer.u32(bits);
+    next += sizeof bits;
+  }
+}
 
 }  // namespace raspilot

@@ -31,6 +31,5 @@ bool read_three_axes(const uint8_t* wire, Gains& gains);
 /** Reads the 48 bytes of `t`, the rudder keeps its own; false and untouched likewise. */
 bool read_two_axes(const uint8_t* wire, Gains& gains);
 void write_three_axes(const Gains& gains, uint8_t* wire);
-void write_two_axes(const Gains& gains, uint8_t* wire);
 
 }  // namespace raspilot

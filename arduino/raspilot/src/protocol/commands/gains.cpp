@@ -1,4 +1,4 @@
-/** `t` `T` `g` `G`: the gains, two axes as in the thesis or three; kept when disarmed. */
+/** `t` `g` `G`: the gains, of two axes as in the thesis or of three; kept when disarmed. */
 #include "../../core/autopilot.h"
 #include "../command_executor.h"
 
@@ -21,13 +21,6 @@ Reason on_three_axes(Autopilot& autopilot, const Request& request) {
   return take_over(autopilot, read_three_axes(request.payload, autopilot.settings.gains));
 }
 
-Reason on_two_axes_asked(Autopilot& autopilot, const Request&) {
-  uint8_t payload[TWO_AXIS_GAINS_SIZE];
-  write_two_axes(autopilot.settings.gains, payload);
-  autopilot.link.send('T', payload, sizeof payload);
-  return Reason::NONE;
-}
-
 Reason on_three_axes_asked(Autopilot& autopilot, const Request&) {
   uint8_t payload[GAINS_SIZE];
   write_three_axes(autopilot.settings.gains, payload);
@@ -36,10 +29,9 @@ Reason on_three_axes_asked(Autopilot& autopilot, const Request&) {
 }
 
 const CommandDefinition COMMANDS[] PROGMEM = {
-    {'t', TWO_AXIS_GAINS_SIZE, Framing::BOTH, Answer::CONFIRMED, on_two_axes},
-    {'T', 0, Framing::BOTH, Answer::OWN, on_two_axes_asked},
-    {'g', GAINS_SIZE, Framing::CHECKED, Answer::CONFIRMED, on_three_axes},
-    {'G', 0, Framing::CHECKED, Answer::OWN, on_three_axes_asked},
+    {'t', TWO_AXIS_GAINS_SIZE, Answer::CONFIRMED, on_two_axes},
+    {'g', GAINS_SIZE, Answer::CONFIRMED, on_three_axes},
+    {'G', 0, Answer::OWN, on_three_axes_asked},
 };
 CommandGroup group(COMMANDS);
 
