@@ -150,9 +150,9 @@ class Conversation {
 
   bool are_gains_good() const {
     uint8_t wire[GAINS_SIZE];
-    write_three_axes(autopilot_.settings.gains, wire);
+    write_gains(autopilot_.settings.gains, wire);
     Gains gains;
-    return read_three_axes(wire, gains);
+    return read_gains(wire, gains);
   }
 
   /** Everything sent is frames, whole and in sequence. */

@@ -24,7 +24,6 @@ inline int size_to_arduino(uint8_t type) {
     case 'M': case 'v': case 'e': return 1;
     case 'p': return 3;
     case 'u': case 'S': case 'R': return 10;
-    case 't': return 48;
     case 'C': return 54;
     case 'g': return 72;
     default: return NO_SIZE;

@@ -3,6 +3,7 @@
  */
 #pragma once
 
+#include "../core/reference.h"
 #include "../core/compiler.h"
 #include "../core/types.h"
 #include "../store/profile.h"
@@ -112,8 +113,8 @@ class Authority {
   /** Why the Raspberry Pi may not fly in this mode now. */
   Reason authority_for(Mode mode) const;
 
-  const Profile& profile_;
-  const PwmReader& receiver_;
+  Reference<const Profile> profile_;
+  Reference<const PwmReader> receiver_;
   ModeSwitch switch_;
   ArmingSwitch arming_;
   Lifetime timeouts_[TIMEOUTS];

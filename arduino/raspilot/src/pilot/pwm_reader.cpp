@@ -51,7 +51,7 @@ void PwmReader::check(uint32_t now_us) {
   const uint8_t aged = static_cast<uint8_t>(passed < MAX_AGED ? passed : MAX_AGED);
   const uint16_t now_stamp = static_cast<uint16_t>(now_us * 2);
   uint8_t levels = levels_;
-  const ChannelRange* range = calibration_.receiver;
+  const ChannelRange* range = calibration_->receiver;
   for (InputChannel& channel : channels_) {
     channel.check(levels & 1, now_stamp, aged, *range++);
     levels = static_cast<uint8_t>(levels >> 1);

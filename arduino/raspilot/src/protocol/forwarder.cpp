@@ -64,7 +64,7 @@ OUT_OF_LINE Forwarder::Steps Forwarder::period(uint8_t stream) const {
   if (period_ms_ == 0) return PERIOD;
   // A millisecond is 31 1/4 steps.
   const Steps asked = static_cast<Steps>(period_ms_ * 31 + period_ms_ / 4);
-  const Mode mode = autopilot_.authority.mode();
+  const Mode mode = autopilot_->authority.mode();
   const bool is_consumed = mode == Mode::OUTPUT || mode == Mode::SETPOINT || mode == Mode::RETURN;
   if (is_consumed && stream != OUTPUTS_STREAM && asked > PERIOD) return PERIOD;
   return asked < MIN_PERIOD ? MIN_PERIOD : asked;
@@ -85,14 +85,14 @@ bool Forwarder::send(uint8_t stream, uint32_t now_us) {
     case INPUTS_STREAM: return send_inputs();
     case ORIENTATION_STREAM:
       // An invalid attitude is not sent: receivers see the last one age.
-      return !autopilot_.attitude.is_valid() || send_orientation(to_steps(now_us));
+      return !autopilot_->attitude.is_valid() || send_orientation(to_steps(now_us));
     case OUTPUTS_STREAM: return send_outputs();
     default: return send_status(now_us);
   }
 }
 
 bool Forwarder::send_inputs() {
-  const PwmReader& receiver = autopilot_.receiver;
+  const PwmReader& receiver = autopilot_->receiver;
   const uint8_t validity = receiver.validity();
   uint8_t payload[2 * INPUTS + 1];
   WireWriter writer(payload);
@@ -103,22 +103,22 @@ bool Forwarder::send_inputs() {
                                               : receiver.measured_us(each));
   }
   writer.u8(validity);
-  return autopilot_.link.send('i', payload, sizeof payload);
+  return autopilot_->link.send('i', payload, sizeof payload);
 }
 
 bool Forwarder::send_outputs() {
-  const Outputs& outputs = autopilot_.controller.outputs();
+  const Outputs& outputs = autopilot_->controller.outputs();
   uint8_t payload[2 * OUTPUTS];
   WireWriter writer(payload);
   for (uint8_t output = 0; output < OUTPUTS; ++output) {
     writer.u16(ticks_to_us(outputs.ticks[output]));
   }
-  return autopilot_.link.send('r', payload, sizeof payload);
+  return autopilot_->link.send('r', payload, sizeof payload);
 }
 
 bool Forwarder::send_orientation(Steps now) {
-  if (!autopilot_.link.has_room(ORIENTATION_SIZE)) return false;
-  const Attitude& attitude = autopilot_.attitude.attitude();
+  if (!autopilot_->link.has_room(ORIENTATION_SIZE)) return false;
+  const Attitude& attitude = autopilot_->attitude.attitude();
   uint8_t payload[ORIENTATION_SIZE];
   WireWriter writer(payload);
   writer.u16(sequence_);
@@ -128,16 +128,16 @@ bool Forwarder::send_orientation(Steps now) {
   writer.sixteenths(attitude.yaw_rate_16);
   writer.sixteenths(attitude.pitch_rate_16);
   writer.sixteenths(attitude.roll_rate_16);
-  if (!autopilot_.link.send('O', payload, sizeof payload)) return false;
+  if (!autopilot_->link.send('O', payload, sizeof payload)) return false;
   remember(now);
   return true;
 }
 
 bool Forwarder::send_status(uint32_t now_us) {
-  if (!autopilot_.link.has_room(STATUS_SIZE)) return false;
+  if (!autopilot_->link.has_room(STATUS_SIZE)) return false;
   uint8_t payload[STATUS_SIZE];
-  write_status(autopilot_, now_us, payload);
-  return autopilot_.link.send('x', payload, sizeof payload);
+  write_status(*autopilot_, now_us, payload);
+  return autopilot_->link.send('x', payload, sizeof payload);
 }
 
 void Forwarder::remember(Steps now) {

@@ -94,7 +94,7 @@ void Link::carry_out(const CommandDefinition& command, const Request& request) {
   if (command.answer == Answer::OWN) {
     answers_.push(PendingAnswer::ASK, command.type, request.sequence);
   } else {
-    const Reason reason = command.handler(autopilot_, request);
+    const Reason reason = command.handler(*autopilot_, request);
     if (reason == Reason::NONE) {
       if (!is_stream) answers_.push(PendingAnswer::CONFIRM, command.type, request.sequence);
     } else if (is_stream) {
@@ -136,7 +136,7 @@ bool Link::ask(PendingAnswer& pending, uint32_t now_us) {
   if (!has_room(MAX_COMMAND)) return false;
   if (!CommandExecutor::find(static_cast<char>(pending.type), command)) return true;
   const Request request = {reader_.payload(), pending.sequence, now_us};
-  const Reason reason = command.handler(autopilot_, request);
+  const Reason reason = command.handler(*autopilot_, request);
   if (reason != Reason::NONE) pending.what = static_cast<uint8_t>(reason);
   return true;
 }

@@ -4,6 +4,7 @@
  */
 #pragma once
 
+#include "../core/reference.h"
 #include "../core/compiler.h"
 #include "../core/types.h"
 #include "answers.h"
@@ -60,7 +61,7 @@ class Link {
   bool ask(PendingAnswer& pending, uint32_t now_us);
   void on_dropped();
 
-  Autopilot& autopilot_;
+  Reference<Autopilot> autopilot_;
   Answers answers_;
   RefusalLimit limit_;
   Forwarder forwarder_;
