@@ -133,7 +133,7 @@ void FlightController::pass_through(const Demand& demand, Ticks* demands) const 
     demands[RUDDER] = preset(profile_->preset_rudder_us);
     return;
   }
-  const Ticks* asked = demand.mode == Mode::OUTPUT ? demand.asked.ticks : demand.sticks;
+  const Ticks* asked = demand.mode == Mode::OUTPUT ? demand.asked.outputs.ticks : demand.sticks;
   demands[AILERONS] = asked[AILERONS];
   demands[ELEVATOR] = asked[ELEVATOR];
   demands[RUDDER] = asked[RUDDER];
@@ -151,7 +151,7 @@ OUT_OF_LINE void FlightController::hold_rates(const Demand& demand, const Attitu
     demands[RUDDER] = NEUTRAL;
   }
   if (has_setpoint(demand)) {
-    yaw_16 = times_q15(demand.setpoint.yaw_rate_cdeg_s, CDEG_TO_16THS);
+    yaw_16 = times_q15(demand.asked.setpoint.yaw_rate_cdeg_s, CDEG_TO_16THS);
   }
   const int16_t swinging = swinging_16(attitude.yaw_rate_16);
   demands[RUDDER] = sum_of(demands[RUDDER], deflection(YAW, yaw_16, swinging));
@@ -198,7 +198,7 @@ int16_t FlightController::wanted_angle_cdeg(Channel channel,
   if (demand.is_failsafe && !is_asked) {
     return is_roll ? profile_->circle_bank_cdeg : profile_->glide_pitch_cdeg;
   }
-  const int16_t asked = is_roll ? demand.setpoint.roll_cdeg : demand.setpoint.pitch_cdeg;
+  const int16_t asked = is_roll ? demand.asked.setpoint.roll_cdeg : demand.asked.setpoint.pitch_cdeg;
   const int16_t stick = deflection_q15(demand.sticks[channel]);
   const bool is_down = (is_asked ? asked : stick) < 0;
   const int16_t limit = is_roll   ? profile_->roll_limit_cdeg

@@ -26,9 +26,7 @@ struct Demand {
   Ticks sticks[OUTPUTS];
   /** Throttle by the rules of Authority, ticks. */
   Ticks throttle;
-  Setpoint setpoint;
-  /** The Raspberry Pi's, ticks (mode OUTPUT). */
-  Outputs asked;
+  Asked asked;
 };
 
 /** Which controllers are in the loop; their state is cleared when they leave it. */

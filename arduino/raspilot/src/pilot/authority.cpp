@@ -174,13 +174,13 @@ Ticks Authority::throttle() const {
   uint16_t demand_us = 0;
   if (is_failsafe_ || is_latched_ || !was_heard()) {
     demand_us = profile_->throttle_failsafe_us;
-    if (mode == Mode::RETURN && may_use_motor() && setpoint_.throttle_us != 0) {
-      demand_us = setpoint_.throttle_us;
+    if (mode == Mode::RETURN && may_use_motor() && asked_.setpoint.throttle_us != 0) {
+      demand_us = asked_.setpoint.throttle_us;
     }
     return us_to_ticks(static_cast<int16_t>(demand_us));
   }
-  if (mode == Mode::SETPOINT) demand_us = setpoint_.throttle_us;
-  if (mode == Mode::OUTPUT) demand_us = ticks_to_us(requested_outputs_.ticks[THROTTLE]);
+  if (mode == Mode::SETPOINT) demand_us = asked_.setpoint.throttle_us;
+  if (mode == Mode::OUTPUT) demand_us = ticks_to_us(asked_.outputs.ticks[THROTTLE]);
   return demand_us != 0 ? us_to_ticks(static_cast<int16_t>(demand_us)) : receiver_->pulse(THROTTLE);
 }
 
@@ -232,7 +232,7 @@ Reason Authority::accept_outputs(const uint16_t* pulses_us, uint32_t age_us, uin
   if (reason != Reason::NONE) return reason;
   if (age_us > MAX_ORIENTATION_AGE_US) return Reason::TOO_OLD;
   for (uint8_t i = 0; i < OUTPUTS; ++i) {
-    requested_outputs_.ticks[i] = us_to_ticks(static_cast<int16_t>(pulses_us[i]));
+    asked_.outputs.ticks[i] = us_to_ticks(static_cast<int16_t>(pulses_us[i]));
   }
   // They share memory with a Setpoint, which must not be read from here on.
   timeouts_[DEMAND].end();
@@ -257,7 +257,7 @@ Reason Authority::accept_return(const Setpoint& setpoint, uint16_t lifetime_ms, 
 }
 
 void Authority::follow(Life life, const Setpoint& setpoint, uint16_t lifetime_ms) {
-  setpoint_ = setpoint;
+  asked_.setpoint = setpoint;
   const uint16_t bounded_ms = lifetime_ms < MAX_SETPOINT_MS ? lifetime_ms : MAX_SETPOINT_MS;
   // Rather a unit too short than one too long.
   timeouts_[life].start(static_cast<uint16_t>(bounded_ms * 31 / 32));
