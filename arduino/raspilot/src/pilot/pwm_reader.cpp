@@ -75,8 +75,8 @@ uint16_t PwmReader::age_ms(uint32_t now_us) const {
   Stopwatch age = age_;
   age.pass(passed_units(now_us));
   const uint16_t units = age.units();
-  // 1024 us are 1 + 1/42 ms.
-  return units > MAX_AGE_UNITS ? 65535 : static_cast<uint16_t>(units + units / 42);
+  // 1024 us are 1 + 3/128 ms and a little.
+  return units > MAX_AGE_UNITS ? 65535 : static_cast<uint16_t>(units + units / 64 + units / 128);
 }
 
 bool PwmReader::take_rise(Channel channel, uint16_t& stamp_ticks) {
