@@ -27,7 +27,7 @@ struct SentFrame {
 class FlyingBoard {
  public:
   explicit FlyingBoard(const SavedState* restored = nullptr, uint8_t cause = RESET_POWER_ON)
-      : lines(autopilot.receiver, 0), reader_(buffer_) {
+      : lines(autopilot.receiver, 0) {
     fake_board().power_on();
     autopilot.begin(restored, cause, 0);
     autopilot.link.open();
@@ -113,7 +113,6 @@ class FlyingBoard {
     frames.push_back(SentFrame{reader_.type(), now_us(), payload});
   }
 
-  ReceiveBuffer buffer_ = {};
   CheckedReader reader_;
   uint64_t now_us_ = 0;
   uint64_t next_frame_us_ = 4000;

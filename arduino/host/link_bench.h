@@ -20,7 +20,7 @@ struct Message {
 
 class LinkBench {
  public:
-  explicit LinkBench(uint32_t begin_us = 1000000) : now_us(begin_us), reader_(buffer_) {
+  explicit LinkBench(uint32_t begin_us = 1000000) : now_us(begin_us) {
     fake_board().reset();
     autopilot.begin(nullptr, RESET_POWER_ON, now_us);
     autopilot.link.open();
@@ -74,7 +74,6 @@ class LinkBench {
   bool is_clean = true;
 
  private:
-  ReceiveBuffer buffer_ = {};
   CheckedReader reader_;
   uint8_t expected_ = 0;
 };

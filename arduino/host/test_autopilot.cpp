@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "flying_board.h"
-#include "store/wire_bytes.h"
+#include "wire_floats.h"
 
 using namespace raspilot;
 
@@ -19,8 +19,7 @@ constexpr uint8_t GAINS_STORED = 64;
 
 Bytes gains_of(float gain) {
   Bytes wire(GAINS_SIZE);
-  WireWriter writer(wire.data());
-  for (int count = 0; count < 18; ++count) writer.f32(gain);
+  for (int count = 0; count < 18; ++count) put_f32(wire.data() + 4 * count, gain);
   return wire;
 }
 

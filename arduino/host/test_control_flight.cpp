@@ -47,7 +47,7 @@ struct Flight {
     for (int slot = 0; slot < SLOTS_TO_TUNE; ++slot) controller.update(demand, attitude);
   }
   void stick(Channel channel, int us) { demand.sticks[channel] = static_cast<Ticks>(us * 2); }
-  void ask(Channel channel, int us) { demand.asked.ticks[channel] = static_cast<Ticks>(us * 2); }
+  void ask(Channel channel, int us) { demand.asked.outputs.ticks[channel] = static_cast<Ticks>(us * 2); }
   void fly(int slots) {
     for (; slots > 0; --slots) controller.update(demand, attitude);
   }
@@ -208,15 +208,15 @@ TEST_CASE("SETPOINT: the Raspberry Pi's attitude, within the limits of FBW") {
   flight.tune(only_p(1.0f, 1.0f));
   flight.demand.mode = Mode::SETPOINT;
   flight.stick(AILERONS, 2000);
-  flight.demand.setpoint = {-2000, 1000, 0, 0};
+  flight.demand.asked.setpoint = {-2000, 1000, 0, 0};
   flight.attitude = attitude_of(-2000, 1000, 0, 0, 0, 0);
   CHECK(flight.us(AILERONS) == 1500);
   CHECK(flight.us(ELEVATOR) == 1500);
-  flight.demand.setpoint = {32767, -32768, 0, 0};
+  flight.demand.asked.setpoint = {32767, -32768, 0, 0};
   flight.attitude = attitude_of(5000, -2500, 0, 0, 0, 0);
   CHECK(flight.us(AILERONS) == 1500);
   CHECK(flight.us(ELEVATOR) == 1500);
-  flight.demand.setpoint = {0, 0, 1000, 0};
+  flight.demand.asked.setpoint = {0, 0, 1000, 0};
   flight.attitude = Attitude();
   CHECK(flight.us(RUDDER) == doctest::Approx(1512.5).epsilon(0.001));
 }
@@ -381,9 +381,9 @@ TEST_CASE("no stick, attitude or gain lets a servo out of its end points") {
     flight.demand.is_failsafe = random() % 4 == 0;
     flight.demand.is_imu_valid = random() % 4 != 0;
     for (Ticks& stick : flight.demand.sticks) stick = number();
-    for (Ticks& asked : flight.demand.asked.ticks) asked = number();
+    for (Ticks& asked : flight.demand.asked.outputs.ticks) asked = number();
     flight.demand.throttle = number();
-    flight.demand.setpoint = {number(), number(), number(), 0};
+    flight.demand.asked.setpoint = {number(), number(), number(), 0};
     flight.attitude = attitude_of(static_cast<int16_t>(any(random) % 18001),
                        static_cast<int16_t>(any(random) % 9001),
                        static_cast<int16_t>(any(random) % 18001),
@@ -403,14 +403,14 @@ TEST_CASE("RETURN: the set-point within FBW's limits, the rudder without its sti
   flight.demand.is_failsafe = true;
   flight.stick(RUDDER, 1900);
   flight.profile.preset_rudder_us = 1300;
-  flight.demand.setpoint = Setpoint{1000, 500, 0, 0};
+  flight.demand.asked.setpoint = Setpoint{1000, 500, 0, 0};
   CHECK(flight.us(AILERONS) == doctest::Approx(1525).epsilon(0.001));
   CHECK(flight.us(ELEVATOR) == doctest::Approx(1512.5).epsilon(0.001));
   CHECK(flight.us(RUDDER) == 1500);
-  flight.demand.setpoint = Setpoint{18000, -9000, 0, 0};
+  flight.demand.asked.setpoint = Setpoint{18000, -9000, 0, 0};
   const double steepest = flight.us(AILERONS);
   const double lowest = flight.us(ELEVATOR);
-  flight.demand.setpoint = Setpoint{flight.profile.roll_limit_cdeg,
+  flight.demand.asked.setpoint = Setpoint{flight.profile.roll_limit_cdeg,
                                     negative(flight.profile.pitch_down_limit_cdeg), 0, 0};
   CHECK(flight.us(AILERONS) == steepest);
   CHECK(flight.us(ELEVATOR) == lowest);

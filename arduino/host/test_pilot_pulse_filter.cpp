@@ -127,6 +127,7 @@ TEST_CASE("pilot filter: a change that continues, or reverses by 3 us, passes im
 
 TEST_CASE("pilot filter: an uncertain stamp holds the value when it differs by 6 us at most") {
   PulseFilter filter;
+  filter.reset(us_to_ticks(1500));
   for (int off_us : {-6, 3, 6, -1, 6, 6, 6}) {
     filter.update(static_cast<Ticks>(3000 + 2 * off_us), true);
     CHECK(filter.pulse() == us_to_ticks(1500));

@@ -11,7 +11,7 @@ TEST_CASE("pilot Raspberry Pi: an Output is followed for 250 ms, then FBW holds 
   bench.run(2);
   CHECK(bench.authority.mode() == Mode::OUTPUT);
   CHECK(bench.authority.flown_mode() == Mode::OUTPUT);
-  CHECK(bench.authority.requested_outputs().ticks[AILERONS] == us_to_ticks(1723));
+  CHECK(bench.authority.asked().outputs.ticks[AILERONS] == us_to_ticks(1723));
   bench.run(240);
   CHECK(bench.authority.flown_mode() == Mode::OUTPUT);
   bench.run(8);
@@ -82,7 +82,7 @@ TEST_CASE("pilot Raspberry Pi: a Setpoint lives as long as it says, 1 to 250 ms"
     REQUIRE(bench.demand(-1234, 0, lifetime_ms) == Reason::NONE);
     bench.run(2);
     CHECK(bench.authority.mode() == Mode::SETPOINT);
-    CHECK(bench.authority.setpoint().roll_cdeg == -1234);
+    CHECK(bench.authority.asked().setpoint.roll_cdeg == -1234);
     bench.run(lifetime_ms - 6u);
     CHECK(bench.authority.flown_mode() == Mode::SETPOINT);
     bench.run(4);

@@ -46,7 +46,7 @@ TEST_CASE("pilot return: a set-point is followed in receiver failsafe, for its l
     CHECK(bench.return_by(BANK_CDEG, THROTTLE_US, lifetime_ms) == Reason::NONE);
     CHECK(bench.mode() == Mode::RETURN);
     CHECK(bench.authority.mode() == Mode::RETURN);
-    CHECK(bench.authority.setpoint().roll_cdeg == BANK_CDEG);
+    CHECK(bench.authority.asked().setpoint.roll_cdeg == BANK_CDEG);
     CHECK(bench.throttle_us() == THROTTLE_US);
     bench.run(lifetime_ms - 12u);
     CHECK(bench.mode() == Mode::RETURN);
@@ -214,6 +214,6 @@ TEST_CASE("pilot return: with the receiver back no Setpoint and no mode takes it
   CHECK(bench.demand(-2000, 1800) == Reason::RECEIVER_INVALID);
   CHECK(bench.output(1200, 1800) == Reason::RECEIVER_INVALID);
   CHECK(bench.ask('u') == Reason::RECEIVER_INVALID);
-  CHECK(bench.authority.setpoint().roll_cdeg == BANK_CDEG);
+  CHECK(bench.authority.asked().setpoint.roll_cdeg == BANK_CDEG);
   CHECK(bench.authority.mode() == Mode::RETURN);
 }

@@ -1,12 +1,11 @@
 #include <doctest/doctest.h>
 
-#include <string.h>
-
 #include <algorithm>
 
 #include "flying_board.h"
 #include "link_bench.h"
 #include "store/wire_bytes.h"
+#include "wire_floats.h"
 
 using namespace raspilot;
 
@@ -14,13 +13,6 @@ namespace {
 
 long count_of(const std::string& types, char type) {
   return std::count(types.begin(), types.end(), type);
-}
-
-float degrees(WireReader& reader) {
-  const uint32_t bits = reader.u32();
-  float value;
-  memcpy(&value, &bits, sizeof value);
-  return value;
 }
 
 struct Awake : FlyingBoard {
@@ -75,9 +67,11 @@ TEST_CASE("the orientation counts its frames and tells degrees in its order") {
   WireReader after(second.payload.data());
   CHECK(after.u16() == static_cast<uint16_t>(before.u16() + 1));
   const Attitude& attitude = board.autopilot.attitude.attitude();
-  CHECK(degrees(after) == doctest::Approx(attitude.yaw_cdeg / 100.0).epsilon(0.01).scale(10));
-  CHECK(degrees(after) == doctest::Approx(attitude.pitch_cdeg / 100.0).epsilon(0.01).scale(10));
-  CHECK(degrees(after) == doctest::Approx(attitude.roll_cdeg / 100.0).epsilon(0.01).scale(10));
+  const int16_t cdegs[3] = {attitude.yaw_cdeg, attitude.pitch_cdeg, attitude.roll_cdeg};
+  for (size_t angle = 0; angle < 3; ++angle) {
+    CHECK(f32_at(second.payload.data() + 2 + 4 * angle) ==
+          doctest::Approx(cdegs[angle] / 100.0).epsilon(0.01).scale(10));
+  }
 }
 
 TEST_CASE("no orientation is sent while the IMU is invalid") {

@@ -2,7 +2,7 @@
 
 #include "protocol/checked_reader.h"
 #include "protocol/cobs.h"
-#include "protocol/command_receiver.h"
+#include "protocol/command_executor.h"
 #include "protocol/crc16.h"
 #include "frame_bytes.h"
 #include "wire_vectors.h"
@@ -20,8 +20,7 @@ Bytes frame_of(uint8_t sequence, char type, const Bytes& payload) {
 }
 
 struct Reading {
-  ReceiveBuffer buffer = {};
-  CheckedReader reader{buffer};
+  CheckedReader reader;
   unsigned frames = 0;
   unsigned broken = 0;
 
@@ -88,8 +87,7 @@ TEST_CASE("every golden frame is written byte for byte and read back") {
   }
 }
 
-TEST_CASE("every golden Command is registered once, with its size, and in its framings") {
-  const auto thesis = vectors_of("serial_thesis");
+TEST_CASE("every golden Command is registered once, with its size") {
   for (const auto& vector : vectors_of("serial_checked")) {
     if (vector.at("direction") != "to_arduino") continue;
     const char type = vector.at("type")[0];
@@ -98,11 +96,6 @@ TEST_CASE("every golden Command is registered once, with its size, and in its fr
     CommandDefinition command;
     REQUIRE(CommandExecutor::find(type, command));
     CHECK(command.size == bytes_of(vector.at("payload")).size());
-    bool is_thesis = false;
-    for (const auto& old : thesis) {
-      is_thesis |= old.at("direction") == "to_arduino" && old.at("type") == vector.at("type");
-    }
-    CHECK((command.framing == Framing::BOTH) == is_thesis);
     // A handler with its own answer is called when there is room, and its payload is gone by then.
     if (command.answer == Answer::OWN) CHECK(command.size == 0);
   }
@@ -113,33 +106,6 @@ TEST_CASE("every golden Command is registered once, with its size, and in its fr
     CommandDefinition command;
     CHECK(CommandExecutor::find(letter, command) == (CommandExecutor::count(letter) == 1));
   }
-}
-
-TEST_CASE("every golden thesis Command is received whole") {
-  for (const auto& vector : vectors_of("serial_thesis")) {
-    if (vector.at("direction") != "to_arduino") continue;
-    ReceiveBuffer buffer = {};
-    CommandReceiver receiver(buffer);
-    const Bytes wire = bytes_of(vector.at("wire"));
-    for (size_t at = 0; at < wire.size(); ++at) {
-      const bool is_last = at + 1 == wire.size();
-      CHECK(receiver.receive(wire[at], 0) == (is_last ? CommandReceiver::Found::COMMAND
-                                                   : CommandReceiver::Found::NOTHING));
-    }
-    CHECK(receiver.definition().type == vector.at("type")[0]);
-    const Bytes payload = bytes_of(vector.at("payload"));
-    CHECK(Bytes(receiver.payload(), receiver.payload() + payload.size()) == payload);
-  }
-}
-
-TEST_CASE("thesis framing rejects every other byte") {
-  unsigned unknown = 0;
-  for (int byte = 0; byte < 256; ++byte) {
-    ReceiveBuffer buffer = {};
-    CommandReceiver receiver(buffer);
-    unknown += receiver.receive(static_cast<uint8_t>(byte), 0) == CommandReceiver::Found::UNKNOWN;
-  }
-  CHECK(unknown == 256 - 7);
 }
 
 TEST_CASE("the longest frame is read, one byte more is too long, and the next is read again") {

@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "store/gains.h"
-#include "store/wire_bytes.h"
+#include "wire_floats.h"
 #include "wire_vectors.h"
 
 using namespace raspilot;
@@ -13,29 +13,29 @@ namespace {
 
 typedef std::vector<uint8_t> Bytes;
 
-Bytes three_axes(const Gains& gains) {
+Bytes wire_of(const Gains& gains) {
   Bytes wire(GAINS_SIZE);
-  write_three_axes(gains, wire.data());
+  write_gains(gains, wire.data());
   return wire;
 }
 
 Bytes put(Bytes wire, size_t gain, float value) {
-  WireWriter(wire.data() + 4 * gain).f32(value);
+  put_f32(wire.data() + 4 * gain, value);
   return wire;
 }
 
 }  // namespace
 
-TEST_CASE("the golden gains of three axes are read and written back as they are") {
+TEST_CASE("the golden gains are read and written back as they are") {
   const auto payloads = payloads_of("g");
   REQUIRE_FALSE(payloads.empty());
   for (const Bytes& wire : payloads) {
     Gains gains = DEFAULT_GAINS;
-    REQUIRE(read_three_axes(wire.data(), gains));
-    CHECK(three_axes(gains) == wire);
+    REQUIRE(read_gains(wire.data(), gains));
+    CHECK(wire_of(gains) == wire);
   }
   Gains gains = DEFAULT_GAINS;
-  REQUIRE(read_three_axes(payloads[0].data(), gains));
+  REQUIRE(read_gains(payloads[0].data(), gains));
   CHECK(gains.rate[0].p == 2.1f);
   CHECK(gains.rate[1].d == 0.02f);
   CHECK(gains.rate[2].i == 0.3f);
@@ -44,28 +44,11 @@ TEST_CASE("the golden gains of three axes are read and written back as they are"
   CHECK(gains.stabilize[2].p == 1.5f);
 }
 
-TEST_CASE("the golden gains of two axes leave the rudder's alone") {
-  const auto payloads = payloads_of("t");
-  REQUIRE_FALSE(payloads.empty());
-  Gains gains = DEFAULT_GAINS;
-  REQUIRE(read_two_axes(payloads[0].data(), gains));
-  CHECK(gains.rate[0].p == 0.7f);
-  CHECK(gains.rate[1].p == 1.0f);
-  CHECK(gains.stabilize[0].p == 2.0f);
-  CHECK(gains.stabilize[1].d == 0.25f);
-  CHECK(gains.rate[2].p == DEFAULT_GAINS.rate[2].p);
-  CHECK(gains.stabilize[2].p == DEFAULT_GAINS.stabilize[2].p);
-  Bytes wire(TWO_AXIS_GAINS_SIZE);
-  write_two_axes(gains, wire.data());
-  CHECK(wire == payloads[0]);
-}
-
 TEST_CASE("the gains at the first start are the defaults") {
   const float expected[18] = {2, 0, 0, 1.5f, 0, 0, 1, 0, 0, 8, 0, 0, 8, 0, 0, 0, 0, 0};
   Bytes wire(GAINS_SIZE);
-  WireWriter writer(wire.data());
-  for (float gain : expected) writer.f32(gain);
-  CHECK(three_axes(DEFAULT_GAINS) == wire);
+  for (size_t gain = 0; gain < 18; ++gain) wire = put(wire, gain, expected[gain]);
+  CHECK(wire_of(DEFAULT_GAINS) == wire);
 }
 
 TEST_CASE("a set with one gain outside 0 to 50 is refused as a whole") {
@@ -79,15 +62,12 @@ TEST_CASE("a set with one gain outside 0 to 50 is refused as a whole") {
       CAPTURE(value);
       Gains gains = DEFAULT_GAINS;
       const Bytes wire = put(Bytes(GAINS_SIZE), gain, value);
-      CHECK_FALSE(read_three_axes(wire.data(), gains));
-      CHECK(three_axes(gains) == three_axes(DEFAULT_GAINS));
-      if (gain >= 12) continue;
-      CHECK_FALSE(read_two_axes(wire.data(), gains));
-      CHECK(three_axes(gains) == three_axes(DEFAULT_GAINS));
+      CHECK_FALSE(read_gains(wire.data(), gains));
+      CHECK(wire_of(gains) == wire_of(DEFAULT_GAINS));
     }
     for (float value : right) {
       Gains gains = DEFAULT_GAINS;
-      CHECK(read_three_axes(put(Bytes(GAINS_SIZE), gain, value).data(), gains));
+      CHECK(read_gains(put(Bytes(GAINS_SIZE), gain, value).data(), gains));
     }
   }
 }

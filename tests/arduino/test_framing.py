@@ -1,4 +1,4 @@
-"""Both framings on the compiled firmware, the change between them, noise, and a full line."""
+"""Framing on the compiled firmware, noise, and a full line."""
 
 import json
 import random
@@ -11,33 +11,10 @@ from tests.arduino.flight import LOW, Flight
 from up_simulator.firmware.wire import checked_frame
 
 VECTORS = Path(__file__).parents[1] / "vectors"
-PANIC = struct.pack(">cBh", b"p", 0, 50)
-GAINS = b"t" + struct.pack(">12f", *(0.5 * each for each in range(12)))
 
 
 def vectors(name):
     return json.loads((VECTORS / f"{name}.json").read_text(encoding="utf-8"))
-
-
-def thesis(flight, data, wait_ms=60):
-    """Send bare bytes and return the received bytes, without looking for frames."""
-    flight.rig.serial.read()
-    flight.rig.serial.write(data)
-    flight.rig.run_us(wait_ms * 1000)
-    return flight.rig.serial.read()
-
-
-def is_thesis(flight):
-    """Return whether bare gains are answered: 48 bytes after the letter, and no frame."""
-    answer = thesis(flight, b"T", 100)
-    at = answer.find(b"T")
-    return at >= 0 and len(answer) >= at + 49 and b"T\0" not in answer[at : at + 2]
-
-
-def enter_thesis_framing(flight):
-    """Send the start-up messages of an old Raspberry Pi: gains, then panic's end."""
-    flight.rig.serial.write(GAINS + PANIC)
-    flight.rig.run_us(60_000)
 
 
 @pytest.mark.parametrize(
@@ -68,21 +45,6 @@ def test_every_bad_frame_is_dropped_and_counted_and_the_next_one_accepted(flight
         before = dropped
 
 
-def test_old_commands_open_thesis_framing(flight):
-    enter_thesis_framing(flight)
-    assert is_thesis(flight)
-    streams = thesis(flight, b"", 1000)
-    assert streams.count(b"r\x05") >= 15
-    assert streams.count(b"o") >= 15
-    assert thesis(flight, b"Z", 40).find(b"!Z") >= 0
-
-
-def test_a_bare_refusal_ends_what_is_unfinished_in_thesis_framing(flight):
-    enter_thesis_framing(flight)
-    assert b"!" in thesis(flight, b"l\x42\x48", 160)
-    assert is_thesis(flight)
-
-
 @pytest.mark.slow
 def test_a_hundred_thousand_fuzzed_bytes_change_nothing():
     """Noise, and good frames with flipped, lost and doubled bytes: it flies on and answers."""
@@ -94,7 +56,7 @@ def test_a_hundred_thousand_fuzzed_bytes_change_nothing():
     flight.rig.servo.clear()
     sent = 0
     while sent < 100_000:
-        letter = noise.choice("sdMmptTgGhbBluSvCce")
+        letter = noise.choice("sdMmpgGuSRvCce")
         frame = bytearray(checked_frame(noise.randrange(256), letter, noise.randbytes(8)))
         for _ in range(noise.randint(1, 3)):
             at = noise.randrange(len(frame))

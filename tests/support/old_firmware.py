@@ -6,9 +6,9 @@ import time
 from pathlib import Path
 
 from up_rig.pty_line import PtyLine
-from up_simulator.firmware.wire import COMMAND_SIZES, FRAME_TIMEOUT_S, Command
+from up_simulator.firmware.wire import FRAME_TIMEOUT_S, Command
 
-THESIS_TYPES = "ptThbBl"
+THESIS_SIZES = {"p": 3, "t": 48, "T": 0, "h": 2, "b": 2, "B": 2, "l": 8}
 STREAM_S = 0.05
 
 
@@ -23,13 +23,13 @@ class ThesisReader:
         if now_s - self._first_s >= FRAME_TIMEOUT_S:
             self._buffer = b""
         for byte in data:
-            if not self._buffer and chr(byte) not in THESIS_TYPES:
+            if not self._buffer and chr(byte) not in THESIS_SIZES:
                 continue
             if not self._buffer:
                 self._first_s = now_s
             self._buffer += bytes([byte])
             letter = chr(self._buffer[0])
-            if len(self._buffer) == 1 + COMMAND_SIZES[letter]:
+            if len(self._buffer) == 1 + THESIS_SIZES[letter]:
                 payload, self._buffer = self._buffer[1:], b""
                 yield Command(letter, payload)
 

@@ -19,7 +19,7 @@ SWITCH_MODES = {'a': 'ACRO', 'r': 'RATE', 'f': 'FBW', 'A': 'AUTO'}
 SWITCH_POSITIONS = {0: 'low', 1: 'middle', 2: 'high'}
 VETOES = ('the throttle is not low', 'the receiver is invalid', 'the IMU is invalid', 'AUX2 is low', 'the Raspberry Pi vetoes', 'calibrating', 'the profile is invalid', 'a veto that this program does not know')
 RESET_CAUSES = {0: 'power-on', 1: 'external', 2: 'brown-out', 3: 'watchdog', 7: 'state restored'}
-REASONS = {1: 'unknown type', 2: 'wrong size', 3: 'out of range', 4: 'only on the ground, not in flight', 5: 'not while in thesis framing', 6: 'too old', 7: 'the switch is not at AUTO', 8: 'the throttle is not low', 9: 'the receiver is invalid', 10: 'the IMU is invalid', 11: 'a veto', 12: 'not still enough', 13: 'not supported: nothing on the Arduino uses it', 14: 'the profile does not allow it', 15: "the receiver's failsafe does not act"}
+REASONS = {1: 'unknown type', 2: 'wrong size', 3: 'out of range', 4: 'only on the ground, not in flight', 6: 'too old', 7: 'the switch is not at AUTO', 8: 'the throttle is not low', 9: 'the receiver is invalid', 10: 'the IMU is invalid', 11: 'a veto', 12: 'not still enough', 14: 'the profile does not allow it', 15: "the receiver's failsafe does not act"}
 
 
 class Reason(IntEnum):
@@ -27,7 +27,6 @@ class Reason(IntEnum):
     WRONG_SIZE = 2
     OUT_OF_RANGE = 3
     ONLY_ON_GROUND = 4
-    NOT_IN_THESIS_FRAMING = 5
     TOO_OLD = 6
     NOT_AT_AUTO = 7
     THROTTLE_NOT_LOW = 8
@@ -35,7 +34,6 @@ class Reason(IntEnum):
     IMU_INVALID = 10
     VETO = 11
     NOT_STILL = 12
-    NOT_SUPPORTED = 13
     NOT_ALLOWED = 14
     NOT_IN_FAILSAFE = 15
 

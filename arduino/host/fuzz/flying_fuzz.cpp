@@ -58,13 +58,6 @@ void step(FuzzedBoard& board, Input& input, uint32_t& slots_left) {
       board.receive_frame(type, payload);
       break;
     }
-    case 't': {  // a thesis Command of the right size
-      const uint8_t type = input.u8();
-      const int size = size_to_arduino(type);
-      board.receive(type);
-      for (uint8_t byte : input.bytes(size > 0 ? static_cast<size_t>(size) : 0)) board.receive(byte);
-      break;
-    }
     case 'w': run(input.u8()); break;
     case 'W': run(600); break;
     case 's': board.stall(input.u8() * 1000u); break;

@@ -33,13 +33,11 @@ class FuzzedBoard {
   /** A byte arrives, and the time that it takes on the line passes. */
   void receive(uint8_t byte) {
     const bool was_armed = autopilot_.authority.is_armed();
-    const bool was_thesis = autopilot_.link.is_thesis();
-    const Bytes frame = was_thesis ? Bytes() : listener_.take(byte, clock_us());
+    const Bytes frame = listener_.take(byte, clock_us());
     autopilot_.link.on_byte(byte, clock_us());
     const bool is_arming = is_command(frame) && frame[1] == 'a';
     never(!was_armed && autopilot_.authority.is_armed() && !is_arming,
           "armed by bytes other than an Arm Command");
-    has_checked_frame_ = has_checked_frame_ || is_command(frame);
     check_rules("a byte");
     pass(BYTE_US);
   }
@@ -125,27 +123,16 @@ class FuzzedBoard {
     next_frame_us_ = passed_us_ + 20000;
   }
 
-  /** After every call: framing, counters, outputs, and the sent bytes. */
+  /** After every call: counters, outputs, and the sent bytes. */
   void check_rules(const char* after) {
     const Link& link = autopilot_.link;
-    if (link.is_thesis() && !is_thesis_) {
-      never(has_checked_frame_, "thesis framing after a valid checked frame");
-      never(autopilot_.authority.is_armed(), "thesis framing while armed");
-    }
-    never(is_thesis_ && !link.is_thesis(), "thesis framing left without a reset");
     never(link.dropped() < dropped_ || link.missing() < missing_, "a counter that runs backwards");
-    is_thesis_ = link.is_thesis();
     dropped_ = link.dropped();
     missing_ = link.missing();
     for (Ticks pulse : autopilot_.controller.outputs().ticks) {
       never(pulse < us_to_ticks(800) || pulse > us_to_ticks(2200), "a pulse beyond every limit");
     }
-    const Bytes sent = fake_board().take_sent();
-    if (is_thesis_) {
-      never(!are_thesis_messages(sent.data(), sent.size()), "a broken thesis message");
-    } else {
-      check_frames(sent);
-    }
+    check_frames(fake_board().take_sent());
     if (fake_board().violations != 0) fprintf(stderr, "after %s: ", after);
     never(fake_board().violations != 0, "the board used against its contract");
   }
@@ -186,8 +173,6 @@ class FuzzedBoard {
   bool is_imu_on_ = true;
   bool has_aux2_edge_ = false;
   bool was_aux2_low_ = true;
-  bool has_checked_frame_ = false;
-  bool is_thesis_ = false;
 };
 
 }  // namespace raspilot

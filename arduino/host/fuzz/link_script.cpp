@@ -66,7 +66,7 @@ class ArmWatcher {
 
 class Conversation {
  public:
-  Conversation() : lines_(autopilot_.receiver, 0), reader_(buffer_) {
+  Conversation() : lines_(autopilot_.receiver, 0) {
     fake_board().reset();
     autopilot_.begin(nullptr, RESET_POWER_ON, 0);
     autopilot_.link.open();
@@ -88,7 +88,7 @@ class Conversation {
       }
       check_rules();
     }
-    const ScriptEnd result = {autopilot_.authority.is_armed(), autopilot_.link.is_thesis()};
+    const ScriptEnd result = {autopilot_.authority.is_armed()};
     still_answers();
     return result;
   }
@@ -108,7 +108,6 @@ class Conversation {
     uint8_t payload[MAX_COMMAND] = {};
     const size_t size = std::min<size_t>(is_known ? command.size : 3, left - 1);
     std::copy(script, script + size, payload);
-    if (is_known && !autopilot_.link.is_thesis()) has_checked_frame_ = true;
     send(type, payload, is_known ? command.size : 3);
     return script + size;
   }
@@ -141,13 +140,9 @@ class Conversation {
     const Link& link = autopilot_.link;
     const bool is_armed = autopilot_.authority.is_armed();
     demand(!is_armed || watcher_.has_seen, "nothing but a valid Arm Command arms");
-    demand(!link.is_thesis() || !has_checked_frame_, "a valid checked frame closes thesis framing");
-    demand(link.is_thesis() || !was_thesis_, "thesis framing lasts until reset");
-    demand(!link.is_thesis() || !is_armed, "thesis framing is never spoken armed");
     demand(fake_board().violations == 0, "the line gets no byte without room, EEPROM none early");
     demand(link.dropped() >= dropped_ && link.missing() >= missing_, "counters only rise");
     demand(are_gains_good(), "gains are always in range");
-    was_thesis_ = link.is_thesis();
     dropped_ = link.dropped();
     missing_ = link.missing();
     listen();
@@ -155,15 +150,14 @@ class Conversation {
 
   bool are_gains_good() const {
     uint8_t wire[GAINS_SIZE];
-    write_three_axes(autopilot_.settings.gains, wire);
+    write_gains(autopilot_.settings.gains, wire);
     Gains gains;
-    return read_three_axes(wire, gains);
+    return read_gains(wire, gains);
   }
 
-  /** In checked framing everything sent is frames, whole and in sequence. */
+  /** Everything sent is frames, whole and in sequence. */
   void listen() {
     for (uint8_t byte : fake_board().take_sent()) {
-      if (was_thesis_) continue;
       const CheckedReader::Found found = reader_.receive(byte, 0);
       demand(found != CheckedReader::Found::BROKEN, "every frame sent is whole");
       if (found != CheckedReader::Found::FRAME) continue;
@@ -175,30 +169,16 @@ class Conversation {
   /** After any input and 100 ms of silence a request is answered. */
   void still_answers() {
     slots(150);
-    if (autopilot_.link.is_thesis()) {
-      fake_board().take_sent();
-      receive('T');
-      unsigned bytes = 0;
-      for (int count = 0; count < 20; ++count) {
-        fake_board().elapse(SLOT_US);
-        slot_us_ += SLOT_US;
-        autopilot_.background(now_us());
-        bytes += static_cast<unsigned>(fake_board().take_sent().size());
-      }
-      demand(bytes >= 1 + TWO_AXIS_GAINS_SIZE, "thesis framing still answers");
-      return;
-    }
     const unsigned reported_before = modes_told_;
     send('m', nullptr, 0);
     slots(60);
-    demand(modes_told_ == reported_before + 1, "checked framing still answers");
+    demand(modes_told_ == reported_before + 1, "it still answers");
   }
 
   uint32_t now_us() const { return static_cast<uint32_t>(slot_us_); }
 
   Autopilot autopilot_;
   ReceiverLines lines_;
-  ReceiveBuffer buffer_ = {};
   CheckedReader reader_;
   ArmWatcher watcher_;
   uint64_t slot_us_ = 0;
@@ -207,8 +187,6 @@ class Conversation {
   unsigned modes_told_ = 0;
   uint8_t sequence_ = 0;
   uint8_t expected_ = 0;
-  bool was_thesis_ = false;
-  bool has_checked_frame_ = false;
 };
 
 }  // namespace

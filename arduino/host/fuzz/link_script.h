@@ -12,7 +12,6 @@ namespace raspilot {
 /** Result of a script. */
 struct ScriptEnd {
   bool is_armed;
-  bool is_thesis;
 };
 
 /**

@@ -20,20 +20,17 @@ constexpr uint32_t DROPPED_AFTER_US = 100000;
 /** Payload of messages to the Arduino, bytes. */
 inline int size_to_arduino(uint8_t type) {
   switch (type) {
-    case 's': case 'a': case 'd': case 'm': case 'T': case 'G': case 'c': return 0;
+    case 's': case 'a': case 'd': case 'm': case 'G': case 'c': return 0;
     case 'M': case 'v': case 'e': return 1;
-    case 'h': case 'b': case 'B': return 2;
     case 'p': return 3;
-    case 'l': return 8;
-    case 'u': case 'S': return 10;
-    case 't': return 48;
+    case 'u': case 'S': case 'R': return 10;
     case 'C': return 54;
     case 'g': return 72;
     default: return NO_SIZE;
   }
 }
 
-/** Payload of our firmware's messages in checked framing, bytes. */
+/** Payload of our firmware's messages, bytes. */
 inline int size_from_arduino(uint8_t type) {
   switch (type) {
     case 'm': return 1;
@@ -43,7 +40,6 @@ inline int size_from_arduino(uint8_t type) {
     case 'i': return 13;
     case 'x': return 20;
     case 'O': return 26;
-    case 'T': return 48;
     case 'C': return 54;
     case 'G': return 72;
     default: return NO_SIZE;
@@ -99,16 +95,5 @@ class Listener {
   Bytes encoded_;
   uint32_t first_us_ = 0;
 };
-
-/** Whether these are whole messages of thesis framing; `!` stands alone or before a type. */
-inline bool are_thesis_messages(const uint8_t* at, size_t size) {
-  if (size == 0) return true;
-  if (*at == '!') {
-    return are_thesis_messages(at + 1, size - 1) ||
-           (size >= 2 && are_thesis_messages(at + 2, size - 2));
-  }
-  const size_t length = *at == 'r' ? 9 : *at == 'o' ? 13 : *at == 'T' ? 49 : 0;
-  return length != 0 && size >= length && are_thesis_messages(at + length, size - length);
-}
 
 }  // namespace raspilot

@@ -11,7 +11,7 @@ from up.commands.board_schema import STATUS, BoardStatus
 from up_simulator.firmware.wire import MAX_ENCODED, Command, checked_frame, open_frame
 
 SIZES = {
-    "r": 8, "i": 13, "O": 26, "x": STATUS.size, "K": 2, "!": 3, "m": 1, "T": 48, "G": 72, "C": 54,
+    "r": 8, "i": 13, "O": 26, "x": STATUS.size, "K": 2, "!": 3, "m": 1, "G": 72, "C": 54,
 }  # fmt: skip
 """Payload bytes of every message from the Arduino in checked framing (protocols 2.4)."""
 _ORIENTATION = struct.Struct(">H6f")

@@ -198,12 +198,19 @@ def test_the_two_axis_form_keeps_the_rudder(tuned):
     rig.connect(armed=True)
     rig.forget()
     assert rig.ask(tunings(AXES[:2])) == ["done"]
-    assert len(rig.sent("t")) == 1
-    assert rig.sent("g") == []
+    assert len(rig.sent("g")) == 1
     assert rig.gains[6:9] == list(FACTORY[6:9])
     saved, _ = PidsFile(rig.folder).load()
     assert tuple(saved.rate.rudder) == FACTORY[6:9]
     assert saved.rate.elevator.p == 4.0
+
+
+def test_the_two_axis_form_waits_until_the_rudder_of_the_board_is_known(tuned):
+    rig = tuned()
+    rig.mute = {"G"}
+    rig.connect(armed=True)
+    assert refusal(rig.ask(tunings(AXES[:2]))).detail == "unknown"
+    assert rig.sent("g") == []
 
 
 def test_a_set_while_another_is_on_its_way_is_refused(tuned):

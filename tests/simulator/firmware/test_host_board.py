@@ -97,7 +97,6 @@ def test_commands_are_answered_alike(pair):
     assert pair.agree("answers", "m") == [("m", b"a")]
     for letter, payload in (
         ("G", b""),
-        ("T", b""),
         ("c", b""),
         ("a", b""),
         ("g", struct.pack(">18f", *(60.0 for _ in range(18)))),

@@ -10,11 +10,8 @@ from tests.simulator.pi import vectors
 from up_simulator.firmware.line_monitor import SIZES, LineMonitor
 from up_simulator.firmware.wire import MAX_PAYLOAD, CheckedReader, Command, checked_frame
 
-# `o` comes in thesis framing only.
 FROM_BOARD = [
-    each
-    for each in vectors("serial_checked.json")
-    if each["direction"] == "from_arduino" and each["type"] != "o"
+    each for each in vectors("serial_checked.json") if each["direction"] == "from_arduino"
 ]
 
 
@@ -31,7 +28,7 @@ def wire_of(sent):
 
 
 def test_there_are_vectors():
-    assert {each["type"] for each in FROM_BOARD} >= set(SIZES) - {"T"}
+    assert {each["type"] for each in FROM_BOARD} >= set(SIZES)
 
 
 @pytest.mark.parametrize("vector", FROM_BOARD)

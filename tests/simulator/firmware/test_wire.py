@@ -41,8 +41,8 @@ def test_a_bad_frame_is_dropped_and_counted_and_the_next_one_read(vector):
     found = list(reader.feed(bytes.fromhex(vector["wire"]), 0.0))
     assert found == []
     assert reader.dropped >= 1
-    good = list(reader.feed(bytes.fromhex("070568012cdc9000"), 0.0))
-    assert good == [Command("h", bytes.fromhex("012c"), 5)]
+    good = list(reader.feed(bytes.fromhex("08057001012c91c100"), 0.0))
+    assert good == [Command("p", bytes.fromhex("01012c"), 5)]
 
 
 @given(st.lists(commands(), max_size=5), st.data())

@@ -16,7 +16,7 @@ from up.protocols.framing import make_framing
 H = ord("h")
 BAD = load("serial_checked_bad.json")
 GOOD = bytes.fromhex(BAD["good"])
-GOOD_FRAME = (H, b"\x01\x2c", 5)
+GOOD_FRAME = (ord("p"), b"\x01\x01\x2c", 5)
 
 frames_of_any_type = st.lists(
     st.sampled_from(sorted(FROM_ARDUINO)).flatmap(

@@ -21,6 +21,16 @@
 extern "C" void init() {}
 
 namespace raspilot {
+
+static Autopilot autopilot;
+
+template <> Autopilot& Reference<Autopilot>::only = autopilot;
+template <> const Profile& Reference<const Profile>::only = autopilot.settings.profile;
+template <> const Gains& Reference<const Gains>::only = autopilot.settings.gains;
+template <> Calibration& Reference<Calibration>::only = autopilot.settings.calibration;
+template <> const Calibration& Reference<const Calibration>::only = autopilot.settings.calibration;
+template <> const PwmReader& Reference<const PwmReader>::only = autopilot.receiver;
+
 namespace machine {
 
 /** The last part of a slot is the IMU's: 17 bytes of 22.5 us, starts and polling, 465 us in all. */
@@ -40,7 +50,6 @@ static constexpr uint8_t KEEP_SLOTS = 10;
 static constexpr uint8_t SLOW_LED_SLOTS = 250;
 static constexpr uint8_t FAST_LED_SLOTS = 25;
 
-static Autopilot autopilot;
 static Mpu6050 imu;
 static Servos servos;
 static uint32_t due_us;
@@ -122,7 +131,7 @@ static void read_imu_until(uint16_t due_ticks) {
   }
 }
 
-OUT_OF_LINE void run_slot() {
+void run_slot() {
   const uint32_t now = clock::now_us();
   autopilot.meter.on_slot(due_us, now);
   edges::drain(autopilot.receiver, now);

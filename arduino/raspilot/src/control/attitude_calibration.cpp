@@ -18,7 +18,7 @@ constexpr int16_t BIAS_CHANGE_16 = 8;
 void AttitudeFilter::on_still() {
   use_own_bias();
   for (uint8_t axis = 0; axis < 3; ++axis) {
-    const int16_t change_16 = difference_of(mean_16(axis), calibration_.gyro_bias_16[axis]);
+    const int16_t change_16 = difference_of(mean_16(axis), calibration_->gyro_bias_16[axis]);
     if (clamped16(change_16, BIAS_CHANGE_16) != change_16) has_new_bias_ = true;
   }
   if (has_new_bias_) keep_bias();
@@ -29,7 +29,7 @@ int16_t AttitudeFilter::mean_16(uint8_t axis) const {
 }
 
 OUT_OF_LINE void AttitudeFilter::keep_bias() {
-  for (uint8_t axis = 0; axis < 3; ++axis) calibration_.gyro_bias_16[axis] = mean_16(axis);
+  for (uint8_t axis = 0; axis < 3; ++axis) calibration_->gyro_bias_16[axis] = mean_16(axis);
 }
 
 bool AttitudeFilter::take_new_bias() {
@@ -63,8 +63,8 @@ Reason AttitudeFilter::calibrate_level() {
       clamped16(attitude_.roll_cdeg, Level::MAX_CDEG) == attitude_.roll_cdeg &&
       clamped16(attitude_.pitch_cdeg, Level::MAX_CDEG) == attitude_.pitch_cdeg;
   if (is_in_range) {
-    calibration_.level_roll_cdeg = attitude_.roll_cdeg;
-    calibration_.level_pitch_cdeg = attitude_.pitch_cdeg;
+    calibration_->level_roll_cdeg = attitude_.roll_cdeg;
+    calibration_->level_pitch_cdeg = attitude_.pitch_cdeg;
     level_.set(attitude_.roll_cdeg, attitude_.pitch_cdeg);
     state_.gravity_q30[0] = state_.gravity_q30[1] = 0;
     state_.gravity_q30[2] = ONE_Q30;

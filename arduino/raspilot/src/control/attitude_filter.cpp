@@ -72,9 +72,9 @@ AttitudeFilter::AttitudeFilter(Calibration& calibration)
 
 void AttitudeFilter::begin() {
   has_begun_ = true;
-  level_.set(calibration_.level_roll_cdeg, calibration_.level_pitch_cdeg);
+  level_.set(calibration_->level_roll_cdeg, calibration_->level_pitch_cdeg);
   for (uint8_t axis = 0; axis < 3; ++axis) {
-    const int16_t bias_16 = clamped16(calibration_.gyro_bias_16[axis], MAX_BIAS_16);
+    const int16_t bias_16 = clamped16(calibration_->gyro_bias_16[axis], MAX_BIAS_16);
     state_.bias_q36[axis] = bias_16 * BIAS_PER_16TH;
     // No gyro is without bias: three zeros are what EEPROM holds before one was measured.
     if (bias_16 != 0) state_.has_bias = true;

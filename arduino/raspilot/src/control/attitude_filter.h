@@ -1,6 +1,7 @@
 /** Attitude from gyro and accelerometer in fixed point, at the loop rate. */
 #pragma once
 
+#include "../core/reference.h"
 #include "../core/types.h"
 #include "../store/calibration.h"
 #include "imu_sample.h"
@@ -122,7 +123,7 @@ class AttitudeFilter : private AttitudeMemory {
   void find_angles();
   Reason refusal() const;
 
-  Calibration& calibration_;
+  Reference<Calibration> calibration_;
 };
 
 }  // namespace raspilot

@@ -77,9 +77,9 @@ void FlightController::tune_one() {
   if (loop == LOOPS) return;
   ++tuned_loops_;
   if (loop < RATE_LOOPS) {
-    rate_[loop].tune(gains_.rate[loop]);
+    rate_[loop].tune(gains_->rate[loop]);
   } else {
-    stabilize_[loop - RATE_LOOPS].tune(gains_.stabilize[loop - RATE_LOOPS]);
+    stabilize_[loop - RATE_LOOPS].tune(gains_->stabilize[loop - RATE_LOOPS]);
   }
 }
 
@@ -110,14 +110,14 @@ const Outputs& FlightController::update(const Demand& demand,
   pass_through(demand, demands);
   if (hold_ != Hold::NOTHING) hold_rates(demand, attitude, demands);
   demands[THROTTLE] = slewed(demand.throttle);
-  to_servos(profile_, demands, outputs_);
+  to_servos(*profile_, demands, outputs_);
   return outputs_;
 }
 
 /** The throttle of a motor rises by the profile's limit, from the pulse before; it falls freely. */
 Ticks FlightController::slewed(Ticks throttle) {
-  const uint8_t step = profile_.throttle_slew();
-  if (step == 0 || !profile_.has_motor) return throttle;
+  const uint8_t step = profile_->throttle_slew();
+  if (step == 0 || !profile_->has_motor) return throttle;
   Ticks most = outputs_.ticks[THROTTLE];
   if (++slots_to_slew_ == SLEW_SLOTS) {
     slots_to_slew_ = 0;
@@ -128,12 +128,12 @@ Ticks FlightController::slewed(Ticks throttle) {
 
 void FlightController::pass_through(const Demand& demand, Ticks* demands) const {
   if (demand.is_failsafe) {
-    demands[AILERONS] = preset(profile_.preset_ailerons_us);
-    demands[ELEVATOR] = preset(profile_.preset_elevator_us);
-    demands[RUDDER] = preset(profile_.preset_rudder_us);
+    demands[AILERONS] = preset(profile_->preset_ailerons_us);
+    demands[ELEVATOR] = preset(profile_->preset_elevator_us);
+    demands[RUDDER] = preset(profile_->preset_rudder_us);
     return;
   }
-  const Ticks* asked = demand.mode == Mode::OUTPUT ? demand.asked.ticks : demand.sticks;
+  const Ticks* asked = demand.mode == Mode::OUTPUT ? demand.asked.outputs.ticks : demand.sticks;
   demands[AILERONS] = asked[AILERONS];
   demands[ELEVATOR] = asked[ELEVATOR];
   demands[RUDDER] = asked[RUDDER];
@@ -151,7 +151,7 @@ OUT_OF_LINE void FlightController::hold_rates(const Demand& demand, const Attitu
     demands[RUDDER] = NEUTRAL;
   }
   if (has_setpoint(demand)) {
-    yaw_16 = times_q15(demand.setpoint.yaw_rate_cdeg_s, CDEG_TO_16THS);
+    yaw_16 = times_q15(demand.asked.setpoint.yaw_rate_cdeg_s, CDEG_TO_16THS);
   }
   const int16_t swinging = swinging_16(attitude.yaw_rate_16);
   demands[RUDDER] = sum_of(demands[RUDDER], deflection(YAW, yaw_16, swinging));
@@ -196,14 +196,14 @@ int16_t FlightController::wanted_angle_cdeg(Channel channel,
   const bool is_roll = channel == AILERONS;
   const bool is_asked = has_setpoint(demand);
   if (demand.is_failsafe && !is_asked) {
-    return is_roll ? profile_.circle_bank_cdeg : profile_.glide_pitch_cdeg;
+    return is_roll ? profile_->circle_bank_cdeg : profile_->glide_pitch_cdeg;
   }
-  const int16_t asked = is_roll ? demand.setpoint.roll_cdeg : demand.setpoint.pitch_cdeg;
+  const int16_t asked = is_roll ? demand.asked.setpoint.roll_cdeg : demand.asked.setpoint.pitch_cdeg;
   const int16_t stick = deflection_q15(demand.sticks[channel]);
   const bool is_down = (is_asked ? asked : stick) < 0;
-  const int16_t limit = is_roll   ? profile_.roll_limit_cdeg
-                        : is_down ? profile_.pitch_down_limit_cdeg
-                                  : profile_.pitch_up_limit_cdeg;
+  const int16_t limit = is_roll   ? profile_->roll_limit_cdeg
+                        : is_down ? profile_->pitch_down_limit_cdeg
+                                  : profile_->pitch_up_limit_cdeg;
   return is_asked ? clamped16(asked, limit) : times_q15(limit, stick);
 }
 

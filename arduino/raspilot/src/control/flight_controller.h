@@ -1,6 +1,7 @@
 /** Rate and Stabilize PIDs for three axes, limits, mixes: from sticks and attitude to servos. */
 #pragma once
 
+#include "../core/reference.h"
 #include "../core/types.h"
 #include "../store/gains.h"
 #include "../store/profile.h"
@@ -25,9 +26,7 @@ struct Demand {
   Ticks sticks[OUTPUTS];
   /** Throttle by the rules of Authority, ticks. */
   Ticks throttle;
-  Setpoint setpoint;
-  /** The Raspberry Pi's, ticks (mode OUTPUT). */
-  Outputs asked;
+  Asked asked;
 };
 
 /** Which controllers are in the loop; their state is cleared when they leave it. */
@@ -77,8 +76,8 @@ class FlightController : private ControllerMemory {
   int16_t swinging_16(int16_t yaw_rate_16);
   Ticks deflection(uint8_t axis, int16_t wanted_16, int16_t rate_16);
 
-  const Profile& profile_;
-  const Gains& gains_;
+  Reference<const Profile> profile_;
+  Reference<const Gains> gains_;
 };
 
 }  // namespace raspilot

@@ -292,8 +292,8 @@ OUT_OF_LINE bool TiltFilter::step(const Attitude& attitude, TiltCorrection& corr
     return false;
   }
   piece = static_cast<uint8_t>(piece - FIRST_OBSERVATION);
-  const uint8_t subject = piece / PIECES_AN_UPDATE;
-  piece %= PIECES_AN_UPDATE;
+  uint8_t subject = 0;
+  for (; piece >= PIECES_AN_UPDATE; piece = static_cast<uint8_t>(piece - PIECES_AN_UPDATE)) ++subject;
   if (subject == SUBJECTS) return finish(piece, attitude, correction);
   if (piece == 0) {
     begin_observation(subject, attitude);

@@ -50,8 +50,7 @@ Demand Autopilot::demand() const {
     demand.sticks[channel] = receiver.pulse(static_cast<Channel>(channel));
   }
   demand.throttle = authority.throttle();
-  demand.setpoint = authority.setpoint();
-  demand.asked = authority.requested_outputs();
+  demand.asked = authority.asked();
   return demand;
 }
 

@@ -3,6 +3,8 @@
 
 #include <stdint.h>
 
+#include "compiler.h"
+
 namespace raspilot {
 
 constexpr uint16_t SLOT_US = 2000;
@@ -23,12 +25,12 @@ class LoopMeter {
 
   uint32_t second_us_;
   uint32_t first_slot_us_;
-  uint16_t slots_ = 0;
-  uint16_t period_us_ = 0;
-  uint16_t late_us_ = 0;
-  uint16_t latest_us_ = 0;
-  uint16_t seconds_ = 0;
-  bool has_begun_ = false;
+  uint16_t slots_ ZEROED;
+  uint16_t period_us_ ZEROED;
+  uint16_t late_us_ ZEROED;
+  uint16_t latest_us_ ZEROED;
+  uint16_t seconds_ ZEROED;
+  bool has_begun_ ZEROED;
 };
 
 }  // namespace raspilot

@@ -26,7 +26,6 @@ enum class Reason : uint8_t {
   WRONG_SIZE = 2,
   OUT_OF_RANGE = 3,
   ONLY_ON_GROUND = 4,
-  NOT_IN_THESIS_FRAMING = 5,
   TOO_OLD = 6,
   NOT_AT_AUTO = 7,
   THROTTLE_NOT_LOW = 8,
@@ -34,7 +33,6 @@ enum class Reason : uint8_t {
   IMU_INVALID = 10,
   VETO = 11,
   NOT_STILL = 12,
-  NOT_SUPPORTED = 13,
   NOT_ALLOWED = 14,
   NOT_IN_FAILSAFE = 15
 };

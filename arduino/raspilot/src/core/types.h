@@ -52,4 +52,10 @@ struct Outputs {
   Ticks ticks[OUTPUTS];
 };
 
+/** What the Raspberry Pi asks for: the mode is SETPOINT, RETURN or OUTPUT. */
+union Asked {
+  Setpoint setpoint;
+  Outputs outputs;
+};
+
 }  // namespace raspilot

@@ -47,9 +47,9 @@ void Authority::update(bool is_imu_valid, bool is_calibrating, bool is_profile_b
 }
 
 void Authority::follow_receiver(uint16_t passed_units) {
-  const bool is_valid = receiver_.validity() == ALL_INPUTS;
-  const Ticks lost_throttle = us_to_ticks(static_cast<int16_t>(profile_.throttle_lost_us));
-  const bool is_own_failsafe = is_valid && receiver_.pulse(THROTTLE) < lost_throttle;
+  const bool is_valid = receiver_->validity() == ALL_INPUTS;
+  const Ticks lost_throttle = us_to_ticks(static_cast<int16_t>(profile_->throttle_lost_us));
+  const bool is_own_failsafe = is_valid && receiver_->pulse(THROTTLE) < lost_throttle;
   if (is_valid && !is_own_failsafe) {
     rx_ok_timer_.pass(passed_units);
   } else {
@@ -62,7 +62,7 @@ void Authority::follow_receiver(uint16_t passed_units) {
     throttle_low_.start();
     return;
   }
-  switch_.update(receiver_.pulse(AUX1));
+  switch_.update(receiver_->pulse(AUX1));
   if (is_auto()) {
     away_.start();
   } else {
@@ -111,7 +111,7 @@ bool Authority::is_pilot_back(uint16_t passed_units) {
   back_.pass(passed_units);
   bool has_moved = false;
   for (uint8_t channel = 0; channel < OUTPUTS; ++channel) {
-    const Ticks pulse = receiver_.pulse(static_cast<Channel>(channel));
+    const Ticks pulse = receiver_->pulse(static_cast<Channel>(channel));
     if (!was_long) rest_[channel] = pulse;
     const Ticks way = static_cast<Ticks>(pulse - rest_[channel]);
     if (way > TAKE_OVER || way < -TAKE_OVER) has_moved = true;
@@ -121,11 +121,11 @@ bool Authority::is_pilot_back(uint16_t passed_units) {
 
 /** A motor that stood for 5 s of failsafe does not start again. */
 bool Authority::may_use_motor() const {
-  return profile_.may_return_with_motor() && motor_off_.units() <= LATCH_UNITS;
+  return profile_->may_return_with_motor() && motor_off_.units() <= LATCH_UNITS;
 }
 
 void Authority::follow_arming(uint16_t passed_units) {
-  const ArmingSwitch::Event event = arming_.update(receiver_.pulse(AUX2), passed_units);
+  const ArmingSwitch::Event event = arming_.update(receiver_->pulse(AUX2), passed_units);
   if (event == ArmingSwitch::FELL) is_armed_ = false;
   if (event == ArmingSwitch::ROSE && vetoes() == 0) is_armed_ = true;
 }
@@ -140,7 +140,7 @@ Mode Authority::flown_mode() const {
   const uint8_t position = switch_.position();
   if (is_failsafe_ && timeouts_[RETURNING].is_running()) return Mode::RETURN;
   if (is_failsafe_ || position == SWITCH_UNKNOWN) return Mode::FBW;
-  const char letter = profile_.switch_modes[position];
+  const char letter = profile_->switch_modes[position];
   if (letter == letter_of(Mode::ACRO)) return Mode::ACRO;
   if (letter == letter_of(Mode::RATE)) return Mode::RATE;
   if (letter != 'A') return Mode::FBW;
@@ -151,37 +151,37 @@ Mode Authority::flown_mode() const {
 
 bool Authority::is_auto() const {
   const uint8_t position = switch_.position();
-  return position != SWITCH_UNKNOWN && profile_.switch_modes[position] == 'A';
+  return position != SWITCH_UNKNOWN && profile_->switch_modes[position] == 'A';
 }
 
 bool Authority::is_in_flight(uint16_t uptime_s) const {
-  return is_armed_ || (!profile_.has_motor && (was_heard() || uptime_s < RELINK_S));
+  return is_armed_ || (!profile_->has_motor && (was_heard() || uptime_s < RELINK_S));
 }
 
-bool Authority::is_throttle_low() const { return receiver_.pulse(THROTTLE) < LOW_THROTTLE; }
+bool Authority::is_throttle_low() const { return receiver_->pulse(THROTTLE) < LOW_THROTTLE; }
 
 uint8_t Authority::vetoes() const {
   uint8_t vetoes = slot_vetoes_;
-  if (profile_.has_motor && !is_throttle_low()) vetoes |= VETO_THROTTLE_NOT_LOW;
+  if (profile_->has_motor && !is_throttle_low()) vetoes |= VETO_THROTTLE_NOT_LOW;
   if (!arming_.is_high()) vetoes |= VETO_AUX2_LOW;
   if (timeouts_[PI_VETO].is_running()) vetoes |= VETO_RASPBERRY_PI;
   return vetoes;
 }
 
 Ticks Authority::throttle() const {
-  if (profile_.has_motor && !is_armed_) return MOTOR_OFF;
+  if (profile_->has_motor && !is_armed_) return MOTOR_OFF;
   const Mode mode = flown_mode();
   uint16_t demand_us = 0;
   if (is_failsafe_ || is_latched_ || !was_heard()) {
-    demand_us = profile_.throttle_failsafe_us;
-    if (mode == Mode::RETURN && may_use_motor() && setpoint_.throttle_us != 0) {
-      demand_us = setpoint_.throttle_us;
+    demand_us = profile_->throttle_failsafe_us;
+    if (mode == Mode::RETURN && may_use_motor() && asked_.setpoint.throttle_us != 0) {
+      demand_us = asked_.setpoint.throttle_us;
     }
     return us_to_ticks(static_cast<int16_t>(demand_us));
   }
-  if (mode == Mode::SETPOINT) demand_us = setpoint_.throttle_us;
-  if (mode == Mode::OUTPUT) demand_us = ticks_to_us(requested_outputs_.ticks[THROTTLE]);
-  return demand_us != 0 ? us_to_ticks(static_cast<int16_t>(demand_us)) : receiver_.pulse(THROTTLE);
+  if (mode == Mode::SETPOINT) demand_us = asked_.setpoint.throttle_us;
+  if (mode == Mode::OUTPUT) demand_us = ticks_to_us(asked_.outputs.ticks[THROTTLE]);
+  return demand_us != 0 ? us_to_ticks(static_cast<int16_t>(demand_us)) : receiver_->pulse(THROTTLE);
 }
 
 Reason Authority::arm(uint32_t) {
@@ -195,7 +195,7 @@ Reason Authority::arm(uint32_t) {
 }
 
 Reason Authority::disarm(uint32_t) {
-  if (is_armed_ && profile_.has_motor && throttle_low_.units() < LOW_LONG_ENOUGH_UNITS) {
+  if (is_armed_ && profile_->has_motor && throttle_low_.units() < LOW_LONG_ENOUGH_UNITS) {
     return has_receiver() ? Reason::THROTTLE_NOT_LOW : Reason::RECEIVER_INVALID;
   }
   is_armed_ = false;
@@ -223,7 +223,7 @@ Reason Authority::authority_for(Mode mode) const {
   // In a return flight with a receiver a Setpoint would take the place of the return set-point.
   if (!has_receiver() || is_failsafe_) return Reason::RECEIVER_INVALID;
   if (!has_imu()) return Reason::IMU_INVALID;
-  if (profile_.has_motor && !is_armed_) return Reason::VETO;
+  if (profile_->has_motor && !is_armed_) return Reason::VETO;
   return Reason::NONE;
 }
 
@@ -232,7 +232,7 @@ Reason Authority::accept_outputs(const uint16_t* pulses_us, uint32_t age_us, uin
   if (reason != Reason::NONE) return reason;
   if (age_us > MAX_ORIENTATION_AGE_US) return Reason::TOO_OLD;
   for (uint8_t i = 0; i < OUTPUTS; ++i) {
-    requested_outputs_.ticks[i] = us_to_ticks(static_cast<int16_t>(pulses_us[i]));
+    asked_.outputs.ticks[i] = us_to_ticks(static_cast<int16_t>(pulses_us[i]));
   }
   // They share memory with a Setpoint, which must not be read from here on.
   timeouts_[DEMAND].end();
@@ -248,7 +248,7 @@ Reason Authority::accept_setpoint(const Setpoint& setpoint, uint16_t lifetime_ms
 }
 
 Reason Authority::accept_return(const Setpoint& setpoint, uint16_t lifetime_ms, uint32_t) {
-  if (!profile_.may_pi_fly()) return Reason::NOT_ALLOWED;
+  if (!profile_->may_pi_fly()) return Reason::NOT_ALLOWED;
   if (!is_failsafe_) return Reason::NOT_IN_FAILSAFE;
   if (!has_imu()) return Reason::IMU_INVALID;
   if (slot_vetoes_ & VETO_PROFILE_INVALID) return Reason::VETO;
@@ -257,7 +257,7 @@ Reason Authority::accept_return(const Setpoint& setpoint, uint16_t lifetime_ms, 
 }
 
 void Authority::follow(Life life, const Setpoint& setpoint, uint16_t lifetime_ms) {
-  setpoint_ = setpoint;
+  asked_.setpoint = setpoint;
   const uint16_t bounded_ms = lifetime_ms < MAX_SETPOINT_MS ? lifetime_ms : MAX_SETPOINT_MS;
   // Rather a unit too short than one too long.
   timeouts_[life].start(static_cast<uint16_t>(bounded_ms * 31 / 32));

@@ -3,6 +3,7 @@
  */
 #pragma once
 
+#include "../core/reference.h"
 #include "../core/compiler.h"
 #include "../core/types.h"
 #include "../store/profile.h"
@@ -66,10 +67,8 @@ class Authority {
 
   /** The throttle pulse for the ESC by every rule, ticks; 1000 us while disarmed with a motor. */
   Ticks throttle() const;
-  /** Means something in modes SETPOINT and RETURN only. */
-  const Setpoint& setpoint() const { return setpoint_; }
-  /** Means something in flown mode OUTPUT only; throttle 0 is the stick's: see throttle(). */
-  const Outputs& requested_outputs() const { return requested_outputs_; }
+  /** Of the flown mode SETPOINT, RETURN or OUTPUT; throttle 0 is the stick's: see throttle(). */
+  const Asked& asked() const { return asked_; }
 
   /** Refused by any veto: throttle, receiver and IMU have their own reasons. */
   Reason arm(uint32_t now_us);
@@ -112,8 +111,8 @@ class Authority {
   /** Why the Raspberry Pi may not fly in this mode now. */
   Reason authority_for(Mode mode) const;
 
-  const Profile& profile_;
-  const PwmReader& receiver_;
+  Reference<const Profile> profile_;
+  Reference<const PwmReader> receiver_;
   ModeSwitch switch_;
   ArmingSwitch arming_;
   Lifetime timeouts_[TIMEOUTS];
@@ -127,10 +126,7 @@ class Authority {
   Stopwatch back_;
   Ticks rest_[OUTPUTS] ZEROED;
   // The newer of the two: flown_mode() returns which it is.
-  union {
-    Setpoint setpoint_ ZEROED;
-    Outputs requested_outputs_;
-  };
+  Asked asked_ ZEROED;
   uint16_t updated_at_ ZEROED;
   char requested_mode_ ZEROED;
   bool is_armed_ ZEROED;

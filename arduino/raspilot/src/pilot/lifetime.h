@@ -11,7 +11,7 @@
 namespace raspilot {
 
 /** The clock in units. */
-constexpr uint16_t to_units(uint32_t now_us) { return static_cast<uint16_t>(now_us >> 10); }
+uint16_t to_units(uint32_t now_us);
 /** Units that last at least `ms`, and at most 2 units more. */
 constexpr uint16_t units_at_least(uint16_t ms) {
   return static_cast<uint16_t>(ms * 1000UL / 1024 + 2);
@@ -37,11 +37,7 @@ class Lifetime {
 class Stopwatch {
  public:
   void start() { units_ = 0; }
-  // One copy of it is smaller than all of them in their places.
-  __attribute__((noinline)) void pass(uint16_t units) {
-    const uint16_t sum = static_cast<uint16_t>(units_ + units);
-    units_ = sum < units ? 65535 : sum;
-  }
+  void pass(uint16_t units);
   uint16_t units() const { return units_; }
 
  private:

@@ -17,12 +17,12 @@ class PulseFilter {
  public:
   /** Takes a measured pulse; one whose stamps are uncertain only moves it by more than 6 us. */
   void update(Ticks measured, bool is_uncertain);
-  /** Jumps to a pulse, as if there had been no other. */
+  /** Jumps to a pulse, as if there had been no other; call it first. */
   void reset(Ticks pulse);
   Ticks pulse() const { return pulse_; }
 
  private:
-  Ticks pulse_ = us_to_ticks(1500);
+  Ticks pulse_ ZEROED;
   /** y less the output, in eighths of a tick. */
   int8_t ahead_8_ ZEROED;
   /** Sign: where it moved last; 2 in this pulse, 1 in the one before, 0 earlier. */

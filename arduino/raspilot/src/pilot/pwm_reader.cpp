@@ -51,7 +51,7 @@ void PwmReader::check(uint32_t now_us) {
   const uint8_t aged = static_cast<uint8_t>(passed < MAX_AGED ? passed : MAX_AGED);
   const uint16_t now_stamp = static_cast<uint16_t>(now_us * 2);
   uint8_t levels = levels_;
-  const ChannelRange* range = calibration_.receiver;
+  const ChannelRange* range = calibration_->receiver;
   for (InputChannel& channel : channels_) {
     channel.check(levels & 1, now_stamp, aged, *range++);
     levels = static_cast<uint8_t>(levels >> 1);
@@ -75,8 +75,8 @@ uint16_t PwmReader::age_ms(uint32_t now_us) const {
   Stopwatch age = age_;
   age.pass(passed_units(now_us));
   const uint16_t units = age.units();
-  // 1024 us are 1 + 1/42 ms.
-  return units > MAX_AGE_UNITS ? 65535 : static_cast<uint16_t>(units + units / 42);
+  // 1024 us are 1 + 3/128 ms and a little.
+  return units > MAX_AGE_UNITS ? 65535 : static_cast<uint16_t>(units + units / 64 + units / 128);
 }
 
 bool PwmReader::take_rise(Channel channel, uint16_t& stamp_ticks) {

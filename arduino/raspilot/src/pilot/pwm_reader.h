@@ -4,6 +4,7 @@
  */
 #pragma once
 
+#include "../core/reference.h"
 #include "../core/compiler.h"
 #include "../core/types.h"
 #include "../store/calibration.h"
@@ -52,7 +53,7 @@ class PwmReader {
  private:
   uint16_t passed_units(uint32_t now_us) const;
 
-  const Calibration& calibration_;
+  Reference<const Calibration> calibration_;
   // Small members lie where one instruction reaches them.
   Stopwatch age_;
   uint16_t checked_at_ ZEROED;

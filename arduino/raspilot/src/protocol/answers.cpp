@@ -7,13 +7,7 @@ namespace {
 /** Time in steps of 65.5 ms, by a shift that costs an 8-bit CPU nothing. */
 uint8_t stamp_of(uint32_t now_us) { return static_cast<uint8_t>(now_us >> 16); }
 
-constexpr uint8_t SECOND = 16;
-
-/** Moves `count` bytes down to `to` from `step` bytes above it. */
-OUT_OF_LINE void move_down(void* to, uint8_t step, uint8_t count) {
-  uint8_t* at = static_cast<uint8_t*>(to);
-  for (; count != 0; --count, ++at) *at = at[step];
-}
+constexpr uint8_t SECOND = 17;
 
 }  // namespace
 
@@ -30,31 +24,21 @@ void Answers::push(uint8_t what, char type, uint8_t sequence) {
 
 void Answers::pop() {
   --count_;
-  move_down(waiting_, sizeof *waiting_, static_cast<uint8_t>(count_ * sizeof *waiting_));
+  for (uint8_t at = 0; at < count_; ++at) waiting_[at] = waiting_[at + 1];
 }
 
 bool RefusalLimit::allows(char type, uint32_t now_us) {
   check(now_us);
-  for (uint8_t index = 0; index < count_; ++index) {
-    if (refused_[index].type == type) return false;
-  }
-  if (count_ == CAPACITY) discard_oldest();
-  refused_[count_].type = type;
-  refused_[count_].stamp = stamp_of(now_us);
-  ++count_;
+  uint8_t& left = left_[static_cast<uint8_t>(type) % PLACES];
+  if (left != 0) return false;
+  left = SECOND;
   return true;
 }
 
-void RefusalLimit::check(uint32_t now_us) {
-  // The oldest comes first, so that the rest is younger.
-  while (count_ != 0 && static_cast<uint8_t>(stamp_of(now_us) - refused_[0].stamp) > SECOND) {
-    discard_oldest();
-  }
-}
-
-void RefusalLimit::discard_oldest() {
-  --count_;
-  move_down(refused_, sizeof *refused_, static_cast<uint8_t>(count_ * sizeof *refused_));
+OUT_OF_LINE void RefusalLimit::check(uint32_t now_us) {
+  const uint8_t passed = static_cast<uint8_t>(stamp_of(now_us) - checked_at_);
+  checked_at_ = stamp_of(now_us);
+  for (uint8_t& left : left_) left = left > passed ? static_cast<uint8_t>(left - passed) : 0;
 }
 
 }  // namespace raspilot

@@ -36,27 +36,22 @@ class Answers {
 };
 
 /**
- * Limits refusals of each type to one a second (docs/protocols.md 2.5). It holds eight types, as
- * many as there are streams; when more are refused within a second it forgets the oldest.
+ * Limits refusals of each type to one a second (docs/protocols.md 2.5). Types that end in the same
+ * three bits share it; no two streams do.
  */
 class RefusalLimit {
  public:
   /** True, and the second begins, when the type was not refused within the last one. */
   bool allows(char type, uint32_t now_us);
-  /** Forgets refusals a second old; call at least every ten seconds. */
+  /** Lets the time pass; call at least every ten seconds. */
   void check(uint32_t now_us);
 
  private:
-  struct Refused {
-    char type;
-    uint8_t stamp;
-  };
-  static constexpr uint8_t CAPACITY = 8;
+  static constexpr uint8_t PLACES = 8;
 
-  void discard_oldest();
-
-  Refused refused_[CAPACITY];
-  uint8_t count_ ZEROED;
+  /** What is left of each second, in steps of 65.5 ms. */
+  uint8_t left_[PLACES] ZEROED;
+  uint8_t checked_at_ ZEROED;
 };
 
 }  // namespace raspilot

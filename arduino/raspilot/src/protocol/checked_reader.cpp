@@ -23,7 +23,7 @@ CheckedReader::Found CheckedReader::receive(uint8_t byte, uint32_t now_us) {
     is_too_long_ = true;
     return Found::NOTHING;
   }
-  if (length_ < sizeof buffer_.bytes) buffer_.bytes[length_] = decoded;
+  if (length_ < sizeof buffer_) buffer_[length_] = decoded;
   ++length_;
   crc_.put(decoded);
   return Found::NOTHING;

@@ -24,11 +24,8 @@ struct Request {
 /** Carries a Command out; Reason::NONE, or why it is refused (then it had no effect). */
 typedef Reason (*Handler)(Autopilot& autopilot, const Request& request);
 
-/** Which framings take the Command: BOTH only for those of the thesis. */
-enum class Framing : uint8_t { CHECKED, BOTH };
-
 /**
- * How the Command is answered in checked framing. CONFIRMED: `K`. UNANSWERED: a stream, refused at
+ * How the Command is answered. CONFIRMED: `K`. UNANSWERED: a stream, refused at
  * most once a second. OWN: the handler sends the answer by Link::send; it has no payload, and it
  * is called when the line has room for the longest message.
  */
@@ -38,7 +35,6 @@ enum class Answer : uint8_t { CONFIRMED, UNANSWERED, OWN };
 struct CommandDefinition {
   char type;
   uint8_t size;
-  Framing framing;
   Answer answer;
   Handler handler;
 };

@@ -24,16 +24,8 @@ constexpr uint16_t steps_of(uint32_t us) {
 constexpr uint16_t MIN_PERIOD = steps_of(MIN_PERIOD_US);
 constexpr uint16_t PERIOD = steps_of(MIN_PERIOD_US > 20000 ? MIN_PERIOD_US : 20000);
 constexpr uint16_t STATUS_PERIOD = steps_of(200000);
-constexpr uint16_t THESIS_PERIOD = steps_of(50000);
 constexpr uint16_t MAX_AGE = steps_of(100000);
 constexpr uint8_t ORIENTATION_SIZE = 26;
-constexpr uint8_t ATTITUDE_SIZE = 12;
-
-void write_angles(const Attitude& attitude, WireWriter& writer) {
-  writer.hundredths(attitude.yaw_cdeg);
-  writer.hundredths(attitude.pitch_cdeg);
-  writer.hundredths(attitude.roll_cdeg);
-}
 
 }  // namespace
 
@@ -69,16 +61,13 @@ bool Forwarder::send_next(uint32_t now_us) {
 
 OUT_OF_LINE Forwarder::Steps Forwarder::period(uint8_t stream) const {
   if (stream == STATUS_STREAM) return STATUS_PERIOD;
-  const bool is_thesis = autopilot_.link.is_thesis();
-  const Steps usual = is_thesis ? THESIS_PERIOD : PERIOD;
-  if (period_ms_ == 0) return usual;
+  if (period_ms_ == 0) return PERIOD;
   // A millisecond is 31 1/4 steps.
   const Steps asked = static_cast<Steps>(period_ms_ * 31 + period_ms_ / 4);
-  const Mode mode = autopilot_.authority.mode();
+  const Mode mode = autopilot_->authority.mode();
   const bool is_consumed = mode == Mode::OUTPUT || mode == Mode::SETPOINT || mode == Mode::RETURN;
-  if (is_consumed && stream != OUTPUTS_STREAM && asked > usual) return usual;
-  const Steps least = is_thesis ? THESIS_PERIOD : MIN_PERIOD;
-  return asked < least ? least : asked;
+  if (is_consumed && stream != OUTPUTS_STREAM && asked > PERIOD) return PERIOD;
+  return asked < MIN_PERIOD ? MIN_PERIOD : asked;
 }
 
 OUT_OF_LINE bool Forwarder::is_due(uint8_t stream, Steps now) {
@@ -92,20 +81,18 @@ OUT_OF_LINE bool Forwarder::is_due(uint8_t stream, Steps now) {
 
 /** Sends it, or has nothing to send; false when it does not fit. */
 bool Forwarder::send(uint8_t stream, uint32_t now_us) {
-  const bool is_thesis = autopilot_.link.is_thesis();
   switch (stream) {
-    case INPUTS_STREAM: return is_thesis || send_inputs();
+    case INPUTS_STREAM: return send_inputs();
     case ORIENTATION_STREAM:
       // An invalid attitude is not sent: receivers see the last one age.
-      if (!autopilot_.attitude.is_valid()) return true;
-      return is_thesis ? send_attitude() : send_orientation(to_steps(now_us));
+      return !autopilot_->attitude.is_valid() || send_orientation(to_steps(now_us));
     case OUTPUTS_STREAM: return send_outputs();
-    default: return is_thesis || send_status(now_us);
+    default: return send_status(now_us);
   }
 }
 
 bool Forwarder::send_inputs() {
-  const PwmReader& receiver = autopilot_.receiver;
+  const PwmReader& receiver = autopilot_->receiver;
   const uint8_t validity = receiver.validity();
   uint8_t payload[2 * INPUTS + 1];
   WireWriter writer(payload);
@@ -116,46 +103,41 @@ bool Forwarder::send_inputs() {
                                               : receiver.measured_us(each));
   }
   writer.u8(validity);
-  return autopilot_.link.send('i', payload, sizeof payload);
+  return autopilot_->link.send('i', payload, sizeof payload);
 }
 
 bool Forwarder::send_outputs() {
-  const Outputs& outputs = autopilot_.controller.outputs();
+  const Outputs& outputs = autopilot_->controller.outputs();
   uint8_t payload[2 * OUTPUTS];
   WireWriter writer(payload);
   for (uint8_t output = 0; output < OUTPUTS; ++output) {
     writer.u16(ticks_to_us(outputs.ticks[output]));
   }
-  return autopilot_.link.send('r', payload, sizeof payload);
+  return autopilot_->link.send('r', payload, sizeof payload);
 }
 
 bool Forwarder::send_orientation(Steps now) {
-  if (!autopilot_.link.has_room(ORIENTATION_SIZE)) return false;
-  const Attitude& attitude = autopilot_.attitude.attitude();
+  if (!autopilot_->link.has_room(ORIENTATION_SIZE)) return false;
+  const Attitude& attitude = autopilot_->attitude.attitude();
   uint8_t payload[ORIENTATION_SIZE];
   WireWriter writer(payload);
   writer.u16(sequence_);
-  write_angles(attitude, writer);
+  writer.hundredths(attitude.yaw_cdeg);
+  writer.hundredths(attitude.pitch_cdeg);
+  writer.hundredths(attitude.roll_cdeg);
   writer.sixteenths(attitude.yaw_rate_16);
   writer.sixteenths(attitude.pitch_rate_16);
   writer.sixteenths(attitude.roll_rate_16);
-  if (!autopilot_.link.send('O', payload, sizeof payload)) return false;
+  if (!autopilot_->link.send('O', payload, sizeof payload)) return false;
   remember(now);
   return true;
 }
 
-bool Forwarder::send_attitude() {
-  uint8_t payload[ATTITUDE_SIZE];
-  WireWriter writer(payload);
-  write_angles(autopilot_.attitude.attitude(), writer);
-  return autopilot_.link.send('o', payload, sizeof payload);
-}
-
 bool Forwarder::send_status(uint32_t now_us) {
-  if (!autopilot_.link.has_room(STATUS_SIZE)) return false;
+  if (!autopilot_->link.has_room(STATUS_SIZE)) return false;
   uint8_t payload[STATUS_SIZE];
-  write_status(autopilot_, now_us, payload);
-  return autopilot_.link.send('x', payload, sizeof payload);
+  write_status(*autopilot_, now_us, payload);
+  return autopilot_->link.send('x', payload, sizeof payload);
 }
 
 void Forwarder::remember(Steps now) {

@@ -6,6 +6,7 @@
 
 #include <stdint.h>
 
+#include "../core/reference.h"
 #include "../core/compiler.h"
 #include "../core/types.h"
 
@@ -53,11 +54,10 @@ class Forwarder {
   bool send_inputs();
   bool send_outputs();
   bool send_orientation(Steps now);
-  bool send_attitude();
   bool send_status(uint32_t now_us);
   void remember(Steps now);
 
-  Autopilot& autopilot_;
+  Reference<Autopilot> autopilot_;
   Steps due_[STREAMS] ZEROED;
   /** When the newest orientations were sent, by sequence modulo REMEMBERED. */
   Steps sent_[REMEMBERED] ZEROED;

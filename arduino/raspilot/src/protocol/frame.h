@@ -1,4 +1,4 @@
-/** Sizes of both framings (docs/protocols.md 2.1 and 2.2). */
+/** Sizes of frames (docs/protocols.md 2.1). */
 #pragma once
 
 #include <stdint.h>
@@ -17,7 +17,7 @@ constexpr uint8_t MAX_FRAME = MAX_PAYLOAD + FRAME_OVERHEAD;
 /** The one byte that COBS adds, and the zero that ends a frame. */
 constexpr uint8_t COBS_OVERHEAD = 2;
 
-/** When the first byte of a message came: an unfinished message is dropped after 100 ms. */
+/** When the first byte of a frame came: an unfinished one is dropped after 100 ms. */
 class Beginning {
  public:
   void note(uint32_t now_us) { units_ = to_units(now_us); }
@@ -29,14 +29,6 @@ class Beginning {
   static constexpr uint16_t UNFINISHED_UNITS = units_at_least(100);
 
   uint16_t units_ ZEROED;
-};
-
-/**
- * The bytes of the message being received; both framings use it, never at the same time. Of a
- * frame that is longer than any Command the rest is checked and not kept.
- */
-struct ReceiveBuffer {
-  uint8_t bytes[MAX_COMMAND + 2];
 };
 
 /**

@@ -14,23 +14,21 @@ constexpr uint8_t REFUSED_SIZE = 3;
 
 }  // namespace
 
-Link::Link(Autopilot& autopilot)
-    : autopilot_(autopilot), forwarder_(autopilot), reader_(buffer_), receiver_(buffer_) {}
+Link::Link(Autopilot& autopilot) : autopilot_(autopilot), forwarder_(autopilot) {}
 
 void Link::open() {
-  if (is_thesis_ || board::serial_room() == 0) return;
+  if (board::serial_room() == 0) return;
   board::serial_put(0, 0);
   board::serial_send(1);
 }
 
 void Link::on_byte(uint8_t byte, uint32_t now_us) {
   expire(now_us);
-  if (is_thesis_) {
-    on_thesis_byte(byte, now_us);
-    return;
+  switch (reader_.receive(byte, now_us)) {
+    case CheckedReader::Found::FRAME: on_frame(now_us); break;
+    case CheckedReader::Found::BROKEN: on_dropped(); break;
+    case CheckedReader::Found::NOTHING: break;
   }
-  on_checked_byte(byte, now_us);
-  if (!has_checked_frame_) detect_legacy(byte, now_us);
 }
 
 void Link::check(uint32_t now_us) {
@@ -50,32 +48,13 @@ OUT_OF_LINE bool Link::has_received(uint32_t now_us) const {
 }
 
 bool Link::has_room(uint8_t size) const {
-  const uint8_t overhead = is_thesis_ ? 1 : FRAME_OVERHEAD + COBS_OVERHEAD;
-  return board::serial_room() >= size + overhead;
+  return board::serial_room() >= size + FRAME_OVERHEAD + COBS_OVERHEAD;
 }
 
 bool Link::send(char type, const uint8_t* payload, uint8_t size) {
   if (size > MAX_COMMAND || !has_room(size)) return false;
-  if (!is_thesis_) {
-    board::serial_send(write_frame(sequence_++, type, payload, size, board::serial_put));
-    return true;
-  }
-  board::serial_put(0, static_cast<uint8_t>(type));
-  uint8_t at = 0;
-  while (at < size) {
-    const uint8_t byte = payload[at];
-    board::serial_put(++at, byte);
-  }
-  board::serial_send(static_cast<uint8_t>(size + 1));
+  board::serial_send(write_frame(sequence_++, type, payload, size, board::serial_put));
   return true;
-}
-
-void Link::on_checked_byte(uint8_t byte, uint32_t now_us) {
-  switch (reader_.receive(byte, now_us)) {
-    case CheckedReader::Found::FRAME: on_frame(now_us); break;
-    case CheckedReader::Found::BROKEN: on_dropped(); break;
-    case CheckedReader::Found::NOTHING: break;
-  }
 }
 
 void Link::on_frame(uint32_t now_us) {
@@ -89,7 +68,6 @@ void Link::on_frame(uint32_t now_us) {
     refuse_seldom(type, sequence, is_known ? Reason::WRONG_SIZE : Reason::UNKNOWN_TYPE, now_us);
     return;
   }
-  has_checked_frame_ = true;
   const Request request = {reader_.payload(), sequence, now_us};
   carry_out(command, request);
 }
@@ -104,27 +82,6 @@ void Link::count_sequence(uint8_t sequence) {
   expected_ = static_cast<uint8_t>(sequence + 1);
 }
 
-void Link::detect_legacy(uint8_t byte, uint32_t now_us) {
-  if (!door_.receive(byte, now_us) || autopilot_.authority.is_armed()) return;
-  is_thesis_ = true;
-  forwarder_.start(now_us);
-}
-
-void Link::on_thesis_byte(uint8_t byte, uint32_t now_us) {
-  switch (receiver_.receive(byte, now_us)) {
-    case CommandReceiver::Found::COMMAND: {
-      const Request request = {receiver_.payload(), 0, now_us};
-      carry_out(receiver_.definition(), request);
-      break;
-    }
-    case CommandReceiver::Found::UNKNOWN:
-      on_dropped();
-      refuse_seldom(static_cast<char>(byte), 0, Reason::UNKNOWN_TYPE, now_us);
-      break;
-    case CommandReceiver::Found::NOTHING: break;
-  }
-}
-
 void Link::carry_out(const CommandDefinition& command, const Request& request) {
   is_heard_ = true;
   last_rx_units_ = to_units(request.now_us);
@@ -137,11 +94,9 @@ void Link::carry_out(const CommandDefinition& command, const Request& request) {
   if (command.answer == Answer::OWN) {
     answers_.push(PendingAnswer::ASK, command.type, request.sequence);
   } else {
-    const Reason reason = command.handler(autopilot_, request);
+    const Reason reason = command.handler(*autopilot_, request);
     if (reason == Reason::NONE) {
-      if (!is_stream && !is_thesis_) {
-        answers_.push(PendingAnswer::CONFIRM, command.type, request.sequence);
-      }
+      if (!is_stream) answers_.push(PendingAnswer::CONFIRM, command.type, request.sequence);
     } else if (is_stream) {
       refuse_seldom(command.type, request.sequence, reason, request.now_us);
     } else {
@@ -168,7 +123,7 @@ bool Link::send_answer(uint32_t now_us) {
     const uint8_t payload[REFUSED_SIZE] = {pending.type, pending.sequence, pending.what};
     const bool is_sent = pending.what == PendingAnswer::CONFIRM
                              ? send('K', payload, REFUSED_SIZE - 1)
-                             : send('!', payload, is_thesis_ ? 1 : REFUSED_SIZE);
+                             : send('!', payload, REFUSED_SIZE);
     if (!is_sent) return false;
   }
   answers_.pop();
@@ -180,20 +135,14 @@ bool Link::ask(PendingAnswer& pending, uint32_t now_us) {
   CommandDefinition command;
   if (!has_room(MAX_COMMAND)) return false;
   if (!CommandExecutor::find(static_cast<char>(pending.type), command)) return true;
-  const Request request = {buffer_.bytes, pending.sequence, now_us};
-  const Reason reason = command.handler(autopilot_, request);
+  const Request request = {reader_.payload(), pending.sequence, now_us};
+  const Reason reason = command.handler(*autopilot_, request);
   if (reason != Reason::NONE) pending.what = static_cast<uint8_t>(reason);
   return true;
 }
 
 void Link::expire(uint32_t now_us) {
-  if (!is_thesis_) {
-    if (reader_.expire(now_us)) on_dropped();
-    return;
-  }
-  if (!receiver_.expire(now_us)) return;
-  on_dropped();
-  send('!', nullptr, 0);
+  if (reader_.expire(now_us)) on_dropped();
 }
 
 void Link::on_dropped() {

@@ -4,15 +4,14 @@
  */
 #pragma once
 
+#include "../core/reference.h"
 #include "../core/compiler.h"
 #include "../core/types.h"
 #include "answers.h"
 #include "checked_reader.h"
 #include "command_executor.h"
-#include "command_receiver.h"
 #include "forwarder.h"
 #include "frame.h"
-#include "legacy_framing_detector.h"
 
 namespace raspilot {
 
@@ -24,16 +23,16 @@ class Link {
 
   /** Takes one byte from the line; at most ~10 us unless a frame ends with it. */
   void on_byte(uint8_t byte, uint32_t now_us);
-  /** Drops messages unfinished for 100 ms, without a further byte. At least every ten seconds. */
+  /** Drops a frame unfinished for 100 ms, without a further byte. At least every ten seconds. */
   void check(uint32_t now_us);
   /** Sends an answer that waited for room, or a stream message that is due; false for none. */
   bool background(uint32_t now_us);
-  /** Sends the extra zero that opens checked framing. */
+  /** Sends the extra zero that opens the line. */
   void open();
 
-  /** Sends one whole message in the present framing, or nothing when it does not fit. */
+  /** Sends one whole frame, or nothing when it does not fit. */
   bool send(char type, const uint8_t* payload, uint8_t size);
-  /** Whether a message with this number of payload bytes fits now. */
+  /** Whether a frame with this number of payload bytes fits now. */
   bool has_room(uint8_t size) const;
 
   /** The Start Command: forwarding begins. */
@@ -45,7 +44,6 @@ class Link {
     return forwarder_.orientation_age_us(sequence, now_us);
   }
 
-  bool is_thesis() const { return is_thesis_; }
   bool is_started() const { return forwarder_.is_started(); }
   /** Whether the Raspberry Pi has sent a valid message within 1 s. */
   bool has_received(uint32_t now_us) const;
@@ -54,9 +52,6 @@ class Link {
   uint16_t missing() const { return missing_; }
 
  private:
-  void on_checked_byte(uint8_t byte, uint32_t now_us);
-  void on_thesis_byte(uint8_t byte, uint32_t now_us);
-  void detect_legacy(uint8_t byte, uint32_t now_us);
   void on_frame(uint32_t now_us);
   void expire(uint32_t now_us);
   void count_sequence(uint8_t sequence);
@@ -66,8 +61,7 @@ class Link {
   bool ask(PendingAnswer& pending, uint32_t now_us);
   void on_dropped();
 
-  Autopilot& autopilot_;
-  LegacyFramingDetector door_;
+  Reference<Autopilot> autopilot_;
   Answers answers_;
   RefusalLimit limit_;
   Forwarder forwarder_;
@@ -78,13 +72,8 @@ class Link {
   uint8_t expected_ ZEROED;
   bool has_expected_ ZEROED;
   bool is_heard_ ZEROED;
-  bool is_thesis_ ZEROED;
-  /** A valid checked frame arrived: thesis framing is not detected until reset. */
-  bool has_checked_frame_ ZEROED;
   // Small members lie before it, where one instruction reaches them.
-  ReceiveBuffer buffer_ ZEROED;
   CheckedReader reader_;
-  CommandReceiver receiver_;
 };
 
 }  // namespace raspilot

@@ -1,7 +1,6 @@
 #include "gains.h"
 
-#include <string.h>
-
+#include "../core/compiler.h"
 #include "../core/flash.h"
 #include "wire_bytes.h"
 
@@ -9,61 +8,39 @@ namespace raspilot {
 
 namespace {
 
-static_assert(sizeof(Gains) == GAINS_SIZE, "the copies below count on it");
+static_assert(sizeof(Gains) == GAINS_SIZE && __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__,
+              "the wire has a gain's bytes in the opposite order");
 
-constexpr uint8_t GAINS_A_LOOP = 9;
-constexpr uint8_t WIRED_GAINS_A_LOOP = 6;
-/** 50.0f. Positive floats are ordered as their bits are, and infinity and NaN lie above every number. */
-constexpr uint32_t MAX_GAIN_BITS = 0x42480000;
-constexpr uint32_t MINUS_ZERO_BITS = 0x80000000;
+constexpr uint8_t GAINS = 18;
+/** Upper halves of 50.0f and -0.0f; infinity and NaN lie above every positive number. */
+constexpr uint16_t MAX_GAIN_UPPER = 0x4248;
+constexpr uint16_t MINUS_ZERO_UPPER = 0x8000;
 
-bool read(const uint8_t* wire, Gains& gains, uint8_t gains_a_loop) {
-  WireReader judged(wire);
-  for (uint8_t count = 0; count < 2 * gains_a_loop; ++count) {
-    if (!is_gain(judged.u32())) return false;
-  }
-  WireReader reader(wire);
-  uint8_t* next = reinterpret_cast<uint8_t*>(&gains);
-  for (uint8_t loop = 0; loop < 2; ++loop) {
-    for (uint8_t count = 0; count < gains_a_loop; ++count) {
-      const uint32_t bits = reader.u32();
-      memcpy(next + count * sizeof bits, &bits, sizeof bits);
-    }
-    next += GAINS_A_LOOP * sizeof(float);
-  }
-  return true;
-}
-
-void write(const Gains& gains, uint8_t* wire, uint8_t gains_a_loop) {
-  WireWriter writer(wire);
-  const uint8_t* next = reinterpret_cast<const uint8_t*>(&gains);
-  for (uint8_t loop = 0; loop < 2; ++loop) {
-    for (uint8_t count = 0; count < gains_a_loop; ++count) {
-      uint32_t bits;
-      memcpy(&bits, next + count * sizeof bits, sizeof bits);
-      writer.u32(bits);
-    }
-    next += GAINS_A_LOOP * sizeof(float);
-  }
-}
+uint8_t opposite(uint8_t at) { return at ^ 3; }
 
 }  // namespace
-
-bool is_gain(uint32_t bits) { return bits <= MAX_GAIN_BITS || bits == MINUS_ZERO_BITS; }
 
 const Gains DEFAULT_GAINS PROGMEM = {
     {{2.0f, 0.0f, 0.0f}, {1.5f, 0.0f, 0.0f}, {1.0f, 0.0f, 0.0f}},
     {{8.0f, 0.0f, 0.0f}, {8.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 0.0f}},
 };
 
-bool read_three_axes(const uint8_t* wire, Gains& gains) { return read(wire, gains, GAINS_A_LOOP); }
-
-bool read_two_axes(const uint8_t* wire, Gains& gains) {
-  return read(wire, gains, WIRED_GAINS_A_LOOP);
+bool read_gains(const uint8_t* wire, Gains& gains) {
+  WireReader reader(wire);
+  for (uint8_t count = 0; count < GAINS; ++count) {
+    const uint16_t upper = reader.u16();
+    const uint16_t lower = reader.u16();
+    const bool is_edge = upper == MAX_GAIN_UPPER || upper == MINUS_ZERO_UPPER;
+    if (upper >= MAX_GAIN_UPPER && !(is_edge && lower == 0)) return false;
+  }
+  uint8_t* const bytes = reinterpret_cast<uint8_t*>(&gains);
+  for (uint8_t at = 0; at < GAINS_SIZE; ++at) bytes[opposite(at)] = wire[at];
+  return true;
 }
 
-void write_three_axes(const Gains& gains, uint8_t* wire) { write(gains, wire, GAINS_A_LOOP); }
-
-void write_two_axes(const Gains& gains, uint8_t* wire) { write(gains, wire, WIRED_GAINS_A_LOOP); }
+OUT_OF_LINE void write_gains(const Gains& gains, uint8_t* wire) {
+  const uint8_t* const bytes = reinterpret_cast<const uint8_t*>(&gains);
+  for (uint8_t at = 0; at < GAINS_SIZE; ++at) wire[at] = bytes[opposite(at)];
+}
 
 }  // namespace raspilot

@@ -6,7 +6,6 @@
 namespace raspilot {
 
 constexpr uint8_t GAINS_SIZE = 72;
-constexpr uint8_t TWO_AXIS_GAINS_SIZE = 48;
 constexpr float MAX_GAIN = 50.0f;
 
 /** One PID's gains. Rate: units of 1.25 us per deg/s; stabilize: deg/s per degree. */
@@ -20,17 +19,11 @@ struct Gains {
   PidGains stabilize[3];
 };
 
-/** Whether a gain of these IEEE 754 bits is 0 to 50. */
-bool is_gain(uint32_t bits);
-
 /** For an untuned aircraft, as in pids.yml. In flash: copy with memcpy_P. */
 extern const Gains DEFAULT_GAINS;
 
 /** Reads the 72 bytes of `g`; false and `gains` untouched unless all are finite and 0 to 50. */
-bool read_three_axes(const uint8_t* wire, Gains& gains);
-/** Reads the 48 bytes of `t`, the rudder keeps its own; false and untouched likewise. */
-bool read_two_axes(const uint8_t* wire, Gains& gains);
-void write_three_axes(const Gains& gains, uint8_t* wire);
-void write_two_axes(const Gains& gains, uint8_t* wire);
+bool read_gains(const uint8_t* wire, Gains& gains);
+void write_gains(const Gains& gains, uint8_t* wire);
 
 }  // namespace raspilot

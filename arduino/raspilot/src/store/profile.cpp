@@ -1,9 +1,8 @@
 #include "profile.h"
 
-#include <string.h>
-
 #include "../core/flash.h"
 #include "fields.h"
+#include "wire_bytes.h"
 
 namespace raspilot {
 
@@ -20,8 +19,7 @@ const uint8_t FIELDS[] PROGMEM = {
     PULSE,  FLOOR,  PULSE,  PULSE,  PULSE,  LETTER       // throttle, presets, flags
 };
 constexpr uint8_t SERVO_SIZE = 7;
-constexpr uint8_t MIN_AT = 3;
-constexpr uint8_t MAX_AT = 5;
+constexpr uint8_t LOWEST_AT = 3;
 constexpr uint8_t SWITCH_AT = 30;
 
 bool is_switch_mode(uint8_t letter) {
@@ -31,9 +29,9 @@ bool is_switch_mode(uint8_t letter) {
 bool is_profile(const uint8_t* wire) {
   if (!are_in_range(FIELDS, sizeof FIELDS, wire)) return false;
   for (uint8_t output = 0; output < OUTPUTS; ++output) {
-    const uint8_t* const servo = wire + output * SERVO_SIZE;
-    // Big-endian numbers are ordered as their bytes are.
-    if (memcmp(servo + MIN_AT, servo + MAX_AT, 2) >= 0) return false;
+    WireReader reader(wire + output * SERVO_SIZE + LOWEST_AT);
+    const uint16_t lowest_us = reader.u16();
+    if (lowest_us >= reader.u16()) return false;
   }
   for (uint8_t position = 0; position < 3; ++position) {
     if (!is_switch_mode(wire[SWITCH_AT + position])) return false;

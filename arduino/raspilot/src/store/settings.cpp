@@ -172,7 +172,7 @@ bool Settings::is_at_end() const { return offset_ >= size_of(kind_) + SLOT_OVERH
 
 bool Settings::apply(Kind kind, const uint8_t* data) {
   if (kind == PROFILE) return read_profile(data, profile);
-  if (kind == GAINS) return read_three_axes(data, gains);
+  if (kind == GAINS) return read_gains(data, gains);
   return read_calibration(data, calibration);
 }
 
@@ -180,7 +180,7 @@ void Settings::fill(uint8_t* data) const {
   if (kind_ == PROFILE) {
     write_profile(profile, data);
   } else if (kind_ == GAINS) {
-    write_three_axes(gains, data);
+    write_gains(gains, data);
   } else {
     write_calibration(calibration, data);
   }

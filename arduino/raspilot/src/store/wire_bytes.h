@@ -13,19 +13,15 @@ class WireReader {
   explicit WireReader(const uint8_t* bytes) : next_(bytes) {}
 
   uint8_t u8() { return *next_++; }
-  uint16_t u16();
+  uint16_t u16() {
+    const uint8_t high = u8();
+    return static_cast<uint16_t>(high << 8 | u8());
+  }
   int16_t i16() { return static_cast<int16_t>(u16()); }
-  uint32_t u32();
 
  private:
   const uint8_t* next_;
 };
-
-/**
- * Whether an IEEE 754 single is at most `most_bits`, a positive one, in magnitude; false for NaN.
- * Positive floats are ordered as their bits are.
- */
-bool is_magnitude_within(uint32_t bits, uint32_t most_bits);
 
 /** Writes on from `bytes`; the caller knows that there is room. */
 class WireWriter {
@@ -35,8 +31,8 @@ class WireWriter {
   void u8(uint8_t value) { *next_++ = value; }
   void u16(uint16_t value);
   void i16(int16_t value) { u16(static_cast<uint16_t>(value)); }
-  void u32(uint32_t value);
-  void f32(float value);
+  /** `value` / `unit` as the nearest single. */
+  void ratio(int16_t value, float unit);
   /** `value` / 100 and `value` / 16 as the nearest single. */
   void hundredths(int16_t value);
   void sixteenths(int16_t value);

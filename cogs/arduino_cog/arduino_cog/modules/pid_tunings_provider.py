@@ -173,6 +173,10 @@ class PIDTuningsProvider(BaseModule):
         if self._board.is_setting:
             raise CommandRefusedError("another set of gains is being sent", detail="busy")
         refuse_unused(command, gains, (self.current or gains).completed(self._saved))
+        if not (self._is_thesis or gains.has_rudder):
+            if self.current is None:
+                raise CommandRefusedError("the Arduino's gains are not known yet", detail="unknown")
+            gains = gains.completed(self.current)
         return self._transmit(gains).addCallback(self._save, gains)
 
     def _transmit(self, gains: GainSet) -> Deferred[Any]:

@@ -54,9 +54,9 @@ Reason on_calibrate(Autopilot& autopilot, const Request& request) {
 }
 
 const CommandDefinition COMMANDS[] PROGMEM = {
-    {'C', PROFILE_SIZE, Framing::CHECKED, Answer::CONFIRMED, on_profile},
-    {'c', 0, Framing::CHECKED, Answer::OWN, on_profile_asked},
-    {'e', 1, Framing::CHECKED, Answer::CONFIRMED, on_calibrate},
+    {'C', PROFILE_SIZE, Answer::CONFIRMED, on_profile},
+    {'c', 0, Answer::OWN, on_profile_asked},
+    {'e', 1, Answer::CONFIRMED, on_calibrate},
 };
 CommandGroup group(COMMANDS);
 

@@ -34,11 +34,11 @@ Reason on_mode_asked(Autopilot& autopilot, const Request&) {
 }
 
 const CommandDefinition COMMANDS[] PROGMEM = {
-    {'a', 0, Framing::CHECKED, Answer::CONFIRMED, on_arm},
-    {'d', 0, Framing::CHECKED, Answer::CONFIRMED, on_disarm},
-    {'v', 1, Framing::CHECKED, Answer::UNANSWERED, on_veto},
-    {'M', 1, Framing::CHECKED, Answer::CONFIRMED, on_mode},
-    {'m', 0, Framing::CHECKED, Answer::OWN, on_mode_asked},
+    {'a', 0, Answer::CONFIRMED, on_arm},
+    {'d', 0, Answer::CONFIRMED, on_disarm},
+    {'v', 1, Answer::UNANSWERED, on_veto},
+    {'M', 1, Answer::CONFIRMED, on_mode},
+    {'m', 0, Answer::OWN, on_mode_asked},
 };
 CommandGroup group(COMMANDS);
 

@@ -48,9 +48,9 @@ Reason on_return(Autopilot& autopilot, const Request& request) {
 }
 
 const CommandDefinition COMMANDS[] PROGMEM = {
-    {'u', 10, Framing::CHECKED, Answer::UNANSWERED, on_output},
-    {'S', 10, Framing::CHECKED, Answer::UNANSWERED, on_setpoint},
-    {'R', 10, Framing::CHECKED, Answer::UNANSWERED, on_return},
+    {'u', 10, Answer::UNANSWERED, on_output},
+    {'S', 10, Answer::UNANSWERED, on_setpoint},
+    {'R', 10, Answer::UNANSWERED, on_return},
 };
 CommandGroup group(COMMANDS);
 

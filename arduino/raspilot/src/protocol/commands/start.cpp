@@ -24,8 +24,8 @@ Reason on_panic(Autopilot& autopilot, const Request& request) {
 }
 
 const CommandDefinition COMMANDS[] PROGMEM = {
-    {'s', 0, Framing::CHECKED, Answer::CONFIRMED, on_start},
-    {'p', 3, Framing::BOTH, Answer::CONFIRMED, on_panic},
+    {'s', 0, Answer::CONFIRMED, on_start},
+    {'p', 3, Answer::CONFIRMED, on_panic},
 };
 CommandGroup group(COMMANDS);
 
