@@ -1,5 +1,6 @@
-/** `C` `c` `e`: the airframe's profile, and calibrating; neither changes in flight. */
+/** `C` `c` `e` `V`: the airframe's profile, and calibrating; neither changes in flight. */
 #include "../../core/autopilot.h"
+#include "../../store/wire_bytes.h"
 #include "../command_executor.h"
 
 namespace raspilot {
@@ -53,10 +54,20 @@ Reason on_calibrate(Autopilot& autopilot, const Request& request) {
   return reason;
 }
 
+Reason on_battery(Autopilot& autopilot, const Request& request) {
+  if (is_in_flight(autopilot)) return Reason::ONLY_ON_GROUND;
+  const uint16_t mv = WireReader(request.payload).u16();
+  Settings& settings = autopilot.settings;
+  const Reason reason = autopilot.battery.calibrate(mv, settings.battery_full_scale_mv);
+  if (reason == Reason::NONE) settings.save_battery();
+  return reason;
+}
+
 const CommandDefinition COMMANDS[] PROGMEM = {
     {'C', PROFILE_SIZE, Framing::CHECKED, Answer::CONFIRMED, on_profile},
     {'c', 0, Framing::CHECKED, Answer::OWN, on_profile_asked},
     {'e', 1, Framing::CHECKED, Answer::CONFIRMED, on_calibrate},
+    {'V', 2, Framing::CHECKED, Answer::CONFIRMED, on_battery},
 };
 CommandGroup group(COMMANDS);
 
