@@ -178,7 +178,7 @@ bool Settings::apply(Kind kind, const uint8_t* data) {
   if (kind == PROFILE) return read_profile(data, profile);
   if (kind == GAINS) return read_three_axes(data, gains);
   if (kind == CALIBRATION) return read_calibration(data, calibration);
-  battery_full_scale_mv = WireReader(data).u16();
+  battery_full_scale_mv = static_cast<uint16_t>(data[0] << 8 | data[1]);
   return true;
 }
 
@@ -190,7 +190,8 @@ void Settings::fill(uint8_t* data) const {
   } else if (kind_ == CALIBRATION) {
     write_calibration(calibration, data);
   } else {
-    WireWriter(data).u16(battery_full_scale_mv);
+    data[0] = static_cast<uint8_t>(battery_full_scale_mv >> 8);
+    data[1] = static_cast<uint8_t>(battery_full_scale_mv);
   }
 }
 
