@@ -16,8 +16,11 @@ class Battery {
   void on_count(uint16_t count);
   /** The voltage, mV, by that at which the pin has 1.1 V (0: no divider); 0 while unknown. */
   uint16_t mv(uint16_t full_scale_mv) const;
-  /** The full scale at which the voltage is `mv`; 0 while it is unknown, or above 65 V. */
-  uint16_t full_scale_mv(uint16_t mv) const;
+  /**
+   * Finds the full scale at which the voltage is `mv`; 0 mV: there is no divider. False while the
+   * voltage is unknown, and for a full scale above 65 V.
+   */
+  bool calibrate(uint16_t mv, uint16_t& full_scale_mv) const;
 
  private:
   /** Sixty-fourths of a count; 0: unknown. */

@@ -53,14 +53,14 @@ Reason on_calibrate(Autopilot& autopilot, const Request& request) {
   return reason;
 }
 
-/** 0 mV: there is no divider. */
 Reason on_battery(Autopilot& autopilot, const Request& request) {
   if (is_in_flight(autopilot)) return Reason::ONLY_ON_GROUND;
   const uint16_t mv = static_cast<uint16_t>(request.payload[0] << 8 | request.payload[1]);
-  const uint16_t full_scale_mv = autopilot.battery.full_scale_mv(mv);
-  if (mv != 0 && full_scale_mv == 0) return Reason::BATTERY_NOT_MEASURED;
-  autopilot.settings.battery_full_scale_mv = full_scale_mv;
-  autopilot.settings.save_battery();
+  Settings& settings = autopilot.settings;
+  if (!autopilot.battery.calibrate(mv, settings.battery_full_scale_mv)) {
+    return Reason::BATTERY_NOT_MEASURED;
+  }
+  settings.save_battery();
   return Reason::NONE;
 }
 
