@@ -9,7 +9,7 @@ constexpr uint8_t FILTER = 64;
 
 }  // namespace
 
-OUT_OF_LINE void Battery::on_count(uint16_t count) {
+void Battery::on_count(uint16_t count) {
   const uint16_t level = level_;
   // The end of the range, 65536, is 0 in 16 bits.
   const uint16_t next = static_cast<uint16_t>(count + 1);

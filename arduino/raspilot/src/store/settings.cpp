@@ -1,5 +1,7 @@
 #include "settings.h"
 
+#include <string.h>
+
 #include "../core/board.h"
 #include "../core/compiler.h"
 #include "../core/flash.h"
@@ -178,7 +180,7 @@ bool Settings::apply(Kind kind, const uint8_t* data) {
   if (kind == PROFILE) return read_profile(data, profile);
   if (kind == GAINS) return read_three_axes(data, gains);
   if (kind == CALIBRATION) return read_calibration(data, calibration);
-  battery_full_scale_mv = static_cast<uint16_t>(data[0] << 8 | data[1]);
+  memcpy(&battery_full_scale_mv, data, BATTERY_SIZE);
   return true;
 }
 
@@ -190,8 +192,7 @@ void Settings::fill(uint8_t* data) const {
   } else if (kind_ == CALIBRATION) {
     write_calibration(calibration, data);
   } else {
-    data[0] = static_cast<uint8_t>(battery_full_scale_mv >> 8);
-    data[1] = static_cast<uint8_t>(battery_full_scale_mv);
+    memcpy(data, &battery_full_scale_mv, BATTERY_SIZE);
   }
 }
 
