@@ -13,6 +13,7 @@ from up.commands.schema_rows import Datum
 
 VERSION = 1
 STATUS = Struct('>BBBBBBHHHHHHHH')
+OLDEST_SIZE = 20
 FLIGHT_MODES = {'a': 'ACRO', 'r': 'RATE', 'f': 'FBW', 's': 'SETPOINT', 'R': 'RETURN', 'u': 'OUTPUT', 'h': 'RTH'}
 MODE_TEXTS = {'ACRO': 'the sticks move the surfaces', 'RATE': 'the sticks ask for rotation', 'FBW': 'the sticks ask for attitude, within limits', 'SETPOINT': 'the Raspberry Pi sets the attitude', 'RETURN': 'the Raspberry Pi sets the attitude in receiver failsafe', 'OUTPUT': 'the Raspberry Pi sets the servo positions', 'RTH': 'return home, sent by old firmware; without behaviour'}
 SWITCH_MODES = {'a': 'ACRO', 'r': 'RATE', 'f': 'FBW', 'A': 'AUTO'}
@@ -106,7 +107,7 @@ DATA = (
     Datum('uptime_s', 'uptime_s', None, 'number', 's', 'time since reset, stays at 65535', False, 'uptime_s'),
     Datum('rx_age_ms', 'rx_age_ms', None, 'number', 'ms', "age of the receiver's newest pulses, stays at 65535", False, 'receiver_age_ms'),
     Datum('imu_age_ms', 'imu_age_ms', None, 'number', 'ms', "age of the IMU's newest sample, stays at 65535", False, 'imu_age_ms'),
-    Datum('battery_mv', 'battery_mv', None, 'number', 'mV', 'voltage of the flight battery; 0: unknown, or no divider at A7', False, ''),
+    Datum('battery_mv', 'battery_mv', None, 'number', 'mV', "voltage of the flight battery at A7; 0: no divider, not calibrated, or beyond the pin's 1.1 V", False, 'battery_mv'),
 )
 
 
