@@ -35,8 +35,11 @@ def draw_flight(writer: PanelWriter, row: int, column: int) -> int:
     switch = _word(writer, "arduino", "switch")
     replaced = telemetry.text("flight_control", "fallback") is not None
     selected = telemetry.text("flight_control", "selected", limit=12)
+    cause = telemetry.text("failsafe", "cause", limit=13)
     more = f" instead of {selected}" if replaced else f"  switch {switch}"
-    style = Style.BAD if replaced else Style.PLAIN
+    if cause is not None and not replaced:
+        more = f" by {cause}"
+    style = Style.BAD if replaced or cause is not None else Style.PLAIN
     end = writer.value(row + 2, column, f"flight mode {flown}{more}", style=style)
     if telemetry.flag("arduino", "failsafe"):
         writer.value(row + 2, end + 1, "FAILSAFE", style=Style.BAD)

@@ -71,14 +71,18 @@ test("the modes are those of the aircraft; one that is not offered is disabled w
   ground.assertClean();
 });
 
-test("a fallback is shown until the selected mode acts again", async () => {
+test("a fallback and the cause of a failsafe are shown until they are over", async () => {
   const ground = await openWith(navigating());
   flight.tell({ data: navigating({ mode: "CIRCLE", selected: "LOITER", fallback: "navigation" }) });
   await ground.until(() => document.querySelector("#fallback")?.dataset.code === "navigation", "the banner");
   assert.match(await ground.text("#fallback"), /^CIRCLE replaces LOITER/);
   await ground.until(() => document.querySelector('#events li[data-code="fallback"]') !== null, "the event");
+  flight.tell({ data: { ...navigating({ mode: "RETURN", selected: "RETURN" }), failsafe: { active: [], cause: "fence" } } });
+  await ground.until(() => document.querySelector("#failsafe")?.dataset.code === "fence", "the failsafe");
+  assert.match(await ground.text("#failsafe"), /RETURN/);
+  await ground.until(() => document.querySelector("#fallback") === null, "the end of the fallback");
   flight.tell({ data: navigating() });
-  await ground.until(() => document.querySelector("#fallback") === null, "its end");
+  await ground.until(() => document.querySelector("#failsafe") === null, "its end");
 });
 
 test("a click on the map sends a target above home, then selects GUIDED", async () => {

@@ -270,8 +270,8 @@ NAVIGATION = {
 }  # fmt: skip
 
 
-def navigating(**flight_control):
-    data = frame(flight_mode="SETPOINT", navigation=NAVIGATION)
+def navigating(cause=None, **flight_control):
+    data = frame(flight_mode="SETPOINT", navigation=NAVIGATION, failsafe={"cause": cause})
     data["home"] |= {"time_s": 65.0}
     data["age_ms"] |= {"navigation": 700}
     data["flight_control"] = {"mode": "RETURN", "selected": "RETURN", "fallback": None}
@@ -293,6 +293,13 @@ def test_navigation_stands_beside_the_rest_where_the_aircraft_has_it(size):
     ):
         assert text in picture, text
     assert "NAVIGATION" not in text_of(state(frame()), size=size)
+
+
+def test_a_failsafe_is_told_with_its_cause():
+    flown = navigating("uplink_lost")
+    assert "failsafe: the uplink is lost" in plain_line(flown.status, flown.telemetry, 100.0)
+    assert "flight mode RETURN by uplink_lost" in text_of(flown)
+    assert "failsafe" not in plain_line(navigating().status, navigating().telemetry, 100.0)
 
 
 def test_a_fallback_is_told_with_its_reason():

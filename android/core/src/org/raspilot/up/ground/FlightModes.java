@@ -69,6 +69,13 @@ public final class FlightModes {
                 + telemetry.text("flight_control.selected") + ": " + reason(code);
     }
 
+    /** Returns why a failsafe has selected the present mode, in words; null: none has. */
+    public static String failsafe(Telemetry telemetry) {
+        final String code = telemetry.text("failsafe.cause");
+        return code == null ? null : telemetry.text("flight_control.selected") + ": "
+                + reason(code);
+    }
+
     private static List<String> ofBoard(Telemetry telemetry) {
         final List<String> told = telemetry.texts("flight_control.board_modes");
         final List<String> modes = new ArrayList<>();

@@ -118,6 +118,10 @@ public final class TelemetrySchema {
         MODE_REASONS.put("demand_invalid", "it demanded what is not possible");
         MODE_REASONS.put("mode_refused", "it cannot be entered now");
         MODE_REASONS.put("mode_unknown", "no module provides it");
+        MODE_REASONS.put("fence", "the fence is near");
+        MODE_REASONS.put("receiver_lost", "the receiver is lost");
+        MODE_REASONS.put("uplink_lost", "the uplink is lost");
+        MODE_REASONS.put("phone_battery", "the phone's battery is low");
         MODE_REASONS.put("orientation", "orientation missing or too old");
         MODE_REASONS.put("rx", "receiver missing or too old");
         MODE_REASONS.put("servo", "servos missing or too old");
@@ -151,6 +155,14 @@ public final class TelemetrySchema {
                 "text", "{flight_control.mode} replaces {flight_control.selected}: {value}",
                 "end_code", "fallback_over", "end", "the selected flight mode acts again",
                 "first", "true", "path", "flight_control.fallback", "type", "text"));
+        RULES.add(new TelemetryRule("event", "mode", "code", "failsafe", "level", "warning",
+                "text", "failsafe: {value}", "end_code", "failsafe_over",
+                "end", "no failsafe trigger holds", "path", "failsafe.active", "type", "texts"));
+        RULES.add(new TelemetryRule("event", "mode", "code", "failsafe_acts", "level", "alarm",
+                "text", "failsafe {value}: {flight_control.mode} flies until the switch leaves AUTO or the ground selects a flight mode",
+                "end_code", "failsafe_ended",
+                "end", "the pilot or the ground has ended the failsafe", "first", "true",
+                "path", "failsafe.cause", "type", "text"));
         RULES.add(new TelemetryRule("path", "armed", "type", "flag", "event", "armed",
                 "code", "armed", "level", "warning", "text", "the aircraft is armed",
                 "end", "the aircraft is disarmed", "end_code", "disarmed", "level_armed", "warning",

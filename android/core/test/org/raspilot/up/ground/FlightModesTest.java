@@ -63,6 +63,7 @@ public final class FlightModesTest {
                 + "\"selected\": \"RETURN\", \"fallback\": \"navigation\"}")));
         assertNull(FlightModes.fallback(frame("SETPOINT", "{\"fallback\": null}")));
         assertNotEquals("mode_refused", FlightModes.reason("mode_refused"));
+        assertNull(FlightModes.failsafe(frame("SETPOINT", "{}")));
         assertEquals("sonar", FlightModes.reason("sonar"));
     }
 }
