@@ -33,7 +33,7 @@ if TYPE_CHECKING:
         PathDemand,
         SurfacesDemand,
     )
-    from up.flight_modes.flight_mode import FlightMode, FlightSituation, Home, Target
+    from up.flight_modes.flight_mode import FlightMode, FlightSituation, Home, ModeRefusal, Target
     from up.flight_modes.navigation_state import LocalFrame, NavigationState, Point
     from up.mode import Mode
     from up.needs import needs, wants
@@ -59,6 +59,7 @@ _PLACES = {
     "Line": "flight_modes.demand",
     "LocalFrame": "flight_modes.navigation_state",
     "Mode": "mode",
+    "ModeRefusal": "flight_modes.flight_mode",
     "Module": "base_module:BaseModule",
     "NavigationState": "flight_modes.navigation_state",
     "PathDemand": "flight_modes.demand",
@@ -100,6 +101,7 @@ __all__ = [
     "Line",
     "LocalFrame",
     "Mode",
+    "ModeRefusal",
     "Module",
     "NavigationState",
     "PathDemand",

@@ -63,7 +63,9 @@ def draw_position(writer: PanelWriter, row: int, column: int) -> int:
     writer.title(row, column, "LOCATION", "location")
     latitude = number_text(number("location", "latitude"), 6, 11)
     longitude = number_text(number("location", "longitude"), 6, 11)
-    writer.value(row + 1, column, f"{latitude} {longitude} deg", "location")
+    satellites = number("location", "satellites")
+    more = "" if satellites is None else f" {satellites:.0f} sat"
+    writer.value(row + 1, column, f"{latitude} {longitude} deg{more}", "location")
     writer.value(row + 2, column, home_text(writer.telemetry), "location")
     end = writer.value(
         row + 3, column, f"altitude {number_text(number('altitude'), 1, 8)} m", "altitude"

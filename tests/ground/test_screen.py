@@ -285,6 +285,7 @@ NAVIGATION = {
 def navigating(cause=None, **flight_control):
     data = frame(flight_mode="SETPOINT", navigation=NAVIGATION, failsafe={"cause": cause})
     data["home"] |= {"time_s": 65.0}
+    data["location"]["satellites"] = 9
     data["age_ms"] |= {"navigation": 700}
     data["flight_control"] = {"mode": "RETURN", "selected": "RETURN", "fallback": None}
     data["flight_control"] |= flight_control
@@ -296,6 +297,7 @@ def test_navigation_stands_beside_the_rest_where_the_aircraft_has_it(size):
     picture = text_of(navigating(), size=size)
     for text in (
         "flight mode RETURN",
+        "50.075500   14.437800 deg 9 sat",
         "home 1204 m, bearing 271 deg, 1:05",
         "NAVIGATION 0.70 s",
         "89.6 m above home, climb +0.2 m/s",

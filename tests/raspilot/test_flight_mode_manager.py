@@ -226,7 +226,7 @@ class TestRequests:
 
     def test_guided_flies_to_the_target_which_is_shown_and_ends_with_the_mode(self, rig):
         rig.state()
-        assert refusal(rig.outcome(FlightModeCommand("GUIDED"))) == "mode_refused"
+        assert refusal(rig.outcome(FlightModeCommand("GUIDED"))) == "no_target"
         rig.outcome(NavigationTargetCommand(48.01, 17.0, height_m=80.0))
         rig.frame()
         assert rig.outcome(FlightModeCommand("GUIDED")) == [None]
@@ -239,7 +239,7 @@ class TestRequests:
         rig.setpoint()
         shown = rig.manager.telemetry_content["navigation"]["target"]
         assert shown["latitude"] is None
-        assert refusal(rig.outcome(FlightModeCommand("GUIDED"))) == "mode_refused"
+        assert refusal(rig.outcome(FlightModeCommand("GUIDED"))) == "no_target"
 
     def test_a_target_ten_thousand_kilometres_away_is_refused(self, rig):
         assert refusal(rig.outcome(NavigationTargetCommand(-40.0, 17.0))) == "too_far"

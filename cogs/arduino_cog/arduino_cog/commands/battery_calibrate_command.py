@@ -19,5 +19,6 @@ class BatteryCalibrateCommand(BaseCommand):
     """
 
     NAME: ClassVar[str] = "up.battery.calibrate"
+    TITLE: ClassVar[str] = "Flight battery has {} V"
     ROLES: ClassVar[frozenset[Role]] = frozenset({Role.PILOT})
     voltage: float = value(unit="V", minimum=0, maximum=MAX_V)

@@ -18,7 +18,7 @@ public final class FlightModes {
     private static final String UNKNOWN = "mode_unknown";
     /** What a ground may select of an aircraft that does not report it. */
     private static final List<String> BOARD_MODES = Arrays.asList("RATE", "FBW");
-    private static final List<String> FLOWN_BY_PI = Arrays.asList("SETPOINT", "OUTPUT");
+    private static final List<String> FLOWN_BY_PI = Arrays.asList("SETPOINT", "RETURN", "OUTPUT");
     private static final int MAX_MODES = 32;
     private static final int MAX_NAME = 24;
 

@@ -30,6 +30,7 @@ public final class TelemetrySchema {
     /** Why a flight mode is not offered, or was replaced, by code. */
     static final Map<String, String> MODE_REASONS = new HashMap<>();
     private static final Map<String, String> NAVIGATION = new LinkedHashMap<>();
+    private static final Map<String, Boolean> OPTIONAL = new HashMap<>();
     static final List<TelemetryRule> RULES = new ArrayList<>();
     /** Events without a field, by code. */
     static final Map<String, TelemetryRule> EVENTS = new HashMap<>();
@@ -62,7 +63,7 @@ public final class TelemetrySchema {
         put(READING_OF, "servo", "servo.ailerons", "servo.elevator", "servo.throttle",
                 "servo.rudder");
         put(READING_OF, "location", "location.latitude", "location.longitude", "location.altitude",
-                "home.distance", "home.bearing");
+                "home.distance", "home.bearing", "location.satellites");
         put(READING_OF, "navigation", "navigation.latitude", "navigation.longitude",
                 "navigation.altitude", "navigation.height", "navigation.speed", "navigation.climb",
                 "navigation.airspeed", "navigation.course", "navigation.heading",
@@ -109,7 +110,7 @@ public final class TelemetrySchema {
                 "navigation.heading", "navigation.wind.speed", "navigation.sd.position",
                 "navigation.sd.altitude", "navigation.sd.wind", "navigation.sd.airspeed",
                 "navigation.sd.heading", "navigation.target.altitude", "navigation.target.radius");
-        put(DECIMALS, 0, "home.time_s", "navigation.wind.from");
+        put(DECIMALS, 0, "home.time_s", "navigation.wind.from", "location.satellites");
         put(DECIMALS, 2, "arduino.flight_battery_v");
         LIMITS.put("battery_low", 20.0);
         LIMITS.put("battery_empty", 10.0);
@@ -122,6 +123,14 @@ public final class TelemetrySchema {
         MODE_REASONS.put("receiver_lost", "the receiver is lost");
         MODE_REASONS.put("uplink_lost", "the uplink is lost");
         MODE_REASONS.put("phone_battery", "the phone's battery is low");
+        MODE_REASONS.put("no_home", "home is not set");
+        MODE_REASONS.put("home_too_far", "home is too far away");
+        MODE_REASONS.put("no_target", "it needs a target: choose a place on the map");
+        MODE_REASONS.put("target_too_far", "the target is too far away");
+        MODE_REASONS.put("target_too_high", "the target is too far above the aircraft");
+        MODE_REASONS.put("target_too_low", "the target is too far below the aircraft");
+        MODE_REASONS.put("target_below_home", "the target is below home");
+        MODE_REASONS.put("target_radius", "the radius of the target is not above 0");
         MODE_REASONS.put("orientation", "orientation missing or too old");
         MODE_REASONS.put("rx", "receiver missing or too old");
         MODE_REASONS.put("servo", "servos missing or too old");
@@ -141,6 +150,8 @@ public final class TelemetrySchema {
         NAVIGATION.put("Wind from", "navigation.wind.from");
         NAVIGATION.put("Position sd", "navigation.sd.position");
         NAVIGATION.put("Altitude sd", "navigation.sd.altitude");
+        NAVIGATION.put("Satellites", "location.satellites");
+        OPTIONAL.put("location.satellites", true);
         RULES.add(new TelemetryRule("path", "navigation.motor_stopped", "type", "flag",
                 "event", "motor", "code", "motor_stopped", "level", "alarm",
                 "text", "the motor gives no thrust", "end", "the motor gives thrust",
@@ -275,6 +286,11 @@ public final class TelemetrySchema {
     /** Paths of the values of navigation, by label in the order of display. */
     public static Map<String, String> navigation() {
         return Collections.unmodifiableMap(NAVIGATION);
+    }
+
+    /** Whether a value of navigation is not shown while it is unknown. */
+    public static boolean isOptional(String path) {
+        return OPTIONAL.containsKey(path);
     }
 
     private TelemetrySchema() {

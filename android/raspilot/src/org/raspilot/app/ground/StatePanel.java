@@ -123,9 +123,10 @@ final class StatePanel {
         boolean isThere = picture.telemetry.number("navigation.latitude") != null;
         for (Map.Entry<String, Row> each : navigation.entrySet()) {
             String path = each.getKey();
-            each.getValue().setVisible(isThere);
-            show(each.getValue(), picture, path, TelemetryText.value(picture.telemetry, path),
-                    Row.Look.PLAIN);
+            String text = TelemetryText.value(picture.telemetry, path);
+            boolean isShown = text != null || !TelemetrySchema.isOptional(path);
+            each.getValue().setVisible(isThere && isShown);
+            show(each.getValue(), picture, path, text, Row.Look.PLAIN);
         }
     }
 
