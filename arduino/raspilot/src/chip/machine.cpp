@@ -34,8 +34,8 @@ static constexpr int16_t BYTE_TICKS = 2 * 150;
 static constexpr int16_t COMMAND_TICKS = 2 * 390;
 /** After this many slots without background work a slot gives up its sample for it. */
 static constexpr uint8_t PATIENT_SLOTS = 5;
-/** Pin A7 against the internal 1.1 V; free running at 125 kHz, a conversion takes 0.1 ms. */
-static constexpr uint8_t ADC_A7 = _BV(REFS1) | _BV(REFS0) | 7;
+/** The pin against the internal 1.1 V; free running at 125 kHz, a conversion takes 0.1 ms. */
+static constexpr uint8_t ADC_BATTERY = _BV(REFS1) | _BV(REFS0) | (PIN_BATTERY - 14);
 static constexpr uint8_t ADC_RUNS =
     _BV(ADEN) | _BV(ADSC) | _BV(ADATE) | _BV(ADPS2) | _BV(ADPS1) | _BV(ADPS0);
 /** State is kept, and the battery measured, 50 times a second. */
@@ -55,7 +55,7 @@ static uint8_t slots_to_blink;
 
 OUT_OF_LINE void setup() {
   cli();
-  ADMUX = ADC_A7;
+  ADMUX = ADC_BATTERY;
   ADCSRA = ADC_RUNS;
   clock::begin();
   uart::begin();

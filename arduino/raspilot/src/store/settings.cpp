@@ -17,7 +17,6 @@ constexpr uint8_t VERSION = 1;
 /** A cell that will not take its value is given up after this number of saves. */
 constexpr uint8_t MAX_ATTEMPTS = 3;
 constexpr uint8_t LARGEST_SIZE = GAINS_SIZE;
-constexpr uint8_t BATTERY_SIZE = 2;
 
 const uint8_t SIZES[] PROGMEM = {PROFILE_SIZE, GAINS_SIZE, CALIBRATION_SIZE, BATTERY_SIZE};
 

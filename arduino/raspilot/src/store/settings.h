@@ -14,6 +14,8 @@
 
 namespace raspilot {
 
+constexpr uint8_t BATTERY_SIZE = 2;
+
 class Settings {
  public:
   Profile profile;
