@@ -93,6 +93,7 @@ class Schema:
 
     def _read_status(self, data: dict[str, Any]) -> None:
         self.version = data["version"]
+        self.oldest_size = data["oldest_size"]
         self.modes = [_item(MODE, each) for each in data["modes"]]
         self.refusals = [_item(REFUSAL, each) for each in data["refusals"]]
         self.status = [_row(each, "") for each in data["fields"]]

@@ -72,6 +72,7 @@ def python(schema: Schema) -> str:
         "from up.commands.command import value",
         "from up.commands.schema_rows import Datum", "",
         f"VERSION = {schema.version}", f"STATUS = Struct({schema.format!r})",
+        f"OLDEST_SIZE = {schema.oldest_size}",
         f"FLIGHT_MODES = { {m.letter: m.name for m in schema.modes if m.flown} }",
         f"MODE_TEXTS = { {m.name: m.about for m in schema.modes if m.flown} }",
         f"SWITCH_MODES = { {m.letter: m.name for m in schema.modes if m.switch} }",

@@ -110,16 +110,26 @@ def has_navigation(writer: PanelWriter) -> bool:
 
 
 def draw_power(writer: PanelWriter, row: int, column: int) -> int:
-    """Draw battery, phone and load; return the row below."""
+    """Draw batteries, phone and load; return the row below."""
     telemetry = writer.telemetry
     level = telemetry.number("android", "batteryLevel")
     style = Style.BAD if level is not None and level < BATTERY_LOW else Style.PLAIN
-    text = f"battery {number_text(level, 0)} %"
-    end = writer.value(row, column, text, "battery", style)
     connected = flag_text(telemetry.flag("android", "connected"), "connected", "absent")
     is_contested = telemetry.text("android", "competitor") is not None
     phone = "2nd phone refused" if is_contested else f"phone {connected}"
-    writer.value(row, end + 1, phone, style=Style.WARNING if is_contested else Style.PLAIN)
+    phone_style = Style.WARNING if is_contested else Style.PLAIN
+    voltage_v = telemetry.number("arduino", "flight_battery_v")
+    if voltage_v is None:
+        text = f"battery {number_text(level, 0)} %"
+        end = writer.value(row, column, text, "battery", style)
+    else:
+        is_low = telemetry.flag("arduino", "flight_battery_low")
+        is_low = is_low or telemetry.flag("arduino", "flight_battery_critical")
+        text = f"flight battery {voltage_v:.1f} V"
+        end = writer.value(row, column, text, "flight", Style.BAD if is_low else Style.PLAIN)
+        if not is_contested and level is not None and connected == "connected":
+            phone, phone_style = f"phone {number_text(level, 0)} %", style
+    writer.value(row, end + 1, phone, style=phone_style)
     cpu = number_text(telemetry.number("load", "cpu"), 0)
     ram = number_text(telemetry.number("load", "ram"), 0)
     writer.value(row + 1, column, f"load {cpu} % memory {ram} %")

@@ -46,6 +46,18 @@ def style_at(picture, text):
     raise AssertionError(text)
 
 
+@pytest.mark.parametrize(
+    ("low", "critical", "is_bad"),
+    [(None, None, False), (False, False, False), (True, False, True), (None, True, True)],
+)
+def test_the_flight_battery_is_beside_the_phones_and_styled_by_its_limits(low, critical, is_bad):
+    arduino = {"flight_battery_v": 11.14, "flight_battery_low": low}
+    flying = state(frame(arduino={**arduino, "flight_battery_critical": critical}))
+    assert "flight battery 11.1 V phone 83 %" in text_of(flying)
+    style = style_at(render(flying, 100.0, (80, 24)), "flight battery")
+    assert (style == f"\x1b[0;{Style.BAD.value}m") is is_bad
+
+
 def test_everything_that_is_known_is_there():
     picture = text_of(state(frame(vetoes=["gyro is warm", "AUX2 low"], armed=True)))
     for text in (

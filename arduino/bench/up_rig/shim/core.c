@@ -125,6 +125,7 @@ static void reset(rig_t *rig) {
     rig->reset_until = avr->cycle + rig->start_up;
     timers_reset(rig, rig->reset_until);
     twi_reset(rig);
+    adc_reset(rig);
     uart_reset(rig, avr->cycle);
     eeprom_reset(rig, avr->cycle);
     ports_reset(rig, avr->cycle);
@@ -289,6 +290,7 @@ rig_t *rig_new(uint32_t seed) {
     twi_hook(rig);
     eeprom_hook(rig);
     watchdog_hook(rig);
+    adc_hook(rig);
     return rig;
 }
 

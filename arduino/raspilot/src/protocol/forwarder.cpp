@@ -9,9 +9,9 @@ namespace raspilot {
 
 namespace {
 
-// Of 10 bits a byte 70 % at most; the status takes 26 bytes of it five times a second.
+// Of 10 bits a byte 70 % at most; the status, with 6 bytes around it, goes five times a second.
 constexpr uint32_t LOAD_BYTES_S = RASPILOT_BAUD / 10 * 7 / 10;
-constexpr uint32_t STATUS_BYTES_S = 26 * 5;
+constexpr uint32_t STATUS_BYTES_S = (STATUS_SIZE + 6) * 5;
 constexpr uint32_t STREAMED_BYTES = 19 + 32 + 14;
 constexpr uint32_t MIN_PERIOD_US = STREAMED_BYTES * 1000000UL / (LOAD_BYTES_S - STATUS_BYTES_S);
 constexpr uint8_t STEP_BITS = 5;

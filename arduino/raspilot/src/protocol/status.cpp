@@ -43,6 +43,8 @@ void write_status(const Autopilot& autopilot, uint32_t now_us, uint8_t* payload)
   put_u16(payload + AT_UPTIME_S, autopilot.meter.seconds());
   put_u16(payload + AT_RX_AGE_MS, autopilot.receiver.age_ms(now_us));
   put_u16(payload + AT_IMU_AGE_MS, autopilot.attitude.age_ms());
+  const uint16_t full_scale_mv = autopilot.settings.battery_full_scale_mv;
+  put_u16(payload + AT_BATTERY_MV, autopilot.battery.mv(full_scale_mv));
 }
 
 }  // namespace raspilot

@@ -396,6 +396,9 @@ export const READING_OF = {
   "arduino.loop_us": "flight",
   "arduino.late_us": "flight",
   "arduino.frame_errors": "flight",
+  "arduino.flight_battery_v": "flight",
+  "arduino.flight_battery_low": "flight",
+  "arduino.flight_battery_critical": "flight",
   "android.batteryLevel": "battery"
 };
 

@@ -21,6 +21,7 @@ public final class CommandTexts {
         TITLES.put("arduino.profile.request", "Request the profile");
         TITLES.put("black_box.mark", "Mark \"{}\"");
         TITLES.put("up.arm", "Arm");
+        TITLES.put("up.battery.calibrate", "Flight battery has {} V");
         TITLES.put("up.disarm", "Disarm");
         TITLES.put("up.flight_mode.set", "Flight mode {}");
         TITLES.put("up.home.set", "Set home");

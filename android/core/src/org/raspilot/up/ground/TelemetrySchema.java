@@ -53,6 +53,7 @@ public final class TelemetrySchema {
         HOLDS_MS.put("imu", 2000L);
         HOLDS_MS.put("failsafe", 2000L);
         HOLDS_MS.put("board", 2000L);
+        HOLDS_MS.put("flight_battery", 2000L);
         HOLDS_MS.put("phone", 2000L);
         HOLDS_MS.put("battery", 2000L);
         put(READING_OF, "orientation", "orientation.roll", "orientation.pitch", "orientation.yaw",
@@ -74,7 +75,8 @@ public final class TelemetrySchema {
         put(READING_OF, "flight", "flight_mode", "armed", "in_flight", "arduino.switch",
                 "arduino.receiver_valid", "arduino.imu_valid", "arduino.failsafe",
                 "arduino.bias_stored", "arduino.reset_cause", "arduino.restored", "arduino.loop_us",
-                "arduino.late_us", "arduino.frame_errors");
+                "arduino.late_us", "arduino.frame_errors", "arduino.flight_battery_v",
+                "arduino.flight_battery_low", "arduino.flight_battery_critical");
         put(READING_OF, "battery", "android.batteryLevel");
         put(UNITS, "deg", "orientation.roll", "orientation.pitch", "orientation.yaw",
                 "location.latitude", "location.longitude", "home.bearing", "home.latitude",
@@ -93,6 +95,7 @@ public final class TelemetrySchema {
         put(UNITS, "s", "home.time_s", "system.uptime_s");
         put(UNITS, "m/s", "navigation.speed", "navigation.climb", "navigation.airspeed",
                 "navigation.wind.speed", "navigation.sd.wind", "navigation.sd.airspeed");
+        put(UNITS, "V", "arduino.flight_battery_v");
         put(UNITS, "%", "android.batteryLevel", "load.cpu", "load.ram");
         put(UNITS, "ms", "load.delay_ms", "system.period_ms", "system.clock_ms",
                 "age_ms.orientation", "age_ms.rx", "age_ms.servo", "age_ms.flight",
@@ -108,6 +111,7 @@ public final class TelemetrySchema {
                 "navigation.sd.altitude", "navigation.sd.wind", "navigation.sd.airspeed",
                 "navigation.sd.heading", "navigation.target.altitude", "navigation.target.radius");
         put(DECIMALS, 0, "home.time_s", "navigation.wind.from", "location.satellites");
+        put(DECIMALS, 2, "arduino.flight_battery_v");
         LIMITS.put("battery_low", 20.0);
         LIMITS.put("battery_empty", 10.0);
         MODE_REASONS.put("mode_failed", "it failed");
@@ -202,6 +206,15 @@ public final class TelemetrySchema {
                 "level_armed", "alarm", "when", "false", "awaits", "flight,rx,servo",
                 "awaited_code", "board_awaited", "awaited_text", "the Arduino is not connected yet",
                 "awaited_level", "warning"));
+        RULES.add(new TelemetryRule("path", "arduino.flight_battery_low", "type", "flag",
+                "event", "battery", "code", "flight_battery_low", "level", "warning",
+                "text", "the flight battery is low", "end", "the flight battery is no longer low",
+                "end_code", "flight_battery_low_over", "alarm", "flight_battery",
+                "level_armed", "warning", "when", "true"));
+        RULES.add(new TelemetryRule("path", "arduino.flight_battery_critical", "type", "flag",
+                "event", "battery", "code", "flight_battery_critical", "level", "alarm",
+                "text", "the flight battery is critically low", "alarm", "flight_battery",
+                "level_armed", "alarm", "when", "true"));
         RULES.add(new TelemetryRule("path", "android.connected", "type", "flag", "event", "link",
                 "code", "phone_lost", "level", "warning", "text", "the phone is disconnected",
                 "end", "the phone is connected", "end_code", "phone_connected", "alarm", "phone",
