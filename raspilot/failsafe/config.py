@@ -50,6 +50,22 @@ class PhoneBattery:
 
 
 @dataclass(frozen=True, slots=True)
+class FlightBatteryCritical:
+    """The flight battery is below critical_v of flight_battery.yml."""
+
+    action: str = _action("RETURN")
+    delay_s: float = _delay(10.0)
+
+
+@dataclass(frozen=True, slots=True)
+class FlightBatteryLow:
+    """The flight battery is below low_v of flight_battery.yml, not only for a burst of throttle."""
+
+    action: str = _action(WARN)
+    delay_s: float = _delay(10.0)
+
+
+@dataclass(frozen=True, slots=True)
 class NoProgress:
     """In RETURN the aircraft comes no nearer: the head wind is stronger than its airspeed."""
 
@@ -91,7 +107,16 @@ class Fence:
             yield "floor_m", "must be below ceiling_m"
 
 
-Trigger = ReceiverLost | UplinkLost | PhoneBattery | NoProgress | Fence | Other
+Trigger = (
+    ReceiverLost
+    | UplinkLost
+    | FlightBatteryCritical
+    | FlightBatteryLow
+    | PhoneBattery
+    | NoProgress
+    | Fence
+    | Other
+)
 
 
 @dataclass(frozen=True, slots=True)
@@ -103,9 +128,11 @@ class FailsafeConfig:
     until its failure was over.
     """
 
+    flight_battery_critical: FlightBatteryCritical = section(FlightBatteryCritical)
     fence: Fence = section(Fence)
     receiver_lost: ReceiverLost = section(ReceiverLost)
     uplink_lost: UplinkLost = section(UplinkLost)
+    flight_battery_low: FlightBatteryLow = section(FlightBatteryLow)
     phone_battery: PhoneBattery = section(PhoneBattery)
     no_progress: NoProgress = section(NoProgress)
     others: dict[str, Other] = mapping(

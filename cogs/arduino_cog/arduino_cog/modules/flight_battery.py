@@ -9,6 +9,7 @@ from arduino_cog.commands.arduino_status_command import ArduinoStatusCommand
 from arduino_cog.config import FLIGHT_BATTERY
 from arduino_cog.modules.arduino_provider import ArduinoProvider
 from up.base_module import BaseModule
+from up.failures import FailureSource
 from up.mode import WITH_BOARD
 from up.needs import needs
 
@@ -16,7 +17,7 @@ _RECOVERED = 1.02
 """A voltage below a limit has to rise to this part of it: the battery recovers without load."""
 
 
-class FlightBattery(BaseModule):
+class FlightBattery(BaseModule, FailureSource):
     """Publishes the voltage, and whether it is below the limits of flight_battery.yml.
 
     A limit is None in telemetry while there is no limit or no voltage. Limits without a voltage are
@@ -49,6 +50,13 @@ class FlightBattery(BaseModule):
             for name, is_below in self._is_below.items()
         }
         return {"arduino": {"flight_battery_v": voltage_v, **below}}
+
+    @property
+    def failures(self) -> Mapping[str, bool]:
+        """Return which limits the voltage is below."""
+        return {
+            f"flight_battery_{name}": bool(is_below) for name, is_below in self._is_below.items()
+        }
 
     def on_board_started(self) -> None:
         self._is_unknown_logged = not any(self._limits_v.values())

@@ -271,6 +271,8 @@ export const MODE_REASONS = {
   "fence": "the fence is near",
   "receiver_lost": "the receiver is lost",
   "uplink_lost": "the uplink is lost",
+  "flight_battery_critical": "the flight battery is critically low",
+  "flight_battery_low": "the flight battery is low",
   "phone_battery": "the phone's battery is low",
   "no_progress": "the wind is stronger than the aircraft",
   "no_home": "home is not set",

@@ -122,6 +122,8 @@ public final class TelemetrySchema {
         MODE_REASONS.put("fence", "the fence is near");
         MODE_REASONS.put("receiver_lost", "the receiver is lost");
         MODE_REASONS.put("uplink_lost", "the uplink is lost");
+        MODE_REASONS.put("flight_battery_critical", "the flight battery is critically low");
+        MODE_REASONS.put("flight_battery_low", "the flight battery is low");
         MODE_REASONS.put("phone_battery", "the phone's battery is low");
         MODE_REASONS.put("no_progress", "the wind is stronger than the aircraft");
         MODE_REASONS.put("no_home", "home is not set");
