@@ -43,7 +43,7 @@ void PwmReader::on_edge(uint16_t stamp_ticks, uint8_t levels, bool is_late, uint
   }
 }
 
-void PwmReader::check(uint32_t now_us) {
+OUT_OF_LINE void PwmReader::check(uint32_t now_us) {
   const uint16_t passed = passed_units(now_us);
   checked_at_ = to_units(now_us);
   if (passed > STALL_UNITS) is_lost_ = true;
