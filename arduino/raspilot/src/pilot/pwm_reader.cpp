@@ -58,7 +58,7 @@ OUT_OF_LINE void PwmReader::check(uint32_t now_us) {
   }
 }
 
-uint8_t PwmReader::validity() const {
+OUT_OF_LINE uint8_t PwmReader::validity() const {
   uint8_t valid = 0;
   for (uint8_t i = INPUTS; i-- > 0;) {
     valid = static_cast<uint8_t>(valid << 1 | channels_[i].is_valid());

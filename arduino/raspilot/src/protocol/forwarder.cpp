@@ -41,7 +41,7 @@ OUT_OF_LINE void Forwarder::start(uint32_t now_us) {
   for (Steps& due : due_) due = to_steps(now_us);
 }
 
-bool Forwarder::send_next(uint32_t now_us) {
+OUT_OF_LINE bool Forwarder::send_next(uint32_t now_us) {
   if (!is_started_) return false;
   const Steps now = to_steps(now_us);
   for (uint8_t tried = 0; tried < STREAMS; ++tried) {
