@@ -28,7 +28,7 @@ BYTES_A_SECOND = 11_520
 """Bytes per second of the line in each direction at 115200 baud, 8N1."""
 QUEUED_BYTES = 2 * round(BYTES_A_SECOND * CHUNK_US / 1e6)
 """More than the line takes in a chunk, so that it never waits for the next Command."""
-BUSY = "vmTGc"
+BUSY = "vmGc"
 """The veto that the Raspberry Pi repeats, and every request."""
 FULL = "c"
 """The request with the longest answer; an answer waits for room for the longest."""

@@ -24,12 +24,15 @@ namespace raspilot {
 
 static Autopilot autopilot;
 
-template <> Autopilot& Reference<Autopilot>::only = autopilot;
-template <> const Profile& Reference<const Profile>::only = autopilot.settings.profile;
-template <> const Gains& Reference<const Gains>::only = autopilot.settings.gains;
-template <> Calibration& Reference<Calibration>::only = autopilot.settings.calibration;
-template <> const Calibration& Reference<const Calibration>::only = autopilot.settings.calibration;
-template <> const PwmReader& Reference<const PwmReader>::only = autopilot.receiver;
+// Sections of their own, which the linker drops: the compiler has the addresses already.
+#define ONLY __attribute__((section(".data.only")))
+template <> Autopilot& Reference<Autopilot>::only ONLY = autopilot;
+template <> const Profile& Reference<const Profile>::only ONLY = autopilot.settings.profile;
+template <> const Gains& Reference<const Gains>::only ONLY = autopilot.settings.gains;
+template <> Calibration& Reference<Calibration>::only ONLY = autopilot.settings.calibration;
+template <>
+const Calibration& Reference<const Calibration>::only ONLY = autopilot.settings.calibration;
+template <> const PwmReader& Reference<const PwmReader>::only ONLY = autopilot.receiver;
 
 namespace machine {
 

@@ -24,7 +24,10 @@ static constexpr uint8_t SILENT_SLOTS = 13;
 static constexpr uint8_t FREE_SLOTS = 6;
 
 void Servos::begin() {
-  for (Plan& plan : plans_) plan = Plan{0, 0, SILENT_SLOTS, false, true};
+  for (Plan& plan : plans_) {
+    plan.slots = SILENT_SLOTS;
+    plan.is_free = true;
+  }
   servo_edges::begin();
 }
 

@@ -81,7 +81,7 @@ void Authority::follow_receiver(uint16_t passed_units) {
   follow_arming(passed_units);
 }
 
-void Authority::follow_failsafe(bool is_own_failsafe, uint16_t passed_units) {
+OUT_OF_LINE void Authority::follow_failsafe(bool is_own_failsafe, uint16_t passed_units) {
   if (has_receiver()) {
     if (is_failsafe_ && timeouts_[RETURNING].is_running() && !is_pilot_back(passed_units)) return;
     is_failsafe_ = false;
@@ -168,7 +168,7 @@ uint8_t Authority::vetoes() const {
   return vetoes;
 }
 
-Ticks Authority::throttle() const {
+OUT_OF_LINE Ticks Authority::throttle() const {
   if (profile_->has_motor && !is_armed_) return MOTOR_OFF;
   const Mode mode = flown_mode();
   uint16_t demand_us = 0;
@@ -256,7 +256,7 @@ Reason Authority::accept_return(const Setpoint& setpoint, uint16_t lifetime_ms, 
   return Reason::NONE;
 }
 
-void Authority::follow(Life life, const Setpoint& setpoint, uint16_t lifetime_ms) {
+OUT_OF_LINE void Authority::follow(Life life, const Setpoint& setpoint, uint16_t lifetime_ms) {
   asked_.setpoint = setpoint;
   const uint16_t bounded_ms = lifetime_ms < MAX_SETPOINT_MS ? lifetime_ms : MAX_SETPOINT_MS;
   // Rather a unit too short than one too long.

@@ -43,7 +43,7 @@ void PwmReader::on_edge(uint16_t stamp_ticks, uint8_t levels, bool is_late, uint
   }
 }
 
-void PwmReader::check(uint32_t now_us) {
+OUT_OF_LINE void PwmReader::check(uint32_t now_us) {
   const uint16_t passed = passed_units(now_us);
   checked_at_ = to_units(now_us);
   if (passed > STALL_UNITS) is_lost_ = true;
@@ -58,7 +58,7 @@ void PwmReader::check(uint32_t now_us) {
   }
 }
 
-uint8_t PwmReader::validity() const {
+OUT_OF_LINE uint8_t PwmReader::validity() const {
   uint8_t valid = 0;
   for (uint8_t i = INPUTS; i-- > 0;) {
     valid = static_cast<uint8_t>(valid << 1 | channels_[i].is_valid());

@@ -18,7 +18,10 @@ bool rests_anywhere(uint8_t channel) { return channel == THROTTLE || channel >= 
 }  // namespace
 
 void RangeLearner::begin() {
-  for (Ends& ends : ends_) ends = Ends{MAX_TICKS, MIN_TICKS};
+  for (Ends& ends : ends_) {
+    ends.lowest = MAX_TICKS;
+    ends.highest = MIN_TICKS;
+  }
   is_learning_ = true;
 }
 

@@ -14,7 +14,7 @@ constexpr uint8_t SECOND = 17;
 constexpr uint8_t PendingAnswer::CONFIRM;
 constexpr uint8_t PendingAnswer::ASK;
 
-void Answers::push(uint8_t what, char type, uint8_t sequence) {
+OUT_OF_LINE void Answers::push(uint8_t what, char type, uint8_t sequence) {
   if (!has_place()) return;
   waiting_[count_].what = what;
   waiting_[count_].type = static_cast<uint8_t>(type);

@@ -24,7 +24,7 @@ constexpr uint16_t steps_of(uint32_t us) {
 constexpr uint16_t MIN_PERIOD = steps_of(MIN_PERIOD_US);
 constexpr uint16_t PERIOD = steps_of(MIN_PERIOD_US > 20000 ? MIN_PERIOD_US : 20000);
 constexpr uint16_t STATUS_PERIOD = steps_of(200000);
-constexpr uint16_t MAX_AGE = steps_of(100000);
+constexpr uint8_t MAX_AGE_UNITS = 100;
 constexpr uint8_t ORIENTATION_SIZE = 26;
 
 }  // namespace
@@ -41,7 +41,7 @@ OUT_OF_LINE void Forwarder::start(uint32_t now_us) {
   for (Steps& due : due_) due = to_steps(now_us);
 }
 
-bool Forwarder::send_next(uint32_t now_us) {
+OUT_OF_LINE bool Forwarder::send_next(uint32_t now_us) {
   if (!is_started_) return false;
   const Steps now = to_steps(now_us);
   for (uint8_t tried = 0; tried < STREAMS; ++tried) {
@@ -85,7 +85,7 @@ bool Forwarder::send(uint8_t stream, uint32_t now_us) {
     case INPUTS_STREAM: return send_inputs();
     case ORIENTATION_STREAM:
       // An invalid attitude is not sent: receivers see the last one age.
-      return !autopilot_->attitude.is_valid() || send_orientation(to_steps(now_us));
+      return !autopilot_->attitude.is_valid() || send_orientation(now_us);
     case OUTPUTS_STREAM: return send_outputs();
     default: return send_status(now_us);
   }
@@ -116,7 +116,7 @@ bool Forwarder::send_outputs() {
   return autopilot_->link.send('r', payload, sizeof payload);
 }
 
-bool Forwarder::send_orientation(Steps now) {
+bool Forwarder::send_orientation(uint32_t now_us) {
   if (!autopilot_->link.has_room(ORIENTATION_SIZE)) return false;
   const Attitude& attitude = autopilot_->attitude.attitude();
   uint8_t payload[ORIENTATION_SIZE];
@@ -129,7 +129,9 @@ bool Forwarder::send_orientation(Steps now) {
   writer.sixteenths(attitude.pitch_rate_16);
   writer.sixteenths(attitude.roll_rate_16);
   if (!autopilot_->link.send('O', payload, sizeof payload)) return false;
-  remember(now);
+  sent_[sequence_ % REMEMBERED] = static_cast<uint8_t>(to_units(now_us));
+  ++sequence_;
+  if (remembered_ < REMEMBERED) ++remembered_;
   return true;
 }
 
@@ -140,28 +142,23 @@ bool Forwarder::send_status(uint32_t now_us) {
   return autopilot_->link.send('x', payload, sizeof payload);
 }
 
-void Forwarder::remember(Steps now) {
-  sent_[sequence_ % REMEMBERED] = now;
-  ++sequence_;
-  if (remembered_ < REMEMBERED) ++remembered_;
-}
-
 /** Whether any is, and the newest is young enough to be computed from. */
-OUT_OF_LINE bool Forwarder::is_remembered(Steps now) const {
-  const Steps newest = sent_[static_cast<uint8_t>(sequence_ - 1) % REMEMBERED];
-  return remembered_ != 0 && static_cast<Steps>(now - newest) <= MAX_AGE;
+OUT_OF_LINE bool Forwarder::is_remembered(uint8_t now_units) const {
+  const uint8_t newest = sent_[static_cast<uint8_t>(sequence_ - 1) % REMEMBERED];
+  return remembered_ != 0 && static_cast<uint8_t>(now_units - newest) < MAX_AGE_UNITS;
 }
 
 uint32_t Forwarder::orientation_age_us(uint16_t sequence, uint32_t now_us) const {
-  const Steps now = to_steps(now_us);
+  const uint8_t now_units = static_cast<uint8_t>(to_units(now_us));
   const uint16_t back = static_cast<uint16_t>(sequence_ - sequence);
-  if (back == 0 || back > remembered_ || !is_remembered(now)) return NEVER;
-  const Steps age = static_cast<Steps>(now - sent_[sequence % REMEMBERED]);
-  return static_cast<uint32_t>(age) << STEP_BITS;
+  if (back == 0 || back > remembered_ || !is_remembered(now_units)) return NEVER;
+  // From the beginning of the unit in which it was sent to the end of this one.
+  const uint8_t age = static_cast<uint8_t>(now_units - sent_[sequence % REMEMBERED]);
+  return (age + 1UL) << 10;
 }
 
 void Forwarder::check(uint32_t now_us) {
-  if (!is_remembered(to_steps(now_us))) remembered_ = 0;
+  if (!is_remembered(static_cast<uint8_t>(to_units(now_us)))) remembered_ = 0;
 }
 
 }  // namespace raspilot

@@ -30,9 +30,9 @@ class Forwarder {
 
   /** Sends at most one message that is due and fits; false when none does. */
   bool send_next(uint32_t now_us);
-  /** How long ago the orientation of this sequence was sent, us; NEVER beyond the last 100 ms. */
+  /** The most that the orientation of this sequence is old, us; NEVER beyond the last 100 ms. */
   uint32_t orientation_age_us(uint16_t sequence, uint32_t now_us) const;
-  /** Forgets orientations that are too old to be computed from. */
+  /** Forgets orientations that are too old to be computed from; at least every 150 ms. */
   void check(uint32_t now_us);
 
   static constexpr uint32_t NEVER = 0xFFFFFFFF;
@@ -49,18 +49,17 @@ class Forwarder {
   static Steps to_steps(uint32_t time_us);
   Steps period(uint8_t stream) const;
   bool is_due(uint8_t stream, Steps now);
-  bool is_remembered(Steps now) const;
+  bool is_remembered(uint8_t now_units) const;
   bool send(uint8_t stream, uint32_t now_us);
   bool send_inputs();
   bool send_outputs();
-  bool send_orientation(Steps now);
+  bool send_orientation(uint32_t now_us);
   bool send_status(uint32_t now_us);
-  void remember(Steps now);
 
   Reference<Autopilot> autopilot_;
   Steps due_[STREAMS] ZEROED;
-  /** When the newest orientations were sent, by sequence modulo REMEMBERED. */
-  Steps sent_[REMEMBERED] ZEROED;
+  /** When the newest orientations were sent, by sequence modulo REMEMBERED: the clock's units. */
+  uint8_t sent_[REMEMBERED] ZEROED;
   uint16_t sequence_ ZEROED;
   uint16_t period_ms_ ZEROED;
   uint8_t remembered_ ZEROED;

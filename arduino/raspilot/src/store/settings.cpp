@@ -104,7 +104,7 @@ bool Settings::is_kept() const {
   return true;
 }
 
-void Settings::begin_save() {
+OUT_OF_LINE void Settings::begin_save() {
   is_checking_ = false;
   offset_ = 0;
   attempts_ = 0;
