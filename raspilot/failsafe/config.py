@@ -85,7 +85,7 @@ class Other:
 class Fence:
     """Borders around home, in any flight at AUTO; null: none.
 
-    They act when the present velocity would cross them within 3 s.
+    They act when the present velocity would cross them within 4 s.
     """
 
     action: str = _action("RETURN")

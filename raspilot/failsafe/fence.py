@@ -7,7 +7,7 @@ from raspilot.navigation.planning import distance_m
 from up.flight_modes.flight_mode import Home
 from up.flight_modes.navigation_state import NavigationState, Point
 
-AHEAD_S = 3.0
+AHEAD_S = 4.0
 """The flight that is looked ahead: so much the turn away from a border needs in a tail wind."""
 
 

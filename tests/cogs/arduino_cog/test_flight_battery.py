@@ -4,6 +4,7 @@ from pathlib import Path
 
 import pytest
 from arduino_cog.config import FLIGHT_BATTERY
+from arduino_cog.modules.flight_battery import FlightBattery
 from twisted.logger import globalLogPublisher
 
 from up.config import ConfigErrors
@@ -93,3 +94,15 @@ def test_impossible_limits_are_refused(text, key):
 @pytest.mark.parametrize("text", ["low_v: 10.5\n", "critical_v: 9.9\n", ""])
 def test_one_limit_or_none_is_enough(text):
     FLIGHT_BATTERY.parse(text, Path("flight_battery.yml"))
+
+
+def test_a_sag_is_a_failure_only_while_it_lasts(make_rig):
+    rig = make_rig("checked", LIMITS)
+    rig.connect()
+    battery = rig.up.get_module(FlightBattery)
+    seen = []
+    for voltage_v in (0.0, 11.1, 10.4, 10.55, 9.8):
+        say(rig, voltage_v)
+        seen.append(tuple(battery.failures.values()))
+    none = (False, False)
+    assert seen == [none, none, (True, False), none, (True, True)]

@@ -189,7 +189,7 @@ def test_on_the_ground_nothing_is_a_failure(rig):
         ("uplink_lost: {action: RETRUN}\n", 1),
         ("fence: {ceiling_m: 50}\n", 1),
         ("fence: {ceiling_m: 50, action: warn}\nuplink_lost: {action: LOITER}\n"
-         "receiver_lost: {action: warn}\n", 0),
+         "receiver_lost: {action: warn}\nflight_battery_critical: {action: warn}\n", 0),
         ("fence: {floor_m: 70, ceiling_m: 100, radius_m: 100}\n", 1),
     ],
 )  # fmt: skip

@@ -22,19 +22,19 @@ INWARDS = Point(-10.0, 0.0)
     [
         (Fence(), {}, False),
         (Fence(radius_m=500), {}, False),
-        (Fence(radius_m=500), {"position": Point(467.0, 0.0)}, False),
-        (Fence(radius_m=500), {"position": Point(469.0, 0.0)}, True),
+        (Fence(radius_m=500), {"position": Point(457.0, 0.0)}, False),
+        (Fence(radius_m=500), {"position": Point(459.0, 0.0)}, True),
         (Fence(radius_m=500), {"position": Point(490.0, 0.0), "velocity": INWARDS}, False),
         (Fence(radius_m=500), {"position": Point(505.0, 0.0), "velocity": INWARDS}, True),
-        (Fence(radius_m=500), {"position_sd_m": 71.0}, True),
-        (Fence(ceiling_m=100), {"climb_m_s": 5.6}, False),
-        (Fence(ceiling_m=100), {"climb_m_s": 5.7}, True),
+        (Fence(radius_m=500), {"position_sd_m": 61.0}, True),
+        (Fence(ceiling_m=100), {"climb_m_s": 4.2}, False),
+        (Fence(ceiling_m=100), {"climb_m_s": 4.3}, True),
         (Fence(ceiling_m=100), {"altitude_sd_m": 21.0}, True),
-        (Fence(floor_m=70), {"climb_m_s": -2.3}, False),
-        (Fence(floor_m=70), {"climb_m_s": -2.4}, True),
+        (Fence(floor_m=70), {"climb_m_s": -1.7}, False),
+        (Fence(floor_m=70), {"climb_m_s": -1.8}, True),
     ],
 )  # fmt: skip
-def test_a_border_is_crossed_three_seconds_before(fence, changed, is_crossed):
+def test_a_border_is_crossed_four_seconds_before(fence, changed, is_crossed):
     watch = FenceWatch(fence)
     assert not watch.is_crossed(INSIDE, HOME)
     names = {"position": "position", "velocity": "velocity_m_s"}

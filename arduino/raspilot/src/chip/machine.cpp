@@ -26,6 +26,7 @@ static Autopilot autopilot;
 
 // Sections of their own, which the linker drops: the compiler has the addresses already.
 #define ONLY __attribute__((section(".data.only")))
+#ifdef __AVR__
 template <> Autopilot& Reference<Autopilot>::only ONLY = autopilot;
 template <> const Profile& Reference<const Profile>::only ONLY = autopilot.settings.profile;
 template <> const Gains& Reference<const Gains>::only ONLY = autopilot.settings.gains;
@@ -33,6 +34,7 @@ template <> Calibration& Reference<Calibration>::only ONLY = autopilot.settings.
 template <>
 const Calibration& Reference<const Calibration>::only ONLY = autopilot.settings.calibration;
 template <> const PwmReader& Reference<const PwmReader>::only ONLY = autopilot.receiver;
+#endif
 
 namespace machine {
 

@@ -53,9 +53,11 @@ class FlightBattery(BaseModule, FailureSource):
 
     @property
     def failures(self) -> Mapping[str, bool]:
-        """Return which limits the voltage is below."""
+        """Return which limits the voltage is below now, without hysteresis: the failsafes wait."""
+        voltage_v = self.voltage_v
         return {
-            f"flight_battery_{name}": bool(is_below) for name, is_below in self._is_below.items()
+            f"flight_battery_{name}": None not in (voltage_v, limit_v) and voltage_v < limit_v
+            for name, limit_v in self._limits_v.items()
         }
 
     def on_board_started(self) -> None:
