@@ -35,8 +35,11 @@ def draw_flight(writer: PanelWriter, row: int, column: int) -> int:
     switch = _word(writer, "arduino", "switch")
     replaced = telemetry.text("flight_control", "fallback") is not None
     selected = telemetry.text("flight_control", "selected", limit=12)
+    cause = telemetry.text("failsafe", "cause", limit=13)
     more = f" instead of {selected}" if replaced else f"  switch {switch}"
-    style = Style.BAD if replaced else Style.PLAIN
+    if cause is not None and not replaced:
+        more = f" by {cause}"
+    style = Style.BAD if replaced or cause is not None else Style.PLAIN
     end = writer.value(row + 2, column, f"flight mode {flown}{more}", style=style)
     if telemetry.flag("arduino", "failsafe"):
         writer.value(row + 2, end + 1, "FAILSAFE", style=Style.BAD)
@@ -60,7 +63,9 @@ def draw_position(writer: PanelWriter, row: int, column: int) -> int:
     writer.title(row, column, "LOCATION", "location")
     latitude = number_text(number("location", "latitude"), 6, 11)
     longitude = number_text(number("location", "longitude"), 6, 11)
-    writer.value(row + 1, column, f"{latitude} {longitude} deg", "location")
+    satellites = number("location", "satellites")
+    more = "" if satellites is None else f" {satellites:.0f} sat"
+    writer.value(row + 1, column, f"{latitude} {longitude} deg{more}", "location")
     writer.value(row + 2, column, home_text(writer.telemetry), "location")
     end = writer.value(
         row + 3, column, f"altitude {number_text(number('altitude'), 1, 8)} m", "altitude"

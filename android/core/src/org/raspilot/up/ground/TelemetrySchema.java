@@ -30,6 +30,7 @@ public final class TelemetrySchema {
     /** Why a flight mode is not offered, or was replaced, by code. */
     static final Map<String, String> MODE_REASONS = new HashMap<>();
     private static final Map<String, String> NAVIGATION = new LinkedHashMap<>();
+    private static final Map<String, Boolean> OPTIONAL = new HashMap<>();
     static final List<TelemetryRule> RULES = new ArrayList<>();
     /** Events without a field, by code. */
     static final Map<String, TelemetryRule> EVENTS = new HashMap<>();
@@ -61,7 +62,7 @@ public final class TelemetrySchema {
         put(READING_OF, "servo", "servo.ailerons", "servo.elevator", "servo.throttle",
                 "servo.rudder");
         put(READING_OF, "location", "location.latitude", "location.longitude", "location.altitude",
-                "home.distance", "home.bearing");
+                "home.distance", "home.bearing", "location.satellites");
         put(READING_OF, "navigation", "navigation.latitude", "navigation.longitude",
                 "navigation.altitude", "navigation.height", "navigation.speed", "navigation.climb",
                 "navigation.airspeed", "navigation.course", "navigation.heading",
@@ -106,7 +107,7 @@ public final class TelemetrySchema {
                 "navigation.heading", "navigation.wind.speed", "navigation.sd.position",
                 "navigation.sd.altitude", "navigation.sd.wind", "navigation.sd.airspeed",
                 "navigation.sd.heading", "navigation.target.altitude", "navigation.target.radius");
-        put(DECIMALS, 0, "home.time_s", "navigation.wind.from");
+        put(DECIMALS, 0, "home.time_s", "navigation.wind.from", "location.satellites");
         LIMITS.put("battery_low", 20.0);
         LIMITS.put("battery_empty", 10.0);
         MODE_REASONS.put("mode_failed", "it failed");
@@ -114,6 +115,19 @@ public final class TelemetrySchema {
         MODE_REASONS.put("demand_invalid", "it demanded what is not possible");
         MODE_REASONS.put("mode_refused", "it cannot be entered now");
         MODE_REASONS.put("mode_unknown", "no module provides it");
+        MODE_REASONS.put("fence", "the fence is near");
+        MODE_REASONS.put("receiver_lost", "the receiver is lost");
+        MODE_REASONS.put("uplink_lost", "the uplink is lost");
+        MODE_REASONS.put("phone_battery", "the phone's battery is low");
+        MODE_REASONS.put("no_progress", "the wind is stronger than the aircraft");
+        MODE_REASONS.put("no_home", "home is not set");
+        MODE_REASONS.put("home_too_far", "home is too far away");
+        MODE_REASONS.put("no_target", "it needs a target: choose a place on the map");
+        MODE_REASONS.put("target_too_far", "the target is too far away");
+        MODE_REASONS.put("target_too_high", "the target is too far above the aircraft");
+        MODE_REASONS.put("target_too_low", "the target is too far below the aircraft");
+        MODE_REASONS.put("target_below_home", "the target is below home");
+        MODE_REASONS.put("target_radius", "the radius of the target is not above 0");
         MODE_REASONS.put("orientation", "orientation missing or too old");
         MODE_REASONS.put("rx", "receiver missing or too old");
         MODE_REASONS.put("servo", "servos missing or too old");
@@ -133,6 +147,8 @@ public final class TelemetrySchema {
         NAVIGATION.put("Wind from", "navigation.wind.from");
         NAVIGATION.put("Position sd", "navigation.sd.position");
         NAVIGATION.put("Altitude sd", "navigation.sd.altitude");
+        NAVIGATION.put("Satellites", "location.satellites");
+        OPTIONAL.put("location.satellites", true);
         RULES.add(new TelemetryRule("path", "navigation.motor_stopped", "type", "flag",
                 "event", "motor", "code", "motor_stopped", "level", "alarm",
                 "text", "the motor gives no thrust", "end", "the motor gives thrust",
@@ -147,6 +163,14 @@ public final class TelemetrySchema {
                 "text", "{flight_control.mode} replaces {flight_control.selected}: {value}",
                 "end_code", "fallback_over", "end", "the selected flight mode acts again",
                 "first", "true", "path", "flight_control.fallback", "type", "text"));
+        RULES.add(new TelemetryRule("event", "mode", "code", "failsafe", "level", "warning",
+                "text", "failsafe: {value}", "end_code", "failsafe_over",
+                "end", "no failsafe trigger holds", "path", "failsafe.active", "type", "texts"));
+        RULES.add(new TelemetryRule("event", "mode", "code", "failsafe_acts", "level", "alarm",
+                "text", "failsafe {value}: {flight_control.mode} flies until the switch leaves AUTO or the ground selects a flight mode",
+                "end_code", "failsafe_ended",
+                "end", "the pilot or the ground has ended the failsafe", "first", "true",
+                "path", "failsafe.cause", "type", "text"));
         RULES.add(new TelemetryRule("path", "armed", "type", "flag", "event", "armed",
                 "code", "armed", "level", "warning", "text", "the aircraft is armed",
                 "end", "the aircraft is disarmed", "end_code", "disarmed", "level_armed", "warning",
@@ -250,6 +274,11 @@ public final class TelemetrySchema {
     /** Paths of the values of navigation, by label in the order of display. */
     public static Map<String, String> navigation() {
         return Collections.unmodifiableMap(NAVIGATION);
+    }
+
+    /** Whether a value of navigation is not shown while it is unknown. */
+    public static boolean isOptional(String path) {
+        return OPTIONAL.containsKey(path);
     }
 
     private TelemetrySchema() {

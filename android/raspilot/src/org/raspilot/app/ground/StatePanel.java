@@ -94,8 +94,13 @@ final class StatePanel {
         flag(armed, picture, "armed", R.string.armed_yes, R.string.armed_no, Row.Look.WARNING,
                 Row.Look.PLAIN);
         showVetoes(picture, isArmed);
-        flag(failsafe, picture, "arduino.failsafe", R.string.state_acts, R.string.state_no,
-                Row.Look.ALARM, Row.Look.PLAIN);
+        String cause = FlightModes.failsafe(telemetry);
+        if (cause != null) {
+            show(failsafe, picture, "failsafe.cause", cause, Row.Look.ALARM);
+        } else {
+            flag(failsafe, picture, "arduino.failsafe", R.string.state_acts, R.string.state_no,
+                    Row.Look.ALARM, Row.Look.PLAIN);
+        }
         flag(receiver, picture, "arduino.receiver_valid", R.string.state_valid,
                 R.string.state_invalid, Row.Look.PLAIN, Row.Look.ALARM);
         flag(imu, picture, "arduino.imu_valid", R.string.state_valid, R.string.state_invalid,
@@ -116,9 +121,10 @@ final class StatePanel {
         boolean isThere = picture.telemetry.number("navigation.latitude") != null;
         for (Map.Entry<String, Row> each : navigation.entrySet()) {
             String path = each.getKey();
-            each.getValue().setVisible(isThere);
-            show(each.getValue(), picture, path, TelemetryText.value(picture.telemetry, path),
-                    Row.Look.PLAIN);
+            String text = TelemetryText.value(picture.telemetry, path);
+            boolean isShown = text != null || !TelemetrySchema.isOptional(path);
+            each.getValue().setVisible(isThere && isShown);
+            show(each.getValue(), picture, path, text, Row.Look.PLAIN);
         }
     }
 
