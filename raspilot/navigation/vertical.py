@@ -92,7 +92,8 @@ class EnergyControl:
         growth = math.degrees(config.pitch_i * (wanted_slope - slope)) * dt_s
         # Near the altitude gusts need more pitch, for a short time.
         limit = config.pitch_up_limit_deg
-        limit += share * min(0.0, model.climb_pitch_deg(airspeed, load) - limit)
+        if share > 0.0:
+            limit += share * min(0.0, model.climb_pitch_deg(airspeed, load) - limit)
         up, down = min(highest, limit), -config.pitch_down_limit_deg
         if not (pitch >= up and growth > 0.0) and not (pitch <= down and growth < 0.0):
             self._pitch_sum = max(-12.0, min(12.0, self._pitch_sum + growth))

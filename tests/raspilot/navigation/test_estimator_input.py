@@ -121,6 +121,13 @@ def test_what_is_reachable_depends_on_the_greatest_airspeed(maximum_m_s, is_beli
     assert (circling.off_m > 100) == is_believed
 
 
+def test_gusts_make_a_circle_without_fixes_as_uncertain_as_flights_show(circling):
+    """In moderate turbulence 30 s of dead reckoning were wrong by 45 m rms, 77 m at most."""
+    assert circling.estimator.state().position_sd_m < 5
+    state = circling.fly(30, lambda fix: None).estimator.state()
+    assert 35.0 < state.position_sd_m < 55.0
+
+
 def test_another_country_is_never_believed_in_flight(circling):
     circling.fly(60, lambda fix: replace(fix, latitude_deg=-33.0))
     assert circling.estimator.rejected["jump"] == 60
