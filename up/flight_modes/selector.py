@@ -181,7 +181,9 @@ class FlightModeSelector:
 
 def _refusal_of(mode: FlightMode, situation: FlightSituation) -> ModeRefusal | None:
     refusal = mode.refusal(situation)
-    return ModeRefusal(REFUSED, refusal) if isinstance(refusal, str) else refusal
+    if isinstance(refusal, str):
+        return ModeRefusal(REFUSED, refusal) if refusal else None
+    return refusal
 
 
 def _is_finite(value: Any) -> bool:

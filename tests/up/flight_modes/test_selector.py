@@ -155,6 +155,8 @@ def test_what_is_offered_and_why_the_rest_is_not(rig):
     assert offers == {"BEST": "navigation", "SAFE": None, "LAST": None}
     rig.stale, rig.best.reason = set(), "no home"
     assert rig.selector.offers(SITUATION)["BEST"] == "mode_refused"
+    rig.best.reason = ""
+    assert rig.selector.offers(SITUATION)["BEST"] is None
     rig.best.reason = ModeRefusal("no_home", "no home")
     assert rig.selector.offers(SITUATION)["BEST"] == "no_home"
 
