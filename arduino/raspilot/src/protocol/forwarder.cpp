@@ -154,7 +154,7 @@ uint32_t Forwarder::orientation_age_us(uint16_t sequence, uint32_t now_us) const
   if (back == 0 || back > remembered_ || !is_remembered(now_units)) return NEVER;
   // From the beginning of the unit in which it was sent to the end of this one.
   const uint8_t age = static_cast<uint8_t>(now_units - sent_[sequence % REMEMBERED]);
-  return (age + 1UL) << 10;
+  return static_cast<uint32_t>(age + 1) << 10;
 }
 
 void Forwarder::check(uint32_t now_us) {
