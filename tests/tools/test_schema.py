@@ -155,7 +155,7 @@ def test_it_is_in_the_firmware(tree):
     text = source.read_text()
     text = text.replace("}  // namespace raspilot\n", 'static_assert(STATUS_SIZE == 21, "");\n}\n')
     before = "  Link::Frame::u16(autopilot.meter.period_us());"
-    field = '  static_assert(AT_BROWN_OUTS < AT_LOOP_US, "");\n  Link::Frame::u8(0);\n'
+    field = '  static_assert(AT_BROWN_OUTS + 1 == STATUS_SIZE, "");\n  Link::Frame::u8(0);\n'
     source.write_text(text.replace(before, field + before))
     subprocess.run(
         ["g++", "-std=gnu++11", "-fsyntax-only", str(source)], timeout=120, check=True,
