@@ -37,7 +37,7 @@ class Autopilot {
   FlightController controller;
   Link link;
   LoopMeter meter;
-  uint8_t reset_cause;
+  uint8_t reset_cause ZEROED;
 
  private:
   Demand demand() const;
