@@ -154,8 +154,9 @@ def test_it_is_in_the_firmware(tree):
     source = tree / "arduino/raspilot/src/protocol/status.cpp"
     text = source.read_text()
     text = text.replace("}  // namespace raspilot\n", 'static_assert(STATUS_SIZE == 23, "");\n}\n')
-    before = "  put_u16(payload + AT_LOOP_US,"
-    source.write_text(text.replace(before, f"  payload[AT_BROWN_OUTS] = 0;\n{before}"))
+    before = "  Link::Frame::u16(autopilot.meter.period_us());"
+    field = '  static_assert(AT_BROWN_OUTS + 1 == STATUS_SIZE, "");\n  Link::Frame::u8(0);\n'
+    source.write_text(text.replace(before, field + before))
     subprocess.run(
         ["g++", "-std=gnu++11", "-fsyntax-only", str(source)], timeout=120, check=True,
     )  # fmt: skip

@@ -18,7 +18,7 @@ constexpr int16_t HALF_CIRCLE = 18000;
 constexpr int16_t ONE_Q14 = 16384;
 constexpr int16_t TURN_Q13 = 23426;  // a hundredth of a degree in Q14
 
-uint16_t magnitude(int16_t value) {
+OUT_OF_LINE uint16_t magnitude(int16_t value) {
   const uint16_t bits = static_cast<uint16_t>(value);
   return value < 0 ? static_cast<uint16_t>(0U - bits) : bits;
 }

@@ -68,7 +68,7 @@ constexpr uint8_t UNKNOWN_BIAS = 50;
 }  // namespace
 
 AttitudeFilter::AttitudeFilter(Calibration& calibration)
-    : AttitudeMemory(), calibration_(calibration) {}
+    : ZEROED_BASE(AttitudeMemory) calibration_(calibration) {}
 
 void AttitudeFilter::begin() {
   has_begun_ = true;

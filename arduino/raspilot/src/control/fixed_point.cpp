@@ -36,36 +36,32 @@ OUT_OF_LINE int16_t clamped16(int16_t value, int16_t limit) {
   return value < -limit ? static_cast<int16_t>(-limit) : value;
 }
 
-int16_t to_int16(int32_t value) {
-  const int16_t low = static_cast<int16_t>(value);
-  if (low == value && low != -32768) return low;
-  return value < 0 ? -32767 : 32767;
+OUT_OF_LINE int16_t to_int16(int32_t value) {
+  return static_cast<int16_t>(clamped(value, 32767));
 }
 
 namespace {
 
-/** The sum or difference of `a` and something, cut to 16 bits, or the end that it is beyond. */
-int16_t within(uint16_t bits, int16_t a, bool is_beyond) {
+/** The sum of `a` and `other`, cut to 16 bits, or the end that it is beyond. */
+OUT_OF_LINE int16_t within(uint16_t sum, int16_t a, uint16_t other) {
+  const uint16_t sign = static_cast<uint16_t>(a);
+  const bool is_beyond = (~(sign ^ other) & (sign ^ sum) & 0x8000) != 0;
   if (is_beyond) return a < 0 ? -32767 : 32767;
-  return bits == 0x8000 ? -32767 : static_cast<int16_t>(bits);
-}
-
-bool have_other_signs(int16_t a, uint16_t b) {
-  return ((static_cast<uint16_t>(a) ^ b) & 0x8000) != 0;
+  return sum == 0x8000 ? -32767 : static_cast<int16_t>(sum);
 }
 
 }  // namespace
 
 OUT_OF_LINE int16_t sum_of(int16_t a, int16_t b) {
   const uint16_t other = static_cast<uint16_t>(b);
-  const uint16_t sum = static_cast<uint16_t>(static_cast<uint16_t>(a) + other);
-  return within(sum, a, !have_other_signs(a, other) && have_other_signs(a, sum));
+  return within(static_cast<uint16_t>(static_cast<uint16_t>(a) + other), a, other);
 }
 
 OUT_OF_LINE int16_t difference_of(int16_t a, int16_t b) {
   const uint16_t other = static_cast<uint16_t>(b);
-  const uint16_t difference = static_cast<uint16_t>(static_cast<uint16_t>(a) - other);
-  return within(difference, a, have_other_signs(a, other) && have_other_signs(a, difference));
+  // Its complement has the sign of what is added.
+  return within(static_cast<uint16_t>(static_cast<uint16_t>(a) - other), a,
+                static_cast<uint16_t>(~other));
 }
 
 }  // namespace raspilot

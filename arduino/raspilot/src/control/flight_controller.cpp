@@ -67,7 +67,7 @@ Ticks preset(uint16_t us) { return us_to_ticks(static_cast<int16_t>(us)); }
 }  // namespace
 
 FlightController::FlightController(const Profile& profile, const Gains& gains)
-    : ControllerMemory(), profile_(profile), gains_(gains) {
+    : ZEROED_BASE(ControllerMemory) profile_(profile), gains_(gains) {
   for (uint8_t channel = 0; channel < OUTPUTS; ++channel) outputs_.ticks[channel] = NEUTRAL;
   outputs_.ticks[THROTTLE] = us_to_ticks(1000);
 }

@@ -7,8 +7,7 @@ Autopilot::Autopilot()
       authority(settings.profile, receiver),
       attitude(settings.calibration),
       controller(settings.profile, settings.gains),
-      link(*this),
-      reset_cause(0) {}
+      link(*this) {}
 
 void Autopilot::begin(const SavedState* kept, uint8_t cause, uint32_t now_us) {
   reset_cause = cause;

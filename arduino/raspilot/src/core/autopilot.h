@@ -39,7 +39,7 @@ class Autopilot {
   Link link;
   LoopMeter meter;
   Battery battery;
-  uint8_t reset_cause;
+  uint8_t reset_cause ZEROED;
 
  private:
   Demand demand() const;

@@ -9,7 +9,10 @@
  * memory that start-up clears: to clear it member by member takes a kilobyte of flash.
  */
 #define ZEROED
+/** The same for a base class, before the other initialisers. */
+#define ZEROED_BASE(base)
 #else
 #define OUT_OF_LINE
 #define ZEROED = {}
+#define ZEROED_BASE(base) base(),
 #endif

@@ -38,20 +38,21 @@ class CobsDecoder {
   bool is_zero_next_ ZEROED;
 };
 
-/** Writes one encoded frame: `put` takes each byte with its place, not always the next one. */
+/** Writes encoded frames: `PUT` takes each byte with its place, not always the next one. */
+template <void (*PUT)(uint8_t at, uint8_t byte)>
 class CobsEncoder {
  public:
-  typedef void (*Put)(uint8_t at, uint8_t byte);
-
-  explicit CobsEncoder(Put sink) : put_(sink) {}
-
+  void begin() {
+    code_ = 0;
+    end_ = 1;
+  }
   /** At most 253 bytes: longer blocks would need a code of 255, which no frame of ours has. */
   void put(uint8_t byte) {
     if (byte == 0) {
       close();
       code_ = end_;
     } else {
-      put_(end_, byte);
+      PUT(end_, byte);
     }
     ++end_;
   }
@@ -62,11 +63,10 @@ class CobsEncoder {
   }
 
  private:
-  void close() { put_(code_, static_cast<uint8_t>(end_ - code_)); }
+  void close() { PUT(code_, static_cast<uint8_t>(end_ - code_)); }
 
-  Put put_;
-  uint8_t code_ = 0;
-  uint8_t end_ = 1;
+  uint8_t code_ ZEROED;
+  uint8_t end_ ZEROED;
 };
 
 }  // namespace raspilot

@@ -2,7 +2,6 @@
 
 #include "../core/autopilot.h"
 #include "../core/compiler.h"
-#include "../store/wire_bytes.h"
 #include "status.h"
 
 namespace raspilot {
@@ -92,43 +91,40 @@ bool Forwarder::send(uint8_t stream, uint32_t now_us) {
 }
 
 bool Forwarder::send_inputs() {
+  if (!autopilot_->link.begin('i', 2 * INPUTS + 1)) return false;
   const PwmReader& receiver = autopilot_->receiver;
   const uint8_t validity = receiver.validity();
-  uint8_t payload[2 * INPUTS + 1];
-  WireWriter writer(payload);
   for (uint8_t channel = 0; channel < INPUTS; ++channel) {
     const Channel each = static_cast<Channel>(channel);
     // A pulse out of range is sent unchanged, so that it can be diagnosed.
-    writer.u16((validity >> channel & 1) != 0 ? ticks_to_us(receiver.pulse(each))
-                                              : receiver.measured_us(each));
+    const bool is_good = (validity >> channel & 1) != 0;
+    Link::Frame::u16(is_good ? ticks_to_us(receiver.pulse(each)) : receiver.measured_us(each));
   }
-  writer.u8(validity);
-  return autopilot_->link.send('i', payload, sizeof payload);
+  Link::Frame::u8(validity);
+  autopilot_->link.end();
+  return true;
 }
 
 bool Forwarder::send_outputs() {
-  const Outputs& outputs = autopilot_->controller.outputs();
-  uint8_t payload[2 * OUTPUTS];
-  WireWriter writer(payload);
-  for (uint8_t output = 0; output < OUTPUTS; ++output) {
-    writer.u16(ticks_to_us(outputs.ticks[output]));
+  if (!autopilot_->link.begin('r', 2 * OUTPUTS)) return false;
+  for (const Ticks ticks : autopilot_->controller.outputs().ticks) {
+    Link::Frame::u16(ticks_to_us(ticks));
   }
-  return autopilot_->link.send('r', payload, sizeof payload);
+  autopilot_->link.end();
+  return true;
 }
 
 bool Forwarder::send_orientation(uint32_t now_us) {
-  if (!autopilot_->link.has_room(ORIENTATION_SIZE)) return false;
+  if (!autopilot_->link.begin('O', ORIENTATION_SIZE)) return false;
   const Attitude& attitude = autopilot_->attitude.attitude();
-  uint8_t payload[ORIENTATION_SIZE];
-  WireWriter writer(payload);
-  writer.u16(sequence_);
-  writer.hundredths(attitude.yaw_cdeg);
-  writer.hundredths(attitude.pitch_cdeg);
-  writer.hundredths(attitude.roll_cdeg);
-  writer.sixteenths(attitude.yaw_rate_16);
-  writer.sixteenths(attitude.pitch_rate_16);
-  writer.sixteenths(attitude.roll_rate_16);
-  if (!autopilot_->link.send('O', payload, sizeof payload)) return false;
+  Link::Frame::u16(sequence_);
+  Link::Frame::hundredths(attitude.yaw_cdeg);
+  Link::Frame::hundredths(attitude.pitch_cdeg);
+  Link::Frame::hundredths(attitude.roll_cdeg);
+  Link::Frame::sixteenths(attitude.yaw_rate_16);
+  Link::Frame::sixteenths(attitude.pitch_rate_16);
+  Link::Frame::sixteenths(attitude.roll_rate_16);
+  autopilot_->link.end();
   sent_[sequence_ % REMEMBERED] = static_cast<uint8_t>(to_units(now_us));
   ++sequence_;
   if (remembered_ < REMEMBERED) ++remembered_;
@@ -136,10 +132,10 @@ bool Forwarder::send_orientation(uint32_t now_us) {
 }
 
 bool Forwarder::send_status(uint32_t now_us) {
-  if (!autopilot_->link.has_room(STATUS_SIZE)) return false;
-  uint8_t payload[STATUS_SIZE];
-  write_status(*autopilot_, now_us, payload);
-  return autopilot_->link.send('x', payload, sizeof payload);
+  if (!autopilot_->link.begin('x', STATUS_SIZE)) return false;
+  write_status(*autopilot_, now_us);
+  autopilot_->link.end();
+  return true;
 }
 
 /** Whether any is, and the newest is young enough to be computed from. */

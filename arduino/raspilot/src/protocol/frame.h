@@ -31,11 +31,4 @@ class Beginning {
   uint16_t units_ ZEROED;
 };
 
-/**
- * Gives `put` the frame and its zero, each byte with its place; some places twice, the second byte
- * counts. Returns the count, size + 6.
- */
-uint8_t write_frame(uint8_t sequence, char type, const uint8_t* payload, uint8_t size,
-                    void (*put)(uint8_t at, uint8_t byte));
-
 }  // namespace raspilot

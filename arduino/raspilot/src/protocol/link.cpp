@@ -51,9 +51,16 @@ bool Link::has_room(uint8_t size) const {
   return board::serial_room() >= size + FRAME_OVERHEAD + COBS_OVERHEAD;
 }
 
-bool Link::send(char type, const uint8_t* payload, uint8_t size) {
+bool Link::begin(char type, uint8_t size) {
   if (size > MAX_COMMAND || !has_room(size)) return false;
-  board::serial_send(write_frame(sequence_++, type, payload, size, board::serial_put));
+  Frame::begin(sequence_++, type);
+  return true;
+}
+
+bool Link::send(char type, const uint8_t* payload, uint8_t size) {
+  if (!begin(type, size)) return false;
+  for (; size != 0; --size) Frame::u8(*payload++);
+  end();
   return true;
 }
 

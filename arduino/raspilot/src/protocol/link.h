@@ -11,7 +11,9 @@
 #include "checked_reader.h"
 #include "command_executor.h"
 #include "forwarder.h"
+#include "../core/board.h"
 #include "frame.h"
+#include "frame_writer.h"
 
 namespace raspilot {
 
@@ -30,6 +32,10 @@ class Link {
   /** Sends the extra zero that opens the line. */
   void open();
 
+  /** The frame that is being written: begin() is false when it does not fit, end() sends it. */
+  typedef FrameWriter<board::serial_put> Frame;
+  bool begin(char type, uint8_t size);
+  void end() { board::serial_send(Frame::finish()); }
   /** Sends one whole frame, or nothing when it does not fit. */
   bool send(char type, const uint8_t* payload, uint8_t size);
   /** Whether a frame with this number of payload bytes fits now. */

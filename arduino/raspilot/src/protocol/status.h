@@ -7,7 +7,7 @@ namespace raspilot {
 
 class Autopilot;
 
-/** Writes the STATUS_SIZE bytes of `x`. */
-void write_status(const Autopilot& autopilot, uint32_t now_us, uint8_t* payload);
+/** Writes the STATUS_SIZE bytes of `x` into the frame that has begun. */
+void write_status(const Autopilot& autopilot, uint32_t now_us);
 
 }  // namespace raspilot

@@ -29,13 +29,11 @@ class WireWriter {
   explicit WireWriter(uint8_t* bytes) : next_(bytes) {}
 
   void u8(uint8_t value) { *next_++ = value; }
-  void u16(uint16_t value);
+  void u16(uint16_t value) {
+    u8(static_cast<uint8_t>(value >> 8));
+    u8(static_cast<uint8_t>(value));
+  }
   void i16(int16_t value) { u16(static_cast<uint16_t>(value)); }
-  /** `value` / `unit` as the nearest single. */
-  void ratio(int16_t value, float unit);
-  /** `value` / 100 and `value` / 16 as the nearest single. */
-  void hundredths(int16_t value);
-  void sixteenths(int16_t value);
 
  private:
   uint8_t* next_;
