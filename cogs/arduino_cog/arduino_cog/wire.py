@@ -21,12 +21,14 @@ OUTPUT = Struct(">5H")
 """`u`: us ailerons, elevator, throttle, rudder; sequence of the orientation."""
 
 _SETPOINT = Struct(">3h2H")
+_AIRSPEED = Struct(">H")
 _LOCATION = Struct(">2f")
 _PANIC = Struct(">Bh")
 _I16 = Struct(">h")
 
 _MIN_I16, _MAX_I16 = -32768, 32767
 _CENTI = 100
+_MIN_AIRSPEED_M_S, _MAX_AIRSPEED_M_S = 5, 40
 
 
 IN_FLIGHT = "in flight means armed, or without a motor and the receiver received since power-on"
@@ -54,6 +56,13 @@ def pack_location(latitude_deg: float, longitude_deg: float) -> bytes:
     if not (-90 <= latitude_deg <= 90 and -180 <= longitude_deg <= 180):
         raise ValueError(f"no place: {latitude_deg}, {longitude_deg}")
     return _LOCATION.pack(latitude_deg, longitude_deg)
+
+
+def pack_airspeed(airspeed_m_s: float) -> bytes:
+    """Return the payload of `V`; raises ValueError unless it is 5 to 40 m/s."""
+    if not _MIN_AIRSPEED_M_S <= airspeed_m_s <= _MAX_AIRSPEED_M_S:
+        raise ValueError(f"an airspeed is 5 to 40 m/s, not {airspeed_m_s}")
+    return _AIRSPEED.pack(round(airspeed_m_s * _CENTI))
 
 
 def pack_setpoint(
