@@ -58,10 +58,10 @@ def pack_location(latitude_deg: float, longitude_deg: float) -> bytes:
     return _LOCATION.pack(latitude_deg, longitude_deg)
 
 
-def pack_airspeed(airspeed_m_s: float) -> bytes:
-    """Return the payload of `V`; raises ValueError unless it is 5 to 40 m/s."""
+def pack_airspeed(airspeed_m_s: float) -> bytes | None:
+    """Return the payload of `V`; None for an airspeed that the board refuses."""
     if not _MIN_AIRSPEED_M_S <= airspeed_m_s <= _MAX_AIRSPEED_M_S:
-        raise ValueError(f"an airspeed is 5 to 40 m/s, not {airspeed_m_s}")
+        return None
     return _AIRSPEED.pack(round(airspeed_m_s * _CENTI))
 
 

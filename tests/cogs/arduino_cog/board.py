@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import struct
 
+from arduino_cog.modules.arduino_airspeed import ArduinoAirspeed
 from arduino_cog.modules.arduino_forward import (
     ArduinoAltitudeModule,
     ArduinoHeadingModule,
@@ -32,6 +33,7 @@ MODULES = [
     ArduinoArming,
     ArduinoFlightMode,
     ArduinoOutput,
+    ArduinoAirspeed,
     ArduinoAltitudeModule,
     ArduinoHeadingModule,
     ArduinoLocationModule,
@@ -40,7 +42,7 @@ MODULES = [
     ArduinoProfile,
     ArduinoCalibration,
 ]
-STREAMS = "hbBluSv"
+STREAMS = "hbBluSVv"
 ARMED, AT_AUTO, RECEIVER, IMU, GAINS_STORED = 1, 2, 4, 8, 64
 # The rudder has no angle loop.
 FACTORY = (*(float(each) for each in range(1, 16)), 0.0, 0.0, 0.0)

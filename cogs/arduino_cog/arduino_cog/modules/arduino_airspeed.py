@@ -1,4 +1,4 @@
-"""Sends the measured airspeed to the Arduino, whose attitude needs it."""
+"""Sends the measured airspeed to the Arduino: it tells an acceleration from a pitch angle."""
 
 from __future__ import annotations
 
@@ -13,25 +13,19 @@ from up.needs import needs
 from up.providers.base_provider import BaseProvider, Reading
 
 PERIOD_S = 0.2
-"""The board takes one in each cycle of its filter, 286 ms."""
+"""The board takes one in each cycle of its filter, which lasts 0.29 s."""
 MAX_WIND_SD_M_S = 2.0
 
 
 class ArduinoAirspeed(BaseStartedModule):
-    """Sends the airspeed of the reading ``navigation`` as `V` five times a second.
-
-    Only one that a fix has measured: that of the estimator's model follows the board's pitch, and
-    the board would find its own error confirmed. Not in thesis framing.
-    """
+    """Sends the airspeed of the reading ``navigation`` as `V`; never in thesis framing."""
 
     MODES = WITH_BOARD
 
     arduino = needs(ArduinoProvider)
 
-    def on_init(self) -> None:
-        self._sent_s = -math.inf
-
     def on_start(self) -> bool:
+        self._sent_s = -math.inf
         if self.arduino.is_checked:
             for provider in self.up.get_modules(BaseProvider):
                 if provider.READING == "navigation":
@@ -39,11 +33,21 @@ class ArduinoAirspeed(BaseStartedModule):
         return True
 
     def on_navigation(self, reading: Reading[NavigationState]) -> None:
+        """Send an airspeed that the board may trust."""
         state = reading.value
-        airspeed_m_s = state.measured_airspeed_m_s
-        if airspeed_m_s is None or state.wind_sd_m_s > MAX_WIND_SD_M_S:
-            return
-        if state.time_s - self._sent_s < PERIOD_S:
-            return
-        self._sent_s = state.time_s
-        self.arduino.send_stream("V", pack_airspeed(airspeed_m_s))
+        payload = payload_of(state)
+        if payload is not None and state.time_s - self._sent_s >= PERIOD_S:
+            self._sent_s = state.time_s
+            self.arduino.send_stream("V", payload)
+
+
+def payload_of(state: NavigationState) -> bytes | None:
+    """Return the payload of `V`; None without an airspeed that a fix has measured.
+
+    That of the estimator's model is no measurement: it follows the board's pitch, whose error the
+    board would find confirmed.
+    """
+    airspeed_m_s = state.measured_airspeed_m_s
+    if airspeed_m_s is None or state.wind_sd_m_s > MAX_WIND_SD_M_S:
+        return None
+    return pack_airspeed(airspeed_m_s)
