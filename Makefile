@@ -10,7 +10,7 @@ COGS := $(wildcard cogs/*_cog)
 empty :=
 MYPY_ROOTS := $(subst $(empty) $(empty),:,$(strip . $(COGS)))
 SETUPS := setup.py pyproject.toml flightlog/setup.py $(addsuffix /setup.py,$(COGS)) raspilot/Cogfile.yml \
-	$(wildcard cogs/*/*/registered_modules.yml)
+	$(wildcard $(addsuffix /*/registered_modules.yml,$(COGS)))
 TEST ?=
 # More than CI has cores: many tests wait for real time.
 WORKERS ?= 3

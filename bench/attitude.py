@@ -1,12 +1,22 @@
-"""How far the firmware's attitude is from the truth, with the gyro errors that each seed draws."""
+"""How far the firmware's attitude is from the truth, with the gyro errors that each seed draws.
+
+The navigation estimator of the Raspberry Pi gets the firmware's attitude and a phone's fixes, and
+sends the airspeed, as in a flight.
+"""
 
 from __future__ import annotations
 
 import math
 import random
 from collections.abc import Iterable
+from typing import Any
+
+from arduino_cog.modules.arduino_airspeed import PERIOD_S, payload_of
+from arduino_cog.wire import OUTPUTS
 
 from bench.table import LeftOutError, Row
+from raspilot.navigation.estimator import Estimator
+from raspilot.navigation.fix_gate import Fix
 from tools.tuning.workers import MAX_PROCESSES, Workers
 from up_simulator.aircraft import FlightDynamics, Start, Weather, load_airframe
 from up_simulator.aircraft.flight import FlightUnavailableError
@@ -16,6 +26,7 @@ from up_simulator.firmware.line_monitor import LineMonitor
 from up_simulator.firmware.preparation import PreparationError, cached_eeprom
 from up_simulator.harness.firmware_aircraft import FirmwareAircraft
 from up_simulator.harness.user_log import no_log
+from up_simulator.phone.sensors import PhoneSensors
 from up_simulator.radio.circling_pilot import CirclingPilot
 
 FLIGHTS, MINUTES = 20, 10
@@ -27,18 +38,23 @@ Errors = tuple[float, float]
 
 def rows(quick: bool = False) -> Iterable[Row]:
     flights, minutes = (2, 1) if quick else (FLIGHTS, MINUTES)
+    seeds = range(1, flights + 1)
     try:
         with Workers(MAX_PROCESSES) as workers:
-            found = workers.fly(fly, [(seed, minutes) for seed in range(1, flights + 1)])
+            for has_raspberry in (True, False):
+                flown = [(seed, minutes, False, None, has_raspberry) for seed in seeds]
+                found = workers.fly(fly, flown)
+                errors_deg = worst(each for flight in found for each in flight)
+                which = "" if has_raspberry else ", without the Raspberry Pi"
+                yield Row(
+                    f"attitude error with drawn gyro errors, worst of {flights} flights of"
+                    f" {minutes} min{which}",
+                    _text(errors_deg),
+                    target=f"<= {TARGET_DEG:.1f} deg" if has_raspberry else "",
+                    met=max(errors_deg) <= TARGET_DEG if has_raspberry else None,
+                )
     except (BoardUnavailableError, FlightUnavailableError, PreparationError) as error:
         raise LeftOutError(str(error)) from error
-    errors_deg = worst(each for flight in found for each in flight)
-    yield Row(
-        f"attitude error with drawn gyro errors, worst of {flights} flights of {minutes} min",
-        _text(errors_deg),
-        target=f"<= {TARGET_DEG:.1f} deg",
-        met=max(errors_deg) <= TARGET_DEG,
-    )
 
 
 def worst(errors: Iterable[Errors]) -> Errors:
@@ -66,12 +82,15 @@ class StarvedClock:
 
 
 class ComparingLine:
-    """A serial line that compares the board's attitude with the truth."""
+    """A serial line that compares the board's attitude with the truth, and its Raspberry Pi."""
 
-    def __init__(self, flight: FlightDynamics) -> None:
+    def __init__(self, flight: FlightDynamics, seed: int, has_raspberry: bool) -> None:
         self._flight = flight
-        self._waiting = LineMonitor().start_bytes()
         self._tap = LineMonitor()
+        self._waiting = self._tap.start_bytes()
+        self._phone = PhoneSensors(seed)
+        self._estimator = Estimator()
+        self._due_s = 0.0 if has_raspberry else math.inf
         self.worst_deg: Errors = (0.0, 0.0)
 
     def read(self, timeout_s: float, most: int) -> bytes:
@@ -79,22 +98,50 @@ class ComparingLine:
         return waiting
 
     def write(self, data: bytes) -> None:
-        if any(each.type == "O" for each in self._tap.feed(data, 0.0)):
-            told, true = self._tap.orientation, self._flight.state
-            assert told is not None
-            roll_deg = abs((told.roll_deg - true.roll_deg + 180.0) % 360.0 - 180.0)
-            self.worst_deg = worst(
-                [self.worst_deg, (roll_deg, abs(told.pitch_deg - true.pitch_deg))]
-            )
+        for message in self._tap.feed(data, 0.0):
+            if message.type == "r":
+                throttle_us = OUTPUTS.unpack(message.payload)[2]
+                self._estimator.throttle((throttle_us - 1000) / 1000)
+            elif message.type == "O":
+                self._compare()
+
+    def _compare(self) -> None:
+        told, true = self._tap.orientation, self._flight.state
+        assert told is not None
+        roll_deg = abs((told.roll_deg - true.roll_deg + 180.0) % 360.0 - 180.0)
+        self.worst_deg = worst([self.worst_deg, (roll_deg, abs(told.pitch_deg - true.pitch_deg))])
+        now_s = true.time_s
+        self._estimator.orientation(now_s, told.roll_deg, told.pitch_deg, told.yaw_deg)
+        if now_s < self._due_s:
+            return
+        self._due_s = now_s + PERIOD_S
+        fix = self._phone.location(true)
+        if fix is not None:
+            self._estimator.fix(_fix_of(fix, now_s), now_s)
+        state = self._estimator.state()
+        payload = None if state is None else payload_of(state)
+        if payload is not None:
+            self._waiting += self._tap.command_bytes("A", payload)
+
+
+def _fix_of(data: dict[str, Any], now_s: float) -> Fix:
+    taken_s = now_s - data["age_ms"] / 1000
+    names = "latitude", "longitude", "altitude", "accuracy", "speed", "bearing"
+    return Fix(taken_s, *(data[name] for name in names))
 
 
 def fly(
-    seed: int, minutes: int, is_starved: bool = False, errors: ImuErrors | None = None
+    seed: int,
+    minutes: int,
+    is_starved: bool = False,
+    errors: ImuErrors | None = None,
+    has_raspberry: bool = True,
 ) -> list[Errors]:
     """Return the worst errors of roll and pitch, deg, in each minute of a flight of ``make run``.
 
-    The seed determines wind, bias, drift and vibration. A crash is an infinite error and ends the
-    flight. Raises ``BoardUnavailableError``, ``FlightUnavailableError``, ``PreparationError``.
+    The seed determines wind, bias, drift, vibration and the GPS. A crash is an infinite error and
+    ends the flight. Raises ``BoardUnavailableError``, ``FlightUnavailableError``,
+    ``PreparationError``.
     """
     chance = random.Random(f"attitude {seed}")
     airframe = load_airframe("glider")
@@ -108,7 +155,7 @@ def fly(
     )
     eeprom = cached_eeprom("host", airframe.profile, airframe.gains)
     board = choose_board("host", seed=seed, eeprom=eeprom, imu_errors=errors or drawn)
-    clock, line = StarvedClock(seed, is_starved), ComparingLine(flight)
+    clock, line = StarvedClock(seed, is_starved), ComparingLine(flight, seed, has_raspberry)
     pilot = CirclingPilot()
     aircraft = FirmwareAircraft(flight, board, line, pilot, clock, "circle", no_log)
     found: list[Errors] = []

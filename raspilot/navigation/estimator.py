@@ -34,6 +34,8 @@ MIN_WIND_SD_M_S, MIN_AIRSPEED_SD = 0.3, 0.03
 GROUND_Q_M, GROUND_SD_M_S = 0.5, 0.3
 JUMP_SD_RAD, MOTOR_SD = 0.1, 0.1
 GAP_SD_M_S = 5.0
+MEASURED_S = 2.5
+"""How long the airspeed that a fix has shown is continued by the model."""
 MOVED_SD_M = 10.0
 NEW_FRAME_M = 50_000.0
 
@@ -58,6 +60,7 @@ class Estimator:
         self._horizontal: HorizontalFilter | None = None
         self._fixed: AirPoint | None = None
         self._velocity_m_s = (0.0, 0.0)
+        self._measured: AirPoint | None = None
         self._roll_deg = self._pitch_deg = 0.0
         self._throttle = 0.0
         self._compass_offset_rad: float | None = None
@@ -220,7 +223,16 @@ class Estimator:
             heading_sd_deg=min(180.0, heading_sd),
             fix_age_s=now.time_s - then.time_s,
             motor_stopped=self.motor.is_stopped,
+            measured_airspeed_m_s=self._measured_m_s(now),
         )
+
+    def _measured_m_s(self, now: AirPoint) -> float | None:
+        """Return the airspeed of the last fix, and what the model adds since."""
+        then = self._measured
+        if then is None or now.time_s - then.time_s > MEASURED_S or not self.is_in_flight:
+            return None
+        speed = self._model.measured_m_s + now.coast_m_s - then.coast_m_s
+        return speed if self.motor.is_stopped else speed + now.thrust_m_s - then.thrust_m_s
 
     def _jump(self, turned_rad: float) -> None:
         """Keep the heading although the yaw has jumped."""
@@ -309,6 +321,7 @@ class Estimator:
         nose = horizontal.factor * cmath.rect(1.0 / length, math.radians(at.yaw_deg))
         ground, wind = complex(*velocity), complex(self._wind.north_m_s, self._wind.east_m_s)
         self._model.measured_m_s = ((ground - wind) * nose.conjugate()).real
+        self._measured = at
         variance = horizontal.p[4][4] + horizontal.p[5][5]
         factor = self._model.measured_m_s / math.hypot(at.north_m_s, at.east_m_s)
         if self.motor.fix(at, ground, nose, wind, variance, factor):

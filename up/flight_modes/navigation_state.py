@@ -46,7 +46,9 @@ class NavigationState:
     Positions are in ``frame``; altitudes above sea level, as the receiver reports them. The wind
     is the velocity of the air over the ground. ``fix_age_s`` is the time since the newest accepted
     fix was taken: until the next one the position is dead reckoning. ``motor_stopped``: the motor
-    gives no thrust although the throttle is open.
+    gives no thrust although the throttle is open. ``measured_airspeed_m_s`` is the horizontal one
+    along the nose, from the ground velocity of a fix less the wind, not from the model; None
+    without such a fix.
     """
 
     time_s: float
@@ -67,6 +69,7 @@ class NavigationState:
     heading_sd_deg: float
     fix_age_s: float
     motor_stopped: bool = False
+    measured_airspeed_m_s: float | None = None
 
     @property
     def ground_speed_m_s(self) -> float:

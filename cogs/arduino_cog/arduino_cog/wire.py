@@ -21,6 +21,7 @@ OUTPUT = Struct(">5H")
 """`u`: us ailerons, elevator, throttle, rudder; sequence of the orientation."""
 
 _SETPOINT = Struct(">3h2H")
+_AIRSPEED = Struct(">H")
 _LOCATION = Struct(">2f")
 _PANIC = Struct(">Bh")
 _I16 = Struct(">h")
@@ -28,6 +29,7 @@ _U16 = Struct(">H")
 
 _MIN_I16, _MAX_I16, _MAX_U16 = -32768, 32767, 65535
 _CENTI = 100
+_MIN_AIRSPEED_M_S, _MAX_AIRSPEED_M_S = 5, 40
 
 
 IN_FLIGHT = "in flight means armed, or without a motor and the receiver received since power-on"
@@ -62,6 +64,13 @@ def pack_voltage(voltage_v: float) -> bytes:
     if not 0 <= voltage_v <= _MAX_U16 / 1000:
         raise ValueError(f"a voltage is 0 to {_MAX_U16 / 1000:g} V, not {voltage_v}")
     return _U16.pack(round(voltage_v * 1000))
+
+
+def pack_airspeed(airspeed_m_s: float) -> bytes | None:
+    """Return the payload of `A`; None for an airspeed that the board refuses."""
+    if not _MIN_AIRSPEED_M_S <= airspeed_m_s <= _MAX_AIRSPEED_M_S:
+        return None
+    return _AIRSPEED.pack(round(airspeed_m_s * _CENTI))
 
 
 def pack_setpoint(

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import struct
 
+from arduino_cog.modules.arduino_airspeed import ArduinoAirspeed
 from arduino_cog.modules.arduino_forward import (
     ArduinoAltitudeModule,
     ArduinoHeadingModule,
@@ -33,6 +34,7 @@ MODULES = [
     ArduinoArming,
     ArduinoFlightMode,
     ArduinoOutput,
+    ArduinoAirspeed,
     ArduinoAltitudeModule,
     ArduinoHeadingModule,
     ArduinoLocationModule,
@@ -42,7 +44,7 @@ MODULES = [
     ArduinoCalibration,
     FlightBattery,
 ]
-STREAMS = "hbBluSv"
+STREAMS = "hbBluSAv"
 ARMED, AT_AUTO, RECEIVER, IMU, GAINS_STORED = 1, 2, 4, 8, 64
 # The rudder has no angle loop.
 FACTORY = (*(float(each) for each in range(1, 16)), 0.0, 0.0, 0.0)

@@ -52,6 +52,8 @@ def build(type_, fields):
             return wire.pack_setpoint(
                 roll / 100, pitch / 100, yaw_rate / 100, throttle or None, lifetime
             )
+        case "A":
+            return wire.pack_airspeed(fields["airspeed_cm_s"] / 100)
         case "t" | "g":
             payload = struct.pack(f">{len(fields['gains'])}f", *fields["gains"])
             return pack_gains(read_gains(payload))
@@ -104,7 +106,7 @@ def test_what_comes_means_the_vector(vector):
 
 
 def test_every_type_with_a_payload_has_a_vector():
-    assert {each["type"] for each in TO_ARDUINO} == set("MptghbBluSRvCeV")
+    assert {each["type"] for each in TO_ARDUINO} == set("MptghbBluSRAvCeV")
     assert {each["type"] for each in FROM_ARDUINO} == set("rioOxK!mTGC")
 
 

@@ -103,3 +103,28 @@ def test_with_a_barometer_the_wander_does_not_move_the_altitude(windy, windy_fli
     errors = altitude_errors(windy_flight, 60)
     mean = sum(errors) / len(errors)
     assert 2.0 < rms(each - mean for each in errors) < 5.0, "without one it does"
+
+
+def along_nose(true):
+    """Return the true horizontal airspeed along the nose, in steady air."""
+    north, east = velocity(true)
+    yaw = math.radians(true.yaw_deg)
+    return north * math.cos(yaw) + (east - WIND_M_S) * math.sin(yaw)
+
+
+def test_the_measured_airspeed_does_not_follow_an_error_of_the_pitch(windy, windy_flight):
+    frames = [replace(frame, pitch_deg=frame.pitch_deg + 4.0) for frame in windy]
+
+    def off(flight):
+        pairs = flight.pairs(40)
+        return rms(e.measured_airspeed_m_s - along_nose(true) for e, true in pairs)
+
+    assert off(windy_flight) < 1.1
+    assert off(Flight(frames)) < 1.6
+
+
+def test_no_airspeed_is_measured_without_young_fixes(windy):
+    flight = Flight(windy, change=lambda f: None if 130 < f.time_s < 160 else f)
+    measured = [each.measured_airspeed_m_s for each, _ in flight.pairs(134, 158)]
+    assert measured == [None] * len(measured)
+    assert flight.pairs(125, 130)[0][0].measured_airspeed_m_s is not None

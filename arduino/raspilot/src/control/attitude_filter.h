@@ -97,6 +97,9 @@ class AttitudeFilter : private AttitudeMemory {
   /** Ends the search: in flight a steady turn is still, too. */
   void stop_calibrating() { state_.has_ended_search = true; }
 
+  /** `A`: the airspeed that the Raspberry Pi has measured, cm/s. */
+  void take_airspeed(int16_t cm_s) { tilt_.take_airspeed(cm_s); }
+
   AttitudeState state() const;
   void restore(const AttitudeState& state);
 

@@ -41,9 +41,12 @@ constexpr float FORCE_SIGMA = 0.1435F;  // g, across the nose
 constexpr float EXCESS_WEIGHT = 6.4F;   // a force is trusted less when it is not 1 g
 constexpr float SPEED_SIGMA = 17.5F;    // m/s, about its mean
 constexpr float EARLY_SPEED_SIGMA = 16.7F;
+constexpr float MEASURED_SIGMA = 5;     // m/s: its error lasts for many cycles
+constexpr int16_t MAX_OFF_CM_S = 800;   // a measurement that differs by more is wrong
 constexpr float FIRST_SPEED_SHARE = 0.1F;
 constexpr float MEAN_SPEED_SHARE = CYCLE_S / 570;
 constexpr float LOAD_FACTOR_SIGMA = 0.093F;     // g, along down
+constexpr float MEASURED_LOAD_FACTOR_SIGMA = 0.3F;
 constexpr float STRAIGHT_SIGMA = 2.8F * RAD;   // rad/s: in straight flight a turn is mostly bias
 constexpr float STRAIGHT_LIMIT = 5.2F * RAD;  // a faster one is a turn
 
@@ -219,7 +222,7 @@ OUT_OF_LINE void TiltFilter::predict(uint8_t piece, const Attitude& attitude) {
   add(to, from, factor);
 }
 
-/** Speed near its mean, roll by the force across the nose, no turn in straight flight. */
+/** Speed as measured or its mean, roll by the force across the nose, no turn in straight flight. */
 OUT_OF_LINE void TiltFilter::begin_observation(uint8_t subject, const Attitude& attitude) {
   float per_bias = 1 / static_cast<float>(ONE_Q14);
   if (subject == 0) {
@@ -227,6 +230,13 @@ OUT_OF_LINE void TiltFilter::begin_observation(uint8_t subject, const Attitude& 
     innovation_ = mean_speed_ - speed_;
     variance_ = SPEED_SIGMA * SPEED_SIGMA;
     if (cycles_ < EARLY_CYCLES) variance_ = EARLY_SPEED_SIGMA * EARLY_SPEED_SIGMA;
+    const int16_t off_cm_s = sum_of(measured_cm_s_, to_fixed(speed_, -100));
+    is_measured_ = measured_cm_s_ != 0 && clamped16(off_cm_s, MAX_OFF_CM_S) == off_cm_s;
+    measured_cm_s_ = 0;
+    if (is_measured_) {
+      innovation_ = from_fixed(off_cm_s, 0.01F);
+      variance_ = MEASURED_SIGMA * MEASURED_SIGMA;
+    }
     return;
   }
   if (subject == 1) {
@@ -243,7 +253,8 @@ OUT_OF_LINE void TiltFilter::begin_observation(uint8_t subject, const Attitude& 
         weights_[ROLL] = turn_rate_ * speed_ * (1 / GRAVITY_M_S2);
       }
       innovation_ = from_fixed(load_factor_error_, FORCE_UNIT);
-      variance_ = LOAD_FACTOR_SIGMA * LOAD_FACTOR_SIGMA;
+      // A climb that begins carries more than 1 g, too: with a measured airspeed it counts less.
+      variance_ = square(is_measured_ ? MEASURED_LOAD_FACTOR_SIGMA : LOAD_FACTOR_SIGMA);
       return;
     }
     innovation_ = turn_rate_;

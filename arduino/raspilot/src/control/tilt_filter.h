@@ -36,6 +36,8 @@ class TiltFilter {
   void begin(uint8_t tilt_deg, uint8_t bias_10, float speed_m_s);
   /** Samples are missing: the tilt may have changed by `tilt_deg`. The cycle starts over. */
   void widen(uint8_t tilt_deg);
+  /** An airspeed that was measured, cm/s: the next cycle takes it in place of the mean. */
+  void take_airspeed(int16_t cm_s) { measured_cm_s_ = cm_s; }
   /** Mean airspeed. */
   float speed_m_s() const { return mean_speed_; }
 
@@ -73,6 +75,8 @@ class TiltFilter {
   uint8_t far_off_cycles_;
   bool is_one_g_;
   uint8_t cycles_;
+  bool is_measured_;  // the airspeed, in this cycle
+  int16_t measured_cm_s_;  // 0: none since the last cycle
   float innovation_;
   float variance_;
   float turn_rate_;  // about the vertical, rad/s

@@ -1,6 +1,10 @@
-/** `u`, `S`, `R`: the Raspberry Pi flies, by servo positions or by an attitude demand. */
+/**
+ * `u`, `S`, `R`: the Raspberry Pi flies, by servo positions or by an attitude demand. `A`: the
+ * airspeed that it has measured, for the attitude.
+ */
 #include "../../core/autopilot.h"
 #include "../../store/fields.h"
+#include "../../store/wire_bytes.h"
 #include "../command_executor.h"
 
 namespace raspilot {
@@ -18,6 +22,8 @@ struct SetpointFields {
 
 const uint8_t OUTPUT_FIELDS[] PROGMEM = {STICK, STICK, STICK_OR_0, STICK, WORD};
 const uint8_t SETPOINT_FIELDS[] PROGMEM = {BANK, ANGLE, WORD, STICK_OR_0, LIFETIME};
+constexpr int16_t MIN_AIRSPEED_CM_S = 500;
+constexpr int16_t MAX_AIRSPEED_CM_S = 4000;
 constexpr uint8_t COUNT = sizeof SETPOINT_FIELDS;
 static_assert(sizeof OUTPUT_FIELDS == COUNT, "one count for both");
 
@@ -47,10 +53,18 @@ Reason on_return(Autopilot& autopilot, const Request& request) {
   return autopilot.authority.accept_return(fields.setpoint, fields.lifetime_ms, request.now_us);
 }
 
+Reason on_airspeed(Autopilot& autopilot, const Request& request) {
+  const int16_t cm_s = WireReader(request.payload).i16();
+  if (cm_s < MIN_AIRSPEED_CM_S || cm_s > MAX_AIRSPEED_CM_S) return Reason::OUT_OF_RANGE;
+  autopilot.attitude.take_airspeed(cm_s);
+  return Reason::NONE;
+}
+
 const CommandDefinition COMMANDS[] PROGMEM = {
     {'u', 10, Answer::UNANSWERED, on_output},
     {'S', 10, Answer::UNANSWERED, on_setpoint},
     {'R', 10, Answer::UNANSWERED, on_return},
+    {'A', 2, Answer::UNANSWERED, on_airspeed},
 };
 CommandGroup group(COMMANDS);
 
