@@ -100,9 +100,10 @@ TEST_CASE("an airspeed that is wrong by 5 m/s for a minute tilts the attitude by
 }
 
 TEST_CASE("an airspeed counts for one cycle") {
-  // Sent once before the acceleration, then never again: as without.
-  const Airspeed once = [](double time_s) { return time_s >= 50 && time_s < 50.1 ? SPEED_M_S : 0; };
-  CHECK(error_deg(0, 100, faster, once) > 3.0);
+  const Airspeed wrong_once = [](double time_s) {
+    return time_s >= 30 && time_s < 30.1 ? SPEED_M_S + 5 : 0;
+  };
+  CHECK(error_deg(15, 90, steady, wrong_once) <= 0.5);
 }
 
 TEST_CASE("an airspeed out of range is refused and leaves the attitude as without one") {
