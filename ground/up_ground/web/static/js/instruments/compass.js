@@ -60,7 +60,7 @@ export function mount(element, store) {
       setAttribute(distance, "data-freshness", freshnessOf(store, away_m, "location"));
       const time_s = store.number("home.time_s");
       setText(name, time_s === null ? "home" : `home in ${clockText(time_s)}`);
-      setAttribute(name, "data-freshness", time_s === null ? "live" : store.freshness(null));
+      setAttribute(name, "data-freshness", freshnessOf(store, time_s, null));
     },
   };
 }
