@@ -6,7 +6,7 @@ from bench.firmware import BUSY, LATE_US, SERVOS
 from bench.firmware import Flight as BusyFlight
 from tests.support.firmware import build_firmware
 
-MIN_UNTOUCHED_RAM = 230
+MIN_UNTOUCHED_RAM = 330
 
 
 @pytest.mark.parametrize("mix", ["vvvvS", "g", "v", "vvvva"])

@@ -17,9 +17,9 @@ struct AttitudeState {
   int32_t bias_q36[3];     // of the gyro, rad per slot
   uint32_t yaw;            // a full circle is 2^32
   float speed_m_s;         // the airspeed that turns have shown
-  bool has_bias;           // measured at some time: since power-on, or kept in EEPROM
-  bool has_own_bias;       // measured since power-on
-  bool has_ended_search;   // for a still second
+  bool has_bias : 1;          // measured at some time: since power-on, or kept in EEPROM
+  bool has_own_bias : 1;      // measured since power-on
+  bool has_ended_search : 1;  // for a still second
 };
 
 /**

@@ -17,6 +17,8 @@ class Reference {
 
  private:
   static T& only;
+  /** Makes it take no memory. */
+  char nothing_[0];
 #else
   explicit Reference(T& object) : object_(object) {}
   T* operator->() const { return &object_; }

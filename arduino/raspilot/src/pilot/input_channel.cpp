@@ -21,7 +21,7 @@ uint8_t without(uint8_t flags, uint8_t gone) { return static_cast<uint8_t>(flags
 
 }  // namespace
 
-void InputChannel::begin(Ticks pulse) {
+OUT_OF_LINE void InputChannel::begin(Ticks pulse) {
   filter_.reset(pulse);
   pulse_ = pulse;
 }
