@@ -9,7 +9,8 @@ COGS := $(wildcard cogs/*_cog)
 # mypy does not see what is installed editable through an import hook.
 empty :=
 MYPY_ROOTS := $(subst $(empty) $(empty),:,$(strip . $(COGS)))
-SETUPS := setup.py pyproject.toml flightlog/setup.py $(addsuffix /setup.py,$(COGS)) raspilot/Cogfile.yml
+SETUPS := setup.py pyproject.toml flightlog/setup.py $(addsuffix /setup.py,$(COGS)) raspilot/Cogfile.yml \
+	$(wildcard cogs/*/*/registered_modules.yml)
 TEST ?=
 # More than CI has cores: many tests wait for real time.
 WORKERS ?= 3

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import argparse
 import importlib
+import json
 import re
 import sys
 from collections.abc import Callable, Iterator
@@ -101,6 +102,16 @@ def java_answer_codes(schema: Schema, text: str) -> str:
     return _region(text, codes, "// schema begin", "// schema end")
 
 
+def java_titles(text: str) -> str:
+    """Return CommandTexts.java with the titles of the Commands."""
+    puts = "".join(
+        f"        TITLES.put({json.dumps(cls.NAME)}, {json.dumps(cls.TITLE)});\n"
+        for cls in _commands().CATALOGUE
+        if cls.TITLE
+    )
+    return _region(text, puts, "// schema begin", "// schema end")
+
+
 def _commands() -> Any:
     """Import the Commands, when the tables that their modules import are written."""
     try:
@@ -124,6 +135,7 @@ OUTPUTS: dict[str, Callable[[Schema, str], str]] = {
     "android/core/src/org/raspilot/up/ground/TelemetrySchema.java": lambda schema, _: java(schema),
     "up/commands/refusal.py": answer_codes,
     "android/core/src/org/raspilot/up/commands/NackCode.java": java_answer_codes,
+    "android/core/src/org/raspilot/up/ground/CommandTexts.java": lambda _, text: java_titles(text),
     "android/raspilot/assets/commands.json": lambda *_: _commands().forms(),
     "docs/protocols.md": documents,
 }

@@ -31,8 +31,8 @@ ROW: dict[str, Any] = {
        "second_alarm": {}, "event": {}, "finding": ""}  # fmt: skip
 FIELD: dict[str, Any] = {
        "name": None, "of": (), "type": "number", "unit": "", "about": "", "decimals": 3,
-       "reading": "", "from": "", "key": "*", "row": {}, "labels": (), "alarm": {},
-       "second_alarm": {}, "event": {}, "finding": "",
+       "reading": "", "from": "", "key": "*", "row": {}, "labels": (), "optional": False,
+       "alarm": {}, "second_alarm": {}, "event": {}, "finding": "",
        "in_telemetry": True, "rules": ()}  # fmt: skip
 READING = {"name": None, "title": "", "stale_s": 0, "source_s": None, "source_event": True}
 TYPES = {"number": "number", "flag": "boolean", "text": "string", "texts": "array",
@@ -93,6 +93,7 @@ class Schema:
 
     def _read_status(self, data: dict[str, Any]) -> None:
         self.version = data["version"]
+        self.oldest_size = data["oldest_size"]
         self.modes = [_item(MODE, each) for each in data["modes"]]
         self.refusals = [_item(REFUSAL, each) for each in data["refusals"]]
         self.status = [_row(each, "") for each in data["fields"]]

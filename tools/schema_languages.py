@@ -72,6 +72,7 @@ def python(schema: Schema) -> str:
         "from up.commands.command import value",
         "from up.commands.schema_rows import Datum", "",
         f"VERSION = {schema.version}", f"STATUS = Struct({schema.format!r})",
+        f"OLDEST_SIZE = {schema.oldest_size}",
         f"FLIGHT_MODES = { {m.letter: m.name for m in schema.modes if m.flown} }",
         f"MODE_TEXTS = { {m.name: m.about for m in schema.modes if m.flown} }",
         f"SWITCH_MODES = { {m.letter: m.name for m in schema.modes if m.switch} }",
@@ -176,7 +177,8 @@ def javascript(schema: Schema) -> str:
                           for name, about in schema.mode_texts.items()}),
         "Rows of the board panel; `style` applies to the value `when`.": ("BOARD_ROWS", rows),
         "Rows of the navigation panel.": ("NAVIGATION_ROWS", [
-            {"label": each.label, "path": each.name, "unit": each.unit, "decimals": each.decimals}
+            {"label": each.label, "path": each.name, "unit": each.unit, "decimals": each.decimals,
+             "optional": each.optional}
             for each in schema.fields if each.label]),
         "Why a flight mode is not offered, or was replaced, by code.": (
             "MODE_REASONS", schema.mode_reasons),
@@ -259,6 +261,7 @@ public final class TelemetrySchema {{
     /** Why a flight mode is not offered, or was replaced, by code. */
     static final Map<String, String> MODE_REASONS = new HashMap<>();
     private static final Map<String, String> NAVIGATION = new LinkedHashMap<>();
+    private static final Map<String, Boolean> OPTIONAL = new HashMap<>();
     static final List<TelemetryRule> RULES = new ArrayList<>();
     /** Events without a field, by code. */
     static final Map<String, TelemetryRule> EVENTS = new HashMap<>();
@@ -274,6 +277,7 @@ public final class TelemetrySchema {{
 {"".join(put("LIMITS", k, float(v)) for k, v in _limits(schema).items())}\
 {"".join(put("MODE_REASONS", k, json.dumps(v)) for k, v in schema.mode_reasons.items())}\
 {"".join(put("NAVIGATION", r.label, json.dumps(r.name)) for r in schema.fields if r.label)}\
+{"".join(put("OPTIONAL", r.name, "true") for r in schema.fields if r.optional)}\
 {"".join(_java_call("RULES.add(" + RULE, rule(each), "));") for each in shown)}\
 {
         "".join(
@@ -289,6 +293,11 @@ public final class TelemetrySchema {{
     /** Paths of the values of navigation, by label in the order of display. */
     public static Map<String, String> navigation() {{
         return Collections.unmodifiableMap(NAVIGATION);
+    }}
+
+    /** Whether a value of navigation is not shown while it is unknown. */
+    public static boolean isOptional(String path) {{
+        return OPTIONAL.containsKey(path);
     }}
 
     private TelemetrySchema() {{

@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from up.commands.refusal import Code, CommandRefusedError
     from up.commands.roles import Role
     from up.config import ConfigErrors, ConfigFile, items, key, mapping, section
+    from up.failures import FailureSource
     from up.flight_controller.base_flight_controller import BaseFlightController as FlightController
     from up.flight_modes.demand import (
         AttitudeDemand,
@@ -33,7 +34,7 @@ if TYPE_CHECKING:
         PathDemand,
         SurfacesDemand,
     )
-    from up.flight_modes.flight_mode import FlightMode, FlightSituation, Home, Target
+    from up.flight_modes.flight_mode import FlightMode, FlightSituation, Home, ModeRefusal, Target
     from up.flight_modes.navigation_state import LocalFrame, NavigationState, Point
     from up.mode import Mode
     from up.needs import needs, wants
@@ -52,6 +53,7 @@ _PLACES = {
     "ConfigFile": "config",
     "Course": "flight_modes.demand",
     "Demand": "flight_modes.demand",
+    "FailureSource": "failures",
     "FlightController": "flight_controller.base_flight_controller:BaseFlightController",
     "FlightMode": "flight_modes.flight_mode",
     "FlightSituation": "flight_modes.flight_mode",
@@ -59,6 +61,7 @@ _PLACES = {
     "Line": "flight_modes.demand",
     "LocalFrame": "flight_modes.navigation_state",
     "Mode": "mode",
+    "ModeRefusal": "flight_modes.flight_mode",
     "Module": "base_module:BaseModule",
     "NavigationState": "flight_modes.navigation_state",
     "PathDemand": "flight_modes.demand",
@@ -93,6 +96,7 @@ __all__ = [
     "ConfigFile",
     "Course",
     "Demand",
+    "FailureSource",
     "FlightController",
     "FlightMode",
     "FlightSituation",
@@ -100,6 +104,7 @@ __all__ = [
     "Line",
     "LocalFrame",
     "Mode",
+    "ModeRefusal",
     "Module",
     "NavigationState",
     "PathDemand",

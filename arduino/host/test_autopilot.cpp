@@ -115,7 +115,7 @@ TEST_CASE("the Raspberry Pi starts the streams and reads the status") {
   CHECK(inputs >= 49);
   CHECK(outputs >= 49);
   const SentFrame status = board.take('x');
-  REQUIRE(status.payload.size() == 20);
+  REQUIRE(status.payload.size() == STATUS_SIZE);
   CHECK(status.payload[0] == 1);
   CHECK((status.payload[FLAGS_AT] & ARMED) == 0);
   CHECK(status.payload[CAUSE_AT] == RESET_POWER_ON);

@@ -117,6 +117,13 @@ def about(cls: type[BaseCommand]) -> str:
     return _sentence(cls.__doc__)
 
 
+def title_of(cls: type[BaseCommand] | None, name: str, data: Mapping[str, Any]) -> str:
+    """Return what a person calls a Command, with the value of its only field."""
+    title = (cls.TITLE if cls else "") or name
+    value = str(*data.values()) if len(data) == 1 else ""
+    return title.replace("{}", value.replace("_", " "))
+
+
 def wire_name(field: dataclasses.Field[Any]) -> str:
     """Return a field's name on the wire."""
     return str(field.metadata.get("key") or field.name)
@@ -206,6 +213,7 @@ def command_fields(cls: type[BaseCommand]) -> dict[str, Any]:
     return {
         "name": cls.NAME,
         "aliases": list(cls.ALIASES),
+        "title": cls.TITLE or cls.NAME,
         # Without the fields it is offered to a ground that may send it with some.
         "role": least_role(cls.ROLES) or least_role(_all_roles(cls)),
         "role_where": [

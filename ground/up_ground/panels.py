@@ -35,8 +35,11 @@ def draw_flight(writer: PanelWriter, row: int, column: int) -> int:
     switch = _word(writer, "arduino", "switch")
     replaced = telemetry.text("flight_control", "fallback") is not None
     selected = telemetry.text("flight_control", "selected", limit=12)
+    cause = telemetry.text("failsafe", "cause", limit=13)
     more = f" instead of {selected}" if replaced else f"  switch {switch}"
-    style = Style.BAD if replaced else Style.PLAIN
+    if cause is not None and not replaced:
+        more = f" by {cause}"
+    style = Style.BAD if replaced or cause is not None else Style.PLAIN
     end = writer.value(row + 2, column, f"flight mode {flown}{more}", style=style)
     if telemetry.flag("arduino", "failsafe"):
         writer.value(row + 2, end + 1, "FAILSAFE", style=Style.BAD)
@@ -60,7 +63,9 @@ def draw_position(writer: PanelWriter, row: int, column: int) -> int:
     writer.title(row, column, "LOCATION", "location")
     latitude = number_text(number("location", "latitude"), 6, 11)
     longitude = number_text(number("location", "longitude"), 6, 11)
-    writer.value(row + 1, column, f"{latitude} {longitude} deg", "location")
+    satellites = number("location", "satellites")
+    more = "" if satellites is None else f" {satellites:.0f} sat"
+    writer.value(row + 1, column, f"{latitude} {longitude} deg{more}", "location")
     writer.value(row + 2, column, home_text(writer.telemetry), "location")
     end = writer.value(
         row + 3, column, f"altitude {number_text(number('altitude'), 1, 8)} m", "altitude"
@@ -105,16 +110,26 @@ def has_navigation(writer: PanelWriter) -> bool:
 
 
 def draw_power(writer: PanelWriter, row: int, column: int) -> int:
-    """Draw battery, phone and load; return the row below."""
+    """Draw batteries, phone and load; return the row below."""
     telemetry = writer.telemetry
     level = telemetry.number("android", "batteryLevel")
     style = Style.BAD if level is not None and level < BATTERY_LOW else Style.PLAIN
-    text = f"battery {number_text(level, 0)} %"
-    end = writer.value(row, column, text, "battery", style)
     connected = flag_text(telemetry.flag("android", "connected"), "connected", "absent")
     is_contested = telemetry.text("android", "competitor") is not None
     phone = "2nd phone refused" if is_contested else f"phone {connected}"
-    writer.value(row, end + 1, phone, style=Style.WARNING if is_contested else Style.PLAIN)
+    phone_style = Style.WARNING if is_contested else Style.PLAIN
+    voltage_v = telemetry.number("arduino", "flight_battery_v")
+    if voltage_v is None:
+        text = f"battery {number_text(level, 0)} %"
+        end = writer.value(row, column, text, "battery", style)
+    else:
+        is_low = telemetry.flag("arduino", "flight_battery_low")
+        is_low = is_low or telemetry.flag("arduino", "flight_battery_critical")
+        text = f"flight battery {voltage_v:.1f} V"
+        end = writer.value(row, column, text, "flight", Style.BAD if is_low else Style.PLAIN)
+        if not is_contested and level is not None and connected == "connected":
+            phone, phone_style = f"phone {number_text(level, 0)} %", style
+    writer.value(row, end + 1, phone, style=phone_style)
     cpu = number_text(telemetry.number("load", "cpu"), 0)
     ram = number_text(telemetry.number("load", "ram"), 0)
     writer.value(row + 1, column, f"load {cpu} % memory {ram} %")

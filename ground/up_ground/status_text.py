@@ -128,6 +128,9 @@ def plain_line(status: LinkStatus, telemetry: Telemetry, now_s: float) -> str:
     if fallback is not None:
         selected = telemetry.text("flight_control", "selected") or UNKNOWN
         parts.append(f"replaces {selected}: {MODE_REASONS.get(fallback, fallback)}")
+    cause = telemetry.text("failsafe", "cause")
+    if cause is not None:
+        parts.append(f"failsafe: {MODE_REASONS.get(cause, cause)}")
     competitor = telemetry.text("android", "competitor")
     if competitor is not None:
         parts.append(f"a second phone is refused: {competitor}")

@@ -10,6 +10,7 @@ from twisted.internet.defer import Deferred
 from twisted.internet.task import deferLater
 
 from raspilot.flight_controller.attitude_controller import AttitudeController
+from raspilot.flight_controller.board_authority import AUTO, BoardAuthority
 from raspilot.flight_controller.flight_memory import MEMORY, Place
 from raspilot.flight_controller.home import (
     HomeKeeper,
@@ -39,13 +40,9 @@ from up.needs import wants
 from up.providers.base_provider import Reading
 from up.providers.up_location_provider import UpLocationProvider
 
-AUTO = "AUTO"
 MIN_STEP_S, MAX_STEP_S = 1e-3, 0.25
 ATTITUDE_PAUSE_S, PATH_PAUSE_S = 0.1, 0.5
 """A longer pause resets the control loop; in Panic Mode the board's frames come every 150 ms."""
-REQUEST_PERIOD_S = 5.0
-FAILSAFE_MODE = "RETURN"
-"""The board's mode while it follows set-points in receiver failsafe."""
 FOLLOW_S = 1.0
 """The board reports five times a second whether it follows."""
 RESUME_S = 3.0
@@ -53,7 +50,6 @@ RESUME_S = 3.0
 MAX_RX_AGE_S, MAX_NAVIGATION_AGE_S = 0.25, 3.0
 MAX_DEAD_RECKONING_S = 120.0
 """How long without a fix the modes get the estimate; those that need a fix end earlier."""
-_NOT_PERMITTED = "does not fly: the board does not let it"
 
 
 class FlightModeManager(BaseFlightController):
@@ -62,6 +58,7 @@ class FlightModeManager(BaseFlightController):
     Its demand becomes an Output (``flight controller: raspberry``) or a set-point (``arduino``).
     Without a mode that can act, or from an orientation that is not the board's, nothing is
     published: the board's own failsafe acts. When the switch leaves AUTO, the selection ends.
+    ``choices`` counts the selections by the pilot, the ground and the failsafes.
     """
 
     MODES: ClassVar[frozenset[Mode]] = WITH_BOARD
@@ -77,13 +74,12 @@ class FlightModeManager(BaseFlightController):
     def __init__(self, config: Any = None, silent: bool = False) -> None:
         super().__init__(config, silent)
         self.published = 0
+        self.choices = 0
+        self.is_resumed = False
         self._is_asked = True
-        self._asked_at_s = float("-inf")
-        self._state: FlightStateCommand | None = None
         self._has_begun = False
         self._stepped_at_s = float("-inf")
         self._resumed_at_s = float("-inf")
-        self._logged = _NOT_PERMITTED
         self._situation: FlightSituation | None = None
         self._circle: Circle | None = None
         self._path_at_s = float("-inf")
@@ -105,10 +101,15 @@ class FlightModeManager(BaseFlightController):
         self._selector.select(self._auto)
         self._path_controller = PathController(self.config)
         self._has_motor = self.config.performance.motor
-        is_output = self.attitude_controller is not None
-        self._followed_mode = "OUTPUT" if is_output else "SETPOINT"
         # With its origin the bus need not search the publisher of each Command.
         self._origin = Origin(self.class_name, Role.INTERNAL)
+        self.board = BoardAuthority(
+            self.up.command_executor,
+            self.context.reactor,
+            self._origin,
+            self.log,
+            is_output=self.attitude_controller is not None,
+        )
         self.home = HomeKeeper(
             self.context.config_folder,
             self.context.reactor,
@@ -134,7 +135,7 @@ class FlightModeManager(BaseFlightController):
             offers = {AUTO: missing[0] if missing else None, **offers}
         return {
             "flight_control": {
-                "mode": selector.active if is_flying else None,
+                "mode": self.acting_mode,
                 "selected": selector.selected,
                 "fallback": selector.reason if is_flying else None,
                 "modes": offers,
@@ -146,26 +147,25 @@ class FlightModeManager(BaseFlightController):
         }
 
     @property
+    def acting_mode(self) -> str | None:
+        """Return the flight mode that the aircraft flies now; None: none of the Raspberry Pi."""
+        return self._selector.active if self.is_flying else None
+
+    @property
     def is_flying(self) -> bool:
         """Return whether the board follows its Commands: another module may have control."""
-        return self._is_followed and self._executor.control.owner == self.class_name
+        return self.board.is_flown
 
     @property
-    def _is_followed(self) -> bool:
-        """Return whether the board follows Commands of the Raspberry Pi now."""
-        state = self._state
-        return state is not None and state.flight_mode in (self._followed_mode, FAILSAFE_MODE)
+    def situation(self) -> FlightSituation | None:
+        """Return what the modes saw in the newest step."""
+        return self._situation
 
     @property
-    def _may_publish(self) -> bool:
-        """Return whether the board may follow: it waits for set-points, and asks for Outputs."""
-        if self._is_failsafe or self.attitude_controller is not None:
-            return self._is_failsafe or self._is_followed
-        return self._state is not None and self._state.is_auto
-
-    @property
-    def _is_failsafe(self) -> bool:
-        return self._state is not None and self._state.is_failsafe
+    def is_flown_by_sticks(self) -> bool:
+        """Return whether the selected mode, or the board's, follows the sticks."""
+        mode = self._selector.modes.get(self._selector.selected or "")
+        return mode is None or "rx" in mode.NEEDS
 
     @property
     def _target_content(self) -> Mapping[str, float | None]:
@@ -188,7 +188,7 @@ class FlightModeManager(BaseFlightController):
         if command.sequence is None or self._executor.origin.role is not Role.BOARD:
             return
         navigation = self._navigation
-        self.home.update(navigation, self._state)
+        self.home.update(navigation, self.board.state)
         if navigation is not None and self._resumed_place is not None:
             self._target = target_of_place(self._resumed_place, navigation.frame)
             self._resumed_place = None
@@ -207,7 +207,7 @@ class FlightModeManager(BaseFlightController):
             self._requests.get("altitude"),
         )
         selector = self._selector
-        if selector.selected is None or not self._may_publish:
+        if selector.selected is None or not self.board.may_publish:
             return
         dt_s = now_s - self._stepped_at_s
         self._stepped_at_s = now_s
@@ -228,7 +228,7 @@ class FlightModeManager(BaseFlightController):
         if isinstance(demand, PathDemand):
             demand = self._attitude_of(demand, situation, dt_s)
         # In receiver failsafe the board follows nothing but set-points that are marked so.
-        if self.attitude_controller is not None and not self._is_failsafe:
+        if self.attitude_controller is not None and not self.board.is_failsafe:
             return self.attitude_controller.output(demand, situation.orientation, dt_s)
         if isinstance(demand, SurfacesDemand):
             raise DemandError("the Arduino's control loop takes attitudes, not surfaces")
@@ -237,7 +237,7 @@ class FlightModeManager(BaseFlightController):
             max(-90.0, min(90.0, demand.roll_deg)),
             max(-90.0, min(90.0, demand.pitch_deg)),
             throttle_us=None if throttle is None else round(1000 + 1000 * throttle),
-            is_failsafe=self._is_failsafe,
+            is_failsafe=self.board.is_failsafe,
         )
 
     def _attitude_of(
@@ -267,6 +267,7 @@ class FlightModeManager(BaseFlightController):
             self.home.memory.update(target=place_of_target(target, navigation.frame))
 
     def _select(self, name: str | None) -> None:
+        self.choices += 1
         selector = self._selector
         selector.select(name)
         self._requests.clear()
@@ -276,11 +277,11 @@ class FlightModeManager(BaseFlightController):
         self.home.memory.update(mode=name or "", target=None)
 
     def _on_flight_state(self, command: FlightStateCommand) -> None:
-        was_followed = self._is_followed
-        previous, self._state = self._state, command
-        if was_followed or not self._is_followed:
+        was_followed = self.board.is_followed
+        previous, self.board.state = self.board.state, command
+        if was_followed or not self.board.is_followed:
             # Not at the first state: its first Command takes control.
-            self._log_change_of_control()
+            self.board.log_change()
         if not self._has_begun and command.is_in_flight is not None:
             self._has_begun = True
             if command.is_in_flight:
@@ -291,15 +292,16 @@ class FlightModeManager(BaseFlightController):
             self._is_asked = True
             if self._selector.selected != self._auto:
                 self._select(self._auto)
-        if not command.is_auto or self._is_followed or self._auto is None:
+        if not command.is_auto or self.board.is_followed or self._auto is None:
             return
         if self._is_asked:
-            self._request_control(command != previous)
+            self.board.request(command != previous)
 
     def _resume(self, state: FlightStateCommand) -> None:
         """Continue a flight after a restart of the program: home, target, mode."""
         memory = self.home.memory.values
         self._resumed_at_s = self.context.reactor.seconds()
+        self.is_resumed = True
         self.home.resume()
         name = memory.mode if state.is_auto and memory.mode in self._selector.modes else self._auto
         self._select(name)
@@ -313,56 +315,43 @@ class FlightModeManager(BaseFlightController):
             code="flight_resumed",
         )
 
-    def _log_change_of_control(self) -> None:
-        owner = self._executor.control.owner
-        if not self._is_followed:
-            text = _NOT_PERMITTED
-        elif self.is_flying:
-            text = "flies"
-        else:
-            text = f"does not fly: {owner or 'no module'} has control"
-        if text != self._logged:
-            self._logged = text
-            self.log.info(
-                "{text}",
-                text=text,
-                code="control_changed",
-                flies=self.is_flying,
-                permitted=self._is_followed,
-                owner=owner,
-            )
-
-    def _request_control(self, at_once: bool) -> None:
-        """Request AUTO from the board: after a state change, and periodically in case of loss."""
-        now_s = self.context.reactor.seconds()
-        if at_once or now_s - self._asked_at_s >= REQUEST_PERIOD_S:
-            self._asked_at_s = now_s
-            self._executor.execute_command(FlightModeCommand(AUTO), self._origin)
-
     def _on_flight_mode(self, command: FlightModeCommand) -> Deferred[None] | None:
         name = command.mode
         if self._executor.origin == self._origin:
             return None
         if name == AUTO or name in GROUND_MODES:
             # The board accepts a mode only with the switch at AUTO; a refused one does not count.
-            if self._state is not None and self._state.is_auto:
+            if self.board.is_auto:
                 self._is_asked = name == AUTO
                 self._select(self._auto if name == AUTO else None)
             return None
         self._selector.check(name, self._situation)
-        if self._state is not None and self._state.is_in_flight is False:
+        if self.board.state is not None and self.board.state.is_in_flight is False:
             raise CommandRefusedError(f"{name} needs an armed aircraft", detail="not_armed")
-        if self._is_followed:
+        return self._enter(name)
+
+    def enter_failsafe(self, name: str) -> Deferred[None] | None:
+        """Fly a mode, or the first of its fallbacks that does not refuse; as a Command would."""
+        modes, situation = self._selector.modes, self._situation
+        while situation is not None and not self._selector.missing_for(name):
+            fallback = modes[name].FALLBACK
+            if fallback not in modes or not modes[name].refusal(situation):
+                break
+            name = fallback
+        return None if name == self._selector.selected else self._enter(name)
+
+    def _enter(self, name: str) -> Deferred[None] | None:
+        if self.board.is_followed:
             self._select(name)
             return None
-        if self._is_failsafe:
+        if self.board.is_failsafe:
             self._select(name)
             return deferLater(self.context.reactor, FOLLOW_S, self._check_followed)
         done = self._executor.execute_and_wait(FlightModeCommand(AUTO), self._origin)
         return done.addCallback(lambda _: self._select(name))
 
     def _check_followed(self) -> None:
-        if not self._is_followed:
+        if not self.board.is_followed:
             self._select(self._auto)
             raise CommandRefusedError(
                 "the board does not follow the Raspberry Pi without the receiver"

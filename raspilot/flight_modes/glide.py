@@ -11,6 +11,7 @@ from up.flight_modes.flight_mode import FlightMode, FlightSituation
 from up.flight_modes.navigation_file import NAVIGATION
 
 RADIUS_M = 50.0
+AIRSPEED_PERIOD_S = 1.0
 BANK_DEG = 10.0
 """A gentle turn where home is unknown: it stays near."""
 
@@ -23,6 +24,7 @@ class Glide(FlightMode):
 
     def enter(self, situation: FlightSituation) -> None:
         self._circle: Circle | None = None
+        self._chosen_s = float("-inf")
 
     def step(self, situation: FlightSituation, dt_s: float) -> Demand:
         state, home = situation.navigation, situation.home
@@ -36,6 +38,8 @@ class Glide(FlightMode):
             return PathDemand(Bank(BANK_DEG), airspeed_m_s=best_m_s, motor=False)
         if self._circle is None or self._circle.centre != home.point:
             self._circle = circle_around(config, state, home.point, RADIUS_M)
-        course_deg = course_to_deg(state.position, home.point)
-        airspeed_m_s = airspeed_for_wind_m_s(config, course_deg, state.wind_m_s, motor=False)
-        return PathDemand(self._circle, airspeed_m_s=airspeed_m_s, motor=False)
+        if situation.time_s - self._chosen_s >= AIRSPEED_PERIOD_S:
+            self._chosen_s = situation.time_s
+            course_deg, wind = course_to_deg(state.position, home.point), state.wind_m_s
+            self._airspeed_m_s = airspeed_for_wind_m_s(config, course_deg, wind, motor=False)
+        return PathDemand(self._circle, airspeed_m_s=self._airspeed_m_s, motor=False)

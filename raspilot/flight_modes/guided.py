@@ -9,7 +9,7 @@ from typing import ClassVar
 from raspilot.navigation.planning import circle_around, distance_m
 from up.config import ConfigFile, key
 from up.flight_modes.demand import Demand, PathDemand
-from up.flight_modes.flight_mode import FlightMode, FlightSituation, Target
+from up.flight_modes.flight_mode import FlightMode, FlightSituation, ModeRefusal, Target
 from up.flight_modes.navigation_file import NAVIGATION
 
 
@@ -40,30 +40,33 @@ class Guided(FlightMode):
     REQUESTS: ClassVar[frozenset[str]] = frozenset({"target"})
     CONFIG = GUIDED
 
-    def refusal(self, situation: FlightSituation) -> str | None:
+    def refusal(self, situation: FlightSituation) -> ModeRefusal | None:
         target, state, limits = situation.target, situation.navigation, self.config
         if target is None:
-            return "no target; send up.navigation.target first"
+            return ModeRefusal("no_target", "no target; send up.navigation.target first")
         if state is None:
-            return "the position is unknown"
+            return ModeRefusal("navigation", "the position is unknown")
         away_m = distance_m(state.position, target.point)
         if not away_m <= limits.max_distance_m:
-            return (
+            return ModeRefusal(
+                "target_too_far",
                 f"the target is {away_m / 1000:.1f} km away, more than"
-                f" {limits.max_distance_m / 1000:g} km (guided.yml: max_distance_m)"
+                f" {limits.max_distance_m / 1000:g} km (guided.yml: max_distance_m)",
             )
         climb_m = target.altitude_m - state.altitude_m
         if not abs(climb_m) <= limits.max_climb_m:
             side = "above" if climb_m > 0 else "below"
-            return (
+            return ModeRefusal(
+                "target_too_high" if climb_m > 0 else "target_too_low",
                 f"the target is {abs(climb_m):.0f} m {side} the aircraft, more than"
-                f" {limits.max_climb_m:g} m (guided.yml: max_climb_m)"
+                f" {limits.max_climb_m:g} m (guided.yml: max_climb_m)",
             )
         if situation.home is not None and target.altitude_m < situation.home.altitude_m:
             below_m = situation.home.altitude_m - target.altitude_m
-            return f"the target is {below_m:.0f} m below home"
+            return ModeRefusal("target_below_home", f"the target is {below_m:.0f} m below home")
         if target.radius_m is not None and not target.radius_m > 0:
-            return f"the radius of the target is {target.radius_m:g} m; it must be above 0"
+            text = f"the radius of the target is {target.radius_m:g} m; it must be above 0"
+            return ModeRefusal("target_radius", text)
         return None
 
     def enter(self, situation: FlightSituation) -> None:

@@ -14,7 +14,7 @@ from raspilot.navigation.planning import (
 )
 from up.config import ConfigFile, key
 from up.flight_modes.demand import Demand, PathDemand
-from up.flight_modes.flight_mode import FlightMode, FlightSituation
+from up.flight_modes.flight_mode import FlightMode, FlightSituation, ModeRefusal
 from up.flight_modes.navigation_file import NAVIGATION
 
 AIRSPEED_PERIOD_S = 1.0
@@ -49,17 +49,18 @@ class Return(FlightMode):
     FALLBACK: ClassVar[str] = "CIRCLE"
     CONFIG = RETURN
 
-    def refusal(self, situation: FlightSituation) -> str | None:
+    def refusal(self, situation: FlightSituation) -> ModeRefusal | None:
         home, state = situation.home, situation.navigation
         if home is None:
-            return "no home is set; send up.home.set"
+            return ModeRefusal("no_home", "no home is set; send up.home.set")
         if state is None:
-            return "the position is unknown"
+            return ModeRefusal("navigation", "the position is unknown")
         away_m = distance_m(state.position, home.point)
         if not away_m <= self.config.max_distance_m:
-            return (
+            return ModeRefusal(
+                "home_too_far",
                 f"home is {away_m / 1000:.1f} km away, more than"
-                f" {self.config.max_distance_m / 1000:g} km (return.yml: max_distance_m)"
+                f" {self.config.max_distance_m / 1000:g} km (return.yml: max_distance_m)",
             )
         return None
 

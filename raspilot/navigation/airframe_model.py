@@ -9,6 +9,10 @@ from up.flight_modes.navigation_file import NavigationConfig
 GRAVITY_M_S2 = 9.80665
 STALL_MARGIN = 1.15
 """The turn's stall speed times this stays below the airspeed."""
+STOP_SEEN_S = 3.5
+"""From a silent stop of the motor until the nose is down."""
+LEAST_CLIMB_M_S = 1.0
+"""Climb through the air that is permitted with less reserve: to hold the altitude in gusts."""
 
 
 class AirframeModel:
@@ -67,6 +71,30 @@ class AirframeModel:
         if not self.has_motor:
             return 0.0
         return max(0.0, throttle * (self._power_2 * throttle + self._power_1))
+
+    def climb_pitch_deg(self, airspeed_m_s: float, load: float) -> float:
+        """Return the greatest pitch in which the motor may stop unseen for ``STOP_SEEN_S``.
+
+        While this pitch stays, the airspeed falls to ``STALL_MARGIN`` times the stall speed: the
+        loss is that of the climb and of the drag at the mean airspeed.
+        """
+        least_m_s = STALL_MARGIN * self.speeds.stall_m_s * math.sqrt(load)
+        mean_m_s = 0.5 * (airspeed_m_s + least_m_s)
+        loss_m_s2 = (airspeed_m_s - least_m_s) / STOP_SEEN_S
+        slope = loss_m_s2 / GRAVITY_M_S2 - self.sink_m_s(mean_m_s, load) / mean_m_s
+        kept_deg = self.level_pitch_deg(mean_m_s, load) + math.degrees(slope)
+        least_deg = math.degrees(LEAST_CLIMB_M_S / airspeed_m_s)
+        return max(kept_deg, self.level_pitch_deg(airspeed_m_s, load) + least_deg)
+
+    def climb_airspeed_m_s(self, climb_m_s: float) -> float:
+        """Return the least airspeed, cruise or above, whose ``climb_pitch_deg`` gives a climb."""
+        airspeed = self.speeds.cruise_m_s
+        while airspeed < self.speeds.maximum_m_s:
+            slope_deg = self.climb_pitch_deg(airspeed, 1.0) - self.level_pitch_deg(airspeed, 1.0)
+            if airspeed * math.radians(slope_deg) >= climb_m_s:
+                return airspeed
+            airspeed += 0.25
+        return self.speeds.maximum_m_s
 
     def bank_limit_deg(self, airspeed_m_s: float) -> float:
         """Return the bank whose stall is still ``STALL_MARGIN`` below the airspeed."""

@@ -46,9 +46,10 @@ class Estimator:
     """
 
     def __init__(self, model: AirframeModel | None = None) -> None:
-        self._model = AirspeedModel(model or AirframeModel())
+        model = model or AirframeModel()
+        self._model = AirspeedModel(model)
         self._path = AirPath()
-        self._gate = FixGate()
+        self._gate = FixGate(model.speeds.maximum_m_s)
         self._flight = FlightWatch()
         self.motor = MotorWatch()
         self._vertical = VerticalFilter()
@@ -98,13 +99,16 @@ class Estimator:
 
     def orientation(self, time_s: float, roll_deg: float, pitch_deg: float, yaw_deg: float) -> None:
         """Take an attitude and advance the air path to its time."""
-        angles = (roll_deg, pitch_deg, yaw_deg)
-        if not abs(time_s) < MAX_TIME_S or not all(abs(each) <= 360.0 for each in angles):
+        within = abs(roll_deg) <= 360.0 and abs(pitch_deg) <= 360.0 and abs(yaw_deg) <= 360.0
+        if not (abs(time_s) < MAX_TIME_S and within):
             return
-        newest = self._path.newest
+        newest, model = self._path.newest, self._model
         yaw = math.radians(yaw_deg)
+        cosine, sine = math.cos(yaw), math.sin(yaw)
         if newest is None:
-            self._append(time_s, 0.0, 0.0, 0.0, 0.0, 0.0, yaw, yaw_deg)
+            speed = model.airspeed_m_s
+            velocity = speed * cosine, speed * sine
+            self._path.append(AirPoint(time_s, 0.0, 0.0, 0.0, 0.0, 0.0, *velocity, yaw_deg))
             return
         dt = time_s - newest.time_s
         if dt <= 0.0:
@@ -115,24 +119,25 @@ class Estimator:
             newest = self._path.newest or newest
         self._roll_deg, self._pitch_deg = roll_deg, pitch_deg
         self._flight.attitude(dt, roll_deg, pitch_deg)
-        model = self._model
         if dt > MAX_GAP_S:
             if self._horizontal is not None:
                 self._horizontal.blur(GAP_SD_M_S * dt)
         else:
             model.step(dt, roll_deg, pitch_deg, self._throttle)
-        speed = model.airspeed_m_s
+        north_m_s, east_m_s = model.airspeed_m_s * cosine, model.airspeed_m_s * sine
         # Trapezoid: the mean of the old and the new velocity through the air.
-        self._append(
+        point = AirPoint(
             time_s,
-            newest.north_m + 0.5 * dt * (newest.north_m_s + speed * math.cos(yaw)),
-            newest.east_m + 0.5 * dt * (newest.east_m_s + speed * math.sin(yaw)),
+            newest.north_m + 0.5 * dt * (newest.north_m_s + north_m_s),
+            newest.east_m + 0.5 * dt * (newest.east_m_s + east_m_s),
             newest.climb_m + dt * (model.climb_m_s if self._flight.is_in_flight else 0.0),
             newest.thrust_m_s + dt * model.thrust_m_s2,
             newest.coast_m_s + dt * model.coast_m_s2,
-            yaw,
+            north_m_s,
+            east_m_s,
             yaw_deg,
         )
+        self._path.append(point)
 
     def fix(self, fix: Fix, now_s: float) -> bool:
         """Take a fix at the time when it was taken; return whether it was accepted."""
@@ -216,22 +221,6 @@ class Estimator:
             fix_age_s=now.time_s - then.time_s,
             motor_stopped=self.motor.is_stopped,
         )
-
-    def _append(
-        self,
-        time_s: float,
-        north_m: float,
-        east_m: float,
-        climb_m: float,
-        thrust_m_s: float,
-        coast_m_s: float,
-        yaw_rad: float,
-        yaw_deg: float,
-    ) -> None:
-        speed = self._model.airspeed_m_s
-        u, v = speed * math.cos(yaw_rad), speed * math.sin(yaw_rad)
-        integrals = north_m, east_m, climb_m, thrust_m_s, coast_m_s
-        self._path.append(AirPoint(time_s, *integrals, u, v, yaw_deg))
 
     def _jump(self, turned_rad: float) -> None:
         """Keep the heading although the yaw has jumped."""

@@ -10,8 +10,8 @@ MAX_ACCURACY_M = 30.0
 MAX_AGE_S = 3.5
 MIN_INTERVAL_S = 0.05
 JUMP_M, JUMP_SIGMA = 25.0, 6.0
-MAX_SPEED_M_S, REACH_M = 40.0, 50.0
-"""A fix is reachable when no aircraft of this size would need more speed to be there."""
+REACH_M, MAX_WIND_M_S = 50.0, 20.0
+"""A fix is reachable within this distance, at the greatest airspeed with this wind behind."""
 PROOF_FIXES, PROOF_S, PROOF_SPREAD_M = 5, 4.0, 20.0
 MOVING_M_S = 3.0
 
@@ -60,10 +60,11 @@ class FixGate:
 
     A fix that is far from the expected position is a ``jump``, until ``PROOF_FIXES`` in succession
     over ``PROOF_S`` agree with each other and the aircraft can have flown there: then ``moved`` is
-    the answer, and the position is where they are.
+    the answer, and the position is where they are. ``airspeed_m_s`` is the aircraft's greatest.
     """
 
-    def __init__(self) -> None:
+    def __init__(self, airspeed_m_s: float) -> None:
+        self._fastest_m_s = airspeed_m_s + MAX_WIND_M_S
         self.rejected: Counter[str] = Counter()
         self._last: Fix | None = None
         self._accepted_s = 0.0
@@ -105,7 +106,7 @@ class FixGate:
             self._proofs, self._proof_s = 0, fix.time_s
         self._proofs += 1
         self._proof_m = (north_m, east_m)
-        reach_m = REACH_M + MAX_SPEED_M_S * (fix.time_s - self._accepted_s)
+        reach_m = REACH_M + self._fastest_m_s * (fix.time_s - self._accepted_s)
         is_proved = self._proofs >= PROOF_FIXES and fix.time_s - self._proof_s >= PROOF_S
         if is_proved and (off_m <= reach_m or not in_flight):
             self._accept(fix)

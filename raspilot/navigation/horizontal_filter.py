@@ -11,6 +11,8 @@ VELOCITY_R_M_S = 0.4
 POSITION_Q_M, AIRSPEED_Q, THRUST_Q, YAW_Q_RAD, WIND_Q_M_S = 0.3, 0.012, 0.02, 0.006, 0.12
 """Standard deviations after a second. The airspeed's is a part of it; ``THRUST_Q`` is added for
 each m/s that the motor has given, which is uncertain."""
+GUST_M_S = 0.7
+"""Standard deviation of each axis of what slow gusts add to the wind until the next fix."""
 AIRSPEED_R = 0.25
 """Standard deviation, for one second, of the knowledge that the airspeed model is right."""
 WIND_SD_M_S, FACTOR_SD, POSITION_SD_M = 5.0, 0.15, 10.0
@@ -168,7 +170,7 @@ class HorizontalFilter:
         thrust = now.thrust_m_s - then.thrust_m_s
         if dt > 0.0:
             factor = (AIRSPEED_Q**2 + YAW_Q_RAD**2) * dt + (THRUST_Q * thrust) ** 2 / dt
-            total += 2.0 * POSITION_Q_M**2 * dt
+            total += 2.0 * POSITION_Q_M**2 * dt + 2.0 * GUST_M_S**2 * dt * dt
             total += (2.0 * WIND_Q_M_S**2 * dt * dt * dt + factor * path) / 3.0
         return min(max(total, 0.0), 2.0 * MAX_SD_M**2)
 

@@ -38,10 +38,10 @@ class LateralGuidance:
         self._last_turn = 0.0
 
     def roll_deg(self, path: Line | Circle | Course | Bank, state: NavigationState) -> float:
-        """Return the demanded bank, within the limits of the airspeed and of the configuration."""
-        airspeed_m_s = max(state.airspeed_m_s, self._model.speeds.stall_m_s)
+        """Return the bank that the path requires, before the limits."""
         if isinstance(path, Bank):
-            return self.limited(path.roll_deg, state.airspeed_m_s)
+            return path.roll_deg
+        airspeed_m_s = max(state.airspeed_m_s, self._model.speeds.stall_m_s)
         course_rad, course_rate = self._course(path, state)
         wind_north, wind_east = state.wind_m_s
         air_north = state.velocity_m_s.north_m - wind_north
@@ -57,11 +57,10 @@ class LateralGuidance:
         error_rad = self._error(wanted_rad - heading_rad)
         limit = 0.5 * math.pi
         rate = self._course_gain * max(-limit, min(limit, error_rad)) + rate_factor * course_rate
-        bank_deg = math.degrees(math.atan(airspeed_m_s * rate / GRAVITY_M_S2))
-        return self.limited(bank_deg, state.airspeed_m_s)
+        return math.degrees(math.atan(airspeed_m_s * rate / GRAVITY_M_S2))
 
     def limited(self, roll_deg: float, airspeed_m_s: float) -> float:
-        """Return a bank within the limits."""
+        """Return a bank within the limits of the airspeed and of the configuration."""
         speed_m_s = max(airspeed_m_s, 0.5 * self._model.speeds.stall_m_s)
         limit = min(self._config.bank_limit_deg, self._model.bank_limit_deg(speed_m_s))
         return max(-limit, min(limit, roll_deg))

@@ -35,6 +35,7 @@ class EnergyControl:
     def __init__(self, config: Vertical, model: AirframeModel) -> None:
         self._config = config
         self._model = model
+        self._climb_airspeed_m_s = model.climb_airspeed_m_s(config.climb_limit_m_s)
         self.reset()
 
     def reset(self, airspeed_m_s: float | None = None) -> None:
@@ -63,15 +64,18 @@ class EnergyControl:
         least = self.least_airspeed_m_s(load)
         wanted = model.speeds.cruise_m_s if demand.airspeed_m_s is None else demand.airspeed_m_s
         wanted = max(least, min(model.speeds.maximum_m_s, wanted))
-        change = config.speed_gain * (wanted - airspeed)
-        change = max(-MAX_ACCELERATION_M_S2, min(MAX_ACCELERATION_M_S2, change))
-        wanted_stored = airspeed * change / GRAVITY_M_S2
-        wanted_climb = self._climb(demand, state, dt_s)
+        asked_climb = self._asked_climb(demand, state)
+        wanted_climb = self._climb(asked_climb, dt_s)
 
         if not demand.motor or not model.has_motor:
             return self._glide(airspeed, wanted, acceleration, load, dt_s), 0.0
 
-        wanted_energy, energy = wanted_climb + wanted_stored, climb + stored
+        # A long climb is flown faster; the throttle alone accelerates, the pitch climbs meanwhile.
+        share = max(0.0, min(1.0, asked_climb / config.climb_limit_m_s - 1.0))
+        fastest = wanted + share * max(0.0, self._climb_airspeed_m_s - wanted)
+        wanted_energy = wanted_climb + self._stored(airspeed, fastest)
+        wanted_stored = self._stored(airspeed, max(wanted, min(fastest, airspeed)))
+        energy = climb + stored
         throttle = self._throttle(wanted_energy, wanted_energy - energy, airspeed, load, dt_s)
         if state.motor_stopped:
             # A motor that pulls again, or pulled all along, is noticed by some throttle.
@@ -86,7 +90,11 @@ class EnergyControl:
         base = model.level_pitch_deg(airspeed, load)
         pitch = base + math.degrees(config.pitch_p * wanted_slope) + self._pitch_sum
         growth = math.degrees(config.pitch_i * (wanted_slope - slope)) * dt_s
-        up, down = min(highest, config.pitch_up_limit_deg), -config.pitch_down_limit_deg
+        # Near the altitude gusts need more pitch, for a short time.
+        limit = config.pitch_up_limit_deg
+        if share > 0.0:
+            limit += share * min(0.0, model.climb_pitch_deg(airspeed, load) - limit)
+        up, down = min(highest, limit), -config.pitch_down_limit_deg
         if not (pitch >= up and growth > 0.0) and not (pitch <= down and growth < 0.0):
             self._pitch_sum = max(-12.0, min(12.0, self._pitch_sum + growth))
         return max(down, min(up, pitch)), throttle
@@ -95,13 +103,20 @@ class EnergyControl:
         """Return the least airspeed in a turn of this load factor."""
         return self._model.speeds.minimum_m_s * math.sqrt(max(1.0, load))
 
-    def _climb(self, demand: PathDemand, state: NavigationState, dt_s: float) -> float:
-        config = self._config
+    def _stored(self, airspeed: float, wanted: float) -> float:
+        """Return what the change towards an airspeed stores, as a climb."""
+        change = self._config.speed_gain * (wanted - airspeed)
+        change = max(-MAX_ACCELERATION_M_S2, min(MAX_ACCELERATION_M_S2, change))
+        return airspeed * change / GRAVITY_M_S2
+
+    def _asked_climb(self, demand: PathDemand, state: NavigationState) -> float:
         if demand.altitude_m is None:
-            climb = demand.climb_m_s
-        else:
-            climb = config.height_gain * (demand.altitude_m - state.altitude_m)
-        climb = max(-config.sink_limit_m_s, min(config.climb_limit_m_s, climb))
+            return demand.climb_m_s
+        return self._config.height_gain * (demand.altitude_m - state.altitude_m)
+
+    def _climb(self, asked: float, dt_s: float) -> float:
+        config = self._config
+        climb = max(-config.sink_limit_m_s, min(config.climb_limit_m_s, asked))
         step = CLIMB_CHANGE_M_S2 * dt_s
         self._wanted_climb += max(-step, min(step, climb - self._wanted_climb))
         return self._wanted_climb

@@ -10,7 +10,7 @@ from up_simulator.phone.java_program import MAIN
 TICK_S = 0.002
 FIX = {
     "latitude": 50.0755, "longitude": 14.4378, "altitude": 321.5, "accuracy": 3.5,
-    "speed": 17.25, "bearing": 123.5,
+    "speed": 17.25, "bearing": 123.5, "satellites": 9,
 }  # fmt: skip
 PRESSURE_HPA = 954.608  # 500 m of the standard atmosphere (ISO 2533)
 ALTITUDE_M = 500.0

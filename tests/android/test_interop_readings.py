@@ -37,6 +37,7 @@ def test_a_phone_finds_the_daemon_by_discovery_and_all_readings_arrive(daemon):
             location__latitude=FIX["latitude"],
             location__longitude=FIX["longitude"],
             location__altitude=FIX["altitude"],
+            location__satellites=9,
             android__batteryLevel=87,
             android__connected=True,
         )

@@ -52,7 +52,7 @@ test("the modes are those of the aircraft; one that is not offered is disabled w
   );
   assert.deepEqual(states, {
     RETURN: ["", false], LOITER: ["", false], AUTO: ["", false], CRUISE: ["", false], CIRCLE: ["", false],
-    GUIDED: ["mode_refused", true], GLIDE: ["altitude", true], FBW: ["", false], RATE: ["", false],
+    GUIDED: ["no_target", true], GLIDE: ["altitude", true], FBW: ["", false], RATE: ["", false],
   });
   assert.equal(await ground.attribute('[data-mode="LOITER"]', "aria-pressed"), "true");
   assert.equal(await ground.text("#bar-mode"), "LOITER");
@@ -71,14 +71,26 @@ test("the modes are those of the aircraft; one that is not offered is disabled w
   ground.assertClean();
 });
 
-test("a fallback is shown until the selected mode acts again", async () => {
+test("satellites are shown where the receiver reports them", async () => {
+  const ground = await openWith(navigating());
+  await ground.until(() => document.querySelector('[data-key="location.satellites"]').textContent === "9", "satellites");
+  assert.equal(await ground.page.isVisible('[data-key="location.satellites"]'), true);
+  flight.tell({ data: { ...navigating(), location: { latitude: 50.07805, longitude: 14.44205, altitude: 401 } } });
+  await ground.until(() => document.querySelector('[data-key="location.satellites"]').closest("[hidden]") !== null, "none");
+});
+
+test("a fallback and the cause of a failsafe are shown until they are over", async () => {
   const ground = await openWith(navigating());
   flight.tell({ data: navigating({ mode: "CIRCLE", selected: "LOITER", fallback: "navigation" }) });
   await ground.until(() => document.querySelector("#fallback")?.dataset.code === "navigation", "the banner");
   assert.match(await ground.text("#fallback"), /^CIRCLE replaces LOITER/);
   await ground.until(() => document.querySelector('#events li[data-code="fallback"]') !== null, "the event");
+  flight.tell({ data: { ...navigating({ mode: "RETURN", selected: "RETURN" }), failsafe: { active: [], cause: "fence" } } });
+  await ground.until(() => document.querySelector("#failsafe")?.dataset.code === "fence", "the failsafe");
+  assert.match(await ground.text("#failsafe"), /RETURN/);
+  await ground.until(() => document.querySelector("#fallback") === null, "the end of the fallback");
   flight.tell({ data: navigating() });
-  await ground.until(() => document.querySelector("#fallback") === null, "its end");
+  await ground.until(() => document.querySelector("#failsafe") === null, "its end");
 });
 
 test("a click on the map sends a target above home, then selects GUIDED", async () => {
@@ -104,7 +116,11 @@ test("a click on the map sends a target above home, then selects GUIDED", async 
 
 test("a refused target does not select GUIDED; without home a height is above sea level", async () => {
   const home = { latitude: null, longitude: null, altitude: null, distance: null, bearing: null, time_s: null };
-  const ground = await openWith({ ...navigating(), home });
+  const { modes } = navigating().flight_control;
+  const ground = await openWith({ ...navigating({ modes: { ...modes, RETURN: "no_home" } }), home });
+  const button = '[data-mode="RETURN"]';
+  assert.deepEqual([await ground.attribute(button, "data-code"), await ground.page.isDisabled(button)], ["no_home", true]);
+  assert.match(await ground.text(`${button} small`), /home is not set/);
   flight.tell({ nack: "too far" });
   await ground.page.focus(".map-canvas");
   await ground.page.keyboard.press("Enter");

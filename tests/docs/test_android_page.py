@@ -70,7 +70,8 @@ def items(array):
 
 
 def test_what_is_bold_is_written_so_on_the_screen():
-    known = []
+    forms = json.loads((RES.parent / "assets" / "commands.json").read_text(encoding="utf-8"))
+    known = [re.escape(each["title"].partition("{")[0].rstrip(' "')) for each in forms["commands"]]
     for text in STRINGS.values():
         pattern = re.escape(text.replace("\N{RIGHT SINGLE QUOTATION MARK}", "'"))
         known.append(re.sub(r"%\d\\\$[+.\d]*[sdf]", ".+", pattern))

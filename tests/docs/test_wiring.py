@@ -35,7 +35,8 @@ def pins_of(source):
     found = {}
     for what, pin in re.findall(r"constexpr uint8_t PIN_(\w+) = (\d+);", source):
         kind, _, name = what.partition("_")
-        label = {"RX": "RX ", "SERVO": "servo "}.get(kind, f"{kind} ") + name.lower()
+        label = {"RX": "RX ", "SERVO": "servo ", "BATTERY": "battery"}.get(kind, f"{kind} ")
+        label += name.lower()
         found[label.strip()] = f"D{pin}" if int(pin) < 14 else f"A{int(pin) - 14}"
     return found
 
@@ -52,7 +53,7 @@ def test_the_pins_are_those_of_the_firmware():
 @pytest.mark.parametrize("column", [1, 2])
 def test_no_pin_is_used_twice(column):
     pins = [row[column] for row in rows_after("<!-- table: pins -->")]
-    assert len(set(pins)) == len(pins) == 11
+    assert len(set(pins)) == len(pins) == 12
     assert not {"D0", "D1", "A4", "A5"} & set(pins)
 
 
@@ -60,9 +61,20 @@ def test_the_picture_shows_the_default_pins():
     picture = ElementTree.parse(REPOSITORY / "docs" / "pictures" / "wiring.svg")
     texts = [(float(each.get("y")), each.text) for each in picture.iter(f"{SVG}text")]
     for what, pin, _ in rows_after("<!-- table: pins -->"):
-        name = "LED on the board" if what == "LED" else what
+        name = {"LED": "LED on the board", "battery": "flight battery"}.get(what, what)
         (height,) = [y for y, text in texts if text == name]
         assert pin in [text for y, text in texts if y == height], what
+
+
+def test_the_dividers_figures_follow_from_the_resistors():
+    for battery, *cells in rows_after("<!-- table: divider -->"):
+        full_v, r1, r2, pin_v, scale_v, step_mv = (numbers_of(cell)[0] for cell in cells)
+        ratio = r2 / (r1 + r2)
+        assert full_v == pytest.approx(4.2 * numbers_of(battery)[0])
+        assert pin_v == pytest.approx(full_v * ratio, abs=0.005)
+        assert pin_v <= 0.96
+        assert scale_v == pytest.approx(1.1 / ratio, abs=0.005)
+        assert step_mv == pytest.approx(1100 / ratio / 1024, abs=0.05)
 
 
 def test_what_it_draws_adds_up():

@@ -73,6 +73,7 @@ def status(**fields) -> ArduinoStatusCommand:
         "uptime_s": 60,
         "rx_age_ms": 10,
         "imu_age_ms": 2,
+        "battery_mv": 0,
     }
     return ArduinoStatusCommand(**{**plain, **fields})
 

@@ -46,6 +46,18 @@ def style_at(picture, text):
     raise AssertionError(text)
 
 
+@pytest.mark.parametrize(
+    ("low", "critical", "is_bad"),
+    [(None, None, False), (False, False, False), (True, False, True), (None, True, True)],
+)
+def test_the_flight_battery_is_beside_the_phones_and_styled_by_its_limits(low, critical, is_bad):
+    arduino = {"flight_battery_v": 11.14, "flight_battery_low": low}
+    flying = state(frame(arduino={**arduino, "flight_battery_critical": critical}))
+    assert "flight battery 11.1 V phone 83 %" in text_of(flying)
+    style = style_at(render(flying, 100.0, (80, 24)), "flight battery")
+    assert (style == f"\x1b[0;{Style.BAD.value}m") is is_bad
+
+
 def test_everything_that_is_known_is_there():
     picture = text_of(state(frame(vetoes=["gyro is warm", "AUX2 low"], armed=True)))
     for text in (
@@ -270,9 +282,10 @@ NAVIGATION = {
 }  # fmt: skip
 
 
-def navigating(**flight_control):
-    data = frame(flight_mode="SETPOINT", navigation=NAVIGATION)
+def navigating(cause=None, **flight_control):
+    data = frame(flight_mode="SETPOINT", navigation=NAVIGATION, failsafe={"cause": cause})
     data["home"] |= {"time_s": 65.0}
+    data["location"]["satellites"] = 9
     data["age_ms"] |= {"navigation": 700}
     data["flight_control"] = {"mode": "RETURN", "selected": "RETURN", "fallback": None}
     data["flight_control"] |= flight_control
@@ -284,6 +297,7 @@ def test_navigation_stands_beside_the_rest_where_the_aircraft_has_it(size):
     picture = text_of(navigating(), size=size)
     for text in (
         "flight mode RETURN",
+        "50.075500   14.437800 deg 9 sat",
         "home 1204 m, bearing 271 deg, 1:05",
         "NAVIGATION 0.70 s",
         "89.6 m above home, climb +0.2 m/s",
@@ -293,6 +307,13 @@ def test_navigation_stands_beside_the_rest_where_the_aircraft_has_it(size):
     ):
         assert text in picture, text
     assert "NAVIGATION" not in text_of(state(frame()), size=size)
+
+
+def test_a_failsafe_is_told_with_its_cause():
+    flown = navigating("uplink_lost")
+    assert "failsafe: the uplink is lost" in plain_line(flown.status, flown.telemetry, 100.0)
+    assert "flight mode RETURN by uplink_lost" in text_of(flown)
+    assert "failsafe" not in plain_line(navigating().status, navigating().telemetry, 100.0)
 
 
 def test_a_fallback_is_told_with_its_reason():

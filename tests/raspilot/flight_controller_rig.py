@@ -41,6 +41,10 @@ class Ground(BaseMissionControlProvider):
         super().__init__()
         self.sent, self.is_there = [], True
 
+    @property
+    def wants_telemetry(self):
+        return self.is_there
+
     def send_command(self, command, command_id=None):
         self.sent.append(command)
         return self.is_there

@@ -3,116 +3,21 @@
 from dataclasses import replace
 
 import pytest
-from twisted.internet.defer import Deferred
 
-from raspilot.flight_modes.circle import CircleMode
-from raspilot.flight_modes.glide import Glide
-from raspilot.flight_modes.guided import Guided
-from raspilot.flight_modes.loiter import Loiter
 from tests.raspilot.flight_controller_rig import BOARD, Rig
-from up.base_module import BaseModule
+from tests.raspilot.navigation_rig import (
+    FRAME,
+    NAVIGATION,
+    STANDING,
+    NavigationRig,
+    refusal,
+)
 from up.commands.altitude_command import AltitudeCommand
 from up.commands.flight_state_command import FlightModeCommand, FlightStateCommand
 from up.commands.heading_command import HeadingCommand
 from up.commands.navigation_commands import HomeCommand, NavigationTargetCommand
 from up.commands.output_command import SetpointCommand
-from up.flight_modes.demand import AttitudeDemand, SurfacesDemand
-from up.flight_modes.flight_mode import FlightMode
-from up.flight_modes.navigation_state import LocalFrame, NavigationState, Point
-from up.providers.base_provider import BaseProvider, Reading
-
-FRAME = LocalFrame(48.0, 17.0)
-NAVIGATION = NavigationState(
-    0.0, FRAME, Point(100.0, 50.0), Point(14.0, 0.0), 250.0, 0.0, Point(0.0, 0.0), 14.0, 0.0, 0.0,
-    0.0, 2.0, 3.0, 0.5, 0.5, 2.0, 0.5,
-)  # fmt: skip
-STANDING = replace(NAVIGATION, velocity_m_s=Point(0.0, 0.0))
-ARDUINO = "flight controller: arduino\n"
-
-
-class Navigation(BaseProvider):
-    """A position that the test sets."""
-
-    READING = "navigation"
-    state = NAVIGATION
-
-    def on_init(self):
-        self._seconds = self.context.reactor.seconds
-
-    def set(self, state=NAVIGATION):
-        self.state = state
-        self._reading = Reading(state, "test", self.context.reactor.seconds())
-
-
-class Bank(FlightMode):
-    """Banks by 20 degrees with half throttle, by position."""
-
-    NAME = "BANK"
-    NEEDS = {"navigation": 3.0, "orientation": 0.1}
-    FALLBACK = "LEVEL"
-    REQUESTS = frozenset({"course"})
-    seen = None
-
-    def step(self, situation, dt_s):
-        self.seen = situation
-        return AttitudeDemand(20.0, 5.0, 0.5)
-
-
-class Level(FlightMode):
-    NAME = "LEVEL"
-    FALLBACK = ""
-
-    def step(self, situation, dt_s):
-        return AttitudeDemand(0.0, 0.0)
-
-
-class Servos(FlightMode):
-    NAME = "SERVOS"
-    FALLBACK = "LEVEL"
-
-    def step(self, situation, dt_s):
-        return SurfacesDemand(1500, 1500, 1500)
-
-
-class Board(BaseModule):
-    """Confirms a flight mode when the test says so."""
-
-    def on_init(self):
-        self.asked = []
-        self.answer = None
-        self.up.command_executor.register_command(FlightModeCommand, self.on_mode)
-
-    def on_mode(self, command):
-        if command.mode == "AUTO":
-            self.asked.append(command.mode)
-            self.answer = Deferred()
-            return self.answer
-        return None
-
-
-class NavigationRig(Rig):
-    def __init__(self, folder, config=ARDUINO, **more):
-        super().__init__(
-            folder, modes=(Bank, Level, Servos, Guided, Loiter, CircleMode, Glide),
-            modules=(Navigation, Board),
-            **{"config": config, "navigation": "home_accuracy_m: 5\n", **more},
-        )  # fmt: skip
-        self.navigation = self.up.get_module(Navigation)
-        self.board = self.up.get_module(Board)
-        self.bank = self.up.get_module(Bank)
-
-    def state(self, mode="SETPOINT", *, armed=True, auto=True, in_flight=True):
-        self.bus.execute_command(FlightStateCommand(mode, armed, auto, False, in_flight), BOARD)
-
-    def setpoint(self):
-        """Let a frame come; return the set-point that it made, or None."""
-        count = len(self.setpoints)
-        self.navigation.set(self.navigation.state)
-        self.frame()
-        return self.setpoints[-1] if len(self.setpoints) > count else None
-
-    def shown(self):
-        return self.manager.telemetry_content["flight_control"]
+from up.flight_modes.navigation_state import Point
 
 
 @pytest.fixture
@@ -123,10 +28,6 @@ def rig(tmp_path):
     made.state("FBW")
     made.setpoint()
     return made
-
-
-def refusal(got):
-    return got[0].value.detail
 
 
 def test_a_mode_is_requested_of_the_board_first_and_acts_when_it_agrees(rig):
@@ -325,7 +226,7 @@ class TestRequests:
 
     def test_guided_flies_to_the_target_which_is_shown_and_ends_with_the_mode(self, rig):
         rig.state()
-        assert refusal(rig.outcome(FlightModeCommand("GUIDED"))) == "mode_refused"
+        assert refusal(rig.outcome(FlightModeCommand("GUIDED"))) == "no_target"
         rig.outcome(NavigationTargetCommand(48.01, 17.0, height_m=80.0))
         rig.frame()
         assert rig.outcome(FlightModeCommand("GUIDED")) == [None]
@@ -338,7 +239,7 @@ class TestRequests:
         rig.setpoint()
         shown = rig.manager.telemetry_content["navigation"]["target"]
         assert shown["latitude"] is None
-        assert refusal(rig.outcome(FlightModeCommand("GUIDED"))) == "mode_refused"
+        assert refusal(rig.outcome(FlightModeCommand("GUIDED"))) == "no_target"
 
     def test_a_target_ten_thousand_kilometres_away_is_refused(self, rig):
         assert refusal(rig.outcome(NavigationTargetCommand(-40.0, 17.0))) == "too_far"

@@ -86,6 +86,10 @@ class Actuators:
         return self.dynamics.motion
 
     @property
+    def a7_v(self) -> float:
+        return self.dynamics.a7_v
+
+    @property
     def crash(self) -> str | None:
         return self.dynamics.crash
 

@@ -14,6 +14,7 @@ class ArmCommand(BaseCommand):
     """Arm; the board decides, and an arming veto or a missing beacon refuses it before."""
 
     NAME: ClassVar[str] = "up.arm"
+    TITLE: ClassVar[str] = "Arm"
     ROLES: ClassVar[frozenset[Role]] = frozenset({Role.PILOT})
     NEEDS_BEACON: ClassVar[bool] = True
 
@@ -23,5 +24,6 @@ class DisarmCommand(BaseCommand):
     """Disarm; refused without a fresh beacon and unless the throttle has been low for 2 s."""
 
     NAME: ClassVar[str] = "up.disarm"
+    TITLE: ClassVar[str] = "Disarm"
     ROLES: ClassVar[frozenset[Role]] = frozenset({Role.PILOT})
     NEEDS_BEACON: ClassVar[bool] = True

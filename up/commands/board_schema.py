@@ -12,14 +12,15 @@ from up.commands.command import value
 from up.commands.schema_rows import Datum
 
 VERSION = 1
-STATUS = Struct('>BBBBBBHHHHHHH')
+STATUS = Struct('>BBBBBBHHHHHHHH')
+OLDEST_SIZE = 20
 FLIGHT_MODES = {'a': 'ACRO', 'r': 'RATE', 'f': 'FBW', 's': 'SETPOINT', 'R': 'RETURN', 'u': 'OUTPUT', 'h': 'RTH'}
 MODE_TEXTS = {'ACRO': 'the sticks move the surfaces', 'RATE': 'the sticks ask for rotation', 'FBW': 'the sticks ask for attitude, within limits', 'SETPOINT': 'the Raspberry Pi sets the attitude', 'RETURN': 'the Raspberry Pi sets the attitude in receiver failsafe', 'OUTPUT': 'the Raspberry Pi sets the servo positions', 'RTH': 'return home, sent by old firmware; without behaviour'}
 SWITCH_MODES = {'a': 'ACRO', 'r': 'RATE', 'f': 'FBW', 'A': 'AUTO'}
 SWITCH_POSITIONS = {0: 'low', 1: 'middle', 2: 'high'}
 VETOES = ('the throttle is not low', 'the receiver is invalid', 'the IMU is invalid', 'AUX2 is low', 'the Raspberry Pi vetoes', 'calibrating', 'the profile is invalid', 'a veto that this program does not know')
 RESET_CAUSES = {0: 'power-on', 1: 'external', 2: 'brown-out', 3: 'watchdog', 7: 'state restored'}
-REASONS = {1: 'unknown type', 2: 'wrong size', 3: 'out of range', 4: 'only on the ground, not in flight', 6: 'too old', 7: 'the switch is not at AUTO', 8: 'the throttle is not low', 9: 'the receiver is invalid', 10: 'the IMU is invalid', 11: 'a veto', 12: 'not still enough', 14: 'the profile does not allow it', 15: "the receiver's failsafe does not act"}
+REASONS = {1: 'unknown type', 2: 'wrong size', 3: 'out of range', 4: 'only on the ground, not in flight', 6: 'too old', 7: 'the switch is not at AUTO', 8: 'the throttle is not low', 9: 'the receiver is invalid', 10: 'the IMU is invalid', 11: 'a veto', 12: 'not still enough', 14: 'the profile does not allow it', 15: "the receiver's failsafe does not act", 16: "pin A7 has no battery's voltage: check the divider"}
 
 
 class Reason(IntEnum):
@@ -36,6 +37,7 @@ class Reason(IntEnum):
     NOT_STILL = 12
     NOT_ALLOWED = 14
     NOT_IN_FAILSAFE = 15
+    BATTERY_NOT_MEASURED = 16
 
 
 class Veto(IntFlag):
@@ -103,6 +105,7 @@ DATA = (
     Datum('uptime_s', 'uptime_s', None, 'number', 's', 'time since reset, stays at 65535', False, 'uptime_s'),
     Datum('rx_age_ms', 'rx_age_ms', None, 'number', 'ms', "age of the receiver's newest pulses, stays at 65535", False, 'receiver_age_ms'),
     Datum('imu_age_ms', 'imu_age_ms', None, 'number', 'ms', "age of the IMU's newest sample, stays at 65535", False, 'imu_age_ms'),
+    Datum('battery_mv', 'battery_mv', None, 'number', 'mV', "voltage of the flight battery at A7; 0: no divider, not calibrated, or beyond the pin's 1.1 V", False, 'battery_mv'),
 )
 
 
@@ -123,6 +126,7 @@ class BoardStatus:
     uptime_s: int = value(minimum=0, maximum=65535, unit='s')
     rx_age_ms: int = value(minimum=0, maximum=65535, unit='ms')
     imu_age_ms: int = value(minimum=0, maximum=65535, unit='ms')
+    battery_mv: int = value(minimum=0, maximum=65535, unit='mV')
 
     @property
     def mode_letter(self) -> str:

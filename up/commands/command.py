@@ -24,7 +24,8 @@ class InvalidCommandError(ValueError):
 class BaseCommand:
     """The base of every Command: subclass it as a frozen, slotted dataclass.
 
-    ``NAME`` is the name on the wire, ``ALIASES`` its older names, ``ROLES`` the roles that may send
+    ``NAME`` is the name on the wire, ``ALIASES`` its older names, ``TITLE`` what a person calls it
+    (``{}`` is the value of its field; empty: its name), ``ROLES`` the roles that may send
     it from outside (empty: none), ``ROLES_WHERE`` those for a value of a field, ``ROUTE`` the link
     to which it is forwarded instead of being handled here, ``NEEDS_BEACON`` whether it must echo a
     fresh beacon, ``NEEDS_CONTROL`` whether only one module at a time may publish it
@@ -33,6 +34,7 @@ class BaseCommand:
 
     NAME: ClassVar[str] = ""
     ALIASES: ClassVar[tuple[str, ...]] = ()
+    TITLE: ClassVar[str] = ""
     ROLES: ClassVar[frozenset[Role]] = frozenset()
     ROLES_WHERE: ClassVar[RolesWhere] = types.MappingProxyType({})
     ROUTE: ClassVar[str] = ""

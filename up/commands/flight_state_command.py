@@ -33,6 +33,7 @@ class FlightModeCommand(BaseCommand):
     """
 
     NAME: ClassVar[str] = "up.flight_mode.set"
+    TITLE: ClassVar[str] = "Flight mode {}"
     ROLES: ClassVar[frozenset[Role]] = frozenset({Role.OPERATOR})
     mode: str = value(max_length=32)
 

@@ -13,7 +13,8 @@ from up.commands.roles import Role
 class LocationCommand(BaseCommand):
     """A position from a satellite receiver (thesis 3.3.5), WGS 84.
 
-    ``age_ms`` is the time from the measurement until it was sent; None: not known.
+    ``age_ms`` is the time from the measurement until it was sent, ``satellites`` how many the fix
+    uses; None: not known.
     """
 
     NAME: ClassVar[str] = "up.location.update"
@@ -28,3 +29,4 @@ class LocationCommand(BaseCommand):
     distance_from_home_m: float | None = value(None, key="distance_from_home", unit="m")
     required_bearing_deg: float | None = value(None, key="required_bearing", unit="deg")
     age_ms: float | None = value(None, minimum=0, maximum=60000, unit="ms")
+    satellites: int | None = value(None, minimum=0, maximum=255)

@@ -20,6 +20,7 @@ class NavigationTargetCommand(BaseCommand):
     """
 
     NAME: ClassVar[str] = "up.navigation.target"
+    TITLE: ClassVar[str] = "Target"
     ROLES: ClassVar[frozenset[Role]] = frozenset({Role.OPERATOR})
     NEEDS_BEACON: ClassVar[bool] = True
     latitude_deg: float = value(key="latitude", minimum=-90, maximum=90, unit="deg")
@@ -41,6 +42,7 @@ class HomeCommand(BaseCommand):
     """
 
     NAME: ClassVar[str] = "up.home.set"
+    TITLE: ClassVar[str] = "Set home"
     ROLES: ClassVar[frozenset[Role]] = frozenset({Role.OPERATOR})
     NEEDS_BEACON: ClassVar[bool] = True
     latitude_deg: float | None = value(None, key="latitude", minimum=-90, maximum=90, unit="deg")

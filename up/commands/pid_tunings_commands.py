@@ -15,6 +15,7 @@ class PIDTuningsCommand(BaseCommand):
     """Asks for the gains (``request``) or sets all of them (``pids``); a request wins."""
 
     NAME: ClassVar[str] = "arduino.pids.tunings"
+    TITLE: ClassVar[str] = "Gains"
     ROLES: ClassVar[frozenset[Role]] = frozenset({Role.PILOT})
     ROLES_WHERE: ClassVar[RolesWhere] = {"request": {True: frozenset({Role.OBSERVER})}}
     request: bool | None = value(None)

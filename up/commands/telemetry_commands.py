@@ -31,6 +31,7 @@ class TelemetryFrequencyCommand(BaseCommand):
     """The period of telemetry that the ground wants; the prototype called it a frequency."""
 
     NAME: ClassVar[str] = "up.telemetry.frequency"
+    TITLE: ClassVar[str] = "Telemetry period {} ms"
     ROLES: ClassVar[frozenset[Role]] = frozenset({Role.OPERATOR})
     period_ms: float = value(
         key="frequency", minimum=MIN_PERIOD_MS, maximum=MAX_PERIOD_MS, unit="ms"

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import ClassVar, NamedTuple
 
 from up.base_module import BaseModule
 from up.commands.orientation_command import OrientationCommand
@@ -50,6 +50,13 @@ class FlightSituation:
     required_altitude_m: float | None = None
 
 
+class ModeRefusal(NamedTuple):
+    """Why a mode cannot be entered now: a code for telemetry and programs, and a sentence."""
+
+    code: str
+    text: str
+
+
 class FlightMode(BaseModule):
     """What the aircraft does while it is active; a new file in ``flight_modes/`` is a new mode.
 
@@ -66,8 +73,11 @@ class FlightMode(BaseModule):
     REQUESTS: ClassVar[frozenset[str]] = frozenset()
     SELECTABLE: ClassVar[bool] = True
 
-    def refusal(self, situation: FlightSituation) -> str | None:
-        """Return why the mode cannot be entered now, apart from its readings; None: it can."""
+    def refusal(self, situation: FlightSituation) -> ModeRefusal | str | None:
+        """Return why the mode cannot be entered now, apart from its readings; None: it can.
+
+        The code of a sentence alone is ``mode_refused``.
+        """
         return None
 
     def enter(self, situation: FlightSituation) -> None:

@@ -13,7 +13,7 @@ from up.commands.refusal import Code, CommandRefusedError
 from up.fields import suggestion
 from up.flight_modes.declarations import usable
 from up.flight_modes.demand import AttitudeDemand, Circle, Demand, PathDemand, SurfacesDemand
-from up.flight_modes.flight_mode import FlightMode, FlightSituation
+from up.flight_modes.flight_mode import FlightMode, FlightSituation, ModeRefusal
 from up.flight_modes.step_timer import StepTimer
 
 FAILED, OVERRUN, INVALID, REFUSED, UNKNOWN = (
@@ -74,7 +74,8 @@ class FlightModeSelector:
         if missing or situation is None:
             return missing[0] if missing else "orientation"
         try:
-            return REFUSED if mode.refusal(situation) else None
+            refusal = _refusal_of(mode, situation)
+            return refusal.code if refusal else None
         except _FAULTS:
             return FAILED
 
@@ -88,9 +89,9 @@ class FlightModeSelector:
         if missing or situation is None:
             text = f"{name} needs {', '.join(missing or ['orientation'])}: missing or too old"
             raise CommandRefusedError(text, Code.UNAVAILABLE, detail="reading_stale")
-        reason = mode.refusal(situation)
-        if reason:
-            raise CommandRefusedError(f"{name}: {reason}", detail=REFUSED)
+        refusal = _refusal_of(mode, situation)
+        if refusal:
+            raise CommandRefusedError(f"{name}: {refusal.text}", detail=refusal.code)
 
     def select(self, name: str | None) -> None:
         """Select a mode, which is entered at its first step; None: none."""
@@ -176,6 +177,13 @@ class FlightModeSelector:
         if name != self.active:
             self.log.info("flight mode {mode}", mode=name, code="mode_active", reason=reason)
         self.active, self.reason = name, reason
+
+
+def _refusal_of(mode: FlightMode, situation: FlightSituation) -> ModeRefusal | None:
+    refusal = mode.refusal(situation)
+    if isinstance(refusal, str):
+        return ModeRefusal(REFUSED, refusal) if refusal else None
+    return refusal
 
 
 def _is_finite(value: Any) -> bool:

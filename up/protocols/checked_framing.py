@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from binascii import crc_hqx
 from collections.abc import Mapping
+from types import MappingProxyType
 
 from up.protocols.frame import MAX_PAYLOAD, UNFINISHED_TIMEOUT_S, Frame, FrameCounters
 
@@ -84,9 +85,12 @@ class CheckedDecoder:
     valid CRC counts for the sequence even if its type is unknown: it did arrive.
     """
 
-    def __init__(self, sizes: Mapping[int, int]) -> None:
+    def __init__(
+        self, sizes: Mapping[int, int], least: Mapping[int, int] = MappingProxyType({})
+    ) -> None:
         self.counters = FrameCounters()
         self._sizes = dict(sizes)
+        self._least = dict(least)
         self._tail = b""
         self._is_skipping = False
         self._expected_sequence = -1
@@ -161,7 +165,9 @@ class CheckedDecoder:
             size = size_of(type_)
             if size is None:
                 counters.unknown_types += 1
-            elif size != length - _MIN_ENCODED:
+            elif size != length - _MIN_ENCODED and (
+                length - _MIN_ENCODED < self._least.get(type_, MAX_ENCODED)
+            ):
                 counters.format_errors += 1
             else:
                 frames.append((type_, piece[3:-2], sequence))

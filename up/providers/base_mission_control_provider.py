@@ -25,6 +25,11 @@ class BaseMissionControlProvider(BaseStartedModule):
     def on_init(self) -> None:
         self.up.command_executor.register_command(TelemetryCommand, self.transmit_telemetry)
 
+    @property
+    def wants_telemetry(self) -> bool:
+        """Return whether telemetry would reach a station."""
+        return True
+
     def transmit_telemetry(self, command: TelemetryCommand) -> None:
         """Send a frame of telemetry; it replaces an unsent one."""
         self._transmit_newest(encode(command.NAME, command.content, None, command.beacon))

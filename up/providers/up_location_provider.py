@@ -39,6 +39,11 @@ class UpLocationProvider(BaseProvider[LocationCommand]):
         return None if self._reading is None else self._reading.value.altitude_m
 
     @property
+    def satellites(self) -> int | None:
+        """Return how many satellites the newest fix uses."""
+        return None if self._reading is None else self._reading.value.satellites
+
+    @property
     def distance_from_home(self) -> float | None:
         """Return the distance to the first position, m."""
         if self._reading is None or self.home is None:
@@ -59,6 +64,7 @@ class UpLocationProvider(BaseProvider[LocationCommand]):
                 "latitude": self.latitude,
                 "longitude": self.longitude,
                 "altitude": self.altitude,
+                "satellites": self.satellites,
             },
             "home": {"distance": self.distance_from_home, "bearing": self.required_bearing},
             **self._ages(),

@@ -170,3 +170,4 @@ def _declare(library: ctypes.CDLL) -> None:
     declare("eeprom_writes", u64, rig)
     declare("eeprom_is_writing", ctypes.c_bool, rig)
     declare("watchdog_factor", None, rig, number)
+    declare("analog", None, rig, u8, u32)

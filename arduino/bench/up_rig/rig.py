@@ -128,6 +128,10 @@ class Rig:
         """Reset as the watchdog does, at this cycle."""
         self._library.rig_reset(self._handle, int(Reset.WATCHDOG))
 
+    def set_analog(self, pin: int, volts: float) -> None:
+        """Set the voltage at pin A0 to A7, 0 to 5 V, from now on."""
+        self._library.rig_analog(self._handle, pin, round(volts * 1e6))
+
     def set_watchdog_factor(self, factor: float) -> None:
         """Make the watchdog's own oscillator ``factor`` times slower than 128 kHz."""
         self._library.rig_watchdog_factor(self._handle, factor)

@@ -22,6 +22,7 @@ inline int size_to_arduino(uint8_t type) {
   switch (type) {
     case 's': case 'a': case 'd': case 'm': case 'G': case 'c': return 0;
     case 'M': case 'v': case 'e': return 1;
+    case 'V': return 2;
     case 'p': return 3;
     case 'u': case 'S': case 'R': return 10;
     case 'C': return 54;
@@ -38,7 +39,7 @@ inline int size_from_arduino(uint8_t type) {
     case '!': return 3;
     case 'r': return 8;
     case 'i': return 13;
-    case 'x': return 20;
+    case 'x': return 22;
     case 'O': return 26;
     case 'C': return 54;
     case 'G': return 72;

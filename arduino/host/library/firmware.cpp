@@ -27,7 +27,7 @@ void renew(Object& object) {
 /** Variables outlive no reset but those of `.noinit`. */
 void clear_memory() {
   using namespace raspilot;
-  renew(machine::autopilot);
+  renew(autopilot);
   renew(machine::imu);
   renew(machine::servos);
   machine::due_us = 0;

@@ -3,9 +3,9 @@
 #include "avr/io.h"
 #include "avr/wdt.h"
 
-uint8_t SREG, MCUSR, ADCSRA, DDRB, PORTB, PINB, GPIOR0, GPIOR1, TCNT2, PCIFR;
+uint8_t SREG, MCUSR, ADMUX, ADCSRA, DDRB, PORTB, PINB, GPIOR0, GPIOR1, TCNT2, PCIFR;
 uint8_t UCSR0A, UCSR0B, UCSR0C, UDR0;
-uint16_t UBRR0;
+uint16_t UBRR0, ADC;
 
 namespace {
 

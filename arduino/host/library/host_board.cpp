@@ -2,6 +2,7 @@
 
 #include <math.h>
 
+#include "avr/io.h"
 #include "hardware.h"
 
 namespace host {
@@ -18,7 +19,7 @@ host::Cycles cycles(double time_us) { return llround(time_us * host::PER_US); }
 
 extern "C" {
 
-uint32_t host_board_version(void) { return 1; }
+uint32_t host_board_version(void) { return 2; }
 
 void host_board_begin(const uint8_t* eeprom, uint32_t size, uint32_t seed, double first_frame_us) {
   host::memory::begin(eeprom, size, seed);
@@ -48,6 +49,11 @@ host_board_view* host_board_get_view(void) { return &host::view; }
 void host_board_write(const uint8_t* bytes, uint32_t size) { host::line::write(bytes, size); }
 
 uint32_t host_board_read(uint8_t* into, uint32_t size) { return host::line::read(into, size); }
+
+void host_board_set_a7(double volts) {
+  // The result of the conversion that is always over.
+  ADC = static_cast<uint16_t>(fmin(volts / 1.1 * 1024, 1023));
+}
 
 void host_board_set_imu_fault(uint8_t fault) {
   host::sensor::set_fault(static_cast<host::sensor::Fault>(fault));

@@ -46,6 +46,9 @@ host_board_view* host_board_get_view(void);
 void host_board_write(const uint8_t* bytes, uint32_t size);
 uint32_t host_board_read(uint8_t* into, uint32_t size);
 
+/** The voltage at pin A7, from 0 on. */
+void host_board_set_a7(double volts);
+
 /** The IMU: 0 well, 1 unplugged, 2 holding its bus. */
 void host_board_set_imu_fault(uint8_t fault);
 

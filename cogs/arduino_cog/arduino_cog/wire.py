@@ -24,8 +24,9 @@ _SETPOINT = Struct(">3h2H")
 _LOCATION = Struct(">2f")
 _PANIC = Struct(">Bh")
 _I16 = Struct(">h")
+_U16 = Struct(">H")
 
-_MIN_I16, _MAX_I16 = -32768, 32767
+_MIN_I16, _MAX_I16, _MAX_U16 = -32768, 32767, 65535
 _CENTI = 100
 
 
@@ -54,6 +55,13 @@ def pack_location(latitude_deg: float, longitude_deg: float) -> bytes:
     if not (-90 <= latitude_deg <= 90 and -180 <= longitude_deg <= 180):
         raise ValueError(f"no place: {latitude_deg}, {longitude_deg}")
     return _LOCATION.pack(latitude_deg, longitude_deg)
+
+
+def pack_voltage(voltage_v: float) -> bytes:
+    """Return the payload of `V`; raises ValueError for a voltage outside 0 to 65.535."""
+    if not 0 <= voltage_v <= _MAX_U16 / 1000:
+        raise ValueError(f"a voltage is 0 to {_MAX_U16 / 1000:g} V, not {voltage_v}")
+    return _U16.pack(round(voltage_v * 1000))
 
 
 def pack_setpoint(

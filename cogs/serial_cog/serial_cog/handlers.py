@@ -27,12 +27,20 @@ class HandlerTable:
     def __init__(self) -> None:
         self.by_type: dict[int, tuple[FrameHandler, ...]] = {}
         self._sizes: dict[int, int] = {}
+        self._least: dict[int, int] = {}
 
     @property
     def sizes(self) -> Mapping[int, int]:
         return dict(self._sizes)
 
-    def add(self, type_: FrameType, handler: FrameHandler, payload_size: int) -> bool:
+    @property
+    def least(self) -> Mapping[int, int]:
+        """Return the least sizes of the types that may have another size."""
+        return dict(self._least)
+
+    def add(
+        self, type_: FrameType, handler: FrameHandler, payload_size: int, least: int | None = None
+    ) -> bool:
         """Add a handler; return whether its type is new.
 
         Raises ValueError for a size outside 0 to 96 or other than an earlier handler's.
@@ -46,6 +54,8 @@ class HandlerTable:
                 f"type {chr(number)!r} has {self._sizes[number]} bytes of payload, not"
                 f" {payload_size}"
             )
+        if least is not None:
+            self._least[number] = least
         self.by_type[number] = (*self.by_type.get(number, ()), handler)
         return is_new
 
@@ -63,4 +73,5 @@ class HandlerTable:
             self.by_type[number] = left
             return False
         del self.by_type[number], self._sizes[number]
+        self._least.pop(number, None)
         return True

@@ -75,6 +75,7 @@ class FlightSummary:
     track_m: float | None
     farthest_m: float | None
     lowest_battery_percent: float | None
+    lowest_flight_battery_v: float | None
     estimate_errors: list[EstimateError]
     gaps_s: dict[str, float]
     failsafes: list[Span]
@@ -99,6 +100,8 @@ def summarise(log: FlightLog, context: FlightContext | None = None) -> FlightSum
         each for each in (track.lowest_m, track.highest_m) if each is not None
     ]
     levels = [line.level for line in context.log_lines]
+    # 0: unknown.
+    voltages_v = [mv / 1000 for mv in log.series(board_status.TOPIC, "battery_mv")[1] if mv]
     return FlightSummary(
         start_unix_s=log.start_unix_s,
         length_s=log.length_s,
@@ -114,6 +117,7 @@ def summarise(log: FlightLog, context: FlightContext | None = None) -> FlightSum
         track_m=track.length_m,
         farthest_m=track.farthest_m,
         lowest_battery_percent=min(log.series(BATTERY, "level")[1], default=None),
+        lowest_flight_battery_v=min(voltages_v, default=None),
         estimate_errors=context.estimate_errors,
         gaps_s=dict(_gaps_s(log)),
         failsafes=context.spans((each.time_s, each.is_failsafe is True) for each in context.states),

@@ -14,6 +14,7 @@ from up.flight_log.origin_text import KEY, link_and_role
 from up_flightlog.read.source_filter import SourceFilter
 
 ANGLES = ("yaw", "pitch", "roll")
+PLACE = ("latitude", "longitude", "altitude", "satellites")
 
 
 class FrameState:
@@ -29,7 +30,7 @@ class FrameState:
         self._tree: dict[str, Any] = {
             "orientation": dict.fromkeys(ANGLES),
             "rates": dict.fromkeys(ANGLES),
-            "location": {"latitude": None, "longitude": None, "altitude": None},
+            "location": dict.fromkeys(PLACE),
             "altitude": None,
             "heading": {"actual": None, "required": None},
             "flight_mode": None,
@@ -93,6 +94,7 @@ class FrameState:
             "latitude": place[0],
             "longitude": place[1],
             "altitude": data.get("altitude"),
+            "satellites": data.get("satellites"),
         }
         home = self._home = self._home or place
         self._tree["home"] = {

@@ -125,6 +125,7 @@ def _links(data: ReportData) -> Picture:
 def _power(data: ReportData) -> Picture:
     known = data.frames
     battery = _curve("phone's battery", known["android.batteryLevel"], "green", gap_s=1e9)
+    voltage = _curve("flight battery", known["arduino.flight_battery_v"], "vermilion")
     load = [
         *_curve("processor", known["load.cpu"], "blue"),
         *_curve("memory", known["load.ram"], "purple", "--"),
@@ -132,9 +133,10 @@ def _power(data: ReportData) -> Picture:
     return Picture(
         "load",
         "Battery and load",
-        "The battery of the phone; the load of the Raspberry Pi.",
+        "The batteries of phone and aircraft; the load of the Raspberry Pi.",
         (
-            Panel("Battery", "percent", battery, min_range=10.0, share=0.7),
+            Panel("Phone's battery", "percent", battery, min_range=10.0, share=0.7),
+            Panel("Flight battery", "V", voltage, min_range=1.0, share=0.7),
             Panel("Load of the Raspberry Pi", "percent", load, min_range=20.0),
         ),
     )

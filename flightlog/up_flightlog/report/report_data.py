@@ -33,7 +33,7 @@ FRAME_FIELDS = (
     *(f"rx.{name}" for name in INPUTS),
     *(f"servo.{name}" for name in CHANNELS),
     *("altitude", "android.batteryLevel", "load.cpu", "load.ram", "load.delay_ms"),
-    *("arduino.loop_us", "arduino.late_us"),
+    *("arduino.loop_us", "arduino.late_us", "arduino.flight_battery_v"),
 )
 BOARD_TOPICS = (STATUS, STICKS, SERVOS, STATE)
 PHONE_TOPICS = (LOCATION, ALTITUDE, "up.heading.change", "android.battery")

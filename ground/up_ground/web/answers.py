@@ -128,25 +128,15 @@ def _text(data: dict[str, Any], key: str) -> str:
 
 MARK = "black_box.mark"
 _SHOWN = 4
-# The same names as in static/js/panels/messages.js; the braces stand for the field.
-_TEXTS = {
-    "up.flight_mode.set": ("Flight mode {}", "mode"),
-    "up.arm": ("Arm", ""),
-    "up.disarm": ("Disarm", ""),
-    "up.telemetry.frequency": ("Telemetry every {} ms", "frequency"),
-    "android.speak": ('Say "{}"', "text"),
-    "arduino.profile.request": ("Request the profile", ""),
-    "arduino.calibrate": ("Calibrate {}", "what"),
-    GAINS: ("Request the gains", ""),
-}
 
 
 def outcome_event(
-    who: str, name: str, data: Mapping[str, Any], before: Any, answer: Answer
+    who: str, what: str, name: str, data: Mapping[str, Any], before: Any, answer: Answer
 ) -> tuple[str, Report]:
-    """Return kind and report; ``before`` are the gains that flew before, None: not known."""
-    text, field = _TEXTS.get(name, ("{}", ""))
-    what = text.format(str(data.get(field)).replace("_", " ") if field else name)
+    """Return kind and report of a Command that is called ``what``.
+
+    ``before`` are the gains that flew before, None: not known.
+    """
     level, outcome = OUTCOMES[answer.outcome]
     kind, done = "command", f": {what} {outcome}"
     if name == GAINS and data.get("request") is not True:

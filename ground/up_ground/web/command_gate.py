@@ -10,7 +10,7 @@ from up.commands.beacon import fresh_s
 from up.commands.command import BaseCommand
 from up.commands.roles import Role
 from up.system.clock import Clock
-from up_ground.catalogue import Catalogue, fault_of, least_role
+from up_ground.catalogue import Catalogue, fault_of, least_role, title_of
 from up_ground.ground_link import GroundLink
 from up_ground.link_status import ControlStatus
 from up_ground.telemetry import Telemetry
@@ -48,6 +48,10 @@ class CommandGate:
         self._lease = lease
         self._control = control
         self._telemetry = telemetry
+
+    def title_of(self, name: str, data: dict[str, Any]) -> str:
+        """Return what a person calls a Command."""
+        return title_of(self._catalogue.get(name), name, data)
 
     def refusal(
         self,

@@ -142,11 +142,12 @@ class CommandService:
             notify(refused)
             return
         before = self.gains.flying
+        title = self._gate.title_of(name, data)
 
         def on_answer(answer: Answer) -> None:
             if name == GAINS and data.get("request") is not True:
                 self._on_gains_answer(page, before, data.get("pids") or {}, answer)
-            self._report(*outcome_event(page.name, name, data, before, answer))
+            self._report(*outcome_event(page.name, title, name, data, before, answer))
             notify(answer)
 
         self._send(name, data, beacon, on_answer)

@@ -70,6 +70,9 @@ class MotorConfig:
     pitch_j: float = _number(0.75, "Advance ratio without thrust.", "", 0.1, 3)
 
 
+FULL_CELL_V, PIN_V = 4.2, 1.1
+
+
 @dataclass(frozen=True, slots=True)
 class BatteryConfig:
     """The flight battery, a LiPo."""
@@ -79,6 +82,13 @@ class BatteryConfig:
     resistance_ohm: float = _number(0.03, "Of all cells and wires.", "ohm", 0.001, 5)
     idle_a: float = _number(0.2, "What everything but the motor draws.", "A", 0, 20)
     charge_percent: float = _number(100.0, "When the flight begins.", "percent", 0, 100)
+    divider: float = _number(
+        0.0, "Volts at the board's pin A7 by volts of the battery; 0: not wired.", "", 0, 1
+    )
+
+    def problems(self) -> Iterator[tuple[str, str]]:
+        if self.divider * self.cells * FULL_CELL_V > PIN_V:
+            yield "divider", f"gives the pin more than {PIN_V:g} V with a full battery"
 
 
 @dataclass(frozen=True, slots=True)

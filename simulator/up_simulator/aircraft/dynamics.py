@@ -113,6 +113,10 @@ class FlightDynamics:
         return self._motion
 
     @property
+    def a7_v(self) -> float:
+        return self._battery.voltage_v * self.airframe.battery.divider
+
+    @property
     def servos(self) -> Servos:
         return self._servos.rounded_us
 

@@ -76,6 +76,10 @@ class Dynamics(Protocol):
         """Return the present motion for an IMU aboard."""
 
     @property
+    def a7_v(self) -> float:
+        """Return the voltage that the flight battery's divider gives to the board's pin A7."""
+
+    @property
     def crash(self) -> str | None:
         """Return one sentence about the crash; None while it flies. After it the aircraft rests."""
 

@@ -13,6 +13,7 @@ from importlib import resources
 from pathlib import Path
 
 from up_rig.imu import Motion, motion_at
+from up_simulator.aircraft.airframe_file import PIN_V
 from up_simulator.aircraft.flight import NEUTRAL, FlightState, FlightUnavailableError, Servos
 
 BLEND_S = 4.0
@@ -60,6 +61,11 @@ class RecordedFlight:
     @property
     def servos(self) -> Servos:
         return self._servos
+
+    @property
+    def a7_v(self) -> float:
+        """Return the end of the ADC, where the voltage is unknown: it has no battery."""
+        return PIN_V
 
     @property
     def crash(self) -> str | None:

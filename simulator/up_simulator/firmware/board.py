@@ -53,6 +53,9 @@ class FirmwareBoard(Protocol):
     def set_motion(self, motion: Motion) -> None:
         """Set the IMU's motion from now on."""
 
+    def set_a7(self, volts: float) -> None:
+        """Set the voltage at pin A7, where the flight battery's divider is, from now on."""
+
     def pulses_us(self) -> Pulses:
         """Return the newest whole servo pulses; ``NEUTRAL_US`` before the first."""
 

@@ -63,6 +63,9 @@ class DirectBoard:
     def set_motion(self, motion: Motion) -> None:
         """Ignore the motion: this board has no IMU."""
 
+    def set_a7(self, volts: float) -> None:
+        """Ignore the voltage: this board measures none."""
+
     def pulses_us(self) -> Pulses:
         ailerons, elevator, throttle, rudder = (self._pulses_us[each] for each in SERVOS)
         return ailerons, elevator, throttle, rudder

@@ -116,6 +116,9 @@ class HostBoard:
     def set_motion(self, motion: Motion) -> None:
         self.imu.motion = motion
 
+    def set_a7(self, volts: float) -> None:
+        self._library.set_a7(volts)
+
     def pulses_us(self) -> Pulses:
         ailerons, elevator, throttle, rudder = (
             width if width else neutral

@@ -14,7 +14,7 @@ from typing import Any, cast
 
 from up_rig import RigUnavailableError
 
-VERSION = 1
+VERSION = 2
 EEPROM_SIZE = 1024
 SAMPLE_NUMBERS = 7
 _BUILD = "make -C arduino host-library builds it"
@@ -64,6 +64,7 @@ class HostLibrary:
         self.set_channel = function("set_channel", None, u8, ctypes.c_int)
         self.write = function("write", None, text, u32)
         self.read = function("read", u32, text, u32)
+        self.set_a7 = function("set_a7", None, number)
         self.set_imu_fault = function("set_imu_fault", None, u8)
         self.view: View = function("get_view", ctypes.POINTER(View))().contents
 

@@ -36,8 +36,12 @@ def cached_eeprom(
     profile: Mapping[str, Any],
     gains: Mapping[str, Any],
     log: Log = no_log,
+    *,
+    divider: float = 0.0,
 ) -> bytes:
     """Return the EEPROM of a board of this kind that holds an airframe's profile and gains.
+
+    ``divider`` is that of its flight battery, for which the board is calibrated; 0: none.
 
     The result is computed once for each firmware and each set of values and cached beside the
     build. Raises ``BoardUnavailableError``, ``BoardCrashedError``, ``SettingsError`` and
@@ -46,12 +50,12 @@ def cached_eeprom(
     if kind == "direct":
         return b""
     program = aboard(kind, log)
-    values = json.dumps([profile, gains], sort_keys=True, default=str).encode()
+    values = json.dumps([profile, gains, divider], sort_keys=True, default=str).encode()
     name = hashlib.sha256(program.path.read_bytes() + values).hexdigest()[:32]
     kept = cache_path("eeprom", f"{name}.bin")
     if kept.is_file():
         return kept.read_bytes()
-    eeprom = prepare_eeprom(program.board(), profile, gains)
+    eeprom = prepare_eeprom(program.board(), profile, gains, divider)
     # Without a writable folder the work is repeated the next time.
     with contextlib.suppress(OSError):
         keep(kept, eeprom)
@@ -59,7 +63,10 @@ def cached_eeprom(
 
 
 def prepare_eeprom(
-    board: FirmwareBoard, profile: Mapping[str, Any], gains: Mapping[str, Any]
+    board: FirmwareBoard,
+    profile: Mapping[str, Any],
+    gains: Mapping[str, Any],
+    divider: float = 0.0,
 ) -> bytes:
     """Boot a board, write profile and gains, and return its EEPROM afterwards.
 
@@ -69,7 +76,12 @@ def prepare_eeprom(
     """
     talk = _Talk(board)
     board.set_motion(motion_at(0.0, 0.0))
+    board.set_a7(1.0)
     board.run_us(BOOT_US)
+    if divider:
+        # Before the profile: without a motor a board with a receiver is in flight.
+        voltage_mv = round(1000 / divider)
+        talk.command("V", voltage_mv.to_bytes(2, "big"), "the flight battery's voltage")
     wanted_profile = profile_bytes(profile, talk.ask("c"))
     wanted_gains = gains_bytes(gains, talk.ask("G"))
     if wanted_profile != talk.ask("c"):

@@ -18,6 +18,7 @@ from up_simulator.firmware.board import (
 from up_simulator.firmware.imu_errors import BoardImu, ImuErrors, ImuFault
 
 CYCLES_PER_US = 16
+_A7 = 7
 
 
 class RigImu(BoardImu):
@@ -92,6 +93,9 @@ class RigBoard:
 
     def set_motion(self, motion: Motion) -> None:
         self.imu.motion = motion
+
+    def set_a7(self, volts: float) -> None:
+        self._rig.set_analog(_A7, volts)
 
     def pulses_us(self) -> Pulses:
         newest = self._rig.servo.last_pulse

@@ -14,7 +14,7 @@ FRAME_TIMEOUT_S = 0.1
 
 COMMAND_SIZES = {
     "s": 0, "a": 0, "d": 0, "M": 1, "m": 0, "p": 3, "g": 72, "G": 0, "u": 10,
-    "S": 10, "R": 10, "v": 1, "C": 54, "c": 0, "e": 1,
+    "S": 10, "R": 10, "v": 1, "C": 54, "c": 0, "e": 1, "V": 2,
 }  # fmt: skip
 """Payload bytes of every Command from the Raspberry Pi (protocols 2.3)."""
 

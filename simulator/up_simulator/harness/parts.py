@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Mapping
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -74,15 +75,17 @@ def make_board(options: argparse.Namespace, airframe: Airframe, log: Log) -> Fir
 
 
 def _eeprom(options: argparse.Namespace, airframe: Airframe, log: Log) -> bytes:
-    gains = airframe.gains
+    prepared = partial(
+        cached_eeprom, options.board, airframe.profile, divider=airframe.battery.divider
+    )
     if options.gains is not None:
         try:
-            return cached_eeprom(options.board, airframe.profile, _read(options.gains))
+            return prepared(_read(options.gains))
         except (OSError, SettingsError, yaml.YAMLError) as error:
             line = " ".join(str(error).split())
             text = f"{options.gains}: {line}: the airframe's own gains are used"
             log(text, code="gains_rejected", file=str(options.gains))
-    return cached_eeprom(options.board, airframe.profile, gains)
+    return prepared(airframe.gains)
 
 
 def _read(path: Path) -> Mapping[str, Any]:

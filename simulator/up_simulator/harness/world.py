@@ -47,6 +47,7 @@ class World:
         """
         board = self.board
         board.set_motion(motion_at(0.0, 0.0))
+        board.set_a7(self.dynamics.a7_v)
         board.run_us(STILL_S * 1e6)
         if arms:
             board.set_stick("aux2", 1000.0)
@@ -75,6 +76,7 @@ class World:
     def _feel(self, pulses_us: Pulses) -> None:
         part = (pulses_us[THROTTLE] - THROTTLE_LOW_US) / THROTTLE_RANGE_US
         self.board.imu.throttle = min(1.0, max(0.0, part))
+        self.board.set_a7(self.dynamics.a7_v)
         is_flying = self.dynamics.crash is None
         self.board.set_motion(self.dynamics.motion if is_flying else self._lying())
 

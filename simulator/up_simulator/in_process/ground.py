@@ -75,7 +75,7 @@ class InProcessGround:
     """Connects to the daemon's listener, takes control, keeps the newest telemetry, commands.
 
     Each Command echoes the newest beacon. A Command without a link is lost and never answered.
-    ``others`` keeps the newest other message of each name, such as the aircraft's gains.
+    ``others`` keeps the newest message of each name, such as the aircraft's gains or a nack.
     ``frame_age`` computes the age of a frame; without it the frames' own field is used.
     """
 
@@ -167,11 +167,10 @@ class InProcessGround:
             self._answers[str(message.data.get("id"))] = reason
             if len(self._answers) > MAX_ANSWERS:
                 self._answers.popitem(last=False)
-        else:
-            self.others[message.name] = message.data
-            self.others.move_to_end(message.name)
-            if len(self.others) > MAX_OTHER_MESSAGES:
-                self.others.popitem(last=False)
+        self.others[message.name] = message.data
+        self.others.move_to_end(message.name)
+        if len(self.others) > MAX_OTHER_MESSAGES:
+            self.others.popitem(last=False)
 
     def on_link(self) -> None:
         """Ignore a change of the link: its status is polled."""

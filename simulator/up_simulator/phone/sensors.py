@@ -16,6 +16,7 @@ GPS_WANDER_M, GPS_ALTITUDE_WANDER_M, GPS_WANDER_S = (1.5, 3.0), (3.0, 4.0), 20.0
 """A slow error of position and altitude, drawn by the seed, and its correlation time."""
 GPS_NOISE_M, GPS_VELOCITY_NOISE_M_S = 1.0, 0.3
 GPS_JUMP_M = 300.0
+GPS_SATELLITES = 12
 MAX_FIX_AGE_S = 2.0
 """An older fix is not sent; the app has the same limit."""
 BAROMETER_M = 0.3
@@ -219,6 +220,7 @@ class PhoneSensors:
             "accuracy": round(2.0 + self._wander_spread_m[0], 1),
             "speed": round(math.hypot(north_m_s, east_m_s), 2),
             "bearing": round(bearing_deg, 1) % 360.0,
+            "satellites": GPS_SATELLITES,
         }
 
     def rate_rad_s(self, state: FlightState) -> list[float]:

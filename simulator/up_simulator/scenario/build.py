@@ -54,7 +54,13 @@ def _board(scenario: Scenario, airframe: Airframe, notify: Notify) -> LineBoard:
     eeprom = b""
     if scenario.eeprom != "blank":
         profile, gains = profile_of(scenario, airframe.profile), gains_of(scenario, airframe.gains)
-        eeprom = cached_eeprom(scenario.board, profile, gains, text_log(notify))
+        eeprom = cached_eeprom(
+            scenario.board,
+            profile,
+            gains,
+            text_log(notify),
+            divider=airframe.battery.divider,
+        )
     if scenario.eeprom == "spoiled":
         eeprom = corrupted(eeprom, scenario.seed)
     board = choose_board(

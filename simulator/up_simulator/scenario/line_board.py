@@ -154,6 +154,9 @@ class LineBoard:
     def set_motion(self, motion: Motion) -> None:
         self._board.set_motion(motion)
 
+    def set_a7(self, volts: float) -> None:
+        self._board.set_a7(volts)
+
     def pulses_us(self) -> Pulses:
         return self._board.pulses_us()
 

@@ -145,6 +145,19 @@ def test_random_code_is_run_as_simavr_does(tmp_path, seed):
     assert ran(tmp_path, code, is_measuring=False) == ran(tmp_path, code, is_measuring=True)
 
 
+@pytest.mark.parametrize("skip", [0xFD97, 0x1000, 0x991F])
+def test_a_skipped_addition_of_a_large_constant_is_one_word(tmp_path, skip):
+    # The skip; adiw r24,15; ldi r16,5; rjmp . - simavr alone takes adiw of 12 to 15 for two words.
+    words = [skip, 0x960F, 0xE005, 0xCFFF]
+    code = b"".join(word.to_bytes(2, "little") for word in words)
+    for is_measuring in (False, True):
+        rig = rig_with("pins", tmp_path, is_measuring=is_measuring, start_up_us=1)
+        rig.write_flash(0, code)
+        rig.run_us(100)
+        registers = memory(rig)
+        assert (registers[16], registers[24]) == (5, 0), is_measuring
+
+
 def flown(is_measuring):
     rig = make_rig(build_firmware(), is_measuring=is_measuring)
     rig.receiver.sticks(aux1=1500)

@@ -5,7 +5,7 @@ const AGES = { orientation: 12, rx: 20, servo: 20, location: 600, altitude: 30, 
 /** more: fields of flight_control, `flight_control` for all of them. */
 export function navigating({ flight_control = null, ...more } = {}) {
   const modes = {
-    AUTO: null, CRUISE: null, LOITER: null, GUIDED: "mode_refused", RETURN: null, CIRCLE: null, GLIDE: "altitude",
+    AUTO: null, CRUISE: null, LOITER: null, GUIDED: "no_target", RETURN: null, CIRCLE: null, GLIDE: "altitude",
   };
   return {
     flight_mode: "SETPOINT",
@@ -16,7 +16,7 @@ export function navigating({ flight_control = null, ...more } = {}) {
       mode: "LOITER", selected: "LOITER", fallback: null, modes, board_modes: ["FBW", "RATE"], ...more,
     },
     home: { distance: 412, bearing: 225, latitude: 50.0755, longitude: 14.4378, altitude: 312, time_s: 47 },
-    location: { latitude: 50.07805, longitude: 14.44205, altitude: 401 },
+    location: { latitude: 50.07805, longitude: 14.44205, altitude: 401, satellites: 9 },
     navigation: {
       latitude: 50.0781, longitude: 14.4422, altitude: 401.6, height: 89.6, speed: 13.4, course: 71, climb: 0.2,
       airspeed: 14.9, heading: 63, wind: { speed: 4.2, from: 255 },

@@ -18,6 +18,7 @@ from arduino_cog.modules.arduino_requests import (
     ArduinoCalibration,
     ArduinoFlightMode,
 )
+from arduino_cog.modules.flight_battery import FlightBattery
 from arduino_cog.modules.pid_tunings_provider import PIDTuningsProvider
 from serial_cog.modules.serial_provider import SerialProvider
 
@@ -39,6 +40,7 @@ MODULES = [
     PIDTuningsProvider,
     ArduinoProfile,
     ArduinoCalibration,
+    FlightBattery,
 ]
 STREAMS = "hbBluSv"
 ARMED, AT_AUTO, RECEIVER, IMU, GAINS_STORED = 1, 2, 4, 8, 64
@@ -85,6 +87,7 @@ class BoardRig(Rig):
         self.vetoes = 0
         self.uptime_s = 10
         self.switch = 2
+        self.battery_mv = 0
         self.mode = b"f"
         self.on_command = self.answer
 
@@ -128,9 +131,9 @@ class BoardRig(Rig):
         self.say(
             "x",
             struct.pack(
-                ">BcBBBBHHHHHHH",
+                ">BcBBBBHHHHHHHH",
                 version, self.mode, self.switch, self.flags, self.vetoes, cause,
-                2000, 48, 3, 1, self.uptime_s, 12, 4,
+                2000, 48, 3, 1, self.uptime_s, 12, 4, self.battery_mv,
             ),
         )  # fmt: skip
 

@@ -91,6 +91,9 @@ def test_telemetry_has_the_arduinos_keys(rig):
         "bias_stored": False,
         "receiver_valid": True,
         "imu_valid": True,
+        "flight_battery_v": None,
+        "flight_battery_low": None,
+        "flight_battery_critical": None,
     }
     assert content["armed"] is False
     assert content["flight_mode"] == "FBW"

@@ -1,7 +1,10 @@
 """Calibrating from the ground: only the board refuses."""
 
+import math
+
 import pytest
 from arduino_cog.commands.arduino_calibrate_command import ArduinoCalibrateCommand
+from arduino_cog.commands.battery_calibrate_command import BatteryCalibrateCommand
 
 from up.commands.board_schema import Reason
 from up.commands.command import InvalidCommandError
@@ -27,6 +30,24 @@ def test_the_arduinos_refusal_is_returned(rig, reason, detail):
     (error,) = rig.ask(ArduinoCalibrateCommand("gyro"))
     assert isinstance(error, CommandRefusedError)
     assert error.detail == detail
+
+
+def test_the_batterys_voltage_goes_to_the_board_whose_answer_is_the_answer(rig):
+    rig.connect()
+    assert rig.ask(BatteryCalibrateCommand(12.345)) == ["done"]
+    assert rig.sent("V") == [(12345).to_bytes(2, "big")]
+    rig.refuse = {"V": Reason.BATTERY_NOT_MEASURED}
+    assert rig.ask(BatteryCalibrateCommand(12.3))[0].detail == "battery_not_measured"
+    rig.forget()
+    rig.status(armed=True)
+    assert rig.ask(BatteryCalibrateCommand(12.3))[0].detail == "in_flight"
+    assert rig.sent("V") == []
+
+
+@pytest.mark.parametrize("voltage", [None, -0.1, 65.1, "12", math.nan, True])
+def test_what_is_no_voltage_is_no_command(voltage):
+    with pytest.raises(InvalidCommandError, match="voltage"):
+        BatteryCalibrateCommand.from_data({"voltage": voltage})
 
 
 @pytest.mark.parametrize(("what", "asked"), [("level", 2), ("receiver_end", 1)])

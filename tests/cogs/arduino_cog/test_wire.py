@@ -1,5 +1,6 @@
 """Payloads against the golden vectors, both framings."""
 
+import dataclasses
 import json
 import math
 import struct
@@ -62,6 +63,8 @@ def build(type_, fields):
             return bytes((fields["veto"],))
         case "e":
             return bytes((fields["what"],))
+        case "V":
+            return wire.pack_voltage(fields["voltage_v"])
     raise AssertionError(type_)
 
 
@@ -101,7 +104,7 @@ def test_what_comes_means_the_vector(vector):
 
 
 def test_every_type_with_a_payload_has_a_vector():
-    assert {each["type"] for each in TO_ARDUINO} == set("MptghbBluSRvCe")
+    assert {each["type"] for each in TO_ARDUINO} == set("MptghbBluSRvCeV")
     assert {each["type"] for each in FROM_ARDUINO} == set("rioOxK!mTGC")
 
 
@@ -125,6 +128,19 @@ def test_the_status_says_what_its_bits_mean():
     assert status.is_gains_stored
     assert status.veto_names == ("AUX2 is low",)
     assert status.reset_causes == "power-on"
+
+
+def test_an_older_status_lacks_fields_and_a_newer_one_has_more():
+    payload = bytes.fromhex(next(each for each in FROM_ARDUINO if each["type"] == "x")["payload"])
+    status = read_status(payload)
+    assert read_status(payload[:20]) == dataclasses.replace(status, battery_mv=0)
+    assert read_status(payload + b"\1\2\3") == status
+
+
+@pytest.mark.parametrize("voltage_v", [-0.1, 65.6, math.nan])
+def test_a_voltage_beyond_the_wire_is_refused(voltage_v):
+    with pytest.raises(ValueError):
+        wire.pack_voltage(voltage_v)
 
 
 @pytest.mark.parametrize(

@@ -30,6 +30,14 @@ def test_handlers_of_one_type_must_agree_on_its_size():
         table.add("x", repr, 97)
 
 
+def test_a_type_may_have_other_sizes_from_its_least_on():
+    table = HandlerTable()
+    table.add("x", print, 22, 20)
+    assert (table.sizes, table.least) == ({0x78: 22}, {0x78: 20})
+    table.remove("x")
+    assert table.least == {}
+
+
 def test_removing_takes_whatever_form_adding_takes():
     table = HandlerTable()
     table.add("o", print, 12)

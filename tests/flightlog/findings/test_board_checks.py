@@ -13,6 +13,7 @@ from tests.flightlog.flights import (
     WATCHDOG,
     LinkStateCommand,
     RXCommand,
+    TelemetryCommand,
     status,
 )
 from tests.flightlog.flights import FlightStateCommand as State
@@ -97,6 +98,17 @@ def test_board_silent_in_flight(maker, found):
     maker.put(5.4, LinkStateCommand("arduino", True))
     maker.every(5.4, 8, 0.2, ARMED)
     assert found() == [(4.2, "alarm", "board_silent", 1.2)]
+
+
+def test_the_flight_battery_was_low(maker, found):
+    maker.every(0, 10, 0.2, ARMED)
+    for time_s in range(10):
+        below = {"flight_battery_low": time_s >= 4, "flight_battery_critical": 6 <= time_s < 8}
+        maker.put(time_s, TelemetryCommand({"arduino": below}, time_s))
+    assert found() == [
+        (4.0, "alarm", "flight_battery_low", 5.8),
+        (6.0, "alarm", "flight_battery_critical", 2.0),
+    ]
 
 
 def test_raspilot_silent_and_a_late_loop_and_damaged_frames(maker, tmp_path):

@@ -18,6 +18,7 @@ from up.earth import distance_m
 from up_flightlog.findings.summary import Mark, ModeSpan, summarise
 from up_flightlog.read.spans import Span, duration_text, joined, spans_of
 from up_flightlog.read.track_statistics import fixes, track_statistics
+from up_flightlog.report.figures import figures_of
 
 
 def test_a_flight_on_one_page(tmp_path):
@@ -30,6 +31,8 @@ def test_a_flight_on_one_page(tmp_path):
     maker.put(1, AndroidBatteryCommand(80.0), PHONE)
     maker.put(11, AndroidBatteryCommand(71.0), PHONE)
     maker.put(2, status(vetoes=0b1), BOARD)
+    for time_s, battery_mv in ((12, 11_140), (13, 9_870), (14, 0)):
+        maker.put(time_s, status(battery_mv=battery_mv), BOARD)
     maker.put(2, TelemetryCommand({"vetoes": ["gains: unreadable"]}, 1))
     maker.add(7, "black_box.mark", text="thermal")
     maker.line(1, 3, "LoadGuard", "a warning")
@@ -45,6 +48,8 @@ def test_a_flight_on_one_page(tmp_path):
     assert found.armed_s == pytest.approx(10.0, abs=0.21)
     assert (found.highest_m, found.lowest_m) == (319.0, 300.0)
     assert found.lowest_battery_percent == 71.0
+    assert found.lowest_flight_battery_v == 9.87
+    assert ("lowest flight battery", "9.87 V") in figures_of(found)
     assert found.vetoes == ["gains: unreadable", f"arduino: {VETOES[0]}"]
     assert found.marks == [Mark(7.0, "thermal")]
     assert (found.warnings, found.errors) == (1, 1)
@@ -84,6 +89,7 @@ def test_the_state_from_telemetry_without_the_boards(tmp_path):
 def test_an_empty_log(tmp_path):
     found = summarise(FlightMaker().log(tmp_path))
     assert found.highest_m is found.track_m is found.lowest_battery_percent is None
+    assert found.lowest_flight_battery_v is None
     assert (found.armed, found.modes, found.gaps_s, found.messages) == ([], [], {}, 0)
 
 

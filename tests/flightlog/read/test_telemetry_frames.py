@@ -29,7 +29,7 @@ from tests.up.flight_log.test_command_schema import fault_of
 from up.commands.board_schema import VETOES
 from up.earth import bearing_deg, distance_m
 from up.flight_log.command_schema import schema_of
-from up_flightlog.read.frame_state import TOPICS
+from up_flightlog.read.frame_state import PLACE, TOPICS
 from up_flightlog.read.telemetry_frames import Frame, frames
 
 
@@ -53,7 +53,7 @@ def test_without_telemetry_the_tree_is_put_together(tmp_path):
     maker.put(0, attitude(1.5), BOARD)
     maker.put(0, RXCommand(1, 2, 3, 4, 5, 6, ALL_VALID), BOARD)
     maker.put(0, ServoCommand(11, 12, 13, 14), BOARD)
-    maker.put(0, LocationCommand(50.0, 14.0, 300.0), PHONE)
+    maker.put(0, LocationCommand(50.0, 14.0, 300.0, satellites=9), PHONE)
     maker.put(0, AltitudeCommand(301.0), PHONE)
     maker.put(0, AltitudeCommand(400.0, "required"), GROUND)
     maker.put(0, HeadingCommand(-90.0, "actual"), PHONE)
@@ -75,7 +75,9 @@ def test_without_telemetry_the_tree_is_put_together(tmp_path):
     assert list(first["rx"].values()) == [1, 2, 3, 4, 5, 6]
     assert list(first["rx"]) == ["ailerons", "elevator", "throttle", "rudder", "aux1", "aux2"]
     assert list(first["servo"].values()) == [11, 12, 13, 14]
-    assert first["location"] == {"latitude": 50.0, "longitude": 14.0, "altitude": 300.0}
+    assert first["location"] == {
+        "latitude": 50.0, "longitude": 14.0, "altitude": 300.0, "satellites": 9,
+    }  # fmt: skip
     assert first["home"] == {"distance": 0.0, "bearing": 0.0}
     assert first["altitude"] == 301.0
     assert first["heading"] == {"actual": 270.0, "required": 45.0}
@@ -132,7 +134,7 @@ def test_unknown_values_are_null_or_absent(tmp_path):
     maker = FlightMaker()
     maker.put(0, attitude(1.0), BOARD)
     (frame,) = frames(maker.log(tmp_path))
-    assert frame.data["location"] == {"latitude": None, "longitude": None, "altitude": None}
+    assert frame.data["location"] == dict.fromkeys(PLACE)
     assert frame.data["altitude"] is frame.data["armed"] is frame.data["flight_mode"] is None
     assert "rx" not in frame.data
     assert frame.data["age_ms"]["location"] is None

@@ -4,6 +4,7 @@ import pytest
 from twisted.internet.task import Clock
 
 from up.protocols.general_message import GeneralMessage
+from up_ground.catalogue import Catalogue, title_of
 from up_ground.web.answers import ANSWER_LIMIT_S, Answer, Answers, outcome_event
 
 
@@ -107,6 +108,7 @@ def test_a_lost_link_leaves_it_unknown(bench):
     assert len(bench.answers) == 0
 
 
+CATALOGUE = Catalogue.installed()
 BEFORE = {"ratePIDs": {"ailerons": {"p": 3.0, "i": 0.0, "d": 0.0}}}
 AFTER = {"ratePIDs": {"ailerons": {"p": 2.4, "i": 0.0, "d": 0.0}}}
 NACK = Answer("nack", "forbidden", "not in flight")
@@ -122,7 +124,7 @@ NACK = Answer("nack", "forbidden", "not in flight")
             {"text": "{0.x}"},
             Answer("ack"),
             "command_ack",
-            'Ann: Say "{0.x}" carried out',
+            'Ann: Speak "{0.x}" carried out',
         ),
         ("a.cog", {"text": 1}, Answer("ack"), "command_ack", "Ann: a.cog carried out"),
         (
@@ -138,6 +140,7 @@ NACK = Answer("nack", "forbidden", "not in flight")
     ],
 )
 def test_an_outcome_is_an_event(name, data, answer, code, text):
-    kind, report = outcome_event("Ann", name, data, BEFORE, answer)
+    title = title_of(CATALOGUE.get(name), name, data)
+    kind, report = outcome_event("Ann", title, name, data, BEFORE, answer)
     assert (report.code, kind) == (code, code.partition("_")[0])
     assert text in (None, report.text)

@@ -47,6 +47,7 @@ def test_a_command_is_told_with_all_that_a_form_needs():
     assert told == {
         "name": "tow.banner",
         "aliases": ["tow.rag"],
+        "title": "tow.banner",
         "role": "pilot",
         "role_where": [],
         "text": "Drops it.",

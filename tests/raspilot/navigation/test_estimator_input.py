@@ -7,8 +7,10 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from raspilot.navigation.airframe_model import AirframeModel
 from raspilot.navigation.estimator import Estimator
 from raspilot.navigation.fix_gate import Fix
+from up.flight_modes.navigation_file import NavigationConfig
 from up.flight_modes.navigation_state import LocalFrame, Point
 
 FRAME = LocalFrame(50.0, 14.0)
@@ -19,8 +21,8 @@ ROLL_DEG = math.degrees(math.atan(SPEED_M_S**2 / RADIUS_M / 9.80665))
 class Circling:
     """An estimator in an aircraft that circles without wind; ``change`` replaces its fixes."""
 
-    def __init__(self):
-        self.estimator = Estimator()
+    def __init__(self, config=None):
+        self.estimator = Estimator(AirframeModel(config))
         self.estimator.throttle(0.49)
         self.time_s = 0.0
         self.yaw_offset_deg = 40.0
@@ -108,6 +110,22 @@ def test_a_reachable_outlier_that_proves_true_is_believed(circling):
     assert circling.off_m < 10 and circling.estimator.rejected["jump"] == 4
     circling.fly(8, beside)
     assert circling.off_m == pytest.approx(90, abs=20)
+
+
+@pytest.mark.parametrize(("maximum_m_s", "is_believed"), [(16.0, False), (60.0, True)])
+def test_what_is_reachable_depends_on_the_greatest_airspeed(maximum_m_s, is_believed):
+    config = NavigationConfig()
+    speeds = replace(config.airspeed, maximum_m_s=maximum_m_s)
+    circling = Circling(replace(config, airspeed=speeds)).fly(40)
+    circling.fly(6, lambda fix: replace(fix, latitude_deg=fix.latitude_deg + 330 / 111_195))
+    assert (circling.off_m > 100) == is_believed
+
+
+def test_gusts_make_a_circle_without_fixes_as_uncertain_as_flights_show(circling):
+    """In moderate turbulence 30 s of dead reckoning were wrong by 45 m rms, 77 m at most."""
+    assert circling.estimator.state().position_sd_m < 5
+    state = circling.fly(30, lambda fix: None).estimator.state()
+    assert 35.0 < state.position_sd_m < 55.0
 
 
 def test_another_country_is_never_believed_in_flight(circling):

@@ -85,10 +85,11 @@ def test_altitude_is_changed_within_the_climb_limits(wind):
     plane.fly(PathDemand(CIRCLE, 300.0), 30)
     for altitude in (340.0, 310.0):
         track = plane.fly(PathDemand(CIRCLE, altitude), 40)
-        assert max(abs(each.climb_m_s) for each in track) < LIMITS.climb_limit_m_s + 0.7
+        assert max(abs(each.climb_m_s) for each in track) < LIMITS.climb_limit_m_s + 1.0
         assert track[-1].altitude_m == pytest.approx(altitude, abs=0.5)
         # Idle does not descend fast enough: the rest of the energy is airspeed.
-        assert all(-0.7 < each.airspeed_m_s - SPEEDS.cruise_m_s < 2.2 for each in track)
+        most = SPEEDS.maximum_m_s + 0.5 if altitude == 340.0 else SPEEDS.cruise_m_s + 2.2
+        assert all(SPEEDS.cruise_m_s - 0.7 < each.airspeed_m_s < most for each in track)
 
 
 def test_a_climb_rate_is_held_without_an_altitude():
@@ -146,6 +147,19 @@ def test_after_the_motor_has_stopped_the_airspeed_stays():
     assert track[-1].climb_m_s == pytest.approx(-0.7, abs=0.2)
 
 
+@pytest.mark.parametrize("climbing_s", [2.0, 5.0, 15.0])
+def test_a_stop_in_a_long_climb_may_be_seen_late(climbing_s):
+    plane = PointMass()
+    plane.fly(PathDemand(CIRCLE, 300.0), 40)
+    climb = PathDemand(Circle(Point(900.0, 0.0), 50.0), 420.0)
+    plane.fly(climb, climbing_s)
+    plane.thrust = 0.0
+    plane.fly(climb, 3.5)
+    plane.motor_stopped = True
+    plane.fly(climb, 10)
+    assert min(each.airspeed_m_s for each in plane.track) > 1.15 * SPEEDS.stall_m_s
+
+
 def test_a_false_alarm_costs_no_height_and_little_airspeed():
     plane = PointMass()
     demand = PathDemand(CIRCLE, 300.0)
@@ -172,7 +186,7 @@ def test_the_sums_are_frozen_at_the_limits():
     begin = plane.altitude
     track = plane.fly(PathDemand(CIRCLE, begin - 20.0), 20)
     assert track[-1].altitude_m == pytest.approx(begin - 20.0, abs=2.0)
-    assert max(each.altitude_m for each in track) < begin + 3.0
+    assert max(each.altitude_m for each in track) < begin + 6.0
 
 
 def stepped(controller, demand, state, duration_s):
@@ -184,10 +198,20 @@ def stepped(controller, demand, state, duration_s):
 
 def test_pitch_does_not_climb_at_the_least_airspeed():
     state = replace(PointMass().state, airspeed_m_s=SPEEDS.minimum_m_s - 0.5)
-    climb = PathDemand(Bank(0.0), 400.0, airspeed_m_s=SPEEDS.minimum_m_s)
+    climb = PathDemand(Bank(0.0), 305.0, airspeed_m_s=SPEEDS.minimum_m_s)
     assert stepped(PathController(CONFIG), climb, state, 1.0).pitch_deg < 5.0
     fast = replace(state, airspeed_m_s=SPEEDS.cruise_m_s)
     assert stepped(PathController(CONFIG), climb, fast, 1.0).pitch_deg > 6.0
+
+
+def test_a_long_climb_has_the_pitch_from_which_a_stop_is_survived():
+    """The airspeed that it has counts, not the one that it should have."""
+    controller, state = PathController(CONFIG), PointMass().state
+    highest_deg = AirframeModel(CONFIG).climb_pitch_deg(SPEEDS.cruise_m_s, 1.0)
+    pitch_deg = stepped(controller, PathDemand(Bank(0.0), 400.0), state, 5.0).pitch_deg
+    assert pitch_deg == pytest.approx(highest_deg)
+    near = PathDemand(Bank(0.0), 305.0)
+    assert stepped(controller, near, state, 5.0).pitch_deg > highest_deg + 2.0, "against a gust"
 
 
 def test_the_throttle_is_not_wound_up_by_an_unreachable_climb():

@@ -9,6 +9,7 @@ from tests.support.firmware import build_firmware
 from tests.support.tools import unavailable
 from up_simulator.aircraft import FlightDynamics, Start, airframe_names, load_airframe
 from up_simulator.firmware.build import BoardUnavailableError, choose_board
+from up_simulator.firmware.line_monitor import LineMonitor
 from up_simulator.firmware.preparation import cached_eeprom
 from up_simulator.harness.world import World
 
@@ -20,7 +21,9 @@ def airborne(name, aux1, kind="host", **start):
     """The host build is the same source as the chip's, and flies four times as fast."""
     airframe = load_airframe(name)
     try:
-        eeprom = cached_eeprom(kind, airframe.profile, airframe.gains)
+        eeprom = cached_eeprom(
+            kind, airframe.profile, airframe.gains, divider=airframe.battery.divider
+        )
         board = choose_board(kind, eeprom=eeprom)
     except BoardUnavailableError as error:
         unavailable(str(error))
@@ -64,3 +67,22 @@ def test_the_elevons_move_as_on_the_wiring_page():
         world.advance(0.2)
         left, right, *_ = world.board.pulses_us()
         assert left_sign * (left - 1500) > 150 and right_sign * (right - 1500) > 150
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_the_board_measures_the_battery_that_the_motor_empties(name):
+    world, tap = airborne(name, MIDDLE), LineMonitor()
+
+    def measured_v():
+        world.board.write(tap.start_bytes())
+        world.board.read()
+        world.advance(0.4)
+        tap.feed(world.board.read(), world.time_s)
+        return tap.status.battery_mv / 1000
+
+    full_v = measured_v()
+    world.board.set_stick("throttle", 1800.0)
+    world.advance(5.0)
+    assert measured_v() == pytest.approx(world.state.battery_v, abs=0.05)
+    assert full_v - measured_v() > 0.2
+    assert world.dynamics.crash is None

@@ -118,6 +118,17 @@ def test_commands_are_answered_alike(pair):
     pair.agree("stands")
 
 
+def test_the_battery_is_measured_alike(pair):
+    pair.board("set_a7", 1.0)
+    pair.each("run_ms", 8000)
+    assert pair.agree("answers", "V", (12500).to_bytes(2, "big")) == [("K", b"V\0")]
+    for volts, within_v in ((1.0, (12.45, 12.52)), (0.8, (9.97, 10.03)), (1.2, (0.0, 0.0))):
+        pair.board("set_a7", volts)
+        pair.each("run_ms", 7000 if volts < 1 else 200)
+        for status in pair.each("status"):
+            assert within_v[0] <= status.battery_mv / 1000 <= within_v[1]
+
+
 def test_raspberry_flies_both_alike(pair):
     pair.each("sticks", aux1=HIGH, aux2=HIGH)
     assert pair.agree("stands").is_armed

@@ -126,6 +126,18 @@ def test_a_board_with_the_prepared_eeprom_boots_with_the_settings(elf):
     assert (values[0], values[1], values[12]) == (2.5, 0.25, 3.5)
 
 
+@pytest.mark.parametrize("divider", [0.0, 0.08])
+def test_a_divider_is_calibrated_also_without_a_motor(elf, divider):
+    prepared = prepare_eeprom(board(elf), {"motor": False}, {}, divider)
+    fresh, tap = board(elf, eeprom=prepared), LineMonitor()
+    fresh.set_a7(11.1 * 0.08)
+    fresh.run_us(1_500_000)
+    fresh.write(tap.start_bytes())
+    fresh.run_us(300_000)
+    tap.feed(fresh.read(), 1.8)
+    assert tap.status.battery_mv == pytest.approx(11_100 if divider else 0, abs=30)
+
+
 def test_the_work_is_done_once_for_each_firmware_and_each_set(tmp_path, monkeypatch, elf):
     monkeypatch.setattr(preparation, "cache_path", lambda *names: tmp_path.joinpath(*names))
     made = []

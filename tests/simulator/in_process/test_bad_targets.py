@@ -15,7 +15,8 @@ SCENARIO = {
     "title": "Bad targets",
     "board": "host",
     "duration_s": 300,
-    "raspilot": {"runs": "in process"},
+    # No position is accurate enough: home is set by a Command only.
+    "raspilot": {"runs": "in process", "config": {"navigation.yml": {"home_accuracy_m": 1}}},
     "phone": {},
     "ground": {"role": "operator", "period_ms": 100},
     "sticks": [{"at_s": 0, "mode": "AUTO", "arm": True, "throttle": 0.55}],
@@ -49,6 +50,14 @@ class Flight:
         sent = self.ground.send(name, **data)
         self.fly(0.3)
         return self.ground.answer(sent)
+
+    def refusal(self, name, **data):
+        """Return code and detail of the refusal of a Command."""
+        sent = self.ground.send(name, **data)
+        self.fly(0.3)
+        nack = self.ground.others["up.nack"]
+        assert nack["id"] == sent and self.ground.answer(sent)
+        return nack["code"], nack["detail"]
 
     def write(self, name, data, number):
         """Send a line with a number that JSON does not have; return the answer."""
@@ -97,8 +106,17 @@ def flight(flown):
     assert before[0] == "LOITER"
 
 
+def test_return_is_refused_and_not_offered_until_home_is_set(flight):
+    assert flight.control["modes"]["RETURN"] == "no_home"
+    assert flight.refusal("up.flight_mode.set", mode="RETURN") == ("refused", "no_home")
+    assert (flight.control["selected"], flight.control["mode"]) == ("LOITER", "LOITER")
+    assert flight.asked("up.home.set") == ""
+    assert flight.control["modes"]["RETURN"] is None
+
+
 def test_a_mode_without_what_it_needs_is_refused(flight):
-    assert "up.navigation.target" in flight.asked("up.flight_mode.set", mode="GUIDED")
+    assert flight.control["modes"]["GUIDED"] == "no_target"
+    assert flight.refusal("up.flight_mode.set", mode="GUIDED") == ("refused", "no_target")
 
 
 @pytest.mark.parametrize(
@@ -148,7 +166,9 @@ def test_a_home_that_cannot_be_is_refused_and_home_stays(flight, data, named):
 def test_guided_refuses_and_does_not_follow_what_is_too_far(flight):
     far = {"latitude": 50.3, "longitude": 14.5}
     flight.asked("up.navigation.target", **far)
-    assert "guided.yml: max_distance_m" in flight.asked("up.flight_mode.set", mode="GUIDED")
+    refusal = flight.refusal("up.flight_mode.set", mode="GUIDED")
+    assert refusal == ("refused", "target_too_far")
+    assert flight.control["modes"]["GUIDED"] == "target_too_far"
 
 
 @pytest.mark.parametrize("mode", ["", "loiter", "LOITERR", "NaN", "AUTO; rm -rf /", "X" * 5000])

@@ -72,7 +72,7 @@ def test_it_sends_its_measurements_and_answers(server):
     with phone(server) as program, Peer(server) as peer:
         place = peer.wait_for("up.location.update")["data"]
         assert (place["latitude"], place["longitude"]) == pytest.approx((50.0, 14.5), abs=0.01)
-        assert set(place) >= {"altitude", "accuracy", "speed", "bearing"}
+        assert set(place) >= {"altitude", "accuracy", "speed", "bearing", "satellites"}
         for name in ("up.altitude.change", "up.heading.change"):
             peer.wait_for(name)
         peer.send(b'{"name": "android.speak", "data": {"text": "Hello"}, "id": "42"}\n')

@@ -12,6 +12,7 @@ from arduino_cog.commands.arduino_profile_commands import (
     ArduinoProfileValuesCommand,
 )
 from arduino_cog.commands.arduino_status_command import ArduinoStatusCommand
+from arduino_cog.commands.battery_calibrate_command import BatteryCalibrateCommand
 from black_box_cog.commands.mark_command import MarkCommand
 from black_box_cog.commands.record_command import RecordCommand
 
@@ -30,6 +31,7 @@ COGS = (
     ArduinoProfileRequestCommand,
     ArduinoProfileValuesCommand,
     ArduinoStatusCommand,
+    BatteryCalibrateCommand,
     MarkCommand,
     RecordCommand,
 )
@@ -41,7 +43,9 @@ WHO = {
         "android.speak", "black_box.mark", "up.flight_mode.set", "up.home.set",
         "up.navigation.target", "up.telemetry.frequency",
     ),
-    "pilot": ("arduino.calibrate", "arduino.pids.tunings", "up.arm", "up.disarm"),
+    "pilot": (
+        "arduino.calibrate", "arduino.pids.tunings", "up.arm", "up.battery.calibrate", "up.disarm",
+    ),
     "sensor": (
         "android.battery", "black_box.record", "up.altitude.change", "up.heading.change",
         "up.location.change", "up.location.update", "up.orientation.update",
@@ -94,6 +98,7 @@ SAMPLES = {
     "android.battery.low": {"level": 5, "low": True},
     "android.speak": {"text": "hello"},
     "arduino.calibrate": {"what": "level"},
+    "up.battery.calibrate": {"voltage": 12.6},
     "black_box.mark": {"text": "thermal"},
     "black_box.record": {"topic": "pitot.air", "content": {}},
     "arduino.profile.request": {},

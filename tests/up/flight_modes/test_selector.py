@@ -9,7 +9,7 @@ import pytest
 from up.commands.orientation_command import OrientationCommand
 from up.commands.refusal import CommandRefusedError
 from up.flight_modes.demand import AttitudeDemand, Circle, PathDemand
-from up.flight_modes.flight_mode import FlightMode, FlightSituation
+from up.flight_modes.flight_mode import FlightMode, FlightSituation, ModeRefusal
 from up.flight_modes.navigation_state import Point
 from up.flight_modes.selector import DemandError, FlightModeSelector
 
@@ -155,6 +155,10 @@ def test_what_is_offered_and_why_the_rest_is_not(rig):
     assert offers == {"BEST": "navigation", "SAFE": None, "LAST": None}
     rig.stale, rig.best.reason = set(), "no home"
     assert rig.selector.offers(SITUATION)["BEST"] == "mode_refused"
+    rig.best.reason = ""
+    assert rig.selector.offers(SITUATION)["BEST"] is None
+    rig.best.reason = ModeRefusal("no_home", "no home")
+    assert rig.selector.offers(SITUATION)["BEST"] == "no_home"
 
 
 @pytest.mark.parametrize(
@@ -162,6 +166,7 @@ def test_what_is_offered_and_why_the_rest_is_not(rig):
     [
         ("BEST", {"navigation"}, None, "reading_stale"),
         ("BEST", set(), "no home", "mode_refused"),
+        ("BEST", set(), ModeRefusal("no_home", "no home"), "no_home"),
         ("BSET", set(), None, "mode_unknown"),
         ("", set(), None, "mode_unknown"),
     ],

@@ -15,7 +15,7 @@ FOLDER = Path(__file__).parents[2] / "vectors"
 FROM_ARDUINO = {
     ord(letter): size
     for letter, size in {
-        "r": 8, "i": 13, "o": 12, "O": 26, "x": 20, "K": 2, "!": 3, "m": 1, "T": 48, "G": 72,
+        "r": 8, "i": 13, "o": 12, "O": 26, "x": 22, "K": 2, "!": 3, "m": 1, "T": 48, "G": 72,
         "C": 54, "s": 0, "a": 0, "d": 0, "h": 2, "b": 2, "B": 2, "l": 8, "p": 3, "t": 48,
     }.items()
 }  # fmt: skip
@@ -25,6 +25,7 @@ TO_ARDUINO = {
     for letter, size in {
         "s": 0, "a": 0, "d": 0, "M": 1, "m": 0, "p": 3, "t": 48, "T": 0, "g": 72, "G": 0, "h": 2,
         "b": 2, "B": 2, "l": 8, "u": 10, "S": 10, "R": 10, "v": 1, "C": 54, "c": 0, "e": 1,
+        "V": 2,
     }.items()
 }  # fmt: skip
 SIZES = {"from_arduino": FROM_ARDUINO, "to_arduino": TO_ARDUINO}

@@ -226,3 +226,12 @@ def test_garbage_between_good_frames_loses_at_most_one(garbage, cuts):
 
 def test_framings_are_made_by_name():
     assert make_framing("thesis", TO_ARDUINO)[0].encode(H, b"ab") == b"hab"
+
+
+@pytest.mark.parametrize(("size", "frames"), [(19, 0), (20, 1), (22, 1), (40, 1)])
+def test_a_type_with_a_least_size_may_be_longer_and_shorter(size, frames):
+    reader = CheckedDecoder({ord("x"): 22, H: 2}, {ord("x"): 20})
+    payload = bytes(range(1, size + 1))
+    assert reader.feed(checked_frame(0, ord("x"), payload)) == [(ord("x"), payload, 0)] * frames
+    assert reader.feed(checked_frame(1, H, b"\1\2\3")) == []
+    assert reader.counters.format_errors == 2 - frames

@@ -8,7 +8,9 @@ from twisted.internet.task import Clock
 
 from tests.support.system import build_up
 from tests.up.commands.samples import Log
+from tests.up.protocols.golden import vectors
 from up.commands.altitude_command import AltitudeCommand
+from up.commands.command import InvalidCommandError
 from up.commands.heading_command import HeadingCommand
 from up.commands.location_command import LocationCommand
 from up.commands.orientation_command import OrientationCommand
@@ -178,6 +180,20 @@ def test_home_is_the_first_place_and_the_way_back_is_computed_here(rig):
     assert provider.distance_from_home == pytest.approx(111.2, abs=0.1)
     assert provider.required_bearing == pytest.approx(180)
     assert (provider.latitude, provider.longitude, provider.altitude) == (49.001, 16.0, 230.0)
+
+
+def test_a_fix_of_the_vectors_reaches_telemetry_with_age_and_satellites(rig):
+    fix = next(each["data"] for each in vectors("general_message.json") if "age_ms" in each["data"])
+    rig.publish(LocationCommand.from_data(fix), PHONE)
+    value = rig[UpLocationProvider].reading.value
+    assert (value.age_ms, value.satellites, value.accuracy_m) == (812.0, 9, 3.1)
+    assert {**fix, **value.data} == {**value.data, **fix}
+    assert rig.up.telemetry_controller.collect()["location"] == {
+        "latitude": 48.1485912, "longitude": 17.1077499, "altitude": 151.3, "satellites": 9,
+    }  # fmt: skip
+    for satellites in (-1, 256, 8.5, True):
+        with pytest.raises(InvalidCommandError):
+            LocationCommand.from_data({**fix, "satellites": satellites})
 
 
 def test_telemetry_has_exactly_the_fields_of_the_schema(rig):

@@ -125,6 +125,7 @@ static void reset(rig_t *rig) {
     rig->reset_until = avr->cycle + rig->start_up;
     timers_reset(rig, rig->reset_until);
     twi_reset(rig);
+    adc_reset(rig);
     uart_reset(rig, avr->cycle);
     eeprom_reset(rig, avr->cycle);
     ports_reset(rig, avr->cycle);
@@ -162,10 +163,21 @@ static void preload(rig_t *rig) {
     rig->break_pc = UINT32_MAX;
 }
 
+/* CPSE, SBRC, SBRS, SBIC, SBIS in front of ADIW or SBIW. */
+static bool skips_addition(const avr_t *avr) {
+    uint16_t code = opcode(avr);
+    bool is_skip = (code & 0xFC00) == 0x1000 || (code & 0xFC08) == 0xFC00 || (code & 0xFD00) == 0x9900;
+    return is_skip && (avr->flash[avr->pc + 3] & 0xFE) == 0x96;
+}
+
 static void run_one(rig_t *rig) {
-    bool writes_flash = opcode(rig->avr) == SPM;
-    rig->avr->run_cycle_count = 1;
-    rig->avr->pc = avr_run_one(rig->avr);
+    avr_t *avr = rig->avr;
+    bool writes_flash = opcode(avr) == SPM;
+    uint32_t beyond = skips_addition(avr) ? avr->pc + 6 : UINT32_MAX;
+    avr->run_cycle_count = 1;
+    avr->pc = avr_run_one(avr);
+    /* simavr takes some constants of ADIW for a second word, and skips one too many. */
+    if (avr->pc == beyond) avr->pc -= 2, avr->cycle--;
     if (writes_flash) quick_discard(rig);
 }
 
@@ -289,6 +301,7 @@ rig_t *rig_new(uint32_t seed) {
     twi_hook(rig);
     eeprom_hook(rig);
     watchdog_hook(rig);
+    adc_hook(rig);
     return rig;
 }
 

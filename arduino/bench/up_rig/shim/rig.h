@@ -28,7 +28,7 @@ enum {
     R_SPCR = 0x4C, R_MCUSR = 0x54, R_MCUCR, R_SPMCSR = 0x57,
     R_WDTCSR = 0x60, R_CLKPR, R_PRR = 0x64,
     R_PCICR = 0x68, R_EICRA, R_PCMSK0 = 0x6B, R_PCMSK1, R_PCMSK2, R_TIMSK0, R_TIMSK1, R_TIMSK2,
-    R_ADCSRA = 0x7A,
+    R_ADCL = 0x78, R_ADCH, R_ADCSRA, R_ADCSRB, R_ADMUX,
     R_TCCR1A = 0x80, R_TCCR1B, R_TCCR1C, R_TCNT1L = 0x84, R_TCNT1H, R_ICR1L, R_ICR1H,
     R_OCR1AL, R_OCR1AH, R_OCR1BL, R_OCR1BH,
     R_TCCR2A = 0xB0, R_TCCR2B, R_TCNT2, R_OCR2A, R_OCR2B, R_ASSR = 0xB6,
@@ -136,6 +136,13 @@ typedef struct {
 typedef struct { cycle_t change_until, due; double factor; } watchdog_t;
 
 typedef struct {
+    uint32_t pins_uv[8];
+    cycle_t hold, done;       /* of the present conversion, NEVER without one */
+    uint16_t held;
+    bool is_locked;           /* ADCL was read, ADCH not yet */
+} adc_t;
+
+typedef struct {
     uint64_t interrupt_cycles;          /* from an interrupt's entry to its RETI */
     uint64_t counts[VECTORS];
     uint32_t longest[VECTORS];          /* cycles of one run of the handler, entry included */
@@ -169,6 +176,7 @@ struct rig {
     imu_t imu;
     eeprom_t eeprom;
     watchdog_t watchdog;
+    adc_t adc;
     meter_t meter;
     record_t edges, sent;
     bool drops_edges;        /* unused by the caller: only the newest pulses are kept */
@@ -248,6 +256,9 @@ void eeprom_hook(rig_t *rig);
 void eeprom_reset(rig_t *rig, cycle_t now);
 void eeprom_run(rig_t *rig, cycle_t now);
 void eeprom_power_cut(rig_t *rig, cycle_t now);
+
+void adc_hook(rig_t *rig);
+void adc_reset(rig_t *rig);
 
 void watchdog_hook(rig_t *rig);
 void watchdog_reset(rig_t *rig, cycle_t now, uint8_t cause);

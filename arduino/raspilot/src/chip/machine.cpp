@@ -26,6 +26,7 @@ static Autopilot autopilot;
 
 // Sections of their own, which the linker drops: the compiler has the addresses already.
 #define ONLY __attribute__((section(".data.only")))
+#ifdef __AVR__
 template <> Autopilot& Reference<Autopilot>::only ONLY = autopilot;
 template <> const Profile& Reference<const Profile>::only ONLY = autopilot.settings.profile;
 template <> const Gains& Reference<const Gains>::only ONLY = autopilot.settings.gains;
@@ -33,6 +34,7 @@ template <> Calibration& Reference<Calibration>::only ONLY = autopilot.settings.
 template <>
 const Calibration& Reference<const Calibration>::only ONLY = autopilot.settings.calibration;
 template <> const PwmReader& Reference<const PwmReader>::only ONLY = autopilot.receiver;
+#endif
 
 namespace machine {
 
@@ -47,7 +49,11 @@ static constexpr int16_t BYTE_TICKS = 2 * 150;
 static constexpr int16_t COMMAND_TICKS = 2 * 390;
 /** After this many slots without background work a slot gives up its sample for it. */
 static constexpr uint8_t PATIENT_SLOTS = 5;
-/** State is kept 50 times a second. */
+/** The pin against the internal 1.1 V; free running at 125 kHz, a conversion takes 0.1 ms. */
+static constexpr uint8_t ADC_BATTERY = _BV(REFS1) | _BV(REFS0) | (PIN_BATTERY - 14);
+static constexpr uint8_t ADC_RUNS =
+    _BV(ADEN) | _BV(ADSC) | _BV(ADATE) | _BV(ADPS2) | _BV(ADPS1) | _BV(ADPS0);
+/** State is kept, and the battery measured, 50 times a second. */
 static constexpr uint8_t KEEP_SLOTS = 10;
 /** The LED changes each half second while all is well, ten times faster while the IMU is not. */
 static constexpr uint8_t SLOW_LED_SLOTS = 250;
@@ -63,7 +69,8 @@ static uint8_t slots_to_blink;
 
 OUT_OF_LINE void setup() {
   cli();
-  ADCSRA = 0;
+  ADMUX = ADC_BATTERY;
+  ADCSRA = ADC_RUNS;
   clock::begin();
   uart::begin();
   edges::begin();
@@ -109,6 +116,7 @@ static void work(int16_t left) {
     autopilot.link.on_byte(byte, clock::now_us());
   } else if (left >= KEEP_TICKS && !slots_to_keep) {
     slots_to_keep = KEEP_SLOTS;
+    autopilot.battery.on_count(ADC);
     reset::keep(autopilot.state());
   } else if (left >= PIECE_TICKS) {
     autopilot.background(clock::now_us());

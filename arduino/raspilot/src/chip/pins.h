@@ -35,6 +35,8 @@ constexpr uint8_t PIN_SERVO_RUDDER = 11;
 constexpr uint8_t PIN_ESC_THROTTLE = 3;
 #endif
 constexpr uint8_t PIN_LED = 13;
+/** A7, which has no port. */
+constexpr uint8_t PIN_BATTERY = 21;
 
 /** The pin's bit in its port: D0 to D7 are port D, D8 to D13 port B, A0 to A5 port C. */
 constexpr uint8_t pin_bit(uint8_t pin) {

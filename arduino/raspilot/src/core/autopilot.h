@@ -1,6 +1,7 @@
 /** Everything that flies, apart from the chip: its parts, and the order in which a slot runs. */
 #pragma once
 
+#include "battery.h"
 #include "compiler.h"
 #include "../control/attitude_filter.h"
 #include "../control/flight_controller.h"
@@ -37,6 +38,7 @@ class Autopilot {
   FlightController controller;
   Link link;
   LoopMeter meter;
+  Battery battery;
   uint8_t reset_cause ZEROED;
 
  private:

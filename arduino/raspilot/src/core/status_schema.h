@@ -7,7 +7,7 @@
 namespace raspilot {
 
 constexpr uint8_t PROTOCOL_VERSION = 1;
-constexpr uint8_t STATUS_SIZE = 20;
+constexpr uint8_t STATUS_SIZE = 22;
 
 /** Flight modes by their letter on the wire. */
 enum class Mode : char {
@@ -34,7 +34,8 @@ enum class Reason : uint8_t {
   VETO = 11,
   NOT_STILL = 12,
   NOT_ALLOWED = 14,
-  NOT_IN_FAILSAFE = 15
+  NOT_IN_FAILSAFE = 15,
+  BATTERY_NOT_MEASURED = 16
 };
 
 /** Veto bits of the status. */
@@ -83,7 +84,8 @@ enum StatusOffset : uint8_t {
   AT_FRAMES_LOST = 12,
   AT_UPTIME_S = 14,
   AT_RX_AGE_MS = 16,
-  AT_IMU_AGE_MS = 18
+  AT_IMU_AGE_MS = 18,
+  AT_BATTERY_MV = 20
 };
 
 }  // namespace raspilot

@@ -8,9 +8,9 @@ namespace raspilot {
 
 namespace {
 
-// Of 10 bits a byte 70 % at most; the status takes 26 bytes of it five times a second.
+// Of 10 bits a byte 70 % at most; the status, with 6 bytes around it, goes five times a second.
 constexpr uint32_t LOAD_BYTES_S = RASPILOT_BAUD / 10 * 7 / 10;
-constexpr uint32_t STATUS_BYTES_S = 26 * 5;
+constexpr uint32_t STATUS_BYTES_S = (STATUS_SIZE + 6) * 5;
 constexpr uint32_t STREAMED_BYTES = 19 + 32 + 14;
 constexpr uint32_t MIN_PERIOD_US = STREAMED_BYTES * 1000000UL / (LOAD_BYTES_S - STATUS_BYTES_S);
 constexpr uint8_t STEP_BITS = 5;
@@ -150,7 +150,7 @@ uint32_t Forwarder::orientation_age_us(uint16_t sequence, uint32_t now_us) const
   if (back == 0 || back > remembered_ || !is_remembered(now_units)) return NEVER;
   // From the beginning of the unit in which it was sent to the end of this one.
   const uint8_t age = static_cast<uint8_t>(now_units - sent_[sequence % REMEMBERED]);
-  return static_cast<uint32_t>(age + 1) << 10;
+  return static_cast<uint32_t>(age + 1UL) << 10;
 }
 
 void Forwarder::check(uint32_t now_us) {

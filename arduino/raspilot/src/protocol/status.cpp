@@ -38,6 +38,7 @@ void write_status(const Autopilot& autopilot, uint32_t now_us) {
   Link::Frame::u16(autopilot.meter.seconds());
   Link::Frame::u16(autopilot.receiver.age_ms(now_us));
   Link::Frame::u16(autopilot.attitude.age_ms());
+  Link::Frame::u16(autopilot.battery.mv(autopilot.settings.battery_full_scale_mv));
 }
 
 }  // namespace raspilot

@@ -1,9 +1,12 @@
 #include "settings.h"
 
+#include <string.h>
+
 #include "../core/board.h"
 #include "../core/compiler.h"
 #include "../core/flash.h"
 #include "eeprom_slot.h"
+#include "wire_bytes.h"
 
 namespace raspilot {
 
@@ -15,7 +18,7 @@ constexpr uint8_t VERSION = 1;
 constexpr uint8_t MAX_ATTEMPTS = 3;
 constexpr uint8_t LARGEST_SIZE = GAINS_SIZE;
 
-const uint8_t SIZES[] PROGMEM = {PROFILE_SIZE, GAINS_SIZE, CALIBRATION_SIZE};
+const uint8_t SIZES[] PROGMEM = {PROFILE_SIZE, GAINS_SIZE, CALIBRATION_SIZE, BATTERY_SIZE};
 
 uint8_t size_of(uint8_t kind) { return pgm_read_byte(&SIZES[kind]); }
 
@@ -30,6 +33,7 @@ void Settings::load() {
   memcpy_P(&profile, &DEFAULT_PROFILE, sizeof profile);
   memcpy_P(&gains, &DEFAULT_GAINS, sizeof gains);
   memcpy_P(&calibration, &DEFAULT_CALIBRATION, sizeof calibration);
+  battery_full_scale_mv = 0;
   for (uint8_t kind = 0; kind < KINDS; ++kind) load_kind(static_cast<Kind>(kind));
   kind_ = PROFILE;
   begin_save();
@@ -65,7 +69,8 @@ bool Settings::is_broken() const {
 }
 
 bool Settings::is_saving() const {
-  return kinds_[PROFILE].is_pending || kinds_[GAINS].is_pending || kinds_[CALIBRATION].is_pending;
+  return kinds_[PROFILE].is_pending || kinds_[GAINS].is_pending || kinds_[CALIBRATION].is_pending ||
+         kinds_[BATTERY].is_pending;
 }
 
 bool Settings::background(bool is_armed) {
@@ -173,7 +178,9 @@ bool Settings::is_at_end() const { return offset_ >= size_of(kind_) + SLOT_OVERH
 bool Settings::apply(Kind kind, const uint8_t* data) {
   if (kind == PROFILE) return read_profile(data, profile);
   if (kind == GAINS) return read_gains(data, gains);
-  return read_calibration(data, calibration);
+  if (kind == CALIBRATION) return read_calibration(data, calibration);
+  memcpy(&battery_full_scale_mv, data, BATTERY_SIZE);
+  return true;
 }
 
 void Settings::fill(uint8_t* data) const {
@@ -181,8 +188,10 @@ void Settings::fill(uint8_t* data) const {
     write_profile(profile, data);
   } else if (kind_ == GAINS) {
     write_gains(gains, data);
-  } else {
+  } else if (kind_ == CALIBRATION) {
     write_calibration(calibration, data);
+  } else {
+    memcpy(data, &battery_full_scale_mv, BATTERY_SIZE);
   }
 }
 

@@ -1,5 +1,6 @@
 /**
- * Profile, gains and calibration: the active values, and two CRC'd copies of each in EEPROM.
+ * Profile, gains, calibration and the battery's scale: the active values, and two CRC'd copies of
+ * each in EEPROM.
  *
  * Each kind has two slots; the newer valid one is loaded, a save goes into the other, byte by byte
  * in the background, so that a power cut leaves the older. Saving waits while armed.
@@ -13,11 +14,15 @@
 
 namespace raspilot {
 
+constexpr uint8_t BATTERY_SIZE = 2;
+
 class Settings {
  public:
   Profile profile;
   Gains gains;
   Calibration calibration;
+  /** The flight battery's voltage at which A7 has 1.1 V; 0: no divider. */
+  uint16_t battery_full_scale_mv;
 
   /** Reads EEPROM; missing or damaged values become the defaults. */
   void load();
@@ -28,6 +33,7 @@ class Settings {
   void save_profile() { save(PROFILE); }
   void save_gains() { save(GAINS); }
   void save_calibration() { save(CALIBRATION); }
+  void save_battery() { save(BATTERY); }
   /**
    * Writes or checks at most one byte of EEPROM; never waits; false when there is nothing to do
    * now. A save that arming interrupts, or whose slot does not read back, restarts.
@@ -38,11 +44,14 @@ class Settings {
   /** Whether a valid copy is in EEPROM (gains: status flag bit 6). */
   bool has_gains() const { return kinds_[GAINS].is_stored; }
   bool has_calibration() const { return kinds_[CALIBRATION].is_stored; }
-  /** EEPROM held a kind and no copy of it can be read: arming veto bit 6. */
+  /**
+   * EEPROM held a kind and no copy of it can be read: arming veto bit 6. The battery's scale does
+   * not count: without it the voltage is unknown.
+   */
   bool is_broken() const;
 
  private:
-  enum Kind : uint8_t { PROFILE, GAINS, CALIBRATION, KINDS };
+  enum Kind : uint8_t { PROFILE, GAINS, CALIBRATION, BATTERY, KINDS };
 
   struct KindState {
     bool is_pending;

@@ -14,6 +14,7 @@ class AndroidSpeakCommand(BaseCommand):
     """Text for the phone's voice; carried to the phone, which answers it."""
 
     NAME: ClassVar[str] = "android.speak"
+    TITLE: ClassVar[str] = 'Speak "{}"'
     ROLES: ClassVar[frozenset[Role]] = frozenset({Role.OPERATOR})
     ROUTE: ClassVar[str] = "android"
     text: str = value(max_length=200)

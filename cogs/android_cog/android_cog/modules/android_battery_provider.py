@@ -12,12 +12,13 @@ from android_cog.commands.android_battery_command import (
 from android_cog.config import ANDROID
 from up.commands.command import BaseCommand
 from up.commands.telemetry_schema import READINGS
+from up.failures import FailureSource
 from up.providers.base_provider import BaseProvider, Reading
 
 HYSTERESIS_PERCENT = 5.0
 
 
-class AndroidBatteryProvider(BaseProvider[float]):
+class AndroidBatteryProvider(BaseProvider[float], FailureSource):
     """Provides the level of the phone's battery, percent, and reports when it becomes low."""
 
     READING = "battery"
@@ -36,6 +37,11 @@ class AndroidBatteryProvider(BaseProvider[float]):
     def battery_level(self) -> float | None:
         """Return the newest level, percent; None before the first."""
         return self.value
+
+    @property
+    def failures(self) -> Mapping[str, bool]:
+        """Return what the failsafes know."""
+        return {"phone_battery": self.is_low}
 
     @property
     def telemetry_content(self) -> Mapping[str, Any]:

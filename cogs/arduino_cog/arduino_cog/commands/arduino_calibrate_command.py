@@ -20,5 +20,6 @@ class ArduinoCalibrateCommand(BaseCommand):
     """
 
     NAME: ClassVar[str] = "arduino.calibrate"
+    TITLE: ClassVar[str] = "Calibrate {}"
     ROLES: ClassVar[frozenset[Role]] = frozenset({Role.PILOT})
     what: str = value(choices=tuple(CALIBRATIONS))

@@ -15,6 +15,7 @@ class ArduinoProfileRequestCommand(BaseCommand):
     """Requests the active profile of the Arduino."""
 
     NAME: ClassVar[str] = "arduino.profile.request"
+    TITLE: ClassVar[str] = "Request the profile"
     ROLES: ClassVar[frozenset[Role]] = frozenset({Role.OBSERVER})
 
 

@@ -51,5 +51,8 @@ class ArduinoStatusCommand(BoardStatus, BaseCommand):
 
 
 def read_status(payload: bytes) -> ArduinoStatusCommand:
-    """Return the status in the payload of `x`."""
-    return ArduinoStatusCommand(*STATUS.unpack(payload))
+    """Return the status in the payload of `x`: fields of a newer firmware are ignored.
+
+    Those that an older one lacks are 0. At least ``OLDEST_SIZE`` bytes.
+    """
+    return ArduinoStatusCommand(*STATUS.unpack(payload[: STATUS.size].ljust(STATUS.size, b"\0")))

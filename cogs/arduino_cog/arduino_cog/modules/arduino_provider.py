@@ -16,7 +16,7 @@ from arduino_cog.profile import PROFILE_SIZE
 from arduino_cog.request_tracker import RequestTracker
 from arduino_cog.wire import ATTITUDE, IN_FLIGHT, INPUTS, ORIENTATION, OUTPUTS
 from up.base_started_module import BaseStartedModule
-from up.commands.board_schema import STATUS, VERSION, Reason
+from up.commands.board_schema import OLDEST_SIZE, STATUS, VERSION, Reason
 from up.commands.board_status import (
     flight_mode_name,
     refusal_name,
@@ -208,7 +208,7 @@ class ArduinoProvider(BaseStartedModule):
             return
         add("O", self._on_orientation, ORIENTATION.size)
         add("i", self._on_inputs, INPUTS.size)
-        add("x", self._on_status, STATUS.size)
+        add("x", self._on_status, STATUS.size, least=OLDEST_SIZE)
         add("K", self._on_confirmed, 2)
         add("!", self._on_refused, 3)
         add("m", lambda payload: self.requests.on_value("m", payload), 1)

@@ -7,8 +7,9 @@ from typing import Any
 from twisted.internet.defer import Deferred
 
 from arduino_cog.commands.arduino_calibrate_command import CALIBRATIONS, ArduinoCalibrateCommand
+from arduino_cog.commands.battery_calibrate_command import BatteryCalibrateCommand
 from arduino_cog.modules.arduino_provider import ArduinoProvider
-from arduino_cog.wire import IN_FLIGHT
+from arduino_cog.wire import IN_FLIGHT, pack_voltage
 from up.base_module import BaseModule
 from up.commands.arming_commands import ArmCommand, DisarmCommand
 from up.commands.flight_state_command import FlightModeCommand
@@ -82,7 +83,7 @@ class ArduinoFlightMode(BaseModule):
 
 
 class ArduinoCalibration(BaseModule):
-    """Passes `arduino.calibrate` to the Arduino, unless the aircraft may be in flight.
+    """Passes `arduino.calibrate` and `up.battery.calibrate` to the Arduino, but not in flight.
 
     The end of the receiver calibration is always passed on: it began on the ground.
     """
@@ -93,17 +94,27 @@ class ArduinoCalibration(BaseModule):
 
     def on_init(self) -> None:
         self.up.command_executor.register_command(ArduinoCalibrateCommand, self.on_calibrate)
+        self.up.command_executor.register_command(BatteryCalibrateCommand, self.on_battery)
 
     def on_calibrate(self, command: ArduinoCalibrateCommand) -> Deferred[Any]:
         """Calibrate; the end of the receiver calibration is not repeated, as a second one fails."""
-        self.arduino.require_checked("calibrating")
-        if command.what != _END and self.arduino.is_in_flight:
-            raise CommandRefusedError(
-                f"calibration is refused in flight; {IN_FLIGHT}", detail="in_flight"
-            )
+        self._require(may_fly=command.what == _END)
         payload = bytes((CALIBRATIONS[command.what],))
         done = self.arduino.request("e", payload, may_repeat=command.what != _END)
         return done.addCallback(self._log_calibrated, command.what)
+
+    def on_battery(self, command: BatteryCalibrateCommand) -> Deferred[Any]:
+        """Calibrate the flight battery's voltage."""
+        self._require()
+        done = self.arduino.request("V", pack_voltage(command.voltage))
+        return done.addCallback(self._log_calibrated, f"flight battery, {command.voltage:g} V")
+
+    def _require(self, *, may_fly: bool = False) -> None:
+        self.arduino.require_checked("calibrating")
+        if not may_fly and self.arduino.is_in_flight:
+            raise CommandRefusedError(
+                f"calibration is refused in flight; {IN_FLIGHT}", detail="in_flight"
+            )
 
     def _log_calibrated(self, _: object, what: str) -> None:
         self.log.info("the Arduino calibrated: {what}", code="calibrated", what=what)

@@ -14,6 +14,7 @@ class MarkCommand(BaseCommand):
     """A mark in the flight log with a note of the user."""
 
     NAME: ClassVar[str] = "black_box.mark"
+    TITLE: ClassVar[str] = 'Mark "{}"'
     ROLES: ClassVar[frozenset[Role]] = frozenset({Role.OPERATOR})
     text: str = value(max_length=200)
 

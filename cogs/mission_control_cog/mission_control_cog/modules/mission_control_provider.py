@@ -82,7 +82,6 @@ class MissionControlProvider(BaseMissionControlProvider):
 
     @property
     def wants_telemetry(self) -> bool:
-        """Return whether telemetry would reach a station."""
         return self.connected or any(len(outlet) for outlet in self._outlets)
 
     @property

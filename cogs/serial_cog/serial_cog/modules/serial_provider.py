@@ -100,13 +100,21 @@ class SerialProvider(BaseStartedModule):
                 counts.update({name: getattr(part, name) for name in part.__slots__})
         return {"counters": {"serial": dict(counts)}}
 
-    def add_handler(self, type_: FrameType, handler: FrameHandler, payload_size: int = 0) -> None:
+    def add_handler(
+        self,
+        type_: FrameType,
+        handler: FrameHandler,
+        payload_size: int = 0,
+        *,
+        least: int | None = None,
+    ) -> None:
         """Call ``handler(payload)`` with the frames of a type; raises ValueError.
 
         A frame of another payload size than ``payload_size``, or of a type without a handler, is
-        dropped and counted.
+        dropped and counted. With ``least`` any size from it on is taken in checked framing, for
+        messages to which other versions of the firmware append fields.
         """
-        if self._table.add(type_, handler, payload_size) and self._line is not None:
+        if self._table.add(type_, handler, payload_size, least) and self._line is not None:
             self._renew_decoder()
 
     def remove_handler(self, type_: FrameType, handler: FrameHandler | None = None) -> None:
@@ -142,7 +150,9 @@ class SerialProvider(BaseStartedModule):
         config: SerialConfig = self.config
         self._encoder: FrameEncoder
         self._decoder: FrameDecoder
-        self._encoder, self._decoder = make_framing(config.framing, self._table.sizes)
+        self._encoder, self._decoder = make_framing(
+            config.framing, self._table.sizes, self._table.least
+        )
         self._is_numbered = config.framing == "checked"
         self._seconds = self.context.reactor.seconds
         self._opener = PortOpener(config.port, config.baud_rate, self.lister, self.open_port)
@@ -170,7 +180,7 @@ class SerialProvider(BaseStartedModule):
     def _renew_decoder(self) -> None:
         """Set the decoder's known types; its counters are kept."""
         self._retired.update(asdict(self._decoder.counters))
-        _, self._decoder = make_framing(self.framing, self._table.sizes)
+        _, self._decoder = make_framing(self.framing, self._table.sizes, self._table.least)
 
     def _on_opened(self) -> None:
         assert self._line is not None

@@ -1,6 +1,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { onCircle } from "../../../../ground/up_ground/web/static/js/dom.js";
+import { flightBatteryLevel } from "../../../../ground/up_ground/web/static/js/instruments/battery.js";
 import { ballTransform, isWhole, rollMarks, rungs } from "../../../../ground/up_ground/web/static/js/instruments/horizon.js";
 import { beyond, share } from "../../../../ground/up_ground/web/static/js/instruments/servos.js";
 import { stickPlace } from "../../../../ground/up_ground/web/static/js/instruments/sticks.js";
@@ -68,4 +69,14 @@ test("a label of the ladder is drawn whole or not at all", () => {
   assert.equal(isWhole(47, 100, 0, 0), true);
   assert.equal(isWhole(47, 100, 180, 0), false); // on the back the ground is above
   assert.equal(isWhole(47, 150, 0, 0), false); // below the picture
+});
+
+test("the flight battery looks as the aircraft judges it; without limits plainly", () => {
+  const look = (low, critical) =>
+    flightBatteryLevel({ flag: (path) => ({ "arduino.flight_battery_low": low, "arduino.flight_battery_critical": critical })[path] });
+  assert.equal(look(null, null), "");
+  assert.equal(look(false, false), "");
+  assert.equal(look(true, false), "warning");
+  assert.equal(look(true, true), "alarm");
+  assert.equal(look(null, true), "alarm");
 });

@@ -1,4 +1,4 @@
-/** `C` `c` `e`: the airframe's profile, and calibrating; neither changes in flight. */
+/** `C` `c` `e` `V`: the airframe's profile, and calibrating; neither changes in flight. */
 #include "../../core/autopilot.h"
 #include "../command_executor.h"
 
@@ -53,10 +53,22 @@ Reason on_calibrate(Autopilot& autopilot, const Request& request) {
   return reason;
 }
 
+Reason on_battery(Autopilot& autopilot, const Request& request) {
+  if (is_in_flight(autopilot)) return Reason::ONLY_ON_GROUND;
+  const uint16_t mv = static_cast<uint16_t>(request.payload[0] << 8 | request.payload[1]);
+  Settings& settings = autopilot.settings;
+  if (!autopilot.battery.calibrate(mv, settings.battery_full_scale_mv)) {
+    return Reason::BATTERY_NOT_MEASURED;
+  }
+  settings.save_battery();
+  return Reason::NONE;
+}
+
 const CommandDefinition COMMANDS[] PROGMEM = {
     {'C', PROFILE_SIZE, Answer::CONFIRMED, on_profile},
     {'c', 0, Answer::OWN, on_profile_asked},
     {'e', 1, Answer::CONFIRMED, on_calibrate},
+    {'V', 2, Answer::CONFIRMED, on_battery},
 };
 CommandGroup group(COMMANDS);
 

@@ -60,14 +60,18 @@ export class Readout {
 
 /** One line of a list: its name, its value, its age while its reading is old. */
 export class Row {
+  #row;
   #readout;
   #validate;
+  #isOptional;
 
-  /** list: a `dl`; validate: the style of a live value: "" plain, "warning" or "alarm". */
-  constructor(list, name, path, kind, format = String, validate = () => "") {
+  /** list: a `dl`; validate: the style of a live value: "" plain, "warning" or "alarm"; isOptional: hidden without a value. */
+  constructor(list, name, path, kind, format = String, validate = () => "", isOptional = false) {
     const value = html("span", { class: "row-value" });
     const age = html("span", { class: "age" });
-    list.append(rowOf(name, value, age));
+    this.#row = rowOf(name, value, age);
+    this.#isOptional = isOptional;
+    list.append(this.#row);
     const ownAge = readingOf(path) === null ? null : age;
     this.#readout = new Readout(value, path, format, ownAge, kind);
     this.#validate = validate;
@@ -75,6 +79,7 @@ export class Row {
 
   update(store) {
     const value = this.#readout.update(store);
+    this.#row.hidden = this.#isOptional && value === null;
     const level = value === null ? "" : this.#validate(value);
     setAttribute(this.#readout.element, "data-level", level);
   }

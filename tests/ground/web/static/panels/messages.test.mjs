@@ -26,10 +26,13 @@ test("an answer has the text and the code of its outcome", () => {
 });
 
 test("a Command has a name that a person understands", () => {
-  assert.equal(commandText("up.flight_mode.set", { mode: "FBW" }), "Flight mode FBW");
-  assert.equal(commandText("arduino.pids.tunings", { request: true }), "Request the gains");
-  assert.equal(commandText("arduino.pids.tunings", { pids: {} }), "New gains");
-  assert.equal(commandText("some.cog.thing", {}), "some.cog.thing");
+  const catalogue = new Catalogue(JSON.parse(readFileSync(COMMANDS)).commands);
+  const text = (name, data) => commandText(catalogue.get(name).title, data);
+  assert.equal(text("up.flight_mode.set", { mode: "FBW" }), "Flight mode FBW");
+  assert.equal(text("arduino.calibrate", { what: "gyroscope_bias" }), "Calibrate gyroscope bias");
+  assert.equal(text("android.speak", { text: "$& {}" }), 'Speak "$& {}"');
+  assert.equal(text("up.home.set", { latitude: 1, longitude: 2 }), "Set home");
+  assert.equal(new Catalogue([{ name: "some.cog.thing" }]).get("some.cog.thing").title, "some.cog.thing");
 });
 
 test("a period says what it costs", () => {
@@ -121,13 +124,20 @@ test("a profile reads as a page, and a missing value has no row", () => {
     motor: false,
     ailerons: { reversed: true, trim_us: -12, lowest_us: 1000, highest_us: 2000 },
     switch: { low: "ACRO", middle: "FBW", high: "AUTO" },
-    receiver_lost: { circle_bank_deg: -20, return_with_motor: false },
+    receiver_lost: { circle_bank_deg: -20, return_with_motor: false, pi_may_fly: true },
+    throttle_slew_percent_s: 50,
   });
   const rows = Object.fromEntries(parts.flatMap((part) => part.rows));
   assert.equal(rows["Ailerons (left elevon)"], "reversed, trim −12 us, 1000 to 2000 us");
   assert.match(rows["Bank of the circle"], /^20°.* left$/);
   assert.equal(rows.High, "AUTO");
   assert.match(rows.Motor, /glider/);
+  assert.match(rows["Throttle rises"], /50 %\/s/);
+  assert.equal(rows["Raspberry Pi then"], "may fly");
+  assert.equal(rows["Returning home"], "glides");
+  const unlimited = profileParts({ throttle_slew_percent_s: 0 });
+  assert.equal(unlimited[0].rows.length, 1);
+  assert.doesNotMatch(unlimited[0].rows[0][1], /%/);
   assert.ok(!parts.some((part) => part.title === "Limits in FBW"));
   assert.deepEqual(profileParts({}), []);
   const odd = { mix: "constructor", motor: "toString", ailerons: 7, switch: "high", receiver_lost: [1] };

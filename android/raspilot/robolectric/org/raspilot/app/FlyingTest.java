@@ -15,6 +15,7 @@ import org.junit.After;
 import org.junit.Before;
 import org.junit.Test;
 import org.raspilot.app.view.TrackView;
+import org.raspilot.up.ground.FlightModes;
 import org.robolectric.shadows.ShadowAlertDialog;
 import org.robolectric.util.ReflectionHelpers;
 
@@ -45,7 +46,8 @@ public final class FlyingTest extends AppBench {
     private List<String> commands() {
         List<String> all = new ArrayList<>();
         for (String line : proxy.heard()) {
-            if (line.contains("up.flight_mode.set") || line.contains("up.navigation.target")) {
+            if (line.contains("up.flight_mode.set") || line.contains("up.navigation.target")
+                    || line.contains("up.home.set")) {
                 all.add(line);
             }
         }
@@ -70,7 +72,9 @@ public final class FlyingTest extends AppBench {
     @Test
     public void loiterIsSentAfterAQuestionAndReturnIsNotOfferedWithoutTheMode() throws Exception {
         untilEnabled(R.id.ground_loiter);
-        assertFalse(find(R.id.ground_return).isEnabled());
+        Button home = (Button) find(R.id.ground_return);
+        assertFalse(home.isEnabled());
+        mustSay(FlightModes.reason("mode_unknown"), home.getText().toString());
         find(R.id.ground_loiter).performClick();
         assertEquals(0, commands().size());
         confirm();
@@ -92,6 +96,21 @@ public final class FlyingTest extends AppBench {
         mustSay("\"up.navigation.target\"", commands().get(0));
         mustSay("\"height\": 95", commands().get(0));
         mustSay("{\"mode\": \"GUIDED\"}", commands().get(1));
+    }
+
+    @Test
+    public void aTapSetsHomeAfterASecondQuestion() throws Exception {
+        untilEnabled(R.id.ground_loiter);
+        tap(1000, 0);
+        ShadowAlertDialog.getLatestAlertDialog().getButton(DialogInterface.BUTTON_NEUTRAL)
+                .performClick();
+        Wait.pass(0);
+        assertEquals(0, commands().size());
+        confirm();
+        Wait.until("the Command", () -> commands().size() == 1);
+        mustSay("\"up.home.set\"", commands().get(0));
+        mustSay("\"latitude\": ", commands().get(0));
+        assertFalse(commands().get(0).contains("altitude"));
     }
 
     @Test

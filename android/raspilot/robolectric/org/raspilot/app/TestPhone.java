@@ -17,6 +17,7 @@ import android.location.Location;
 import android.location.LocationManager;
 import android.os.BatteryManager;
 import android.os.Build;
+import android.os.Bundle;
 import android.os.IBinder;
 import android.os.SystemClock;
 import android.preference.PreferenceManager;
@@ -221,6 +222,9 @@ final class TestPhone {
         location.setLongitude(longitudeDeg);
         location.setAltitude(altitudeM);
         location.setAccuracy(4);
+        Bundle extras = new Bundle();
+        extras.putInt("satellites", 9);
+        location.setExtras(extras);
         location.setTime(System.currentTimeMillis());
         if (Build.VERSION.SDK_INT >= 17) {
             location.setElapsedRealtimeNanos(SystemClock.elapsedRealtime() * 1000000L + 1);

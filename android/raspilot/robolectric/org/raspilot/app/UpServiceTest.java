@@ -146,6 +146,7 @@ public final class UpServiceTest extends AppBench {
         });
         String all = board.heard().toString();
         mustSay("49.74747", all);
+        mustSay("\"satellites\": 9", all);
         mustSay("83", all);
         assertFalse(status.orientationHz() > 0);
         handset.battery(41);

@@ -5,7 +5,7 @@ import { LIMITS } from "../state/schema.js";
 
 const WARNING_PERCENT = 35;
 
-/** The battery of the phone on board: the only one that telemetry knows of. */
+/** The batteries on board: the level of the phone's, the voltage of the flight battery. */
 export function mount(element, store) {
   const value = html("span", { class: "battery-value" });
   const age = html("span", { class: "age" });
@@ -23,8 +23,17 @@ export function mount(element, store) {
     (isThere) => (isThere ? "connected" : "absent"),
     (isThere) => (isThere ? "" : "warning"),
   );
+  const flight = new Row(
+    list,
+    "Flight battery",
+    "arduino.flight_battery_v",
+    "number",
+    (voltage) => `${numberText(voltage, 2)} V`,
+    () => flightBatteryLevel(store),
+  );
   return {
     update() {
+      flight.update(store);
       const level = readout.update(store);
       phone.update(store);
       const percent = Math.max(0, Math.min(100, level ?? 0));
@@ -40,6 +49,14 @@ export function mount(element, store) {
       }
     },
   };
+}
+
+/** The look of the voltage by the limits of the aircraft. */
+export function flightBatteryLevel(store) {
+  if (store.flag("arduino.flight_battery_critical")) {
+    return "alarm";
+  }
+  return store.flag("arduino.flight_battery_low") ? "warning" : "";
 }
 
 export function batteryLevel(percent) {

@@ -1,4 +1,5 @@
 import { drawing, hatch, onCircle, setAttribute, setText, short, svg } from "../dom.js";
+import { clockText } from "../panels/messages.js";
 import { freshnessOf, oldText } from "../readout.js";
 import { distanceText } from "../state/earth.js";
 import { headingText, UNKNOWN } from "../state/format.js";
@@ -22,6 +23,7 @@ export function mount(element, store) {
     class: "compass-side is-right",
     "data-key": "home.distance",
   });
+  const name = svg("text", { x: 106, y: -84, class: "compass-name is-right" });
   const age = svg("text", { x: 0, y: 42, class: "compass-age" });
   const turning = svg("g", {}, rose, home);
   element.append(
@@ -36,7 +38,7 @@ export function mount(element, store) {
       age,
       heading,
       distance,
-      svg("text", { x: 106, y: -84, class: "compass-name is-right" }, "home"),
+      name,
     ),
   );
   return {
@@ -56,6 +58,9 @@ export function mount(element, store) {
       const away_m = store.number("home.distance");
       setText(distance, away_m === null ? UNKNOWN : distanceText(away_m));
       setAttribute(distance, "data-freshness", freshnessOf(store, away_m, "location"));
+      const time_s = store.number("home.time_s");
+      setText(name, time_s === null ? "home" : `home in ${clockText(time_s)}`);
+      setAttribute(name, "data-freshness", time_s === null ? "live" : store.freshness(null));
     },
   };
 }

@@ -12,7 +12,8 @@ export function mount(element, store) {
   const timer = new FlightTimer();
   const flight = new PlainRow(list, "In flight for", "flight.time");
   const rows = NAVIGATION_ROWS.map(
-    ({ label, path, unit, decimals }) => new Row(list, label, path, "number", formatOf(unit, decimals)),
+    ({ label, path, unit, decimals, optional }) =>
+      new Row(list, label, path, "number", formatOf(unit, decimals), undefined, optional),
   );
   return {
     update() {
@@ -30,5 +31,6 @@ function formatOf(unit, decimals) {
   if (unit === "s") {
     return clockText;
   }
-  return (value) => `${numberText(value, decimals)}${unit === "deg" ? "°" : ` ${unit}`}`;
+  const suffix = unit === "deg" ? "°" : unit && ` ${unit}`;
+  return (value) => `${numberText(value, decimals)}${suffix}`;
 }

@@ -12,6 +12,8 @@ export class Tape {
   #first = null;
   #number;
   #note;
+  #foot;
+  #footNote;
   #label;
 
   /** each: how many steps between labels; isLeft: the marks point to the middle of the picture. */
@@ -51,9 +53,17 @@ export class Tape {
     );
     this.unit = form.unit;
     this.#note = svg("text", { x: x + width / 2, y: -114, class: "tape-unit" }, form.unit);
-    this.foot = svg("text", { x: x + width / 2, y: 133, class: "tape-unit" });
-    const foot = svg("rect", { x, y: 120, width, height: 20, class: "tape-cap" });
-    this.element.append(this.#note, foot, this.foot);
+    this.#foot = svg("text", { x: x + width / 2, y: 123, class: "tape-foot" });
+    this.#footNote = svg("text", { x: x + width / 2, y: 135, class: "tape-unit" });
+    const foot = svg("rect", { x, y: 108, width, height: 32, class: "tape-cap" });
+    this.element.append(this.#note, foot, this.#foot, this.#footNote);
+  }
+
+  /** text: a second value below the tape; empty: none; note: what it is. */
+  showFoot(text, note, freshness) {
+    setText(this.#foot, text);
+    setText(this.#footNote, text && note);
+    setAttribute(this.#foot, "data-freshness", freshness);
   }
 
   /** text: of the window; age: of a stale value as text, otherwise "". */

@@ -68,8 +68,8 @@ function showSpeed(tape, store) {
   tape.unit = reading === "location" ? "by fixes" : "estimate";
   tape.show(speed_m_s, freshness, numberText(speed_m_s, 1), age);
   const airspeed_m_s = store.number("navigation.airspeed");
-  setText(tape.foot, airspeed_m_s === null ? "" : `AS ${numberText(airspeed_m_s, 1)}`);
-  setAttribute(tape.foot, "data-freshness", freshnessOf(store, airspeed_m_s, "navigation"));
+  const airspeed = airspeed_m_s === null ? "" : numberText(airspeed_m_s, 1);
+  tape.showFoot(airspeed, "airspeed", freshnessOf(store, airspeed_m_s, "navigation"));
 }
 
 function showAltitude(tape, store) {
@@ -80,8 +80,7 @@ function showAltitude(tape, store) {
   tape.show(altitude_m, freshness, numberText(altitude_m, decimals), age);
   const [height_m, reading] = estimated(store, "navigation.height", heightOverStart_m(store), "location");
   const where = reading === "navigation" || startsAtHome(store) ? "home" : "start";
-  setText(tape.foot, height_m === null ? "" : `${heightText(height_m)} ${where}`);
-  setAttribute(tape.foot, "data-freshness", freshnessOf(store, height_m, reading));
+  tape.showFoot(height_m === null ? "" : heightText(height_m), `over ${where}`, freshnessOf(store, height_m, reading));
 }
 
 function heightText(height_m) {

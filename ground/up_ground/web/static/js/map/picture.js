@@ -64,7 +64,7 @@ function timeText({ time_s }) {
   if (time_s === undefined) {
     return "";
   }
-  return time_s === null ? ", not reached in this wind" : `, ${clockText(time_s)}`;
+  return time_s === null ? ", not reached in this wind" : `, home in ${clockText(time_s)}`;
 }
 
 function headingOf(store) {

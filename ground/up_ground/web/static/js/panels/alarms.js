@@ -8,32 +8,35 @@ export function mount(place, store, connection) {
   const bars = new Map();
   const away = html("div.alarm", { id: "aircraft-away", role: "alert", "data-level": "warning" }, html("strong"));
   const fallback = html("div.alarm", { id: "fallback", role: "alert", "data-level": "alarm" }, html("strong"));
+  const failsafe = html("div.alarm", { id: "failsafe", role: "alert", "data-level": "alarm" }, html("strong"));
   let aircraft = store.aircraft;
 
-  function showFallback() {
-    const code = store.freshness(null) === "none" ? null : store.text("flight_control.fallback");
+  function show(banner, code, text) {
     if (code === null) {
-      fallback.remove();
-    } else if (!fallback.isConnected) {
-      place.prepend(fallback);
+      banner.remove();
+    } else if (!banner.isConnected) {
+      place.prepend(banner);
     }
+    setText(banner.firstChild, code === null ? "" : text);
+    setAttribute(banner, "data-code", code ?? "");
+  }
+
+  function showMode() {
+    const told = (path) => (store.freshness(null) === "none" ? null : store.text(path));
     const now = store.text("flight_control.mode") ?? "No flight mode of the Raspberry Pi";
     const asked = store.text("flight_control.selected");
-    setText(fallback.firstChild, `${now} replaces ${asked}: ${modeReason(code ?? "")}`);
-    setAttribute(fallback, "data-code", code ?? "");
+    const code = told("flight_control.fallback");
+    show(fallback, code, `${now} replaces ${asked}: ${modeReason(code)}`);
+    const cause = told("failsafe.cause");
+    const end = "The pilot's switch or another flight mode ends it.";
+    show(failsafe, cause, `Failsafe, ${modeReason(cause)}: ${asked}. ${end}`);
   }
 
   // If the aircraft had sent telemetry before, its own alarm already reports this.
   function showAway(standing) {
     const isReported = standing.some(({ code }) => code === "aircraft_offline");
     const reason = isReported || !connection.isOpen ? null : offlineReason(store);
-    if (reason === null) {
-      away.remove();
-    } else if (!away.isConnected) {
-      place.prepend(away);
-    }
-    setText(away.firstChild, reason?.text ?? "");
-    setAttribute(away, "data-code", reason?.code ?? "");
+    show(away, reason?.code ?? null, reason?.text ?? "");
   }
 
   function barOf(alarm) {
@@ -77,7 +80,7 @@ export function mount(place, store, connection) {
         button.disabled = isSeen;
       }
       showAway(standing);
-      showFallback();
+      showMode();
       place.hidden = place.childElementCount === 0;
     },
   };

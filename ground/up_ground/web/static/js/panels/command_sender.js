@@ -122,7 +122,7 @@ export class CommandSender {
   /** note: shows the outcome; question: for dialog.js; isForced: an unknown name. Returns null if not sent. */
   async send(name, data, { note, question = null, isForced = false }) {
     const { aircraft } = this.#store;
-    const command = commandText(name, data);
+    const command = commandText(this.#store.catalogue.get(name)?.title ?? name, data);
     if (question !== null && !(await confirm(question))) {
       this.#notes.show(note, `not sent: ${CANCELLED.text}`, "plain", CANCELLED.code);
       return null;

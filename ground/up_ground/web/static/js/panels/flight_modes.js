@@ -101,7 +101,7 @@ export class FlightModes {
 
   #of(mode, code, isActive) {
     const isEnabled = this.#sender.disabledReason(NAME, { mode }) === null;
-    return { mode, code, reason: reasonText(this.#store, mode, code), isActive, isEnabled };
+    return { mode, code, reason: code === null ? "" : modeReason(code), isActive, isEnabled };
   }
 
   async #select(mode) {
@@ -121,17 +121,6 @@ export class FlightModes {
       ? ""
       : `The pilot's switch stands at ${selected}: the aircraft takes a mode only at AUTO.`;
   }
-}
-
-/** Why a mode is not offered; the refusals of the modes of this project are told apart. */
-export function reasonText(store, mode, code) {
-  if (code === "mode_refused" && mode === "GUIDED") {
-    return "it needs a target: click the map";
-  }
-  if (code === "mode_refused" && mode === "RETURN" && store.number("home.latitude") === null) {
-    return "home is not set";
-  }
-  return code === null ? "" : modeReason(code);
 }
 
 export function heading(text) {

@@ -5,34 +5,10 @@ export function modeText(mode) {
   return Object.hasOwn(MODES, mode) ? MODES[mode].about : "";
 }
 
-/** name: of a Command. Returns the request of a Command, as a heading. */
-export function commandText(name, data = {}) {
-  switch (name) {
-    case "up.flight_mode.set":
-      return `Flight mode ${data.mode}`;
-    case "up.navigation.target":
-      return "Target";
-    case "up.home.set":
-      return "Set home";
-    case "up.arm":
-      return "Arm";
-    case "up.disarm":
-      return "Disarm";
-    case "up.telemetry.frequency":
-      return `Telemetry every ${data.frequency} ms`;
-    case "android.speak":
-      return `Say "${data.text}"`;
-    case "black_box.mark":
-      return `Mark "${data.text}"`;
-    case "arduino.pids.tunings":
-      return data.request ? "Request the gains" : "New gains";
-    case "arduino.profile.request":
-      return "Request the profile";
-    case "arduino.calibrate":
-      return `Calibrate ${String(data.what).replace("_", " ")}`;
-    default:
-      return name;
-  }
+/** title: of a Command in the catalogue; `{}` in it is the value of its only field. */
+export function commandText(title, data = {}) {
+  const values = Object.values(data);
+  return title.replace("{}", () => (values.length === 1 ? String(values[0]).replaceAll("_", " ") : ""));
 }
 
 export function answerText(answer) {

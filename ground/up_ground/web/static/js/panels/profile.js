@@ -42,7 +42,15 @@ function airframeRows(profile) {
   return [
     ["Mix", wordOf(MIXES, profile.mix) || textOf(profile.mix)],
     ["Motor", wordOf(motor, profile.motor)],
+    ["Throttle rises", slewText(profile.throttle_slew_percent_s)],
   ];
+}
+
+function slewText(percent_s) {
+  if (!Number.isFinite(percent_s)) {
+    return "";
+  }
+  return percent_s > 0 ? `by at most ${percent_s} %/s` : "without a limit";
 }
 
 function servoWords(servo) {

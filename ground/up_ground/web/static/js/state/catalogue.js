@@ -22,7 +22,7 @@ export class Catalogue {
   }
 
   /**
-   * name: or alias. Returns {name, aliases, role, roleWhere: [{field, value, role}], text,
+   * name: or alias. Returns {name, aliases, title, role, roleWhere: [{field, value, role}], text,
    * needsBeacon, fields: [{name, type, unit, choices, minimum, maximum, longest, isNullable,
    * isRequired, text}]}.
    */
@@ -48,6 +48,7 @@ function commandOf(found) {
   return {
     name,
     aliases: validate.texts(found.aliases) ?? [],
+    title: validate.text(found.title) || name,
     role: validate.text(found.role) ?? "",
     roleWhere: roleWhereOf(found.role_where),
     text: validate.text(found.text) ?? "",

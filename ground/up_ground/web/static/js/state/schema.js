@@ -186,61 +186,78 @@ export const NAVIGATION_ROWS = [
     "label": "Time home",
     "path": "home.time_s",
     "unit": "s",
-    "decimals": 0
+    "decimals": 0,
+    "optional": false
   },
   {
     "label": "Above sea level",
     "path": "navigation.altitude",
     "unit": "m",
-    "decimals": 1
+    "decimals": 1,
+    "optional": false
   },
   {
     "label": "Above home",
     "path": "navigation.height",
     "unit": "m",
-    "decimals": 1
+    "decimals": 1,
+    "optional": false
   },
   {
     "label": "Ground speed",
     "path": "navigation.speed",
     "unit": "m/s",
-    "decimals": 1
+    "decimals": 1,
+    "optional": false
   },
   {
     "label": "Climb",
     "path": "navigation.climb",
     "unit": "m/s",
-    "decimals": 1
+    "decimals": 1,
+    "optional": false
   },
   {
     "label": "Airspeed",
     "path": "navigation.airspeed",
     "unit": "m/s",
-    "decimals": 1
+    "decimals": 1,
+    "optional": false
   },
   {
     "label": "Wind",
     "path": "navigation.wind.speed",
     "unit": "m/s",
-    "decimals": 1
+    "decimals": 1,
+    "optional": false
   },
   {
     "label": "Wind from",
     "path": "navigation.wind.from",
     "unit": "deg",
-    "decimals": 0
+    "decimals": 0,
+    "optional": false
   },
   {
     "label": "Position sd",
     "path": "navigation.sd.position",
     "unit": "m",
-    "decimals": 1
+    "decimals": 1,
+    "optional": false
   },
   {
     "label": "Altitude sd",
     "path": "navigation.sd.altitude",
     "unit": "m",
-    "decimals": 1
+    "decimals": 1,
+    "optional": false
+  },
+  {
+    "label": "Satellites",
+    "path": "location.satellites",
+    "unit": "",
+    "decimals": 0,
+    "optional": true
   }
 ];
 
@@ -251,6 +268,21 @@ export const MODE_REASONS = {
   "demand_invalid": "it demanded what is not possible",
   "mode_refused": "it cannot be entered now",
   "mode_unknown": "no module provides it",
+  "fence": "the fence is near",
+  "receiver_lost": "the receiver is lost",
+  "uplink_lost": "the uplink is lost",
+  "flight_battery_critical": "the flight battery is critically low",
+  "flight_battery_low": "the flight battery is low",
+  "phone_battery": "the phone's battery is low",
+  "no_progress": "the wind is stronger than the aircraft",
+  "no_home": "home is not set",
+  "home_too_far": "home is too far away",
+  "no_target": "it needs a target: choose a place on the map",
+  "target_too_far": "the target is too far away",
+  "target_too_high": "the target is too far above the aircraft",
+  "target_too_low": "the target is too far below the aircraft",
+  "target_below_home": "the target is below home",
+  "target_radius": "the radius of the target is not above 0",
   "orientation": "orientation missing or too old",
   "rx": "receiver missing or too old",
   "servo": "servos missing or too old",
@@ -347,6 +379,7 @@ export const READING_OF = {
   "navigation.sd.wind": "navigation",
   "navigation.sd.airspeed": "navigation",
   "navigation.sd.heading": "navigation",
+  "location.satellites": "location",
   "navigation.motor_stopped": "navigation",
   "altitude": "altitude",
   "heading.actual": "heading",
@@ -365,6 +398,9 @@ export const READING_OF = {
   "arduino.loop_us": "flight",
   "arduino.late_us": "flight",
   "arduino.frame_errors": "flight",
+  "arduino.flight_battery_v": "flight",
+  "arduino.flight_battery_low": "flight",
+  "arduino.flight_battery_critical": "flight",
   "android.batteryLevel": "battery"
 };
 

@@ -38,6 +38,11 @@ public final class CommandFields {
         return ((Number) checked(key, FieldRule.whole(minimum, maximum))).longValue();
     }
 
+    /** Returns a whole number within bounds, or null. */
+    public Long optionalWhole(String key, long minimum, long maximum) {
+        return data.get(key) == null ? null : (Long) whole(key, minimum, maximum);
+    }
+
     public boolean flag(String key) {
         return (Boolean) checked(key, FieldRule.of(FieldType.BOOLEAN));
     }

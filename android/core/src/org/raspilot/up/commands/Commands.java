@@ -64,6 +64,7 @@ public final class Commands {
             fields.optionalNumber("distance_from_home", -Double.MAX_VALUE, Double.MAX_VALUE);
             fields.optionalNumber("required_bearing", -Double.MAX_VALUE, Double.MAX_VALUE);
             fields.optionalNumber("age_ms", 0, 60000);
+            fields.optionalWhole("satellites", 0, 255);
         }), LOCATION_ALIAS);
         registry.register(MARK, rule(fields -> fields.inkedText("text", 200)));
         registry.register(NACK, rule(fields -> {

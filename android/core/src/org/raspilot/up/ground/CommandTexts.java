@@ -1,39 +1,52 @@
 package org.raspilot.up.ground;
 
+import java.util.Collection;
 import java.util.HashMap;
 import java.util.List;
 import java.util.Map;
 import org.raspilot.up.commands.BaseCommand;
 import org.raspilot.up.ground.GainsService.GainChange;
 
-/** The description of a Command and of its outcome in an event. */
-final class CommandTexts {
+/** The title of a Command, and the description of a sent one and of its outcome. */
+public final class CommandTexts {
     private static final int SHOWN_CHANGES = 4;
-    private static final Map<String, String> WORDS = new HashMap<>();
-    private static final Map<String, String> FIELDS = new HashMap<>();
+    private static final Map<String, String> TITLES = new HashMap<>();
+    private static final String VALUE = "{}";
 
     static {
-        put("up.flight_mode.set", "flight mode %s", "mode");
-        put("up.arm", "arm", "");
-        put("up.disarm", "disarm", "");
-        put("up.telemetry.frequency", "telemetry every %s ms", "frequency");
-        put("android.speak", "say \"%s\"", "text");
-        put("black_box.mark", "mark \"%s\"", "text");
-        put("arduino.calibrate", "calibrate %s", "what");
-        put("arduino.profile.request", "ask for the profile", "");
-        put("arduino.pids.tunings", "ask for the gains", "");
+        // schema begin
+        TITLES.put("android.speak", "Speak \"{}\"");
+        TITLES.put("arduino.calibrate", "Calibrate {}");
+        TITLES.put("arduino.pids.tunings", "Gains");
+        TITLES.put("arduino.profile.request", "Request the profile");
+        TITLES.put("black_box.mark", "Mark \"{}\"");
+        TITLES.put("up.arm", "Arm");
+        TITLES.put("up.battery.calibrate", "Flight battery has {} V");
+        TITLES.put("up.disarm", "Disarm");
+        TITLES.put("up.flight_mode.set", "Flight mode {}");
+        TITLES.put("up.home.set", "Set home");
+        TITLES.put("up.navigation.target", "Target");
+        TITLES.put("up.telemetry.frequency", "Telemetry period {} ms");
+        // schema end
     }
 
     private CommandTexts() {
     }
 
-    /** Returns a Command in words; an unknown one by its name. */
+    /** Returns what a person calls a Command, without its value; its name if it has no title. */
+    public static String title(String name) {
+        final String title = TITLES.get(name);
+        return title == null ? name : title.replaceFirst("[ \"]*\\{.*", "");
+    }
+
+    /** Returns a Command in words, with the value of its only field. */
     static String of(BaseCommand command) {
-        final String words = WORDS.get(command.name());
-        if (words == null) {
-            return command.name();
-        }
-        return words.replace("%s", String.valueOf(command.data().get(FIELDS.get(command.name()))));
+        final String title = TITLES.get(command.name());
+        final Collection<Object> values = command.data().values();
+        return title == null || !title.contains(VALUE) || values.size() != 1
+                ? title(command.name())
+                : title.replace(VALUE,
+                        String.valueOf(values.iterator().next()).replace('_', ' '));
     }
 
     /** Returns in words what a set of gains changes. */
@@ -53,10 +66,5 @@ final class CommandTexts {
         final String why = answer.reason.isEmpty() ? answer.code : answer.reason;
         return words + ": " + answer.outcome.text()
                 + (answer.isAck() || why.isEmpty() ? "" : ": " + why);
-    }
-
-    private static void put(String name, String words, String field) {
-        WORDS.put(name, words);
-        FIELDS.put(name, field);
     }
 }

@@ -18,7 +18,7 @@ public final class FlightModes {
     private static final String UNKNOWN = "mode_unknown";
     /** What a ground may select of an aircraft that does not report it. */
     private static final List<String> BOARD_MODES = Arrays.asList("RATE", "FBW");
-    private static final List<String> FLOWN_BY_PI = Arrays.asList("SETPOINT", "OUTPUT");
+    private static final List<String> FLOWN_BY_PI = Arrays.asList("SETPOINT", "RETURN", "OUTPUT");
     private static final int MAX_MODES = 32;
     private static final int MAX_NAME = 24;
 
@@ -67,6 +67,13 @@ public final class FlightModes {
         final String code = telemetry.text("flight_control.fallback");
         return code == null ? null : telemetry.text("flight_control.mode") + " replaces "
                 + telemetry.text("flight_control.selected") + ": " + reason(code);
+    }
+
+    /** Returns why a failsafe has selected the present mode, in words; null: none has. */
+    public static String failsafe(Telemetry telemetry) {
+        final String code = telemetry.text("failsafe.cause");
+        return code == null ? null : telemetry.text("flight_control.selected") + ": "
+                + reason(code);
     }
 
     private static List<String> ofBoard(Telemetry telemetry) {

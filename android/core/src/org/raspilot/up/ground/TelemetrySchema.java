@@ -30,6 +30,7 @@ public final class TelemetrySchema {
     /** Why a flight mode is not offered, or was replaced, by code. */
     static final Map<String, String> MODE_REASONS = new HashMap<>();
     private static final Map<String, String> NAVIGATION = new LinkedHashMap<>();
+    private static final Map<String, Boolean> OPTIONAL = new HashMap<>();
     static final List<TelemetryRule> RULES = new ArrayList<>();
     /** Events without a field, by code. */
     static final Map<String, TelemetryRule> EVENTS = new HashMap<>();
@@ -52,6 +53,7 @@ public final class TelemetrySchema {
         HOLDS_MS.put("imu", 2000L);
         HOLDS_MS.put("failsafe", 2000L);
         HOLDS_MS.put("board", 2000L);
+        HOLDS_MS.put("flight_battery", 2000L);
         HOLDS_MS.put("phone", 2000L);
         HOLDS_MS.put("battery", 2000L);
         put(READING_OF, "orientation", "orientation.roll", "orientation.pitch", "orientation.yaw",
@@ -61,7 +63,7 @@ public final class TelemetrySchema {
         put(READING_OF, "servo", "servo.ailerons", "servo.elevator", "servo.throttle",
                 "servo.rudder");
         put(READING_OF, "location", "location.latitude", "location.longitude", "location.altitude",
-                "home.distance", "home.bearing");
+                "home.distance", "home.bearing", "location.satellites");
         put(READING_OF, "navigation", "navigation.latitude", "navigation.longitude",
                 "navigation.altitude", "navigation.height", "navigation.speed", "navigation.climb",
                 "navigation.airspeed", "navigation.course", "navigation.heading",
@@ -73,7 +75,8 @@ public final class TelemetrySchema {
         put(READING_OF, "flight", "flight_mode", "armed", "in_flight", "arduino.switch",
                 "arduino.receiver_valid", "arduino.imu_valid", "arduino.failsafe",
                 "arduino.bias_stored", "arduino.reset_cause", "arduino.restored", "arduino.loop_us",
-                "arduino.late_us", "arduino.frame_errors");
+                "arduino.late_us", "arduino.frame_errors", "arduino.flight_battery_v",
+                "arduino.flight_battery_low", "arduino.flight_battery_critical");
         put(READING_OF, "battery", "android.batteryLevel");
         put(UNITS, "deg", "orientation.roll", "orientation.pitch", "orientation.yaw",
                 "location.latitude", "location.longitude", "home.bearing", "home.latitude",
@@ -92,6 +95,7 @@ public final class TelemetrySchema {
         put(UNITS, "s", "home.time_s", "system.uptime_s");
         put(UNITS, "m/s", "navigation.speed", "navigation.climb", "navigation.airspeed",
                 "navigation.wind.speed", "navigation.sd.wind", "navigation.sd.airspeed");
+        put(UNITS, "V", "arduino.flight_battery_v");
         put(UNITS, "%", "android.batteryLevel", "load.cpu", "load.ram");
         put(UNITS, "ms", "load.delay_ms", "system.period_ms", "system.clock_ms",
                 "age_ms.orientation", "age_ms.rx", "age_ms.servo", "age_ms.flight",
@@ -106,7 +110,8 @@ public final class TelemetrySchema {
                 "navigation.heading", "navigation.wind.speed", "navigation.sd.position",
                 "navigation.sd.altitude", "navigation.sd.wind", "navigation.sd.airspeed",
                 "navigation.sd.heading", "navigation.target.altitude", "navigation.target.radius");
-        put(DECIMALS, 0, "home.time_s", "navigation.wind.from");
+        put(DECIMALS, 0, "home.time_s", "navigation.wind.from", "location.satellites");
+        put(DECIMALS, 2, "arduino.flight_battery_v");
         LIMITS.put("battery_low", 20.0);
         LIMITS.put("battery_empty", 10.0);
         MODE_REASONS.put("mode_failed", "it failed");
@@ -114,6 +119,21 @@ public final class TelemetrySchema {
         MODE_REASONS.put("demand_invalid", "it demanded what is not possible");
         MODE_REASONS.put("mode_refused", "it cannot be entered now");
         MODE_REASONS.put("mode_unknown", "no module provides it");
+        MODE_REASONS.put("fence", "the fence is near");
+        MODE_REASONS.put("receiver_lost", "the receiver is lost");
+        MODE_REASONS.put("uplink_lost", "the uplink is lost");
+        MODE_REASONS.put("flight_battery_critical", "the flight battery is critically low");
+        MODE_REASONS.put("flight_battery_low", "the flight battery is low");
+        MODE_REASONS.put("phone_battery", "the phone's battery is low");
+        MODE_REASONS.put("no_progress", "the wind is stronger than the aircraft");
+        MODE_REASONS.put("no_home", "home is not set");
+        MODE_REASONS.put("home_too_far", "home is too far away");
+        MODE_REASONS.put("no_target", "it needs a target: choose a place on the map");
+        MODE_REASONS.put("target_too_far", "the target is too far away");
+        MODE_REASONS.put("target_too_high", "the target is too far above the aircraft");
+        MODE_REASONS.put("target_too_low", "the target is too far below the aircraft");
+        MODE_REASONS.put("target_below_home", "the target is below home");
+        MODE_REASONS.put("target_radius", "the radius of the target is not above 0");
         MODE_REASONS.put("orientation", "orientation missing or too old");
         MODE_REASONS.put("rx", "receiver missing or too old");
         MODE_REASONS.put("servo", "servos missing or too old");
@@ -133,6 +153,8 @@ public final class TelemetrySchema {
         NAVIGATION.put("Wind from", "navigation.wind.from");
         NAVIGATION.put("Position sd", "navigation.sd.position");
         NAVIGATION.put("Altitude sd", "navigation.sd.altitude");
+        NAVIGATION.put("Satellites", "location.satellites");
+        OPTIONAL.put("location.satellites", true);
         RULES.add(new TelemetryRule("path", "navigation.motor_stopped", "type", "flag",
                 "event", "motor", "code", "motor_stopped", "level", "alarm",
                 "text", "the motor gives no thrust", "end", "the motor gives thrust",
@@ -147,6 +169,14 @@ public final class TelemetrySchema {
                 "text", "{flight_control.mode} replaces {flight_control.selected}: {value}",
                 "end_code", "fallback_over", "end", "the selected flight mode acts again",
                 "first", "true", "path", "flight_control.fallback", "type", "text"));
+        RULES.add(new TelemetryRule("event", "mode", "code", "failsafe", "level", "warning",
+                "text", "failsafe: {value}", "end_code", "failsafe_over",
+                "end", "no failsafe trigger holds", "path", "failsafe.active", "type", "texts"));
+        RULES.add(new TelemetryRule("event", "mode", "code", "failsafe_acts", "level", "alarm",
+                "text", "failsafe {value}: {flight_control.mode} flies until the switch leaves AUTO or the ground selects a flight mode",
+                "end_code", "failsafe_ended",
+                "end", "the pilot or the ground has ended the failsafe", "first", "true",
+                "path", "failsafe.cause", "type", "text"));
         RULES.add(new TelemetryRule("path", "armed", "type", "flag", "event", "armed",
                 "code", "armed", "level", "warning", "text", "the aircraft is armed",
                 "end", "the aircraft is disarmed", "end_code", "disarmed", "level_armed", "warning",
@@ -178,6 +208,15 @@ public final class TelemetrySchema {
                 "level_armed", "alarm", "when", "false", "awaits", "flight,rx,servo",
                 "awaited_code", "board_awaited", "awaited_text", "the Arduino is not connected yet",
                 "awaited_level", "warning"));
+        RULES.add(new TelemetryRule("path", "arduino.flight_battery_low", "type", "flag",
+                "event", "battery", "code", "flight_battery_low", "level", "warning",
+                "text", "the flight battery is low", "end", "the flight battery is no longer low",
+                "end_code", "flight_battery_low_over", "alarm", "flight_battery",
+                "level_armed", "warning", "when", "true"));
+        RULES.add(new TelemetryRule("path", "arduino.flight_battery_critical", "type", "flag",
+                "event", "battery", "code", "flight_battery_critical", "level", "alarm",
+                "text", "the flight battery is critically low", "alarm", "flight_battery",
+                "level_armed", "alarm", "when", "true"));
         RULES.add(new TelemetryRule("path", "android.connected", "type", "flag", "event", "link",
                 "code", "phone_lost", "level", "warning", "text", "the phone is disconnected",
                 "end", "the phone is connected", "end_code", "phone_connected", "alarm", "phone",
@@ -250,6 +289,11 @@ public final class TelemetrySchema {
     /** Paths of the values of navigation, by label in the order of display. */
     public static Map<String, String> navigation() {
         return Collections.unmodifiableMap(NAVIGATION);
+    }
+
+    /** Whether a value of navigation is not shown while it is unknown. */
+    public static boolean isOptional(String path) {
+        return OPTIONAL.containsKey(path);
     }
 
     private TelemetrySchema() {

@@ -31,7 +31,8 @@ public final class TelemetryText {
     /** Returns a number with its unit, such as {@code 12.3 m/s}; null: unknown. */
     public static String value(Telemetry telemetry, String path) {
         final Double number = telemetry.number(path);
-        return number == null ? null : text(path, number) + " " + TelemetrySchema.UNITS.get(path);
+        final String unit = TelemetrySchema.UNITS.get(path);
+        return number == null ? null : text(path, number) + (unit == null ? "" : " " + unit);
     }
 
     /** Returns the load and the period of telemetry while the Raspberry Pi is busy. */

@@ -16,8 +16,10 @@ public final class Fix {
     public final Double bearingDeg;
     /** Milliseconds from the measurement until the sensor delivered it; or null. */
     public final Double ageMs;
+    /** How many satellites the fix uses; or null. */
+    public final Integer satellites;
 
-    /** Stores the values unchanged, of a fix whose age is unknown. */
+    /** Stores the values unchanged, of a fix whose age and satellites are unknown. */
     public Fix(
             double latitudeDeg,
             double longitudeDeg,
@@ -25,7 +27,7 @@ public final class Fix {
             Double accuracyM,
             Double speedMS,
             Double bearingDeg) {
-        this(latitudeDeg, longitudeDeg, altitudeM, accuracyM, speedMS, bearingDeg, null);
+        this(latitudeDeg, longitudeDeg, altitudeM, accuracyM, speedMS, bearingDeg, null, null);
     }
 
     /** Stores the values unchanged; {@link LocationProvider} validates them. */
@@ -36,7 +38,8 @@ public final class Fix {
             Double accuracyM,
             Double speedMS,
             Double bearingDeg,
-            Double ageMs) {
+            Double ageMs,
+            Integer satellites) {
         this.latitudeDeg = latitudeDeg;
         this.longitudeDeg = longitudeDeg;
         this.altitudeM = altitudeM;
@@ -44,5 +47,6 @@ public final class Fix {
         this.speedMS = speedMS;
         this.bearingDeg = bearingDeg;
         this.ageMs = ageMs;
+        this.satellites = satellites;
     }
 }

@@ -13,6 +13,7 @@ public final class LocationProvider extends SensorProvider<Fix> {
     private static final double MAX_ACCURACY_M = 50;
 
     private static final double MAX_AGE_MS = 60000;
+    private static final int MAX_SATELLITES = 255;
 
     /** Takes the GPS, and how often a fix leaves at most, ms. */
     public LocationProvider(SensorSource<Fix> source, int periodMs) {
@@ -32,7 +33,8 @@ public final class LocationProvider extends SensorProvider<Fix> {
                 "accuracy", rounded(1, fix.accuracyM),
                 "speed", rounded(2, fix.speedMS),
                 "bearing", isKnown(fix.bearingDeg) ? Rounded.direction(fix.bearingDeg) : null,
-                "age_ms", isAge(fix.ageMs) ? Rounded.to(0, fix.ageMs) : null);
+                "age_ms", isAge(fix.ageMs) ? Rounded.to(0, fix.ageMs) : null,
+                "satellites", isCount(fix.satellites) ? fix.satellites.longValue() : null);
     }
 
     /** A value unknown to GPS must not prevent sending the position. */
@@ -42,6 +44,10 @@ public final class LocationProvider extends SensorProvider<Fix> {
 
     private static boolean isAge(Double ageMs) {
         return isKnown(ageMs) && ageMs >= 0 && ageMs <= MAX_AGE_MS;
+    }
+
+    private static boolean isCount(Integer satellites) {
+        return satellites != null && satellites >= 0 && satellites <= MAX_SATELLITES;
     }
 
     private static boolean isKnown(Double value) {

@@ -21,6 +21,7 @@ public final class FlightModesTest {
     public void theModeThatActsIsTheRaspberryPisWhileItFlies() {
         assertEquals("LOITER", FlightModes.acting(frame("SETPOINT", "{\"mode\": \"LOITER\"}")));
         assertEquals("LOITER", FlightModes.acting(frame("OUTPUT", "{\"mode\": \"LOITER\"}")));
+        assertEquals("LOITER", FlightModes.acting(frame("RETURN", "{\"mode\": \"LOITER\"}")));
         assertEquals("OUTPUT", FlightModes.acting(frame("OUTPUT", "{\"mode\": null}")));
         assertEquals("FBW", FlightModes.acting(frame("FBW", "{\"mode\": \"LOITER\"}")));
         assertNull(FlightModes.acting(Telemetry.EMPTY));
@@ -63,6 +64,8 @@ public final class FlightModesTest {
                 + "\"selected\": \"RETURN\", \"fallback\": \"navigation\"}")));
         assertNull(FlightModes.fallback(frame("SETPOINT", "{\"fallback\": null}")));
         assertNotEquals("mode_refused", FlightModes.reason("mode_refused"));
+        assertNull(FlightModes.failsafe(frame("SETPOINT", "{}")));
+        assertNotEquals("no_home", FlightModes.reason("no_home"));
         assertEquals("sonar", FlightModes.reason("sonar"));
     }
 }

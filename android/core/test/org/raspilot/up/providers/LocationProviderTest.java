@@ -3,8 +3,10 @@ package org.raspilot.up.providers;
 import static org.junit.Assert.assertEquals;
 import static org.junit.Assert.assertTrue;
 
+import java.util.Map;
 import org.junit.Test;
 import org.raspilot.up.providers.ProviderStatus.ProviderState;
+import org.raspilot.up.wire.Vectors;
 
 /** The sent values of a fix, their times, and their display. */
 public final class LocationProviderTest {
@@ -13,22 +15,22 @@ public final class LocationProviderTest {
     private final LocationProvider provider = new LocationProvider(gps, 500);
 
     @Test
-    public void theAgeOfAFixIsSentWhereTheReceiverKnowsIt() {
+    public void aFixLeavesAsTheVectorsSay() throws Exception {
         bench.run(provider);
-        gps.give(new Fix(1, 2, null, null, null, null, 812.4));
-        assertEquals("up.location.update {latitude=1.0, longitude=2.0, age_ms=812.0}",
-                bench.sink.last());
-        bench.loop.advance(1000);
-        gps.give(new Fix(3, 4, null, null, null, null, -5.0));
-        assertEquals("up.location.update {latitude=3.0, longitude=4.0}", bench.sink.last());
+        gps.give(new Fix(48.14859123456, 17.10774987654, 151.26, 3.14, 12.346, 271.27, 812.4, 9));
+        Map<String, Object> vector = Vectors.read("general_message.json").get(2);
+        assertEquals(vector.get("line"),
+                Vectors.text(bench.sink.commands.get(0).toMessage().toLine()));
     }
 
     @Test
-    public void aFixLeavesAsALocationUpdate() {
+    public void impossibleAgeAndSatellitesAreLeftOut() {
         bench.run(provider);
-        gps.give(new Fix(48.14859123456, 17.10774987654, 151.26, 3.14, 12.346, 271.27));
-        assertEquals("up.location.update {latitude=48.1485912, longitude=17.1077499, "
-                + "altitude=151.3, accuracy=3.1, speed=12.35, bearing=271.3}", bench.sink.last());
+        gps.give(new Fix(3, 4, null, null, null, null, -5.0, -1));
+        assertEquals("up.location.update {latitude=3.0, longitude=4.0}", bench.sink.last());
+        bench.loop.advance(1000);
+        gps.give(new Fix(5, 4, null, null, null, null, 60001.0, 256));
+        assertEquals("up.location.update {latitude=5.0, longitude=4.0}", bench.sink.last());
     }
 
     @Test

@@ -22,6 +22,9 @@ import org.raspilot.up.providers.SensorSource;
  * change.
  */
 final class LocationSource implements SensorSource<Fix>, LocationListener {
+    /** Key of the extras of a fix of GPS: the number of satellites used in it. */
+    private static final String SATELLITES = "satellites";
+
     private static final String GPS = LocationManager.GPS_PROVIDER;
 
     /** Precise enough for other uses, such as the magnetic declination. */
@@ -112,7 +115,15 @@ final class LocationSource implements SensorSource<Fix>, LocationListener {
                 location.hasAccuracy() ? Double.valueOf(location.getAccuracy()) : null,
                 location.hasSpeed() ? Double.valueOf(location.getSpeed()) : null,
                 location.hasBearing() ? Double.valueOf(location.getBearing()) : null,
-                Build.VERSION.SDK_INT >= 23 ? Double.valueOf(Api23.ageMs(location)) : null);
+                Build.VERSION.SDK_INT >= 23 ? Double.valueOf(Api23.ageMs(location)) : null,
+                satellites(location));
+    }
+
+    /** Returns how many satellites the fix uses; null where the system does not report it. */
+    private static Integer satellites(Location location) {
+        Bundle extras = location.getExtras();
+        boolean isKnown = extras != null && extras.containsKey(SATELLITES);
+        return isKnown ? Integer.valueOf(extras.getInt(SATELLITES, -1)) : null;
     }
 
     private static long ageMs(Location location) {

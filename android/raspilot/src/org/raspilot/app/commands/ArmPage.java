@@ -83,7 +83,7 @@ final class ArmPage implements Page, HoldButton.HoldListener {
             return;
         }
         Context context = desk.context();
-        String title = CommandTexts.title(context.getResources(), form.name);
+        String title = CommandTexts.title(form.name);
         desk.confirm(context.getString(R.string.arm_question, title), form.text, title,
                 () -> carryOut(form));
     }
@@ -97,7 +97,7 @@ final class ArmPage implements Page, HoldButton.HoldListener {
         // Between the press and now the seat or the link may be gone.
         if (form != null && desk.objection(form, NOTHING) == DisabledReason.NONE) {
             desk.send(new BaseCommand(form.name, NOTHING),
-                    CommandTexts.title(desk.context().getResources(), form.name));
+                    CommandTexts.title(form.name));
         }
     }
 

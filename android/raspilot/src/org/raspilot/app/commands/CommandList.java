@@ -1,6 +1,5 @@
 package org.raspilot.app.commands;
 
-import android.content.res.Resources;
 import android.view.LayoutInflater;
 import android.view.View;
 import android.view.ViewGroup;
@@ -22,7 +21,6 @@ final class CommandList extends BaseAdapter {
     private static final int COMMAND = 1;
 
     private final LayoutInflater inflater;
-    private final Resources words;
     private final CommandsScreen desk;
     private final InstrumentColors colors;
     private final List<CommandForm> forms;
@@ -35,7 +33,6 @@ final class CommandList extends BaseAdapter {
         this.desk = desk;
         this.forms = forms;
         inflater = LayoutInflater.from(desk.context());
-        words = desk.context().getResources();
         colors = InstrumentColors.of(desk.context());
         search("");
     }
@@ -123,7 +120,7 @@ final class CommandList extends BaseAdapter {
         }
         View row = used == null ? inflater.inflate(R.layout.row_command, list, false) : used;
         TextView title = (TextView) row.findViewById(R.id.command_title);
-        title.setText(CommandTexts.title(words, form.name));
+        title.setText(CommandTexts.title(form.name));
         ((TextView) row.findViewById(R.id.command_name)).setText(form.name);
         // It opens nevertheless: its page states why it is not offered.
         TextViews.colour(title, isOffered(form) ? colors.ink : colors.dim);
@@ -140,6 +137,6 @@ final class CommandList extends BaseAdapter {
             aliases.append(alias).append(' ');
         }
         return CommandGroup.matches(wanted, form.name, form.text, aliases.toString(),
-                CommandTexts.title(words, form.name));
+                CommandTexts.title(form.name));
     }
 }

@@ -8,15 +8,14 @@ import org.raspilot.up.ground.CommandGate.DisabledReason;
 import org.raspilot.up.ground.FlightModes;
 import org.raspilot.up.ground.Freshness;
 
-/** The English texts of the Commands: titles, groups, objections, and requests. */
+/** The English texts of the Commands: groups, objections, and requests. */
 public final class CommandTexts {
     private CommandTexts() {
     }
 
     /** Returns the displayed title of a Command; its name if it has no title. */
-    static String title(Resources words, String name) {
-        int title = titleOf(name);
-        return title == 0 ? name : words.getString(title);
+    static String title(String name) {
+        return org.raspilot.up.ground.CommandTexts.title(name);
     }
 
     /** Returns the heading of a group. */
@@ -36,8 +35,8 @@ public final class CommandTexts {
     }
 
     /** Returns a Command with its data, as a question and as a line of the history has it. */
-    static String asked(Resources words, String name, Map<String, ?> data) {
-        StringBuilder all = new StringBuilder(title(words, name));
+    static String asked(String name, Map<String, ?> data) {
+        StringBuilder all = new StringBuilder(title(name));
         for (Map.Entry<String, ?> field : data.entrySet()) {
             all.append(all.indexOf(":") < 0 ? ": " : ", ");
             all.append(field.getKey()).append(' ').append(field.getValue());
@@ -93,33 +92,16 @@ public final class CommandTexts {
         return "";
     }
 
+    /** Returns a flight mode as its button shows it; {@code code}: why it is not offered, or null. */
+    public static String mode(Resources words, String mode, String code) {
+        return code == null ? mode
+                : words.getString(R.string.mode_why, mode, FlightModes.reason(code));
+    }
+
     private static String mode(Resources words, GroundSnapshot picture) {
         String mode = FlightModes.acting(picture.telemetry);
         boolean isLive = picture.telemetry.freshness("flight_mode", picture.nowMs)
                 == Freshness.LIVE;
         return isLive && mode != null ? mode : words.getString(R.string.commands_not_known);
-    }
-
-    private static int titleOf(String name) {
-        if (name.equals("up.arm")) {
-            return R.string.title_arm;
-        } else if (name.equals("up.disarm")) {
-            return R.string.title_disarm;
-        } else if (name.equals("up.flight_mode.set")) {
-            return R.string.title_mode;
-        } else if (name.equals("up.telemetry.frequency")) {
-            return R.string.title_period;
-        } else if (name.equals("arduino.pids.tunings")) {
-            return R.string.title_gains;
-        } else if (name.equals("arduino.calibrate")) {
-            return R.string.title_calibrate;
-        } else if (name.equals("arduino.profile.request")) {
-            return R.string.title_profile;
-        } else if (name.equals("android.speak")) {
-            return R.string.title_speak;
-        } else if (name.equals("black_box.mark")) {
-            return R.string.title_mark;
-        }
-        return 0;
     }
 }

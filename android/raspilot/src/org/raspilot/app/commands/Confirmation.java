@@ -22,12 +22,23 @@ public final class Confirmation {
      * @param then runs only when the user confirms
      */
     public void show(String title, String text, String yes, View input, final Runnable then) {
+        show(title, text, yes, input, then, null, null);
+    }
+
+    /**
+     * Shows the dialog with a second choice.
+     *
+     * @param other label of the second choice, which runs {@code instead}; null: none
+     */
+    public void show(String title, String text, String yes, View input, final Runnable then,
+            String other, final Runnable instead) {
         dismiss();
         dialog = new AlertDialog.Builder(context)
                 .setTitle(title)
                 .setMessage(text)
                 .setView(input)
                 .setNegativeButton(R.string.commands_leave, null)
+                .setNeutralButton(other, (asked, which) -> instead.run())
                 .setPositiveButton(yes, (asked, which) -> then.run())
                 .create();
         dialog.show();

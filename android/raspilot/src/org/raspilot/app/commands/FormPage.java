@@ -44,9 +44,8 @@ final class FormPage implements Page, View.OnClickListener {
         draft = desk.memory().draft(form.name);
         LayoutInflater inflater = LayoutInflater.from(desk.context());
         element = inflater.inflate(R.layout.page_form, null);
-        Resources words = desk.context().getResources();
         ((TextView) element.findViewById(R.id.page_title))
-                .setText(CommandTexts.title(words, form.name));
+                .setText(CommandTexts.title(form.name));
         ((TextView) element.findViewById(R.id.page_name)).setText(form.name);
         ((TextView) element.findViewById(R.id.page_text)).setText(form.text);
         why = (TextView) element.findViewById(R.id.page_why);
@@ -110,8 +109,7 @@ final class FormPage implements Page, View.OnClickListener {
             TextViews.showOrHide(problem, wrong.getMessage());
             return;
         }
-        String words = CommandTexts.asked(desk.context().getResources(), form.name,
-                command.data());
+        String words = CommandTexts.asked(form.name, command.data());
         if (CommandGroup.isConfirmed(form, command.data())) {
             confirm(command, words);
         } else {
@@ -141,8 +139,8 @@ final class FormPage implements Page, View.OnClickListener {
             button.setText(String.valueOf(choice).replace('_', ' '));
             BaseCommand command = new BaseCommand(form.name,
                     Collections.singletonMap(field.name, choice));
-            button.setOnClickListener(pressed -> confirm(command, CommandTexts.asked(
-                    desk.context().getResources(), form.name, command.data())));
+            String words = CommandTexts.asked(form.name, command.data());
+            button.setOnClickListener(pressed -> confirm(command, words));
             list.addView(button);
             buttons.add(button);
         }

@@ -51,6 +51,7 @@ final class GainsPage implements Page, View.OnClickListener, GainsTable.ChangeLi
         this.desk = desk;
         editor = desk.memory().gains();
         element = LayoutInflater.from(desk.context()).inflate(R.layout.page_gains, null);
+        ((TextView) element.findViewById(R.id.page_title)).setText(CommandTexts.title(form.name));
         why = (TextView) element.findViewById(R.id.gains_why);
         state = (TextView) element.findViewById(R.id.gains_state);
         problem = (TextView) element.findViewById(R.id.gains_problem);

@@ -31,6 +31,7 @@ final class ModePage implements Page {
         this.form = form;
         this.desk = desk;
         element = LayoutInflater.from(desk.context()).inflate(R.layout.page_modes, null);
+        ((TextView) element.findViewById(R.id.page_title)).setText(CommandTexts.title(form.name));
         list = (ViewGroup) element.findViewById(R.id.modes_list);
         why = (TextView) element.findViewById(R.id.modes_why);
         now = (TextView) element.findViewById(R.id.modes_now);
@@ -55,8 +56,7 @@ final class ModePage implements Page {
         for (Map.Entry<String, String> mode : modes.entrySet()) {
             Button button = buttons.get(mode.getKey());
             String code = mode.getValue();
-            TextViews.show(button, code == null ? mode.getKey()
-                    : words.getString(R.string.mode_why, mode.getKey(), FlightModes.reason(code)));
+            TextViews.show(button, CommandTexts.mode(words, mode.getKey(), code));
             button.setEnabled(code == null && objection.isEmpty());
         }
     }
@@ -75,8 +75,7 @@ final class ModePage implements Page {
 
     private void confirm(String mode) {
         BaseCommand command = new BaseCommand(form.name, Collections.singletonMap("mode", mode));
-        String words = CommandTexts.asked(desk.context().getResources(), form.name,
-                command.data());
+        String words = CommandTexts.asked(form.name, command.data());
         desk.confirm(desk.context().getString(R.string.commands_send_question), words,
                 desk.context().getString(R.string.commands_send), () -> desk.send(command, words));
     }

@@ -14,6 +14,7 @@ import org.raspilot.app.R;
 import org.raspilot.app.commands.CatalogueAsset;
 import org.raspilot.app.commands.CommandTexts;
 import org.raspilot.app.commands.Confirmation;
+import org.raspilot.app.view.TextViews;
 import org.raspilot.app.view.TrackView;
 import org.raspilot.up.android.GroundSnapshot;
 import org.raspilot.up.android.TelemetryService;
@@ -30,9 +31,10 @@ import org.raspilot.up.ground.FlightModes;
 import org.raspilot.up.ground.Home;
 import org.raspilot.up.ground.Telemetry;
 
-/** RETURN and LOITER by a button, GUIDED by a tap on the track; each after a confirmation. */
+/** RETURN and LOITER by a button, GUIDED and home by a tap on the track; each is confirmed. */
 final class FlightActions implements View.OnClickListener, TrackView.TapListener {
     private static final String TARGET = "up.navigation.target";
+    private static final String HOME = "up.home.set";
     private static final Map<String, Object> NOTHING = Collections.emptyMap();
     private static final double MIN_HEIGHT_M = 30;
 
@@ -43,6 +45,7 @@ final class FlightActions implements View.OnClickListener, TrackView.TapListener
     private final Button loiter;
     private final CommandForm mode;
     private final CommandForm target;
+    private final CommandForm newHome;
     private TelemetryService.Ground ground;
 
     FlightActions(Activity activity, View root, FrameLine frame) {
@@ -57,6 +60,7 @@ final class FlightActions implements View.OnClickListener, TrackView.TapListener
         CommandCatalogue catalogue = catalogue(activity);
         mode = catalogue == null ? null : catalogue.form(Commands.FLIGHT_MODE);
         target = catalogue == null ? null : catalogue.form(TARGET);
+        newHome = catalogue == null ? null : catalogue.form(HOME);
     }
 
     private static CommandCatalogue catalogue(Activity activity) {
@@ -77,8 +81,13 @@ final class FlightActions implements View.OnClickListener, TrackView.TapListener
     void update(GroundSnapshot picture) {
         Map<String, String> modes = FlightModes.all(picture.telemetry);
         boolean isOffered = objection(mode, picture) == DisabledReason.NONE;
-        home.setEnabled(isOffered && modes.get(FlightModes.RETURN) == null);
-        loiter.setEnabled(isOffered && modes.get(FlightModes.LOITER) == null);
+        show(home, FlightModes.RETURN, modes.get(FlightModes.RETURN), isOffered);
+        show(loiter, FlightModes.LOITER, modes.get(FlightModes.LOITER), isOffered);
+    }
+
+    private void show(Button button, String name, String code, boolean isOffered) {
+        TextViews.show(button, CommandTexts.mode(activity.getResources(), name, code));
+        button.setEnabled(isOffered && code == null);
     }
 
     @Override
@@ -114,27 +123,31 @@ final class FlightActions implements View.OnClickListener, TrackView.TapListener
         String text = activity.getString(
                 isAboveHome ? R.string.fly_height : R.string.fly_altitude,
                 Math.round(Math.hypot(northM, eastM)));
+        final Map<String, String> fields = new LinkedHashMap<>();
+        fields.put("latitude", Double.toString(Earth.latitudeDeg(origin, northM)));
+        fields.put("longitude", Double.toString(Earth.longitudeDeg(origin, eastM)));
         confirmation.show(activity.getString(R.string.fly_here), text,
                 activity.getString(R.string.fly_yes), height, () -> {
-                Map<String, String> fields = new LinkedHashMap<>();
-                fields.put("latitude", Double.toString(Earth.latitudeDeg(origin, northM)));
-                fields.put("longitude", Double.toString(Earth.longitudeDeg(origin, eastM)));
                 fields.put(isAboveHome ? "height" : "altitude", height.getText().toString());
-                flyTo(fields);
-            });
+                String selected = GroundSnapshot.of(ground).telemetry
+                        .text("flight_control.selected");
+                boolean isGuided = FlightModes.GUIDED.equals(selected);
+                send(target, fields, isGuided ? null : () -> select(FlightModes.GUIDED));
+            }, activity.getString(R.string.home_yes), () -> askHome(fields, isAboveHome));
     }
 
-    private void flyTo(Map<String, String> fields) {
-        BaseCommand command;
+    private void askHome(Map<String, String> place, boolean isKept) {
+        confirmation.show(activity.getString(R.string.home_question),
+                activity.getString(isKept ? R.string.home_kept : R.string.home_new),
+                activity.getString(R.string.home_yes), null, () -> send(newHome, place, null));
+    }
+
+    private void send(CommandForm form, Map<String, String> fields, Runnable then) {
         try {
-            command = target.command(fields);
+            send(form.command(fields), then);
         } catch (InvalidCommandException wrong) {
             say(wrong.getMessage());
-            return;
         }
-        String selected = GroundSnapshot.of(ground).telemetry.text("flight_control.selected");
-        boolean isGuided = FlightModes.GUIDED.equals(selected);
-        send(command, isGuided ? null : () -> select(FlightModes.GUIDED));
     }
 
     private void select(String name) {

@@ -44,6 +44,7 @@ final class StatePanel {
     private final Row load;
     private final Row stale;
     private final Row home;
+    private final Row flightBattery;
     private final Row aircraftBattery;
     private final Row phoneBattery;
     private final Row blackBox;
@@ -71,6 +72,7 @@ final class StatePanel {
         imu = Row.in(list, R.string.state_imu, colors);
         board = Row.in(list, R.string.state_board, colors);
         home = Row.in(list, R.string.state_home, colors);
+        flightBattery = Row.in(list, R.string.state_flight_battery, colors);
         aircraftBattery = Row.in(list, R.string.state_aircraft_battery, colors);
         phoneBattery = Row.in(list, R.string.state_phone_battery, colors);
         load = Row.in(list, R.string.state_load, colors);
@@ -94,8 +96,13 @@ final class StatePanel {
         flag(armed, picture, "armed", R.string.armed_yes, R.string.armed_no, Row.Look.WARNING,
                 Row.Look.PLAIN);
         showVetoes(picture, isArmed);
-        flag(failsafe, picture, "arduino.failsafe", R.string.state_acts, R.string.state_no,
-                Row.Look.ALARM, Row.Look.PLAIN);
+        String cause = FlightModes.failsafe(telemetry);
+        if (cause != null) {
+            show(failsafe, picture, "failsafe.cause", cause, Row.Look.ALARM);
+        } else {
+            flag(failsafe, picture, "arduino.failsafe", R.string.state_acts, R.string.state_no,
+                    Row.Look.ALARM, Row.Look.PLAIN);
+        }
         flag(receiver, picture, "arduino.receiver_valid", R.string.state_valid,
                 R.string.state_invalid, Row.Look.PLAIN, Row.Look.ALARM);
         flag(imu, picture, "arduino.imu_valid", R.string.state_valid, R.string.state_invalid,
@@ -116,9 +123,10 @@ final class StatePanel {
         boolean isThere = picture.telemetry.number("navigation.latitude") != null;
         for (Map.Entry<String, Row> each : navigation.entrySet()) {
             String path = each.getKey();
-            each.getValue().setVisible(isThere);
-            show(each.getValue(), picture, path, TelemetryText.value(picture.telemetry, path),
-                    Row.Look.PLAIN);
+            String text = TelemetryText.value(picture.telemetry, path);
+            boolean isShown = text != null || !TelemetrySchema.isOptional(path);
+            each.getValue().setVisible(isThere && isShown);
+            show(each.getValue(), picture, path, text, Row.Look.PLAIN);
         }
     }
 
@@ -181,6 +189,11 @@ final class StatePanel {
     }
 
     private void showBatteries(GroundSnapshot picture) {
+        String voltage = TelemetryText.value(picture.telemetry, "arduino.flight_battery_v");
+        boolean isCritical = isTrue(picture, "arduino.flight_battery_critical");
+        boolean isLow = isTrue(picture, "arduino.flight_battery_low");
+        show(flightBattery, picture, "arduino.flight_battery_v", voltage,
+                isCritical ? Row.Look.ALARM : isLow ? Row.Look.WARNING : Row.Look.PLAIN);
         Double percent = picture.telemetry.number("android.batteryLevel");
         String text = percent == null ? null : percent(percent);
         show(aircraftBattery, picture, "android.batteryLevel", text,
@@ -217,6 +230,10 @@ final class StatePanel {
                 : words.getString(isRecording ? R.string.state_records : R.string.state_no);
         show(blackBox, picture, "black_box.recording", text,
                 problem != null ? Row.Look.WARNING : Row.Look.PLAIN);
+    }
+
+    private static boolean isTrue(GroundSnapshot picture, String path) {
+        return Boolean.TRUE.equals(picture.telemetry.flag(path));
     }
 
     private void text(Row row, GroundSnapshot picture, String path) {

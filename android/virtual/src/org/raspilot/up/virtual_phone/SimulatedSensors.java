@@ -79,6 +79,7 @@ final class SimulatedSensors {
             throw new OptionException("fix must be an object");
         }
         Map<?, ?> fields = (Map<?, ?>) value;
+        Double satellites = numberOrNull("fix.satellites", fields.get("satellites"));
         return new Fix(
                 number("fix.latitude", fields.get("latitude")),
                 number("fix.longitude", fields.get("longitude")),
@@ -86,7 +87,8 @@ final class SimulatedSensors {
                 numberOrNull("fix.accuracy", fields.get("accuracy")),
                 numberOrNull("fix.speed", fields.get("speed")),
                 numberOrNull("fix.bearing", fields.get("bearing")),
-                numberOrNull("fix.age_ms", fields.get("age_ms")));
+                numberOrNull("fix.age_ms", fields.get("age_ms")),
+                satellites == null ? null : Integer.valueOf(satellites.intValue()));
     }
 
     private static double[] numbers(String name, Object value, int count) throws OptionException {

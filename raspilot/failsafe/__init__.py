@@ -1,0 +1,1 @@
+"""What the aircraft does by itself when something fails in flight."""

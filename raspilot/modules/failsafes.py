@@ -1,0 +1,198 @@
+"""Flies home, or what failsafe.yml says, when something fails in flight."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import Any, ClassVar
+
+from twisted.internet.defer import maybeDeferred
+from twisted.internet.task import LoopingCall
+from twisted.python.failure import Failure
+
+from raspilot.failsafe.config import FAILSAFE, WARN
+from raspilot.failsafe.engine import FailsafeEngine
+from raspilot.failsafe.fence import FenceWatch
+from raspilot.failsafe.progress import ProgressWatch
+from raspilot.flight_controller.flight_mode_manager import FlightModeManager
+from raspilot.flight_modes.return_home import RETURN, Return
+from raspilot.navigation.planning import distance_m
+from up.base_started_module import BaseStartedModule
+from up.failures import FailureSource
+from up.fields import suggestion
+from up.flight_modes.flight_mode import FlightMode, FlightSituation
+from up.log.limits import Once
+from up.mode import WITH_BOARD, Mode
+from up.needs import needs
+from up.providers.base_mission_control_provider import BaseMissionControlProvider
+
+PERIOD_S = 0.2
+ARRIVED_RADII = 3.0
+
+
+class Failsafes(BaseStartedModule):
+    """Watches the triggers of failsafe.yml in flight at AUTO, or without the receiver.
+
+    With the switch elsewhere the pilot flies and nothing acts. A trigger's action is a flight
+    mode, selected like one by the ground.
+    """
+
+    MODES: ClassVar[frozenset[Mode]] = WITH_BOARD
+    LOAD_ORDER: ClassVar[int] = 200
+    CONFIG = FAILSAFE
+
+    flight = needs(FlightModeManager)
+
+    def __init__(self, config: Any = None, silent: bool = False) -> None:
+        super().__init__(config, silent)
+        self._acting: str | None = None
+        self._is_entering = False
+        self._choices = 0
+        self._was_linked = False
+        self._logged: list[str] = []
+        self._said = Once()
+
+    def on_init(self) -> None:
+        self._engine = FailsafeEngine(self.config.triggers)
+        self._fence = FenceWatch(self.config.fence)
+        self._progress = ProgressWatch()
+        self._grounds = self.up.get_modules(BaseMissionControlProvider)
+        self._sources = self.up.get_modules(FailureSource)
+        for number, problem in enumerate(self._contradictions()):
+            self.up.vetoes.set(f"failsafe.yml.{number}", problem)
+        reactor = self.context.reactor
+        self._seconds = reactor.seconds
+        self._loop = LoopingCall(self._check)
+        self._loop.clock = reactor
+
+    def on_start(self) -> bool:
+        reported = self._reported_failures()
+        for code in self.config.others.keys() - reported.keys():
+            hint = suggestion(code, reported)
+            text = f"failsafe.yml: others: {code}: no module reports this failure{hint}"
+            self.up.vetoes.set(f"failsafe.yml.{code}", text)
+        self._loop.start(PERIOD_S, now=False).addErrback(self._on_fault)
+        return True
+
+    def on_stop(self) -> None:
+        if self._loop.running:
+            self._loop.stop()
+
+    @property
+    def telemetry_content(self) -> Mapping[str, Any]:
+        """Return the failures, and the one because of which the present mode flies."""
+        cause = self._acting if self.flight.is_flying else None
+        return {"failsafe": {"active": self._engine.active, "cause": cause}}
+
+    def _on_fault(self, failure: Failure) -> None:
+        """Go on after a fault of this module: without it nothing would act any more."""
+        self.log.failure("the failsafes failed", failure, code="failsafe_failed")
+        self._loop.start(PERIOD_S, now=False).addErrback(self._on_fault)
+
+    def _contradictions(self) -> Iterator[str]:
+        modes = {each.NAME for each in self.up.get_modules(FlightMode)}
+        actions = {code: each.action for code, each in self.config.triggers.items()}
+        for code, action in actions.items():
+            if action != WARN and action not in modes:
+                hint = suggestion(action, [WARN, *modes])
+                yield f"failsafe.yml: {code}: action: no flight mode {action!r} is loaded{hint}"
+        if Return.NAME not in actions.values():
+            return
+        fence, home = self.config.fence, self.context.config(RETURN)
+        borders = (
+            ("ceiling_m", "height_m", fence.ceiling_m is None or fence.ceiling_m > home.height_m),
+            ("floor_m", "height_m", fence.floor_m is None or fence.floor_m < home.height_m),
+            ("radius_m", "radius_m", fence.radius_m is None or fence.radius_m > home.radius_m),
+        )
+        for border, limit, is_inside in borders:
+            if not is_inside:
+                yield (
+                    f"failsafe.yml: fence: {border}: {getattr(fence, border):g} m: RETURN would"
+                    f" cross it (return.yml: {limit}: {getattr(home, limit):g} m)"
+                )
+
+    def _check(self) -> None:
+        flight, state = self.flight, self.flight.board.state
+        if state is None or not state.is_in_flight:
+            self._engine.update(self._seconds(), {})
+            self._acting, self._was_linked = None, False
+            self._report()
+            return
+        if flight.choices != self._choices and not self._is_entering:
+            self._choices = flight.choices
+            self._acting = None
+            self._engine.override()
+        self._engine.update(self._seconds(), self._conditions())
+        self._report()
+        if self._is_entering:
+            return
+        if state.is_auto or state.is_failsafe:
+            by_sticks = flight.is_flown_by_sticks
+            code = self._engine.wanted(
+                self._acting, ("uplink_lost",) if by_sticks else ("receiver_lost",)
+            )
+            if code is not None:
+                self._act(code)
+
+    def _conditions(self) -> dict[str, bool]:
+        flight, situation = self.flight, self.flight.situation
+        is_linked = any(each.wants_telemetry for each in self._grounds)
+        # A restart in flight does not forget that there was a ground.
+        self._was_linked = self._was_linked or is_linked or flight.is_resumed
+        away_m = self._distance_to_return_m(situation)
+        return {
+            **self._reported_failures(),
+            "fence": situation is not None
+            and self._fence.is_crossed(situation.navigation, situation.home),
+            "receiver_lost": flight.board.is_failsafe,
+            "uplink_lost": self._was_linked and not is_linked,
+            "no_progress": self._progress.stalled_s(self._seconds(), away_m) > 0.0,
+        }
+
+    def _reported_failures(self) -> dict[str, bool]:
+        found: dict[str, bool] = {}
+        for source in self._sources:
+            try:
+                found.update(source.failures)
+            except (Exception, SystemExit):  # noqa: BLE001 - a fault costs one module's part only
+                if self._said.first(source):
+                    self.log.failure("a module's failures are unknown", code="failures_unknown")
+        return found
+
+    def _distance_to_return_m(self, situation: FlightSituation | None) -> float | None:
+        """Return how far RETURN has to fly; None in another mode, or at home."""
+        if situation is None or situation.navigation is None or situation.home is None:
+            return None
+        away_m = distance_m(situation.navigation.position, situation.home.point)
+        is_away = away_m > ARRIVED_RADII * self.context.config(RETURN).radius_m
+        return away_m if is_away and self.flight.acting_mode == Return.NAME else None
+
+    def _act(self, code: str) -> None:
+        action = self.config.triggers[code].action
+        self.log.error(
+            "failsafe {failsafe}: {mode}", failsafe=code, mode=action, code="failsafe_acts"
+        )
+        self._is_entering = True
+        entered = maybeDeferred(self.flight.enter_failsafe, action)
+        entered.addCallbacks(lambda _: self._entered(code), self._refused, errbackArgs=(code,))
+
+    def _entered(self, code: str) -> None:
+        self._is_entering = False
+        self._acting = code
+        self._choices = self.flight.choices
+
+    def _refused(self, failure: Failure, code: str) -> None:
+        self._is_entering = False
+        self._choices = self.flight.choices
+        self._engine.override()
+        self.log.error(
+            "failsafe {failsafe} does not act: {reason}",
+            failsafe=code,
+            reason=failure.getErrorMessage(),
+            code="failsafe_refused",
+        )
+
+    def _report(self) -> None:
+        active = self._engine.active
+        if active != self._logged:
+            self._logged = list(active)
+            self.log.warn("failures: {active}", active=active, code="failsafe_active")
