@@ -48,7 +48,7 @@ LAYERS = (
     "base_thread_module",
     "base_started_module",
     "base_module",
-    "needs | vetoes | earth",
+    "needs | vetoes | earth | mission",
     "commands",
     "cleanup | protocols | context",
     "config | mode",

@@ -13,6 +13,13 @@ from up.commands.flight_state_command import (
 )
 from up.commands.heading_command import HeadingCommand
 from up.commands.location_command import LocationCommand
+from up.commands.mission_commands import (
+    MissionCommitCommand,
+    MissionItemCommand,
+    MissionPartCommand,
+    MissionProblemsCommand,
+    MissionRequestCommand,
+)
 from up.commands.navigation_commands import HomeCommand, NavigationTargetCommand
 from up.commands.orientation_command import OrientationCommand
 from up.commands.output_command import OutputCommand, SetpointCommand
@@ -41,6 +48,11 @@ BUILTIN_COMMANDS: tuple[type[BaseCommand], ...] = (
     HomeCommand,
     LinkStateCommand,
     LocationCommand,
+    MissionCommitCommand,
+    MissionItemCommand,
+    MissionPartCommand,
+    MissionProblemsCommand,
+    MissionRequestCommand,
     NackCommand,
     NavigationTargetCommand,
     OrientationCommand,

@@ -21,7 +21,33 @@ class InvalidCommandError(ValueError):
 
 
 @dataclasses.dataclass(frozen=True, slots=True)
-class BaseCommand:
+class WireFields:
+    """A frozen, slotted dataclass whose fields are declared by ``value``: checked data of JSON."""
+
+    @property
+    def data(self) -> dict[str, Any]:
+        return {key: _plain(getattr(self, name)) for name, key, _ in wire_fields(type(self))}
+
+    @classmethod
+    def from_data(cls, data: Mapping[str, Any]) -> Self:
+        """Build it from decoded JSON; a default stands for what is absent.
+
+        Raises InvalidCommandError with one sentence that names the field.
+        """
+        values: dict[str, Any] = {}
+        for name, key, check in wire_fields(cls):
+            try:
+                values[name] = check(data.get(key, _ABSENT))
+            except ValueError as error:
+                raise InvalidCommandError(f"{key} {error}") from None
+        try:
+            return cls(**{n: v for n, v in values.items() if v is not _ABSENT})
+        except ValueError as error:
+            raise InvalidCommandError(str(error)) from None
+
+
+@dataclasses.dataclass(frozen=True, slots=True)
+class BaseCommand(WireFields):
     """The base of every Command: subclass it as a frozen, slotted dataclass.
 
     ``NAME`` is the name on the wire, ``ALIASES`` its older names, ``TITLE`` what a person calls it
@@ -51,27 +77,6 @@ class BaseCommand:
     @property
     def name(self) -> str:
         return self.NAME
-
-    @property
-    def data(self) -> dict[str, Any]:
-        return {key: _plain(getattr(self, name)) for name, key, _ in wire_fields(type(self))}
-
-    @classmethod
-    def from_data(cls, data: Mapping[str, Any]) -> Self:
-        """Build the Command from a message's ``data``.
-
-        Raises InvalidCommandError with one sentence that names the field.
-        """
-        values: dict[str, Any] = {}
-        for name, key, check in wire_fields(cls):
-            try:
-                values[name] = check(data.get(key, _ABSENT))
-            except ValueError as error:
-                raise InvalidCommandError(f"{key} {error}") from None
-        try:
-            return cls(**{n: v for n, v in values.items() if v is not _ABSENT})
-        except ValueError as error:
-            raise InvalidCommandError(str(error)) from None
 
 
 _ABSENT: Any = object()
@@ -104,7 +109,7 @@ def value(
     return dataclasses.field(default=default, metadata={"key": key, "bounds": bounds})
 
 
-def wire_fields(cls: type[BaseCommand]) -> tuple[tuple[str, str, _Check], ...]:
+def wire_fields(cls: type[WireFields]) -> tuple[tuple[str, str, _Check], ...]:
     """Return (attribute, name on the wire, check) for every field; computed once per class."""
     plan = _plans.get(cls)
     if plan is None:
@@ -126,7 +131,8 @@ def _checker(field: dataclasses.Field[Any], hints: Mapping[str, Any]) -> _Check:
             if required:
                 raise ValueError("is missing")
             return _ABSENT
-        return check(given)
+        checked_value = check(given)
+        return tuple(checked_value) if isinstance(checked_value, list) else checked_value
 
     return checked
 

@@ -38,10 +38,10 @@ COGS = (
 REGISTRY = CommandRegistry((*BUILTIN_COMMANDS, *COGS))
 LADDER = ("observer", "operator", "pilot", "admin")
 WHO = {
-    "observer": ("arduino.profile.request", "up.ack", "up.nack"),
+    "observer": ("arduino.profile.request", "up.ack", "up.mission.request", "up.nack"),
     "operator": (
         "android.speak", "black_box.mark", "up.flight_mode.set", "up.home.set",
-        "up.navigation.target", "up.telemetry.frequency",
+        "up.mission.commit", "up.mission.item", "up.mission.part", "up.navigation.target", "up.telemetry.frequency",
     ),
     "pilot": (
         "arduino.calibrate", "arduino.pids.tunings", "up.arm", "up.battery.calibrate", "up.disarm",
@@ -77,6 +77,11 @@ SAMPLES = {
     "up.flight_mode.set": {"mode": "FBW"},
     "up.home.set": {},
     "up.navigation.target": {"latitude": 1, "longitude": 2},
+    "up.mission.part": {"plan": "mission", "plan_id": "0", "count": 1},
+    "up.mission.commit": {"plan": "mission", "plan_id": "0", "count": 1},
+    "up.mission.request": {"plan": "fence"},
+    "up.mission.item": {"item": 1},
+    "up.mission.problems": {"plan": "mission", "plan_id": "0", "problems": []},
     "up.flight.state": {"flight_mode": "FBW", "armed": True, "auto": True, "failsafe": False},
     "up.flight.limits": {},
     "up.panic": {"panic": True, "delay_ms": 100},

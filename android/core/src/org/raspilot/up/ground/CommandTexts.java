@@ -25,6 +25,10 @@ public final class CommandTexts {
         TITLES.put("up.disarm", "Disarm");
         TITLES.put("up.flight_mode.set", "Flight mode {}");
         TITLES.put("up.home.set", "Set home");
+        TITLES.put("up.mission.commit", "Use the plan");
+        TITLES.put("up.mission.item", "Next item");
+        TITLES.put("up.mission.part", "Part of a plan");
+        TITLES.put("up.mission.request", "Read the plan");
         TITLES.put("up.navigation.target", "Target");
         TITLES.put("up.telemetry.frequency", "Telemetry period {} ms");
         // schema end

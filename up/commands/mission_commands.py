@@ -1,0 +1,99 @@
+"""Upload, read back and continue a mission or a fence (docs/mission.md)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any, ClassVar
+
+from up.commands.command import BaseCommand, value
+from up.commands.roles import Role
+
+_PLANS = ("mission", "fence")
+_MAX_ITEMS = 700
+PART_ITEMS = 20
+"""Items of one part."""
+
+
+def _plan() -> Any:
+    return value(choices=_PLANS)
+
+
+def _id() -> Any:
+    return value(key="plan_id", max_length=16)
+
+
+def _count() -> Any:
+    return value(minimum=0, maximum=_MAX_ITEMS)
+
+
+@dataclass(frozen=True, slots=True)
+class MissionPartCommand(BaseCommand):
+    """Items of a plan, from number ``first`` (the first is 1) on, of ``count``; both directions.
+
+    Parts are collected, in any order, until MissionCommitCommand; ``plan_id`` is that of the whole
+    plan (``up.mission.items.plan_id``). Parts of another plan replace them.
+    """
+
+    NAME: ClassVar[str] = "up.mission.part"
+    TITLE: ClassVar[str] = "Part of a plan"
+    ROLES: ClassVar[frozenset[Role]] = frozenset({Role.OPERATOR})
+    plan: str = _plan()
+    plan_id: str = _id()
+    count: int = _count()
+    first: int = value(1, minimum=1, maximum=_MAX_ITEMS)
+    items: tuple[Any, ...] = value((), max_length=PART_ITEMS)
+
+
+@dataclass(frozen=True, slots=True)
+class MissionCommitCommand(BaseCommand):
+    """Checks the collected plan as a whole, and uses it from now on; without items: none.
+
+    Refused with ``plan_incomplete`` (parts are missing), ``plan_changed`` (other items than its
+    identity says) or ``plan_invalid``; MissionProblemsCommand then names the items. What was in use
+    before stays in use.
+    """
+
+    NAME: ClassVar[str] = "up.mission.commit"
+    TITLE: ClassVar[str] = "Use the plan"
+    ROLES: ClassVar[frozenset[Role]] = frozenset({Role.OPERATOR})
+    NEEDS_BEACON: ClassVar[bool] = True
+    plan: str = _plan()
+    plan_id: str = _id()
+    count: int = _count()
+
+
+@dataclass(frozen=True, slots=True)
+class MissionRequestCommand(BaseCommand):
+    """Asks for the part of the plan in use that begins with an item; the aircraft sends it."""
+
+    NAME: ClassVar[str] = "up.mission.request"
+    TITLE: ClassVar[str] = "Read the plan"
+    ROLES: ClassVar[frozenset[Role]] = frozenset({Role.OBSERVER})
+    plan: str = _plan()
+    first: int = value(1, minimum=1, maximum=_MAX_ITEMS)
+
+
+@dataclass(frozen=True, slots=True)
+class MissionItemCommand(BaseCommand):
+    """The item that MISSION flies next; in MISSION it is flown immediately."""
+
+    NAME: ClassVar[str] = "up.mission.item"
+    TITLE: ClassVar[str] = "Next item"
+    ROLES: ClassVar[frozenset[Role]] = frozenset({Role.OPERATOR})
+    NEEDS_BEACON: ClassVar[bool] = True
+    item: int = value(minimum=1, maximum=_MAX_ITEMS)
+
+
+@dataclass(frozen=True, slots=True)
+class MissionProblemsCommand(BaseCommand):
+    """Why a plan was refused; the aircraft sends it before the answer.
+
+    ``problems`` are maps of ``item`` (the first is 1; 0: the plan as a whole), ``code`` and
+    ``text``; ``untold`` counts those that are not listed.
+    """
+
+    NAME: ClassVar[str] = "up.mission.problems"
+    plan: str = _plan()
+    plan_id: str = _id()
+    problems: tuple[Any, ...] = value(max_length=PART_ITEMS)
+    untold: int = value(0, minimum=0)
