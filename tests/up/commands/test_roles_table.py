@@ -41,7 +41,8 @@ WHO = {
     "observer": ("arduino.profile.request", "up.ack", "up.mission.request", "up.nack"),
     "operator": (
         "android.speak", "black_box.mark", "up.flight_mode.set", "up.home.set",
-        "up.mission.commit", "up.mission.item", "up.mission.part", "up.navigation.target", "up.telemetry.frequency",
+        "up.mission.commit", "up.mission.item", "up.mission.part", "up.navigation.target",
+        "up.telemetry.frequency",
     ),
     "pilot": (
         "arduino.calibrate", "arduino.pids.tunings", "up.arm", "up.battery.calibrate", "up.disarm",
