@@ -3,6 +3,7 @@ import { html } from "./dom.js";
 const KEYS = [
   ["?", "this list"],
   ["1 2 3 4 5", "go to instruments, map, control, charts, events"],
+  ["V", "the flying view, or all parts"],
   ["T", "dark or daylight"],
   ["S", "sound on or off"],
   ["Tab, Shift+Tab", "next, previous control"],
@@ -27,7 +28,7 @@ export function mountHelp() {
     if (!isForPage(event)) {
       return;
     }
-    const button = { t: "theme-button", s: "sound-button" }[event.key.toLowerCase()];
+    const button = { v: "view-button", t: "theme-button", s: "sound-button" }[event.key.toLowerCase()];
     if (event.key === "?") {
       open();
     } else if (button !== undefined) {

@@ -1,7 +1,7 @@
 import { mountHelp } from "./help.js";
 import { Connection } from "./link/connection.js";
 import { PartRegistry } from "./part_registry.js";
-import { mountShell, mountTheme } from "./shell.js";
+import { mountShell, mountTheme, mountView } from "./shell.js";
 import { mountSound } from "./sound.js";
 import { Store } from "./state/store.js";
 
@@ -52,6 +52,7 @@ async function begin() {
   const store = new Store(connection);
   const registry = new PartRegistry(document.getElementById("missing"));
   mountTheme(document.getElementById("theme-button"));
+  mountView(document.getElementById("view-button"));
   mountSound(document.getElementById("sound-button"), store, connection);
   mountHelp();
   registry.add("bar", mountShell(store, connection), document.getElementById("bar-state"));
