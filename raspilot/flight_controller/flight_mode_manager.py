@@ -251,6 +251,9 @@ class FlightModeManager(BaseFlightController):
         self._path_at_s = situation.time_s
         if isinstance(demand.path, Circle):
             self._remember_target(demand.path, demand.altitude_m, navigation)
+        elif self._circle is not None:
+            self._circle = None
+            self.home.memory.update(target=None)
         attitude = self._path_controller.step(demand, navigation, dt_s)
         if not self._has_motor:
             attitude = replace(attitude, throttle=None)

@@ -31,7 +31,7 @@ from up.mission.items import (
     MissionItem,
 )
 
-MIN_GROUND_M_S = 2.0
+MIN_GROUND_M_S, MIN_LEG_M = 2.0, 10.0
 SD_M, HEIGHT_MARGIN_M = 5.0, 10.0
 """The fence acts so much before a border: deviation of the estimate, and the end of a climb."""
 CIRCLE_CORNERS = 16
@@ -208,6 +208,8 @@ class _Check:
         after = [self._course.lead_m(leg, each) for each in self._from[number]]
         lead_m = max(after, default=0.0)
         turns_m = max(before, default=0.0) + lead_m
+        if self._items[number - 1].kind == WAYPOINT:
+            turns_m = max(MIN_LEG_M, turns_m)
         if leg.length_m < turns_m:
             text = f"the leg from item {leg.start} has {leg.length_m:.0f} m"
             yield Problem(number, "turn", f"{text}, its turns need {turns_m:.0f} m")
