@@ -125,7 +125,7 @@ class Failsafes(BaseStartedModule):
         self._report()
         if self._is_entering:
             return
-        if state.is_auto or state.is_failsafe:
+        if (state.is_auto or state.is_failsafe) and not flight.is_uninterrupted:
             by_sticks = flight.is_flown_by_sticks
             code = self._engine.wanted(
                 self._acting, ("uplink_lost",) if by_sticks else ("receiver_lost",)

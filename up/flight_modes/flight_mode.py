@@ -73,6 +73,19 @@ class FlightMode(BaseModule):
     REQUESTS: ClassVar[frozenset[str]] = frozenset()
     SELECTABLE: ClassVar[bool] = True
 
+    successor = ""
+    """The mode that replaces this one, once it has set the name, unless that one refuses."""
+
+    @property
+    def is_uninterrupted(self) -> bool:
+        """Return whether no failsafe may select another mode now: in the hand, or landing."""
+        return False
+
+    @property
+    def goal(self) -> Target | None:
+        """Return what a restart of the program resumes as the target; None: the circle flown."""
+        return None
+
     def refusal(self, situation: FlightSituation) -> ModeRefusal | str | None:
         """Return why the mode cannot be entered now, apart from its readings; None: it can.
 
