@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
 
 from raspilot.failsafe.config import Fence
 from raspilot.mission.borders import LocalBorders, crosses, local_borders, margin_m
@@ -31,9 +30,10 @@ class FenceWatch:
         self._borders: LocalBorders = ()
         self.margin_m: float | None = None
 
-    def use(self, plan: Iterable[Border]) -> None:
+    def use(self, plan: tuple[Border, ...]) -> None:
         """Watch the borders of this plan from now on, beside those of failsafe.yml."""
-        self._plan, self._frame = tuple(plan), None
+        if plan is not self._plan:
+            self._plan, self._frame = plan, None
 
     def is_crossed(self, state: NavigationState | None, home: Home | None) -> bool:
         """Return whether a border is crossed, or will be in AHEAD_S; False where nothing is known.

@@ -15,6 +15,7 @@ from raspilot.failsafe.fence import FenceWatch
 from raspilot.failsafe.progress import ProgressWatch
 from raspilot.flight_controller.flight_mode_manager import FlightModeManager
 from raspilot.flight_modes.return_home import RETURN, Return
+from raspilot.modules.plans import Plans
 from raspilot.navigation.planning import distance_m, flyable_radius_m
 from up.base_started_module import BaseStartedModule
 from up.failures import FailureSource
@@ -23,7 +24,7 @@ from up.flight_modes.flight_mode import FlightMode, FlightSituation
 from up.flight_modes.navigation_file import NAVIGATION
 from up.log.limits import Once
 from up.mode import WITH_BOARD, Mode
-from up.needs import needs
+from up.needs import needs, wants
 from up.providers.base_mission_control_provider import BaseMissionControlProvider
 
 PERIOD_S = 0.2
@@ -42,6 +43,7 @@ class Failsafes(BaseStartedModule):
     CONFIG = FAILSAFE
 
     flight = needs(FlightModeManager)
+    plans = wants(Plans)
 
     def __init__(self, config: Any = None, silent: bool = False) -> None:
         super().__init__(config, silent)
@@ -143,6 +145,9 @@ class Failsafes(BaseStartedModule):
         # A restart in flight does not forget that there was a ground.
         self._was_linked = self._was_linked or is_linked or flight.is_resumed
         away_m = self._distance_to_return_m(situation)
+        if self.plans is not None:
+            borders: Any = self.plans.fences.items
+            self._fence.use(borders)
         return {
             **self._reported_failures(),
             "fence": situation is not None

@@ -13,6 +13,7 @@ from raspilot.flight_controller.flight_mode_manager import FlightModeManager
 from raspilot.flight_modes.return_home import RETURN, Return
 from raspilot.mission.borders import leads_straight, local_borders, margin_m
 from raspilot.modules.phone_watch import PHONE_LINK
+from raspilot.modules.plans import Plans
 from up.base_started_module import BaseStartedModule
 from up.commands.system_commands import LinkStateCommand
 from up.flight_modes.navigation_file import NAVIGATION
@@ -39,10 +40,10 @@ class HomeChecks(BaseStartedModule):
 
     flight = needs(FlightModeManager)
     location = wants(UpLocationProvider)
+    plans = wants(Plans)
 
     def __init__(self, config: Any = None, silent: bool = False) -> None:
         super().__init__(config, silent)
-        self.fence: tuple[Border, ...] = ()
         self._has_phone = False
         self._checked: tuple[Place | None, tuple[Border, ...]] | None = None
 
@@ -83,9 +84,10 @@ class HomeChecks(BaseStartedModule):
             )
         else:
             self.up.vetoes.clear("home")
-        if (place, self.fence) != self._checked:
-            self._checked = place, self.fence
-            self._check_fence(place)
+        fence: Any = () if self.plans is None else self.plans.fences.items
+        if (place, fence) != self._checked:
+            self._checked = place, fence
+            self._check_fence(place, fence)
 
     @property
     def _is_needed(self) -> bool:
@@ -96,12 +98,12 @@ class HomeChecks(BaseStartedModule):
             and not self._navigation.arm_without_home
         )
 
-    def _check_fence(self, place: Place | None) -> None:
+    def _check_fence(self, place: Place | None, fence: tuple[Border, ...]) -> None:
         self.up.vetoes.clear("fence")
         if place is None:
             return
         frame = LocalFrame(place.latitude_deg, place.longitude_deg)
-        borders = local_borders(self.fence, frame)
+        borders = local_borders(fence, frame)
         inside_m = margin_m(borders, HOME)
         radius_m = self.context.config(RETURN).radius_m
         where = f"home ({place.latitude_deg:.5f}, {place.longitude_deg:.5f}) is"

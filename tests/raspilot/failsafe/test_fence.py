@@ -79,18 +79,18 @@ def test_polygons_act_as_early_and_a_narrow_one_is_not_leapt_over(
     watch = FenceWatch(Fence())
     watch.is_crossed(INSIDE, None)
     assert watch.margin_m is None
-    watch.use(plan)
+    watch.use(tuple(plan))
     names = {"position": "position", "velocity": "velocity_m_s"}
     state = replace(INSIDE, **{names.get(name, name): each for name, each in changed.items()})
     assert watch.is_crossed(state, None) is is_crossed, "it needs no home"
     assert watch.margin_m == pytest.approx(margin_m, abs=1e-3)
-    watch.use([])
+    watch.use(())
     assert not watch.is_crossed(state, None)
 
 
 def test_borders_are_at_their_place_when_the_frame_of_the_estimate_changes():
     watch = FenceWatch(Fence())
-    watch.use([FIELD])
+    watch.use((FIELD,))
     assert not watch.is_crossed(INSIDE, None)
     moved = replace(INSIDE, frame=LocalFrame(*INSIDE.frame.degrees(Point(300.0, 0.0))))
     assert watch.is_crossed(moved, None)
@@ -99,6 +99,6 @@ def test_borders_are_at_their_place_when_the_frame_of_the_estimate_changes():
 
 def test_the_nearest_of_radius_and_polygon_counts():
     watch = FenceWatch(Fence(radius_m=450))
-    watch.use([FIELD])
+    watch.use((FIELD,))
     watch.is_crossed(INSIDE, HOME)
     assert watch.margin_m == pytest.approx(50)

@@ -8,6 +8,7 @@ from twisted.logger import capturedLogs
 from raspilot.flight_modes.return_home import Return
 from raspilot.modules.failsafes import Failsafes
 from raspilot.modules.home_checks import HomeChecks
+from raspilot.modules.plans import Plans
 from tests.raspilot.flight_controller_rig import PHONE
 from tests.raspilot.mission.test_borders import circle, polygon
 from tests.raspilot.navigation_rig import STANDING, NavigationRig
@@ -24,14 +25,17 @@ WARN = "".join(
 class HomeRig(NavigationRig):
     def __init__(self, folder, fence=(), navigation="", failsafe=""):
         super().__init__(
-            folder, modes=(Return,), modules=(Failsafes, HomeChecks),
+            folder, modes=(Return,), modules=(Failsafes, HomeChecks, Plans),
             navigation="home_accuracy_m: 5\n" + navigation, failsafe=failsafe,
         )  # fmt: skip
         self.checks = self.up.get_module(HomeChecks)
-        self.checks.fence = tuple(fence)
+        self.use(fence)
         self.checks.on_start()
         self.navigation.set(INACCURATE)
         self.state("FBW", armed=False, auto=False, in_flight=False)
+
+    def use(self, fence):
+        self.up.get_module(Plans).fences.use(tuple(fence), "0123456789abcdef")
 
     def vetoes(self, navigation=None):
         if navigation is not None:
@@ -99,10 +103,10 @@ def test_home_must_be_inside_the_fence_with_the_circle_of_return(tmp_path, fence
 def test_the_veto_ends_with_another_fence_and_nothing_changes_in_flight(tmp_path):
     rig = HomeRig(tmp_path, AWAY)
     assert rig.vetoes(STANDING) == ["fence"]
-    rig.checks.fence = tuple(AROUND)
+    rig.use(AROUND)
     assert rig.vetoes() == []
     rig.state()
-    rig.checks.fence = tuple(AWAY)
+    rig.use(AWAY)
     assert rig.vetoes() == []
 
 
