@@ -8,11 +8,11 @@ from typing import Any, ClassVar
 
 from raspilot.flight_modes.loiter import LOITER as LOITER_FILE
 from raspilot.mission.borders import LocalBorders, crosses, local_borders
-from raspilot.mission.flight import CircleFlight, ItemFlight, LineFlight, ModeFlight
+from raspilot.mission.flight import CircleFlight, ClimbFlight, ItemFlight, LineFlight
 from raspilot.mission.progress import MissionProgress, airspeed_of
 from raspilot.modules.plans import Plans
 from raspilot.navigation.planning import circle_abeam, circle_around, flyable_radius_m
-from up.flight_modes.demand import Circle, Demand
+from up.flight_modes.demand import AttitudeDemand, Circle, Demand
 from up.flight_modes.flight_mode import (
     FlightMode,
     FlightSituation,
@@ -41,7 +41,8 @@ SAVE_S = 5.0
 class Mission(FlightMode):
     """Flies to the item that is next, from wherever the aircraft is; circles at the end.
 
-    ``takeoff``, ``land`` and ``return`` are flown by the modes of these names.
+    ``takeoff``, ``land`` and ``return`` are flown by the modes of these names, which replace this
+    one: their own rules for failures hold. TAKEOFF comes back to it.
     """
 
     NAME: ClassVar[str] = "MISSION"
@@ -50,9 +51,16 @@ class Mission(FlightMode):
 
     plans = needs(Plans)
 
+    continues = False
+    _goal: Target | None = None
+
     def on_init(self) -> None:
         self._modes = {each.NAME: each for each in self.up.get_modules(FlightMode)}
         self._borders: tuple[object, LocalBorders] = (None, ())
+
+    @property
+    def goal(self) -> Target | None:
+        return self._goal
 
     def refusal(self, situation: FlightSituation) -> ModeRefusal | None:
         state, problems = situation.navigation, self.plans.problems
@@ -67,6 +75,10 @@ class Mission(FlightMode):
         if problems:
             first = problems[0]
             return ModeRefusal("mission_invalid", f"item {first.item}: {first.text}")
+        item = self._items[self.plans.progress.item - 1]
+        if item.kind == TAKEOFF and not state.is_in_flight:
+            refusal = self._modes["TAKEOFF"].refusal(situation)
+            return ModeRefusal("mode_refused", refusal) if isinstance(refusal, str) else refusal
         end = self._point(self.plans.progress, state.frame, situation.home)
         if end is not None and crosses(self._fence(state.frame), state.position, end):
             text = "the way to the next item is outside the fence"
@@ -76,6 +88,7 @@ class Mission(FlightMode):
     def enter(self, situation: FlightSituation) -> None:
         self._flown: MissionProgress | None = None
         self._flight: ItemFlight | None = None
+        self._goal, self.successor, self.continues = None, "", False
 
     def step(self, situation: FlightSituation, dt_s: float) -> Demand:
         state, items = situation.navigation, self._items
@@ -92,7 +105,10 @@ class Mission(FlightMode):
         elif isinstance(flight, CircleFlight):
             self._save(flight, flown)
         assert self._flight is not None
-        return self._flight.demand(situation, dt_s)
+        if self.continues:
+            # In the hand, until TAKEOFF replaces this mode.
+            return AttitudeDemand(0.0, 0.0, 0.0)
+        return self._flight.demand(state)
 
     @property
     def _items(self) -> Any:
@@ -112,6 +128,7 @@ class Mission(FlightMode):
 
     def _begin(self, progress: MissionProgress, situation: FlightSituation, start: Point) -> None:
         self._flown = self.plans.progress = progress
+        self._goal, self.successor, self.continues = None, "", False
         if progress.is_finished:
             self._flight = self._circle(progress, situation)
         else:
@@ -127,10 +144,12 @@ class Mission(FlightMode):
         airspeed_m_s = airspeed_of(self._items, progress.item)
         after = progress.next(self._items)
         following = None if after.is_finished else self._point(after, state.frame, home)
+        if item.kind == TAKEOFF and state.is_in_flight:
+            return ClimbFlight(state, altitude_m)
         if item.kind in {TAKEOFF, LAND, RETURN}:
-            target = None if point is None else Target(point, altitude_m, item.radius_m)
-            until_m = altitude_m if item.kind == TAKEOFF else None
-            return ModeFlight(self._modes[item.kind.upper()], target, until_m)
+            self.successor, self.continues = item.kind.upper(), item.kind == TAKEOFF
+            if item.kind != RETURN and point is not None:
+                self._goal = Target(point, altitude_m, item.radius_m)
         if item.kind == WAYPOINT:
             assert point is not None
             return LineFlight(
@@ -149,14 +168,16 @@ class Mission(FlightMode):
         point = self._point(progress, state.frame, home)
         if point is None or item.kind == TAKEOFF:
             circle = circle_abeam(config, state, radius_m)
-        elif item.kind == WAYPOINT:
+        elif item.kind in {WAYPOINT, LAND, RETURN}:
             circle = circle_around(config, state, point, radius_m)
         else:
             radius_m = flyable_radius_m(config, state, radius_m)
             circle = Circle(point, radius_m, item.is_clockwise)
+        # Until a mode that replaces this one does not refuse any more.
+        altitude_m = state.altitude_m if self.successor else _altitude_m(item, home)
         flight = CircleFlight(
             circle,
-            _altitude_m(item, home),
+            altitude_m,
             airspeed_of(self._items, progress.item),
             turns=item.turns if item.kind == LOITER_TURNS else None,
             time_s=item.time_s if item.kind == LOITER_TIME else None,

@@ -6,6 +6,7 @@ import math
 from collections.abc import Iterable
 from dataclasses import dataclass
 from itertools import pairwise
+from operator import itemgetter
 from typing import TypeAlias
 
 from up.flight_modes.navigation_state import LocalFrame, Point
@@ -91,9 +92,11 @@ def margin_m(borders: LocalBorders, point: Point) -> float:
     for each in borders:
         if each.is_inside and each.most_m(point) > within:
             within = max(within, each.depth_m(point))
-    for each in borders:
-        if not each.is_inside and -each.most_m(point) < within:
-            within = min(within, -each.depth_m(point))
+    others = ((-each.most_m(point), each) for each in borders if not each.is_inside)
+    for least, each in sorted(others, key=itemgetter(0)):
+        if least >= within:
+            break
+        within = min(within, -each.depth_m(point))
     return within
 
 

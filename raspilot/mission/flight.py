@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import replace
-from typing import TYPE_CHECKING, Protocol
+from typing import Protocol
 
 from raspilot.mission.legs import lead_m, turn_between_deg
 from raspilot.navigation.planning import (
@@ -13,12 +12,9 @@ from raspilot.navigation.planning import (
     ground_speed_m_s,
     turn_radius_m,
 )
-from up.flight_modes.demand import Circle, Demand, Line, PathDemand
+from up.flight_modes.demand import Circle, Course, Line, PathDemand
 from up.flight_modes.navigation_file import NavigationConfig
 from up.flight_modes.navigation_state import NavigationState, Point
-
-if TYPE_CHECKING:
-    from up.flight_modes.flight_mode import FlightMode, FlightSituation, Target
 
 ALTITUDE_M = 10.0
 """An altitude is reached within this."""
@@ -34,7 +30,7 @@ class ItemFlight(Protocol):
     def is_done(self, state: NavigationState, dt_s: float) -> bool:
         """Return whether the next item begins now."""
 
-    def demand(self, situation: FlightSituation, dt_s: float) -> Demand:
+    def demand(self, state: NavigationState) -> PathDemand:
         """Return what is demanded now."""
 
 
@@ -70,9 +66,7 @@ class LineFlight:
     def is_done(self, state: NavigationState, dt_s: float) -> bool:
         return self._left_m(state) <= self._lead_m(state)
 
-    def demand(self, situation: FlightSituation, dt_s: float) -> PathDemand:
-        state = situation.navigation
-        assert state is not None
+    def demand(self, state: NavigationState) -> PathDemand:
         part = max(0.0, min(1.0, self._left_m(state) / self._length_m))
         altitude_m = self._altitude_m + part * self._above_m
         line = Line(self._end, self._course_deg)
@@ -133,7 +127,7 @@ class CircleFlight:
         is_towards = turn_between_deg(state.course_deg, course_deg) < EXIT_DEG
         return is_towards or self.turned_deg > self._satisfied_deg + MAX_EXIT_DEG
 
-    def demand(self, situation: FlightSituation, dt_s: float) -> PathDemand:
+    def demand(self, state: NavigationState) -> PathDemand:
         return self._demand
 
     def _count(self, state: NavigationState, dt_s: float) -> None:
@@ -158,19 +152,15 @@ class CircleFlight:
         )
 
 
-class ModeFlight:
-    """An item that another flight mode flies, with a target; done above ``until_m``, or never."""
+class ClimbFlight:
+    """A climb along the present course."""
 
-    def __init__(self, mode: FlightMode, target: Target | None, until_m: float | None) -> None:
-        self._mode, self._target, self._until_m = mode, target, until_m
-        self._is_entered = False
+    def __init__(self, state: NavigationState, altitude_m: float) -> None:
+        self._altitude_m = altitude_m
+        self._demand = PathDemand(Course(state.course_deg), altitude_m)
 
     def is_done(self, state: NavigationState, dt_s: float) -> bool:
-        return self._until_m is not None and state.altitude_m >= self._until_m - ALTITUDE_M / 2
+        return state.altitude_m >= self._altitude_m - ALTITUDE_M / 2
 
-    def demand(self, situation: FlightSituation, dt_s: float) -> Demand:
-        situation = replace(situation, target=self._target)
-        if not self._is_entered:
-            self._is_entered = True
-            self._mode.enter(situation)
-        return self._mode.step(situation, dt_s)
+    def demand(self, state: NavigationState) -> PathDemand:
+        return self._demand
