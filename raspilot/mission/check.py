@@ -15,6 +15,7 @@ from raspilot.mission.config import MissionConfig
 from raspilot.mission.legs import CIRCLED, Course, Leg, ahead, has_loop_without_place
 from raspilot.mission.progress import NOT_FLOWN
 from raspilot.mission.store import Problem
+from raspilot.navigation.airframe_model import AirframeModel
 from up.flight_modes.navigation_file import NavigationConfig
 from up.flight_modes.navigation_state import LocalFrame, Point
 from up.mission.items import (
@@ -229,7 +230,9 @@ class _Check:
         if start_m is None or end_m is None or self._items[leg.end - 1].kind != WAYPOINT:
             return
         vertical = self._given.navigation.vertical
-        limit_m_s = vertical.climb_limit_m_s if end_m > start_m else vertical.sink_limit_m_s
+        glide_m_s = AirframeModel(self._given.navigation).sink_m_s(leg.airspeed_m_s, 1.0)
+        sink_m_s = min(vertical.sink_limit_m_s, glide_m_s)
+        limit_m_s = vertical.climb_limit_m_s if end_m > start_m else sink_m_s
         needed_m = abs(end_m - start_m) / limit_m_s * ground_m_s
         if needed_m > leg.length_m:
             text = f"the leg from item {leg.start} has {leg.length_m:.0f} m"

@@ -19,6 +19,8 @@ from up.flight_modes.navigation_state import NavigationState, Point
 ALTITUDE_M = 10.0
 """An altitude is reached within this."""
 ON_CIRCLE_M, ON_CIRCLE_PART = 10.0, 0.2
+EARLY_S = 3.0
+"""A descent ends so long before the turn: the altitude follows late."""
 EXIT_DEG = 15.0
 MAX_EXIT_DEG = 400.0
 """A circle is left after so much more even if it never points to the next item."""
@@ -67,7 +69,8 @@ class LineFlight:
         return self._left_m(state) <= self._lead_m(state)
 
     def demand(self, state: NavigationState) -> PathDemand:
-        part = max(0.0, min(1.0, self._left_m(state) / self._length_m))
+        early_m = self._lead_m(state) + EARLY_S * state.ground_speed_m_s
+        part = max(0.0, min(1.0, (self._left_m(state) - early_m) / self._length_m))
         altitude_m = self._altitude_m + part * self._above_m
         line = Line(self._end, self._course_deg)
         return PathDemand(line, altitude_m, airspeed_m_s=self._airspeed_m_s)
@@ -110,7 +113,8 @@ class CircleFlight:
         self._demand = PathDemand(circle, altitude_m, airspeed_m_s=airspeed_m_s)
         self._altitude_m = altitude_m
         self._turns, self._time_s = turns, time_s
-        self._following = following
+        is_apart = following and distance_m(circle.centre, following) > circle.radius_m
+        self._following = following if is_apart else None
         self._bearing_deg: float | None = None
         self._satisfied_deg: float | None = None
         self.turned_deg = self.waited_s = 0.0

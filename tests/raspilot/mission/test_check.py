@@ -87,7 +87,7 @@ BAD = {
         {(2, "climb")},
     ),
     "a short descent": (
-        [placed(400, 0, altitude=100.0), placed(600, 0, altitude=20.0), RETURN], CALM,
+        [placed(400, 0, altitude=100.0), placed(900, 0, altitude=50.0), RETURN], CALM,
         {(2, "climb")},
     ),
     "against the wind": ([NORTH, placed(400, -400), placed(0, -400), RETURN],
