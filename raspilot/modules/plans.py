@@ -66,7 +66,7 @@ class Plans(BaseStartedModule):
     def on_init(self) -> None:
         self._stores = {plan: PlanStore(plan, self.context.config_folder) for plan in PLANS}
         self.missions, self.fences = self._stores[MISSION], self._stores[FENCE]
-        self._disk = DiskThread("plans", self.context.reactor)
+        self._disk = DiskThread(self.context.reactor)
         self._turn = DeferredLock()
         self._checked: object = None
         self._was_in_flight: bool | None = None
