@@ -24,7 +24,7 @@ WAY_S = 0.05
 
 
 class Air:
-    """The link to a real aircraft's receiver: each message is late, and some come never or twice."""
+    """The link to a real aircraft: each message is late, and some come never or twice."""
 
     def __init__(self, rig, loss=0.0, seed=1):
         self.rig, self.loss, self.random = rig, loss, Random(seed)
