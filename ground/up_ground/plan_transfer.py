@@ -30,6 +30,7 @@ PART_BYTES = 8000
 RESTARTS, STALLS = 3, 5
 PROBLEMS_S = 1.0
 """The problems may arrive after the refusal."""
+NO_CONTENT = "no_content"
 UPLOAD, COMMIT, VERIFY, DOWNLOAD = "upload", "commit", "verify", "download"
 
 
@@ -213,7 +214,7 @@ class PlanTransfer:
         if first not in (self._read or {}):
             self._stalls += 1
         if self._stalls > STALLS:
-            self._fail(Reply("no_content", f"the {self.plan} did not arrive"))
+            self._fail(Reply(NO_CONTENT, f"the {self.plan} did not arrive"))
         else:
             self._request()
 

@@ -4,65 +4,15 @@ import json
 
 import pytest
 
-from raspilot.mission.store import PlanStore
 from tests.ground.aircraft import Aircraft, coded, codes, frame, ground
+from tests.ground.flying import Flying
 from tests.up.mission.plans import document, row, rows, simple, waypoint
-from up.commands.mission_commands import (
-    MissionCommitCommand,
-    MissionPartCommand,
-    MissionRequestCommand,
-)
-from up.commands.refusal import CommandRefusedError
 from up.mission.items import plan_id
 from up.mission.plan_forms import read_plan
+from up_ground.main import main
 
 CIRCLE = {"circle": {"center": [50.08, 14.43], "radius": 900.0}, "inclusion": True, "version": 1}
 MANY = document(*(waypoint(each, 50.08 + each / 1e4) for each in range(1, 46)), circles=[CIRCLE])
-
-
-class Flying(Aircraft):
-    """An aircraft that keeps plans; `problems` are what its check finds."""
-
-    def __init__(self, port, folder, problems=()):
-        self.stores = {plan: PlanStore(plan, folder) for plan in ("mission", "fence")}
-        self.problems = problems
-        answers = {
-            "up.mission.part": lambda message: self._do(message, MissionPartCommand, self._part),
-            "up.mission.commit": lambda message: self._do(
-                message, MissionCommitCommand, self._commit
-            ),
-            "up.mission.request": lambda message: self._do(
-                message, MissionRequestCommand, self._request
-            ),
-        }
-        super().__init__(port, answers)
-
-    def _do(self, message, cls, carry_out):
-        command = cls.from_data(message["data"])
-        try:
-            told = carry_out(self.stores[command.plan], command) or []
-        except CommandRefusedError as error:
-            nack = {"id": message["id"], "code": error.code.value, "reason": error.reason}
-            return [*self._told(command), ("up.nack", {**nack, "detail": error.detail})]
-        return [*told, ("up.ack", {"id": message["id"]})]
-
-    def _told(self, command):
-        if isinstance(command, MissionCommitCommand):
-            data = {"plan": command.plan, "plan_id": command.plan_id}
-            yield "up.mission.problems", {**data, "problems": self.problems, "untold": 2}
-
-    def _part(self, store, command):
-        store.stage(command)
-
-    def _commit(self, store, command):
-        items, _ = store.staged(command)
-        if self.problems:
-            raise CommandRefusedError("too far", detail="plan_invalid")
-        store.use(tuple(items), command.plan_id)
-
-    def _request(self, store, command):
-        part = store.part(command)
-        return [(part.NAME, part.data)]
 
 
 @pytest.fixture
@@ -75,6 +25,21 @@ def written(folder, given, name="field.plan"):
     path = folder / name
     path.write_text(given if isinstance(given, str) else json.dumps(given))
     return str(path)
+
+
+@pytest.fixture
+def offline(monkeypatch, capsys):
+    """Run the program here: (status, stdout, stderr)."""
+
+    def run(*words, output="json"):
+        monkeypatch.setenv("UP_LOG_FORMAT", output)
+        try:
+            status = main(["mission", *words])
+        except SystemExit as error:
+            status = error.code
+        return (status, *capsys.readouterr())
+
+    return run
 
 
 def run(folder, proxy, *words, **more):
@@ -99,24 +64,27 @@ def test_a_file_is_uploaded_and_comes_back_as_it_was(proxy, flying, tmp_path):
     assert run(tmp_path, proxy, "download", copy)[0] == 0
     again = read_plan((tmp_path / "copy.plan").read_text(), "")
     assert (again.items, again.borders) == (plan.items, plan.borders)
-    kept = (tmp_path / "copy.plan").read_text()
-    status, _, stderr = run(tmp_path, proxy, "download", copy)
-    assert (status, codes(stderr)) == (1, ["file_unsuitable"])
-    assert (tmp_path / "copy.plan").read_text() == kept
-
     status, said, _ = run(tmp_path, proxy, "clear", "mission", UP_LOG_FORMAT="")
     assert (status, said) == (0, "mission: 0 items in use\n")
     assert flying.stores["mission"].items == ()
     assert flying.stores["fence"].items == plan.borders
 
 
-def test_only_one_of_both_can_be_transferred(proxy, flying, tmp_path):
-    path = written(tmp_path, MANY)
-    status, said, _ = run(tmp_path, proxy, "upload", path, "--fence-only")
+def test_only_the_fence_of_a_file_is_uploaded(proxy, flying, tmp_path):
+    status, said, _ = run(tmp_path, proxy, "upload", written(tmp_path, MANY), "--fence-only")
     assert (status, list(json.loads(said))) == (0, ["fence"])
-    assert flying.stores["mission"].items == ()
-    path = str(tmp_path / "copy.waypoints")
-    status, _, stderr = run(tmp_path, proxy, "download", path, "--fence-only")
+    assert (len(flying.stores["fence"].items), flying.stores["mission"].items) == (1, ())
+
+
+def test_a_download_overwrites_nothing(offline, tmp_path):
+    path = written(tmp_path, MANY)
+    status, _, stderr = offline("download", path)
+    assert (status, codes(stderr)) == (1, ["file_unsuitable"])
+    assert read_plan((tmp_path / "field.plan").read_text(), "").items
+
+
+def test_a_file_of_waypoints_has_no_place_for_a_fence(offline, tmp_path):
+    status, _, stderr = offline("download", str(tmp_path / "copy.waypoints"), "--fence-only")
     assert (status, codes(stderr)) == (1, ["file_unsuitable"])
 
 
@@ -133,9 +101,9 @@ def test_problems_of_the_aircraft_name_the_items_of_the_file(proxy, flying, tmp_
 PLACE = (0, 0, 0, 0, 50.08, 14.43, 60)
 
 
-def test_a_wrong_file_is_not_uploaded(proxy, tmp_path):
+def test_a_wrong_file_is_not_uploaded(offline, tmp_path):
     path = written(tmp_path, document(waypoint(1), simple(2, 84), simple(3, 9999)))
-    status, said, stderr = ground(tmp_path, 1, "mission", "upload", path)
+    status, said, stderr = offline("upload", path)
     assert (status, said) == (1, "")
     assert [(each["item"], each["code"]) for each in coded(stderr)] == [
         (2, "command_unsupported"),
@@ -143,16 +111,16 @@ def test_a_wrong_file_is_not_uploaded(proxy, tmp_path):
     ]
 
 
-def test_a_file_is_checked_offline(tmp_path):
+def test_a_file_is_checked_offline(offline, tmp_path):
     path = written(tmp_path, MANY)
-    status, said, stderr = ground(tmp_path, 1, "mission", "check", path)
+    status, said, stderr = offline("check", path)
     told = json.loads(said)
     assert (status, stderr) == (0, "")
     assert (told["form"], told["items"], told["borders"]) == ("plan", 45, 1)
     path = written(tmp_path, json.dumps(MANY)[:-9])
-    status, said, _ = ground(tmp_path, 1, "mission", "check", path)
+    status, said, _ = offline("check", path)
     assert (status, [each["code"] for each in json.loads(said)["problems"]]) == (1, ["not_json"])
-    status, said, stderr = ground(tmp_path, 1, "mission", "check", path, UP_LOG_FORMAT="")
+    status, said, stderr = offline("check", path, output="text")
     assert (status, said, stderr.count("\n")) == (1, "", 1)
 
 
@@ -166,17 +134,17 @@ def test_a_file_is_checked_offline(tmp_path):
         (["upload"], 2, "usage"),
     ],
 )
-def test_mistakes_are_found_before_a_connection(tmp_path, words, status, code):
-    assert ground(tmp_path, 1, "mission", *words)[::2][0] == status
-    assert codes(ground(tmp_path, 1, "mission", *words)[2]) == [code]
+def test_mistakes_are_found_before_a_connection(offline, words, status, code):
+    ended, said, stderr = offline(*words)
+    assert (ended, said, codes(stderr)) == (status, "", [code])
 
 
-def test_bytes_and_empty_plans_are_refused(tmp_path):
+def test_bytes_and_empty_plans_are_refused(offline, tmp_path):
     path = tmp_path / "a.plan"
     path.write_bytes(b"{\xff")
-    assert codes(ground(tmp_path, 1, "mission", "check", str(path))[2]) == ["not_text"]
+    assert codes(offline("check", str(path))[2]) == ["not_text"]
     empty = written(tmp_path, document())
-    assert codes(ground(tmp_path, 1, "mission", "upload", empty)[2]) == ["nothing_to_upload"]
+    assert codes(offline("upload", empty)[2]) == ["nothing_to_upload"]
 
 
 def test_start_selects_the_item_and_then_the_mode(proxy, flying, tmp_path):

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from typing import Any, TypeAlias
 
 from up.errors import UserError
-from up.mission.items import FENCE, ITEM_CLASSES, Border, MissionItem, PlanItem
+from up.mission.items import FENCE, ITEM_CLASSES, MAX_ITEMS, Border, MissionItem, PlanItem
 
 PLAN, WAYPOINTS = FORMS = ("plan", "waypoints")
 Position: TypeAlias = tuple[float, float, float]
@@ -97,6 +97,9 @@ def checked_items(plan: str, given: Sequence[Any]) -> tuple[PlanItem, ...]:
     """
     found = Findings()
     items: list[PlanItem] = []
+    if len(given) > (limit := MAX_ITEMS[plan]):
+        found.problem(plan, limit + 1, "too_many", f"at most {limit}, and these are {len(given)}")
+        raise PlanError("", found.problems)
     for number, each in enumerate(given, 1):
         try:
             if not isinstance(each, dict):

@@ -104,7 +104,7 @@ def write_plan_file(plan: Plan) -> str:
         "rallyPoints": {"points": [], "version": 2},
         "version": _FILE_VERSION,
     }
-    return json.dumps(document, indent=4, allow_nan=False) + "\n"
+    return json.dumps(document, indent=1, allow_nan=False) + "\n"
 
 
 def _object(pairs: list[tuple[str, Any]]) -> Fields:
