@@ -174,7 +174,7 @@ class PlanService:
                 if items is None:
                     result["items"] = [each.data for each in outcome.items]
             if items is not None:
-                what = f"{plan} of {len(items)}" if items else f"no {plan}"
+                what = f"{plan} ({len(items)} items)" if items else f"no {plan}"
                 name = MissionCommitCommand.NAME
                 self._report(*outcome_event(page.name, what, name, {}, None, answer))
             notify(answer_message(ask, answer, outcome.problems, outcome.untold, **result))
