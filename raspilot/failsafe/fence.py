@@ -51,10 +51,11 @@ class FenceWatch:
         ahead = Point(north_m + AHEAD_S * north_m_s, east_m + AHEAD_S * east_m_s)
         margins_m = [self._margin_m(each, home) for each in (state.position, ahead)]
         self.margin_m = margins_m[0] if math.isfinite(margins_m[0]) else None
+        is_at_height = home is None or not self._leaves_heights(state, home)
         return (
-            min(margins_m) < state.position_sd_m
+            not is_at_height
+            or min(margins_m) < state.position_sd_m
             or crosses(self._borders, state.position, ahead)
-            or (home is not None and self._leaves_heights(state, home))
         )
 
     def _margin_m(self, point: Point, home: Home | None) -> float:

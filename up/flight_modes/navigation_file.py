@@ -119,8 +119,8 @@ class NavigationConfig:
     )
     arm_without_home: bool = key(
         False,
-        "Permits arming before home is set, although a failsafe flies RETURN. Without a phone and"
-        " without a position arming never waits for home.",
+        "Permits arming before home is set, although a failsafe flies RETURN. Where no source of a"
+        " position is connected, arming never waits for home.",
     )
     airspeed: Airspeed = section(Airspeed)
     performance: Performance = section(Performance)

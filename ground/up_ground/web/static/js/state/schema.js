@@ -293,6 +293,7 @@ export const MODE_REASONS = {
   "flight_battery_low": "the flight battery is low",
   "phone_battery": "the phone's battery is low",
   "no_progress": "the wind is stronger than the aircraft",
+  "overload": "the Raspberry Pi is overloaded",
   "no_home": "home is not set",
   "home_too_far": "home is too far away",
   "no_target": "it needs a target: choose a place on the map",

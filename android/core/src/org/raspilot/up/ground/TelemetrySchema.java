@@ -127,6 +127,7 @@ public final class TelemetrySchema {
         MODE_REASONS.put("flight_battery_low", "the flight battery is low");
         MODE_REASONS.put("phone_battery", "the phone's battery is low");
         MODE_REASONS.put("no_progress", "the wind is stronger than the aircraft");
+        MODE_REASONS.put("overload", "the Raspberry Pi is overloaded");
         MODE_REASONS.put("no_home", "home is not set");
         MODE_REASONS.put("home_too_far", "home is too far away");
         MODE_REASONS.put("no_target", "it needs a target: choose a place on the map");
