@@ -12,7 +12,7 @@ ARM_M = 1.5
 """Way along which a throw accelerates the aircraft evenly."""
 FRICTION_M_S2 = 4.0
 """Of a belly on grass."""
-MAX_SINK_M_S, MAX_BANK_DEG, MAX_PITCH_DEG = 2.0, 20.0, 20.0
+MAX_SINK_M_S, MAX_BANK_DEG, MAX_PITCH_DEG = 3.0, 20.0, 20.0
 """A contact with the ground beyond one of these is a crash, not a landing."""
 METRES_PER_DEG = 111_320.0
 
