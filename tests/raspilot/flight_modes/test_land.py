@@ -75,7 +75,8 @@ def test_it_lands_at_home_against_the_wind_with_the_motor_off_and_level_wings(tm
 
 def test_it_lands_at_the_target_whose_altitude_is_that_of_the_ground(tmp_path):
     target = Target(Point(60.0, 40.0), 262.0)
-    rig = Runway(bound(Land, tmp_path, land=SMALL), PointMass(altitude=280.0), home=HOME, target=target)
+    mode = bound(Land, tmp_path, land=SMALL)
+    rig = Runway(mode, PointMass(altitude=280.0), home=HOME, target=target)
     rig.enter()
     while rig.plane.altitude > 262.0 and rig.plane.time_s < 300.0:
         rig.fly(0.02)

@@ -53,6 +53,14 @@ export const MODES = {
   "GLIDE": {
     "about": "the aircraft glides, motor off",
     "holder": ""
+  },
+  "LAND": {
+    "about": "the aircraft lands at home or at the target, against the wind",
+    "holder": ""
+  },
+  "TAKEOFF": {
+    "about": "the motor starts when the aircraft is thrown with the throttle stick raised",
+    "holder": ""
   }
 };
 
@@ -283,6 +291,11 @@ export const MODE_REASONS = {
   "target_too_low": "the target is too far below the aircraft",
   "target_below_home": "the target is below home",
   "target_radius": "the radius of the target is not above 0",
+  "wind_too_strong": "the wind is too strong for an approach",
+  "on_ground": "the aircraft is on the ground",
+  "in_flight": "the aircraft moves already",
+  "throttle_not_low": "close the throttle stick first",
+  "no_motor": "the aircraft has no motor",
   "orientation": "orientation missing or too old",
   "rx": "receiver missing or too old",
   "servo": "servos missing or too old",
