@@ -22,6 +22,8 @@ UPRIGHT_DEG = 45.0
 CHECK_S, LEAST_CLIMB_M = 8.0, 4.0
 """So long after the throw the aircraft must be so much higher."""
 ARRIVED_M = 3.0
+LEAST_HEIGHT_M = 10.0
+"""Lower it never turns, whatever the target."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -121,9 +123,9 @@ class Takeoff(FlightMode):
             self._stage = _Stage.CLIMB
             self._thrown_s, self._began_m = situation.time_s, state.altitude_m
             target = situation.target
-            self._altitude_m = (
-                state.altitude_m + self.config.height_m if target is None else target.altitude_m
-            )
+            self._altitude_m = state.altitude_m + self.config.height_m
+            if target is not None:
+                self._altitude_m = max(state.altitude_m + LEAST_HEIGHT_M, target.altitude_m)
             self.log.info("thrown: the motor starts", code="takeoff_thrown")
 
     def _watch_climb(self, situation: FlightSituation) -> None:

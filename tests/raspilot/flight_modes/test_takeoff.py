@@ -72,6 +72,14 @@ def test_the_target_gives_another_altitude(hand):
     assert hand.mode.successor == "LOITER"
 
 
+def test_it_never_turns_near_the_ground(hand):
+    hand.given["target"] = Target(Point(0.0, 0.0), 250.0)
+    hand.thrown().step({"altitude_m": 256.5})
+    assert hand.mode.successor == ""
+    hand.step({"altitude_m": 257.5})
+    assert hand.mode.successor == "LOITER"
+
+
 @pytest.mark.parametrize(
     ("seen", "given"),
     [
