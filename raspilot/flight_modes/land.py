@@ -39,7 +39,7 @@ class LandConfig:
         minimum=12, maximum=200,
     )  # fmt: skip
     decision_height_m: float = key(
-        10.0, "There it goes around, or lands: below it the motor stays off. At least twice the"
+        7.0, "There it goes around, or lands: below it the motor stays off. At least twice the"
         " error of the altitude.", unit="m", minimum=3, maximum=50,
     )  # fmt: skip
     max_aside_m: float = key(

@@ -10,10 +10,9 @@ from typing import ClassVar
 from raspilot.flight_controller import sticks
 from raspilot.navigation.airframe_model import AirframeModel
 from up.config import ConfigFile, key
-from up.flight_modes.demand import AttitudeDemand, Bank, Demand, PathDemand
+from up.flight_modes.demand import AttitudeDemand, Demand
 from up.flight_modes.flight_mode import FlightMode, FlightSituation, ModeRefusal
 from up.flight_modes.navigation_file import NAVIGATION
-from up.flight_modes.navigation_state import NavigationState
 
 LOW_US, CONSENT_US = 1100, 1250
 """The throttle stick: closed; the pilot's consent that the motor may run."""
@@ -23,7 +22,8 @@ UPRIGHT_DEG = 45.0
 CHECK_S, LEAST_CLIMB_M = 8.0, 4.0
 """So long after the throw the aircraft must be so much higher."""
 ARRIVED_M = 3.0
-BANK_LIMIT_DEG = 15.0
+LEAST_HEIGHT_M = 10.0
+"""Lower it never turns, whatever the target."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -37,10 +37,11 @@ class TakeoffConfig:
         5.0, "A fix faster than this over the ground is a throw; above that of a running thrower.",
         unit="m/s", minimum=4, maximum=15,
     )  # fmt: skip
-    throttle: float = key(0.9, "Throttle until the airspeed is known.", minimum=0.3, maximum=1)
+    throttle: float = key(0.7, "Throttle of the climb.", minimum=0.3, maximum=1)
     pitch_deg: float = key(
-        8.0, "Pitch until the airspeed is known.", unit="deg", minimum=0, maximum=20
-    )
+        7.0, "Pitch of the climb: the motor may stop in it unseen for some seconds.", unit="deg",
+        minimum=0, maximum=15,
+    )  # fmt: skip
 
 
 TAKEOFF = ConfigFile("takeoff.yml", TakeoffConfig)
@@ -95,7 +96,8 @@ class Takeoff(FlightMode):
         elif self._stage is _Stage.CLIMB:
             self._watch_climb(situation)
         if self._stage is _Stage.CLIMB:
-            return self._climb(situation.navigation)
+            # By attitude: before the first turn the wind, and so the airspeed, is a guess.
+            return AttitudeDemand(0.0, self.config.pitch_deg, self.config.throttle)
         rx = situation.rx
         if self._stage is _Stage.PILOT:
             if rx is None:
@@ -121,9 +123,9 @@ class Takeoff(FlightMode):
             self._stage = _Stage.CLIMB
             self._thrown_s, self._began_m = situation.time_s, state.altitude_m
             target = situation.target
-            self._altitude_m = (
-                state.altitude_m + self.config.height_m if target is None else target.altitude_m
-            )
+            self._altitude_m = state.altitude_m + self.config.height_m
+            if target is not None:
+                self._altitude_m = max(state.altitude_m + LEAST_HEIGHT_M, target.altitude_m)
             self.log.info("thrown: the motor starts", code="takeoff_thrown")
 
     def _watch_climb(self, situation: FlightSituation) -> None:
@@ -138,11 +140,6 @@ class Takeoff(FlightMode):
                 self._give_up("it does not climb", "no_climb")
         elif state is not None and state.altitude_m > self._altitude_m - ARRIVED_M:
             self.successor = "LOITER"
-
-    def _climb(self, state: NavigationState | None) -> Demand:
-        if state is None or not state.is_in_flight or state.measured_airspeed_m_s is None:
-            return AttitudeDemand(0.0, self.config.pitch_deg, self.config.throttle)
-        return PathDemand(Bank(0.0), self._altitude_m, bank_limit_deg=BANK_LIMIT_DEG)
 
     def _give_up(self, text: str, cause: str) -> None:
         self._stage = _Stage.PILOT

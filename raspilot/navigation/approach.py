@@ -12,8 +12,8 @@ from up.flight_modes.flight_mode import Target
 from up.flight_modes.navigation_file import NavigationConfig
 from up.flight_modes.navigation_state import NavigationState, Point
 
-STALL_FACTOR, WIND_SHARE = 1.3, 0.5
-"""Airspeed of the approach: this times the stall speed, and half of the wind for its gusts."""
+STALL_FACTOR, WIND_SHARE = 1.3, 0.25
+"""Airspeed of the approach: this times the stall speed, and a part of the wind for its gusts."""
 MIN_GROUND_M_S = 3.0
 """A slower approach is drift; the fixes could not tell it from standing."""
 POWERED_SHARE = 0.7

@@ -34,6 +34,8 @@ MIN_WIND_SD_M_S, MIN_AIRSPEED_SD = 0.3, 0.03
 GROUND_Q_M, GROUND_SD_M_S = 0.5, 0.3
 JUMP_SD_RAD, MOTOR_SD = 0.1, 0.1
 GAP_SD_M_S = 5.0
+FIRST_TURN_DEG = 60.0
+"""Before the nose has turned by this since take-off there is no verdict on the motor."""
 MEASURED_S = 2.5
 """How long the airspeed that a fix has shown is continued by the model."""
 MOVED_SD_M = 10.0
@@ -50,6 +52,7 @@ class Estimator:
     def __init__(self, model: AirframeModel | None = None) -> None:
         model = model or AirframeModel()
         self._model = AirspeedModel(model)
+        self._cruise_m_s = model.speeds.cruise_m_s
         self._path = AirPath()
         self._gate = FixGate(model.speeds.maximum_m_s)
         self._flight = FlightWatch()
@@ -64,6 +67,7 @@ class Estimator:
         self._roll_deg = self._pitch_deg = 0.0
         self._throttle = 0.0
         self._compass_offset_rad: float | None = None
+        self._straight_deg: float | None = None
 
     @property
     def rejected(self) -> dict[str, int]:
@@ -284,7 +288,10 @@ class Estimator:
             if velocity is not None:
                 self._horizontal.fuse_velocity(at, *velocity, VELOCITY_R_M_S)
             self.motor = MotorWatch()
-            self._model.restart(self._model.airspeed_m_s, motor_stopped=False)
+            self._straight_deg = at.yaw_deg
+            # Held in a hand the model has lost its airspeed.
+            airspeed_m_s = max(self._model.airspeed_m_s, self._cruise_m_s)
+            self._model.restart(airspeed_m_s, motor_stopped=False)
             self._wind = WindMean()
         else:
             self._horizontal.blur(GROUND_Q_M * math.sqrt(max(0.0, at.time_s - self._fixed.time_s)))
@@ -325,6 +332,11 @@ class Estimator:
         self._measured = at
         variance = horizontal.p[4][4] + horizontal.p[5][5]
         factor = self._model.measured_m_s / math.hypot(at.north_m_s, at.east_m_s)
+        # Before the first turn a head wind looks like a thrust that is missing.
+        if self._straight_deg is not None:
+            if abs(math.remainder(at.yaw_deg - self._straight_deg, 360.0)) < FIRST_TURN_DEG:
+                return
+            self._straight_deg = None
         if self.motor.fix(at, ground, nose, wind, variance, factor):
             self._change_thrust(at)
 

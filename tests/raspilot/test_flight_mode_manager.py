@@ -18,6 +18,8 @@ from up.commands.flight_state_command import FlightModeCommand, FlightStateComma
 from up.commands.heading_command import HeadingCommand
 from up.commands.navigation_commands import HomeCommand, NavigationTargetCommand
 from up.commands.output_command import SetpointCommand
+from up.flight_modes.demand import Bank, Circle, PathDemand
+from up.flight_modes.flight_mode import FlightMode, Target
 from up.flight_modes.navigation_state import Point
 
 
@@ -262,6 +264,66 @@ class TestRequests:
         assert refusal(rig.outcome(AltitudeCommand(100.0, "required"))) == "mode_refused"
         rig.outcome(FlightModeCommand("LEVEL"))
         assert rig.up.telemetry_controller.collect()["heading"]["required"] is None
+
+
+class Stage(FlightMode):
+    """Is followed by a mode, and has a goal and a way to keep failsafes off, as the test says."""
+
+    NAME = "STAGE"
+    REQUESTS = frozenset({"target"})
+    goal = None
+
+    def step(self, situation, dt_s):
+        return PathDemand(Bank(0.0))
+
+
+class TestSuccessor:
+    """A mode that has done its work names the next one."""
+
+    @pytest.fixture
+    def rig(self, tmp_path):
+        rig = NavigationRig(tmp_path, modes=(Stage,))
+        rig.state()
+        rig.setpoint()
+        rig.outcome(FlightModeCommand("STAGE"))
+        rig.setpoint()
+        rig.stage = rig.up.get_module(Stage)
+        return rig
+
+    def test_it_is_selected_and_is_no_choice_of_the_pilot(self, rig):
+        choices = rig.manager.choices
+        rig.stage.successor = "LOITER"
+        rig.setpoint()
+        assert rig.shown()["selected"] == "LOITER"
+        assert rig.setpoint()
+        assert rig.shown()["mode"] == "LOITER"
+        assert rig.manager.choices == choices
+
+    @pytest.mark.parametrize("name", ["GUIDED", "NOWHERE"])
+    def test_one_that_refuses_or_does_not_exist_changes_nothing(self, rig, name):
+        rig.stage.successor = name
+        assert rig.setpoint() and rig.setpoint()
+        assert rig.shown()["mode"] == "STAGE"
+
+    def test_a_fallback_does_not_select_it(self, rig):
+        rig.stage.step = None
+        rig.stage.successor = "LOITER"
+        rig.setpoint()
+        assert rig.shown()["selected"] == "STAGE"
+
+    def test_the_goal_of_a_mode_is_shown_and_resumed_instead_of_its_circles(self, rig, tmp_path):
+        rig.stage.goal = Target(Point(30.0, 40.0), 222.0)
+        rig.stage.step = lambda *_: PathDemand(Circle(Point(0.0, 0.0), 50.0), 300.0)
+        rig.setpoint()
+        assert rig.manager.telemetry_content["navigation"]["target"]["altitude"] == 222.0
+        rig.manager.home.memory.wait()
+        again = NavigationRig(tmp_path, gains=None, modes=(Stage,))
+        again.state()
+        again.setpoint()
+        again.setpoint()
+        target = again.manager.situation.target
+        assert target.altitude_m == 222.0
+        assert target.point == pytest.approx((30.0, 40.0), abs=0.01)
 
 
 class TestRestart:

@@ -12,7 +12,7 @@ ARM_M = 1.5
 """Way along which a throw accelerates the aircraft evenly."""
 FRICTION_M_S2 = 4.0
 """Of a belly on grass."""
-MAX_SINK_M_S, MAX_BANK_DEG, MAX_PITCH_DEG = 2.0, 20.0, 20.0
+MAX_SINK_M_S, MAX_BANK_DEG, MAX_PITCH_DEG = 3.0, 20.0, 20.0
 """A contact with the ground beyond one of these is a crash, not a landing."""
 METRES_PER_DEG = 111_320.0
 
@@ -69,10 +69,14 @@ class Roll:
     @property
     def state(self) -> FlightState:
         state, passed_s = self._state, self._passed_s
-        speed_m_s = self._begin_m_s + self._acceleration_m_s2 * passed_s
+        speed_m_s = max(0.0, self._begin_m_s + self._acceleration_m_s2 * passed_s)
         ahead_m = self._ahead_m + 0.5 * (self._begin_m_s + speed_m_s) * passed_s
         track = math.radians(state.track_deg)
-        north_m, east_m = ahead_m * math.cos(track), ahead_m * math.sin(track)
+        cosine, sine = math.cos(track), math.sin(track)
+        north_m, east_m = ahead_m * cosine, ahead_m * sine
+        through_air_m_s = math.hypot(
+            speed_m_s * cosine - state.wind_north_m_s, speed_m_s * sine - state.wind_east_m_s
+        )
         east_deg_m = METRES_PER_DEG * math.cos(math.radians(state.latitude_deg))
         return replace(
             state,
@@ -80,7 +84,8 @@ class Roll:
             east_m=state.east_m + east_m,
             latitude_deg=state.latitude_deg + north_m / METRES_PER_DEG,
             longitude_deg=state.longitude_deg + east_m / east_deg_m,
-            speed_m_s=max(0.0, speed_m_s),
+            speed_m_s=speed_m_s,
+            airspeed_m_s=through_air_m_s,
             climb_m_s=0.0,
             roll_rate_deg_s=0.0,
             pitch_rate_deg_s=0.0,

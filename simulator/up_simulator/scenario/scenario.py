@@ -134,7 +134,7 @@ class Scenario:
     may_crash: bool = key(False, "Whether a crash is permitted.")
     may_land: bool = key(
         False,
-        "Whether a soft contact with the ground is a landing: at most 2 m/s of sink, 20 degrees of"
+        "Whether a soft contact with the ground is a landing: at most 3 m/s of sink, 20 degrees of"
         " bank and of pitch. The aircraft then slides and stops.",
     )
     start: StartPart = section(StartPart)

@@ -5,6 +5,7 @@ from dataclasses import replace
 import pytest
 from twisted.logger import capturedLogs
 
+from raspilot.flight_modes.loiter import Loiter
 from raspilot.flight_modes.return_home import Return
 from raspilot.modules.failsafes import Failsafes
 from tests.docs.test_how_to import examples
@@ -250,3 +251,14 @@ def test_at_home_the_wide_circle_that_a_wind_requires_is_no_lack_of_progress(tmp
     rig.navigation.set(replace(wind, position=Point(100.0, 350.0)))
     rig.fly(35.0)
     assert rig.seen() == ([], "no_progress", "LOITER")
+
+
+def test_no_failsafe_interrupts_a_mode_that_forbids_it(rig, monkeypatch):
+    """A landing, or an aircraft in the hand: RETURN would start the motor."""
+    monkeypatch.setattr(type(rig.up.get_module(Loiter)), "is_uninterrupted", True)
+    rig.ground.is_there = False
+    rig.fly(11.0)
+    assert rig.seen() == (["uplink_lost"], None, "LOITER")
+    monkeypatch.undo()
+    rig.fly(1.0)
+    assert rig.seen() == (["uplink_lost"], "uplink_lost", "RETURN")

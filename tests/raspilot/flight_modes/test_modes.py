@@ -146,6 +146,16 @@ def test_return_climbs_flies_home_and_circles_there(tmp_path):
     assert track[-1].altitude_m == pytest.approx(310.0, abs=0.5)
 
 
+@pytest.mark.parametrize(("land", "successor"), [("false", ""), ("true", "LAND")])
+def test_return_lands_at_home_if_it_is_configured(tmp_path, land, successor):
+    plane = PointMass(north=-150.0, altitude=310.0)
+    rig = ModeRig(bound(Return, tmp_path, **{"return": f"land: {land}"}), plane, home=HOME).enter()
+    rig.fly(0.5)
+    assert rig.mode.successor == ""
+    rig.fly(8.0)
+    assert rig.mode.successor == successor
+
+
 def test_return_from_above_descends_only_at_home(tmp_path):
     plane = PointMass(north=-500.0, altitude=400.0)
     rig = ModeRig(bound(Return, tmp_path), plane, home=HOME).enter()

@@ -62,6 +62,12 @@ def test_an_error_of_airspeed_or_wind_causes_no_steady_error_of_the_track(
     assert attitude.roll_deg == pytest.approx(0.0, abs=0.1)
 
 
+def test_the_bank_limit_of_a_demand_is_kept():
+    plane = PointMass(roll=-30.0)
+    plane.fly(PathDemand(Course(90.0), 300.0, bank_limit_deg=8.0), 3.0)
+    assert plane.track[-1].roll_deg == pytest.approx(8.0, abs=0.1)
+
+
 def test_a_course_is_a_direction_over_the_ground():
     plane = PointMass(wind=(6.0, 0.0))
     last = plane.fly(PathDemand(Course(90.0), 300.0), 30)[-1]

@@ -57,6 +57,14 @@ export const MODES = {
   "GLIDE": {
     "about": "the aircraft glides, motor off",
     "holder": ""
+  },
+  "LAND": {
+    "about": "the aircraft lands at home or at the target, against the wind",
+    "holder": ""
+  },
+  "TAKEOFF": {
+    "about": "the motor starts when the aircraft is thrown with the throttle stick raised",
+    "holder": ""
   }
 };
 
@@ -304,6 +312,11 @@ export const MODE_REASONS = {
   "no_mission": "there is no mission: upload one",
   "mission_invalid": "the mission cannot be flown from this home or in this fence",
   "target_radius": "the radius of the target is not above 0",
+  "wind_too_strong": "the wind is too strong for an approach",
+  "on_ground": "the aircraft is on the ground",
+  "in_flight": "the aircraft moves already",
+  "throttle_not_low": "close the throttle stick first",
+  "no_motor": "the aircraft has no motor",
   "orientation": "orientation missing or too old",
   "rx": "receiver missing or too old",
   "servo": "servos missing or too old",

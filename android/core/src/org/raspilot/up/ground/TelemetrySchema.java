@@ -138,6 +138,11 @@ public final class TelemetrySchema {
         MODE_REASONS.put("no_mission", "there is no mission: upload one");
         MODE_REASONS.put("mission_invalid", "the mission cannot be flown from this home or in this fence");
         MODE_REASONS.put("target_radius", "the radius of the target is not above 0");
+        MODE_REASONS.put("wind_too_strong", "the wind is too strong for an approach");
+        MODE_REASONS.put("on_ground", "the aircraft is on the ground");
+        MODE_REASONS.put("in_flight", "the aircraft moves already");
+        MODE_REASONS.put("throttle_not_low", "close the throttle stick first");
+        MODE_REASONS.put("no_motor", "the aircraft has no motor");
         MODE_REASONS.put("orientation", "orientation missing or too old");
         MODE_REASONS.put("rx", "receiver missing or too old");
         MODE_REASONS.put("servo", "servos missing or too old");
