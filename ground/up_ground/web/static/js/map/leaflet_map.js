@@ -1,6 +1,7 @@
 import { svg } from "../dom.js";
 import { metreGrid } from "./metre_grid.js";
 import { AircraftSymbol } from "./picture.js";
+import { firstPlaceOf } from "../mission/plan.js";
 import { Overlay } from "./overlay.js";
 import { TrackLine } from "./track_line.js";
 
@@ -68,6 +69,11 @@ export class LeafletMap {
     this.follow();
   }
 
+  /** Leaflet's own map, for other layers. */
+  get leaflet() {
+    return this.#map;
+  }
+
   /** Keep the aircraft in the middle from now on. */
   follow() {
     this.isFollowing = true;
@@ -114,7 +120,7 @@ export class LeafletMap {
       this.#clear(picture);
     }
     if (!this.#hasView) {
-      const first = aircraft ?? home;
+      const first = aircraft ?? home ?? firstPlaceOf(picture.plans);
       if (first === null) {
         return;
       }
