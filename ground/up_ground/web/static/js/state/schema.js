@@ -42,6 +42,10 @@ export const MODES = {
     "about": "the aircraft circles where it is, at constant height",
     "holder": ""
   },
+  "MISSION": {
+    "about": "the aircraft flies the mission",
+    "holder": ""
+  },
   "GUIDED": {
     "about": "the aircraft flies to the target and circles there",
     "holder": ""
@@ -258,6 +262,13 @@ export const NAVIGATION_ROWS = [
     "unit": "",
     "decimals": 0,
     "optional": true
+  },
+  {
+    "label": "Mission item",
+    "path": "mission.item",
+    "unit": "",
+    "decimals": 0,
+    "optional": true
   }
 ];
 
@@ -282,6 +293,8 @@ export const MODE_REASONS = {
   "target_too_high": "the target is too far above the aircraft",
   "target_too_low": "the target is too far below the aircraft",
   "target_below_home": "the target is below home",
+  "no_mission": "there is no mission: upload one",
+  "mission_invalid": "the mission cannot be flown from this home or in this fence",
   "target_radius": "the radius of the target is not above 0",
   "orientation": "orientation missing or too old",
   "rx": "receiver missing or too old",

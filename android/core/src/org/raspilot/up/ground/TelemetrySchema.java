@@ -91,7 +91,7 @@ public final class TelemetrySchema {
         put(UNITS, "m", "location.altitude", "home.distance", "home.altitude",
                 "navigation.altitude", "navigation.height", "navigation.sd.position",
                 "navigation.sd.altitude", "navigation.target.altitude", "navigation.target.radius",
-                "altitude", "altitude_required");
+                "mission.distance", "altitude", "altitude_required");
         put(UNITS, "s", "home.time_s", "system.uptime_s");
         put(UNITS, "m/s", "navigation.speed", "navigation.climb", "navigation.airspeed",
                 "navigation.wind.speed", "navigation.sd.wind", "navigation.sd.airspeed");
@@ -110,7 +110,8 @@ public final class TelemetrySchema {
                 "navigation.heading", "navigation.wind.speed", "navigation.sd.position",
                 "navigation.sd.altitude", "navigation.sd.wind", "navigation.sd.airspeed",
                 "navigation.sd.heading", "navigation.target.altitude", "navigation.target.radius");
-        put(DECIMALS, 0, "home.time_s", "navigation.wind.from", "location.satellites");
+        put(DECIMALS, 0, "home.time_s", "navigation.wind.from", "location.satellites",
+                "mission.count", "mission.item", "mission.distance", "fence.count");
         put(DECIMALS, 2, "arduino.flight_battery_v");
         LIMITS.put("battery_low", 20.0);
         LIMITS.put("battery_empty", 10.0);
@@ -133,6 +134,8 @@ public final class TelemetrySchema {
         MODE_REASONS.put("target_too_high", "the target is too far above the aircraft");
         MODE_REASONS.put("target_too_low", "the target is too far below the aircraft");
         MODE_REASONS.put("target_below_home", "the target is below home");
+        MODE_REASONS.put("no_mission", "there is no mission: upload one");
+        MODE_REASONS.put("mission_invalid", "the mission cannot be flown from this home or in this fence");
         MODE_REASONS.put("target_radius", "the radius of the target is not above 0");
         MODE_REASONS.put("orientation", "orientation missing or too old");
         MODE_REASONS.put("rx", "receiver missing or too old");
@@ -154,7 +157,9 @@ public final class TelemetrySchema {
         NAVIGATION.put("Position sd", "navigation.sd.position");
         NAVIGATION.put("Altitude sd", "navigation.sd.altitude");
         NAVIGATION.put("Satellites", "location.satellites");
+        NAVIGATION.put("Mission item", "mission.item");
         OPTIONAL.put("location.satellites", true);
+        OPTIONAL.put("mission.item", true);
         RULES.add(new TelemetryRule("path", "navigation.motor_stopped", "type", "flag",
                 "event", "motor", "code", "motor_stopped", "level", "alarm",
                 "text", "the motor gives no thrust", "end", "the motor gives thrust",
