@@ -1,7 +1,7 @@
 import { html, showMissing, setAttribute, setText, styleSheet } from "../dom.js";
 import { DrawingBar } from "../mission/drawing_bar.js";
 import { editorOf } from "../mission/editor.js";
-import { MISSION } from "../mission/plan.js";
+import { MISSION, placesOf } from "../mission/plan.js";
 import { PlanLayer } from "../mission/plan_layer.js";
 import { usedState } from "../mission/progress.js";
 import { MapActions } from "./map_actions.js";
@@ -21,7 +21,7 @@ export function mount(place, store, connection) {
   follow.id = "map-follow";
   const closer = button("+", "Closer", () => map?.zoom(1));
   const farther = button("−", "Farther", () => map?.zoom(-1));
-  const whole = button("All", "All of the track", () => map?.showAll());
+  const whole = button("All", "All of the track, the mission and the fence", () => map?.showAll(placesOf(editor.drawn)));
   const tools = html("div.map-tools", {}, follow, whole, closer, farther);
   const words = html("p.map-words", { id: "map-home" });
   const wind = new Wind();

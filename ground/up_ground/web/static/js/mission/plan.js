@@ -35,11 +35,10 @@ const LOITER_RADIUS_M = 50;
 const NEW_FIELDS = { altitude: NEW_HEIGHT_M, airspeed: CRUISE_M_S, item: 1 };
 const REQUIRED = new Set(Object.keys(NEW_FIELDS));
 
-/** Some place of a mission or a fence; null: they have none. */
-export function firstPlaceOf({ mission, fence }) {
-  const [corner] = fence.find(({ corners }) => corners?.length)?.corners ?? [];
-  const item = [...mission, ...fence].find((each) => placeOfItem(each) !== null);
-  return item === undefined ? placeOf(corner?.[0], corner?.[1]) : placeOfItem(item);
+/** Every place of a mission and a fence. */
+export function placesOf({ mission, fence }) {
+  const corners = fence.flatMap((border) => border.corners ?? []).map(([latitude, longitude]) => placeOf(latitude, longitude));
+  return [...[...mission, ...fence].map(placeOfItem), ...corners].filter((place) => place !== null);
 }
 
 /** Whether items of a kind are at a place. */
