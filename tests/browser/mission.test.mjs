@@ -138,6 +138,7 @@ test("a refused mission marks its items; a changed one is checked, used, read ba
   assert.match(await ground.attribute(item(2), "class"), /is-bad/);
   await page.click("#map-undo");
   assert.deepEqual(await marked(), []);
+  assert.equal(await page.isDisabled("#mission-from"), true, "the aircraft has no such item");
   await outcome("ack");
   await ground.until(() => document.querySelector("#mission-state").dataset.code === "same", "the aircraft's mission");
   await ground.until(() => document.querySelector("#plan-table tr[data-flown=true]")?.dataset.item === "1", "the item flown");

@@ -4,7 +4,8 @@ import { test } from "node:test";
 import { History } from "../../../../../ground/up_ground/web/static/js/mission/history.js";
 import * as plan from "../../../../../ground/up_ground/web/static/js/mission/plan.js";
 import { detailText, totalText } from "../../../../../ground/up_ground/web/static/js/mission/plan_table.js";
-import { placeAt } from "../../../../../ground/up_ground/web/static/js/state/earth.js";
+import { linesOf } from "../../../../../ground/up_ground/web/static/js/map/plain_map.js";
+import { distance_m, placeAt } from "../../../../../ground/up_ground/web/static/js/state/earth.js";
 
 const HOME = { latitude: 50, longitude: 14 };
 const at = (east_m, north_m) => placeAt(HOME, { east_m, north_m });
@@ -82,7 +83,16 @@ test("what the aircraft writes in full is the same as what was drawn", () => {
   const whole = { above_sea: false, over: false, radius: null, clockwise: true, turns: 1, time: 0, item: null, repeat: 1 };
   assert.ok(plan.isSame(plan.listOf(drawn.map((item) => ({ ...whole, ...item }))), drawn));
   assert.ok(!plan.isSame(plan.listOf([{ ...drawn[0], over: true }, drawn[1]]), drawn));
-  assert.deepEqual(plan.listOf([null, 3, { kind: "return" }]), [{ kind: "return" }]);
+  assert.deepEqual(plan.listOf([null, 3, { kind: "x" }, { corners: [1] }, { kind: "return" }]), [{ kind: "return" }]);
+});
+
+test("the plain map has a line for each leg and each border", () => {
+  const fence = [{ corners: [[50, 14], [50.1, 14], [50, 14.1]] }, { ...HOME, radius: 300 }];
+  const lines = linesOf({ mission: [waypoint(0, 0), waypoint(0, 100), { kind: "return" }], fence }, HOME);
+  assert.deepEqual(lines.map(({ name, places, end }) => [name, places.length, end]), [
+    ["plan-leg", 2, ""], ["plan-leg", 2, ""], ["plan-border", 3, "Z"], ["plan-border", 48, "Z"],
+  ]);
+  lines[3].places.forEach((place) => near(distance_m(HOME, place), 300, 1));
 });
 
 test("undo and redo go through every state; a new edit ends redo", () => {

@@ -74,7 +74,7 @@ export function mount(place, store, connection) {
     };
     // Leaflet itself handles + and - while it has the focus.
     const isLeaflets = event.target === canvas && ["+", "=", "-"].includes(event.key);
-    const isTyped = event.target !== canvas && (event.key === "Enter" || event.target.matches("input"));
+    const isTyped = event.target !== canvas && (event.key === "Enter" || event.target.matches("input, select"));
     if (Object.hasOwn(keys, event.key) && !isLeaflets && !isTyped) {
       keys[event.key]();
     }

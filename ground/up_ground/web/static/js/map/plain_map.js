@@ -2,7 +2,7 @@ import { setAttribute, setText, svg } from "../dom.js";
 import { circlesOf } from "./overlay.js";
 import { AircraftSymbol } from "./picture.js";
 import { piecesOf } from "./track_line.js";
-import { legsOf } from "../mission/plan.js";
+import { around, legsOf } from "../mission/plan.js";
 import { linesBetween, offsetOf, placeAt, stepOf, stepText, windowOf } from "../state/earth.js";
 
 const MAX_POINTS = 1500;
@@ -118,13 +118,13 @@ export class PlainMap {
   }
 }
 
-/** The mission's legs and the fence's areas; its circles are those of the map with tiles alone. */
-function linesOf({ mission, fence }, home) {
+/** The mission's legs and the fence's borders: {name, places, end: closes the line}. */
+export function linesOf({ mission, fence }, home) {
   const legs = legsOf(mission, home).filter((leg) => leg !== null);
-  const areas = fence.filter(({ corners }) => corners !== undefined);
-  const placesOf = (corners) => corners.map(([latitude, longitude]) => ({ latitude, longitude }));
+  const placesOf = ({ corners }) => corners.map(([latitude, longitude]) => ({ latitude, longitude }));
+  const borders = fence.map((border) => (border.corners ? placesOf(border) : around(border)));
   return [
     ...legs.map(({ from, to }) => ({ name: "plan-leg", places: [from, to], end: "" })),
-    ...areas.map(({ corners }) => ({ name: "plan-border", places: placesOf(corners), end: "Z" })),
+    ...borders.map((places) => ({ name: "plan-border", places, end: "Z" })),
   ];
 }

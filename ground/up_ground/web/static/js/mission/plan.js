@@ -131,10 +131,19 @@ function cleaned(fields) {
   return Object.fromEntries(Object.entries(fields).filter(isGiven));
 }
 
-/** A list as a server or an earlier page wrote it; what is no object is dropped. */
+/** A list as a server or an earlier page wrote it; what is neither an item nor a border is dropped. */
 export function listOf(found) {
   const all = Array.isArray(found) ? found : [];
-  return all.filter((each) => each !== null && typeof each === "object").map(cleaned);
+  const isArea = (corners) => Array.isArray(corners) && corners.every(Array.isArray);
+  const isKnown = (each) => Object.hasOwn(KINDS, each.kind) || isArea(each.corners) || each.radius > 0;
+  return all.filter((each) => each !== null && typeof each === "object" && isKnown(each)).map(cleaned);
+}
+
+/** Places around a circle, for a map that has only lines. */
+export function around(circle) {
+  const angles = Array.from({ length: 48 }, (_, index) => (index * Math.PI) / 24);
+  const offset = (angle) => ({ east_m: circle.radius * Math.sin(angle), north_m: circle.radius * Math.cos(angle) });
+  return angles.map((angle) => placeAt(circle, offset(angle)));
 }
 
 /** Where the edge of a circle is drawn and dragged: east of its middle. */

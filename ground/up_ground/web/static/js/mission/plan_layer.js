@@ -51,6 +51,8 @@ export class PlanLayer {
 
   #draw() {
     const focused = document.activeElement?.dataset?.point;
+    // Two clicks in a row are two points.
+    this.#map.doubleClickZoom[this.#editor.isDrawing ? "disable" : "enable"]();
     this.#group.clearLayers();
     this.#markers.clear();
     const { mission, fence } = this.#editor.drawn;
@@ -96,6 +98,7 @@ export class PlanLayer {
         const classes = [`is-${item.kind}`, ...this.#states(MISSION, index, bad)];
         this.#point(place, String(index + 1), classes, `Item ${index + 1}, ${item.kind.replaceAll("_", " ")}`, {
           key: `${MISSION} ${index}`,
+          index,
           isOpen,
           select: () => this.#select(MISSION, index),
           moved: (to) => moved(mission, index, to),
@@ -105,17 +108,16 @@ export class PlanLayer {
     });
   }
 
-  // A new item lies in the middle of the leg until it is dragged elsewhere.
   #insertPoint({ from, to }, index) {
     const { mission } = this.#editor.drawn;
     const added = (place) => inserted(mission, index, itemAt(mission, index, "waypoint", place));
-    this.#point(between(from, to), "+", ["is-handle"], `Insert before item ${index + 1}`, {
-      key: `${MISSION} + ${index}`,
-      isOpen: true,
-      select: (place) => this.#editor.put(added(place), index),
-      moved: added,
-      index,
-    });
+    this.#handle(from, to, `Insert before item ${index + 1}`, { key: `${MISSION} + ${index}`, index, moved: added });
+  }
+
+  // Clicked, the new point is in the middle; dragged, elsewhere.
+  #handle(from, to, title, { key, index, moved: added }) {
+    const select = (place) => this.#editor.put(added(place), index);
+    this.#point(between(from, to), "+", ["is-handle"], title, { key, index, isOpen: true, select, moved: added });
   }
 
   #fencePoints(fence) {
@@ -151,13 +153,8 @@ export class PlanLayer {
     const { corners } = fence[index];
     const [latitude, longitude] = corners[(corner + 1) % corners.length];
     const added = (place) => withCorner(fence, index, corner + 1, place, true);
-    this.#point(between(at, { latitude, longitude }), "+", ["is-handle"], `Insert a corner after corner ${corner + 1}`, {
-      key: `${FENCE} ${index} + ${corner}`,
-      isOpen: true,
-      select: (place) => this.#editor.put(added(place), index),
-      moved: added,
-      index,
-    });
+    const title = `Insert a corner after corner ${corner + 1}`;
+    this.#handle(at, { latitude, longitude }, title, { key: `${FENCE} ${index} + ${corner}`, index, moved: added });
   }
 
   /** moved: the list with the point at a place; isOpen: it can be moved. */
@@ -172,7 +169,7 @@ export class PlanLayer {
     marker.on("drag", () => this.#drawLines({ ...this.#editor.drawn, [name]: listAt(placeOfMarker(marker)) }));
     marker.on("dragend", () => {
       this.#isDragged = false;
-      this.#editor.put(listAt(placeOfMarker(marker)), index ?? Number(key.split(" ")[1]));
+      this.#editor.put(listAt(placeOfMarker(marker)), index);
     });
     marker.addTo(this.#group);
     this.#markers.set(key, marker);

@@ -21,6 +21,8 @@ export class Transfer {
   #remarks = html("ul.plan-problems", { id: "plan-remarks" });
   #bar = html("progress", { id: "plan-progress", "aria-label": "Progress of the transfer", hidden: true });
 
+  #saved = "";
+
   isBusy = false;
 
   constructor(store, connection, editor) {
@@ -51,7 +53,10 @@ export class Transfer {
     if (answer.outcome === "ack") {
       this.#editor.setUsed(name, String(answer.plan_id), list);
     }
-    this.#editor.setProblems(name, problemsIn(answer, name));
+    // The numbers are those of what was sent.
+    if (this.#editor.drawn[name] === list) {
+      this.#editor.setProblems(name, problemsIn(answer, name));
+    }
   }
 
   async download() {
@@ -86,9 +91,10 @@ export class Transfer {
     const at = home === null ? null : [home.latitude, home.longitude, homeAltitude_m ?? 0];
     const answer = await this.#request({ type: "plan.write", form, items: mission, borders: fence, home: at }, FILE_S);
     if (answer.outcome === "ack") {
-      const address = URL.createObjectURL(new Blob([String(answer.text)], { type: "text/plain" }));
-      html("a", { href: address, download: `mission.${form}` }).click();
-      URL.revokeObjectURL(address);
+      // The browser reads it later.
+      URL.revokeObjectURL(this.#saved);
+      this.#saved = URL.createObjectURL(new Blob([String(answer.text)], { type: "text/plain" }));
+      html("a", { href: this.#saved, download: `mission.${form}` }).click();
     }
   }
 
