@@ -89,7 +89,9 @@ export class Transfer {
   async save(form, { home, homeAltitude_m }) {
     const { mission, fence } = this.#editor.drawn;
     const at = home === null ? null : [home.latitude, home.longitude, homeAltitude_m ?? 0];
-    const answer = await this.#request({ type: "plan.write", form, items: mission, borders: fence, home: at }, FILE_S);
+    // A waypoint file has no place for a fence.
+    const borders = form === "plan" ? fence : [];
+    const answer = await this.#request({ type: "plan.write", form, items: mission, borders, home: at }, FILE_S);
     if (answer.outcome === "ack") {
       // The browser reads it later.
       URL.revokeObjectURL(this.#saved);
