@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from contextlib import suppress
 from dataclasses import replace
 from typing import Any, ClassVar
 
@@ -86,6 +87,7 @@ class FlightModeManager(BaseFlightController):
         self._target: Target | None = None
         self._resumed_place: Place | None = None
         self._requests: dict[str, float] = {}
+        self._continuing = ""
 
     def on_init(self) -> None:
         super().on_init()
@@ -168,6 +170,12 @@ class FlightModeManager(BaseFlightController):
         return mode is None or "rx" in mode.NEEDS
 
     @property
+    def is_uninterrupted(self) -> bool:
+        """Return whether the selected mode permits no failsafe now."""
+        mode = self._selector.modes.get(self._selector.selected or "")
+        return mode is not None and mode.is_uninterrupted
+
+    @property
     def _target_content(self) -> Mapping[str, float | None]:
         return telemetry_of(self.home.memory.values.target if self.is_flying else None, "radius")
 
@@ -221,6 +229,21 @@ class FlightModeManager(BaseFlightController):
         if made is not None:
             self.published += 1
             self._executor.execute_command(made, self._origin)
+        self._succeed(situation)
+
+    def _succeed(self, situation: FlightSituation) -> None:
+        """Select the mode that the one which acts has named as its successor."""
+        selector = self._selector
+        mode = selector.modes.get(selector.active or "")
+        if mode is None or not mode.successor or selector.active != selector.selected:
+            return
+        goal, continuing = mode.goal, mode.NAME if mode.continues else ""
+        for name in filter(None, (self._continuing, mode.successor)):
+            with suppress(CommandRefusedError):
+                selector.check(name, replace(situation, target=goal))
+                self._select(name, is_choice=False)
+                self._target, self._continuing = goal, continuing
+                return
 
     def _carry_out(
         self, demand: Demand, situation: FlightSituation, dt_s: float
@@ -249,8 +272,15 @@ class FlightModeManager(BaseFlightController):
         if situation.time_s - self._path_at_s > PATH_PAUSE_S:
             self._path_controller.reset()
         self._path_at_s = situation.time_s
-        if isinstance(demand.path, Circle):
+        mode = self._selector.modes.get(self._selector.selected or "")
+        goal = None if mode is None else mode.goal
+        if goal is not None:
+            self.home.memory.update(target=place_of_target(goal, navigation.frame))
+        elif isinstance(demand.path, Circle):
             self._remember_target(demand.path, demand.altitude_m, navigation)
+        elif self._circle is not None:
+            self._circle = None
+            self.home.memory.update(target=None)
         attitude = self._path_controller.step(demand, navigation, dt_s)
         if not self._has_motor:
             attitude = replace(attitude, throttle=None)
@@ -266,11 +296,12 @@ class FlightModeManager(BaseFlightController):
             target = Target(circle.centre, altitude_m, circle.radius_m)
             self.home.memory.update(target=place_of_target(target, navigation.frame))
 
-    def _select(self, name: str | None) -> None:
-        self.choices += 1
+    def _select(self, name: str | None, *, is_choice: bool = True) -> None:
+        self.choices += is_choice
         selector = self._selector
         selector.select(name)
         self._requests.clear()
+        self._continuing = ""
         self._circle = None
         if name is None or "target" not in selector.modes[name].REQUESTS:
             self._target = None

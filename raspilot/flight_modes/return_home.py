@@ -1,4 +1,4 @@
-"""RETURN: climbs, flies home and circles there."""
+"""RETURN: climbs, flies home and circles there, or lands."""
 
 from __future__ import annotations
 
@@ -33,6 +33,7 @@ class ReturnConfig:
     max_distance_m: float = key(
         50_000.0, "A home farther away is refused.", unit="m", minimum=1000, maximum=100_000
     )
+    land: bool = key(False, "At home, lands by the mode LAND instead of circling.")
 
 
 RETURN = ConfigFile("return.yml", ReturnConfig)
@@ -75,6 +76,7 @@ class Return(FlightMode):
         self._altitude_m = max(self._lowest_m, state.altitude_m)
         self._airspeed_m_s: float | None = None
         self._chosen_s = float("-inf")
+        self.successor = ""
 
     def step(self, situation: FlightSituation, dt_s: float) -> Demand:
         home, state = situation.home, situation.navigation
@@ -93,6 +95,7 @@ class Return(FlightMode):
         if away_m < ARRIVED_RADII * self._circle.radius_m:
             self._airspeed_m_s = None
             self._altitude_m = self._lowest_m
+            self.successor = "LAND" if self.config.land else ""
         elif away_m > 2 * ARRIVED_RADII * self._circle.radius_m or self._airspeed_m_s is not None:
             course_deg = course_to_deg(state.position, self._home.point)
             self._airspeed_m_s = airspeed_for_wind_m_s(

@@ -6,6 +6,7 @@ import math
 from collections.abc import Iterable
 from dataclasses import dataclass
 from itertools import pairwise
+from operator import itemgetter
 from typing import TypeAlias
 
 from up.flight_modes.navigation_state import LocalFrame, Point
@@ -64,6 +65,15 @@ class LocalBorder:
             if inner > 0.0:
                 yield from (middle - math.sqrt(inner), middle + math.sqrt(inner))
 
+    def shows_all(self, point: Point) -> bool:
+        """Return whether every straight way from a point within it to its border stays within."""
+        north, east = point
+        sides = {
+            (n_2 - n_1) * (east - e_1) > (e_2 - e_1) * (north - n_1)
+            for (n_1, e_1), (n_2, e_2) in self.edges
+        }
+        return len(sides) <= 1 and self.depth_m(point) >= 0.0
+
 
 LocalBorders: TypeAlias = tuple[LocalBorder, ...]
 
@@ -82,9 +92,11 @@ def margin_m(borders: LocalBorders, point: Point) -> float:
     for each in borders:
         if each.is_inside and each.most_m(point) > within:
             within = max(within, each.depth_m(point))
-    for each in borders:
-        if not each.is_inside and -each.most_m(point) < within:
-            within = min(within, -each.depth_m(point))
+    others = ((-each.most_m(point), each) for each in borders if not each.is_inside)
+    for least, each in sorted(others, key=itemgetter(0)):
+        if least >= within:
+            break
+        within = min(within, -each.depth_m(point))
     return within
 
 
@@ -101,6 +113,15 @@ def crosses(borders: LocalBorders, a: Point, b: Point) -> bool:
     ends = (0.0, *shares, 1.0)
     middles = ((one + other) / 2 for one, other in pairwise(ends))
     return not all(inside(borders, _between(a, b, share)) for share in (0.0, *middles, 1.0))
+
+
+def leads_straight(borders: LocalBorders, home: Point) -> bool:
+    """Return whether the straight way home from every point of the fence surely stays inside.
+
+    False if home is outside, if a polygon has a corner that hides a part of it from home, or if the
+    fence has a place to stay out of.
+    """
+    return all(each.is_inside and each.shows_all(home) for each in borders)
 
 
 def _between(a: Point, b: Point, share: float) -> Point:

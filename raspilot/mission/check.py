@@ -15,6 +15,7 @@ from raspilot.mission.config import MissionConfig
 from raspilot.mission.legs import CIRCLED, Course, Leg, ahead, has_loop_without_place
 from raspilot.mission.progress import NOT_FLOWN
 from raspilot.mission.store import Problem
+from raspilot.navigation.airframe_model import AirframeModel
 from up.flight_modes.navigation_file import NavigationConfig
 from up.flight_modes.navigation_state import LocalFrame, Point
 from up.mission.items import (
@@ -31,7 +32,7 @@ from up.mission.items import (
     MissionItem,
 )
 
-MIN_GROUND_M_S = 2.0
+MIN_GROUND_M_S, MIN_LEG_M = 2.0, 10.0
 SD_M, HEIGHT_MARGIN_M = 5.0, 10.0
 """The fence acts so much before a border: deviation of the estimate, and the end of a climb."""
 CIRCLE_CORNERS = 16
@@ -208,6 +209,8 @@ class _Check:
         after = [self._course.lead_m(leg, each) for each in self._from[number]]
         lead_m = max(after, default=0.0)
         turns_m = max(before, default=0.0) + lead_m
+        if self._items[number - 1].kind == WAYPOINT:
+            turns_m = max(MIN_LEG_M, turns_m)
         if leg.length_m < turns_m:
             text = f"the leg from item {leg.start} has {leg.length_m:.0f} m"
             yield Problem(number, "turn", f"{text}, its turns need {turns_m:.0f} m")
@@ -227,7 +230,9 @@ class _Check:
         if start_m is None or end_m is None or self._items[leg.end - 1].kind != WAYPOINT:
             return
         vertical = self._given.navigation.vertical
-        limit_m_s = vertical.climb_limit_m_s if end_m > start_m else vertical.sink_limit_m_s
+        glide_m_s = AirframeModel(self._given.navigation).sink_m_s(leg.airspeed_m_s, 1.0)
+        sink_m_s = min(vertical.sink_limit_m_s, glide_m_s)
+        limit_m_s = vertical.climb_limit_m_s if end_m > start_m else sink_m_s
         needed_m = abs(end_m - start_m) / limit_m_s * ground_m_s
         if needed_m > leg.length_m:
             text = f"the leg from item {leg.start} has {leg.length_m:.0f} m"

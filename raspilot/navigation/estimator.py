@@ -224,6 +224,7 @@ class Estimator:
             fix_age_s=now.time_s - then.time_s,
             motor_stopped=self.motor.is_stopped,
             measured_airspeed_m_s=self._measured_m_s(now),
+            is_in_flight=in_flight,
         )
 
     def _measured_m_s(self, now: AirPoint) -> float | None:

@@ -45,6 +45,9 @@ class PathController:
             up_deg, down_deg = vertical.pitch_up_limit_deg, -vertical.pitch_down_limit_deg
             self._pitch_deg = max(down_deg, min(up_deg, state.pitch_deg))
         wanted_deg = self._lateral.roll_deg(demand.path, state)
+        if demand.bank_limit_deg is not None:
+            limit_deg = max(0.0, demand.bank_limit_deg)
+            wanted_deg = max(-limit_deg, min(limit_deg, wanted_deg))
         roll_deg = _towards(self._roll_deg, wanted_deg, lateral.roll_rate_deg_s * dt_s)
         self._roll_deg = self._lateral.limited(roll_deg, state.airspeed_m_s)
         pitch_deg, throttle = self._vertical.step(demand, state, load_of(self._roll_deg), dt_s)

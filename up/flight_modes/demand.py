@@ -44,7 +44,7 @@ class PathDemand:
 
     ``altitude_m`` is above sea level; None: hold ``climb_m_s``. ``airspeed_m_s`` None: the cruise
     speed of the configuration. Without motor the airspeed is held by pitch and the altitude is what
-    results.
+    results. ``bank_limit_deg`` is one below that of the configuration.
     """
 
     path: Line | Circle | Course | Bank
@@ -52,6 +52,7 @@ class PathDemand:
     climb_m_s: float = 0.0
     airspeed_m_s: float | None = None
     motor: bool = True
+    bank_limit_deg: float | None = None
 
 
 @dataclass(frozen=True, slots=True)

@@ -73,6 +73,24 @@ class FlightMode(BaseModule):
     REQUESTS: ClassVar[frozenset[str]] = frozenset()
     SELECTABLE: ClassVar[bool] = True
 
+    successor = ""
+    """The mode that replaces this one, once it has set the name, unless that one refuses."""
+    continues = False
+    """Whether this mode acts again instead of the successor's own successor."""
+
+    @property
+    def is_uninterrupted(self) -> bool:
+        """Return whether no failsafe may select another mode now: in the hand, or landing."""
+        return False
+
+    @property
+    def goal(self) -> Target | None:
+        """Return the successor's target, which a restart of the program resumes too.
+
+        None: it resumes the circle that is flown.
+        """
+        return None
+
     def refusal(self, situation: FlightSituation) -> ModeRefusal | str | None:
         """Return why the mode cannot be entered now, apart from its readings; None: it can.
 

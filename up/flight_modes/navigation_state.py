@@ -48,7 +48,7 @@ class NavigationState:
     fix was taken: until the next one the position is dead reckoning. ``motor_stopped``: the motor
     gives no thrust although the throttle is open. ``measured_airspeed_m_s`` is the horizontal one
     along the nose, from the ground velocity of a fix less the wind, not from the model; None
-    without such a fix.
+    without such a fix. ``is_in_flight``: the ground speed has shown a flight, and no landing since.
     """
 
     time_s: float
@@ -70,6 +70,7 @@ class NavigationState:
     fix_age_s: float
     motor_stopped: bool = False
     measured_airspeed_m_s: float | None = None
+    is_in_flight: bool = True
 
     @property
     def ground_speed_m_s(self) -> float:

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 from typing import Any
 
 from up_rig.imu import Motion
 from up_simulator.aircraft.airframe import Airframe
 from up_simulator.aircraft.flight import FlightState, Servos
+from up_simulator.aircraft.ground import Roll, is_soft
 from up_simulator.aircraft.model import FOOT_M, load_model, reader, writer
 from up_simulator.aircraft.model_check import MOTOR
 from up_simulator.aircraft.motor import Battery, Motor
@@ -58,10 +60,11 @@ _READ = {
 
 
 class FlightDynamics:
-    """A flight in steps of 2 ms, launched in the air; satisfies ``FlightSource``.
+    """A flight in steps of 2 ms, launched in the air or thrown; satisfies ``FlightSource``.
 
     The same arguments and the same pulses at the same steps fly the same flight to the last
     digit. ``crash`` is one sentence about the end of the flight; after it only the time advances.
+    With ``may_land`` a soft contact with the ground is none: the aircraft slides and stops.
     Raises ``FlightUnavailableError`` where JSBSim is missing.
     """
 
@@ -73,11 +76,16 @@ class FlightDynamics:
         start: Start | None = None,
         weather: Weather | None = None,
         seed: int = 1,
+        *,
+        may_land: bool = False,
     ) -> None:
         self.airframe = airframe
         self.weather = weather or Weather()
         self.crash: str | None = None
         self.motor_works = True
+        self.is_thrown = False
+        self._may_land = may_land
+        self._roll: Roll | None = None
         self._seed = seed
         self._steps = 0
         self._owed_s = 0.0
@@ -104,12 +112,14 @@ class FlightDynamics:
     def state(self) -> FlightState:
         if self._state is None:
             self._state = self._read_state()
+            if self._roll is not None:
+                self._state = replace(self._roll.state, time_s=self.time_s, **self._drive())
         return self._state
 
     @property
     def motion(self) -> Motion:
         if self._motion is None:
-            self._motion = self._feel()
+            self._motion = self._feel() if self._roll is None else self._roll.motion
         return self._motion
 
     @property
@@ -153,6 +163,12 @@ class FlightDynamics:
             self._battery.draw(0.0, self.STEP_S)
         self._air.apply(self._steps * self.STEP_S - self._launched_s)
         self._motion = None
+        if self._roll is not None:
+            if self._is_landed or self.is_thrown:
+                self._roll.advance(self.STEP_S)
+            if self._is_landed or not self._roll.is_over:
+                return
+            self._roll = None
         try:
             is_flying = self._fdm.run()
         except RuntimeError as error:
@@ -192,6 +208,10 @@ class FlightDynamics:
             self._motor.spin_up(start.throttle, self._read_airspeed() * FOOT_M)
             self._set_thrust(self._motor.thrust_n * _NEWTON_LBS)
         self._air = Air(self._fdm, self.weather)
+        self._is_landed = False
+        self._roll = None
+        if start.throw_m_s is not None:
+            self._roll = Roll.in_the_hand(self._read_state(), start.throw_m_s)
         self._launches += 1
 
     def _imu_from_pilot(self) -> tuple[float, float, float]:
@@ -232,6 +252,10 @@ class FlightDynamics:
         height_m, load_g = self._read_height() * FOOT_M, self._read_load()
         if height_m > 0.1 and abs(load_g) <= self.airframe.limits.break_g:
             return
+        if height_m <= 0.1 and self._may_land and is_soft(self._read_state()):
+            self._is_landed = True
+            self._roll = Roll.on_the_ground(self._read_state())
+            return
         time_s = self.time_s - self._launched_s
         if not math.isfinite(height_m + load_g):
             self.crash = f"the flight model lost itself after {time_s:.2f} s"
@@ -269,11 +293,17 @@ class FlightDynamics:
             climb_m_s=-value["down_speed"] * FOOT_M,
             north_m=math.radians(value["latitude"] - START_LATITUDE_DEG) * _MERIDIAN_M,
             east_m=math.radians(value["longitude"] - START_LONGITUDE_DEG) * _PARALLEL_M,
-            battery_v=self._battery.voltage_v,
-            battery_percent=self._battery.percent,
-            motor_rpm=self._motor.rpm if self._motor else 0.0,
-            motor_w=self._motor.power_w if self._motor else 0.0,
+            **self._drive(),
             wind_north_m_s=value["wind_north"] * FOOT_M,
             wind_east_m_s=value["wind_east"] * FOOT_M,
             wind_down_m_s=value["wind_down"] * FOOT_M,
         )
+
+    def _drive(self) -> dict[str, float]:
+        motor, battery = self._motor, self._battery
+        return {
+            "battery_v": battery.voltage_v,
+            "battery_percent": battery.percent,
+            "motor_rpm": motor.rpm if motor else 0.0,
+            "motor_w": motor.power_w if motor else 0.0,
+        }

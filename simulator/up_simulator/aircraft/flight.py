@@ -66,6 +66,8 @@ class Dynamics(Protocol):
 
     motor_works: bool
     """Whether the motor gives thrust; it may change in flight, and nothing reports it."""
+    is_thrown: bool
+    """Set to True it throws an aircraft that a hand holds."""
 
     @property
     def state(self) -> FlightState:

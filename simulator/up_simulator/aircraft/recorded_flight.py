@@ -34,6 +34,7 @@ class RecordedFlight:
     """
 
     motor_works = True
+    is_thrown = True
 
     def __init__(self, states: list[FlightState]) -> None:
         start_s = states[0].time_s

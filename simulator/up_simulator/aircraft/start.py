@@ -20,7 +20,8 @@ class Start:
     """Initial conditions of a flight; None means the airframe's default.
 
     ``climb_m_s`` is through the air, up positive. ``throttle`` (0 to 1) is the motor's throttle
-    before the start.
+    before the start. ``throw_m_s``: a hand holds the aircraft until it is thrown, so fast over the
+    ground; the airspeed is then that speed and the headwind.
     """
 
     height_m: float = 120.0
@@ -33,11 +34,15 @@ class Start:
     roll_rate_deg_s: float = 0.0
     pitch_rate_deg_s: float = 0.0
     yaw_rate_deg_s: float = 0.0
+    throw_m_s: float | None = None
 
 
 def set_initial(fdm: Any, start: Start, launch: LaunchConfig, weather: Weather, seed: int) -> None:
     """Put JSBSim where a flight begins; ``fdm`` has its model and has not run yet."""
     airspeed_m_s = launch.airspeed_m_s if start.airspeed_m_s is None else start.airspeed_m_s
+    if start.throw_m_s is not None:
+        from_deg = weather.wind_from_deg - start.heading_deg
+        airspeed_m_s = start.throw_m_s + weather.wind_m_s * math.cos(math.radians(from_deg))
     pitch_deg = launch.pitch_deg if start.pitch_deg is None else start.pitch_deg
     alpha_deg = launch.alpha_deg
     if start.climb_m_s is not None:

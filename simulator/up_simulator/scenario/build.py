@@ -31,7 +31,11 @@ def build_flight(scenario: Scenario, notify: Notify = lambda _text: None) -> Sce
     """
     airframe = load_airframe(scenario.airframe)
     dynamics = FlightDynamics(
-        airframe, start=_start(scenario), weather=_weather(scenario), seed=scenario.seed
+        airframe,
+        start=_start(scenario),
+        weather=_weather(scenario),
+        seed=scenario.seed,
+        may_land=scenario.may_land,
     )
     board = _board(scenario, airframe, notify)
     world = World(dynamics, board)
@@ -99,7 +103,8 @@ def _start(scenario: Scenario) -> Start:
         sticks = StickTimeline(scenario.sticks, scenario.switch.positions()).pulses_us(0.0)
         runs = sticks["aux2"] > SWITCH_US["middle"] or scenario.board == "direct"
         values["throttle"] = min(1.0, max(0.0, sticks["throttle"] / 1000 - 1)) if runs else 0.0
-    return Start(**values)
+    throws = (event.throw for event in scenario.events if event.throw is not None)
+    return Start(**values, throw_m_s=next(throws, None))
 
 
 def _weather(scenario: Scenario) -> Weather:

@@ -97,6 +97,10 @@ class Event:
     motor: Literal["stopped", "back"] | None = key(
         None, "stopped: the motor gives no thrust, whatever the throttle, and nothing reports it."
     )
+    throw: float | None = key(
+        None, "A hand holds the aircraft until it throws it, so fast over the ground.", unit="m/s",
+        minimum=2, maximum=20,
+    )  # fmt: skip
     phone_battery: float | None = key(
         None, "Battery level of the phone from this time.", unit="%", minimum=0, maximum=100
     )

@@ -223,6 +223,8 @@ class ScenarioFlight:
                 board.reset(cast(ResetCause, event.reset))
             case "motor":
                 self._world.dynamics.motor_works = event.motor == "back"
+            case "throw":
+                self._world.dynamics.is_thrown = True
             case "serial_noise":
                 assert event.serial_noise is not None
                 board.wires.set_noise(event.serial_noise, board.now_s)

@@ -25,7 +25,7 @@ def _rate(comment: str) -> float:
 class StartPart:
     """Initial state in the air, at 0 s."""
 
-    height_m: float = key(120.0, "Above the ground.", unit="m", minimum=5, maximum=5000)
+    height_m: float = key(120.0, "Above the ground.", unit="m", minimum=1, maximum=5000)
     airspeed_m_s: float | None = key(
         None, "null: the cruise speed of the airframe.", unit="m/s", minimum=3, maximum=80
     )

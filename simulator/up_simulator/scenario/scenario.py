@@ -132,6 +132,11 @@ class Scenario:
         " new chip. spoiled: wrong bits everywhere.",
     )
     may_crash: bool = key(False, "Whether a crash is permitted.")
+    may_land: bool = key(
+        False,
+        "Whether a soft contact with the ground is a landing: at most 2 m/s of sink, 20 degrees of"
+        " bank and of pitch. The aircraft then slides and stops.",
+    )
     start: StartPart = section(StartPart)
     weather: WeatherPart = section(WeatherPart)
     imu: ImuPart = section(ImuPart)

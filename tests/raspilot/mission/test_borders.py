@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from raspilot.mission.borders import crosses, inside, local_borders, margin_m
+from raspilot.mission.borders import crosses, inside, leads_straight, local_borders, margin_m
 from up.flight_modes.navigation_state import LocalFrame, Point
 from up.mission.items import Border
 
@@ -84,6 +84,25 @@ def test_a_leg_crosses_if_any_part_of_it_is_outside(borders, a, b, is_crossing):
     local = local_borders(borders, FRAME)
     assert crosses(local, Point(*a), Point(*b)) is is_crossing
     assert crosses(local, Point(*b), Point(*a)) is is_crossing
+
+
+@pytest.mark.parametrize(
+    ("borders", "home", "is_straight"),
+    [
+        ([], (0, 0), True),
+        ([SQUARE], (10, 390), True),
+        ([SQUARE], (-10, 200), False),
+        ([HOOK], (50, 150), False),
+        ([polygon((0, 0), (0, 300), (300, 300), (100, 150), (300, 0))], (50, 150), True),
+        ([polygon((0, 0), (0, 300), (300, 300), (100, 150), (300, 0))], (250, 10), False),
+        ([BOW], (10, 200), False),
+        ([circle(0, 0, 100)], (0, 99), True),
+        ([circle(0, 0, 100)], (0, 101), False),
+        ([SQUARE, circle(200, 200, 30, is_inside=False)], (10, 10), False),
+    ],
+)  # fmt: skip
+def test_where_the_way_home_is_straight_from_everywhere(borders, home, is_straight):
+    assert leads_straight(local_borders(borders, FRAME), Point(*home)) is is_straight
 
 
 def test_a_fence_over_the_antimeridian_is_whole():

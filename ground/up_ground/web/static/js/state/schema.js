@@ -269,6 +269,13 @@ export const NAVIGATION_ROWS = [
     "unit": "",
     "decimals": 0,
     "optional": true
+  },
+  {
+    "label": "Fence",
+    "path": "fence.margin",
+    "unit": "m",
+    "decimals": 0,
+    "optional": false
   }
 ];
 

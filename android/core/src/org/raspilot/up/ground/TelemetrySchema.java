@@ -91,7 +91,7 @@ public final class TelemetrySchema {
         put(UNITS, "m", "location.altitude", "home.distance", "home.altitude",
                 "navigation.altitude", "navigation.height", "navigation.sd.position",
                 "navigation.sd.altitude", "navigation.target.altitude", "navigation.target.radius",
-                "mission.distance", "altitude", "altitude_required");
+                "mission.distance", "altitude", "altitude_required", "fence.margin");
         put(UNITS, "s", "home.time_s", "system.uptime_s");
         put(UNITS, "m/s", "navigation.speed", "navigation.climb", "navigation.airspeed",
                 "navigation.wind.speed", "navigation.sd.wind", "navigation.sd.airspeed");
@@ -111,7 +111,7 @@ public final class TelemetrySchema {
                 "navigation.sd.altitude", "navigation.sd.wind", "navigation.sd.airspeed",
                 "navigation.sd.heading", "navigation.target.altitude", "navigation.target.radius");
         put(DECIMALS, 0, "home.time_s", "navigation.wind.from", "location.satellites",
-                "mission.count", "mission.item", "mission.distance", "fence.count");
+                "mission.count", "mission.item", "mission.distance", "fence.count", "fence.margin");
         put(DECIMALS, 2, "arduino.flight_battery_v");
         LIMITS.put("battery_low", 20.0);
         LIMITS.put("battery_empty", 10.0);
@@ -158,6 +158,7 @@ public final class TelemetrySchema {
         NAVIGATION.put("Altitude sd", "navigation.sd.altitude");
         NAVIGATION.put("Satellites", "location.satellites");
         NAVIGATION.put("Mission item", "mission.item");
+        NAVIGATION.put("Fence", "fence.margin");
         OPTIONAL.put("location.satellites", true);
         OPTIONAL.put("mission.item", true);
         RULES.add(new TelemetryRule("path", "navigation.motor_stopped", "type", "flag",
