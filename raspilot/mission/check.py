@@ -235,5 +235,6 @@ class _Check:
         limit_m_s = vertical.climb_limit_m_s if end_m > start_m else sink_m_s
         needed_m = abs(end_m - start_m) / limit_m_s * ground_m_s
         if needed_m > leg.length_m:
+            way = "climb" if end_m > start_m else "descent"
             text = f"the leg from item {leg.start} has {leg.length_m:.0f} m"
-            yield Problem(leg.end, "climb", f"{text}, its climb needs {needed_m:.0f} m")
+            yield Problem(leg.end, "climb", f"{text}, its {way} needs {needed_m:.0f} m")

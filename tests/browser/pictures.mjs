@@ -31,7 +31,7 @@ async function hasFlown(ground, metres) {
 /** Draw a mission and a fence, upload both, and wait until some of it is flown. */
 async function flyMission(ground) {
   const { page } = ground;
-  await ground.takeControl();
+  await ground.untilHolder("you");
   await ground.fly("LOITER");
   await page.click("#map-draw");
   const { x, y, width, height } = await page.locator(".map-canvas").boundingBox();

@@ -94,7 +94,7 @@ class TestCircles:
 
     def test_time_ends_only_at_the_altitude(self, tmp_path):
         wait = placed(100, 0, kind="loiter_time", time=20, altitude=115.0, radius=60)
-        rig = MissionRig(tmp_path, [wait, placed(300, 400), END]).enter()
+        rig = MissionRig(tmp_path, [wait, placed(300, 400, altitude=110.0), END]).enter()
         rig.fly(60)
         assert rig.order == [1]
         assert rig.passed[0][1].altitude_m > 250 + 115 - 10.5
