@@ -121,6 +121,8 @@ test("a refused mission marks its items; a changed one is checked, used, read ba
   flight.tell({ plans: [50.0755, 14.4378, 312] });
   const { ground, at } = await drawing();
   const { page } = ground;
+  await ground.reason("#mission-why", "control_free");
+  assert.equal(await page.isDisabled("#plan-upload"), true);
   await ground.takeControl();
   for (const place of [at(0.25, 0.4), at(0.6, 0.3), at(0.7, 0.6)]) {
     await page.mouse.click(...place);
@@ -128,26 +130,42 @@ test("a refused mission marks its items; a changed one is checked, used, read ba
   await page.click('#plan-table tr[data-item="2"] button');
   await page.fill("#plan-latitude", "51");
   await page.press("#plan-latitude", "Tab");
-  const outcome = async (code) => {
-    await ground.press("#plan-upload");
-    await ground.reason("#plan-note", code);
+  await page.click("#plan-upload");
+  await page.keyboard.press("Escape");
+  assert.equal((await ground.messages("plan.answer")).length, 0, "nothing without a yes");
+  const answers = () => window.testMessages.filter(({ message }) => message.type === "plan.answer");
+  /** Upload, again where the busy page was late. */
+  const upload = async () => {
+    for (;;) {
+      const before = await page.evaluate(`(${answers})().length`);
+      await ground.press("#plan-upload");
+      const answer = await ground.until(`(${answers})()[${before}]?.message`, "an answer");
+      await ground.reason("#plan-note", answer.code ? `${answer.outcome} ${answer.code}` : answer.outcome);
+      if (answer.code !== "stale") {
+        return [answer.outcome, answer.code || "", answer.detail || ""];
+      }
+    }
   };
-  await outcome("nack refused");
+  assert.deepEqual(await upload(), ["nack", "refused", "plan_invalid"]);
   const marked = () => page.$$eval("#plan-table .plan-problems li", (all) => all.map((each) => [each.dataset.of, each.dataset.code]));
   assert.deepEqual(await marked(), [["2", "too_far"]]);
   assert.match(await ground.attribute(item(2), "class"), /is-bad/);
   await page.click("#map-undo");
   assert.deepEqual(await marked(), []);
   assert.equal(await page.isDisabled("#mission-from"), true, "the aircraft has no such item");
-  await outcome("ack");
+  assert.deepEqual(await upload(), ["ack", "", ""]);
   await ground.until(() => document.querySelector("#mission-state").dataset.code === "same", "the aircraft's mission");
   await ground.until(() => document.querySelector("#plan-table tr[data-flown=true]")?.dataset.item === "1", "the item flown");
   assert.equal(await page.locator(".plan-point.is-flown").textContent(), "1");
   await page.click('#plan-table tr[data-item="3"] button');
-  await ground.press("#mission-from");
+  for (const button of ["#mission-from", "#mission-start"]) {
+    let answer = { code: "stale" };
+    while (answer.code === "stale") {
+      answer = await ground.answerTo(() => ground.press(button));
+    }
+    assert.equal(answer.outcome, "ack", button);
+  }
   await ground.until(() => document.querySelector(".plan-point.is-flown")?.textContent === "3", "item 3");
-  const answer = await ground.answerTo(() => ground.press("#mission-start"));
-  assert.equal(answer.outcome, "ack");
   const drawn = await kept(ground);
   const saved = page.waitForEvent("download");
   await page.click("#plan-save");
