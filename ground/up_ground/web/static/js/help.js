@@ -9,6 +9,9 @@ const KEYS = [
   ["Tab, Shift+Tab", "next, previous control"],
   ["Space or Enter, held", "arm or disarm, on its button"],
   ["+ - F", "on the map: closer, farther, follow or not"],
+  ["Enter", "on the map: what its middle offers; while drawing, a point there"],
+  ["arrows, Delete", "on a drawn point: move it, remove it"],
+  ["Ctrl+Z, Ctrl+Y", "while drawing: undo, redo"],
   ["K J L", "in a replay: play or pause, 5 s back, 5 s on"],
   ["Escape", "close a dialog: no"],
 ];

@@ -21,6 +21,7 @@ const PARTS = [
   ["readings", "./instruments/readings.js"],
   ["alarms", "./panels/alarms.js"],
   ["panel-map", "./map/map.js"],
+  ["panel-mission", "./mission/mission_panel.js"],
   ["panel-charts", "./charts/charts.js"],
   ["panel-replay", "./panels/replay.js"],
   ["panel-control", "./panels/control.js"],
