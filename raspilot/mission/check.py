@@ -56,7 +56,7 @@ class Circumstances:
 
 
 def check_mission(items: Sequence[MissionItem], given: Circumstances) -> list[Problem]:
-    """Return what is wrong with a mission, by item; nothing: it can be flown."""
+    """Return the problems of a mission, by item; none: it can be flown."""
     if len(items) > MAX_ITEMS[MISSION]:
         return [Problem(0, "too_many", f"more than {MAX_ITEMS[MISSION]} items")]
     found = sorted(_listed(items, given))
@@ -68,7 +68,7 @@ def check_mission(items: Sequence[MissionItem], given: Circumstances) -> list[Pr
 def check_fence(
     borders: Sequence[Border], items: Sequence[MissionItem], given: Circumstances
 ) -> list[Problem]:
-    """Return what is wrong with a fence, beside the mission in use."""
+    """Return the problems of a fence, beside the mission in use."""
     if len(borders) > MAX_ITEMS[FENCE]:
         return [Problem(0, "too_many", f"more than {MAX_ITEMS[FENCE]} borders")]
     given = replace(given, borders=borders)
@@ -84,7 +84,7 @@ def check_fence(
 
 
 def _listed(items: Sequence[MissionItem], given: Circumstances) -> Iterator[Problem]:
-    """Yield what is wrong with the list, whatever the places of its items are."""
+    """Yield the problems of the list, whatever the places of its items are."""
     flown = [number for number, each in enumerate(items, 1) if each.kind not in NOT_FLOWN]
     if not flown:
         yield Problem(0, "no_items", "the mission has nothing to fly")

@@ -20,7 +20,7 @@ ALTITUDE_M = 10.0
 """An altitude is reached within this."""
 ON_CIRCLE_M, ON_CIRCLE_PART = 10.0, 0.2
 EARLY_S = 3.0
-"""A descent ends so long before the turn: the altitude follows late."""
+"""A descent ends this time before the turn: the altitude follows late."""
 EXIT_DEG = 15.0
 MAX_EXIT_DEG = 400.0
 """A circle is left after so much more even if it never points to the next item."""
@@ -33,11 +33,11 @@ class ItemFlight(Protocol):
         """Return whether the next item begins now."""
 
     def demand(self, state: NavigationState) -> PathDemand:
-        """Return what is demanded now."""
+        """Return the present demand."""
 
 
 class LineFlight:
-    """The line to a waypoint. It climbs at once, and descends evenly along the line.
+    """The line to a waypoint. It climbs immediately, and descends evenly along the line.
 
     The turn to ``following`` begins before the point, or with ``is_over`` at it.
     """

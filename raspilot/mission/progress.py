@@ -47,7 +47,7 @@ class MissionProgress:
     is_finished: bool = key(False, "Whether nothing is left to fly.")
 
     def at(self, items: Sequence[MissionItem], number: int) -> MissionProgress:
-        """Return the progress that flies item ``number`` next, or what follows if it is no place.
+        """Return the progress at item ``number``, or at the first one after it that has a place.
 
         At the end it is finished, and has the last item that it flew.
         """

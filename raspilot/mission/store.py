@@ -84,7 +84,7 @@ class PlanStore:
             self._parts[number] = self._item(number, data)
 
     def staged(self, commit: MissionCommitCommand) -> tuple[list[PlanItem], list[Problem]]:
-        """Return the items of a plan and what is wrong with others.
+        """Return the items of a plan, and the problems of others.
 
         Raises CommandRefusedError while parts are missing.
         """

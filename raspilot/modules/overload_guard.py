@@ -1,4 +1,4 @@
-"""Notices an event loop that is blocked again and again, and stops what is not essential."""
+"""Notices an event loop that is blocked again and again, and stops optional modules."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ REACTOR = "reactor"
 """The counters of the reactor's monitor: blocks of more than 20 ms, by the module to blame."""
 PERIOD_S, WINDOW_S = 1.0, 10.0
 MANY = 10
-"""So many blocks in WINDOW_S are an overload; a busy computer causes a few."""
+"""This number of blocks in WINDOW_S are an overload; a busy computer causes a few."""
 BUSY_SHARE = 0.8
 """Below this share of a core other modules do not cause it: only the one to blame is stopped."""
 

@@ -1,4 +1,4 @@
-"""Who is stopped when the event loop is blocked again and again."""
+"""Which module is stopped when the event loop is blocked again and again."""
 
 from collections import Counter
 

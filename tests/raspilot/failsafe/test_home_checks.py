@@ -1,4 +1,4 @@
-"""Home before arming: what is required, of whom, and where it may be."""
+"""Home before arming: when it is required, and where it may be."""
 
 from dataclasses import replace
 

@@ -102,7 +102,7 @@ class TestUpload:
 
 
 class TestReadBack:
-    """The aircraft sends what is in use."""
+    """The aircraft sends the plan in use."""
 
     def test_all_parts_are_the_plan(self, rig):
         rig.upload(LONG)

@@ -43,7 +43,7 @@ test("clicks draw one area until another is begun", () => {
   assert.deepEqual(editor.list.map(({ corners }) => corners?.length), [3, 1, undefined]);
 });
 
-test("a reloaded page has what was drawn, and knows what the aircraft has of it", () => {
+test("a reloaded page has the drawing, and knows what the aircraft has of it", () => {
   const kept = new Map();
   const storage = { getItem: (key) => kept.get(key) ?? null, setItem: (key, text) => kept.set(key, text) };
   const before = drawn(new Storage(storage));

@@ -78,7 +78,7 @@ test("corners of an area are moved, inserted and removed; with the last one goes
   assert.equal(plan.withoutCorner(fence, 1, 0).length, 1);
 });
 
-test("what the aircraft writes in full is the same as what was drawn", () => {
+test("what the aircraft writes in full equals the drawing", () => {
   const drawn = [waypoint(0, 0), { kind: "return" }];
   const whole = { above_sea: false, over: false, radius: null, clockwise: true, turns: 1, time: 0, item: null, repeat: 1 };
   assert.ok(plan.isSame(plan.listOf(drawn.map((item) => ({ ...whole, ...item }))), drawn));

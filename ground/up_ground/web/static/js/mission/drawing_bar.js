@@ -26,7 +26,7 @@ export class DrawingBar {
     );
     this.#undo = button("Undo", "Undo (Ctrl+Z)", "map-undo", () => editor.undo());
     this.#redo = button("Redo", "Redo (Ctrl+Y)", "map-redo", () => editor.redo());
-    this.#delete = button("Delete", "Delete what is selected (Delete)", "map-delete", () => editor.remove());
+    this.#delete = button("Delete", "Delete the selected item (Delete)", "map-delete", () => editor.remove());
     const has = { role: "group", "aria-label": "Drawing", hidden: true };
     this.element = html("div.map-drawing", has, this.#tool, this.#undo, this.#redo, this.#delete);
     document.addEventListener("keydown", (event) => this.#onKey(event));

@@ -7,7 +7,7 @@ export const AREA = "area";
 export const CIRCLE = "circle";
 
 /**
- * The mission and the fence that this page draws: what is edited, what is selected, what the
+ * The mission and the fence that this page draws: the items, the selection, and what the
  * aircraft uses of it. It has no element; the map and the panel show it when `version` changes.
  *
  * Fields to read: `name` (the plan in work), `kind` (that a click adds), `isDrawing`, `selected` (an

@@ -51,7 +51,7 @@ export function placeOfItem(item) {
   return placeOf(item?.latitude, item?.longitude);
 }
 
-/** A place as it is kept: to a centimetre. */
+/** A place, rounded to a centimetre. */
 function kept({ latitude, longitude }) {
   return { latitude: Number(latitude.toFixed(7)), longitude: Number(longitude.toFixed(7)) };
 }
@@ -131,7 +131,7 @@ function cleaned(fields) {
   return Object.fromEntries(Object.entries(fields).filter(isGiven));
 }
 
-/** A list as a server or an earlier page wrote it; what is neither an item nor a border is dropped. */
+/** A list as a server or an earlier page wrote it; anything but items and borders is dropped. */
 export function listOf(found) {
   const all = Array.isArray(found) ? found : [];
   const isArea = (corners) => Array.isArray(corners) && corners.every(Array.isArray);

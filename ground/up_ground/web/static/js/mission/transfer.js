@@ -53,7 +53,7 @@ export class Transfer {
     if (answer.outcome === "ack") {
       this.#editor.setUsed(name, String(answer.plan_id), list);
     }
-    // The numbers are those of what was sent.
+    // The numbers are those of the plan that was sent.
     if (this.#editor.drawn[name] === list) {
       this.#editor.setProblems(name, problemsIn(answer, name));
     }
@@ -70,7 +70,7 @@ export class Transfer {
     }
   }
 
-  /** Draw what a file has; a mission's file leaves the fence as it is. */
+  /** Draw what a file has; a mission's file leaves the fence unchanged. */
   async open(file) {
     const limit = this.#connection.welcome?.max_message ?? 65536;
     if (file.size > limit - ROOM_BYTES) {
