@@ -97,7 +97,7 @@ class MissionStatus(CommandTask):
 
     def on_ready(self) -> None:
         telemetry = self.telemetry
-        mode = telemetry.text("flight_mode")
+        mode = telemetry.text("flight_control", "mode") or telemetry.text("flight_mode")
         count, borders = telemetry.number(MISSION, "count"), telemetry.number(FENCE, "count")
         item, distance_m = telemetry.number(MISSION, "item"), telemetry.number(MISSION, "distance")
         if self._is_json:
@@ -112,5 +112,5 @@ class MissionStatus(CommandTask):
                 away = "" if distance_m is None else f", {distance_m:.0f} m away"
                 text = f"mission {telemetry.text(MISSION, 'id')}: item {item:.0f} of {count:.0f}"
                 text += ", finished" if telemetry.flag(MISSION, "is_finished") else away
-            self.echo(f"{text}\nfence: {borders or 0:.0f} borders\nflight mode: {mode or '--'}")
+            self.echo(f"{text}\nborders of the fence: {borders or 0:.0f}\nflight mode: {mode or '--'}")
         self.finish(EXIT_OK)

@@ -48,7 +48,7 @@ class FlightMemory:
 
     def __init__(self, folder: Path, reactor: Any) -> None:
         self._file = PersistedFile(folder / MEMORY.filename, MEMORY)
-        self._disk = DiskThread("flight_state.yml writer", reactor)
+        self._disk = DiskThread(reactor)
         self.wait = self._disk.wait
         self.values, problem = self._file.load()
         if problem:

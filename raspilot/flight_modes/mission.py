@@ -21,7 +21,7 @@ from up.flight_modes.flight_mode import (
     Target,
 )
 from up.flight_modes.navigation_file import NAVIGATION
-from up.flight_modes.navigation_state import LocalFrame, NavigationState, Point
+from up.flight_modes.navigation_state import LocalFrame, Point
 from up.flight_modes.selector import DemandError
 from up.mission.items import (
     LAND,
@@ -96,12 +96,12 @@ class Mission(FlightMode):
         if not items:
             raise DemandError("the mission was removed", "no_mission")
         if self._flown is not self.plans.progress:
-            self._begin(self.plans.progress, situation, state.position)
+            self._begin(self.plans.progress, situation)
         flight, flown = self._flight, self._flown
         assert flight is not None
         assert flown is not None
         if not flown.is_finished and flight.is_done(state, dt_s):
-            self._begin(flown.next(items), situation, self._corner(flown, state, situation.home))
+            self._begin(flown.next(items), situation)
         elif isinstance(flight, CircleFlight):
             self._save(flight, flown)
         assert self._flight is not None
@@ -120,23 +120,15 @@ class Mission(FlightMode):
             self._flown = replace(flown, turned_deg=turned_deg, waited_s=flight.waited_s)
             self.plans.progress = self._flown
 
-    def _corner(self, flown: MissionProgress, state: NavigationState, home: Home | None) -> Point:
-        """Return where the next line begins: at a waypoint, else where the aircraft is."""
-        point = self._point(flown, state.frame, home)
-        is_waypoint = self._items[flown.item - 1].kind == WAYPOINT
-        return point if is_waypoint and point is not None else state.position
-
-    def _begin(self, progress: MissionProgress, situation: FlightSituation, start: Point) -> None:
+    def _begin(self, progress: MissionProgress, situation: FlightSituation) -> None:
         self._flown = self.plans.progress = progress
         self._goal, self.successor, self.continues = None, "", False
         if progress.is_finished:
             self._flight = self._circle(progress, situation)
         else:
-            self._flight = self._flight_of(progress, situation, start)
+            self._flight = self._flight_of(progress, situation)
 
-    def _flight_of(
-        self, progress: MissionProgress, situation: FlightSituation, start: Point
-    ) -> ItemFlight:
+    def _flight_of(self, progress: MissionProgress, situation: FlightSituation) -> ItemFlight:
         state, home = situation.navigation, situation.home
         assert state is not None
         item: MissionItem = self._items[progress.item - 1]
@@ -152,8 +144,13 @@ class Mission(FlightMode):
                 self._goal = Target(point, altitude_m, item.radius_m)
         if item.kind == WAYPOINT:
             assert point is not None
+            start = None
+            if progress.start:
+                before = replace(progress, item=progress.start)
+                start = self._point(before, state.frame, home)
+            config = self.context.config(NAVIGATION)
             return LineFlight(
-                self.context.config(NAVIGATION), start, state.altitude_m, point, altitude_m,
+                config, start or state.position, state.altitude_m, point, altitude_m,
                 airspeed_m_s, following, is_over=item.is_over,
             )  # fmt: skip
         return self._circle(progress, situation, following)

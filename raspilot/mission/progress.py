@@ -15,6 +15,7 @@ from up.mission.items import (
     MISSION,
     RETURN,
     SPEED,
+    WAYPOINT,
     MissionItem,
 )
 
@@ -33,6 +34,9 @@ class MissionProgress:
 
     plan_id: str = key("", "The mission.", max_length=16)
     item: int = key(1, "The item; the first is 1.", minimum=1, maximum=MAX_ITEMS[MISSION])
+    start: int = key(
+        0, "The waypoint at which its line begins; 0: none.", minimum=0, maximum=MAX_ITEMS[MISSION]
+    )
     jumps: dict[str, int] = mapping(
         Constraint(str, max_length=4),
         Constraint(int, minimum=1, maximum=1000),
@@ -63,11 +67,12 @@ class MissionProgress:
                 number = item.item
         if number > len(items):
             return replace(self, jumps=jumps, is_finished=True)
-        return MissionProgress(self.plan_id, number, jumps)
+        return MissionProgress(self.plan_id, number, jumps=jumps)
 
     def next(self, items: Sequence[MissionItem]) -> MissionProgress:
         """Return the progress after its item."""
-        return self.at(items, self.item + 1)
+        start = self.item if items[self.item - 1].kind == WAYPOINT else 0
+        return replace(self.at(items, self.item + 1), start=start)
 
 
 def following(items: Sequence[MissionItem], number: int) -> Iterator[int]:

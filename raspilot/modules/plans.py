@@ -66,7 +66,7 @@ class Plans(BaseStartedModule):
     def on_init(self) -> None:
         self._stores = {plan: PlanStore(plan, self.context.config_folder) for plan in PLANS}
         self.missions, self.fences = self._stores[MISSION], self._stores[FENCE]
-        self._disk = DiskThread("plans", self.context.reactor)
+        self._disk = DiskThread(self.context.reactor)
         self._turn = DeferredLock()
         self._checked: object = None
         self._was_in_flight: bool | None = None
@@ -139,7 +139,9 @@ class Plans(BaseStartedModule):
     def _resumed(self) -> MissionProgress:
         """Return the progress of the flight that another run of the program began."""
         saved, items = self.flight.home.memory.values.mission, self.missions.items
-        if saved is None or saved.plan_id != self.missions.plan_id or saved.item > len(items):
+        if saved is None or saved.plan_id != self.missions.plan_id:
+            return self._begun()
+        if max(saved.item, saved.start) > len(items):
             return self._begun()
         kinds: Any = items[saved.item - 1]
         return self._begun() if kinds.kind in NOT_FLOWN else saved

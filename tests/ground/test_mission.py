@@ -176,7 +176,7 @@ def test_the_status_needs_no_control(proxy, owner, tmp_path):
         status, said, _ = run(tmp_path, proxy, "status")
         assert (status, json.loads(said)["mission"]) == (0, told["mission"])
         status, said, _ = run(tmp_path, proxy, "status", UP_LOG_FORMAT="")
-    assert said.splitlines()[:2] == ["mission 0123: item 3 of 12, 240 m away", "fence: 2 borders"]
+    assert said.splitlines()[:2] == ["mission 0123: item 3 of 12, 240 m away", "borders of the fence: 2"]
 
 
 def test_without_control_nothing_is_uploaded(proxy, owner, flying, tmp_path):

@@ -37,7 +37,7 @@ class GainsStore:
 
     def __init__(self, file: PidsFile, reactor: Any) -> None:
         self._file = file
-        self._disk = DiskThread("pids.yml writer", reactor)
+        self._disk = DiskThread(reactor)
         self._newest: GainSet | None = None
 
     def save(self, gains: GainSet) -> Deferred[None]:

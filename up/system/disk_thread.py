@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import threading
+from _thread import start_new_thread
 from collections.abc import Callable
 from typing import Any, TypeVar
 
@@ -19,27 +20,25 @@ class DiskThread:
     thread.
     """
 
-    def __init__(self, name: str, reactor: Any) -> None:
-        self._name = name
+    def __init__(self, reactor: Any) -> None:
         self._reactor = reactor
         self._lock = threading.Lock()
-        self._newest: threading.Thread | None = None
+        self._newest: threading.Event | None = None
 
     def run(self, work: Callable[[], _T]) -> Deferred[_T]:
         """Return the result of ``work``, which is called as soon as the earlier one is done."""
         done: Deferred[_T] = Deferred()
-        self._newest = threading.Thread(
-            target=self._run, args=(work, done), name=self._name, daemon=True
-        )
-        self._newest.start()
+        self._newest = finished = threading.Event()
+        # Thread.start would wait for the thread; a step of a flight mode must not.
+        start_new_thread(self._run, (work, done, finished))
         return done
 
     def wait(self) -> None:
         """Wait until the newest work is done."""
         if self._newest is not None:
-            self._newest.join()
+            self._newest.wait()
 
-    def _run(self, work: Callable[[], _T], done: Deferred[_T]) -> None:
+    def _run(self, work: Callable[[], _T], done: Deferred[_T], finished: threading.Event) -> None:
         with self._lock:
             try:
                 result = work()
@@ -47,3 +46,5 @@ class DiskThread:
                 self._reactor.callFromThread(done.errback, Failure())
             else:
                 self._reactor.callFromThread(done.callback, result)
+            finally:
+                finished.set()

@@ -273,6 +273,17 @@ class TestRestart:
         flown_s = again.passed[0][1].time_s - track[0].time_s
         assert flown_s < 35, "what is left of the turn, and the way to the exit"
 
+    def test_the_line_is_the_same_although_the_aircraft_has_left_it(self, tmp_path):
+        rig = MissionRig(tmp_path, [NORTH, EAST, END]).enter()
+        rig.fly(32)
+        assert rig.order == [1]
+        rig.plans_rig.manager.home.memory.wait()
+        rig.plane.north += 100
+        again = MissionRig(tmp_path, [], rig.plane, is_new=False).enter()
+        again.fly(0.1)
+        assert again.path_demand.path.point == pytest.approx((300, 300), abs=0.1)
+        assert again.path_demand.path.course_deg == pytest.approx(90, abs=0.1)
+
     def test_progress_of_another_mission_is_not_resumed(self, tmp_path):
         rig = MissionRig(tmp_path, [NORTH, EAST, END])
         rig.plans_rig.outcome(MissionItemCommand(3))
