@@ -77,7 +77,7 @@ BAD = {
     "a short leg between turns": (
         [placed(200, 0), NORTH, placed(400, 30), placed(200, 30), RETURN], CALM, {(3, "turn")},
     ),
-    "the same place twice": ([NORTH, NORTH, RETURN], CALM, {(2, "turn")}),
+    "the same place twice": ([NORTH, NORTH, placed(600, 0), RETURN], CALM, {(2, "turn")}),
     "long enough in calm air only": (
         [placed(200, 0), NORTH, placed(400, 60), placed(0, 60), RETURN],
         replace(CALM, wind=Point(7.0, 0.0)), {(3, "turn")},
