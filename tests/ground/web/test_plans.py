@@ -7,6 +7,7 @@ import pytest
 from tests.ground import aircraft as names
 from tests.ground.flying import Flying
 from tests.ground.web.page import with_pages
+from tests.support.reactor import until
 from tests.up.mission.plans import document, simple, waypoint
 from up.mission.items import Border, MissionItem, plan_id
 from up_ground.web.messages import MAX_PLAN_BYTES, PageFault, Reader
@@ -87,6 +88,24 @@ def test_what_a_page_may_not_is_refused(server, aircraft):
         assert told(busy) == ("refused", "busy")
 
     with_pages(server, look, "one", "two")
+
+
+def test_a_page_that_lost_control_does_not_commit(server, aircraft):
+    parts = []
+
+    async def look(page):
+        aircraft._answers["up.mission.part"] = lambda message: parts.append(message["id"]) or []
+        await page.control()
+        here = {"aircraft": names.NAME, "plan": "mission", "items": [POINT]}
+        answer = ask("plan.upload", page, 1, **here, beacon=await page.beacon())
+        await until(lambda: parts, what="the part")
+        page.send("control", action="release")
+        await page.status(lambda each: each["control"]["holder"] != "you")
+        aircraft.tell("up.ack", {"id": parts[0]})
+        assert told(await answer) == ("refused", "no_control")
+        assert "up.mission.commit" not in [each["name"] for each in aircraft.received]
+
+    with_pages(server, look, "one")
 
 
 def test_files_are_read_and_written_without_an_aircraft(server):
