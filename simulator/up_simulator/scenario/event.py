@@ -97,6 +97,9 @@ class Event:
     motor: Literal["stopped", "back"] | None = key(
         None, "stopped: the motor gives no thrust, whatever the throttle, and nothing reports it."
     )
+    flight_battery: float | None = key(
+        None, "Charge of the flight battery from this time.", unit="%", minimum=0, maximum=100
+    )
     phone_battery: float | None = key(
         None, "Battery level of the phone from this time.", unit="%", minimum=0, maximum=100
     )
