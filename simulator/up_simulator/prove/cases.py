@@ -11,6 +11,7 @@ from up.flight_modes.navigation_state import LocalFrame, Point
 from up_simulator.aircraft.motor import charge_at
 from up_simulator.aircraft.start import GROUND_M, START_LATITUDE_DEG, START_LONGITUDE_DEG
 from up_simulator.in_process.config_folder import merge
+from up_simulator.prove.judge import WARN, Limits
 from up_simulator.prove.rows import GPS_FAULTS, Row, point_of, row_of
 from up_simulator.prove.setup import Setup
 from up_simulator.scenario.event import CommandPart, Event
@@ -31,7 +32,9 @@ TURN_S, REST_S = 10.0, 15.0
 """The turn for home after a reaction, and how long the way home is then watched."""
 MARGIN_S, STALLED_S = 6.0, 15.0
 """From a failure to its detection, beyond the delay of failsafe.yml; and of no progress."""
-CLIMB_M, MAX_START_M, NEAR_M = 80.0, 4900.0, 200.0
+CLIMB_M, MAX_START_M = 80.0, 4900.0
+NEAR_M, LOW_M = 200.0, 25.0
+"""How far inside a border the aircraft begins to fly towards it."""
 TURBULENCE = ("none", "light", "moderate")
 MAX_WIND_M_S = 8.0
 GALE = 1.1
@@ -56,16 +59,6 @@ class Case:
         words = f"wind {self.wind_m_s:.1f} m/s from {self.from_deg:.0f} deg"
         gps = f", GPS {self.gps} for some time" if self.gps else ""
         return f"{'calm' if not self.wind_m_s else words}, turbulence {self.turbulence}{gps}"
-
-
-@dataclass(frozen=True, slots=True)
-class Times:
-    """Moments of a flight, s; ``deadline_s``: of the reaction that failsafe.yml demands."""
-
-    fail_s: float
-    deadline_s: float
-    settled_s: float
-    end_s: float
 
 
 def left_out(setup: Setup, codes: Sequence[str]) -> dict[str, str]:
@@ -126,27 +119,52 @@ def _blown(case: Case, setup: Setup) -> Case:
     return replace(case, wind_m_s=round(min(30.0, GALE * most), 1), from_deg=180.0, gps="")
 
 
-def is_by_sticks(row: Row, point: str) -> bool:
-    return row.of_sticks and point_of(point).by_sticks
+def is_by_sticks(case: Case) -> bool:
+    """Return whether the pilot flies when this failure comes there."""
+    return row_of(case.row).of_sticks and point_of(case.point).by_sticks
 
 
-def demands(row: Row, point: str) -> str:
-    """Return the key of failsafe.yml that has to answer here; empty: none."""
-    return "" if row.of_sticks and not is_by_sticks(row, point) else row.trigger
-
-
-def times_of(case: Case, setup: Setup) -> Times:
+def demands(case: Case) -> str:
+    """Return the key of failsafe.yml that has to answer; empty: none."""
     row = row_of(case.row)
-    trigger = demands(row, case.point)
-    delay_s = float(setup.trigger(trigger)["delay_s"]) if trigger else 0.0
+    return "" if row.of_sticks and not is_by_sticks(case) else row.trigger
+
+
+def limits_of(case: Case, setup: Setup) -> Limits:
+    """Return what the flight must keep with this configuration."""
+    row, fence, trigger = row_of(case.row), setup.fence, demands(case)
+    demanded = setup.trigger(trigger) if trigger else {"action": "", "delay_s": 0.0}
+    fail_s, over_s = FAIL_S, FAIL_S + (row.lasts_s or 0.0)
     if row.border or row.is_blown:
-        away_s = (200.0 + CLIMB_M) / setup.value("navigation.yml", "airspeed", "minimum_m_s")
-        until_s = MODE_S + (away_s if row.border else STALLED_S)
-        deadline_s = until_s + delay_s + MARGIN_S
-        return Times(MODE_S, deadline_s, deadline_s + TURN_S, deadline_s + TURN_S + 5.0)
-    over_s = FAIL_S + (row.lasts_s or 0.0)
-    settled_s = over_s + delay_s + (MARGIN_S if trigger else ORDER_S) + TURN_S
-    return Times(FAIL_S, FAIL_S + delay_s + MARGIN_S, settled_s, settled_s + REST_S)
+        fail_s, over_s = MODE_S, MODE_S + _approach_s(row, setup)
+    deadline_s = (over_s if fail_s == MODE_S else fail_s) + demanded["delay_s"] + MARGIN_S
+    order = [each for each in setup.values["failsafe.yml"] if each != "others"]
+    return Limits(
+        setup.stall_m_s,
+        fail_s,
+        deadline_s,
+        max(deadline_s, over_s + ORDER_S) + TURN_S,
+        trigger,
+        demanded["action"],
+        tuple(order[: order.index(trigger)]) if trigger else (),
+        fence["radius_m"],
+        fence["ceiling_m"],
+        fence["floor_m"],
+        # The Arduino's own circle, where the owner wants it, ends on the ground.
+        may_land=row.may_land or (row.of_sticks and demanded["action"] == WARN),
+        is_blown=row.is_blown,
+        arrived_m=3 * setup.value("return.yml", "radius_m"),
+    )
+
+
+def _approach_s(row: Row, setup: Setup) -> float:
+    """Return how long the way to a border, or the recognition of no progress, takes, s."""
+    if row.border == "radius_m":
+        return NEAR_M / float(setup.value("navigation.yml", "airspeed", "minimum_m_s"))
+    if row.border:
+        limit = "climb_limit_m_s" if row.border == "ceiling_m" else "sink_limit_m_s"
+        return STALLED_S / 3 + LOW_M / float(setup.value("navigation.yml", "vertical", limit))
+    return STALLED_S
 
 
 def height_of(case: Case, setup: Setup) -> float:
@@ -155,9 +173,9 @@ def height_of(case: Case, setup: Setup) -> float:
     height_m = float(setup.value("return.yml", "height_m"))
     ceiling_m, floor_m = fence["ceiling_m"], fence["floor_m"]
     if row.border == "floor_m":
-        height_m = floor_m + CLIMB_M / 2
+        height_m = floor_m + LOW_M
     elif row.border == "ceiling_m":
-        height_m = ceiling_m - CLIMB_M / 2
+        height_m = ceiling_m - LOW_M
     elif point_of(case.point).climbs:
         height_m = max(15.0, height_m / 2)
     if ceiling_m is not None:
@@ -177,9 +195,9 @@ def away_of(case: Case, setup: Setup) -> float:
 
 def scenario_of(case: Case, setup: Setup) -> Scenario:
     """Return the scenario of a flight: home behind it, a mode, the failure and its end."""
-    row, point, times = row_of(case.row), point_of(case.point), times_of(case, setup)
+    row, point, limits = row_of(case.row), point_of(case.point), limits_of(case, setup)
     height_m = height_of(case, setup)
-    by_sticks = is_by_sticks(row, case.point)
+    by_sticks = is_by_sticks(case)
     events = [Event(HOME_S, command=CommandPart("up.home.set", _home(case, setup)))]
     if not by_sticks:
         events.append(_mode(MODE_S, point.mode))
@@ -190,11 +208,11 @@ def scenario_of(case: Case, setup: Setup) -> Scenario:
         altitude = {"altitude": GROUND_M + height_m + climb_m, "mode": "required"}
         events.append(Event(CLIMB_S, command=CommandPart("up.altitude.change", altitude)))
     if row.begin:
-        events.append(Event(times.fail_s, name="failure", **_changed(row.begin, setup)))
+        events.append(Event(limits.fail_s, name="failure", **_changed(row.begin, setup)))
         if row.end:
-            events.append(Event(times.fail_s + (row.lasts_s or 0.0), name="end", **row.end))
+            events.append(Event(limits.fail_s + (row.lasts_s or 0.0), name="end", **row.end))
         if not row.trigger and point.mode != "RETURN":
-            events.append(_mode(times.fail_s + (row.lasts_s or 0.0) + ORDER_S, "RETURN"))
+            events.append(_mode(limits.fail_s + (row.lasts_s or 0.0) + ORDER_S, "RETURN"))
     if case.gps:
         draw = random.Random(f"gps {case.seed}")
         begin_s = FAIL_S + draw.uniform(0.0, 10.0)
@@ -208,7 +226,7 @@ def scenario_of(case: Case, setup: Setup) -> Scenario:
         title=row.about,
         airframe=setup.airframe,
         seed=case.seed,
-        duration_s=times.end_s,
+        duration_s=limits.settled_s + (0.0 if limits.fail_s == MODE_S else REST_S),
         board="host",
         may_crash=True,
         start=StartPart(height_m=height_m),

@@ -20,7 +20,7 @@ table{border-collapse:collapse}td,th{padding:.2rem .6rem;border-bottom:1px solid
 text-align:left}.number{text-align:right}.table{overflow-x:auto}.bad{color:#c22}.good{color:#283}
 figure{display:inline-block;margin:0 1rem 0 0}svg{max-width:100%;height:auto}"""
 _POLICY = "default-src 'none'; style-src 'unsafe-inline'"
-_SIZE, _EDGE = 320.0, 14.0
+_SIZE, _EDGE = 320, 14
 
 
 @dataclass(slots=True)
@@ -65,7 +65,7 @@ class Proof:
 
 def _badness(outcome: Outcome) -> tuple[int, float]:
     figures = outcome.figures
-    return len(outcome.verdict.found), figures.height_lost_m - figures.least_airspeed_m_s
+    return len(outcome.found), figures.height_lost_m - figures.least_m_s
 
 
 def document(proof: Proof) -> dict[str, Any]:
@@ -89,7 +89,7 @@ def _flight(outcome: Outcome, setup: Setup) -> dict[str, Any]:
     return {
         **dataclasses.asdict(outcome.case),
         "held": outcome.is_held,
-        "codes": outcome.verdict.codes,
+        "codes": outcome.codes,
         "text": story(outcome, setup),
         **{key: value if value is None else round(value, 2) for key, value in figures.items()},
         "advice": None
@@ -157,54 +157,28 @@ def _rows(proof: Proof) -> Markup:
         about = f"{point_of(case.point).about}, {case.weather}, {case.controller}, seed {case.seed}"
         rows.append([
             row_of(code).about, word, about, f"{figures.height_lost_m:.0f} m",
-            f"{figures.greatest_m:.0f} m", f"{figures.least_airspeed_m_s:.1f} m/s",
+            f"{figures.greatest_m:.0f} m", f"{figures.least_m_s:.1f} m/s",
             f"{figures.flown_s:.0f} s",
         ])  # fmt: skip
     return table(head, rows, right=(3, 4, 5, 6))
 
 
 def _picture(track: Sequence[Sample]) -> Markup:
-    """Return the track from above, north up, and the height over time."""
-    above = [(each.east_m, -each.north_m) for each in track]
-    heights = [(each.time_s, -each.height_m) for each in track]
-    east_m, north_m = track[-1].east_m, track[-1].north_m
-    title = f"from above; it ends {abs(north_m):.0f} m {'north' if north_m >= 0 else 'south'} and"
-    title += f" {abs(east_m):.0f} m {'east' if east_m >= 0 else 'west'} of home"
-    low_m, high_m = -max(each[1] for each in heights), -min(each[1] for each in heights)
-    return join(
-        tag("figure", _svg([*above, (0.0, 0.0)], len(above), True), tag("figcaption", title)),
-        tag(
-            "figure",
-            _svg([*heights, (heights[0][0], 0.0)], len(heights), False),
-            tag("figcaption", f"height over time, {low_m:.0f} to {high_m:.0f} m; the line is home"),
-        ),
-    )
-
-
-def _svg(points: Sequence[tuple[float, float]], count: int, is_map: bool) -> Markup:
-    """Draw the first ``count`` points as a line, and the last one of all, home."""
+    """Draw the track from above, north up: home is green, the end red."""
+    points = [(0.0, 0.0), *((each.east_m, -each.north_m) for each in track)]
     left, top = (min(each[at] for each in points) for at in (0, 1))
-    spans = [max(each[at] for each in points) - low for at, low in ((0, left), (1, top))]
-    wide, high = (max(spans), max(spans)) if is_map else spans
-    inside = _SIZE - 2 * _EDGE
-
-    def place(point: tuple[float, float]) -> tuple[float, float]:
-        across = (point[0] - left) / (wide or 1.0)
-        down = (point[1] - top) / (high or 1.0)
-        return _EDGE + inside * across, _EDGE + inside * down
-
-    words = [f"{x:.1f},{y:.1f}" for x, y in map(place, points[:count])]
-    home_x, home_y = place(points[-1])
-    end_x, end_y = place(points[count - 1])
-    ground = {"x1": 0, "x2": int(_SIZE), "y1": f"{home_y:.1f}", "y2": f"{home_y:.1f}"}
-    return tag(
-        "svg",
-        tag("polyline", points=" ".join(words), fill="none", stroke="#26c", stroke_width=2),
-        tag("circle", cx=f"{home_x:.1f}", cy=f"{home_y:.1f}", r=5, fill="#283")
-        if is_map
-        else tag("line", stroke="#283", **ground),
-        tag("circle", cx=f"{end_x:.1f}", cy=f"{end_y:.1f}", r=4, fill="#c22"),
-        viewBox=f"0 0 {_SIZE:.0f} {_SIZE:.0f}",
-        width=int(_SIZE),
-        role="img",
-    )
+    wide = max(max(each[at] for each in points) - low for at, low in ((0, left), (1, top)))
+    scale = (_SIZE - 2 * _EDGE) / (wide or 1.0)
+    home, *line = [
+        f"{_EDGE + scale * (east - left):.1f},{_EDGE + scale * (south - top):.1f}"
+        for east, south in points
+    ]
+    dots = [
+        tag("circle", cx=x, cy=y, r=5, fill=colour)
+        for (x, y), colour in ((home.split(","), "#283"), (line[-1].split(","), "#c22"))
+    ]
+    drawn = tag("polyline", points=" ".join(line), fill="none", stroke="#26c", stroke_width=2)
+    size = f"0 0 {_SIZE} {_SIZE}"
+    svg = tag("svg", drawn, *dots, viewBox=size, width=_SIZE, role="img")
+    caption = f"From above, north up, {wide:.0f} m wide; home is green, the end is red."
+    return tag("figure", svg, tag("figcaption", caption))

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import dataclasses
 import json
 import os
 import sys
@@ -75,10 +74,12 @@ def _prove(options: argparse.Namespace, codes: Sequence[str]) -> tuple[Proof, bo
     reasons = left_out(setup, codes)
     flown = [code for code in codes if code not in reasons]
     cases = list(_cases(options, setup, flown))
+    if not cases:
+        text = f"nothing to fly: {'; '.join(f'{code}: {why}' for code, why in reasons.items())}"
+        raise UsageError(text, "nothing_to_fly")
     proof = Proof(setup, len(cases), left_out=reasons)
-    controllers = {each.controller for each in cases} or {setup.controller}
-    for controller in sorted(controllers):
-        proof.refusals += refusals(dataclasses.replace(setup, controller=controller))
+    for controller in sorted({each.controller for each in cases}):
+        proof.refusals += refusals(setup, controller)
     proof.refusals = list(dict.fromkeys(proof.refusals))
     if proof.refusals:
         proof.planned = 0
@@ -125,7 +126,7 @@ class Bar:
         now_s = time.monotonic()
         if not self._stream.isatty():
             case = outcome.case
-            codes = ", ".join(outcome.verdict.codes) or "held"
+            codes = ", ".join(outcome.codes) or "held"
             where = f"{row_of(case.row).about}, {point_of(case.point).about}, {case.weather}"
             text = f"{self._done}/{self._count} {where}, {case.controller}: {codes}"
             self._write(f"{printable(text)}\n")
@@ -149,7 +150,11 @@ class Bar:
 
 
 def _report(proof: Proof, output: Path) -> None:
-    setup, write = proof.setup, lambda text: sys.stdout.write(f"{printable(text)}\n")
+    setup = proof.setup
+
+    def write(text: str) -> None:
+        sys.stdout.write(f"{printable(text)}\n")
+
     write(f"{setup.folder}, airframe {setup.airframe}")
     for text in proof.refusals:
         write(f"  refused: {text}")
