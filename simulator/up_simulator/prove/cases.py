@@ -119,6 +119,9 @@ def _blown(case: Case, setup: Setup) -> Case:
     return replace(case, wind_m_s=round(min(30.0, GALE * most), 1), from_deg=180.0, gps="")
 
 
+_NOTHING: dict[str, Any] = {"action": "", "delay_s": 0.0}
+
+
 def is_by_sticks(case: Case) -> bool:
     """Return whether the pilot flies when this failure comes there."""
     return row_of(case.row).of_sticks and point_of(case.point).by_sticks
@@ -133,7 +136,7 @@ def demands(case: Case) -> str:
 def limits_of(case: Case, setup: Setup) -> Limits:
     """Return what the flight must keep with this configuration."""
     row, fence, trigger = row_of(case.row), setup.fence, demands(case)
-    demanded = setup.trigger(trigger) if trigger else {"action": "", "delay_s": 0.0}
+    demanded = setup.trigger(trigger) if trigger else _NOTHING
     fail_s, over_s = FAIL_S, FAIL_S + (row.lasts_s or 0.0)
     if row.border or row.is_blown:
         fail_s, over_s = MODE_S, MODE_S + _approach_s(row, setup)

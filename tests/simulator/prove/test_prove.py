@@ -4,7 +4,6 @@ import json
 
 import pytest
 
-from tests.support.firmware import build_firmware
 from tests.support.program_output import fields_of
 from up_simulator.cli import main
 from up_simulator.prove.cases import left_out, quick, scenario_of, thorough
@@ -24,7 +23,6 @@ def config(tmp_path, monkeypatch):
 
 
 def prove(capsys, *words):
-    build_firmware()
     status = main(["prove", "--only", "fence_floor", "--wind", "0", "--json", *words])
     return status, json.loads(capsys.readouterr().out)
 
