@@ -19,6 +19,9 @@ SETTLING_S = 1.0
 """The first second, in which the model finds its balance, is not judged."""
 
 
+_NO_FIGURES = Figures(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, None, 0.0)
+
+
 @dataclass(frozen=True, slots=True)
 class Outcome:
     """A flight; ``found`` is what was wrong. The texts say why a Command or the flight failed."""
@@ -89,9 +92,12 @@ def refusals(setup: Setup, controller: str) -> list[str]:
 
 
 def fly_case(case: Case, setup: Setup) -> Outcome:
-    """Fly and judge one flight. Raises CannotFlyError."""
+    """Fly and judge one flight."""
     began_s = time.process_time()
-    flight = _built(case, setup)
+    try:
+        flight = _built(case, setup)
+    except CannotFlyError as error:
+        return Outcome(case, (("failed", 0.0),), _NO_FIGURES, [], None, "", str(error), 0.0)
     probe = _Probe(flight, home_m(case, setup))
     record = flight.fly(probe)
     limits, track = limits_of(case, setup), probe.track
@@ -102,7 +108,7 @@ def fly_case(case: Case, setup: Setup) -> Outcome:
         found = (("refused", refused.sent_s), *found)
     if failure or not track:
         found = (*found, ("failed", record.flown_s))
-    figures = figures_of(track, limits) if track else Figures(0, 0, 0, 0, 0, 0, None, 0)
+    figures = figures_of(track, limits) if track else _NO_FIGURES
     refusal = "" if refused is None else f"{refused.event.title}: {refused.answer}"
     cpu_s = time.process_time() - began_s
     return Outcome(case, found, figures, track, record.crash, refusal, failure, cpu_s)

@@ -8,6 +8,7 @@ import os
 import sys
 import time
 from collections.abc import Sequence
+from concurrent.futures.process import BrokenProcessPool
 from contextlib import suppress
 from pathlib import Path
 from typing import TextIO
@@ -106,7 +107,11 @@ def _fly(proof: Proof, cases: Sequence[Case], processes: int) -> bool:
                 bar.show(outcome)
     except KeyboardInterrupt:
         is_interrupted = True
-    bar.end()
+    except BrokenProcessPool as error:
+        text = "a process that flew was killed; with --processes 1 it needs less memory"
+        raise CliError(text, NOT_HELD, "process_ended") from error
+    finally:
+        bar.end()
     proof.outcomes = [found[at] for at in sorted(found)]
     return is_interrupted
 
