@@ -157,6 +157,7 @@ def limits_of(case: Case, setup: Setup) -> Limits:
         may_land=row.may_land or (row.of_sticks and demanded["action"] == WARN),
         is_blown=row.is_blown,
         arrived_m=3 * setup.value("return.yml", "radius_m"),
+        circle_m=2 * setup.value("loiter.yml", "radius_m") if case.point == "turn" else 0.0,
     )
 
 

@@ -48,7 +48,8 @@ class Limits:
     """What a flight must keep, from the failure on; at ``settled_s`` it has turned home.
 
     ``trigger`` and ``action`` are those of failsafe.yml ("": none is demanded), ``priority`` the
-    triggers that decide before it. ``may_land``: a gentle touch-down is no crash.
+    triggers that decide before it. ``may_land``: a gentle touch-down is no crash. ``circle_m`` is
+    the diameter of a circle that it flies away from home, ``arrived_m`` is near home.
     """
 
     stall_m_s: float
@@ -64,6 +65,7 @@ class Limits:
     may_land: bool = False
     is_blown: bool = False
     arrived_m: float = 150.0
+    circle_m: float = 0.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -147,7 +149,7 @@ def _found(
                 yield "below_floor", each.time_s
         if each.time_s >= limits.settled_s and not limits.is_blown:
             settled_m = each.away_m if settled_m is None else settled_m
-            if each.away_m > max(settled_m + FARTHER_M, limits.arrived_m):
+            if each.away_m > max(settled_m + FARTHER_M + limits.circle_m, limits.arrived_m):
                 yield "fly_away", each.time_s
     last = track[-1]
     is_gentle = last.airspeed_m_s >= least_m_s and last.climb_m_s >= -TOUCH_DOWN_M_S

@@ -69,6 +69,7 @@ def seen(from_s=11.0):
             None,
             {"fly_away": 38.1},
         ),
+        (replace(LIMITS, circle_m=60.0), {"north_m": lambda at: 10 * at}, None, {}),
         (DEMANDING, {"active": seen()}, None, {}),
         (DEMANDING, {}, None, {"no_reaction": 15.0}),
         (DEMANDING, {"active": seen(15.5)}, None, {"no_reaction": 15.0}),
