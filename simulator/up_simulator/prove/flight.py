@@ -92,7 +92,7 @@ def refusals(setup: Setup, controller: str) -> list[str]:
 
 
 def fly_case(case: Case, setup: Setup) -> Outcome:
-    """Fly and judge one flight."""
+    """Fly and judge one flight; Ctrl-C ends it without a judgement."""
     began_s = time.process_time()
     try:
         flight = _built(case, setup)
@@ -100,6 +100,8 @@ def fly_case(case: Case, setup: Setup) -> Outcome:
         return Outcome(case, (("failed", 0.0),), _NO_FIGURES, [], None, "", str(error), 0.0)
     probe = _Probe(flight, home_m(case, setup))
     record = flight.fly(probe)
+    if record.is_interrupted:
+        raise KeyboardInterrupt
     limits, track = limits_of(case, setup), probe.track
     failure = record.failure or ("" if track else "; ".join(record.notes.values()))
     refused = next((each for each in record.pending_commands if each.answer), None)

@@ -9,6 +9,7 @@ from up_simulator.cli import main
 from up_simulator.prove.cases import left_out, quick, scenario_of, thorough
 from up_simulator.prove.rows import CODES
 from up_simulator.prove.setup import read_setup
+from up_simulator.scenario.flight import ScenarioFlight
 
 FLOOR = "fence: {floor_m: 30, action: %s}\n"
 
@@ -79,6 +80,26 @@ def test_without_auto_nothing_is_proved(config, capsys, monkeypatch):
     (config / "airframe.yml").write_text("switch: {high: FBW}\n")
     assert main(["prove"]) == 2
     assert [each["code"] for each in fields_of(capsys.readouterr().err)] == ["no_auto"]
+
+
+def test_ctrl_c_in_a_flight_ends_it_with_what_is_known(config, capsys, monkeypatch):
+    (config / "failsafe.yml").write_text(FLOOR % "RETURN")
+    step, steps = ScenarioFlight.step, []
+
+    def interrupted(self):
+        steps.append(step(self))
+        if len(steps) == 10:
+            raise KeyboardInterrupt
+
+    monkeypatch.setattr(ScenarioFlight, "step", interrupted)
+    status, document = prove(capsys)
+    assert (status, document["held"], document["planned"], document["flights"]) == (
+        130,
+        False,
+        1,
+        [],
+    )
+    assert len(steps) == 10
 
 
 def test_every_row_flies_and_the_same_seeds_draw_the_same_flights(config):
