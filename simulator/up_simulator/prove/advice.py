@@ -95,7 +95,8 @@ def advice_of(outcome: Outcome, setup: Setup) -> Advice | None:
     if outcome.is_held:
         return None
     case, figures, fence = outcome.case, outcome.figures, setup.fence
-    row, code = row_of(case.row), outcome.codes[0]
+    row = row_of(case.row)
+    code = next((each for each in outcome.codes if each != "refused"), "refused")
     height = of("return.yml", "height_m")
     minimum, cruise, maximum = (
         of("navigation.yml", f"airspeed.{name}_m_s") for name in ("minimum", "cruise", "maximum")

@@ -26,8 +26,6 @@ from up_simulator.scenario.scenario import (
 from up_simulator.scenario.sticks import StickPoint
 
 HOME_S, MODE_S, CLIMB_S, FAIL_S = 2.0, 4.0, 5.0, 12.0
-ORDER_S = 5.0
-"""After the end of a failure the ground commands RETURN."""
 TURN_S, REST_S = 10.0, 15.0
 """The turn for home after a reaction, and how long the way home is then watched."""
 MARGIN_S, STALLED_S = 6.0, 15.0
@@ -146,7 +144,7 @@ def limits_of(case: Case, setup: Setup) -> Limits:
         setup.stall_m_s,
         fail_s,
         deadline_s,
-        max(deadline_s, over_s + ORDER_S) + TURN_S,
+        max(deadline_s, over_s + row.order_s) + TURN_S,
         trigger,
         demanded["action"],
         tuple(order[: order.index(trigger)]) if trigger else (),
@@ -216,7 +214,7 @@ def scenario_of(case: Case, setup: Setup) -> Scenario:
         if row.end:
             events.append(Event(limits.fail_s + (row.lasts_s or 0.0), name="end", **row.end))
         if not row.trigger and point.mode != "RETURN":
-            events.append(_mode(limits.fail_s + (row.lasts_s or 0.0) + ORDER_S, "RETURN"))
+            events.append(_mode(limits.fail_s + (row.lasts_s or 0.0) + row.order_s, "RETURN"))
     if case.gps:
         draw = random.Random(f"gps {case.seed}")
         begin_s = FAIL_S + draw.uniform(0.0, 10.0)

@@ -35,10 +35,10 @@ BORDER = Point("at the border", "CRUISE", 100.0)
 class Row:
     """A failure: the change of an event (as in a scenario) that begins it and that ends it.
 
-    ``lasts_s``: None is until the flight ends. ``trigger`` is the key of failsafe.yml that has to
-    answer; ``of_sticks``: only where the sticks fly. ``needs`` are the configuration's values
-    (file, keys) without which the failure does not exist. ``may_land``: a gentle touch-down is no
-    crash. ``is_blown``: the wind is stronger than the aircraft, so that nothing brings it home.
+    ``lasts_s``: None is until the flight ends; ``order_s`` later the ground commands RETURN.
+    ``trigger`` is the key of failsafe.yml that has to answer; ``of_sticks``: only where the sticks
+    fly. ``needs`` are the configuration's values (file, keys) without which the failure does not
+    exist. ``may_land``: a gentle touch-down is no crash. ``is_blown``: the wind is stronger than the aircraft, so that nothing brings it home.
     """
 
     code: str
@@ -46,6 +46,7 @@ class Row:
     begin: Mapping[str, Any] = field(default_factory=dict)
     end: Mapping[str, Any] = field(default_factory=dict)
     lasts_s: float | None = None
+    order_s: float = 5.0
     trigger: str = ""
     of_sticks: bool = False
     needs: tuple[str, ...] = ()
@@ -81,7 +82,7 @@ ROWS = (
     Row("gps_jumped", "the GPS jumps by 300 m for 8 s", {"gps": "jumped"}, {"gps": "back"}, 8.0),
     Row("gps_frozen", "the GPS is frozen for 15 s", {"gps": "frozen"}, {"gps": "back"}, 15.0),
     Row("phone_lost", "the phone is unplugged for 20 s", {"phone": "unplugged"},
-        {"phone": "back"}, 20.0),
+        {"phone": "back"}, 20.0, 15.0),
     Row("daemon_killed", "Raspilot is killed and starts again after 3 s", {"raspilot": "killed"},
         {"raspilot": "started"}, 3.0),
     Row("serial_cut", "the serial line is cut for 8 s", {"serial": "unplugged"},
