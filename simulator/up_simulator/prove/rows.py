@@ -38,7 +38,8 @@ class Row:
     ``lasts_s``: None is until the flight ends; ``order_s`` later the ground commands RETURN.
     ``trigger`` is the key of failsafe.yml that has to answer; ``of_sticks``: only where the sticks
     fly. ``needs`` are the configuration's values (file, keys) without which the failure does not
-    exist. ``may_land``: a gentle touch-down is no crash. ``is_blown``: the wind is stronger than the aircraft, so that nothing brings it home.
+    exist. ``may_land``: a gentle touch-down is no crash. ``is_blown``: the wind is stronger than
+    the aircraft, so that nothing brings it home.
     """
 
     code: str
@@ -46,7 +47,7 @@ class Row:
     begin: Mapping[str, Any] = field(default_factory=dict)
     end: Mapping[str, Any] = field(default_factory=dict)
     lasts_s: float | None = None
-    order_s: float = 5.0
+    order_s: float = 10.0
     trigger: str = ""
     of_sticks: bool = False
     needs: tuple[str, ...] = ()
@@ -79,7 +80,8 @@ ROWS = (
     Row("no_progress", "the head wind is stronger than the aircraft", trigger="no_progress",
         points=("home",), is_blown=True),
     Row("gps_lost", "the GPS is lost for 20 s", {"gps": "lost"}, {"gps": "back"}, 20.0),
-    Row("gps_jumped", "the GPS jumps by 300 m for 8 s", {"gps": "jumped"}, {"gps": "back"}, 8.0),
+    Row("gps_jumped", "the GPS jumps by 300 m for 8 s", {"gps": "jumped"}, {"gps": "back"}, 8.0,
+        15.0),
     Row("gps_frozen", "the GPS is frozen for 15 s", {"gps": "frozen"}, {"gps": "back"}, 15.0),
     Row("phone_lost", "the phone is unplugged for 20 s", {"phone": "unplugged"},
         {"phone": "back"}, 20.0, 15.0),
