@@ -110,7 +110,7 @@ def _transfer(
     numbers: Sequence[int] = (),
     save: Any = None,
 ) -> int:
-    """Transfer plans one after the other; those that are None are downloaded."""
+    """Transfer plans one after the other; None: it is downloaded."""
     tasks: list[TransferTask] = []
 
     def make(reactor: Any) -> TransferTask:

@@ -20,17 +20,17 @@ The first flight of a mission
                                          its home, fence, wind and airspeeds, and
                                          uses all of it or nothing; then it is
                                          read back and compared
-  up-ground mission status               what is in use, and the next item
+  up-ground mission status               the plans in use, and the next item
   up-ground mission start                continues at that item; take off first,
                                          unless the first item is a takeoff
   up-ground mission start --item 1       begins again
 
-A file without borders leaves the fence of the aircraft as it is, one without
-items its mission. Of a file with both the fence is uploaded first.
+A file without borders does not change the fence of the aircraft, one without
+items not its mission. Of a file with both the fence is uploaded first.
 
 exit status
-  0 done; 1 problems in the file, or refused by the aircraft: what was in use
-  before stays in use; 2 error in the command line; 3 no connection, no aircraft
+  0 done; 1 problems in the file, or refused by the aircraft, which
+  keeps its plans; 2 error in the command line; 3 no connection, no aircraft
   or no answer
 """
 
@@ -54,7 +54,7 @@ def add_mission(verbs: Any) -> None:
             )  # fmt: skip
     start = actions.add_parser("start", help="select the flight mode MISSION")
     start.add_argument("--item", type=_item, metavar="N", help="begin at this item; the first is 1")
-    status = actions.add_parser("status", help="show what is in use and the next item")
+    status = actions.add_parser("status", help="show the plans in use and the next item")
     clear = actions.add_parser("clear", help="remove the mission or the fence of the aircraft")
     clear.add_argument("plans", choices=PLANS, type=str, metavar="mission|fence")
     for action in (check, upload, download, status):

@@ -16,7 +16,7 @@ Position: TypeAlias = tuple[float, float, float]
 
 @dataclass(frozen=True, slots=True)
 class PlanProblem:
-    """What is wrong with an item (the first is 1), or with the plan as a whole (0)."""
+    """The fault of an item (the first is 1), or of the plan as a whole (0)."""
 
     plan: str
     item: int
