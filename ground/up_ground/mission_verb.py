@@ -17,7 +17,7 @@ waypoints (QGC WPL 110, of Mission Planner or MAVProxy: mission only).
 The first flight of a mission
   up-ground mission check field.plan     offline: every problem, with its item
   up-ground mission upload field.plan    the aircraft checks it as a whole, with
-                                         its home, fence, wind and airspeeds, and
+                                         its home, fence, wind, airspeeds, and
                                          uses all of it or nothing; then it is
                                          read back and compared
   up-ground mission status               the plans in use, and the next item
