@@ -270,8 +270,10 @@ class RecordScanner:
             if each is not None:
                 each.update(self.buffer, self._base, place)
         rest = self.buffer[self._pos :]
+        # A recording that goes on is read as far as it was when the scan began.
+        left = max(0, self._size - place - len(rest))
         try:
-            self.buffer = rest + self._file.read(max(_WINDOW, needed - len(rest)))
+            self.buffer = rest + self._file.read(min(left, max(_WINDOW, needed - len(rest))))
         except OSError as error:
             raise self._unreadable(error, place) from None
         self._base, self._pos = place, 0

@@ -94,6 +94,21 @@ def test_a_file_cut_anywhere_gives_the_messages_before_the_cut(place):
         assert codes == ["cut_off"], size
 
 
+def test_a_file_that_grows_while_it_is_read_is_read_to_its_size_at_the_beginning(place):
+    whole, written = long_log(200)
+    cut = len(whole) // 3
+    place.write_bytes(whole[:cut])
+    problems, found = Problems(place.name), []
+    with open_log(place) as file:
+        scanner = RecordScanner(file, problems)
+        place.write_bytes(whole)
+        for opcode, _, start, length in scanner:
+            if opcode == Opcode.MESSAGE:
+                found.append(scanner.buffer[start + 22 : start + length])
+    assert found == written[: len(found)] and 0 < len(found) < len(written)
+    assert [each.code for each in problems.all()] == ["cut_off"]
+
+
 @pytest.mark.parametrize("data", [SMALL, official(CompressionType.NONE, 300)])
 def test_the_window_may_end_anywhere(place, monkeypatch, data):
     # Blocks of all sizes put the ends of the window into every field of every record.
