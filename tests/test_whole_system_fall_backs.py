@@ -1,12 +1,17 @@
-"""The whole system with another controller, and where compilers and models are missing."""
+"""The whole system with another controller, and where compilers, models and ports are missing."""
 
 import os
 import shutil
 import signal
+import socket
+import subprocess
+import sys
 from pathlib import Path
 
 from tests.support.firmware import build_firmware
+from tests.support.program_output import AS_JSON, fields_of
 from tests.support.showcase import Showcase, steepest
+from tests.support.waiting import DEADLINE_S
 
 ROOT = Path(__file__).parents[1]
 WITHOUT_AUTOBAHN = """
@@ -73,3 +78,21 @@ def test_without_any_compiler_the_error_names_the_packages(tmp_path):
     assert showcase.process.wait(60) == 1
     assert "needs a C++ compiler" in showcase.said().splitlines()[-1]
     assert "Traceback" not in showcase.said()
+
+
+def test_without_any_port_there_is_nothing_to_run_for(tmp_path):
+    taken = socket.socket()
+    taken.bind(("", 0))
+    taken.listen()
+    port = taken.getsockname()[1]
+    (tmp_path / "arduino.yml").write_text(f"port: {tmp_path / 'nothing'}\n")
+    (tmp_path / "android.yml").write_text(f"general port: {port}\norientation port: 0\n")
+    (tmp_path / "discovery.yml").write_text("port: 0\n")
+    result = subprocess.run(
+        [sys.executable, str(ROOT / "main.py"), "--config", str(tmp_path)],
+        capture_output=True, text=True, timeout=DEADLINE_S, check=False,
+        env={**os.environ, **AS_JSON},
+    )  # fmt: skip
+    taken.close()
+    assert result.returncode == 1
+    assert "no_source" in [each.get("code") for each in fields_of(result.stderr)]

@@ -3,12 +3,8 @@ to its last second after ``kill -9``."""
 
 import json
 import os
-import re
-import shlex
 import signal
 import struct
-import subprocess
-import urllib.request
 from bisect import bisect_left
 
 import pytest
@@ -141,32 +137,6 @@ def test_the_configuration_that_flew_is_attached(flight):
     assert b"degrees per second" in flight.log.attachments["config/pids.yml"]
     assert flight.log.metadata["flight"]["flight_controller"] == "arduino"
     assert flight.log.metadata["versions"]["arduino_cog"]
-
-
-def test_the_suggested_command_reads_the_log(flight):
-    said = flight.showcase.said()
-    line = re.search(r"The flight's log: (.*)", said)[1]
-    done = subprocess.run(
-        shlex.split(line), cwd=flight.showcase.folder, capture_output=True, text=True,
-        timeout=DEADLINE_S, check=False,
-    )  # fmt: skip
-    assert done.returncode == 0, done.stdout + done.stderr
-    assert "Traceback" not in done.stderr
-
-
-def test_the_suggested_command_replays_it_in_the_page(flight):
-    line = re.search(r"The same again in a browser: (.*)", flight.showcase.said())[1]
-    replay = subprocess.Popen(
-        [*shlex.split(line), "--listen", "127.0.0.1:0"], cwd=flight.showcase.folder,
-        stdout=subprocess.PIPE, text=True,
-    )  # fmt: skip
-    try:
-        url = next(found[0] for said in replay.stdout if (found := re.search(r"http://\S+", said)))
-        with urllib.request.urlopen(url, timeout=DEADLINE_S) as answer:
-            assert answer.status == 200
-    finally:
-        replay.terminate()
-        replay.communicate(timeout=DEADLINE_S)
 
 
 def test_a_run_that_is_stopped_leaves_a_whole_log(tmp_path):

@@ -28,6 +28,8 @@ class BaseModule:
     CONFIG: ClassVar[ConfigFile[Any] | None] = None
     WRITTEN_FILES: ClassVar[tuple[ConfigFile[Any], ...]] = ()
     """Files of the configuration folder that the module itself writes."""
+    SHED_ORDER: ClassVar[int | None] = None
+    """When an overloaded program stops this module for good, lower first; None: never."""
     MODES: ClassVar[frozenset[Mode]] = IN_EVERY_MODE
 
     up: Up

@@ -88,6 +88,8 @@ class LifeCycle:
             now_s = self._reactor.seconds()
             limit_s = max(0.0, one_s - now_s, (all_s - now_s) / len(self.started))
             module = self.started.pop()
+            if not module.started:
+                continue
             try:
                 await self._bounded(module.stop(), limit_s)
             except TimeoutError:
@@ -106,7 +108,7 @@ class LifeCycle:
         """Return whether every started module reports that it works."""
         for module in self.started:
             try:
-                if not module.is_healthy:
+                if module.started and not module.is_healthy:
                     return False
             except _FAULTS:
                 return False
@@ -134,7 +136,8 @@ class LifeCycle:
             self._starting = self._unfinished = None
         if result is StartResult.STARTED:
             self.started.append(module)
-            self._up.cleanup_of(module).discard()
+            if module.SHED_ORDER is None:
+                self._up.cleanup_of(module).discard()
         else:
             self._note_failure(module, reason or "its start reports a failure")
             if not self._is_stopping:

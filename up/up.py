@@ -138,6 +138,10 @@ class Up:
         """Show the counters of a part of the program in telemetry, ``counters.<part>.<name>``."""
         self._counted[part] = counters
 
+    def counters_of(self, part: str) -> Mapping[str, int]:
+        """Return the counters of a part of the program; empty if it has none."""
+        return self._counted.get(part, {})
+
     def open_link(self, name: str, role: Any, send: Any, **more: Any) -> CommandLink:
         """Return the Command Receiver's view of a link that a module opens."""
         return CommandLink(name, role, send, self.context.reactor, **more)

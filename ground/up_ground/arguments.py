@@ -12,6 +12,7 @@ from up.cli.server_parser import port_number
 from up.cli.verb import add_verb
 from up.system.aircraft_name import AIRCRAFT_NAME, AIRCRAFT_NAME_RULE
 from up.version import VERSION
+from up_ground.mission_verb import add_mission
 from up_ground.page_options import add_page_options
 from up_ground.replay.verb import add_replay
 from up_ground.settings import DEFAULT_AIRCRAFT, DEFAULT_HOST, DEFAULT_PORT, Seat, Settings
@@ -26,6 +27,7 @@ examples
   up-ground commands                                Commands that can be sent
   up-ground send up.flight_mode.set mode=RETURN
   up-ground send arduino.pids.tunings request=true  prints the active gains
+  up-ground mission upload field.plan               then: mission start
   up-ground serve                                   the page for browsers
   up-ground replay last                             a recorded flight, there
   up-ground control request                         requests it of its owner
@@ -94,6 +96,7 @@ def make_parser(environ: Mapping[str, str]) -> OptionParser:
     _add_watch(verbs)
     _add_send(verbs)
     _add_control(verbs)
+    add_mission(verbs)
     for verb in dict.fromkeys(verbs.choices.values()):
         _add_connection(verb)
     _add_serve(verbs)

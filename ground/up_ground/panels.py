@@ -12,6 +12,7 @@ from up_ground.status_text import (
     busy_text,
     flag_text,
     home_text,
+    mission_text,
     number_text,
     wind_text,
 )
@@ -45,7 +46,8 @@ def draw_flight(writer: PanelWriter, row: int, column: int) -> int:
         writer.value(row + 2, end + 1, "FAILSAFE", style=Style.BAD)
     armed = telemetry.flag("armed")
     style = Style.PLAIN if armed is None else (Style.BAD if armed else Style.GOOD)
-    writer.value(row + 3, column, flag_text(armed, "ARMED", "disarmed"), style=style)
+    end = writer.value(row + 3, column, flag_text(armed, "ARMED", "disarmed"), style=style)
+    writer.value(row + 3, end + 1, mission_text(telemetry) or "")
     vetoes = telemetry.texts("vetoes")
     # In the air a veto is information, not an alarm: it names the condition for arming again.
     text = "against arming again: " if armed else "vetoes "

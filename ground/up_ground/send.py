@@ -9,26 +9,21 @@ from typing import Any, NoReturn
 
 from up.cli.cli_error import UsageError
 from up.cli.option_parser import EXIT_FAILED, EXIT_OK
-from up.commands.telemetry_commands import MAX_PERIOD_MS
 from up.protocols.general_message import GeneralMessage, encode
 from up_ground.catalogue import requested_content
-from up_ground.link_status import KEPT_S, ControlStatus, control_status
-from up_ground.one_shot_task import EXIT_NO_ANSWER, LinkTask
+from up_ground.command_task import CommandTask
+from up_ground.one_shot_task import EXIT_NO_ANSWER
 from up_ground.sanitize_text import sanitize_text
 from up_ground.settings import Settings
 from up_ground.telemetry import NAME as TELEMETRY
-from up_ground.telemetry import Telemetry
 from up_ground.token_store import TokenStore
 
-CONNECT_LIMIT_S = 8.0
-TELEMETRY_LIMIT_S = MAX_PERIOD_MS / 1000 + 1.0
-OFFLINE_LIMIT_S = 5.0
 ANSWER_LIMIT_S = 3.0
 CONTENT_LIMIT_S = 2.0
 _QUIET = (TELEMETRY, "up.system.state")
 
 
-class Send(LinkTask):
+class Send(CommandTask):
     """Waits for control and for one telemetry frame, sends, waits for the answer.
 
     Nothing is sent twice, and nothing without the beacon of a frame; an aircraft whose frames have
@@ -46,71 +41,43 @@ class Send(LinkTask):
         needs_beacon: bool,
     ) -> None:
         super().__init__(reactor, settings, tokens)
-        self._name = name
-        self._data = data
         self._needs_beacon = needs_beacon
-        self._telemetry = Telemetry()
+        self._use(name, data)
+
+    def _use(self, name: str, data: dict[str, Any]) -> None:
+        self.what = self._name = name
+        self._data = data
         self._id = secrets.token_hex(8)
         self._sent_s: float | None = None
         self._awaited = requested_content(name, data)
         self._is_acked = False
 
-    def start(self) -> None:
-        self.after(self._reactor, "connect", CONNECT_LIMIT_S, self._on_no_control)
-        self.link.start()
-
-    def on_message(self, message: GeneralMessage) -> None:
-        if self.is_finished:
-            return
-        if self._telemetry.update(message, self._reactor.seconds()):
-            self._try_to_send()
-        elif self._sent_s is not None:
-            self._on_answer(message, self._sent_s)
-
-    def on_control(self, control: ControlStatus) -> None:
-        status = self.link.status
-        if control is ControlStatus.HELD:
-            text = f"ground {status.holder} has control; 'up-ground control request' requests it"
-            self.fail(text, "control_held", EXIT_FAILED, owner=status.holder)
-        elif control is ControlStatus.FREE:
-            # Reserved for a token for a moment; then the first request gets it.
-            self.after(self._reactor, "connect", KEPT_S, self._on_no_control)
-            self.request_control()
-        elif control is ControlStatus.OURS:
-            self.cancel_timer("connect")
-            self.cancel_timer("request")
-            if self._sent_s is None and not self._telemetry.frames:
-                is_offline = status.is_aircraft_online is False
-                limit_s = OFFLINE_LIMIT_S if is_offline else TELEMETRY_LIMIT_S
-                self.after(self._reactor, "telemetry", limit_s, self._on_no_telemetry)
-            self._try_to_send()
-
-    def _try_to_send(self) -> None:
-        if self._sent_s is not None or not self._telemetry.frames:
-            return
-        control = control_status(self.link.status, self._settings.direct)
-        if control is not ControlStatus.OURS:
-            return
-        self.cancel_timer("telemetry")
-        if self._needs_beacon and self._telemetry.beacon is None:
+    def on_ready(self) -> None:
+        if self._needs_beacon and self.telemetry.beacon is None:
             text = f"{self._name} needs a beacon, and this aircraft's telemetry has none"
             self.fail(text, "no_beacon", EXIT_FAILED)
             return
-        self.link.send(encode(self._name, self._data, self._id, self._telemetry.beacon))
+        self.link.send(encode(self._name, self._data, self._id, self.telemetry.beacon))
         self._sent_s = self._reactor.seconds()
         self.after(self._reactor, "answer", ANSWER_LIMIT_S, self._on_no_answer)
 
-    def _on_answer(self, message: GeneralMessage, sent_s: float) -> None:
+    def on_acked(self) -> None:
+        """Take that the Command was carried out, and its content has arrived."""
+        self.finish(EXIT_OK)
+
+    def on_answer(self, message: GeneralMessage) -> None:
+        if self._sent_s is None:
+            return
         data = message.data
         if message.name == "up.ack" and data.get("id") == self._id:
-            took_ms = round((self._reactor.seconds() - sent_s) * 1000)
+            took_ms = round((self._reactor.seconds() - self._sent_s) * 1000)
             aircraft, address = self._settings.aircraft, self._settings.address
             text = f"ack after {took_ms} ms from {aircraft} by {address}"
             self.echo(text, "ack", took_ms=took_ms, aircraft=aircraft, address=address)
             self._is_acked = True
             self.cancel_timer("answer")
             if not self._awaited:
-                self.finish(EXIT_OK)
+                self.on_acked()
                 return
             self.after(self._reactor, "content", CONTENT_LIMIT_S, self._on_no_content)
         elif message.name == "up.nack" and data.get("id") == self._id:
@@ -125,19 +92,7 @@ class Send(LinkTask):
             if message.name == self._awaited:
                 self._awaited = ""
                 if self._is_acked:
-                    self.finish(EXIT_OK)
-
-    def _on_no_control(self) -> None:
-        text = "no control: another ground has just released it or is taking it"
-        self.fail(text, "no_control", EXIT_NO_ANSWER)
-
-    def _on_no_telemetry(self) -> None:
-        if self.link.status.is_aircraft_online is False:
-            text = f"the aircraft {self._settings.aircraft} is not connected to the proxy"
-            self.fail(text, "aircraft_offline", EXIT_NO_ANSWER)
-        else:
-            text = f"no telemetry within {TELEMETRY_LIMIT_S:g} s, and {self._name} needs its beacon"
-            self.fail(text, "no_telemetry", EXIT_NO_ANSWER)
+                    self.on_acked()
 
     def _on_no_answer(self) -> None:
         text = f"no answer within {ANSWER_LIMIT_S:g} s; the outcome of {self._name} is unknown"

@@ -81,6 +81,18 @@ def wind_text(telemetry: Telemetry) -> str:
     return f"wind {speed} m/s from {from_deg} deg"
 
 
+def mission_text(telemetry: Telemetry) -> str | None:
+    """Return which item of the mission is flown, or is next; None: there is no mission."""
+    count, item = telemetry.number("mission", "count"), telemetry.number("mission", "item")
+    if not count or item is None:
+        return None
+    if telemetry.flag("mission", "is_finished"):
+        return f"mission finished, {count:.0f} items"
+    distance_m = telemetry.number("mission", "distance")
+    way = "" if distance_m is None else f", {distance_m:.0f} m"
+    return f"mission item {item:.0f} of {count:.0f}{way}"
+
+
 def control_text(status: LinkStatus) -> str:
     """Return the owner of control: ours, free, or the number of a ground."""
     if status.seat is None:
@@ -124,6 +136,9 @@ def plain_line(status: LinkStatus, telemetry: Telemetry, now_s: float) -> str:
     if telemetry.number("navigation", "latitude") is not None:
         is_old = telemetry.is_stale("navigation", now_s)
         parts.append(UNKNOWN if is_old else f"{home_text(telemetry)} | {wind_text(telemetry)}")
+    mission = mission_text(telemetry)
+    if mission is not None:
+        parts.append(mission)
     fallback = telemetry.text("flight_control", "fallback")
     if fallback is not None:
         selected = telemetry.text("flight_control", "selected") or UNKNOWN

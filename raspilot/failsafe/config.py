@@ -74,6 +74,14 @@ class NoProgress:
 
 
 @dataclass(frozen=True, slots=True)
+class Overload:
+    """The program is overloaded: its event loop is blocked again and again."""
+
+    action: str = _action(WARN)
+    delay_s: float = _delay(5.0)
+
+
+@dataclass(frozen=True, slots=True)
 class Other:
     """A failure that a module of an application or cog reports."""
 
@@ -114,6 +122,7 @@ Trigger = (
     | FlightBatteryLow
     | PhoneBattery
     | NoProgress
+    | Overload
     | Fence
     | Other
 )
@@ -135,6 +144,7 @@ class FailsafeConfig:
     flight_battery_low: FlightBatteryLow = section(FlightBatteryLow)
     phone_battery: PhoneBattery = section(PhoneBattery)
     no_progress: NoProgress = section(NoProgress)
+    overload: Overload = section(Overload)
     others: dict[str, Other] = mapping(
         Constraint(str, max_length=32), Other, "Failures of other modules by code.", max_length=32
     )

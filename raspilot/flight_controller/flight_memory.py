@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
-import threading
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
 from twisted.logger import Logger
+from twisted.python.failure import Failure
 
+from raspilot.mission.progress import MissionProgress
 from up.config import ConfigFile, PersistedFile, key, section
+from up.system.disk_thread import DiskThread
 
 
 def _degrees(comment: str, limit: float) -> float:
@@ -33,53 +35,42 @@ class MemoryConfig:
     mode: str = key("", "The selected flight mode.", max_length=32)
     home: Place | None = section(Place, "Home.", optional=True)
     target: Place | None = section(Place, "Where the mode flies to.", optional=True)
+    mission: MissionProgress | None = section(MissionProgress, "MISSION.", optional=True)
 
 
 MEMORY = ConfigFile("flight_state.yml", MemoryConfig)
 
 
 class FlightMemory:
-    """Saves changes of MemoryConfig on a thread of its own: an SD card may take a second."""
+    """Saves changes of MemoryConfig beside the reactor."""
 
     log = Logger()
 
     def __init__(self, folder: Path, reactor: Any) -> None:
         self._file = PersistedFile(folder / MEMORY.filename, MEMORY)
-        self._reactor = reactor
-        self._lock = threading.Lock()
-        self._writer: threading.Thread | None = None
+        self._disk = DiskThread(reactor)
+        self.wait = self._disk.wait
         self.values, problem = self._file.load()
         if problem:
             self.log.warn("{reason}", reason=str(problem), code="flight_state_invalid")
 
     def clear(self) -> None:
         """Forget an earlier flight; called when the program starts on the ground."""
-        self.update(mode="", home=None, target=None)
+        self.update(mode="", home=None, target=None, mission=None)
 
     def update(self, **changes: Any) -> None:
         """Change values, and save them if they are others."""
         values = replace(self.values, **changes)
         if values != self.values:
             self.values = values
-            name = "flight_state.yml writer"
-            self._writer = threading.Thread(target=self._save, name=name, daemon=True)
-            self._writer.start()
-
-    def wait(self) -> None:
-        """Wait until the newest values are on the disk."""
-        if self._writer is not None:
-            self._writer.join()
+            self._disk.run(self._save).addErrback(self._log_unsaved)
 
     def _save(self) -> None:
-        with self._lock:
-            try:
-                self._file.save(self.values)
-            except (OSError, ValueError) as error:
-                self._reactor.callFromThread(self._log_unsaved, error)
+        self._file.save(self.values)
 
-    def _log_unsaved(self, error: Exception) -> None:
+    def _log_unsaved(self, failure: Failure) -> None:
         self.log.error(
             "flight_state.yml was not saved, so a restart in flight would not resume it: {reason}",
-            reason=getattr(error, "strerror", None) or str(error),
+            reason=getattr(failure.value, "strerror", None) or failure.getErrorMessage(),
             code="flight_state_not_saved",
         )

@@ -87,6 +87,7 @@ class FlightModeManager(BaseFlightController):
         self._target: Target | None = None
         self._resumed_place: Place | None = None
         self._requests: dict[str, float] = {}
+        self._continuing = ""
 
     def on_init(self) -> None:
         super().on_init()
@@ -236,9 +237,13 @@ class FlightModeManager(BaseFlightController):
         mode = selector.modes.get(selector.active or "")
         if mode is None or not mode.successor or selector.active != selector.selected:
             return
-        with suppress(CommandRefusedError):
-            selector.check(mode.successor, situation)
-            self._select(mode.successor, is_choice=False)
+        goal, continuing = mode.goal, mode.NAME if mode.continues else ""
+        for name in filter(None, (self._continuing, mode.successor)):
+            with suppress(CommandRefusedError):
+                selector.check(name, replace(situation, target=goal))
+                self._select(name, is_choice=False)
+                self._target, self._continuing = goal, continuing
+                return
 
     def _carry_out(
         self, demand: Demand, situation: FlightSituation, dt_s: float
@@ -273,6 +278,9 @@ class FlightModeManager(BaseFlightController):
             self.home.memory.update(target=place_of_target(goal, navigation.frame))
         elif isinstance(demand.path, Circle):
             self._remember_target(demand.path, demand.altitude_m, navigation)
+        elif self._circle is not None:
+            self._circle = None
+            self.home.memory.update(target=None)
         attitude = self._path_controller.step(demand, navigation, dt_s)
         if not self._has_motor:
             attitude = replace(attitude, throttle=None)
@@ -293,6 +301,7 @@ class FlightModeManager(BaseFlightController):
         selector = self._selector
         selector.select(name)
         self._requests.clear()
+        self._continuing = ""
         self._circle = None
         if name is None or "target" not in selector.modes[name].REQUESTS:
             self._target = None

@@ -73,7 +73,7 @@ class Land(FlightMode):
 
     It circles there until height and wind are known, turns onto the approach, and decides at the
     decision height: it goes around, or closes the throttle for good and glides to the ground with
-    the wings near level. There is no flare: the height of a phone is too uncertain. A LAND that is
+    the wings near level. It does not flare: the height of a phone is too uncertain. A LAND that is
     entered below the decision height glides straight on, so that a restart of the program never
     starts the motor on the ground.
     """

@@ -20,7 +20,7 @@ STANDING_M_S = 3.0
 MAX_FIX_AGE_S = 3.0
 UPRIGHT_DEG = 45.0
 CHECK_S, LEAST_CLIMB_M = 8.0, 4.0
-"""So long after the throw the aircraft must be so much higher."""
+"""Time after the throw, and the height that the aircraft must have gained by then."""
 ARRIVED_M = 3.0
 LEAST_HEIGHT_M = 10.0
 """Lower it never turns, whatever the target."""

@@ -15,14 +15,16 @@ from raspilot.failsafe.fence import FenceWatch
 from raspilot.failsafe.progress import ProgressWatch
 from raspilot.flight_controller.flight_mode_manager import FlightModeManager
 from raspilot.flight_modes.return_home import RETURN, Return
-from raspilot.navigation.planning import distance_m
+from raspilot.modules.plans import Plans
+from raspilot.navigation.planning import distance_m, flyable_radius_m
 from up.base_started_module import BaseStartedModule
 from up.failures import FailureSource
 from up.fields import suggestion
 from up.flight_modes.flight_mode import FlightMode, FlightSituation
+from up.flight_modes.navigation_file import NAVIGATION
 from up.log.limits import Once
 from up.mode import WITH_BOARD, Mode
-from up.needs import needs
+from up.needs import needs, wants
 from up.providers.base_mission_control_provider import BaseMissionControlProvider
 
 PERIOD_S = 0.2
@@ -41,6 +43,7 @@ class Failsafes(BaseStartedModule):
     CONFIG = FAILSAFE
 
     flight = needs(FlightModeManager)
+    plans = wants(Plans)
 
     def __init__(self, config: Any = None, silent: bool = False) -> None:
         super().__init__(config, silent)
@@ -79,9 +82,12 @@ class Failsafes(BaseStartedModule):
 
     @property
     def telemetry_content(self) -> Mapping[str, Any]:
-        """Return the failures, and the one because of which the present mode flies."""
+        """Return the failures, the one because of which the present mode flies, and the fence."""
         cause = self._acting if self.flight.is_flying else None
-        return {"failsafe": {"active": self._engine.active, "cause": cause}}
+        return {
+            "failsafe": {"active": self._engine.active, "cause": cause},
+            "fence": {"margin": self._fence.margin_m},
+        }
 
     def _on_fault(self, failure: Failure) -> None:
         """Go on after a fault of this module: without it nothing would act any more."""
@@ -139,6 +145,9 @@ class Failsafes(BaseStartedModule):
         # A restart in flight does not forget that there was a ground.
         self._was_linked = self._was_linked or is_linked or flight.is_resumed
         away_m = self._distance_to_return_m(situation)
+        if self.plans is not None:
+            borders: Any = self.plans.fences.items
+            self._fence.use(borders)
         return {
             **self._reported_failures(),
             "fence": situation is not None
@@ -162,8 +171,10 @@ class Failsafes(BaseStartedModule):
         """Return how far RETURN has to fly; None in another mode, or at home."""
         if situation is None or situation.navigation is None or situation.home is None:
             return None
-        away_m = distance_m(situation.navigation.position, situation.home.point)
-        is_away = away_m > ARRIVED_RADII * self.context.config(RETURN).radius_m
+        state, radius_m = situation.navigation, self.context.config(RETURN).radius_m
+        away_m = distance_m(state.position, situation.home.point)
+        radius_m = flyable_radius_m(self.context.config(NAVIGATION), state, radius_m)
+        is_away = away_m > ARRIVED_RADII * radius_m
         return away_m if is_away and self.flight.acting_mode == Return.NAME else None
 
     def _act(self, code: str) -> None:

@@ -17,7 +17,7 @@ STALL_FACTOR, WIND_SHARE = 1.3, 0.25
 MIN_GROUND_M_S = 3.0
 """A slower approach is drift; the fixes could not tell it from standing."""
 POWERED_SHARE = 0.7
-"""Slope flown with the motor over that of the glide: what is too high can still be corrected."""
+"""Slope flown with the motor over that of the glide: too much height can still be corrected."""
 LEAD_M = 25.0
 """Way from the circle to where the descent begins."""
 

@@ -35,7 +35,7 @@ GROUND_Q_M, GROUND_SD_M_S = 0.5, 0.3
 JUMP_SD_RAD, MOTOR_SD = 0.1, 0.1
 GAP_SD_M_S = 5.0
 FIRST_TURN_DEG = 60.0
-"""Before the nose has turned by this since take-off there is no verdict on the motor."""
+"""Before the nose has turned by this since take-off the motor is not judged."""
 MEASURED_S = 2.5
 """How long the airspeed that a fix has shown is continued by the model."""
 MOVED_SD_M = 10.0

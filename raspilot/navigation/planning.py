@@ -63,8 +63,13 @@ def airspeed_for_wind_m_s(
 def flyable_radius_m(config: NavigationConfig, state: NavigationState, radius_m: float) -> float:
     """Return the radius, or the least one that bank limit, airspeed and wind permit."""
     fastest = config.airspeed.cruise_m_s + math.hypot(*state.wind_m_s)
+    return max(radius_m, turn_radius_m(config, fastest))
+
+
+def turn_radius_m(config: NavigationConfig, ground_speed_m_s: float) -> float:
+    """Return the radius of a turn with some bank in reserve."""
     bank = math.radians(BANK_RESERVE * config.lateral.bank_limit_deg)
-    return max(radius_m, fastest * fastest / (GRAVITY_M_S2 * math.tan(bank)))
+    return ground_speed_m_s * ground_speed_m_s / (GRAVITY_M_S2 * math.tan(bank))
 
 
 def circle_abeam(config: NavigationConfig, state: NavigationState, radius_m: float) -> Circle:

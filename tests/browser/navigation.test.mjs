@@ -150,3 +150,35 @@ test("home is set where a finger touched the map; nothing without control", asyn
   assert.equal(await ground.page.isVisible(".map-actions"), false);
   ground.assertClean();
 });
+
+test("the flying view has attitude, map, RETURN and every mode on a small screen, without scrolling", async () => {
+  const small = { viewport: { width: 800, height: 480 }, hasTouch: true };
+  const ground = await openWith(navigating(), small);
+  const outside = () =>
+    ground.page.evaluate(() => {
+      const root = document.scrollingElement;
+      const all = ["#horizon", "#panel-map", "#bar-mode", ...["RETURN", "LOITER", "CRUISE", "FBW"].map((mode) => `[data-mode="${mode}"]`)];
+      const isInside = ({ top, bottom, left, right, width, height }) =>
+        top >= 0 && bottom <= innerHeight + 0.5 && left >= 0 && right <= innerWidth + 0.5 && Math.min(width, height) >= 15;
+      const scrolls = root.scrollHeight > innerHeight || root.scrollWidth > innerWidth ? ["scrolls"] : [];
+      return [...scrolls, ...all.filter((each) => !isInside(document.querySelector(each).getBoundingClientRect()))];
+    });
+  assert.deepEqual(await outside(), []);
+  const [width, height] = await ground.page.$eval('[data-mode="RETURN"]', (each) => [each.offsetWidth, each.offsetHeight]);
+  assert.ok(Math.min(width, height) >= 44, `RETURN: ${width} x ${height}`);
+  await ground.press('[data-mode="RETURN"]');
+  assert.deepEqual(await sentAfter(ground, 1), { "up.flight_mode.set": { mode: "RETURN" } });
+  // The choice lasts; on another screen everything is shown until it is chosen there.
+  await ground.press("#view-button");
+  await ground.page.reload();
+  assert.equal(await ground.attribute("html", "data-view"), "all");
+  await ground.press("#view-button");
+  await ground.page.setViewportSize({ width: 390, height: 844 });
+  assert.deepEqual(await outside(), []);
+  await ground.page.setViewportSize({ width: 240, height: 400 });
+  const wide = await ground.page.$$eval("#bar *, #panels *", (all) =>
+    all.filter((each) => each.getBoundingClientRect().right > 240.5).map((each) => each.id || each.textContent),
+  );
+  assert.deepEqual(wide, []);
+  ground.assertClean();
+});

@@ -28,6 +28,24 @@ async function hasFlown(ground, metres) {
   );
 }
 
+/** Draw a mission, upload it, and wait until some of it is flown. */
+async function flyMission(ground) {
+  const { page } = ground;
+  await ground.untilHolder("you");
+  await ground.fly("LOITER");
+  await page.click("#map-draw");
+  const { x, y, width, height } = await page.locator(".map-canvas").boundingBox();
+  for (const [right, down] of [[0.3, 0.35], [0.7, 0.3], [0.75, 0.6], [0.3, 0.65]]) {
+    await page.mouse.click(x + width * right, y + height * down);
+  }
+  await ground.press("#plan-upload");
+  await ground.reason("#plan-note", "ack");
+  await ground.answerTo(() => ground.press("#mission-start"));
+  await ground.until(() => document.querySelector(".plan-point.is-flown")?.textContent === "3", "item 3");
+  await page.click('#plan-table tr[data-item="3"] button');
+  await ground.show("#panel-map");
+}
+
 async function take(ground, name) {
   await ground.page.evaluate(() => document.activeElement?.blur());
   await ground.page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
@@ -64,6 +82,9 @@ try {
   } finally {
     process.kill(proxy, "SIGCONT");
   }
+  await ground.isLive();
+  await flyMission(ground);
+  await take(ground, "mission");
 } finally {
   await browser.close();
   await showcase.stop();

@@ -316,6 +316,22 @@ def test_a_failsafe_is_told_with_its_cause():
     assert "failsafe" not in plain_line(navigating().status, navigating().telemetry, 100.0)
 
 
+@pytest.mark.parametrize(
+    ("mission", "told"),
+    [
+        ({"count": 12, "item": 3, "distance": 339.6}, "mission item 3 of 12, 340 m"),
+        ({"count": 12, "item": 12, "is_finished": True}, "mission finished, 12 items"),
+        ({"count": 0, "item": None}, None),
+        (7, None),
+    ],
+)
+def test_progress_of_the_mission(mission, told):
+    flown = state(frame(mission=mission, armed=True))
+    line = plain_line(flown.status, flown.telemetry, 100.0)
+    assert ((told or "mission") in line) == (told is not None)
+    assert (f"ARMED {told or 'mission'}" in text_of(flown)) == (told is not None)
+
+
 def test_a_fallback_is_told_with_its_reason():
     fallen = navigating(mode="CIRCLE", fallback="navigation")
     assert "flight mode CIRCLE instead of RETURN" in text_of(fallen)

@@ -5,6 +5,7 @@ from dataclasses import replace
 import pytest
 
 from raspilot.flight_modes.glide import Glide
+from raspilot.flight_modes.return_home import Return
 from tests.raspilot.flight_controller_rig import BOARD, Rig
 from tests.raspilot.navigation_rig import (
     FRAME,
@@ -25,7 +26,7 @@ from up.flight_modes.navigation_state import Point
 
 @pytest.fixture
 def rig(tmp_path):
-    made = NavigationRig(tmp_path)
+    made = NavigationRig(tmp_path, modes=(Return,))
     made.state("FBW", armed=False, in_flight=False)
     made.setpoint()
     made.state("FBW")
@@ -123,9 +124,10 @@ def test_the_pilot_ends_a_mode_by_the_switch_and_gets_no_surprise_later(rig):
     assert rig.shown()["selected"] is None
 
 
-def test_without_fixes_loiter_becomes_a_circle_by_dead_reckoning_and_later_a_glide(rig):
+@pytest.mark.parametrize("mode", ["LOITER", "RETURN"])
+def test_without_fixes_a_circle_by_dead_reckoning_and_later_a_glide_then_the_mode_again(rig, mode):
     rig.state()
-    rig.outcome(FlightModeCommand("LOITER"))
+    rig.outcome(FlightModeCommand(mode))
     assert rig.setpoint().throttle_us > 1000
     shown = {}
     for after_s in (2.0, 3.0, 118.0, 121.0):
@@ -134,9 +136,11 @@ def test_without_fixes_loiter_becomes_a_circle_by_dead_reckoning_and_later_a_gli
             rig.frame()
         shown[after_s] = (rig.shown()["mode"], rig.setpoints[-1].throttle_us > 1000)
     assert shown == {
-        2.0: ("LOITER", True), 3.0: ("CIRCLE", True), 118.0: ("CIRCLE", True),
+        2.0: (mode, True), 3.0: ("CIRCLE", True), 118.0: ("CIRCLE", True),
         121.0: ("CIRCLE", False),
     }  # fmt: skip
+    assert rig.setpoint().throttle_us > 1000
+    assert rig.shown()["mode"] == mode
 
 
 def test_a_board_mode_ends_a_mode_of_the_pi(rig):

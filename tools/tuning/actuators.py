@@ -63,7 +63,7 @@ class Actuators:
 
     def __init__(self, dynamics: Dynamics, mix: Mix) -> None:
         self.dynamics = dynamics
-        self.motor_works = True
+        self.motor_works = self.is_thrown = True
         self.factors: dict[Axis, float] = {}
         self.added_axis: Axis | None = None
         self.added_us: Callable[[float], float] = lambda _time_s: 0.0

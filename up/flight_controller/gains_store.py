@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-import threading
-from collections.abc import Callable
 from typing import Any
 
 from twisted.internet.defer import Deferred
+from twisted.python.failure import Failure
 
 from up.commands.gains import GainSet, navigation_of
 from up.commands.pid_tunings_commands import PIDTuningsCommand
 from up.commands.refusal import Code, CommandRefusedError
 from up.flight_controller.pids_file import PidsFile
+from up.system.disk_thread import DiskThread
 
 
 def refuse_unused(command: PIDTuningsCommand, gains: GainSet, held: GainSet) -> None:
@@ -29,40 +29,29 @@ def refuse_unused(command: PIDTuningsCommand, gains: GainSet, held: GainSet) -> 
         raise CommandRefusedError(text, Code.NOT_SUPPORTED)
 
 
-def _in_thread(work: Callable[[], None]) -> None:
-    """Run on a daemon thread: a disk that hangs does not prevent the program from ending."""
-    threading.Thread(target=work, name="pids.yml writer", daemon=True).start()
-
-
 class GainsStore:
-    """Writes pids.yml on its own thread: an SD card may take a second.
+    """Writes pids.yml beside the reactor.
 
     Saves keep their order. A failed one fails with CommandRefusedError on the reactor's thread.
     """
 
     def __init__(self, file: PidsFile, reactor: Any) -> None:
         self._file = file
-        self._reactor = reactor
+        self._disk = DiskThread(reactor)
         self._newest: GainSet | None = None
-        self._lock = threading.Lock()
 
     def save(self, gains: GainSet) -> Deferred[None]:
         """Save a set; the result fires when it is on the disk."""
-        done: Deferred[None] = Deferred()
         self._newest = gains
-        _in_thread(lambda: self._write(done))
-        return done
+        return self._disk.run(self._write).addErrback(_refuse)
 
-    def _write(self, done: Deferred[None]) -> None:
-        with self._lock:
-            gains = self._newest
-            assert gains is not None
-            try:
-                self._file.save(gains)
-            except (OSError, ValueError) as error:
-                reason = getattr(error, "strerror", None) or str(error)
-                text = f"the new gains fly, but pids.yml was not saved: {reason}"
-                failure = CommandRefusedError(text, Code.FAILED, detail="gains_not_saved")
-                self._reactor.callFromThread(done.errback, failure)
-            else:
-                self._reactor.callFromThread(done.callback, None)
+    def _write(self) -> None:
+        assert self._newest is not None
+        self._file.save(self._newest)
+
+
+def _refuse(failure: Failure) -> None:
+    failure.trap(OSError, ValueError)
+    reason = getattr(failure.value, "strerror", None) or failure.getErrorMessage()
+    text = f"the new gains fly, but pids.yml was not saved: {reason}"
+    raise CommandRefusedError(text, Code.FAILED, detail="gains_not_saved")

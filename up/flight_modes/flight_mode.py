@@ -75,6 +75,8 @@ class FlightMode(BaseModule):
 
     successor = ""
     """The mode that replaces this one, once it has set the name, unless that one refuses."""
+    continues = False
+    """Whether this mode acts again instead of the successor's own successor."""
 
     @property
     def is_uninterrupted(self) -> bool:
@@ -83,7 +85,10 @@ class FlightMode(BaseModule):
 
     @property
     def goal(self) -> Target | None:
-        """Return what a restart of the program resumes as the target; None: the circle flown."""
+        """Return the successor's target, which a restart of the program resumes too.
+
+        None: it resumes the circle that is flown.
+        """
         return None
 
     def refusal(self, situation: FlightSituation) -> ModeRefusal | str | None:

@@ -117,6 +117,11 @@ class NavigationConfig:
         minimum=1,
         maximum=100,
     )
+    arm_without_home: bool = key(
+        False,
+        "Permits arming before home is set, although a failsafe flies RETURN. Where no source of a"
+        " position is connected, arming never waits for home.",
+    )
     airspeed: Airspeed = section(Airspeed)
     performance: Performance = section(Performance)
     lateral: Lateral = section(Lateral)

@@ -22,6 +22,7 @@ from up_ground.web.control import Control
 from up_ground.web.event_monitor import EventMonitor
 from up_ground.web.event_rules import LinkSnapshot, Report
 from up_ground.web.messages import PageFault, Reader
+from up_ground.web.plan_service import PlanService
 from up_ground.web.proxy_lease import ProxyLease
 from up_ground.web.track import Home, Track, track_message
 
@@ -52,13 +53,17 @@ class AircraftSession(AircraftSource):
         self._subscribers = subscribers
         lease = ProxyLease(self.link, settings.direct)
         self.control = Control(reactor, lease, self._report, self._send_status)
+        gate = CommandGate(reactor, name, catalogue, self.link, lease, self.control, self.telemetry)
+        self.plans = PlanService(
+            reactor, name, self.link, self.control, self.telemetry, gate, self._report
+        )
         self.commands = CommandService(
             reactor,
             name,
             self.link,
             self.control,
             self.telemetry,
-            CommandGate(reactor, name, catalogue, self.link, lease, self.control, self.telemetry),
+            gate,
             lambda message: subscribers.notify(name, message),
             self._report,
         )
@@ -86,6 +91,7 @@ class AircraftSession(AircraftSource):
             self._tick.cancel()
         self.control.stop()
         self.commands.stop()
+        self.plans.stop()
         await self.link.stop()
 
     def on_message(self, message: GeneralMessage) -> None:
@@ -104,6 +110,7 @@ class AircraftSession(AircraftSource):
             self._process(came_s)
         elif message.name != NAME:
             self.commands.on_message(message)
+            self.plans.on_message(message)
 
     def _process(self, now_s: float) -> None:
         """Evaluate a frame, after it has been sent to the pages."""
@@ -121,6 +128,7 @@ class AircraftSession(AircraftSource):
         status = self.link.status
         if self._was_open and not status.is_open:
             self.commands.on_lost()
+            self.plans.on_lost()
         if status.is_aircraft_online and not self._was_online:
             self.commands.want_gains()
         self._was_open, self._was_online = status.is_open, status.is_aircraft_online
@@ -189,6 +197,9 @@ class AircraftSession(AircraftSource):
 
     def on_command(self, page: ClientSession, message: Reader) -> None:
         self.commands.on_command(page, message)
+
+    def on_plan(self, page: ClientSession, kind: str, message: Reader) -> None:
+        self.plans.on_plan(page, kind, message)
 
     def on_replay(self, page: ClientSession, action: str, message: Reader) -> None:
         raise PageFault("this is not a replay", "not_a_replay")

@@ -7,7 +7,7 @@ from collections.abc import Iterable
 from typing import Any
 
 from up_ground.web.client_session import ClientSession, FrameMessage
-from up_ground.web.messages import Reader
+from up_ground.web.messages import PageFault, Reader
 
 
 class AircraftSource(ABC):
@@ -41,6 +41,10 @@ class AircraftSource(ABC):
 
     @abstractmethod
     def on_replay(self, page: ClientSession, action: str, message: Reader) -> None: ...
+
+    def on_plan(self, page: ClientSession, kind: str, message: Reader) -> None:
+        """Begin an upload or a download; only a real aircraft has plans."""
+        raise PageFault("this is a replay", "replay")
 
     def on_second(self) -> None:  # noqa: B027 - a replay has nothing to do
         """Measure the link, once a second."""

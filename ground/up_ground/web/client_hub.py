@@ -24,7 +24,14 @@ from up_ground.web.client_session import (
     admit_page,
     message_bytes,
 )
-from up_ground.web.messages import PageFault, Reader, read_message
+from up_ground.web.messages import (
+    MAX_MESSAGE_BYTES,
+    MAX_PLAN_BYTES,
+    PageFault,
+    Reader,
+    read_message,
+)
+from up_ground.web.plan_service import read_file, write_file
 
 if TYPE_CHECKING:
     from up_ground.web.page_link import PageLink
@@ -187,6 +194,10 @@ class ClientHub:
             self._aircraft(message).on_control(page, action, message.optional_whole("to"))
         elif kind == "command":
             self._aircraft(message).on_command(page, message)
+        elif kind in ("plan.upload", "plan.download"):
+            self._aircraft(message).on_plan(page, kind, message)
+        elif kind in ("plan.read", "plan.write"):
+            page.send(read_file(message) if kind == "plan.read" else write_file(message))
         elif kind == "replay":
             action = message.choice("action", "play", "pause", "seek", "speed")
             for aircraft in self.fleet.values():
@@ -290,7 +301,8 @@ class ClientHub:
         self._welcome(link, page)
 
     def _welcome(self, link: PageLink, page: ClientSession) -> None:
-        link.admit()
+        max_bytes = MAX_PLAN_BYTES if page.may_control else MAX_MESSAGE_BYTES
+        link.admit(max_bytes)
         page.link = link
         # A reloaded page restarts its numbers at one; its old numbers are void.
         page.asks = {}
@@ -309,6 +321,7 @@ class ClientHub:
                 "tiles": self._tiles,
                 "is_replay": self._is_replay,
                 "sent_ms": self._now_ms(),
+                "max_message": max_bytes,
             }
         )
         if self._catalogue is not None:

@@ -8,6 +8,8 @@ from typing import Any
 from up.protocols.general_message import MalformedMessage, decode_object
 
 MAX_MESSAGE_BYTES = 65536
+MAX_PLAN_BYTES = 1 << 20
+"""Limit of a page that may control: a plan with all its items."""
 _MAX_WHOLE = 2**53
 
 
@@ -68,6 +70,12 @@ class Reader:
             raise PageFault(f"{key} is not an object")
         return found
 
+    def list(self, key: str) -> list[Any]:
+        found = self.fields.get(key, [])
+        if not isinstance(found, list):
+            raise PageFault(f"{key} is not a list")
+        return found
+
     def choice(self, key: str, *words: str) -> str:
         found = self.text(key)
         if found not in words:
@@ -78,7 +86,7 @@ class Reader:
 def read_message(payload: bytes) -> tuple[str, Reader]:
     """Return a message's type and its fields; raises PageFault."""
     try:
-        fields = decode_object(payload, MAX_MESSAGE_BYTES)
+        fields = decode_object(payload, MAX_PLAN_BYTES)
     except MalformedMessage as error:
         raise PageFault(error.reason) from None
     reader = Reader(fields)

@@ -11,7 +11,6 @@ from twisted.internet.interfaces import IAddress
 
 from up.protocols.tcp_options import watch_peer
 from up_ground.web.client_session import PageSendBuffer
-from up_ground.web.messages import MAX_MESSAGE_BYTES
 
 if TYPE_CHECKING:
     from up_ground.web.client_hub import ClientHub
@@ -48,9 +47,9 @@ class PageLink(WebSocketServerProtocol):
         self.host = str(self.transport.getPeer().host)
         self._owner.on_opened(self)
 
-    def admit(self) -> None:
-        """Accept messages up to MAX_MESSAGE_BYTES, and leave the limits of strangers."""
-        self.maxMessagePayloadSize = self.maxFramePayloadSize = MAX_MESSAGE_BYTES
+    def admit(self, max_bytes: int) -> None:
+        """Accept messages up to this size, and leave the limits of strangers."""
+        self.maxMessagePayloadSize = self.maxFramePayloadSize = max_bytes
         self.transport.admit()
 
     def onMessage(self, payload: bytes, isBinary: bool) -> None:  # noqa: N802, N803

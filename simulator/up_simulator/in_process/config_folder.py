@@ -17,10 +17,12 @@ BASE: Mapping[str, Mapping[str, Any]] = {
         "role": "pilot",
     },
     "black_box.yml": {"enabled": False},
+    "navigation.yml": {"arm_without_home": True},
 }
 """A wired Arduino, a port for a ground station that may do everything, and no black box.
 
-The recorder writes from a separate thread, which has no simulated time.
+The recorder writes from a separate thread, which has no simulated time. A scenario begins in the
+air: its first fix, and with it home, comes after it was armed.
 """
 
 

@@ -4,13 +4,14 @@ import struct
 
 import pytest
 from arduino_cog.modules.pid_tunings_provider import PIDTuningsProvider
+from twisted.internet.defer import maybeDeferred
 
 from tests.cogs.arduino_cog.board import FACTORY, PUSHED, Ground
 from up.commands.gains import gain_set_to_data
 from up.commands.pid_tunings_commands import PIDTuningsCommand, PIDTuningsValuesCommand
 from up.commands.refusal import Code, CommandRefusedError
-from up.flight_controller import gains_store
 from up.flight_controller.pids_file import PIDS, PidsFile
+from up.system.disk_thread import DiskThread
 
 GOOD = PIDS.template()
 AXES = ("ailerons", "elevator", "rudder")
@@ -41,7 +42,7 @@ def refusal(outcome):
 @pytest.fixture
 def tuned(make_rig, monkeypatch):
     # The clock stands still here: the disk answers immediately. The thread has its own tests.
-    monkeypatch.setattr(gains_store, "_in_thread", lambda work: work())
+    monkeypatch.setattr(DiskThread, "run", lambda _, work: maybeDeferred(work))
 
     def make(framing="checked", pids=GOOD, **more):
         config = {} if pids is None else {"pids.yml": pids}

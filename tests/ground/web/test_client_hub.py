@@ -48,8 +48,8 @@ class Link:
         self.output, self.closed, self.alive = Output(), None, True
         self.host, self.is_admitted = host, False
 
-    def admit(self):
-        self.is_admitted = True
+    def admit(self, max_bytes):
+        self.is_admitted, self.max_bytes = True, max_bytes
 
     def close(self, code, reason):
         self.closed = (code, reason)
@@ -177,7 +177,7 @@ def test_who_says_no_hello_is_closed(bench):
         b"[" * 60000,
         b'{"type": "ping", "ping": ' + b"[" * 40 + b"]" * 40 + b"}",
         b'{"a":' * 5000 + b"1" + b"}" * 5000,
-        b'{"type": "ping", "x": "' + b"y" * 66000 + b'"}',
+        b'{"type": "ping", "x": "' + b"y" * (1 << 20) + b'"}',
     ],
 )
 def test_nonsense_is_a_fault_and_nothing_else(bench, payload):
@@ -297,6 +297,13 @@ def test_the_page_that_comes_back_finds_its_place_in_a_full_house(bench):
     again = bench.open(token=first.told[0]["token"])
     assert again.told[0]["page"] == first.told[0]["page"]
     assert again.closed is None
+
+
+def test_only_a_page_that_may_control_sends_a_whole_plan():
+    bench = Bench(key="the-right-key")
+    watcher, pilot = bench.open(), bench.open(key="the-right-key")
+    assert (watcher.max_bytes, pilot.max_bytes) == (1 << 16, 1 << 20)
+    assert [each.told[0]["max_message"] for each in (watcher, pilot)] == [1 << 16, 1 << 20]
 
 
 def test_watchers_leave_places_for_those_who_may_control():

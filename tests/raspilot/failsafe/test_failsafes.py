@@ -36,10 +36,11 @@ class Battery(BaseModule, FailureSource):
 
 
 class FailsafeRig(NavigationRig):
-    def __init__(self, folder, failsafe=CONFIG, modules=()):
+    def __init__(self, folder, failsafe=CONFIG, modules=(), radius=""):
         super().__init__(
-            folder, modes=(Return,), modules=(Failsafes, Battery, *modules), failsafe=failsafe
-        )
+            folder, modes=(Return,), modules=(Failsafes, Battery, *modules), failsafe=failsafe,
+            **{"return": radius},
+        )  # fmt: skip
         self.failsafes = self.up.get_module(Failsafes)
         self.battery = self.up.get_module(Battery)
         self.failsafes.on_start()
@@ -237,6 +238,19 @@ def test_no_progress_home_is_noticed_after_its_delay(rig):
     rig.navigation.set(replace(NAVIGATION, position=Point(100.0, 80.0)))
     rig.fly(35.0)
     assert rig.seen() == ([], None, "RETURN"), "it circles at home"
+
+
+def test_at_home_the_wide_circle_that_a_wind_requires_is_no_lack_of_progress(tmp_path):
+    rig = FailsafeRig(tmp_path, failsafe="no_progress: {action: LOITER}\n", radius="radius_m: 15\n")
+    rig.take_off()
+    wind = replace(NAVIGATION, wind_m_s=Point(12.0, 0.0), position=Point(100.0, 125.0))
+    rig.navigation.set(wind)
+    rig.outcome(FlightModeCommand("RETURN"))
+    rig.fly(35.0)
+    assert rig.seen() == ([], None, "RETURN"), "it circles at home"
+    rig.navigation.set(replace(wind, position=Point(100.0, 350.0)))
+    rig.fly(35.0)
+    assert rig.seen() == ([], "no_progress", "LOITER")
 
 
 def test_no_failsafe_interrupts_a_mode_that_forbids_it(rig, monkeypatch):

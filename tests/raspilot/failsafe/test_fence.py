@@ -6,6 +6,7 @@ import pytest
 
 from raspilot.failsafe.config import Fence
 from raspilot.failsafe.fence import FenceWatch
+from tests.raspilot.mission.test_borders import polygon
 from up.flight_modes.flight_mode import Home
 from up.flight_modes.navigation_state import LocalFrame, NavigationState, Point
 
@@ -53,3 +54,51 @@ def test_without_home_or_position_there_is_no_fence():
     watch = FenceWatch(Fence(radius_m=100))
     assert not watch.is_crossed(INSIDE, None)
     assert not watch.is_crossed(None, HOME)
+
+
+WALL = polygon((440, -90), (440, 90), (445, 90), (445, -90), is_inside=False)
+FIELD = polygon((-100, -100), (-100, 100), (500, 100), (500, -100))
+
+
+@pytest.mark.parametrize(
+    ("plan", "changed", "is_crossed", "margin_m"),
+    [
+        ([FIELD], {}, False, 100),
+        ([FIELD], {"position": Point(457.0, 0.0)}, False, 43),
+        ([FIELD], {"position": Point(459.0, 0.0)}, True, 41),
+        ([FIELD], {"position": Point(490.0, 0.0), "velocity": INWARDS}, False, 10),
+        ([FIELD], {"position": Point(505.0, 0.0), "velocity": INWARDS}, True, -5),
+        ([FIELD], {"position_sd_m": 61.0}, True, 100),
+        ([FIELD, WALL], {"position": Point(430.0, 0.0)}, True, 10),
+        ([FIELD, WALL], {"position": Point(390.0, 0.0)}, False, 50),
+    ],
+)  # fmt: skip
+def test_polygons_act_as_early_and_a_narrow_one_is_not_leapt_over(
+    plan, changed, is_crossed, margin_m
+):
+    watch = FenceWatch(Fence())
+    watch.is_crossed(INSIDE, None)
+    assert watch.margin_m is None
+    watch.use(tuple(plan))
+    names = {"position": "position", "velocity": "velocity_m_s"}
+    state = replace(INSIDE, **{names.get(name, name): each for name, each in changed.items()})
+    assert watch.is_crossed(state, None) is is_crossed, "it needs no home"
+    assert watch.margin_m == pytest.approx(margin_m, abs=1e-3)
+    watch.use(())
+    assert not watch.is_crossed(state, None)
+
+
+def test_borders_are_at_their_place_when_the_frame_of_the_estimate_changes():
+    watch = FenceWatch(Fence())
+    watch.use((FIELD,))
+    assert not watch.is_crossed(INSIDE, None)
+    moved = replace(INSIDE, frame=LocalFrame(*INSIDE.frame.degrees(Point(300.0, 0.0))))
+    assert watch.is_crossed(moved, None)
+    assert watch.margin_m == pytest.approx(-200, abs=0.1)
+
+
+def test_the_nearest_of_radius_and_polygon_counts():
+    watch = FenceWatch(Fence(radius_m=450))
+    watch.use((FIELD,))
+    watch.is_crossed(INSIDE, HOME)
+    assert watch.margin_m == pytest.approx(50)

@@ -226,7 +226,7 @@ def test_time_that_runs_backwards_or_leaps_is_survived(steps):
 
 @pytest.mark.parametrize(("turned_deg", "stopped"), [(0.0, False), (90.0, True)])
 def test_a_loss_of_speed_is_no_stop_of_the_motor_before_the_first_turn(turned_deg, stopped):
-    """Against an unknown wind the model expects another thrust than the ground speed has."""
+    """Thrown against an unknown wind, another thrust is expected than the ground speed has."""
     estimator, north_m, east_m, verdicts = Estimator(), 0.0, 0.0, []
     for step in range(1500):
         time_s = step * 0.02

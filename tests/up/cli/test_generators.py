@@ -44,8 +44,8 @@ def passes(own_process, mypy_cache):
     return passes
 
 
-@pytest.mark.parametrize("name", ["MyPlane", LONGEST])
-def test_an_application_with_parts_passes_every_check(own_process, passes, tmp_path, name):
+def test_an_application_with_parts_passes_every_check(own_process, passes, tmp_path):
+    name = LONGEST
     snake = Name.of(name).snake
     root = tmp_path / snake
     create = ("up.cli", "create")

@@ -51,6 +51,7 @@ class BlackBox(BaseThreadModule):
     CONFIG = BLACK_BOX
     # First to start and last to stop, to record the other modules' start and stop.
     LOAD_ORDER: ClassVar[int] = -sys.maxsize
+    SHED_ORDER: ClassVar[int] = 20
 
     recorder: Recorder | None = None
 

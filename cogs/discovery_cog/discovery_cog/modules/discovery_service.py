@@ -19,6 +19,7 @@ class DiscoveryService(BaseStartedModule):
 
     CONFIG = DISCOVERY
     MODES: ClassVar[frozenset[Mode]] = WITH_BOARD
+    SHED_ORDER: ClassVar[int] = 10
 
     def on_init(self) -> None:
         self._answerer = Answerer(RateLimit(self.context.reactor), own_address_towards)

@@ -3,11 +3,15 @@ import { html } from "./dom.js";
 const KEYS = [
   ["?", "this list"],
   ["1 2 3 4 5", "go to instruments, map, control, charts, events"],
+  ["V", "the flying view, or all parts"],
   ["T", "dark or daylight"],
   ["S", "sound on or off"],
   ["Tab, Shift+Tab", "next, previous control"],
   ["Space or Enter, held", "arm or disarm, on its button"],
   ["+ - F", "on the map: closer, farther, follow or not"],
+  ["Enter", "on the map: what its middle offers; while drawing, a point there"],
+  ["arrows, Delete", "on a drawn point: move it, remove it"],
+  ["Ctrl+Z, Ctrl+Y", "while drawing: undo, redo"],
   ["K J L", "in a replay: play or pause, 5 s back, 5 s on"],
   ["Escape", "close a dialog: no"],
 ];
@@ -27,7 +31,7 @@ export function mountHelp() {
     if (!isForPage(event)) {
       return;
     }
-    const button = { t: "theme-button", s: "sound-button" }[event.key.toLowerCase()];
+    const button = { v: "view-button", t: "theme-button", s: "sound-button" }[event.key.toLowerCase()];
     if (event.key === "?") {
       open();
     } else if (button !== undefined) {

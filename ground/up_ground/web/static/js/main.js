@@ -1,7 +1,7 @@
 import { mountHelp } from "./help.js";
 import { Connection } from "./link/connection.js";
 import { PartRegistry } from "./part_registry.js";
-import { mountShell, mountTheme } from "./shell.js";
+import { mountShell, mountTheme, mountView } from "./shell.js";
 import { mountSound } from "./sound.js";
 import { Store } from "./state/store.js";
 
@@ -21,6 +21,7 @@ const PARTS = [
   ["readings", "./instruments/readings.js"],
   ["alarms", "./panels/alarms.js"],
   ["panel-map", "./map/map.js"],
+  ["panel-mission", "./mission/mission_panel.js"],
   ["panel-charts", "./charts/charts.js"],
   ["panel-replay", "./panels/replay.js"],
   ["panel-control", "./panels/control.js"],
@@ -52,6 +53,7 @@ async function begin() {
   const store = new Store(connection);
   const registry = new PartRegistry(document.getElementById("missing"));
   mountTheme(document.getElementById("theme-button"));
+  mountView(document.getElementById("view-button"));
   mountSound(document.getElementById("sound-button"), store, connection);
   mountHelp();
   registry.add("bar", mountShell(store, connection), document.getElementById("bar-state"));

@@ -25,6 +25,25 @@ export function mountTheme(button) {
   show();
 }
 
+/** All parts, or the flying view: it is the default where only that fits. */
+export function mountView(button) {
+  const memory = storageOf("localStorage");
+  const small = matchMedia("(min-width: 42rem) and (max-height: 32rem) and (orientation: landscape)");
+  const show = () => {
+    const view = memory.get("view") ?? (small.matches ? "fly" : "all");
+    document.documentElement.dataset.view = view;
+    setAttribute(button, "aria-pressed", String(view === "fly"));
+    // The map measures its place again.
+    window.dispatchEvent(new Event("resize"));
+  };
+  button.addEventListener("click", () => {
+    memory.set("view", document.documentElement.dataset.view === "fly" ? "all" : "fly");
+    show();
+  });
+  small.addEventListener("change", show);
+  show();
+}
+
 /** The frame of the page: bar, banner of the link, choice of the aircraft, silence. */
 export function mountShell(store, connection) {
   const at = (id) => document.getElementById(id);

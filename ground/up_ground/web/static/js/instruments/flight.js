@@ -1,9 +1,12 @@
 import { html, setAttribute, setText } from "../dom.js";
 import { Readout, Row } from "../readout.js";
+import { progressText } from "../mission/progress.js";
 import { modeText } from "../panels/messages.js";
 import { actingMode, controllerText } from "../state/flight_mode.js";
 import { flagText, numberText, UNKNOWN } from "../state/format.js";
 import { switchText } from "../state/pilot_input.js";
+
+const MISSION = "MISSION";
 
 /** State of control: mode, armed, vetoes, load, failsafe. */
 export function mount(element, store) {
@@ -27,7 +30,8 @@ export function mount(element, store) {
   return {
     update() {
       modeReadout.update(store);
-      setText(meaning, modeText(actingMode(store)));
+      const acting = actingMode(store);
+      setText(meaning, [modeText(acting), acting === MISSION ? progressText(store) : ""].filter(Boolean).join(". "));
       setAttribute(armed, "data-armed", String(armedReadout.update(store)));
       for (const row of rows) {
         row.update(store);

@@ -9,7 +9,7 @@ const PINGS_KEPT = 64;
 /** The closing code of a server with too many pages, and how long to wait then. */
 const FULL = 4013;
 const FULL_S = 5;
-/** Limit for the answer to a Command. */
+/** Limit for the answer to a Command, seconds. */
 const ANSWER_S = 15;
 const LOST = { code: "connection_lost", reason: "the connection to the ground server was lost" };
 
@@ -104,10 +104,14 @@ export class Connection {
 
   /** Send a Command; the promise never fails. isForced: sent although the server does not know the name. */
   command(name, data, { aircraft = this.aircraft, isForced = false } = {}) {
-    const { ask, answer } = this.#asks.add();
-    const beacon = this.shownBeacon();
     const force = isForced ? { force: true } : {};
-    if (!this.send({ type: "command", ask, aircraft, name, data, beacon, ...force })) {
+    return this.request({ type: "command", aircraft, name, data, beacon: this.shownBeacon(), ...force });
+  }
+
+  /** Send a message that is answered by its number within limit_s; the promise never fails. */
+  request(message, limit_s = ANSWER_S) {
+    const { ask, answer } = this.#asks.add(limit_s);
+    if (!this.send({ ask, ...message })) {
       this.#asks.take({
         ask,
         outcome: "unsent",
@@ -161,7 +165,7 @@ export class Connection {
       this.#welcomed(message);
     } else if (message.type === "pong") {
       this.#ponged(message);
-    } else if (message.type === "answer") {
+    } else if (message.type === "answer" || message.type === "plan.answer") {
       this.#asks.take(message);
     }
     this.#tell("message", message);
@@ -247,7 +251,7 @@ export class Connection {
   }
 }
 
-/** Commands that wait for their answers, each by its number. */
+/** Requests that wait for their answers, each by its number. */
 class PendingCommands {
   #last = 0;
   #waiting = new Map();
@@ -257,13 +261,13 @@ class PendingCommands {
     this.#timers = timers;
   }
 
-  add() {
+  add(limit_s) {
     this.#last += 1;
     const ask = this.#last;
     const answer = new Promise((resolve) => {
       const timer = this.#timers.once(
         () => this.take({ ask, outcome: "timeout", code: "no_answer", reason: "the ground server did not answer" }),
-        ANSWER_S,
+        limit_s,
       );
       this.#waiting.set(ask, { resolve, timer });
     });

@@ -1,6 +1,7 @@
 import { svg } from "../dom.js";
 import { metreGrid } from "./metre_grid.js";
 import { AircraftSymbol } from "./picture.js";
+import { placesOf } from "../mission/plan.js";
 import { Overlay } from "./overlay.js";
 import { TrackLine } from "./track_line.js";
 
@@ -68,6 +69,11 @@ export class LeafletMap {
     this.follow();
   }
 
+  /** Leaflet's own map, for other layers. */
+  get leaflet() {
+    return this.#map;
+  }
+
   /** Keep the aircraft in the middle from now on. */
   follow() {
     this.isFollowing = true;
@@ -99,9 +105,11 @@ export class LeafletMap {
     }
   }
 
-  showAll() {
-    const bounds = this.#track.bounds();
-    if (bounds !== null) {
+  /** The track, and these places. */
+  showAll(places) {
+    const bounds = this.#track.bounds() ?? this.#L.latLngBounds([]);
+    places.forEach((each) => bounds.extend(latLng(each)));
+    if (bounds.isValid()) {
       this.free();
       this.#map.fitBounds(bounds, { padding: [30, 30], maxZoom: 18 });
     }
@@ -114,7 +122,7 @@ export class LeafletMap {
       this.#clear(picture);
     }
     if (!this.#hasView) {
-      const first = aircraft ?? home;
+      const first = aircraft ?? home ?? placesOf(picture.plans)[0] ?? null;
       if (first === null) {
         return;
       }

@@ -1,4 +1,9 @@
 import { html, showMissing, setAttribute, setText, styleSheet } from "../dom.js";
+import { DrawingBar } from "../mission/drawing_bar.js";
+import { editorOf } from "../mission/editor.js";
+import { MISSION, placesOf } from "../mission/plan.js";
+import { PlanLayer } from "../mission/plan_layer.js";
+import { usedState } from "../mission/progress.js";
 import { MapActions } from "./map_actions.js";
 import { homeText, pictureOf } from "./picture.js";
 import { PlainMap } from "./plain_map.js";
@@ -16,14 +21,20 @@ export function mount(place, store, connection) {
   follow.id = "map-follow";
   const closer = button("+", "Closer", () => map?.zoom(1));
   const farther = button("−", "Farther", () => map?.zoom(-1));
-  const whole = button("All", "All of the track", () => map?.showAll());
+  const whole = button("All", "All of the track, the mission and the fence", () => map?.showAll(placesOf(editor.drawn)));
   const tools = html("div.map-tools", {}, follow, whole, closer, farther);
   const words = html("p.map-words", { id: "map-home" });
   const wind = new Wind();
   const notice = html("p.map-notice", { id: "map-notice", hidden: true });
   const actions = new MapActions(store, connection, show);
-  place.append(canvas, tools, html("div.map-foot", {}, words), wind.element, notice, actions.element);
+  const editor = editorOf(store);
+  const bar = new DrawingBar(editor);
+  tools.prepend(bar.toggle);
+  place.append(canvas, tools, html("div.map-foot", {}, words), wind.element, notice, actions.element, bar.element);
   let map = null;
+  let plans = null;
+  editor.middle = () => map?.middle ?? null;
+  editor.subscribe(show);
   place.addEventListener("keydown", onKey);
 
   function button(text, label, click) {
@@ -63,21 +74,33 @@ export function mount(place, store, connection) {
     };
     // Leaflet itself handles + and - while it has the focus.
     const isLeaflets = event.target === canvas && ["+", "=", "-"].includes(event.key);
-    const isTyped = event.target !== canvas && (event.key === "Enter" || event.target.matches("input"));
+    const isTyped = event.target !== canvas && (event.key === "Enter" || event.target.matches("input, select"));
     if (Object.hasOwn(keys, event.key) && !isLeaflets && !isTyped) {
       keys[event.key]();
     }
   }
 
   function choose(chosen) {
-    if (chosen !== null) {
+    if (chosen !== null && editor.isDrawing && plans !== null) {
+      editor.add(chosen);
+    } else if (chosen !== null) {
       actions.open(chosen);
     }
   }
 
   function show() {
-    const picture = { ...pictureOf(store), chosen: actions.place };
+    if (editor.isDrawing && plans !== null) {
+      actions.place = null;
+      // A map that follows would move under the pointer.
+      setFollow(false);
+    }
+    const picture = { ...pictureOf(store), chosen: actions.place, plans: editor.drawn };
     map?.show(picture);
+    if (map?.middle) {
+      const isUsed = usedState(editor, store, MISSION) === "same";
+      plans?.show(picture.home, isUsed ? store.number("mission.item") : null);
+    }
+    bar.update(plans !== null);
     actions.update(picture);
     return picture;
   }
@@ -90,6 +113,7 @@ export function mount(place, store, connection) {
       const tiles = connection.welcome?.tiles ?? null;
       const onTiles = (areThere) => notify(areThere ? "" : NO_TILES);
       map = new LeafletMap(L, canvas, { tiles, onFree: showFollow, onTiles, onChoose: choose });
+      plans = new PlanLayer(L, map.leaflet, editor);
     } catch (error) {
       console.warn(error);
       map = new PlainMap(canvas, choose);

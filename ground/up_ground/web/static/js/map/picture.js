@@ -6,11 +6,12 @@ import { clockText } from "../panels/messages.js";
 /**
  * Content of a map: the name of the aircraft, its estimated or last position, home, the track.
  * uncertainty_m: two standard deviations of the estimate; fix: the receiver's position beside it;
- * target: what the mode flies to; time_s: of the way home; null: it does not arrive, undefined: unknown.
+ * plans: as the page draws them; target: what the mode flies to; time_s: of the way home; null: it does not arrive, undefined: unknown.
  * @typedef {{latitude: number, longitude: number}} Place
  * @typedef {{name: ?string, aircraft: ?Place, heading_deg: ?number, uncertainty_m: ?number,
  *   fix: ?Place, target: ?Place, radius_m: ?number, freshness: "live"|"stale"|"none", age: string,
- *   home: ?Place, time_s: ?number|undefined, track: object}} Picture
+ *   home: ?Place, time_s: ?number|undefined, track: object,
+ *   plans: {mission: object[], fence: object[]}}} Picture
  */
 
 /** The last position known, and how fresh it is. */

@@ -2,6 +2,7 @@ import { setAttribute, setText, svg } from "../dom.js";
 import { circlesOf } from "./overlay.js";
 import { AircraftSymbol } from "./picture.js";
 import { piecesOf } from "./track_line.js";
+import { around, legsOf } from "../mission/plan.js";
 import { linesBetween, offsetOf, placeAt, stepOf, stepText, windowOf } from "../state/earth.js";
 
 const MAX_POINTS = 1500;
@@ -18,6 +19,7 @@ export class PlainMap {
   #step_m = 0;
   #place;
   #circles = svg("g");
+  #plans = svg("g");
   #placeAtPixel = () => null;
 
   isFollowing = false;
@@ -34,6 +36,7 @@ export class PlainMap {
       "svg.plain-map",
       { role: "img", "aria-label": "Map: track, home and aircraft on a grid of metres" },
       this.#lines,
+      this.#plans,
       this.#track,
       this.#home,
       this.#circles,
@@ -49,7 +52,7 @@ export class PlainMap {
   }
 
   show(picture) {
-    const { aircraft, heading_deg, freshness, age, home, track } = picture;
+    const { aircraft, heading_deg, freshness, age, home, track, plans } = picture;
     const origin = home ?? aircraft;
     const size = { width_px: this.#place.clientWidth, height_px: this.#place.clientHeight };
     if (origin === null || size.width_px === 0 || size.height_px === 0) {
@@ -63,7 +66,8 @@ export class PlainMap {
     );
     const craft = aircraft === null ? null : offsetOf(origin, aircraft);
     const shown = craft === null ? pieces.flat() : [...pieces.flat(), craft];
-    const view = windowOf([...shown, { east_m: 0, north_m: 0 }], size);
+    const lines = linesOf(plans, home).map((line) => ({ ...line, at: line.places.map((each) => offsetOf(origin, each)) }));
+    const view = windowOf([...shown, ...lines.flatMap(({ at }) => at), { east_m: 0, north_m: 0 }], size);
     const x = (each) => size.width_px / 2 + (each.east_m - view.east_m) / view.metresPerPixel;
     const y = (each) => size.height_px / 2 - (each.north_m - view.north_m) / view.metresPerPixel;
     this.#placeAtPixel = (x_px, y_px) =>
@@ -79,6 +83,7 @@ export class PlainMap {
     setAttribute(this.element, "viewBox", `0 0 ${size.width_px} ${size.height_px}`);
     this.#drawGrid(view, size, x, y);
     const point = (each) => `${x(each).toFixed(1)} ${y(each).toFixed(1)}`;
+    this.#plans.replaceChildren(...lines.map(({ name, at, end }) => svg(`path.${name}`, { d: `M${at.map(point).join("L")}${end}` })));
     setAttribute(this.#track, "d", pieces.map((piece) => `M${piece.map(point).join("L")}`).join(""));
     const at = { east_m: 0, north_m: 0 };
     const isHome = home !== null;
@@ -111,4 +116,15 @@ export class PlainMap {
     setAttribute(this.#scale, "y", size.height_px - FOOT_PX);
     setText(this.#scale, `a square is ${stepText(this.#step_m)} wide, north is up`);
   }
+}
+
+/** The mission's legs and the fence's borders: {name, places, end: closes the line}. */
+export function linesOf({ mission, fence }, home) {
+  const legs = legsOf(mission, home).filter((leg) => leg !== null);
+  const placesOf = ({ corners }) => corners.map(([latitude, longitude]) => ({ latitude, longitude }));
+  const borders = fence.map((border) => (border.corners ? placesOf(border) : around(border)));
+  return [
+    ...legs.map(({ from, to }) => ({ name: "plan-leg", places: [from, to], end: "" })),
+    ...borders.map((places) => ({ name: "plan-border", places, end: "Z" })),
+  ];
 }

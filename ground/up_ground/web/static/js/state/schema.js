@@ -42,6 +42,10 @@ export const MODES = {
     "about": "the aircraft circles where it is, at constant height",
     "holder": ""
   },
+  "MISSION": {
+    "about": "the aircraft flies the mission",
+    "holder": ""
+  },
   "GUIDED": {
     "about": "the aircraft flies to the target and circles there",
     "holder": ""
@@ -266,6 +270,20 @@ export const NAVIGATION_ROWS = [
     "unit": "",
     "decimals": 0,
     "optional": true
+  },
+  {
+    "label": "Mission item",
+    "path": "mission.item",
+    "unit": "",
+    "decimals": 0,
+    "optional": true
+  },
+  {
+    "label": "Fence",
+    "path": "fence.margin",
+    "unit": "m",
+    "decimals": 0,
+    "optional": false
   }
 ];
 
@@ -283,6 +301,7 @@ export const MODE_REASONS = {
   "flight_battery_low": "the flight battery is low",
   "phone_battery": "the phone's battery is low",
   "no_progress": "the wind is stronger than the aircraft",
+  "overload": "the Raspberry Pi is overloaded",
   "no_home": "home is not set",
   "home_too_far": "home is too far away",
   "no_target": "it needs a target: choose a place on the map",
@@ -290,6 +309,8 @@ export const MODE_REASONS = {
   "target_too_high": "the target is too far above the aircraft",
   "target_too_low": "the target is too far below the aircraft",
   "target_below_home": "the target is below home",
+  "no_mission": "there is no mission: upload one",
+  "mission_invalid": "the mission cannot be flown from this home or in this fence",
   "target_radius": "the radius of the target is not above 0",
   "wind_too_strong": "the wind is too strong for an approach",
   "on_ground": "the aircraft is on the ground",

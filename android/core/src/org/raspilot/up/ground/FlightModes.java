@@ -14,6 +14,7 @@ public final class FlightModes {
     public static final String LOITER = "LOITER";
     public static final String GUIDED = "GUIDED";
 
+    private static final String MISSION = "MISSION";
     private static final String AUTO = "AUTO";
     private static final String UNKNOWN = "mode_unknown";
     /** What a ground may select of an aircraft that does not report it. */
@@ -30,6 +31,19 @@ public final class FlightModes {
         final String board = telemetry.text("flight_mode");
         final String own = telemetry.text("flight_control.mode");
         return FLOWN_BY_PI.contains(board) && own != null ? own : board;
+    }
+
+    /** Returns the mode that acts, in MISSION with its item as in {@code MISSION 3/12}; null: unknown. */
+    public static String actingWithProgress(Telemetry telemetry) {
+        final String acting = acting(telemetry);
+        final Double count = telemetry.number("mission.count");
+        final Double item = telemetry.number("mission.item");
+        if (!MISSION.equals(acting) || count == null || item == null) {
+            return acting;
+        }
+        final boolean isFinished = Boolean.TRUE.equals(telemetry.flag("mission.is_finished"));
+        return acting + (isFinished ? " finished"
+                : " " + Math.round(item) + "/" + Math.round(count));
     }
 
     /**

@@ -91,7 +91,7 @@ public final class TelemetrySchema {
         put(UNITS, "m", "location.altitude", "home.distance", "home.altitude",
                 "navigation.altitude", "navigation.height", "navigation.sd.position",
                 "navigation.sd.altitude", "navigation.target.altitude", "navigation.target.radius",
-                "altitude", "altitude_required");
+                "mission.distance", "altitude", "altitude_required", "fence.margin");
         put(UNITS, "s", "home.time_s", "system.uptime_s");
         put(UNITS, "m/s", "navigation.speed", "navigation.climb", "navigation.airspeed",
                 "navigation.wind.speed", "navigation.sd.wind", "navigation.sd.airspeed");
@@ -110,7 +110,8 @@ public final class TelemetrySchema {
                 "navigation.heading", "navigation.wind.speed", "navigation.sd.position",
                 "navigation.sd.altitude", "navigation.sd.wind", "navigation.sd.airspeed",
                 "navigation.sd.heading", "navigation.target.altitude", "navigation.target.radius");
-        put(DECIMALS, 0, "home.time_s", "navigation.wind.from", "location.satellites");
+        put(DECIMALS, 0, "home.time_s", "navigation.wind.from", "location.satellites",
+                "mission.count", "mission.item", "mission.distance", "fence.count", "fence.margin");
         put(DECIMALS, 2, "arduino.flight_battery_v");
         LIMITS.put("battery_low", 20.0);
         LIMITS.put("battery_empty", 10.0);
@@ -126,6 +127,7 @@ public final class TelemetrySchema {
         MODE_REASONS.put("flight_battery_low", "the flight battery is low");
         MODE_REASONS.put("phone_battery", "the phone's battery is low");
         MODE_REASONS.put("no_progress", "the wind is stronger than the aircraft");
+        MODE_REASONS.put("overload", "the Raspberry Pi is overloaded");
         MODE_REASONS.put("no_home", "home is not set");
         MODE_REASONS.put("home_too_far", "home is too far away");
         MODE_REASONS.put("no_target", "it needs a target: choose a place on the map");
@@ -133,6 +135,8 @@ public final class TelemetrySchema {
         MODE_REASONS.put("target_too_high", "the target is too far above the aircraft");
         MODE_REASONS.put("target_too_low", "the target is too far below the aircraft");
         MODE_REASONS.put("target_below_home", "the target is below home");
+        MODE_REASONS.put("no_mission", "there is no mission: upload one");
+        MODE_REASONS.put("mission_invalid", "the mission cannot be flown from this home or in this fence");
         MODE_REASONS.put("target_radius", "the radius of the target is not above 0");
         MODE_REASONS.put("wind_too_strong", "the wind is too strong for an approach");
         MODE_REASONS.put("on_ground", "the aircraft is on the ground");
@@ -159,7 +163,10 @@ public final class TelemetrySchema {
         NAVIGATION.put("Position sd", "navigation.sd.position");
         NAVIGATION.put("Altitude sd", "navigation.sd.altitude");
         NAVIGATION.put("Satellites", "location.satellites");
+        NAVIGATION.put("Mission item", "mission.item");
+        NAVIGATION.put("Fence", "fence.margin");
         OPTIONAL.put("location.satellites", true);
+        OPTIONAL.put("mission.item", true);
         RULES.add(new TelemetryRule("path", "navigation.motor_stopped", "type", "flag",
                 "event", "motor", "code", "motor_stopped", "level", "alarm",
                 "text", "the motor gives no thrust", "end", "the motor gives thrust",

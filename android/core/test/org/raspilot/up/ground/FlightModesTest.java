@@ -28,6 +28,21 @@ public final class FlightModesTest {
     }
 
     @Test
+    public void missionHasItsItemBesideIt() {
+        assertEquals("MISSION 3/12", progress("MISSION", "\"item\": 3, \"count\": 12"));
+        assertEquals("MISSION finished",
+                progress("MISSION", "\"item\": 12, \"count\": 12, \"is_finished\": true"));
+        assertEquals("MISSION", progress("MISSION", "\"item\": null, \"count\": 12"));
+        assertEquals("LOITER", progress("LOITER", "\"item\": 3, \"count\": 12"));
+    }
+
+    private static String progress(String mode, String mission) {
+        return FlightModes.actingWithProgress(GroundBench.telemetry(
+                "{\"flight_mode\": \"SETPOINT\", \"flight_control\": {\"mode\": \"" + mode
+                + "\"}, \"mission\": {" + mission + "}}", 0));
+    }
+
+    @Test
     public void returnAndLoiterAreFirstAndOfferedOnlyWhereTheAircraftOffersThem() {
         Map<String, String> modes = FlightModes.all(frame("FBW", "{\"modes\": {\"AUTO\": null, "
                 + "\"GLIDE\": \"altitude\", \"LOITER\": null}, \"board_modes\": [\"FBW\"]}"));

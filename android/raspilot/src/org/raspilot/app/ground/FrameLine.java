@@ -71,7 +71,7 @@ public final class FrameLine implements FrameText.DrawnListener {
     }
 
     private static String mode(GroundSnapshot picture, Resources words) {
-        String mode = FlightModes.acting(picture.telemetry);
+        String mode = FlightModes.actingWithProgress(picture.telemetry);
         return isLive(picture, "flight_mode") ? mode : words.getString(R.string.mode_unknown);
     }
 

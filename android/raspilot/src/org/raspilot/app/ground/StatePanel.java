@@ -86,7 +86,8 @@ final class StatePanel {
 
     void update(GroundSnapshot picture) {
         Telemetry telemetry = picture.telemetry;
-        show(mode, picture, "flight_mode", FlightModes.acting(telemetry), Row.Look.PLAIN);
+        String flown = FlightModes.actingWithProgress(telemetry);
+        show(mode, picture, "flight_mode", flown, Row.Look.PLAIN);
         String replaced = FlightModes.fallback(telemetry);
         fallback.setVisible(replaced != null);
         show(fallback, picture, "flight_control.fallback", replaced, Row.Look.ALARM);

@@ -1,0 +1,200 @@
+"""``up-ground mission``: files, and the plans of an aircraft."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import os
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+from up.cli.cli_error import CliError
+from up.cli.option_parser import EXIT_FAILED, EXIT_OK
+from up.config.atomic_writer import create_text
+from up.errors import UserError
+from up.mission.items import FENCE, MISSION, Border, MissionItem, PlanItem
+from up.mission.plan import PLAN, WAYPOINTS, Plan, PlanError, PlanProblem
+from up.mission.plan_forms import MAX_CHARACTERS, read_plan, write_plan
+from up.output import echo
+from up_ground.arguments import settings_of
+from up_ground.mission_tasks import MissionStatus, StartMission, TransferTask
+from up_ground.one_shot_task import EXIT_NO_ANSWER, print_error
+from up_ground.one_shot_task import run as run_task
+from up_ground.plan_transfer import PlanOutcome
+from up_ground.reliable_requests import NO_ANSWER
+from up_ground.settings import Seat
+from up_ground.token_store import TokenStore, state_folder
+
+_WAYPOINT_SUFFIXES = (".waypoints", ".txt", ".wpl")
+_NOUNS = {MISSION: "item", FENCE: "border"}
+
+
+def run(options: argparse.Namespace) -> int:
+    """Carry out an action and return the exit status."""
+    actions = {
+        "check": _check,
+        "upload": _upload,
+        "download": _download,
+        "start": _start,
+        "status": _status,
+        "clear": _clear,
+    }
+    return actions[options.action](options)
+
+
+def _check(options: argparse.Namespace) -> int:
+    try:
+        plan = _read(options.file)
+    except PlanError as error:
+        if options.json:
+            problems = [each.data for each in error.found]
+            echo(json.dumps({"file": str(options.file), "problems": problems}, indent=1))
+        else:
+            _print_problems(options.file, error.found)
+        return EXIT_FAILED
+    _print_notes(options.file, plan)
+    if options.json:
+        notes = [each.data for each in plan.notes]
+        told = {"file": str(options.file), "form": plan.form, "problems": [], "notes": notes}
+        counts = {"items": len(plan.items), "borders": len(plan.borders)}
+        echo(json.dumps({**told, **counts}, indent=1))
+    else:
+        counts_text = f"{_count(plan.items, MISSION)}, {_count(plan.borders, FENCE)}"
+        echo(f"{options.file}: {counts_text}; the aircraft checks them again")
+    return EXIT_OK
+
+
+def _upload(options: argparse.Namespace) -> int:
+    try:
+        plan = _read(options.file)
+    except PlanError as error:
+        _print_problems(options.file, error.found)
+        return EXIT_FAILED
+    _print_notes(options.file, plan)
+    contents: dict[str, Sequence[PlanItem]] = {FENCE: plan.borders, MISSION: plan.items}
+    wanted = {each: contents[each] for each in options.plans if contents[each]}
+    if not wanted:
+        nouns = " and no ".join(f"{_NOUNS[each]}s" for each in options.plans)
+        raise CliError(f"{options.file}: has no {nouns} to upload", code="nothing_to_upload")
+    return _transfer(options, wanted, plan.numbers)
+
+
+def _download(options: argparse.Namespace) -> int:
+    path: Path = options.file
+    form = WAYPOINTS if path.suffix.lower() in _WAYPOINT_SUFFIXES else PLAN
+    plans = options.plans if form == PLAN else tuple(set(options.plans) & {MISSION})
+    if os.path.lexists(path) or not plans:
+        reason = "exists already" if plans else "a file of waypoints has no place for a fence"
+        raise CliError(f"{path}: {reason}; choose another name", code="file_unsuitable")
+
+    def save(outcomes: dict[str, PlanOutcome]) -> None:
+        read = {each: outcome.items for each, outcome in outcomes.items()}
+        items = [each for each in read.get(MISSION, ()) if isinstance(each, MissionItem)]
+        borders = [each for each in read.get(FENCE, ()) if isinstance(each, Border)]
+        text = write_plan(Plan(form, tuple(items), tuple(borders)))
+        if not create_text(path, text):
+            raise CliError(f"{path}: exists already", code="file_unsuitable")
+
+    return _transfer(options, dict.fromkeys(plans), save=save)
+
+
+def _clear(options: argparse.Namespace) -> int:
+    options.json = False
+    return _transfer(options, {options.plans: ()})
+
+
+def _start(options: argparse.Namespace) -> int:
+    return run_task(lambda reactor: StartMission(reactor, *_peer(options), options.item))
+
+
+def _status(options: argparse.Namespace) -> int:
+    return run_task(
+        lambda reactor: MissionStatus(reactor, *_peer(options, Seat.LISTEN), options.json)
+    )
+
+
+def _transfer(
+    options: argparse.Namespace,
+    plans: dict[str, Any],
+    numbers: Sequence[int] = (),
+    save: Any = None,
+) -> int:
+    """Transfer plans one after the other; those that are None are downloaded."""
+    tasks: list[TransferTask] = []
+
+    def make(reactor: Any) -> TransferTask:
+        tasks.append(TransferTask(reactor, *_peer(options), plans=plans))
+        return tasks[0]
+
+    status = run_task(make)
+    outcomes = tasks[0].outcomes
+    if status == EXIT_OK and save is not None:
+        save(outcomes)
+    told = {each: _data(each, outcome, numbers) for each, outcome in outcomes.items()}
+    if options.json:
+        echo(json.dumps(told, indent=1))
+    for plan, outcome in outcomes.items():
+        if outcome.code:
+            status = EXIT_NO_ANSWER if outcome.code == NO_ANSWER else EXIT_FAILED
+            _print_refusal(plan, outcome, numbers)
+        elif not options.json:
+            text = f"{plan}: {_count(outcome.items, plan)} in use"
+            echo(text, "plan_in_use", plan=plan, count=len(outcome.items), id=outcome.plan_id)
+    return status
+
+
+def _read(path: Path) -> Plan:
+    with path.open("rb") as file:
+        content = file.read(4 * MAX_CHARACTERS)
+    try:
+        return read_plan(content.decode(), str(path))
+    except UnicodeDecodeError:
+        raise UserError(f"{path}: is not text (UTF-8)", "not_text") from None
+
+
+def _peer(options: argparse.Namespace, seat: Seat = Seat.COMMAND) -> tuple[Any, TokenStore]:
+    settings = settings_of(options, seat)
+    return settings, TokenStore(state_folder(os.environ), settings)
+
+
+def _count(items: Sequence[PlanItem], plan: str) -> str:
+    return f"{len(items)} {_NOUNS[plan]}{'' if len(items) == 1 else 's'}"
+
+
+def _data(plan: str, outcome: PlanOutcome, numbers: Sequence[int]) -> dict[str, Any]:
+    return {
+        "code": outcome.code,
+        "reason": outcome.reason,
+        "detail": outcome.detail,
+        "plan_id": outcome.plan_id,
+        "count": len(outcome.items),
+        "problems": [{**each.data, "number": _number(each, numbers)} for each in outcome.problems],
+        "untold": outcome.untold,
+    }
+
+
+def _number(problem: PlanProblem, numbers: Sequence[int]) -> int | None:
+    """Return the number in the file of an item that the aircraft names."""
+    is_item = problem.plan == MISSION and 0 < problem.item <= len(numbers)
+    return numbers[problem.item - 1] if is_item else None
+
+
+def _print_refusal(plan: str, outcome: PlanOutcome, numbers: Sequence[int]) -> None:
+    print_error(f"{plan}: {outcome.reason}", outcome.code, plan=plan, detail=outcome.detail)
+    for each in outcome.problems:
+        number = _number(each, numbers)
+        there = f" (number {number} of the file)" if number not in (None, each.item) else ""
+        print_error(f"{each}{there}", each.code, **each.fields, number=number)
+    if outcome.untold:
+        print_error(f"and {outcome.untold} more problems", "untold", untold=outcome.untold)
+
+
+def _print_problems(path: Path, problems: Sequence[PlanProblem]) -> None:
+    for each in problems:
+        print_error(f"{path}: {each}", each.code, **each.fields)
+
+
+def _print_notes(path: Path, plan: Plan) -> None:
+    for each in plan.notes:
+        print_error(f"note: {path}: {each}", each.code, **each.fields)

@@ -1,0 +1,118 @@
+"""Tasks of ``up-ground mission`` on the link to an aircraft."""
+
+from __future__ import annotations
+
+import json
+import os
+import sys
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from up.cli.option_parser import EXIT_FAILED, EXIT_OK
+from up.commands.command import BaseCommand
+from up.commands.flight_state_command import FlightModeCommand
+from up.commands.mission_commands import MissionItemCommand
+from up.mission.items import FENCE, MISSION, PlanItem
+from up.protocols.general_message import GeneralMessage, encode
+from up_ground.command_task import CommandTask
+from up_ground.plan_transfer import PlanOutcome, PlanTransfer
+from up_ground.send import Send
+
+
+class TransferTask(CommandTask):
+    """Uploads or (None) downloads plans one after the other; ends at the first that fails."""
+
+    what = "an upload"
+
+    def __init__(self, *args: Any, plans: Mapping[str, Sequence[PlanItem] | None]) -> None:
+        super().__init__(*args)
+        self.outcomes: dict[str, PlanOutcome] = {}
+        self._plans = list(plans.items())
+        self._transfer: PlanTransfer | None = None
+
+    def on_ready(self) -> None:
+        plan, items = self._plans.pop(0)
+        transfer = PlanTransfer(self._reactor, self._send, plan, self._on_progress, self._on_end)
+        self._transfer = transfer
+        if items is None:
+            transfer.download()
+        else:
+            transfer.upload(items)
+
+    def on_answer(self, message: GeneralMessage) -> None:
+        if self._transfer is not None:
+            self._transfer.on_message(message)
+
+    async def stop(self) -> None:
+        if self._transfer is not None:
+            self._transfer.stop()
+        await super().stop()
+
+    def _send(self, command: BaseCommand, id_: str) -> None:
+        beacon = self.telemetry.beacon if command.NEEDS_BEACON else None
+        self.link.send(encode(command.NAME, command.data, id_, beacon))
+
+    def _on_progress(self, phase: str, done: int, of: int) -> None:
+        if os.isatty(2):
+            sys.stderr.write(f"\r{phase} {done} of {of}\x1b[K" + ("\r\x1b[K" if done == of else ""))
+            sys.stderr.flush()
+
+    def _on_end(self, outcome: PlanOutcome) -> None:
+        assert self._transfer is not None
+        self.outcomes[self._transfer.plan] = outcome
+        if outcome.code:
+            self.finish(EXIT_FAILED)
+        elif self._plans:
+            self.on_ready()
+        else:
+            self.finish(EXIT_OK)
+
+
+class StartMission(Send):
+    """Selects the next item if one is given, and then the flight mode MISSION."""
+
+    def __init__(self, reactor: Any, settings: Any, tokens: Any, item: int | None) -> None:
+        mode = FlightModeCommand("MISSION")
+        self._then = [mode] if item is not None else []
+        first = mode if item is None else MissionItemCommand(item)
+        super().__init__(reactor, settings, tokens, first.NAME, first.data, needs_beacon=True)
+
+    def on_acked(self) -> None:
+        if not self._then:
+            self.finish(EXIT_OK)
+            return
+        command = self._then.pop()
+        self._use(command.NAME, command.data)
+        self.on_ready()
+
+
+class MissionStatus(CommandTask):
+    """Prints what the newest telemetry frame reports of mission and fence."""
+
+    NEEDS_CONTROL = False
+
+    def __init__(self, reactor: Any, settings: Any, tokens: Any, is_json: bool) -> None:
+        super().__init__(reactor, settings, tokens)
+        self._is_json = is_json
+
+    def on_ready(self) -> None:
+        telemetry = self.telemetry
+        mode = telemetry.text("flight_control", "mode") or telemetry.text("flight_mode")
+        count, borders = telemetry.number(MISSION, "count"), telemetry.number(FENCE, "count")
+        item, distance_m = telemetry.number(MISSION, "item"), telemetry.number(MISSION, "distance")
+        if self._is_json:
+            told = {each: telemetry.data.get(each) for each in (MISSION, FENCE, "flight_mode")}
+            self.echo(json.dumps(told, indent=1))
+        elif count is None:
+            self.fail("this aircraft reports no missions", "not_supported", EXIT_FAILED)
+            return
+        else:
+            text = "no mission"
+            if count and item is not None:
+                away = "" if distance_m is None else f", {distance_m:.0f} m away"
+                text = f"mission {telemetry.text(MISSION, 'id')}: item {item:.0f} of {count:.0f}"
+                text += ", finished" if telemetry.flag(MISSION, "is_finished") else away
+            self.echo(
+                f"{text}\nborders of the fence: {borders or 0:.0f}\nflight mode: {mode or '--'}"
+            )
+        self.finish(EXIT_OK)

@@ -1,0 +1,1 @@
+"""Missions and fences on the aircraft."""

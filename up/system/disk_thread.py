@@ -1,0 +1,50 @@
+"""Work with the disk beside the reactor: an SD card may take a second."""
+
+from __future__ import annotations
+
+import threading
+from _thread import start_new_thread
+from collections.abc import Callable
+from typing import Any, TypeVar
+
+from twisted.internet.defer import Deferred
+from twisted.python.failure import Failure
+
+_T = TypeVar("_T")
+
+
+class DiskThread:
+    """Runs each piece of work on a daemon thread, one at a time.
+
+    A disk that hangs does not prevent the program from ending. The results fire on the reactor's
+    thread.
+    """
+
+    def __init__(self, reactor: Any) -> None:
+        self._reactor = reactor
+        self._lock = threading.Lock()
+        self._newest: threading.Event | None = None
+
+    def run(self, work: Callable[[], _T]) -> Deferred[_T]:
+        """Return the result of ``work``, which is called as soon as the earlier one is done."""
+        done: Deferred[_T] = Deferred()
+        self._newest = finished = threading.Event()
+        # Thread.start would wait for the thread; a step of a flight mode must not.
+        start_new_thread(self._run, (work, done, finished))
+        return done
+
+    def wait(self) -> None:
+        """Wait until the newest work is done."""
+        if self._newest is not None:
+            self._newest.wait()
+
+    def _run(self, work: Callable[[], _T], done: Deferred[_T], finished: threading.Event) -> None:
+        with self._lock:
+            try:
+                result = work()
+            except Exception:  # noqa: BLE001 - the reactor's thread gets it
+                self._reactor.callFromThread(done.errback, Failure())
+            else:
+                self._reactor.callFromThread(done.callback, result)
+            finally:
+                finished.set()
