@@ -13,12 +13,9 @@ from twisted.internet.task import deferLater
 from raspilot.flight_controller.attitude_controller import AttitudeController
 from raspilot.flight_controller.board_authority import AUTO, BoardAuthority
 from raspilot.flight_controller.flight_memory import MEMORY, Place
-from raspilot.flight_controller.home import (
-    HomeKeeper,
-    place_of_target,
-    target_of_place,
-    telemetry_of,
-)
+from raspilot.flight_controller.flight_target import FlightTarget
+from raspilot.flight_controller.home import HomeKeeper, target_of_place, telemetry_of
+from raspilot.flight_modes.guided import GUIDED, Guided, altitude_refusal
 from raspilot.modules.navigation_estimator import NavigationEstimator
 from raspilot.navigation.path_controller import PathController
 from up.commands.flight_state_command import FlightModeCommand, FlightStateCommand
@@ -31,7 +28,7 @@ from up.commands.refusal import CommandRefusedError
 from up.commands.roles import Role
 from up.flight_controller.base_flight_controller import BaseFlightController
 from up.flight_modes.declarations import GROUND_MODES, auto_mode_problem
-from up.flight_modes.demand import AttitudeDemand, Circle, Demand, PathDemand, SurfacesDemand
+from up.flight_modes.demand import AttitudeDemand, Demand, PathDemand, SurfacesDemand
 from up.flight_modes.flight_mode import FlightMode, FlightSituation, Target
 from up.flight_modes.navigation_file import NAVIGATION
 from up.flight_modes.navigation_state import NavigationState
@@ -82,7 +79,6 @@ class FlightModeManager(BaseFlightController):
         self._stepped_at_s = float("-inf")
         self._resumed_at_s = float("-inf")
         self._situation: FlightSituation | None = None
-        self._circle: Circle | None = None
         self._path_at_s = float("-inf")
         self._target: Target | None = None
         self._resumed_place: Place | None = None
@@ -118,6 +114,7 @@ class FlightModeManager(BaseFlightController):
             self.config.home_accuracy_m,
             self._on_home_changed,
         )
+        self._flight_target = FlightTarget(self.home.memory)
         self.orientation.subscribe(self._on_orientation)
         executor = self._executor = self.up.command_executor
         executor.register_command(FlightStateCommand, self._on_flight_state)
@@ -273,28 +270,11 @@ class FlightModeManager(BaseFlightController):
             self._path_controller.reset()
         self._path_at_s = situation.time_s
         mode = self._selector.modes.get(self._selector.selected or "")
-        goal = None if mode is None else mode.goal
-        if goal is not None:
-            self.home.memory.update(target=place_of_target(goal, navigation.frame))
-        elif isinstance(demand.path, Circle):
-            self._remember_target(demand.path, demand.altitude_m, navigation)
-        elif self._circle is not None:
-            self._circle = None
-            self.home.memory.update(target=None)
+        self._flight_target.follow(demand, None if mode is None else mode.goal, navigation)
         attitude = self._path_controller.step(demand, navigation, dt_s)
         if not self._has_motor:
             attitude = replace(attitude, throttle=None)
         return attitude
-
-    def _remember_target(
-        self, circle: Circle, altitude_m: float | None, navigation: NavigationState
-    ) -> None:
-        """Save where it flies to, for telemetry and for a restart."""
-        if circle != self._circle:
-            self._circle = circle
-            altitude_m = navigation.altitude_m if altitude_m is None else altitude_m
-            target = Target(circle.centre, altitude_m, circle.radius_m)
-            self.home.memory.update(target=place_of_target(target, navigation.frame))
 
     def _select(self, name: str | None, *, is_choice: bool = True) -> None:
         self.choices += is_choice
@@ -302,7 +282,7 @@ class FlightModeManager(BaseFlightController):
         selector.select(name)
         self._requests.clear()
         self._continuing = ""
-        self._circle = None
+        self._flight_target.forget()
         if name is None or "target" not in selector.modes[name].REQUESTS:
             self._target = None
         self.home.memory.update(mode=name or "", target=None)
@@ -391,7 +371,14 @@ class FlightModeManager(BaseFlightController):
             )
 
     def _on_target(self, command: NavigationTargetCommand) -> None:
-        self._target = self.home.target_of(command, self._navigation)
+        target, situation = self.home.target_of(command, self._navigation), self._situation
+        name = self.acting_mode or ""
+        modes = self._selector.modes
+        if name not in modes or "target" not in modes[name].REQUESTS:
+            name = Guided.NAME
+        if situation is not None and name in modes:
+            self._selector.check(name, replace(situation, target=target))
+        self._target = target
 
     def _on_home(self, command: HomeCommand) -> None:
         self.home.set(command, self._navigation)
@@ -416,6 +403,12 @@ class FlightModeManager(BaseFlightController):
                 f"a required {what} acts in {' and '.join(able) or 'no flight mode'} only",
                 detail=REFUSED,
             )
+        situation = self._situation
+        if what == "altitude" and situation is not None and situation.navigation is not None:
+            limit_m = self.context.config(GUIDED).max_climb_m
+            refusal = altitude_refusal(value, situation.navigation, situation.home, limit_m)
+            if refusal is not None:
+                raise CommandRefusedError(refusal.text, detail=refusal.code)
         self._requests[what] = value
 
     def required(self, what: str) -> float | None:

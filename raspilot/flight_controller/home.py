@@ -20,6 +20,9 @@ from up.flight_modes.navigation_state import LocalFrame, NavigationState
 MAX_DISTANCE_M = 100_000.0
 """No target is farther away: the plane of the estimator would no longer fit the Earth."""
 
+MAX_HOME_STEP_M = 50.0
+"""Less than the return height: RETURN must not aim below the ground of the present home."""
+
 MIN_PROGRESS_M_S = 0.5
 STANDING_M_S = 3.0
 """A faster aircraft that is armed is in the air, for example after a brown-out."""
@@ -85,6 +88,7 @@ class HomeKeeper:
                 longitude_deg=command.longitude_deg,
             )
         if command.altitude_m is not None:
+            _check_altitude(command.altitude_m, self.place, navigation)
             place = replace(place, altitude_m=command.altitude_m)
         self._set(place, "command")
 
@@ -178,6 +182,23 @@ def _check_distance(
             f"that point is {away_m / 1000:.0f} km away: at most"
             f" {MAX_DISTANCE_M / 1000:.0f} km is possible",
             detail="too_far",
+        )
+
+
+def _check_altitude(
+    altitude_m: float, home: Place | None, navigation: NavigationState | None
+) -> None:
+    if home is None:
+        reference_m, limit_m, what = require_position(navigation).altitude_m, 500.0, "the aircraft"
+    else:
+        reference_m, limit_m, what = home.altitude_m, MAX_HOME_STEP_M, "home as it is now"
+    away_m = altitude_m - reference_m
+    if abs(away_m) > limit_m:
+        side = "above" if away_m > 0 else "below"
+        raise CommandRefusedError(
+            f"that altitude is {abs(away_m):.0f} m {side} {what}: at most {limit_m:g} m"
+            " is possible",
+            detail="home_altitude",
         )
 
 

@@ -9,8 +9,15 @@ from typing import ClassVar
 from raspilot.navigation.planning import circle_around, distance_m
 from up.config import ConfigFile, key
 from up.flight_modes.demand import Demand, PathDemand
-from up.flight_modes.flight_mode import FlightMode, FlightSituation, ModeRefusal, Target
+from up.flight_modes.flight_mode import (
+    FlightMode,
+    FlightSituation,
+    Home,
+    ModeRefusal,
+    Target,
+)
 from up.flight_modes.navigation_file import NAVIGATION
+from up.flight_modes.navigation_state import NavigationState
 
 
 @dataclass(frozen=True, slots=True)
@@ -29,6 +36,24 @@ class GuidedConfig:
 
 
 GUIDED = ConfigFile("guided.yml", GuidedConfig)
+
+
+def altitude_refusal(
+    altitude_m: float, state: NavigationState, home: Home | None, limit_m: float
+) -> ModeRefusal | None:
+    """Return why an altitude that the ground requires is not flown to; None: it is."""
+    climb_m = altitude_m - state.altitude_m
+    if not abs(climb_m) <= limit_m:
+        side, code = ("above", "target_too_high") if climb_m > 0 else ("below", "target_too_low")
+        return ModeRefusal(
+            code,
+            f"the target is {abs(climb_m):.0f} m {side} the aircraft, more than {limit_m:g} m"
+            " (guided.yml: max_climb_m)",
+        )
+    if home is not None and altitude_m < home.altitude_m:
+        below_m = home.altitude_m - altitude_m
+        return ModeRefusal("target_below_home", f"the target is {below_m:.0f} m below home")
+    return None
 
 
 class Guided(FlightMode):
@@ -53,17 +78,9 @@ class Guided(FlightMode):
                 f"the target is {away_m / 1000:.1f} km away, more than"
                 f" {limits.max_distance_m / 1000:g} km (guided.yml: max_distance_m)",
             )
-        climb_m = target.altitude_m - state.altitude_m
-        if not abs(climb_m) <= limits.max_climb_m:
-            side = "above" if climb_m > 0 else "below"
-            return ModeRefusal(
-                "target_too_high" if climb_m > 0 else "target_too_low",
-                f"the target is {abs(climb_m):.0f} m {side} the aircraft, more than"
-                f" {limits.max_climb_m:g} m (guided.yml: max_climb_m)",
-            )
-        if situation.home is not None and target.altitude_m < situation.home.altitude_m:
-            below_m = situation.home.altitude_m - target.altitude_m
-            return ModeRefusal("target_below_home", f"the target is {below_m:.0f} m below home")
+        refusal = altitude_refusal(target.altitude_m, state, situation.home, limits.max_climb_m)
+        if refusal is not None:
+            return refusal
         if target.radius_m is not None and not target.radius_m > 0:
             text = f"the radius of the target is {target.radius_m:g} m; it must be above 0"
             return ModeRefusal("target_radius", text)

@@ -215,6 +215,14 @@ class TestHome:
         rig.setpoint()
         assert refusal(rig.outcome(HomeCommand(-48.0, 17.0))) == "too_far"
 
+    def test_an_altitude_below_the_ground_of_home_is_refused(self, rig):
+        """RETURN would fly to its height above it."""
+        assert refusal(rig.outcome(HomeCommand(altitude_m=-1000.0))) == "home_altitude"
+        assert refusal(rig.outcome(HomeCommand(48.0, 17.0, altitude_m=199.0))) == "home_altitude"
+        assert rig.manager.home.place.altitude_m == 250.0
+        assert rig.outcome(HomeCommand(altitude_m=205.0)) == [None]
+        assert rig.manager.home.place.altitude_m == 205.0
+
     @pytest.mark.parametrize(
         ("wind", "time_s"),
         [((0.0, 0.0), 12.7), ((-4.0, 0.0), 20.0), ((0.0, 11.1), None), ((-11.0, 0.0), None)],
@@ -250,6 +258,35 @@ class TestRequests:
 
     def test_a_target_ten_thousand_kilometres_away_is_refused(self, rig):
         assert refusal(rig.outcome(NavigationTargetCommand(-40.0, 17.0))) == "too_far"
+
+    @pytest.mark.parametrize(
+        ("altitude_m", "code"),
+        [(-500.0, "target_too_low"), (4000.0, "target_too_high"), (249.0, "target_below_home")],
+    )
+    def test_an_impossible_target_or_altitude_is_refused_in_the_mode_that_would_fly_to_it(
+        self, rig, altitude_m, code
+    ):
+        target = NavigationTargetCommand(48.01, 17.0, altitude_m=altitude_m)
+        assert refusal(rig.outcome(target)) == code
+        rig.state()
+        rig.outcome(NavigationTargetCommand(48.01, 17.0, altitude_m=300.0))
+        rig.frame()
+        rig.outcome(FlightModeCommand("GUIDED"))
+        rig.setpoint()
+        assert refusal(rig.outcome(target)) == code
+        rig.outcome(FlightModeCommand("LOITER"))
+        rig.setpoint()
+        assert refusal(rig.outcome(AltitudeCommand(altitude_m, "required"))) == code
+        assert rig.manager.required("altitude") is None
+
+    def test_a_required_altitude_is_shown_as_that_of_the_circle(self, rig):
+        rig.state()
+        rig.outcome(FlightModeCommand("LOITER"))
+        rig.setpoint()
+        assert rig.manager.telemetry_content["navigation"]["target"]["altitude"] == 250.0
+        assert rig.outcome(AltitudeCommand(320.0, "required")) == [None]
+        rig.setpoint()
+        assert rig.manager.telemetry_content["navigation"]["target"]["altitude"] == 320.0
 
     def test_a_course_acts_in_a_mode_that_follows_it_and_is_shown(self, rig):
         required = HeadingCommand(-90.0, "required")
