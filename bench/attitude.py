@@ -17,7 +17,6 @@ from arduino_cog.wire import OUTPUTS
 from bench.table import LeftOutError, Row
 from raspilot.navigation.estimator import Estimator
 from raspilot.navigation.fix_gate import Fix
-from tools.tuning.workers import MAX_PROCESSES, Workers
 from up_simulator.aircraft import FlightDynamics, Start, Weather, load_airframe
 from up_simulator.aircraft.flight import FlightUnavailableError
 from up_simulator.firmware.build import BoardUnavailableError, choose_board
@@ -26,6 +25,7 @@ from up_simulator.firmware.line_monitor import LineMonitor
 from up_simulator.firmware.preparation import PreparationError, cached_eeprom
 from up_simulator.harness.firmware_aircraft import FirmwareAircraft
 from up_simulator.harness.user_log import no_log
+from up_simulator.harness.workers import MAX_PROCESSES, Workers
 from up_simulator.phone.sensors import PhoneSensors
 from up_simulator.radio.circling_pilot import CirclingPilot
 

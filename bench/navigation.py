@@ -21,11 +21,11 @@ from bench.navigation_flight import (
 )
 from bench.navigation_random import fly_at_random, random_rows
 from bench.table import LeftOutError, Row
-from tools.tuning.workers import MAX_PROCESSES, Workers
 from up.flight_modes.demand import Circle, Line, PathDemand
 from up_simulator.aircraft.flight import FlightUnavailableError
 from up_simulator.firmware.build import BoardUnavailableError
 from up_simulator.firmware.preparation import PreparationError
+from up_simulator.harness.workers import MAX_PROCESSES, Workers
 from up_simulator.scenario.event import Event
 from up_simulator.scenario.flight import ScenarioFlight
 from up_simulator.scenario.initial_conditions import WeatherPart

@@ -44,16 +44,9 @@ def run(options: argparse.Namespace) -> int:
 
 
 def _check(options: argparse.Namespace) -> int:
-    try:
-        plan = _read(options.file)
-    except PlanError as error:
-        if options.json:
-            problems = [each.data for each in error.found]
-            echo(json.dumps({"file": str(options.file), "problems": problems}, indent=1))
-        else:
-            _print_problems(options.file, error.found)
+    plan = _opened(options)
+    if plan is None:
         return EXIT_FAILED
-    _print_notes(options.file, plan)
     if options.json:
         notes = [each.data for each in plan.notes]
         told = {"file": str(options.file), "form": plan.form, "problems": [], "notes": notes}
@@ -66,12 +59,9 @@ def _check(options: argparse.Namespace) -> int:
 
 
 def _upload(options: argparse.Namespace) -> int:
-    try:
-        plan = _read(options.file)
-    except PlanError as error:
-        _print_problems(options.file, error.found)
+    plan = _opened(options)
+    if plan is None:
         return EXIT_FAILED
-    _print_notes(options.file, plan)
     contents: dict[str, Sequence[PlanItem]] = {FENCE: plan.borders, MISSION: plan.items}
     wanted = {each: contents[each] for each in options.plans if contents[each]}
     if not wanted:
@@ -120,7 +110,7 @@ def _transfer(
     numbers: Sequence[int] = (),
     save: Any = None,
 ) -> int:
-    """Transfer plans one after the other; those that are None are downloaded."""
+    """Transfer plans one after the other; None: it is downloaded."""
     tasks: list[TransferTask] = []
 
     def make(reactor: Any) -> TransferTask:
@@ -142,6 +132,24 @@ def _transfer(
             text = f"{plan}: {_count(outcome.items, plan)} in use"
             echo(text, "plan_in_use", plan=plan, count=len(outcome.items), id=outcome.plan_id)
     return status
+
+
+def _opened(options: argparse.Namespace) -> Plan | None:
+    """Return the contents of the file; None after its problems are printed."""
+    path: Path = options.file
+    try:
+        plan = _read(path)
+    except PlanError as error:
+        if options.json:
+            problems = [each.data for each in error.found]
+            echo(json.dumps({"file": str(path), "problems": problems}, indent=1))
+        else:
+            for each in error.found:
+                print_error(f"{path}: {each}", each.code, **each.fields)
+        return None
+    for each in plan.notes:
+        print_error(f"note: {path}: {each}", each.code, **each.fields)
+    return plan
 
 
 def _read(path: Path) -> Plan:
@@ -188,13 +196,3 @@ def _print_refusal(plan: str, outcome: PlanOutcome, numbers: Sequence[int]) -> N
         print_error(f"{each}{there}", each.code, **each.fields, number=number)
     if outcome.untold:
         print_error(f"and {outcome.untold} more problems", "untold", untold=outcome.untold)
-
-
-def _print_problems(path: Path, problems: Sequence[PlanProblem]) -> None:
-    for each in problems:
-        print_error(f"{path}: {each}", each.code, **each.fields)
-
-
-def _print_notes(path: Path, plan: Plan) -> None:
-    for each in plan.notes:
-        print_error(f"note: {path}: {each}", each.code, **each.fields)

@@ -112,7 +112,7 @@ class MissionStatus(CommandTask):
                 away = "" if distance_m is None else f", {distance_m:.0f} m away"
                 text = f"mission {telemetry.text(MISSION, 'id')}: item {item:.0f} of {count:.0f}"
                 text += ", finished" if telemetry.flag(MISSION, "is_finished") else away
-            self.echo(
-                f"{text}\nborders of the fence: {borders or 0:.0f}\nflight mode: {mode or '--'}"
-            )
+            self.echo(text)
+            self.echo(f"borders of the fence: {borders or 0:.0f}")
+            self.echo(f"flight mode: {mode or '--'}")
         self.finish(EXIT_OK)

@@ -17,7 +17,7 @@ waypoints (QGC WPL 110, of Mission Planner or MAVProxy: mission only).
 The first flight of a mission
   up-ground mission check field.plan     offline: every problem, with its item
   up-ground mission upload field.plan    the aircraft checks it as a whole, with
-                                         its home, fence, wind and airspeeds, and
+                                         its home, fence, wind, airspeeds, and
                                          uses all of it or nothing; then it is
                                          read back and compared
   up-ground mission status               the plans in use, and the next item
@@ -29,8 +29,8 @@ A file without borders leaves the fence of the aircraft unchanged, one without
 items its mission. Of a file with both the fence is uploaded first.
 
 exit status
-  0 done; 1 problems in the file, or refused by the aircraft: what was in use
-  before stays in use; 2 error in the command line; 3 no connection, no aircraft
+  0 done; 1 problems in the file, or refused by the aircraft, which
+  keeps its plans; 2 error in the command line; 3 no connection, no aircraft
   or no answer
 """
 

@@ -41,6 +41,7 @@ VERBS = {
     "check": ("look for mistakes in scenario files without flying", "up_simulator.verbs.check"),
     "signals": ("list what can be expected and logged", "up_simulator.verbs.signals"),
     "all": ("fly every scenario that is shipped, and count", "up_simulator.verbs.all"),
+    "prove": ("fly your configuration through every failure", "up_simulator.verbs.prove"),
     "tune": ("step tests over gains; proposes a set", "tools.tuning.cli"),
     "start": ("the virtual aircraft in real time", "up_simulator.harness.start"),
     "radio": ("take the sticks of an aircraft that flies", "up_simulator.radio.rc_override"),

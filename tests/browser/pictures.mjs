@@ -41,8 +41,8 @@ async function flyMission(ground) {
   await ground.press("#plan-upload");
   await ground.reason("#plan-note", "ack");
   await ground.answerTo(() => ground.press("#mission-start"));
-  await ground.until(() => document.querySelector(".plan-point.is-flown")?.textContent === "3", "item 3");
-  await page.click('#plan-table tr[data-item="3"] button');
+  await ground.until(() => document.querySelector(".plan-point.is-flown")?.textContent === "2", "item 2");
+  await page.click('#plan-table tr[data-item="2"] button');
   await ground.show("#panel-map");
 }
 

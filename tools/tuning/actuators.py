@@ -93,6 +93,9 @@ class Actuators:
     def crash(self) -> str | None:
         return self.dynamics.crash
 
+    def set_charge(self, percent: float) -> None:
+        self.dynamics.set_charge(percent)
+
     def set_servos(self, pulses_us: Pulses) -> None:
         self._waiting.append(pulses_us)
         while len(self._waiting) > round(self.delay_s / STEP_S) + 1:

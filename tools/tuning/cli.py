@@ -24,7 +24,6 @@ from tools.tuning.report import log_lines, rough_lines, rules_lines, tuning_line
 from tools.tuning.response_picture import draw_tuning
 from tools.tuning.trial import TrialError
 from tools.tuning.tune import TuneError, try_rough_air, tune_axis, tune_yaw
-from tools.tuning.workers import MAX_PROCESSES, Workers
 from up.cli.cli_error import CliError, UsageError
 from up.cli.option_parser import OptionParser
 from up.commands.gains import Gains, GainSet
@@ -38,6 +37,7 @@ from up_simulator.firmware.board import BoardCrashedError
 from up_simulator.firmware.build import BoardUnavailableError
 from up_simulator.firmware.preparation import PreparationError
 from up_simulator.firmware.settings_wire import SettingsError
+from up_simulator.harness.workers import MAX_PROCESSES, Workers
 from up_simulator.picture.flight_picture import draw_flight
 from up_simulator.scenario.log import LogError, read_log
 from up_simulator.scenario.run import try_folder

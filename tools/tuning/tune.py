@@ -18,11 +18,11 @@ from tools.tuning.experiments import (
 )
 from tools.tuning.gain_set import Axis, AxisGains, axis_gains, with_axis
 from tools.tuning.margins import Margins
-from tools.tuning.workers import Workers
 from up.commands.gains import Gains, GainSet
 from up.errors import UserError
 from up_simulator.aircraft import Weather
 from up_simulator.harness.user_log import Log, no_log
+from up_simulator.harness.workers import Workers
 
 STABILIZE_P = (2.0, 3.0, 4.0, 5.0, 6.0, 8.0)
 QUICK_STABILIZE_P = (4.0, 8.0)

@@ -123,7 +123,7 @@ def load_airframe(name_or_path: str | Path) -> Airframe:
         battery=file.battery,
         imu=file.imu,
         limits=file.limits,
-        profile=_without_nulls(dataclasses.asdict(file.profile)),
+        profile=without_nulls(dataclasses.asdict(file.profile)),
         gains={"units": "degrees per second", **dataclasses.asdict(file.gains)},
         navigation=dataclasses.asdict(file.navigation),
     )
@@ -148,9 +148,10 @@ def _path_of(name_or_path: str | Path) -> Path:
     return path
 
 
-def _without_nulls(values: dict[str, Any]) -> dict[str, Any]:
+def without_nulls(values: dict[str, Any]) -> dict[str, Any]:
+    """Return nested maps without the keys that set nothing."""
     kept = {
-        name: _without_nulls(value) if isinstance(value, dict) else value
+        name: without_nulls(value) if isinstance(value, dict) else value
         for name, value in values.items()
     }
     return {name: value for name, value in kept.items() if value is not None and value != {}}

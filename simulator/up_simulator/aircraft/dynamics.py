@@ -184,6 +184,10 @@ class FlightDynamics:
         """Swap in a full battery in flight, which only the simulator can do."""
         self._battery.charge()
 
+    def set_charge(self, percent: float) -> None:
+        """Set the charge of the flight battery."""
+        self._battery.charge(percent)
+
     def launch(self, start: Start) -> None:
         """Restart the flight in the air, with a full battery; the time continues."""
         airframe = self.airframe

@@ -85,6 +85,9 @@ class Dynamics(Protocol):
     def crash(self) -> str | None:
         """Return one sentence about the crash; None while it flies. After it the aircraft rests."""
 
+    def set_charge(self, percent: float) -> None:
+        """Set the charge of the flight battery."""
+
     def set_servos(self, pulses_us: tuple[float, float, float, float]) -> None:
         """Command the servos to these pulses."""
 

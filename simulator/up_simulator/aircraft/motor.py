@@ -44,14 +44,23 @@ class Battery:
     def percent(self) -> float:
         return 100 * self._left_c / self._capacity_c
 
-    def charge(self) -> None:
-        """Be as it was at the launch, as another one of the same kind is."""
-        self._left_c = self._capacity_c * self._config.charge_percent / 100
+    def charge(self, percent: float | None = None) -> None:
+        """Have this charge; by default that of the launch, as another one of the same kind."""
+        share = self._config.charge_percent if percent is None else percent
+        self._left_c = self._capacity_c * share / 100
 
     def draw(self, current_a: float, duration_s: float) -> None:
         self.current_a = current_a + self._config.idle_a
         self._left_c = max(0.0, self._left_c - self.current_a * duration_s)
         self.voltage_v = max(0.0, self.open_v - self.current_a * self._config.resistance_ohm)
+
+
+def charge_at(cell_v: float) -> float:
+    """Return the charge of a LiPo, percent, at which a cell has these volts without current."""
+    for (low, low_v), (high, high_v) in itertools.pairwise(_CELL_V):
+        if cell_v <= high_v:
+            return 100 * max(0.0, low + (high - low) * (cell_v - low_v) / (high_v - low_v))
+    return 100.0
 
 
 class Motor:

@@ -78,6 +78,9 @@ class RecordedFlight:
         rates = (state.roll_rate_deg_s, state.pitch_rate_deg_s, state.yaw_rate_deg_s)
         return motion_at(state.roll_deg, state.pitch_deg, rates)
 
+    def set_charge(self, percent: float) -> None:
+        """Do nothing: it has no battery."""
+
     def set_servos(self, pulses_us: tuple[float, float, float, float]) -> None:
         ailerons, elevator, throttle, rudder = (round(each) for each in pulses_us)
         self._servos = (ailerons, elevator, throttle, rudder)

@@ -101,6 +101,9 @@ class Event:
         None, "A hand holds the aircraft until it throws it, so fast over the ground.", unit="m/s",
         minimum=2, maximum=20,
     )  # fmt: skip
+    flight_battery: float | None = key(
+        None, "Charge of the flight battery from this time.", unit="%", minimum=0, maximum=100
+    )
     phone_battery: float | None = key(
         None, "Battery level of the phone from this time.", unit="%", minimum=0, maximum=100
     )

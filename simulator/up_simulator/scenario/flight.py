@@ -7,6 +7,7 @@ import time
 from collections.abc import Callable
 from typing import cast
 
+from up.commands.board_schema import FLIGHT_MODES
 from up_flightlog.read.demand import Demand, DemandModel
 from up_rig.imu import motion_at
 from up_simulator.aircraft.airframe_file import ImuConfig
@@ -85,6 +86,12 @@ class ScenarioFlight:
     def state(self) -> FlightState:
         """Return the true state of the aircraft."""
         return self._world.state
+
+    @property
+    def board_mode(self) -> str:
+        """Return the mode that the board reports; empty before its first report."""
+        status = self._board.tap.status
+        return "" if status is None else FLIGHT_MODES.get(status.mode_letter, "")
 
     @property
     def is_over(self) -> bool:
@@ -225,6 +232,9 @@ class ScenarioFlight:
                 self._world.dynamics.motor_works = event.motor == "back"
             case "throw":
                 self._world.dynamics.is_thrown = True
+            case "flight_battery":
+                assert event.flight_battery is not None
+                self._world.dynamics.set_charge(event.flight_battery)
             case "serial_noise":
                 assert event.serial_noise is not None
                 board.wires.set_noise(event.serial_noise, board.now_s)

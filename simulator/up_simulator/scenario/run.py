@@ -46,7 +46,7 @@ LOG, CONTROL_LOG, FLIGHT_LOG, REPORT, PICTURE, SUMMARY = (
 )
 BLACK_BOXES = "black-box"
 _WRONG_INPUT = (AirframeError, SettingsError)
-_CODES: dict[type[Exception], str] = {
+CAUSES: dict[type[Exception], str] = {
     AirframeError: "airframe",
     SettingsError: "settings",
     BoardCrashedError: "board_crashed",
@@ -94,7 +94,7 @@ class CannotFlyError(Exception):
     def __init__(self, error: Exception) -> None:
         super().__init__(str(error))
         self.is_wrong_input = isinstance(error, _WRONG_INPUT)
-        self.code = next(code for kind, code in _CODES.items() if isinstance(error, kind))
+        self.code = next(code for kind, code in CAUSES.items() if isinstance(error, kind))
 
 
 def fly_scenario(
@@ -117,7 +117,7 @@ def _fly(name: str, scenario: Scenario, progress: ProgressLine, notify: Notify) 
     progress.begin(name, scenario.duration_s)
     try:
         flight = build_flight(scenario, notify)
-    except tuple(_CODES) as error:
+    except tuple(CAUSES) as error:
         raise CannotFlyError(error) from error
     else:
         with interrupts_between_steps() as interrupt:

@@ -83,10 +83,10 @@ class TestUpload:
         assert found == {(2, "too_far")}
 
     def test_a_fence_that_excludes_home_or_the_mission_is_refused(self, rig):
-        rig.upload(SQUARE)
         far = [{"latitude": 48.0, "longitude": 17.1, "radius": 2000.0}]
         assert refusal(rig.upload(far, "fence")) == "plan_invalid"
         assert rig.ground.sent[-1].problems[0]["code"] == "home_outside"
+        rig.upload(SQUARE)
         small = [{"latitude": 48.0, "longitude": 17.0, "radius": 300.0}]
         assert refusal(rig.upload(small, "fence")) == "plan_invalid"
         assert rig.ground.sent[-1].problems[0]["code"] == "home_outside"

@@ -4,7 +4,7 @@ import pytest
 
 from up_simulator.aircraft import load_airframe
 from up_simulator.aircraft.airframe_file import BatteryConfig, MotorConfig
-from up_simulator.aircraft.motor import Battery, Motor
+from up_simulator.aircraft.motor import Battery, Motor, charge_at
 
 STEP_S = 0.002
 GLIDER = load_airframe("glider")
@@ -104,3 +104,11 @@ def test_extreme_motors_stay_finite():
         run(motor, 1.0, 1.0, 20.0)
         assert abs(motor.thrust_n) < 1e6
         assert 0.0 <= battery.voltage_v <= cells * 4.2
+
+
+@pytest.mark.parametrize("percent", [0, 3, 5, 20, 55, 100])
+def test_the_charge_at_a_voltage_is_the_one_that_gives_it(percent):
+    _, battery = drive()
+    battery.charge(percent)
+    assert charge_at(battery.open_v / 3) == pytest.approx(percent)
+    assert battery.percent == pytest.approx(percent)

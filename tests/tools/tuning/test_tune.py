@@ -7,8 +7,8 @@ import pytest
 from tools.tuning.evaluation import Rules, measured_loop
 from tools.tuning.gain_set import AxisGains, with_axis
 from tools.tuning.tune import TuneError, choose, measure_loops, tune_axis, tune_yaw
-from tools.tuning.workers import Workers
 from up.commands.gains import Gains, GainSet, LoopGains
+from up_simulator.harness.workers import Workers
 
 RULES = Rules()
 BEGIN = GainSet(

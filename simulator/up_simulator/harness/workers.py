@@ -5,8 +5,8 @@ from __future__ import annotations
 import multiprocessing
 import os
 import signal
-from collections.abc import Callable, Sequence
-from concurrent.futures import ProcessPoolExecutor
+from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures import ProcessPoolExecutor, as_completed
 from types import TracebackType
 from typing import Any, TypeVar
 
@@ -32,9 +32,7 @@ class Workers:
         if processes > 1:
             # A fresh interpreter: a fork would share the state of JSBSim and simavr.
             context = multiprocessing.get_context("spawn")
-            self._pool = ProcessPoolExecutor(
-                min(processes, MAX_PROCESSES), context, _begin_worker, (os.getpid(),)
-            )
+            self._pool = ProcessPoolExecutor(processes, context, _begin_worker, (os.getpid(),))
 
     def __enter__(self) -> Workers:
         return self
@@ -54,24 +52,30 @@ class Workers:
 
     def fly(self, trial: Callable[..., T], arguments: Sequence[tuple[Any, ...]]) -> list[T]:
         """Return the results of ``trial`` for each of the arguments, in their order."""
+        found = dict(self.flown(trial, arguments))
+        return [found[at] for at in range(len(arguments))]
+
+    def flown(
+        self, trial: Callable[..., T], arguments: Sequence[tuple[Any, ...]]
+    ) -> Iterator[tuple[int, T]]:
+        """Yield each result as soon as it is there, with the number of its arguments."""
         self._asked += len(arguments)
         if self._pool is None:
-            results = []
-            for each in arguments:
-                results.append(trial(*each))
+            for at, each in enumerate(arguments):
+                result = trial(*each)
                 self._count()
-            return results
+                yield at, result
+            return
         # Starts the processes: whole, and with the signals blocked until each has its handlers.
         before = signal.pthread_sigmask(signal.SIG_BLOCK, SIGNALS)
         try:
-            futures = [self._pool.submit(trial, *each) for each in arguments]
+            futures = {self._pool.submit(trial, *each): at for at, each in enumerate(arguments)}
         finally:
             signal.pthread_sigmask(signal.SIG_SETMASK, before)
-        results = []
-        for future in futures:
-            results.append(future.result())
+        for future in as_completed(futures):
+            result = future.result()
             self._count()
-        return results
+            yield futures[future], result
 
     def _count(self) -> None:
         self._flown += 1

@@ -16,7 +16,7 @@ PROGRAM = """
 import os, pathlib, signal, sys
 from multiprocessing import util
 from up_simulator.harness.signal_handling import orderly_exit
-from tools.tuning.workers import Workers
+from up_simulator.harness.workers import Workers
 
 spawn = util.spawnv_passfds
 

@@ -1,0 +1,1 @@
+"""Flies the owner's configuration through every failure, judges it and names what to change."""
