@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import pytest
 
+from raspilot.flight_modes.glide import Glide
 from raspilot.flight_modes.return_home import Return
 from tests.raspilot.flight_controller_rig import BOARD, Rig
 from tests.raspilot.navigation_rig import (
@@ -344,7 +345,7 @@ class TestSuccessor:
 
     def test_a_fallback_does_not_select_it(self, rig):
         rig.stage.step = None
-        rig.stage.successor = "LOITER"
+        rig.up.get_module(Glide).successor = "LOITER"
         rig.setpoint()
         assert rig.shown()["selected"] == "STAGE"
 
