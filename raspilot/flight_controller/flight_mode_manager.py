@@ -14,8 +14,9 @@ from raspilot.flight_controller.attitude_controller import AttitudeController
 from raspilot.flight_controller.board_authority import AUTO, BoardAuthority
 from raspilot.flight_controller.flight_memory import MEMORY, Place
 from raspilot.flight_controller.flight_target import FlightTarget
+from raspilot.flight_controller.ground_requests import GroundRequests
 from raspilot.flight_controller.home import HomeKeeper, target_of_place, telemetry_of
-from raspilot.flight_modes.guided import GUIDED, Guided, altitude_refusal
+from raspilot.flight_modes.guided import GUIDED, Guided
 from raspilot.modules.navigation_estimator import NavigationEstimator
 from raspilot.navigation.path_controller import PathController
 from up.commands.flight_state_command import FlightModeCommand, FlightStateCommand
@@ -32,7 +33,7 @@ from up.flight_modes.demand import AttitudeDemand, Demand, PathDemand, SurfacesD
 from up.flight_modes.flight_mode import FlightMode, FlightSituation, Target
 from up.flight_modes.navigation_file import NAVIGATION
 from up.flight_modes.navigation_state import NavigationState
-from up.flight_modes.selector import REFUSED, DemandError, FlightModeSelector
+from up.flight_modes.selector import DemandError, FlightModeSelector
 from up.mode import WITH_BOARD, Mode
 from up.needs import wants
 from up.providers.base_provider import Reading
@@ -82,7 +83,7 @@ class FlightModeManager(BaseFlightController):
         self._path_at_s = float("-inf")
         self._target: Target | None = None
         self._resumed_place: Place | None = None
-        self._requests: dict[str, float] = {}
+        self._requests = GroundRequests()
         self._continuing = ""
 
     def on_init(self) -> None:
@@ -127,7 +128,7 @@ class FlightModeManager(BaseFlightController):
         """Return the flight modes, home and target; counts only delivered Commands."""
         dropped = self._executor.control.refused[self.class_name]
         selector = self._selector
-        is_flying = self.is_flying
+        is_flying, target = self.is_flying, self.home.memory.values.target
         offers = selector.offers(self._situation)
         if self._auto is not None:
             missing = selector.missing_for(self._auto)
@@ -140,7 +141,7 @@ class FlightModeManager(BaseFlightController):
                 "modes": offers,
                 "board_modes": list(GROUND_MODES),
             },
-            "navigation": {"target": self._target_content},
+            "navigation": {"target": telemetry_of(target if is_flying else None, "radius")},
             "home": self.home.telemetry(self._navigation, self.config.airspeed.cruise_m_s),
             "counters": {"flight_control": {"published": self.published - dropped}},
         }
@@ -171,10 +172,6 @@ class FlightModeManager(BaseFlightController):
         """Return whether the selected mode permits no failsafe now."""
         mode = self._selector.modes.get(self._selector.selected or "")
         return mode is not None and mode.is_uninterrupted
-
-    @property
-    def _target_content(self) -> Mapping[str, float | None]:
-        return telemetry_of(self.home.memory.values.target if self.is_flying else None, "radius")
 
     @property
     def _navigation(self) -> NavigationState | None:
@@ -396,20 +393,8 @@ class FlightModeManager(BaseFlightController):
 
         Raises CommandRefusedError unless the mode that acts follows it.
         """
-        active = self._selector.modes.get(self._selector.active or "")
-        if not self.is_flying or active is None or what not in active.REQUESTS:
-            able = [name for name, each in self._selector.modes.items() if what in each.REQUESTS]
-            raise CommandRefusedError(
-                f"a required {what} acts in {' and '.join(able) or 'no flight mode'} only",
-                detail=REFUSED,
-            )
-        situation = self._situation
-        if what == "altitude" and situation is not None and situation.navigation is not None:
-            limit_m = self.context.config(GUIDED).max_climb_m
-            refusal = altitude_refusal(value, situation.navigation, situation.home, limit_m)
-            if refusal is not None:
-                raise CommandRefusedError(refusal.text, detail=refusal.code)
-        self._requests[what] = value
+        modes, limit_m = self._selector.modes, self.context.config(GUIDED).max_climb_m
+        self._requests.require(what, value, self.acting_mode, modes, self._situation, limit_m)
 
     def required(self, what: str) -> float | None:
         """Return the course or altitude that the ground requested of the present mode."""
