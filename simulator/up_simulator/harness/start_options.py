@@ -248,6 +248,8 @@ def recording(text: str) -> Path:
 def new_file(text: str) -> Path:
     """Return the path of a file that can be written; raises ``ArgumentTypeError``."""
     path = Path(text)
+    if not path.parent.is_dir():
+        raise argparse.ArgumentTypeError(f"cannot write {text!r}: there is no folder {path.parent}")
     if path.is_dir() or not os.access(path if path.exists() else path.parent, os.W_OK):
         raise argparse.ArgumentTypeError(f"cannot write {text!r}")
     return path
