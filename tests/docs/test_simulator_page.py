@@ -38,8 +38,10 @@ WORDS = {
     "command": "",
     "mark": "",
     "motor": "motor stopped",
+    "flight_battery": "flight battery low",
+    "throw": "",
 }
-"""The page's words for each kind of event; a Command and a mark are no fault."""
+"""The page's words for each kind of event; a Command, a mark and a throw are no fault."""
 
 
 def test_its_commands_work(tmp_path, monkeypatch, capsys):
