@@ -46,8 +46,12 @@ def fill(text: str, telemetry: Telemetry, **known: object) -> str:
     def value(found: re.Match[str]) -> str:
         if found[1] in known:
             return str(known[found[1]])
-        numbers = (telemetry.number(*name.split(".")) for name in found[1].split(" or "))
-        return number_text(next((each for each in numbers if each is not None), None), 0)
+        for path in (name.split(".") for name in found[1].split(" or ")):
+            number = telemetry.number(*path)
+            shown = telemetry.text(*path) if number is None else number_text(number, 0)
+            if shown is not None:
+                return shown
+        return UNKNOWN
 
     return re.sub(r"\{([^}]+)\}", value, text)
 

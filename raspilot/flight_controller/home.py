@@ -20,8 +20,8 @@ from up.flight_modes.navigation_state import LocalFrame, NavigationState
 MAX_DISTANCE_M = 100_000.0
 """No target is farther away: the plane of the estimator would no longer fit the Earth."""
 
-MAX_HOME_STEP_M = 50.0
-"""Less than the return height: RETURN must not aim below the ground of the present home."""
+MAX_HOME_STEP_M = 150.0
+"""Enough to correct a home that was taken in flight; a wrong sign or unit is more."""
 
 MIN_PROGRESS_M_S = 0.5
 STANDING_M_S = 3.0
@@ -78,6 +78,9 @@ class HomeKeeper:
         place = self.place
         if command.latitude_deg is None or command.longitude_deg is None:
             place = _place_of(require_position(navigation))
+            if self.place is not None and self._was_in_flight:
+                # The ground is not where it flies.
+                place = replace(place, altitude_m=self.place.altitude_m)
         else:
             _check_distance(command.latitude_deg, command.longitude_deg, navigation)
             if place is None and command.altitude_m is None:

@@ -32,6 +32,7 @@ from up.mission.items import (
     WAYPOINT,
     MissionItem,
 )
+from up.mode import WITH_BOARD, Mode
 from up.needs import needs
 
 SAVE_S = 5.0
@@ -46,6 +47,7 @@ class Mission(FlightMode):
     """
 
     NAME: ClassVar[str] = "MISSION"
+    MODES: ClassVar[frozenset[Mode]] = WITH_BOARD
     NEEDS: ClassVar[Mapping[str, float]] = {"navigation": 3.0, "orientation": 1.0}
     FALLBACK: ClassVar[str] = "LOITER"
 

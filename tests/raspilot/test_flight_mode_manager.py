@@ -215,10 +215,17 @@ class TestHome:
         rig.setpoint()
         assert refusal(rig.outcome(HomeCommand(-48.0, 17.0))) == "too_far"
 
+    def test_set_in_flight_without_an_altitude_it_keeps_that_of_the_ground(self, rig):
+        rig.state()
+        rig.navigation.state = replace(NAVIGATION, altitude_m=330.0)
+        rig.setpoint()
+        assert rig.outcome(HomeCommand()) == [None]
+        assert rig.manager.home.place.altitude_m == 250.0
+
     def test_an_altitude_below_the_ground_of_home_is_refused(self, rig):
         """RETURN would fly to its height above it."""
         assert refusal(rig.outcome(HomeCommand(altitude_m=-1000.0))) == "home_altitude"
-        assert refusal(rig.outcome(HomeCommand(48.0, 17.0, altitude_m=199.0))) == "home_altitude"
+        assert refusal(rig.outcome(HomeCommand(48.0, 17.0, altitude_m=99.0))) == "home_altitude"
         assert rig.manager.home.place.altitude_m == 250.0
         assert rig.outcome(HomeCommand(altitude_m=205.0)) == [None]
         assert rig.manager.home.place.altitude_m == 205.0

@@ -8,6 +8,7 @@ from time import perf_counter
 from typing import Any
 
 LIMIT_S = 0.02
+AGAIN_S = 1.0
 
 
 class _Collections:
@@ -27,14 +28,16 @@ class _Collections:
 class StepTimer:
     """Tells a step that computes or waits too long from one that the system interrupted.
 
-    A step overruns if it took more than ``limit_s`` and either used that much processor time or
-    gave up the processor by itself (it slept, or waited for a file). Time in which another program
+    A step overruns if it took more than ``limit_s`` and used that much processor time, or, for the
+    second time within AGAIN_S, gave up the processor (it slept, or waited for a file): once it may
+    be Python's lock, held by a thread that the system interrupted. Time in which another program
     ran, or Python collected garbage, is not the step's.
     """
 
     def __init__(self, limit_s: float = LIMIT_S) -> None:
         self.limit_s = limit_s
         self.last_s = 0.0
+        self._waited_at_s = float("-inf")
         if _Collections.note not in gc.callbacks:
             gc.callbacks.append(_Collections.note)
 
@@ -52,5 +55,10 @@ class StepTimer:
             return False
         used, before = resource.getrusage(resource.RUSAGE_THREAD), self._used
         processor_s = used.ru_utime + used.ru_stime - before.ru_utime - before.ru_stime
-        has_waited = used.ru_nvcsw > before.ru_nvcsw
-        return has_waited or processor_s - collected_s > self.limit_s
+        if processor_s - collected_s > self.limit_s:
+            return True
+        if used.ru_nvcsw == before.ru_nvcsw:
+            return False
+        is_again = self._started_s - self._waited_at_s < AGAIN_S
+        self._waited_at_s = self._started_s
+        return is_again

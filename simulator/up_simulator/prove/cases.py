@@ -237,7 +237,15 @@ def scenario_of(case: Case, setup: Setup) -> Scenario:
         profile=files.get("airframe.yml", {}),
         gains=files.get("pids.yml", {}),
         raspilot=RaspilotPart(
-            "in process", merge(files, {"config.yml": {"flight controller": case.controller}})
+            "in process",
+            merge(
+                files,
+                {
+                    "config.yml": {"flight controller": case.controller},
+                    # The aircraft is armed before its first fix.
+                    "navigation.yml": {"arm_without_home": True},
+                },
+            ),
         ),
         phone=PhonePart(),
         ground=GroundPart(period_ms=500),

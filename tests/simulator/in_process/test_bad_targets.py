@@ -163,12 +163,10 @@ def test_a_home_that_cannot_be_is_refused_and_home_stays(flight, data, named):
     assert flight.ground.telemetry["home"]["latitude"] == home
 
 
-def test_guided_refuses_and_does_not_follow_what_is_too_far(flight):
+def test_a_target_that_guided_would_not_fly_to_is_refused(flight):
     far = {"latitude": 50.3, "longitude": 14.5}
-    flight.asked("up.navigation.target", **far)
-    refusal = flight.refusal("up.flight_mode.set", mode="GUIDED")
-    assert refusal == ("refused", "target_too_far")
-    assert flight.control["modes"]["GUIDED"] == "target_too_far"
+    assert flight.refusal("up.navigation.target", **far) == ("refused", "target_too_far")
+    assert flight.control["modes"]["GUIDED"] == "no_target"
 
 
 @pytest.mark.parametrize("mode", ["", "loiter", "LOITERR", "NaN", "AUTO; rm -rf /", "X" * 5000])

@@ -114,7 +114,6 @@ def _computing(self, situation, dt_s):
     [
         (_raising, "mode_failed"),
         (_exiting, "mode_failed"),
-        (_blocking, "mode_overrun"),
         (_computing, "mode_overrun"),
         (lambda *_: None, "demand_invalid"),
         (lambda *_: AttitudeDemand(math.nan, 0.0), "demand_invalid"),
@@ -129,6 +128,13 @@ def test_a_mode_that_fails_is_replaced_in_the_same_step_until_it_is_selected_aga
     assert rig.step() == 2.0
     rig.selector.select("BEST")
     assert rig.step() == 3.0
+
+
+def test_a_mode_that_waits_is_replaced_at_the_second_time():
+    """Once it may be a thread that holds Python's lock while another program runs."""
+    rig = Rig(type("Bad", (Best,), {"step": _blocking}))
+    assert [rig.step(), rig.step()] == [3.0, 2.0]
+    assert (rig.selector.active, rig.selector.reason) == ("SAFE", "mode_overrun")
 
 
 def test_a_demand_that_cannot_be_carried_out_now_is_tried_again(rig):
