@@ -207,7 +207,9 @@ def scenario_of(case: Case, setup: Setup) -> Scenario:
         row.border, 0.0
     )  # fmt: skip
     if climb_m and not by_sticks:
-        altitude = {"altitude": GROUND_M + height_m + climb_m, "mode": "required"}
+        # Below home it would be refused.
+        altitude_m = GROUND_M + max(1.0, height_m + climb_m)
+        altitude = {"altitude": altitude_m, "mode": "required"}
         events.append(Event(CLIMB_S, command=CommandPart("up.altitude.change", altitude)))
     if row.begin:
         events.append(Event(limits.fail_s, name="failure", **_changed(row.begin, setup)))
