@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any, ClassVar
 
-from twisted.internet.defer import Deferred, DeferredLock, succeed
+from twisted.internet.defer import Deferred, DeferredLock
 from twisted.internet.task import LoopingCall
 from twisted.python.failure import Failure
 
@@ -203,9 +203,9 @@ class Plans(BaseStartedModule):
     def _commit(self, command: MissionCommitCommand) -> Deferred[None]:
         store = self._stores[command.plan]
         in_use = (store.plan_id, len(store.items))
-        if command.count and in_use == (command.plan_id, command.count):
-            return succeed(None)
-        staged, wrong = store.staged(command)
+        # A commit that is repeated does not begin the mission again; home or wind may be others.
+        is_in_use = bool(command.count) and in_use == (command.plan_id, command.count)
+        staged, wrong = (store.items, []) if is_in_use else store.staged(command)
         items, given, mission = tuple(staged), self._circumstances(), self.missions.items
 
         def examine() -> None:
@@ -215,11 +215,12 @@ class Plans(BaseStartedModule):
             problems = wrong or self._problems(command.plan, items, mission, given)
             if problems:
                 raise PlanInvalidError(problems)
-            store.save(items)
+            if not is_in_use:
+                store.save(items)
 
         done = self._disk.run(examine)
         return done.addCallbacks(
-            lambda _: self._use(store, items, command.plan_id),
+            lambda _: None if is_in_use else self._use(store, items, command.plan_id),
             self._on_refused,
             errbackArgs=(command,),
         )

@@ -171,7 +171,7 @@ test("a refused mission marks its items; a changed one is checked, used, read ba
   await page.click("#plan-save");
   const file = await (await saved).path();
   await page.click("#plan-clear");
-  await ground.until(() => document.querySelector("#mission-state").dataset.code === "other", "another one than drawn");
+  await ground.until(() => document.querySelector("#mission-state").dataset.code === "undrawn", "a mission that is not drawn");
   await page.setInputFiles("#plan-file", { name: "m.plan", mimeType: "text/plain", buffer: Buffer.from("{") });
   await ground.reason("#plan-note", "refused plan_invalid");
   assert.deepEqual(await kept(ground), []);

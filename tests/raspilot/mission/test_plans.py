@@ -11,6 +11,7 @@ from up.commands.mission_commands import (
     MissionProblemsCommand,
     MissionRequestCommand,
 )
+from up.commands.navigation_commands import HomeCommand
 from up.config import atomic_writer
 from up.mission.items import plan_id
 
@@ -70,6 +71,12 @@ class TestUpload:
         rig.outcome(MissionItemCommand(3))
         assert rig.commit(SQUARE) == [None]
         assert shown(rig)["mission"]["item"] == 3
+
+    def test_a_plan_in_use_that_is_uploaded_again_is_checked_again(self, rig):
+        rig.upload(FENCE, "fence")
+        rig.outcome(HomeCommand(48.03, 17.0))
+        assert refusal(rig.upload(FENCE, "fence")) == "plan_invalid"
+        assert rig.ground.sent[-1].problems[0]["code"] == "home_outside"
 
     def test_problems_go_to_the_ground_by_item_and_code(self, rig):
         bad = [placed(400, 0), placed(40_000, 0), {**placed(0, 0), "altitude": "high"}]

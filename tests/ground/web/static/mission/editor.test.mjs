@@ -67,6 +67,7 @@ test("an edit makes the drawn mission another than the aircraft's, and undo the 
   assert.equal(state({ id: "abc", count: 3 }), "same");
   assert.equal(state({ id: "def", count: 3 }), "other");
   assert.equal(state({ id: "", count: 0 }), "none");
+  assert.equal(usedState(new Editor(new Storage()), telemetry({ mission: { id: "abc", count: 3 } }), MISSION), "undrawn");
   assert.equal(usedState(editor, telemetry({}), MISSION), "unknown");
 });
 

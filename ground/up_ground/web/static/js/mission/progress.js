@@ -2,7 +2,7 @@ import { FENCE, MISSION } from "./plan.js";
 
 /**
  * Whether the aircraft has the drawn plan: `unknown` (it reports none of its plans), `none` (it has
- * no plan), `same`, `other`.
+ * no plan), `same`, `other`, `undrawn` (it has one, and nothing is drawn).
  */
 export function usedState(editor, store, name) {
   const id = store.text(`${name}.id`);
@@ -13,6 +13,9 @@ export function usedState(editor, store, name) {
   if (!id || count === 0) {
     return "none";
   }
+  if (editor.drawn[name].length === 0) {
+    return "undrawn";
+  }
   return editor.isUsed(id, name) ? "same" : "other";
 }
 
@@ -20,6 +23,7 @@ const STATES = {
   unknown: (name) => `The aircraft reports no ${name}.`,
   none: (name) => `The aircraft has no ${name}.`,
   same: (name) => `The aircraft has this ${name}.`,
+  undrawn: (name) => `The aircraft has a ${name}: Download draws it.`,
   other: (name) => `The aircraft has another ${name} than the drawn one: upload, or download its own.`,
 };
 
