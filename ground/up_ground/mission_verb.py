@@ -30,7 +30,7 @@ items its mission. Of a file with both the fence is uploaded first.
 
 exit status
   0 done; 1 problems in the file, or refused by the aircraft, which
-  keeps its plans; 2 error in the command line; 3 no connection, no aircraft
+  keeps that plan as it was; 2 error in the command line; 3 no connection, no aircraft
   or no answer
 """
 

@@ -139,6 +139,11 @@ class Telemetry:
         found = _at(self.data, path)
         return sanitize_text(found, limit) if isinstance(found, str) else None
 
+    def is_null(self, *path: str) -> bool:
+        """Return whether the aircraft reports null at that key path."""
+        above = _at(self.data, path[:-1])
+        return isinstance(above, dict) and above.get(path[-1], "") is None
+
     def texts(self, *path: str, limit: int = 80) -> list[str] | None:
         """Return a list of texts, safe for a terminal; None: unknown."""
         found = _at(self.data, path)

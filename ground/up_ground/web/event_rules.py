@@ -37,7 +37,9 @@ def state_of(rule: Rule, telemetry: Telemetry, before: Any) -> Any:
     """Return the value or the condition of a rule; None (unknown) does not count as a change."""
     path = rule.path.split(".")
     if rule.type == "text":
-        return telemetry.text(*path)
+        # Where a rule has an end, null is it; an absent field stays unknown.
+        is_over = bool(rule.end) and telemetry.is_null(*path)
+        return "" if is_over else telemetry.text(*path)
     if rule.type == "texts":
         texts = telemetry.texts(*path)
         return None if texts is None else tuple(sorted(texts))

@@ -118,6 +118,16 @@ def test_what_is_wrong_from_the_beginning_is_told():
     assert bench.alarms == [["failsafe"]]
 
 
+def test_a_replaced_mode_is_named_and_its_end_and_its_return_are_events(bench):
+    control = {"mode": "CIRCLE", "selected": "LOITER", "fallback": "navigation"}
+    over = {"mode": "LOITER", "selected": "LOITER", "fallback": None}
+    for each in (over, control, over, control):
+        bench.see(after_s=5.0, flight_control=each).wait(3.0)
+    assert bench.codes == ["fallback", "fallback_over", "fallback"]
+    first = next(each for each in bench.told if each["type"] == "event")
+    assert first["text"].startswith("CIRCLE replaces LOITER")
+
+
 def test_unknown_is_no_change(bench):
     bench.see(flight_mode=None).see(flight_mode=["x"]).see(flight_mode="FBW")
     assert bench.codes == []
