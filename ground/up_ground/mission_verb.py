@@ -29,9 +29,9 @@ A file without borders leaves the fence of the aircraft unchanged, one without
 items its mission. Of a file with both the fence is uploaded first.
 
 exit status
-  0 done; 1 problems in the file, or refused by the aircraft, which
-  keeps that plan as it was; 2 error in the command line; 3 no connection, no aircraft
-  or no answer
+  0 done; 1 problems in the file, or refused by the aircraft, which keeps
+  that plan as it was; 2 error in the command line; 3 no connection, no
+  aircraft or no answer
 """
 
 
