@@ -266,8 +266,14 @@ class FlightModeManager(BaseFlightController):
         if situation.time_s - self._path_at_s > PATH_PAUSE_S:
             self._path_controller.reset()
         self._path_at_s = situation.time_s
-        mode = self._selector.modes.get(self._selector.selected or "")
-        self._flight_target.follow(demand, None if mode is None else mode.goal, navigation)
+        selector = self._selector
+        mode = selector.modes.get(selector.selected or "")
+        self._flight_target.follow(
+            demand,
+            None if mode is None else mode.goal,
+            navigation,
+            is_fallback=selector.running != selector.selected,
+        )
         attitude = self._path_controller.step(demand, navigation, dt_s)
         if not self._has_motor:
             attitude = replace(attitude, throttle=None)

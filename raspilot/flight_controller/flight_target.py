@@ -23,8 +23,18 @@ class FlightTarget:
         """Begin a mode: the next demand is saved whatever it is."""
         self._saved = None
 
-    def follow(self, demand: PathDemand, goal: Target | None, navigation: NavigationState) -> None:
-        """Take the demand of a step, and the goal of its mode."""
+    def follow(
+        self,
+        demand: PathDemand,
+        goal: Target | None,
+        navigation: NavigationState,
+        *,
+        is_fallback: bool,
+    ) -> None:
+        """Take the demand of a step, and the goal of its mode.
+
+        A fallback that flies no circle leaves the one to which the selected mode comes back.
+        """
         saved, path = self._saved, demand.path
         if goal is None and isinstance(path, Circle):
             altitude_m = demand.altitude_m
@@ -32,7 +42,7 @@ class FlightTarget:
                 altitude_m = navigation.altitude_m if saved is None else saved.altitude_m
             goal = Target(path.centre, altitude_m, path.radius_m)
         if goal is None:
-            if saved is not None:
+            if saved is not None and not is_fallback:
                 self._saved = None
                 self._memory.update(target=None)
         elif saved is None or not _is_near(goal, saved):

@@ -55,6 +55,8 @@ class FlightModeSelector:
         self._broken: dict[str, str] = {}
         self._entered: set[str] = set()
         self.timer = StepTimer()
+        self.running: str | None = None
+        """The mode whose step or demand is being carried out."""
 
     def missing_for(self, name: str) -> list[str]:
         """Return the readings that keep a mode from acting."""
@@ -141,6 +143,7 @@ class FlightModeSelector:
         carry_out: Callable[[Demand, FlightSituation, float], _T],
     ) -> _T:
         timer = self.timer
+        self.running = mode.NAME
         timer.start()
         if mode.NAME not in self._entered:
             self._entered.add(mode.NAME)

@@ -41,7 +41,7 @@ class {name}(FlightMode):
 FAULTS = {
     "RAISES": ("return 1 / 0", "mode_failed"),
     "EXITS": ("raise SystemExit", "mode_failed"),
-    "BLOCKS": ("__import__('time').sleep(0.05)", "mode_overrun"),
+    "BLOCKS": ("__import__('time').sleep(0.05); return AttitudeDemand(0.0, 0.0)", "mode_overrun"),
     "NOTHING": ("return None", "demand_invalid"),
     "UNKNOWN": ("return AttitudeDemand(float('nan'), 0.0)", "demand_invalid"),
     "INSIDE": ("return PathDemand(Circle(Point(0.0, 0.0), -50.0), 400.0)", "demand_invalid"),
