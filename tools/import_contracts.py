@@ -45,7 +45,7 @@ LAYERS = (
     "up",
     "telemetry_controller | mode_monitor | flight_controller | flight_modes",
     "providers",
-    "base_thread_module",
+    "base_thread_module | base_periodic_module",
     "base_started_module",
     "base_module",
     "needs | vetoes | earth | mission",

@@ -11,9 +11,10 @@ from typing import Any
 
 from up.cli.cli_error import CliError
 from up.cli.option_parser import EXIT_FAILED, EXIT_OK
+from up.commands.mission_commands import FENCE, MISSION
 from up.config.atomic_writer import create_text
 from up.errors import UserError
-from up.mission.items import FENCE, MISSION, Border, MissionItem, PlanItem
+from up.mission.items import Border, MissionItem, PlanItem
 from up.mission.plan import PLAN, WAYPOINTS, Plan, PlanError, PlanProblem
 from up.mission.plan_forms import MAX_CHARACTERS, read_plan, write_plan
 from up.output import echo

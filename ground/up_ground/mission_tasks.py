@@ -11,8 +11,8 @@ from typing import Any
 from up.cli.option_parser import EXIT_FAILED, EXIT_OK
 from up.commands.command import BaseCommand
 from up.commands.flight_state_command import FlightModeCommand
-from up.commands.mission_commands import MissionItemCommand
-from up.mission.items import FENCE, MISSION, PlanItem
+from up.commands.mission_commands import FENCE, MISSION, MissionItemCommand
+from up.mission.items import PlanItem
 from up.protocols.general_message import GeneralMessage, encode
 from up_ground.command_task import CommandTask
 from up_ground.plan_transfer import PlanOutcome, PlanTransfer

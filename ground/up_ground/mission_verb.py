@@ -8,7 +8,7 @@ from typing import Any
 
 from up.cli.option_parser import add_json_option
 from up.cli.verb import add_verb
-from up.mission.items import FENCE, MAX_ITEMS, MISSION, PLANS
+from up.commands.mission_commands import FENCE, MAX_ITEMS, MISSION, PLANS
 
 _EPILOG = """\
 FILE is a plan of QGroundControl (.plan: mission and fence) or a file of

@@ -23,15 +23,7 @@ from up.flight_modes.flight_mode import (
 from up.flight_modes.navigation_file import NAVIGATION
 from up.flight_modes.navigation_state import LocalFrame, Point
 from up.flight_modes.selector import DemandError
-from up.mission.items import (
-    LAND,
-    LOITER_TIME,
-    LOITER_TURNS,
-    RETURN,
-    TAKEOFF,
-    WAYPOINT,
-    MissionItem,
-)
+from up.mission.items import LAND, LOITER_TIME, LOITER_TURNS, RETURN, TAKEOFF, WAYPOINT, MissionItem
 from up.mode import WITH_BOARD, Mode
 from up.needs import needs
 

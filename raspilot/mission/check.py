@@ -16,21 +16,10 @@ from raspilot.mission.legs import CIRCLED, Course, Leg, ahead, has_loop_without_
 from raspilot.mission.progress import NOT_FLOWN
 from raspilot.mission.store import Problem
 from raspilot.navigation.airframe_model import AirframeModel
+from up.commands.mission_commands import FENCE, MAX_ITEMS, MISSION
 from up.flight_modes.navigation_file import NavigationConfig
 from up.flight_modes.navigation_state import LocalFrame, Point
-from up.mission.items import (
-    FENCE,
-    JUMP,
-    LAND,
-    MAX_ITEMS,
-    MISSION,
-    RETURN,
-    SPEED,
-    TAKEOFF,
-    WAYPOINT,
-    Border,
-    MissionItem,
-)
+from up.mission.items import JUMP, LAND, RETURN, SPEED, TAKEOFF, WAYPOINT, Border, MissionItem
 
 MIN_GROUND_M_S, MIN_LEG_M = 2.0, 10.0
 SD_M, HEIGHT_MARGIN_M = 5.0, 10.0

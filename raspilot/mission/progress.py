@@ -5,19 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
+from up.commands.mission_commands import MAX_ITEMS, MISSION
 from up.config import key, mapping
 from up.fields import Constraint
-from up.mission.items import (
-    JUMP,
-    LAND,
-    LOITER,
-    MAX_ITEMS,
-    MISSION,
-    RETURN,
-    SPEED,
-    WAYPOINT,
-    MissionItem,
-)
+from up.mission.items import JUMP, LAND, LOITER, RETURN, SPEED, WAYPOINT, MissionItem
 
 NOT_FLOWN = frozenset({SPEED, JUMP})
 """Kinds that the aircraft does not fly to: they act between two others."""

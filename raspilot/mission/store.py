@@ -9,6 +9,7 @@ from typing import Any, NamedTuple
 
 from up.commands.command import InvalidCommandError
 from up.commands.mission_commands import (
+    MAX_ITEMS,
     PART_ITEMS,
     MissionCommitCommand,
     MissionPartCommand,
@@ -18,7 +19,7 @@ from up.commands.refusal import Code, CommandRefusedError
 from up.config.atomic_writer import write_atomically
 from up.config.loader import read_text
 from up.errors import UserError
-from up.mission.items import ITEM_CLASSES, MAX_ITEMS, PlanItem, plan_id
+from up.mission.items import ITEM_CLASSES, PlanItem, plan_id
 
 MAX_PART_BYTES = 6000
 """Of the items of one part: a border with 100 corners needs 4,500."""

@@ -6,7 +6,6 @@ from collections.abc import Iterator, Mapping
 from typing import Any, ClassVar
 
 from twisted.internet.defer import maybeDeferred
-from twisted.internet.task import LoopingCall
 from twisted.python.failure import Failure
 
 from raspilot.failsafe.config import FAILSAFE, WARN
@@ -17,7 +16,7 @@ from raspilot.flight_controller.flight_mode_manager import FlightModeManager
 from raspilot.flight_modes.return_home import RETURN, Return
 from raspilot.modules.plans import Plans
 from raspilot.navigation.planning import distance_m, flyable_radius_m
-from up.base_started_module import BaseStartedModule
+from up.base_periodic_module import BasePeriodicModule
 from up.failures import FailureSource
 from up.fields import suggestion
 from up.flight_modes.flight_mode import FlightMode, FlightSituation
@@ -27,11 +26,10 @@ from up.mode import WITH_BOARD, Mode
 from up.needs import needs, wants
 from up.providers.base_mission_control_provider import BaseMissionControlProvider
 
-PERIOD_S = 0.2
 ARRIVED_RADII = 3.0
 
 
-class Failsafes(BaseStartedModule):
+class Failsafes(BasePeriodicModule):
     """Watches the triggers of failsafe.yml in flight at AUTO, or without the receiver.
 
     With the switch elsewhere the pilot flies and nothing acts. A trigger's action is a flight
@@ -40,6 +38,7 @@ class Failsafes(BaseStartedModule):
 
     MODES: ClassVar[frozenset[Mode]] = WITH_BOARD
     LOAD_ORDER: ClassVar[int] = 200
+    PERIOD_S: ClassVar[float] = 0.2
     CONFIG = FAILSAFE
 
     flight = needs(FlightModeManager)
@@ -62,23 +61,15 @@ class Failsafes(BaseStartedModule):
         self._sources = self.up.get_modules(FailureSource)
         for number, problem in enumerate(self._contradictions()):
             self.up.vetoes.set(f"failsafe.yml.{number}", problem)
-        reactor = self.context.reactor
-        self._seconds = reactor.seconds
-        self._loop = LoopingCall(self._check)
-        self._loop.clock = reactor
+        self._seconds = self.context.reactor.seconds
 
-    def on_start(self) -> bool:
+    def on_start(self) -> None:
         reported = self._reported_failures()
         for code in self.config.others.keys() - reported.keys():
             hint = suggestion(code, reported)
             text = f"failsafe.yml: others: {code}: no module reports this failure{hint}"
             self.up.vetoes.set(f"failsafe.yml.{code}", text)
-        self._loop.start(PERIOD_S, now=False).addErrback(self._on_fault)
-        return True
-
-    def on_stop(self) -> None:
-        if self._loop.running:
-            self._loop.stop()
+        super().on_start()
 
     @property
     def telemetry_content(self) -> Mapping[str, Any]:
@@ -88,11 +79,6 @@ class Failsafes(BaseStartedModule):
             "failsafe": {"active": self._engine.active, "cause": cause},
             "fence": {"margin": self._fence.margin_m},
         }
-
-    def _on_fault(self, failure: Failure) -> None:
-        """Go on after a fault of this module: without it nothing would act any more."""
-        self.log.failure("the failsafes failed", failure, code="failsafe_failed")
-        self._loop.start(PERIOD_S, now=False).addErrback(self._on_fault)
 
     def _contradictions(self) -> Iterator[str]:
         modes = {each.NAME for each in self.up.get_modules(FlightMode)}
@@ -116,7 +102,7 @@ class Failsafes(BaseStartedModule):
                     f" cross it (return.yml: {limit}: {getattr(home, limit):g} m)"
                 )
 
-    def _check(self) -> None:
+    def on_period(self) -> None:
         flight, state = self.flight, self.flight.board.state
         if state is None or not state.is_in_flight:
             self._engine.update(self._seconds(), {})

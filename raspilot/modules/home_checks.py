@@ -4,9 +4,6 @@ from __future__ import annotations
 
 from typing import Any, ClassVar
 
-from twisted.internet.task import LoopingCall
-from twisted.python.failure import Failure
-
 from raspilot.failsafe.config import FAILSAFE
 from raspilot.flight_controller.flight_memory import Place
 from raspilot.flight_controller.flight_mode_manager import FlightModeManager
@@ -14,7 +11,7 @@ from raspilot.flight_modes.return_home import RETURN, Return
 from raspilot.mission.borders import leads_straight, local_borders, margin_m
 from raspilot.modules.phone_watch import PHONE_LINK
 from raspilot.modules.plans import Plans
-from up.base_started_module import BaseStartedModule
+from up.base_periodic_module import BasePeriodicModule
 from up.commands.system_commands import LinkStateCommand
 from up.flight_modes.navigation_file import NAVIGATION
 from up.flight_modes.navigation_state import LocalFrame, Point
@@ -23,11 +20,10 @@ from up.mode import WITH_BOARD, Mode
 from up.needs import needs, wants
 from up.providers.up_location_provider import UpLocationProvider
 
-PERIOD_S = 0.5
 HOME = Point(0.0, 0.0)
 
 
-class HomeChecks(BaseStartedModule):
+class HomeChecks(BasePeriodicModule):
     """Checks home on the ground; in flight nothing changes.
 
     Home is required where a failsafe flies RETURN and a position can be expected: a phone is
@@ -37,6 +33,7 @@ class HomeChecks(BaseStartedModule):
 
     MODES: ClassVar[frozenset[Mode]] = WITH_BOARD
     LOAD_ORDER: ClassVar[int] = 210
+    PERIOD_S: ClassVar[float] = 0.5
 
     flight = needs(FlightModeManager)
     location = wants(UpLocationProvider)
@@ -52,26 +49,15 @@ class HomeChecks(BaseStartedModule):
         self._returns = any(each.action == Return.NAME for each in failsafes)
         self._navigation = self.context.config(NAVIGATION)
         self.up.command_executor.register_command(LinkStateCommand, self._on_link)
-        self._loop = LoopingCall(self._check)
-        self._loop.clock = self.context.reactor
 
-    def on_start(self) -> bool:
-        self._loop.start(PERIOD_S, now=False).addErrback(self._on_fault)
-        return True
-
-    def on_stop(self) -> None:
-        if self._loop.running:
-            self._loop.stop()
-
-    def _on_fault(self, failure: Failure) -> None:
-        self.log.failure("the checks of home failed", failure, code="home_checks_failed")
+    def on_fault(self) -> None:
         self.up.vetoes.set("home", "its checks failed; see the log")
 
     def _on_link(self, command: LinkStateCommand) -> None:
         if command.link == PHONE_LINK:
             self._has_phone = command.connected
 
-    def _check(self) -> None:
+    def on_period(self) -> None:
         state, place = self.flight.board.state, self.flight.home.place
         if state is not None and state.is_in_flight:
             return

@@ -8,16 +8,15 @@ from collections.abc import Callable, Mapping
 from typing import Any, NamedTuple
 
 from twisted.internet.defer import Deferred
-from twisted.internet.task import LoopingCall
-from twisted.python.failure import Failure
 
+from up.base_periodic_module import BasePeriodicModule
 from up.base_started_module import BaseStartedModule
 from up.failures import FailureSource
 from up.needs import needed_by
 
 REACTOR = "reactor"
 """The counters of the reactor's monitor: blocks of more than 20 ms, by the module to blame."""
-PERIOD_S, WINDOW_S = 1.0, 10.0
+WINDOW_S = 10.0
 MANY = 10
 """This number of blocks in WINDOW_S are an overload; a busy computer causes a few."""
 BUSY_SHARE = 0.8
@@ -30,7 +29,7 @@ class _Sample(NamedTuple):
     blocks: Counter[str]
 
 
-class OverloadGuard(BaseStartedModule, FailureSource):
+class OverloadGuard(BasePeriodicModule, FailureSource):
     """Reports the failure ``overload``, and sheds modules with a ``SHED_ORDER`` while it lasts.
 
     The one that causes most blocks goes first if it may; otherwise, while the reactor's thread
@@ -48,25 +47,12 @@ class OverloadGuard(BaseStartedModule, FailureSource):
 
     def on_init(self) -> None:
         self._seconds = self.context.reactor.seconds
-        self._loop = LoopingCall(self._check)
-        self._loop.clock = self.context.reactor
-
-    def on_start(self) -> bool:
-        self._loop.start(PERIOD_S, now=False).addErrback(self._on_fault)
-        return True
-
-    def on_stop(self) -> None:
-        if self._loop.running:
-            self._loop.stop()
 
     @property
     def failures(self) -> Mapping[str, bool]:
         return {"overload": self._is_overloaded}
 
-    def _on_fault(self, failure: Failure) -> None:
-        self.log.failure("the overload guard failed", failure, code="overload_guard_failed")
-
-    def _check(self) -> None:
+    def on_period(self) -> None:
         samples, now_s = self._samples, self._seconds()
         newest = _Sample(now_s, self.processor_s(), Counter(self.up.counters_of(REACTOR)))
         samples.append(newest)

@@ -6,7 +6,6 @@ from collections.abc import Mapping
 from typing import Any, ClassVar
 
 from twisted.internet.defer import Deferred, DeferredLock
-from twisted.internet.task import LoopingCall
 from twisted.python.failure import Failure
 
 from raspilot.failsafe.config import FAILSAFE
@@ -18,10 +17,13 @@ from raspilot.mission.config import MISSION_FILE
 from raspilot.mission.progress import NOT_FLOWN, MissionProgress
 from raspilot.mission.store import PlanStore, Problem
 from raspilot.navigation.planning import distance_m
-from up.base_started_module import BaseStartedModule
+from up.base_periodic_module import BasePeriodicModule
 from up.commands.flight_state_command import FlightStateCommand
 from up.commands.mission_commands import (
+    FENCE,
+    MISSION,
     PART_ITEMS,
+    PLANS,
     MissionCommitCommand,
     MissionItemCommand,
     MissionPartCommand,
@@ -32,14 +34,12 @@ from up.commands.refusal import Code, CommandRefusedError
 from up.flight_modes.flight_mode import FlightMode
 from up.flight_modes.navigation_file import NAVIGATION
 from up.flight_modes.navigation_state import Point
-from up.mission.items import FENCE, MISSION, PLANS, PlanItem, plan_id
 from up.mission.items import RETURN as RETURN_ITEM
+from up.mission.items import PlanItem, plan_id
 from up.mode import WITH_BOARD, Mode
 from up.needs import needs, wants
 from up.providers.base_mission_control_provider import BaseMissionControlProvider
 from up.system.disk_thread import DiskThread
-
-PERIOD_S = 1.0
 
 
 class PlanInvalidError(Exception):
@@ -50,7 +50,7 @@ class PlanInvalidError(Exception):
         self.problems = problems
 
 
-class Plans(BaseStartedModule):
+class Plans(BasePeriodicModule):
     """Keeps the mission and the fence; checks them and uses each of them only as a whole.
 
     Checks run beside the reactor. The mission is checked again when home or the fence changes:
@@ -82,17 +82,6 @@ class Plans(BaseStartedModule):
         executor.register_command(MissionRequestCommand, self._on_request)
         executor.register_command(MissionItemCommand, self._on_item)
         executor.register_command(FlightStateCommand, self._on_flight_state)
-        self._loop = LoopingCall(self._check_again)
-        self._loop.clock = self.context.reactor
-
-    def on_start(self) -> None:
-        self._loop.start(PERIOD_S).addErrback(
-            lambda failure: self.log.failure("the check failed", failure, code="check_failed")
-        )
-
-    def on_stop(self) -> None:
-        if self._loop.running:
-            self._loop.stop()
 
     @property
     def progress(self) -> MissionProgress:
@@ -171,7 +160,7 @@ class Plans(BaseStartedModule):
     def _key(self) -> object:
         return self.flight.home.place, self.missions.plan_id, self.fences.plan_id
 
-    def _check_again(self) -> None:
+    def on_period(self) -> None:
         if self._turn.locked or self._checked == (key := self._key):
             return
         self._checked = key

@@ -8,14 +8,16 @@ from typing import Any, ClassVar
 from up.commands.command import BaseCommand, value
 from up.commands.roles import Role
 
-_PLANS = ("mission", "fence")
-_MAX_ITEMS = 700
+MISSION, FENCE = PLANS = ("mission", "fence")
+MAX_ITEMS = {MISSION: 700, FENCE: 50}
+"""A plan with more is refused."""
+_MAX_ITEMS = max(MAX_ITEMS.values())
 PART_ITEMS = 20
 """Items of one part."""
 
 
 def _plan() -> Any:
-    return value(choices=_PLANS)
+    return value(choices=PLANS)
 
 
 def _id() -> Any:

@@ -9,11 +9,8 @@ from dataclasses import dataclass
 from typing import TypeAlias
 
 from up.commands.command import WireFields, value
+from up.commands.mission_commands import FENCE, MAX_ITEMS, MISSION
 
-MISSION, FENCE = "mission", "fence"
-PLANS = (MISSION, FENCE)
-MAX_ITEMS = {MISSION: 700, FENCE: 50}
-"""A plan with more is refused."""
 MAX_CORNERS = 100
 
 TAKEOFF, WAYPOINT, LOITER, LOITER_TURNS, LOITER_TIME, RETURN, LAND, SPEED, JUMP = KINDS = (

@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from up.commands.mission_commands import MAX_ITEMS, MISSION
 from up.fields import show
 from up.mission.items import (
     HIGH,
@@ -15,8 +16,6 @@ from up.mission.items import (
     LOITER,
     LOITER_TIME,
     LOITER_TURNS,
-    MAX_ITEMS,
-    MISSION,
     PLACED,
     RETURN,
     SPEED,

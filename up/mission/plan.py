@@ -6,8 +6,9 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, TypeAlias
 
+from up.commands.mission_commands import FENCE, MAX_ITEMS
 from up.errors import UserError
-from up.mission.items import FENCE, ITEM_CLASSES, MAX_ITEMS, Border, MissionItem, PlanItem
+from up.mission.items import ITEM_CLASSES, Border, MissionItem, PlanItem
 
 PLAN, WAYPOINTS = FORMS = ("plan", "waypoints")
 Position: TypeAlias = tuple[float, float, float]

@@ -9,8 +9,9 @@ import json
 from collections.abc import Iterable
 from typing import Any, TypeAlias
 
+from up.commands.mission_commands import FENCE, MAX_ITEMS, MISSION
 from up.fields import show
-from up.mission.items import FENCE, MAX_ITEMS, MISSION, PLACED, Border, MissionItem
+from up.mission.items import PLACED, Border, MissionItem
 from up.mission.mavlink_items import FRAME_HOME, FileItem, read_items, write_items
 from up.mission.plan import PLAN, Findings, Plan, Position, position
 

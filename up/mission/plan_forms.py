@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 
-from up.mission.items import MISSION
+from up.commands.mission_commands import MISSION
 from up.mission.plan import FORMS, PLAN, Findings, Plan, PlanError
 from up.mission.plan_file import read_plan_file, write_plan_file
 from up.mission.waypoints_file import HEADER, read_waypoints, write_waypoints

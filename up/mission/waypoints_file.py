@@ -10,7 +10,7 @@ import math
 import re
 from typing import Any
 
-from up.mission.items import FENCE, MISSION
+from up.commands.mission_commands import FENCE, MISSION
 from up.mission.mavlink_items import FRAME_SEA, FileItem, read_items, write_items
 from up.mission.plan import WAYPOINTS, Findings, Plan, PlanError, PlanProblem, Position, position
 

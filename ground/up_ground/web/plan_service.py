@@ -7,8 +7,14 @@ from dataclasses import replace
 from typing import Any
 
 from up.commands.command import BaseCommand
-from up.commands.mission_commands import MissionCommitCommand, MissionRequestCommand
-from up.mission.items import FENCE, MISSION, PLANS, Border, MissionItem, PlanItem, plan_id
+from up.commands.mission_commands import (
+    FENCE,
+    MISSION,
+    PLANS,
+    MissionCommitCommand,
+    MissionRequestCommand,
+)
+from up.mission.items import Border, MissionItem, PlanItem, plan_id
 from up.mission.plan import FORMS, Plan, PlanError, PlanProblem, checked_items, position
 from up.mission.plan_forms import read_plan, write_plan
 from up.protocols.general_message import GeneralMessage, encode

@@ -10,7 +10,7 @@ from typing import Any
 from up_rig.imu import Motion
 from up_simulator.aircraft.airframe import Airframe
 from up_simulator.aircraft.flight import FlightState, Servos
-from up_simulator.aircraft.ground import Roll, is_soft
+from up_simulator.aircraft.ground import GroundRun, is_soft
 from up_simulator.aircraft.model import FOOT_M, load_model, reader, writer
 from up_simulator.aircraft.model_check import MOTOR
 from up_simulator.aircraft.motor import Battery, Motor
@@ -85,7 +85,7 @@ class FlightDynamics:
         self.motor_works = True
         self.is_thrown = False
         self._may_land = may_land
-        self._roll: Roll | None = None
+        self._run: GroundRun | None = None
         self._seed = seed
         self._steps = 0
         self._owed_s = 0.0
@@ -112,14 +112,14 @@ class FlightDynamics:
     def state(self) -> FlightState:
         if self._state is None:
             self._state = self._read_state()
-            if self._roll is not None:
-                self._state = replace(self._roll.state, time_s=self.time_s, **self._drive())
+            if self._run is not None:
+                self._state = replace(self._run.state, time_s=self.time_s, **self._drive())
         return self._state
 
     @property
     def motion(self) -> Motion:
         if self._motion is None:
-            self._motion = self._feel() if self._roll is None else self._roll.motion
+            self._motion = self._feel() if self._run is None else self._run.motion
         return self._motion
 
     @property
@@ -163,12 +163,12 @@ class FlightDynamics:
             self._battery.draw(0.0, self.STEP_S)
         self._air.apply(self._steps * self.STEP_S - self._launched_s)
         self._motion = None
-        if self._roll is not None:
+        if self._run is not None:
             if self._is_landed or self.is_thrown:
-                self._roll.advance(self.STEP_S)
-            if self._is_landed or not self._roll.is_over:
+                self._run.advance(self.STEP_S)
+            if self._is_landed or not self._run.is_over:
                 return
-            self._roll = None
+            self._run = None
         try:
             is_flying = self._fdm.run()
         except RuntimeError as error:
@@ -213,9 +213,9 @@ class FlightDynamics:
             self._set_thrust(self._motor.thrust_n * _NEWTON_LBS)
         self._air = Air(self._fdm, self.weather)
         self._is_landed = False
-        self._roll = None
+        self._run = None
         if start.throw_m_s is not None:
-            self._roll = Roll.in_the_hand(self._read_state(), start.throw_m_s)
+            self._run = GroundRun.in_the_hand(self._read_state(), start.throw_m_s)
         self._launches += 1
 
     def _imu_from_pilot(self) -> tuple[float, float, float]:
@@ -258,7 +258,7 @@ class FlightDynamics:
             return
         if height_m <= 0.1 and self._may_land and is_soft(self._read_state()):
             self._is_landed = True
-            self._roll = Roll.on_the_ground(self._read_state())
+            self._run = GroundRun.on_the_ground(self._read_state())
             return
         time_s = self.time_s - self._launched_s
         if not math.isfinite(height_m + load_g):

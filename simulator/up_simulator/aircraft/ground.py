@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import replace
 
+from up.flight_modes.navigation_state import LocalFrame, Point
 from up_rig.imu import Motion, motion_at
 from up_simulator.aircraft.flight import FlightState
 
@@ -14,7 +15,6 @@ FRICTION_M_S2 = 4.0
 """Of a belly on grass."""
 MAX_SINK_M_S, MAX_BANK_DEG, MAX_PITCH_DEG = 3.0, 20.0, 20.0
 """A contact with the ground beyond one of these is a crash, not a landing."""
-METRES_PER_DEG = 111_320.0
 
 
 def is_soft(state: FlightState) -> bool:
@@ -26,7 +26,7 @@ def is_soft(state: FlightState) -> bool:
     )
 
 
-class Roll:
+class GroundRun:
     """Moves evenly accelerated along its track, at a constant attitude, for ``duration_s``.
 
     ``state`` is that at the end of a throw, or at the touchdown.
@@ -44,12 +44,12 @@ class Roll:
         self._duration_s = (end_m_s - begin_m_s) / acceleration_m_s2
 
     @classmethod
-    def in_the_hand(cls, released: FlightState, speed_m_s: float) -> Roll:
+    def in_the_hand(cls, released: FlightState, speed_m_s: float) -> GroundRun:
         """Return the aircraft held behind the place where a throw releases it at this speed."""
         return cls(released, 0.0, speed_m_s * speed_m_s / (2.0 * ARM_M), -ARM_M)
 
     @classmethod
-    def on_the_ground(cls, touched: FlightState) -> Roll:
+    def on_the_ground(cls, touched: FlightState) -> GroundRun:
         """Return the aircraft that slides on from its touchdown, and stops."""
         return cls(touched, max(0.01, touched.speed_m_s), -FRICTION_M_S2, 0.0)
 
@@ -77,13 +77,14 @@ class Roll:
         through_air_m_s = math.hypot(
             speed_m_s * cosine - state.wind_north_m_s, speed_m_s * sine - state.wind_east_m_s
         )
-        east_deg_m = METRES_PER_DEG * math.cos(math.radians(state.latitude_deg))
+        frame = LocalFrame(state.latitude_deg, state.longitude_deg)
+        latitude_deg, longitude_deg = frame.degrees(Point(north_m, east_m))
         return replace(
             state,
             north_m=state.north_m + north_m,
             east_m=state.east_m + east_m,
-            latitude_deg=state.latitude_deg + north_m / METRES_PER_DEG,
-            longitude_deg=state.longitude_deg + east_m / east_deg_m,
+            latitude_deg=latitude_deg,
+            longitude_deg=longitude_deg,
             speed_m_s=speed_m_s,
             airspeed_m_s=through_air_m_s,
             climb_m_s=0.0,

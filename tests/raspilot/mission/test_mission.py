@@ -171,11 +171,11 @@ class TestRefusal:
         again.state(in_flight=False)
         again.navigation.set(replace(STANDING, position=Point(0.0, 0.0)))
         again.frame()
-        again.plans._check_again()
+        again.plans.on_period()
         again.settle()
         assert again.plans.problems == []
         assert again.outcome(HomeCommand(48.2, 17.0)) == [None]
-        again.plans._check_again()
+        again.plans.on_period()
         again.settle()
         assert {each.code for each in again.plans.problems} == {"too_far"}
         assert again.up.get_module(Mission).refusal(rig.situation).code == "mission_invalid"
@@ -190,7 +190,7 @@ class TestOtherModes:
         rig.navigation.set(replace(STANDING, position=HOME.point, is_in_flight=False))
         rig.frame()
         assert rig.upload(data) == [None], rig.ground.sent
-        rig.plans._check_again()
+        rig.plans.on_period()
         rig.settle()
         return rig
 
