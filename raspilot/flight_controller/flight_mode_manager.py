@@ -14,8 +14,8 @@ from raspilot.flight_controller.attitude_controller import AttitudeController
 from raspilot.flight_controller.board_authority import AUTO, BoardAuthority
 from raspilot.flight_controller.flight_memory import MEMORY, Place
 from raspilot.flight_controller.flight_target import FlightTarget
-from raspilot.flight_controller.ground_requests import GroundRequests
 from raspilot.flight_controller.home import HomeKeeper, target_of_place, telemetry_of
+from raspilot.flight_controller.required import check_required
 from raspilot.flight_modes.guided import GUIDED, Guided
 from raspilot.modules.navigation_estimator import NavigationEstimator
 from raspilot.navigation.path_controller import PathController
@@ -83,7 +83,7 @@ class FlightModeManager(BaseFlightController):
         self._path_at_s = float("-inf")
         self._target: Target | None = None
         self._resumed_place: Place | None = None
-        self._requests = GroundRequests()
+        self._requests: dict[str, float] = {}
         self._continuing = ""
 
     def on_init(self) -> None:
@@ -400,7 +400,8 @@ class FlightModeManager(BaseFlightController):
         Raises CommandRefusedError unless the mode that acts follows it.
         """
         modes, limit_m = self._selector.modes, self.context.config(GUIDED).max_climb_m
-        self._requests.require(what, value, self.acting_mode, modes, self._situation, limit_m)
+        check_required(what, value, self.acting_mode, modes, self._situation, limit_m)
+        self._requests[what] = value
 
     def required(self, what: str) -> float | None:
         """Return the course or altitude that the ground requested of the present mode."""
