@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
-from up.cli.option_parser import OptionParser
-from up.cli.parser import add_config_option, add_defaults_option
+from up.cli.option_parser import OptionParser, add_defaults_option
+from up.cli.parser import add_config_option
 from up.program import run_application
 from up.version import VERSION
 

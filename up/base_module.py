@@ -10,6 +10,7 @@ from twisted.logger import Logger
 from up.config import ConfigFile
 from up.context import Context
 from up.mode import IN_EVERY_MODE, Mode
+from up.system.reactor_monitor import BUDGET_S
 
 if TYPE_CHECKING:
     from up.up import Up
@@ -30,6 +31,9 @@ class BaseModule:
     """Files of the configuration folder that the module itself writes."""
     SHED_ORDER: ClassVar[int | None] = None
     """When an overloaded program stops this module for good, lower first; None: never."""
+    TIME_BUDGET_S: ClassVar[float] = BUDGET_S
+    """How long one call may hold the event loop: longer ones are counted, logged with the module's
+    name, and end a flight mode. At least 0.020."""
     MODES: ClassVar[frozenset[Mode]] = IN_EVERY_MODE
 
     up: Up

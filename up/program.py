@@ -14,13 +14,13 @@ from twisted.logger import Logger
 
 from up.base_module import BaseModule
 from up.commands.base_command_handler import BaseCommandHandler
-from up.config import ConfigErrors, load_all
+from up.config import ConfigErrors, load_all, no_configuration
 from up.config.atomic_writer import remove_unfinished
 from up.context import Context
 from up.errors import Problem, UserError
 from up.life_cycle import BootStoppedError, LifeCycle
 from up.loading.application import Application
-from up.loading.checking import check_application, config_files, no_configuration
+from up.loading.checking import check_application, config_files
 from up.loading.plan import BootError
 from up.log import start_logging
 from up.mode import Mode

@@ -15,7 +15,7 @@ from up.commands.mission_commands import FENCE, MISSION
 from up.config.atomic_writer import create_text
 from up.errors import UserError
 from up.mission.items import Border, MissionItem, PlanItem
-from up.mission.plan import PLAN, WAYPOINTS, Plan, PlanError, PlanProblem
+from up.mission.plan import PLAN, WAYPOINTS, Plan, PlanError, PlanProblem, position
 from up.mission.plan_forms import MAX_CHARACTERS, read_plan, write_plan
 from up.output import echo
 from up_ground.arguments import settings_of
@@ -79,11 +79,14 @@ def _download(options: argparse.Namespace) -> int:
         reason = "exists already" if plans else "a file of waypoints has no place for a fence"
         raise CliError(f"{path}: {reason}; choose another name", code="file_unsuitable")
 
-    def save(outcomes: dict[str, PlanOutcome]) -> None:
-        read = {each: outcome.items for each, outcome in outcomes.items()}
+    def save(task: TransferTask) -> None:
+        read = {each: outcome.items for each, outcome in task.outcomes.items()}
         items = [each for each in read.get(MISSION, ()) if isinstance(each, MissionItem)]
         borders = [each for each in read.get(FENCE, ()) if isinstance(each, Border)]
-        text = write_plan(Plan(form, tuple(items), tuple(borders)))
+        home = [
+            task.telemetry.number("home", each) for each in ("latitude", "longitude", "altitude")
+        ]
+        text = write_plan(Plan(form, tuple(items), tuple(borders), position(home)))
         if not create_text(path, text):
             raise CliError(f"{path}: exists already", code="file_unsuitable")
 
@@ -121,7 +124,7 @@ def _transfer(
     status = run_task(make)
     outcomes = tasks[0].outcomes
     if status == EXIT_OK and save is not None:
-        save(outcomes)
+        save(tasks[0])
     told = {each: _data(each, outcome, numbers) for each, outcome in outcomes.items()}
     if options.json:
         echo(json.dumps(told, indent=1))
@@ -130,8 +133,10 @@ def _transfer(
             status = EXIT_NO_ANSWER if outcome.code == NO_ANSWER else EXIT_FAILED
             _print_refusal(plan, outcome, numbers)
         elif not options.json:
-            text = f"{plan}: {_count(outcome.items, plan)} in use"
-            echo(text, "plan_in_use", plan=plan, count=len(outcome.items), id=outcome.plan_id)
+            code = "plan_in_use" if save is None else "plan_written"
+            done = "in use" if save is None else f"written to {options.file}"
+            text = f"{plan}: {_count(outcome.items, plan)} {done}"
+            echo(text, code, plan=plan, count=len(outcome.items), id=outcome.plan_id)
     return status
 
 

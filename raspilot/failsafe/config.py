@@ -67,7 +67,7 @@ class FlightBatteryLow:
 
 @dataclass(frozen=True, slots=True)
 class NoProgress:
-    """In RETURN the aircraft comes no nearer: the head wind is stronger than its airspeed."""
+    """The aircraft comes no nearer to where it flies: the wind is stronger than its airspeed."""
 
     action: str = _action(WARN)
     delay_s: float = _delay(30.0)

@@ -58,6 +58,10 @@ class FenceWatch:
             or crosses(self._borders, state.position, ahead)
         )
 
+    def is_outside(self, point: Point, home: Home | None) -> bool:
+        """Return whether a point of the newest estimate's frame is outside a border."""
+        return self._margin_m(point, home) < 0.0
+
     def _margin_m(self, point: Point, home: Home | None) -> float:
         within_m = margin_m(self._borders, point)
         if home is None or self._fence.radius_m is None:

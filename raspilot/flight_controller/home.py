@@ -15,7 +15,7 @@ from up.commands.flight_state_command import FlightStateCommand
 from up.commands.navigation_commands import HomeCommand, NavigationTargetCommand
 from up.commands.refusal import Code, CommandRefusedError
 from up.flight_modes.flight_mode import Home, Target
-from up.flight_modes.navigation_state import LocalFrame, NavigationState
+from up.flight_modes.navigation_state import LocalFrame, NavigationState, Point
 
 MAX_DISTANCE_M = 100_000.0
 """No target is farther away: the plane of the estimator would no longer fit the Earth."""
@@ -32,7 +32,8 @@ class HomeKeeper:
     """Home is the first accurate position, then that of the standing aircraft when it is armed.
 
     In flight only a Command moves it. ``place`` is None while home is not known; ``on_changed`` is
-    called with every new one.
+    called with every new one. ``is_outside`` says whether a point is outside the fence, whose
+    radius is measured from the home that is given, if one is.
     """
 
     log = Logger()
@@ -45,6 +46,7 @@ class HomeKeeper:
         self.place: Place | None = None
         self._accuracy_m = accuracy_m
         self._was_in_flight: bool | None = None
+        self.is_outside: Callable[[Point, Home | None], bool] = lambda *_: False
 
     def resume(self) -> None:
         """Take the home of the flight that another run of the program began."""
@@ -93,6 +95,9 @@ class HomeKeeper:
         if command.altitude_m is not None:
             _check_altitude(command.altitude_m, self.place, navigation)
             place = replace(place, altitude_m=command.altitude_m)
+        if navigation is not None and self._was_in_flight:
+            # On the ground it is a reason not to arm: a fence for the new home may follow.
+            self._check_fence(navigation.frame.point(place.latitude_deg, place.longitude_deg), None)
         self._set(place, "command")
 
     def target_of(
@@ -108,6 +113,7 @@ class HomeKeeper:
                 raise CommandRefusedError(text, detail="no_home")
             altitude_m = self.place.altitude_m + command.height_m
         point = state.frame.point(command.latitude_deg, command.longitude_deg)
+        self._check_fence(point, self.of(state.frame))
         return Target(point, altitude_m, command.radius_m)
 
     def telemetry(
@@ -119,6 +125,10 @@ class HomeKeeper:
         if navigation is not None and home is not None:
             time_s = time_home_s(navigation, home, cruise_m_s)
         return {**telemetry_of(self.place), "time_s": time_s}
+
+    def _check_fence(self, point: Point, home: Home | None) -> None:
+        if self.is_outside(point, home):
+            raise CommandRefusedError("that point is outside the fence", detail="outside_fence")
 
     def _set(self, place: Place, cause: str) -> None:
         self.place = place

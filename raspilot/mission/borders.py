@@ -65,6 +65,14 @@ class LocalBorder:
             if inner > 0.0:
                 yield from (middle - math.sqrt(inner), middle + math.sqrt(inner))
 
+    @property
+    def crosses_itself(self) -> bool:
+        """Return whether edges of a polygon cross: its corners are in a wrong order."""
+        edges, last = self.edges, len(self.edges) - 1
+        return any(
+            _cross(*edges[i], *edges[j]) for i in range(last) for j in range(i + 2, last + (i > 0))
+        )
+
     def shows_all(self, point: Point) -> bool:
         """Return whether every straight way from a point within it to its border stays within."""
         north, east = point
@@ -122,6 +130,18 @@ def leads_straight(borders: LocalBorders, home: Point) -> bool:
     fence has a place to stay out of.
     """
     return all(each.is_inside and each.shows_all(home) for each in borders)
+
+
+def _cross(a: Point, b: Point, c: Point, d: Point) -> bool:
+    """Return whether the ways from a to b and from c to d cross, apart from their ends."""
+    return _side(a, b, c) * _side(a, b, d) < 0.0 and _side(c, d, a) * _side(c, d, b) < 0.0
+
+
+def _side(a: Point, b: Point, point: Point) -> float:
+    """Return on which side of the way from a to b a point is: above 0 to its right."""
+    return (b.north_m - a.north_m) * (point.east_m - a.east_m) - (b.east_m - a.east_m) * (
+        point.north_m - a.north_m
+    )
 
 
 def _between(a: Point, b: Point, share: float) -> Point:

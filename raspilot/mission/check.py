@@ -61,6 +61,13 @@ def check_fence(
     if len(borders) > MAX_ITEMS[FENCE]:
         return [Problem(0, "too_many", f"more than {MAX_ITEMS[FENCE]} borders")]
     given = replace(given, borders=borders)
+    problems = [
+        Problem(number, "crosses_itself", "its edges cross: give its corners in order")
+        for number, each in enumerate(borders, 1)
+        if each.corners and local_borders([each], LocalFrame(*each.corners[0]))[0].crosses_itself
+    ]
+    if problems:
+        return problems
     if given.home is not None:
         frame = LocalFrame(*given.home[:2])
         if margin_m(local_borders(borders, frame), Point(0.0, 0.0)) < SD_M:

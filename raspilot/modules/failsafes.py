@@ -15,18 +15,15 @@ from raspilot.failsafe.progress import ProgressWatch
 from raspilot.flight_controller.flight_mode_manager import FlightModeManager
 from raspilot.flight_modes.return_home import RETURN, Return
 from raspilot.modules.plans import Plans
-from raspilot.navigation.planning import distance_m, flyable_radius_m
 from up.base_periodic_module import BasePeriodicModule
 from up.failures import FailureSource
 from up.fields import suggestion
-from up.flight_modes.flight_mode import FlightMode, FlightSituation
+from up.flight_modes.flight_mode import FlightMode
 from up.flight_modes.navigation_file import NAVIGATION
 from up.log.limits import Once
 from up.mode import WITH_BOARD, Mode
 from up.needs import needs, wants
 from up.providers.base_mission_control_provider import BaseMissionControlProvider
-
-ARRIVED_RADII = 3.0
 
 
 class Failsafes(BasePeriodicModule):
@@ -56,7 +53,8 @@ class Failsafes(BasePeriodicModule):
     def on_init(self) -> None:
         self._engine = FailsafeEngine(self.config.triggers)
         self._fence = FenceWatch(self.config.fence)
-        self._progress = ProgressWatch()
+        self.flight.home.is_outside = self._fence.is_outside
+        self._progress = ProgressWatch(self.context.config(NAVIGATION))
         self._grounds = self.up.get_modules(BaseMissionControlProvider)
         self._sources = self.up.get_modules(FailureSource)
         for number, problem in enumerate(self._contradictions()):
@@ -130,7 +128,8 @@ class Failsafes(BasePeriodicModule):
         is_linked = any(each.wants_telemetry for each in self._grounds)
         # A restart in flight does not forget that there was a ground.
         self._was_linked = self._was_linked or is_linked or flight.is_resumed
-        away_m = self._distance_to_return_m(situation)
+        state = None if situation is None else situation.navigation
+        path = flight.flown_path if flight.acting_mode else None
         if self.plans is not None:
             borders: Any = self.plans.fences.items
             self._fence.use(borders)
@@ -140,7 +139,8 @@ class Failsafes(BasePeriodicModule):
             and self._fence.is_crossed(situation.navigation, situation.home),
             "receiver_lost": flight.board.is_failsafe,
             "uplink_lost": self._was_linked and not is_linked,
-            "no_progress": self._progress.stalled_s(self._seconds(), away_m) > 0.0,
+            "no_progress": state is not None
+            and self._progress.stalled_s(self._seconds(), path, state) > 0.0,
         }
 
     def _reported_failures(self) -> dict[str, bool]:
@@ -152,16 +152,6 @@ class Failsafes(BasePeriodicModule):
                 if self._said.first(source):
                     self.log.failure("a module's failures are unknown", code="failures_unknown")
         return found
-
-    def _distance_to_return_m(self, situation: FlightSituation | None) -> float | None:
-        """Return how far RETURN has to fly; None in another mode, or at home."""
-        if situation is None or situation.navigation is None or situation.home is None:
-            return None
-        state, radius_m = situation.navigation, self.context.config(RETURN).radius_m
-        away_m = distance_m(state.position, situation.home.point)
-        radius_m = flyable_radius_m(self.context.config(NAVIGATION), state, radius_m)
-        is_away = away_m > ARRIVED_RADII * radius_m
-        return away_m if is_away and self.flight.acting_mode == Return.NAME else None
 
     def _act(self, code: str) -> None:
         action = self.config.triggers[code].action

@@ -64,6 +64,7 @@ def test_a_file_is_uploaded_and_comes_back_as_it_was(proxy, flying, tmp_path):
     assert run(tmp_path, proxy, "download", copy)[0] == 0
     again = read_plan((tmp_path / "copy.plan").read_text(), "")
     assert (again.items, again.borders) == (plan.items, plan.borders)
+    assert again.home == (50.07, 14.4, 210.0), "the aircraft's, of its telemetry"
     status, said, _ = run(tmp_path, proxy, "clear", "mission", UP_LOG_FORMAT="")
     assert (status, said) == (0, "mission: 0 items in use\n")
     assert flying.stores["mission"].items == ()

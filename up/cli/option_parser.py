@@ -25,6 +25,13 @@ def add_json_option(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--json", action="store_true", default=wants_json(), help=text)
 
 
+def add_defaults_option(parser: argparse.ArgumentParser) -> None:
+    """Add ``--defaults``."""
+    parser.add_argument(
+        "--defaults", action="store_true", help="use the defaults if no configuration file exists"
+    )
+
+
 class OptionParser(argparse.ArgumentParser):
     """Reports a wrong argument in one sentence, with the probable intention, and exits with 2.
 

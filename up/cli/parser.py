@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from up.cli.option_parser import OptionParser, add_json_option
+from up.cli.option_parser import OptionParser, add_defaults_option, add_json_option
 from up.cli.plugin_verbs import UP_VERBS, add_plugin_verbs, verb_of
 from up.cli.verb import add_verb
 from up.mode import Mode
@@ -105,13 +105,6 @@ def make_parser(arguments: Sequence[str] | None = None) -> OptionParser:
     if asked not in verbs.choices:
         add_plugin_verbs(verbs, UP_VERBS, asked)
     return parser
-
-
-def add_defaults_option(parser: argparse.ArgumentParser) -> None:
-    """Add ``--defaults``."""
-    parser.add_argument(
-        "--defaults", action="store_true", help="use the defaults if no configuration file exists"
-    )
 
 
 def add_config_option(parser: argparse.ArgumentParser) -> None:

@@ -8,8 +8,8 @@ from dataclasses import fields, replace
 from pathlib import Path
 from typing import Any
 
-from up.cli.option_parser import EXIT_USAGE, OptionParser
-from up.config import ConfigFile
+from up.cli.option_parser import EXIT_USAGE, OptionParser, add_defaults_option
+from up.config import ConfigFile, no_configuration
 from up.errors import UserError
 from up.output import print_problems
 from up.version import VERSION
@@ -23,6 +23,7 @@ class ServerParser(OptionParser):
         self._file = file
         text = f"folder of {file.filename} (default: config)"
         self.add_argument("--config", type=Path, metavar="DIR", help=text)
+        add_defaults_option(self)
         for option in ports:
             self.add_argument(
                 option, type=port_number, metavar="N", help="TCP port; 0: any free port"
@@ -35,7 +36,8 @@ class ServerParser(OptionParser):
     ) -> tuple[argparse.Namespace, Path, Any]:
         """Return options, folder and configuration, with the keys that the options override.
 
-        Ends the program with EXIT_USAGE after printing every mistake.
+        A folder that was named and lacks the file is refused unless ``--defaults``. Ends the
+        program with EXIT_USAGE after printing every mistake.
         """
         options = self.parse_args(arguments)
         folder = options.config or default
@@ -43,6 +45,9 @@ class ServerParser(OptionParser):
             if options.config is not None and not folder.is_dir():
                 text = f"--config {folder}: no such folder"
                 raise UserError(text, "folder_missing", folder=folder)
+            nothing = no_configuration(folder, [self._file])
+            if options.config is not None and nothing is not None and not options.defaults:
+                raise nothing
             config = self._file.load(folder)
         except UserError as error:
             print_problems(error.problems)

@@ -18,12 +18,12 @@ from up.cogs import gather as cog_gather
 from up.cogs import registration
 from up.cogs.cog import CogError, package_name
 from up.cogs.cogfile import COGFILE, load_cogfile
-from up.config import ConfigErrors, ConfigFile, write_schemas
+from up.config import ConfigErrors, ConfigFile, no_configuration, write_schemas
 from up.context import Context
 from up.errors import Problem
 from up.flight_modes.flight_mode import FlightMode
 from up.loading.application import UP_FILE_CONFIG, Application
-from up.loading.checking import Findings, check_application, no_configuration
+from up.loading.checking import Findings, check_application
 from up.loading.external_modules import EXTERNAL_MODULES
 from up.loading.plan import Plan
 from up.output import echo, print_problems

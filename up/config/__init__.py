@@ -5,7 +5,7 @@ and named by a `ConfigFile`.
 """
 
 from up.config.atomic_writer import write_schemas, write_template
-from up.config.file import ConfigFile, load_all, unknown_files
+from up.config.file import ConfigFile, load_all, no_configuration, unknown_files
 from up.config.persisted import PersistedFile
 from up.config.problems import ConfigErrors, ConfigProblem
 from up.config.schema import items, key, mapping, section
@@ -19,6 +19,7 @@ __all__ = [
     "key",
     "load_all",
     "mapping",
+    "no_configuration",
     "section",
     "unknown_files",
     "write_schemas",

@@ -14,6 +14,7 @@ from up.config.scalars import is_null
 from up.config.schema import Entry, ListOf, MapOf, Schema, Spec, plain_value, schema_of
 from up.config.template import template_of
 from up.config.validator import Validator
+from up.errors import UserError
 from up.fields import Constraint
 
 T = TypeVar("T")
@@ -105,6 +106,14 @@ def load_all(folder: Path, files: Iterable[ConfigFile[Any]]) -> dict[ConfigFile[
     if problems:
         raise ConfigErrors(problems)
     return values
+
+
+def no_configuration(folder: Path, files: Iterable[ConfigFile[Any]]) -> UserError | None:
+    """Return the error for a folder without any of the files: its name is perhaps mistyped."""
+    if any((folder / file.filename).exists() for file in files):
+        return None
+    text = f"{folder}: no configuration file is here; start with --defaults to use the defaults"
+    return UserError(text, "no_configuration", folder=folder)
 
 
 def unknown_files(folder: Path, files: Iterable[ConfigFile[Any]]) -> list[Path]:

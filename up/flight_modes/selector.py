@@ -149,7 +149,7 @@ class FlightModeSelector:
             self._entered.add(mode.NAME)
             mode.enter(situation)
         demand = mode.step(situation, dt_s)
-        if timer.is_overrun():
+        if timer.is_overrun(mode.TIME_BUDGET_S):
             raise DemandError(f"a step took {timer.last_s * 1000:.0f} ms", OVERRUN)
         if not isinstance(demand, PathDemand | AttitudeDemand | SurfacesDemand):
             raise DemandError(f"step returned {demand!r:.80}, not a Demand")

@@ -7,7 +7,6 @@ import resource
 from time import perf_counter
 from typing import Any
 
-LIMIT_S = 0.02
 AGAIN_S = 1.0
 
 
@@ -28,14 +27,13 @@ class _Collections:
 class StepTimer:
     """Tells a step that computes or waits too long from one that the system interrupted.
 
-    A step overruns if it took more than ``limit_s`` and used that much processor time, or, for the
+    A step overruns if it took more than its budget and used that much processor time, or, for the
     second time within AGAIN_S, gave up the processor (it slept, or waited for a file): once it may
     be Python's lock, held by a thread that the system interrupted. Time in which another program
     ran, or Python collected garbage, is not the step's.
     """
 
-    def __init__(self, limit_s: float = LIMIT_S) -> None:
-        self.limit_s = limit_s
+    def __init__(self) -> None:
         self.last_s = 0.0
         self._waited_at_s = float("-inf")
         if _Collections.note not in gc.callbacks:
@@ -47,15 +45,15 @@ class StepTimer:
         self._used = resource.getrusage(resource.RUSAGE_THREAD)
         self._started_s = perf_counter()
 
-    def is_overrun(self) -> bool:
+    def is_overrun(self, budget_s: float) -> bool:
         """Return whether the step since ``start`` took too long, and set ``last_s``."""
         collected_s = _Collections.total_s - self._collected_s
         self.last_s = perf_counter() - self._started_s - collected_s
-        if self.last_s <= self.limit_s:
+        if self.last_s <= budget_s:
             return False
         used, before = resource.getrusage(resource.RUSAGE_THREAD), self._used
         processor_s = used.ru_utime + used.ru_stime - before.ru_utime - before.ru_stime
-        if processor_s - collected_s > self.limit_s:
+        if processor_s - collected_s > budget_s:
             return True
         if used.ru_nvcsw == before.ru_nvcsw:
             return False

@@ -137,11 +137,3 @@ def config_files(modules: Iterable[BaseModule | type[BaseModule]]) -> list[Confi
     for module in modules:
         files += (*filter(None, (module.CONFIG,)), *module.WRITTEN_FILES)
     return list(dict.fromkeys(files))
-
-
-def no_configuration(folder: Path, files: Iterable[ConfigFile[Any]]) -> BootError | None:
-    """Return the error for a folder without any of the files."""
-    if any((folder / file.filename).exists() for file in files):
-        return None
-    text = f"{folder}: no configuration file is here; start with --defaults to use the defaults"
-    return BootError(text, "no_configuration", folder=folder)

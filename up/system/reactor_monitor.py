@@ -12,6 +12,8 @@ from typing import Any
 from twisted.logger import Logger, LogLevel
 
 BUDGET_S = 0.020
+"""The time budget of a call without a longer one of its own."""
+
 OTHERS = "others"
 _NAMED_LIMIT = 50
 JOIN_S = 1.0
@@ -22,9 +24,10 @@ class ReactorMonitor:
     """A thread that an alarm wakes when the reactor has not waited for ``BUDGET_S``.
 
     The block is attributed to the innermost instance of ``owners`` in the reactor thread's stack:
-    logged once for each, counted once per block. It detects every block longer than the budget,
-    whether in a dispatch of the bus, a timer or a connection's data. While nothing blocks, the
-    thread sleeps. A reactor without `epoll` or `poll` is not monitored.
+    logged once for each, counted once per block. It detects every block longer than the budget
+    (the owner's ``TIME_BUDGET_S``, if it is longer than BUDGET_S), whether in a dispatch of the
+    bus, a timer or a connection's data. While nothing blocks, the thread sleeps. A reactor without
+    `epoll` or `poll` is not monitored.
 
     Until ``has_started`` a block is normal (modules open files, garbage is collected): it is logged
     as information and not counted.
@@ -71,20 +74,30 @@ class ReactorMonitor:
         signal.pthread_sigmask(signal.SIG_UNBLOCK, (signal.SIGALRM,))
 
     def _run(self) -> None:
+        is_alarmed = False
         while True:
-            signal.sigwait((signal.SIGALRM,))
+            if not is_alarmed:
+                signal.sigwait((signal.SIGALRM,))
+            is_alarmed = False
             frame = self._frame()
             poller = self._poller
             if self._is_stopped or poller is None:
                 return
-            if not poller.is_waiting:
-                self._count_block(frame)
+            turn = poller.turn
+            if poller.is_waiting:
+                continue
+            call, budget_s = blocking_call_in(frame, self._owners)
+            if budget_s > BUDGET_S:
+                rest_s = budget_s - BUDGET_S
+                is_alarmed = signal.sigtimedwait((signal.SIGALRM,), rest_s) is not None
+                if is_alarmed or poller.is_waiting or poller.turn != turn:
+                    continue
+            self._count_block(call, budget_s)
 
     def _frame(self) -> FrameType | None:
         return sys._current_frames().get(self._reactor_thread)
 
-    def _count_block(self, frame: FrameType | None) -> None:
-        name = blocking_call_in(frame, self._owners)
+    def _count_block(self, name: str, budget_s: float) -> None:
         counts = self.blocking_calls if self.has_started else self._at_start
         if name not in counts and len(counts) >= _NAMED_LIMIT:
             name = OTHERS
@@ -94,21 +107,24 @@ class ReactorMonitor:
                 LogLevel.error if self.has_started else LogLevel.info,
                 "{call} blocks the event loop for more than {ms:.0f} ms{when} (logged once)",
                 call=name,
-                ms=BUDGET_S * 1000,
+                ms=budget_s * 1000,
                 when="" if self.has_started else " during start-up",
                 code="event_loop_blocked",
             )
 
 
-def blocking_call_in(frame: FrameType | None, owners: tuple[type, ...]) -> str:
-    """Return the class of the innermost owner in a stack, otherwise a function's name."""
+def blocking_call_in(frame: FrameType | None, owners: tuple[type, ...]) -> tuple[str, float]:
+    """Return the class of the innermost owner in a stack, and its budget in seconds.
+
+    Without an owner: the name of a function, and the default.
+    """
     innermost = frame
     while frame is not None:
         owner = frame.f_locals.get("self")
         if isinstance(owner, owners):
-            return type(owner).__name__
+            return type(owner).__name__, getattr(owner, "TIME_BUDGET_S", BUDGET_S)
         frame = frame.f_back
-    return _function_in(innermost)
+    return _function_in(innermost), BUDGET_S
 
 
 def _function_in(innermost: FrameType | None) -> str:
@@ -139,6 +155,7 @@ class WatchedPoller:
     def __init__(self, poller: Any, budget_s: float) -> None:
         self.poller = poller
         self.is_waiting = False
+        self.turn = 0
         self.register = poller.register
         self.modify = poller.modify
         self.unregister = poller.unregister
@@ -149,6 +166,7 @@ class WatchedPoller:
         self, *arguments: Any, _set: Any = signal.setitimer, _real: int = signal.ITIMER_REAL
     ) -> Any:
         _set(_real, 0.0)
+        self.turn += 1
         self.is_waiting = True
         try:
             return self._poll(*arguments)

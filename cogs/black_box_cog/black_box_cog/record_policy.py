@@ -1,4 +1,4 @@
-"""Decides which objects get a topic in the log."""
+"""Decides which objects get a topic in the log, and how many marks it takes."""
 
 from __future__ import annotations
 
@@ -9,10 +9,12 @@ from up.commands.command_registry import CommandRegistry
 from up.commands.refusal import CommandRefusedError
 from up.flight_log.origin_text import KEY
 from up.system.clock import Clock
+from up.system.token_bucket import TokenBucket
 
 TOPICS_LIMIT = 64
 MAX_BYTES = 4096
 MAX_A_SECOND = 200
+MAX_MARKS = 20
 _RESERVED = "up."
 
 
@@ -21,15 +23,16 @@ class RecordPolicy:
 
     def __init__(self, registry: CommandRegistry, clock: Clock) -> None:
         self._registry = registry
-        self._clock = clock
         self._topics: set[str] = set()
-        self._second = float("-inf")
-        self._count = 0
+        self._records = TokenBucket(clock, MAX_A_SECOND, MAX_A_SECOND)
+        # Each mark is a line of the program's log, too.
+        self._marks = TokenBucket(clock, 1, MAX_MARKS)
 
     def checked(self, command: RecordCommand) -> Recorded:
         """Return the record; raises CommandRefusedError with the reason."""
         self._check_topic(command.topic)
-        self._check_rate()
+        if not self._records.take():
+            raise CommandRefusedError(f"at most {MAX_A_SECOND} records a second")
         if KEY in command.content:
             raise CommandRefusedError(f"content may not have the key {KEY}")
         try:
@@ -43,16 +46,13 @@ class RecordPolicy:
         self._topics.add(command.topic)
         return Recorded(command.topic, text)
 
+    def check_mark(self) -> None:
+        """Raise CommandRefusedError for more marks than a person sets."""
+        if not self._marks.take():
+            raise CommandRefusedError(f"at most {MAX_MARKS} marks at once and one a second")
+
     def _check_topic(self, topic: str) -> None:
         if topic.startswith(_RESERVED) or self._registry.get(topic) is not None:
             raise CommandRefusedError(f"the topic {topic} is a Command's")
         if topic not in self._topics and len(self._topics) >= TOPICS_LIMIT:
             raise CommandRefusedError(f"at most {TOPICS_LIMIT} topics are recorded")
-
-    def _check_rate(self) -> None:
-        second = self._clock.seconds() // 1.0
-        if second != self._second:
-            self._second, self._count = second, 0
-        self._count += 1
-        if self._count > MAX_A_SECOND:
-            raise CommandRefusedError(f"at most {MAX_A_SECOND} records a second")

@@ -30,6 +30,7 @@ def hints(ports: Ports, folder: Path, page: str | None) -> list[str]:
         f"  {ground} send{port} arduino.pids.tunings request=true   the gains; see the guide",
         f"  {ground} send{port} up.flight_mode.set mode=RATE        and mode=FBW",
         f"  {ground} send{port} up.flight_mode.set mode=RETURN      flies home; mode=AUTO ends it",
+        f"  {ground} mission --help          missions: draw one in the page, or upload a file",
         f"  {ground} send{port} android.speak text=hello",
         f"  {sim} radio{socket}          the sticks on your keyboard; q releases them",
         f"  {sim} fly save       a scenario: the pilot takes over",

@@ -12,6 +12,7 @@ from black_box_cog.commands.mark_command import MarkCommand
 from black_box_cog.commands.record_command import RecordCommand
 from black_box_cog.modules import black_box
 from black_box_cog.modules.black_box import BlackBox
+from black_box_cog.record_policy import MAX_MARKS
 from twisted.internet.task import Clock
 from twisted.logger import Logger
 
@@ -127,6 +128,10 @@ def flown(tmp_path_factory):
                     (Role.OPERATOR, "black_box.record", {"topic": "a.b", "content": {}}),
                 )
             ]
+            # A program that marks without end fills neither the log nor the terminal.
+            flood = {"text": "flood"}
+            codes = [system.say(Role.OPERATOR, "black_box.mark", flood)[0] for _ in range(200)]
+            assert codes[: MAX_MARKS - 1] == ["ack"] * (MAX_MARKS - 1)
             await system.recording()
             system.publish(100)
             await until(
@@ -134,6 +139,7 @@ def flown(tmp_path_factory):
             )
             telemetry = system.up.get_module(TelemetryController).collect()["black_box"]
             await life.stop()
+        assert codes.count("ack") == codes_of(log).count("mark") - 1 < 100
         return Flown(system.files[0], answers, codes_of(log), telemetry)
 
     return run_in_reactor(fly)

@@ -8,11 +8,14 @@ from twisted.logger import capturedLogs
 from raspilot.flight_modes.loiter import Loiter
 from raspilot.flight_modes.return_home import Return
 from raspilot.modules.failsafes import Failsafes
+from raspilot.modules.plans import Plans
 from tests.docs.test_how_to import examples
 from tests.raspilot.flight_controller_rig import BOARD
-from tests.raspilot.navigation_rig import NAVIGATION, STANDING, NavigationRig
+from tests.raspilot.mission.test_borders import circle
+from tests.raspilot.navigation_rig import FRAME, NAVIGATION, STANDING, NavigationRig
 from up.base_module import BaseModule
 from up.commands.flight_state_command import FlightModeCommand, FlightStateCommand
+from up.commands.navigation_commands import HomeCommand, NavigationTargetCommand
 from up.failures import FailureSource
 from up.flight_modes.navigation_state import Point
 
@@ -94,6 +97,29 @@ def test_the_switch_ends_it_and_the_same_failure_does_not_act_again(rig):
     rig.state()
     rig.fly(20.0)
     assert rig.seen() == (["uplink_lost"], None, None)
+
+
+def test_in_flight_neither_a_target_nor_home_may_be_outside_the_fence(tmp_path):
+    rig = FailsafeRig(tmp_path, modules=(Plans,))
+    rig.take_off()
+    rig.up.get_module(Plans).fences.use((circle(100, 50, 400),), "0123456789abcdef")
+    rig.fly(1.0)
+
+    def detail_of(command, north_m):
+        latitude_deg, longitude_deg = FRAME.degrees(Point(100.0 + north_m, 50.0))
+        [outcome] = rig.outcome(command(latitude_deg, longitude_deg))
+        return outcome and outcome.value.detail
+
+    assert detail_of(NavigationTargetCommand, 390) is None
+    assert detail_of(NavigationTargetCommand, 410) == "outside_fence"
+    assert detail_of(HomeCommand, 410) == "outside_fence"
+    assert detail_of(HomeCommand, 390) is None
+    rig.up.get_module(Plans).fences.use((), "")
+    rig.fly(1.0)
+    assert detail_of(NavigationTargetCommand, 880) is None
+    assert detail_of(NavigationTargetCommand, 900) == "outside_fence", "the radius of failsafe.yml"
+    rig.state("FBW", armed=False, in_flight=False)
+    assert detail_of(HomeCommand, 900) is None, "on the ground it is a reason not to arm"
 
 
 def test_with_the_switch_elsewhere_nothing_acts(rig):
@@ -227,7 +253,7 @@ def test_a_failure_that_no_module_reports_is_a_veto(tmp_path):
     assert list(rig.up.vetoes.own) == ["failsafe.yml.flight_tmie"]
 
 
-def test_no_progress_home_is_noticed_after_its_delay(rig):
+def test_no_progress_is_noticed_after_its_delay(rig):
     rig.navigation.set(replace(NAVIGATION, position=Point(100.0, 450.0)))
     rig.outcome(FlightModeCommand("RETURN"))
     rig.fly(31.0)
@@ -238,6 +264,14 @@ def test_no_progress_home_is_noticed_after_its_delay(rig):
     rig.navigation.set(replace(NAVIGATION, position=Point(100.0, 80.0)))
     rig.fly(35.0)
     assert rig.seen() == ([], None, "RETURN"), "it circles at home"
+
+
+def test_a_mode_that_is_blown_away_from_its_circle_makes_no_progress(rig):
+    rig.fly(35.0)
+    assert rig.seen() == ([], None, "LOITER")
+    rig.navigation.set(replace(NAVIGATION, position=Point(-300.0, 50.0)))
+    rig.fly(31.0)
+    assert rig.seen() == (["no_progress"], None, "LOITER")
 
 
 def test_at_home_the_wide_circle_that_a_wind_requires_is_no_lack_of_progress(tmp_path):

@@ -151,6 +151,9 @@ def test_a_fence_is_refused_by_what_is_outside():
         found = check_fence(fence, mission, CALM)
         assert [(each.item, each.code) for each in found] == [(0, "home_outside")]
     assert [each.code for each in check_fence([BOX] * 51, [], CALM)] == ["too_many"]
+    bow = border((-500, -500), (500, 500), (500, -500), (-500, 500))
+    found = check_fence([BOX, bow], mission, CALM)
+    assert [(each.item, each.code) for each in found] == [(2, "crosses_itself")]
 
 
 def test_the_longest_mission_in_the_largest_fence_is_checked_in_seconds():

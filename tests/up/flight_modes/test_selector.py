@@ -130,6 +130,10 @@ def test_a_mode_that_fails_is_replaced_in_the_same_step_until_it_is_selected_aga
     assert rig.step() == 3.0
 
 
+def test_a_mode_may_declare_a_longer_budget():
+    assert Rig(type("Slow", (Best,), {"step": _computing, "TIME_BUDGET_S": 30.0})).step() == 3.0
+
+
 def test_a_mode_that_waits_is_replaced_at_the_second_time():
     """Once it may be a thread that holds Python's lock while another program runs."""
     rig = Rig(type("Bad", (Best,), {"step": _blocking}))

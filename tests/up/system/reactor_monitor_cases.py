@@ -15,7 +15,7 @@ from tests.support.system import build_up
 from tests.up.commands.samples import Log, NumberCommand
 from up.base_module import BaseModule
 from up.commands.base_command_handler import BaseCommandHandler
-from up.system.reactor_monitor import OTHERS, ReactorMonitor, blocking_call_in
+from up.system.reactor_monitor import BUDGET_S, OTHERS, ReactorMonitor, blocking_call_in
 
 OWNERS = (BaseModule, BaseCommandHandler)
 HOLD_S = 0.06
@@ -202,6 +202,35 @@ def test_one_hold_is_counted_once_and_logged_once(tmp_path):
     assert len(blocked_calls(log)) == len(counts)
 
 
+class SlowModule(BaseModule):
+    """May hold the loop longer than others."""
+
+    TIME_BUDGET_S = 1.0
+
+    def on_timer(self, seconds):
+        hold(seconds)
+
+
+def test_a_module_may_declare_a_longer_budget(tmp_path):
+    async def scenario(up, monitor):
+        slow = SlowModule()
+        # Others are watched while its budget passes.
+        reactor.callLater(0, slow.on_timer, 0.1)
+        await sleep(0.2)
+        assert "SlowModule" not in monitor.blocking_calls
+        while "HoldingModule" not in monitor.blocking_calls:
+            reactor.callLater(0, slow.on_timer, 0.1)
+            reactor.callLater(0.01, up.get_module(HoldingModule).on_timer)
+            await sleep(0.2)
+        assert "SlowModule" not in monitor.blocking_calls
+        reactor.callLater(0, slow.on_timer, 1.5)
+        await until(lambda: monitor.blocking_calls["SlowModule"])
+
+    with Log() as log:
+        watch(tmp_path, scenario)
+    assert [each["ms"] for each in log.events if each.get("call") == "SlowModule"] == [1000]
+
+
 def test_an_idle_reactor_is_not_counted_and_wakes_nobody(tmp_path):
     async def scenario(up, monitor):
         before = switches(monitor)
@@ -251,13 +280,13 @@ def test_the_names_are_bounded():
     for number in range(200):
         frames = {"__name__": f"module_{number}"}
         exec("import sys\nframe = sys._getframe()", frames)
-        monitor._count_block(frames["frame"])
+        monitor._count_block(*blocking_call_in(frames["frame"], OWNERS))
     assert len(monitor.blocking_calls) <= 51
     assert monitor.blocking_calls[OTHERS] == 150
 
 
 def test_nobody_in_the_stack():
-    assert blocking_call_in(None, OWNERS) == "?"
+    assert blocking_call_in(None, OWNERS) == ("?", BUDGET_S)
 
 
 @pytest.mark.parametrize("bad", [7, object()])
@@ -265,4 +294,4 @@ def test_a_self_that_is_no_module(bad):
     def inner(self):
         return blocking_call_in(sys._getframe(), OWNERS)
 
-    assert "inner" in inner(bad)
+    assert "inner" in inner(bad)[0]

@@ -24,4 +24,4 @@ def test_the_cases_pass_in_a_process_with_one_thread():
         check=False,
     )
     assert result.returncode == 0, result.stdout + result.stderr
-    assert "14 passed" in result.stdout
+    assert "15 passed" in result.stdout

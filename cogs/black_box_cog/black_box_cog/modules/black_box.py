@@ -130,6 +130,7 @@ class BlackBox(BaseThreadModule):
 
     def _on_mark(self, command: MarkCommand) -> None:
         self._refuse_without_file()
+        self._policy.check_mark()
         self.log.info("mark: {text}", text=command.text, code="mark")
 
     def _on_record(self, command: RecordCommand) -> None:
