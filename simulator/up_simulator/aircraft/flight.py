@@ -85,6 +85,10 @@ class Dynamics(Protocol):
     def crash(self) -> str | None:
         """Return one sentence about the crash; None while it flies. After it the aircraft rests."""
 
+    @property
+    def is_landed(self) -> bool:
+        """Return whether it has touched down; it then slides and rests."""
+
     def set_charge(self, percent: float) -> None:
         """Set the charge of the flight battery."""
 
