@@ -15,6 +15,7 @@ HOME = {
     "latitude_deg": START_LATITUDE_DEG,
     "longitude_deg": START_LONGITUDE_DEG,
     "altitude_m": GROUND_M,
+    "radius_m": None,
 }
 FLIGHTS = "flights"
 """Where, in the folder of a run, the black box writes."""
@@ -63,7 +64,7 @@ def write_config(
     for name in ("flight_state.yml", "flight_state.yml.good"):
         (folder / name).unlink(missing_ok=True)
     if is_at_start:
-        files["flight_state.yml"] = yaml.safe_dump({"home": HOME}, sort_keys=False)
+        files["flight_state.yml"] = yaml.safe_dump({"mode": "", "home": HOME})
     for name, text in files.items():
         head = "# Written by 'make run', at every start.\n"
         (folder / name).write_text(head + text, encoding="utf-8")
