@@ -85,10 +85,6 @@ class Dynamics(Protocol):
     def crash(self) -> str | None:
         """Return one sentence about the crash; None while it flies. After it the aircraft rests."""
 
-    @property
-    def is_landed(self) -> bool:
-        """Return whether it has touched down; it then slides and rests."""
-
     def set_charge(self, percent: float) -> None:
         """Set the charge of the flight battery."""
 
@@ -105,6 +101,10 @@ class FlightSource(Dynamics, Protocol):
     @property
     def servos(self) -> Servos:
         """Return the present servo positions, us, which lag behind the commanded ones."""
+
+    @property
+    def is_landed(self) -> bool:
+        """Return whether it has touched down; it then slides and rests."""
 
     def change_battery(self) -> None:
         """Put a full battery in."""

@@ -1,5 +1,5 @@
-import { distanceText } from "../state/earth.js";
 import { actingMode } from "../state/flight_mode.js";
+import { plainNumber } from "../state/format.js";
 import { FENCE, MISSION } from "./plan.js";
 
 /** What the modes that replace MISSION at an item do with it. */
@@ -44,7 +44,7 @@ export function flownItem(editor, store) {
 /** The limits of failsafe.yml, as `Limits around home: radius 300 m, ceiling 120 m.`; empty: none. */
 export function limitsText(store) {
   const limits = ["radius", "ceiling", "floor"].map((name) => [name, store.number(`${FENCE}.${name}`)]);
-  const parts = limits.filter(([, value_m]) => value_m !== null).map(([name, value_m]) => `${name} ${distanceText(value_m)}`);
+  const parts = limits.filter(([, value_m]) => value_m !== null).map(([name, value_m]) => `${name} ${plainNumber(value_m)} m`);
   return parts.length === 0 ? "" : `Limits around and above home (failsafe.yml): ${parts.join(", ")}.`;
 }
 
