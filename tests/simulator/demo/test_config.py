@@ -38,6 +38,7 @@ def test_home_is_the_ground_below_the_launch(tmp_path):
     memory = PersistedFile(tmp_path / MEMORY.filename, MEMORY)
     values, problem = memory.load()
     assert (values.mode, values.home, problem) == ("", Place(50.0, 14.5, 250.0), None)
+    memory.save(values)
     write(tmp_path, is_at_start=False)
     assert memory.load() == (MEMORY.cls(), None), "a recorded flight is elsewhere"
 
