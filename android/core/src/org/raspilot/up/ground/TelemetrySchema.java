@@ -91,7 +91,8 @@ public final class TelemetrySchema {
         put(UNITS, "m", "location.altitude", "home.distance", "home.altitude",
                 "navigation.altitude", "navigation.height", "navigation.sd.position",
                 "navigation.sd.altitude", "navigation.target.altitude", "navigation.target.radius",
-                "mission.distance", "altitude", "altitude_required", "fence.margin");
+                "mission.distance", "altitude", "altitude_required", "fence.margin", "fence.radius",
+                "fence.ceiling", "fence.floor");
         put(UNITS, "s", "home.time_s", "system.uptime_s");
         put(UNITS, "m/s", "navigation.speed", "navigation.climb", "navigation.airspeed",
                 "navigation.wind.speed", "navigation.sd.wind", "navigation.sd.airspeed");
@@ -111,7 +112,8 @@ public final class TelemetrySchema {
                 "navigation.sd.altitude", "navigation.sd.wind", "navigation.sd.airspeed",
                 "navigation.sd.heading", "navigation.target.altitude", "navigation.target.radius");
         put(DECIMALS, 0, "home.time_s", "navigation.wind.from", "location.satellites",
-                "mission.count", "mission.item", "mission.distance", "fence.count", "fence.margin");
+                "mission.count", "mission.item", "mission.distance", "fence.count", "fence.margin",
+                "fence.radius", "fence.ceiling", "fence.floor");
         put(DECIMALS, 2, "arduino.flight_battery_v");
         LIMITS.put("battery_low", 20.0);
         LIMITS.put("battery_empty", 10.0);
