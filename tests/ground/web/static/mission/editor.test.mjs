@@ -93,8 +93,9 @@ test("progress in words", () => {
   const third = { count: 12, item: 3, distance: 339.6, is_finished: false };
   assert.equal(text(third), "Item 3 of 12, 340 m ahead.");
   assert.equal(text(third, "LOITER"), "Item 3 of 12 is next, 340 m away.");
-  assert.equal(text(third, "LAND"), "Landing: item 3 of 12.");
-  assert.equal(text(third, "RETURN"), "Returning: item 3 of 12.");
+  assert.equal(text(third, "RETURN"), "Returning; item 3 of 12 is next.");
+  assert.equal(text({ ...third, item: 12 }, "LAND"), "Landing: item 12 of 12.");
+  assert.equal(text({ ...third, item: 1 }, "TAKEOFF"), "Taking off: item 1 of 12.");
   assert.equal(text({ count: 12, item: 12, is_finished: true }), "Finished: all 12 items.");
   assert.equal(text({ count: 0 }), "");
 });

@@ -48,7 +48,7 @@ export function limitsText(store) {
   return parts.length === 0 ? "" : `Limits around and above home (failsafe.yml): ${parts.join(", ")}.`;
 }
 
-/** As `Item 3 of 12, 340 m ahead.`, `Landing: item 4 of 4.`, `Item 3 of 12 is next.`; empty: no mission. */
+/** As `Item 3 of 12, 340 m ahead.`, `Landing: item 4 of 4.`, `Landing; item 2 of 4 is next.`, `Item 3 of 12 is next.`; empty: no mission. */
 export function progressText(store) {
   const count = store.number(`${MISSION}.count`);
   const item = store.number(`${MISSION}.item`);
@@ -60,7 +60,9 @@ export function progressText(store) {
   }
   const mode = actingMode(store);
   if (Object.hasOwn(REPLACING, mode)) {
-    return `${REPLACING[mode]}: item ${item} of ${count}.`;
+    // An item with such a mode is the first one (TAKEOFF) or the last one; elsewhere the ground or a failsafe chose it.
+    const isItem = item === (mode === "TAKEOFF" ? 1 : count);
+    return isItem ? `${REPLACING[mode]}: item ${item} of ${count}.` : `${REPLACING[mode]}; item ${item} of ${count} is next.`;
   }
   const distance_m = store.number(`${MISSION}.distance`);
   const away = distance_m === null ? "" : `, ${Math.round(distance_m)} m ${mode === FLIES ? "ahead" : "away"}`;
