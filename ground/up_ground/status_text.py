@@ -109,8 +109,10 @@ def control_text(status: LinkStatus) -> str:
 
 
 def link_text(status: LinkStatus, now_s: float) -> str:
-    """Return the state of the connection, with its last error."""
-    if status.state is LinkState.OPEN or not status.failures:
+    """Return the state of the connection, and how it is protected: plain, or TLS and the peer."""
+    if status.state is LinkState.OPEN:
+        return f"connected, {'plain' if status.tls_peer is None else f'TLS {status.tls_peer}'}"
+    if not status.failures:
         return status.state.value
     return f"down for {age_text(now_s - status.since_s)}, attempt {status.failures + 1}"
 
