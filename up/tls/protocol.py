@@ -52,7 +52,7 @@ class TLSProtocol(Protocol):
     ) -> None:
         self.done: Deferred[Protocol] = Deferred(lambda _: self.abortConnection())
         self.peer_name = ""
-        self.fault: TLSError | None = None
+        self.error: TLSError | None = None
         self._reactor = reactor
         self._build = build
         self._on_handshake = on_handshake
@@ -83,14 +83,14 @@ class TLSProtocol(Protocol):
     def connectionLost(self, reason: Failure = connectionDone) -> None:  # noqa: N802 - Twisted's name
         self._is_closed = True
         if self._inner is not None:
-            self._inner.connectionLost(reason if self.fault is None else Failure(self.fault))
+            self._inner.connectionLost(reason if self.error is None else Failure(self.error))
             return
         cancel(self._limit)
         self._on_handshake(self)
-        if self.fault is None:
-            self.fault = fault_of(ConnectionError())
+        if self.error is None:
+            self.error = fault_of(ConnectionError())
         if not self.done.called:
-            self.done.errback(Failure(self.fault))
+            self.done.errback(Failure(self.error))
 
     def write(self, data: bytes) -> None:
         """Encrypt and send; the transport below has the only buffer."""
@@ -181,9 +181,9 @@ class TLSProtocol(Protocol):
         text = f"no TLS handshake within {HANDSHAKE_LIMIT_S:g} s"
         self._fail(TLSError(text, TIMEOUT), is_heard=False)
 
-    def _fail(self, fault: TLSError, *, is_heard: bool = True) -> None:
+    def _fail(self, error: TLSError, *, is_heard: bool = True) -> None:
         """End the connection; the alert that tells the peer why leaves first."""
-        self.fault = self.fault or fault
+        self.error = self.error or error
         self._is_closed = True
         if is_heard:
             self.transport.loseConnection()
