@@ -16,8 +16,6 @@ class Certificates:
         self.authority = Authority(folder / "ca")
         self.authority.create("test")
         self.other = Authority(folder / "other")
-        self.other.create("test")
-        self.folder = folder
 
     def server(self, name="relay", hosts=(SERVER,), days=10):
         return self.authority.issue(name, hosts, days)
@@ -27,6 +25,8 @@ class Certificates:
 
     def of_another_ca(self, name, hosts=()):
         """Return a device that trusts our CA, with a certificate of another one of that name."""
+        if not self.other.folder.exists():
+            self.other.create("test")
         made = self.other.issue(name, hosts, 10)
         (made / "ca.pem").write_bytes((self.authority.folder / "ca.pem").read_bytes())
         (made / "revoked.pem").unlink()

@@ -61,9 +61,8 @@ def test_a_renewed_certificate_has_the_hosts_and_both_are_revoked(made, tmp_path
     assert [each["revoked"] for each in rows if each["name"] == "relay"] == [True, True]
 
 
-@pytest.mark.parametrize(
-    ("words", "code", "status"),
-    [
+def test_a_mistake_gets_a_code(made):
+    for words, code, status in (
         (("init",), "ca_exists", 1),
         (("device", "glider-1"), "device_exists", 1),
         (("device", "a/b"), "bad_name", 1),
@@ -73,11 +72,9 @@ def test_a_renewed_certificate_has_the_hosts_and_both_are_revoked(made, tmp_path
         (("revoke", "nobody"), "unknown_device", 1),
         (("renew", "nobody"), "unknown_device", 1),
         (("list", "--folder", "nowhere"), "no_ca", 1),
-    ],
-)
-def test_a_mistake_gets_a_code(made, words, code, status):
-    outcome = made("certificates", *words, as_json=True)
-    assert (outcome.problem["code"], outcome.status) == (code, status)
+    ):
+        outcome = made("certificates", *words, as_json=True)
+        assert (outcome.problem["code"], outcome.status) == (code, status)
 
 
 def test_a_ca_key_that_others_may_read_signs_nothing(made, tmp_path):

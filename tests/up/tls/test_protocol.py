@@ -6,15 +6,15 @@ import warnings
 import pytest
 from twisted.internet.defer import Deferred
 from twisted.internet.endpoints import TCP4ClientEndpoint
-from twisted.internet.protocol import Factory, ServerFactory
+from twisted.internet.protocol import Factory
 
-from tests.cogs.peers import Peer, Server, connect
+from tests.cogs.peers import Peer, Server, TLSServer, connect
 from tests.support.certificates import Certificates
 from tests.support.reactor import reactor, run_in_reactor, until
 from up.tls import protocol
 from up.tls.errors import TLSError
 from up.tls.files import TLSFiles
-from up.tls.protocol import TLSClientEndpoint, TLSServerFactory
+from up.tls.protocol import TLSClientEndpoint
 from up.version import BUILT_S
 
 
@@ -24,23 +24,6 @@ def certificates(tmp_path_factory):
     found.server()
     found.client()
     return found
-
-
-class TLSServer(Server):
-    """A server with TLS in front of Peer."""
-
-    def __init__(self, files, clients=True):
-        super().__init__(reactor)
-        self.files = files
-        self.clients = clients
-
-    async def open(self, number=0):
-        wrapped = ServerFactory()
-        wrapped.noisy = False
-        wrapped.buildProtocol = lambda addr: self._new()
-        self.factory = TLSServerFactory(reactor, self.files, wrapped, clients=self.clients)
-        self.port = reactor.listenTCP(number, self.factory, interface="127.0.0.1")
-        return self.port.getHost().port
 
 
 async def connect_tls(port, folder, host="127.0.0.1", seconds=None):
@@ -65,7 +48,7 @@ def run(server, scenario):
 
 def outcome(server_folder, client_folder, host="127.0.0.1", seconds=None, make=TLSFiles):
     """Return the client's code; "" if the server answered."""
-    server = TLSServer(make(server_folder))
+    server = TLSServer(reactor, make(server_folder))
 
     async def scenario(port):
         try:
@@ -74,7 +57,7 @@ def outcome(server_folder, client_folder, host="127.0.0.1", seconds=None, make=T
             assert server.peers == []
             return error.code
         peer.say(b"hello\n")
-        await until(lambda: not peer.is_open or server.peers and server.peers[0].received)
+        await until(lambda: not peer.is_open or (server.peers and server.peers[0].received))
         is_answered = bool(server.peers)
         await peer.close()
         return "" if is_answered else "refused_later"
@@ -83,7 +66,7 @@ def outcome(server_folder, client_folder, host="127.0.0.1", seconds=None, make=T
 
 
 def test_both_sides_know_each_other_and_data_pass(certificates):
-    server = TLSServer(TLSFiles(certificates.authority.folder / "relay"))
+    server = TLSServer(reactor, TLSFiles(certificates.authority.folder / "relay"))
 
     async def scenario(port):
         peer = await connect_tls(port, certificates.authority.folder / "glider-1")
@@ -131,7 +114,7 @@ def test_a_client_refuses_a_revoked_server(tmp_path):
 
 def test_a_server_refuses_a_revoked_client_without_a_restart(tmp_path):
     own = Certificates(tmp_path)
-    server = TLSServer(TLSFiles(own.server()))
+    server = TLSServer(reactor, TLSFiles(own.server()))
     client = own.client()
 
     async def scenario(port):
@@ -211,7 +194,7 @@ def test_a_silent_server_and_a_silent_client_are_given_up(certificates, monkeypa
         return caught.value.code
 
     assert run_in_reactor(silent_server) == "tls_timeout"
-    server = TLSServer(TLSFiles(certificates.authority.folder / "relay"))
+    server = TLSServer(reactor, TLSFiles(certificates.authority.folder / "relay"))
 
     async def silent_client(port):
         peer = await connect(reactor, port)
@@ -223,7 +206,7 @@ def test_a_silent_server_and_a_silent_client_are_given_up(certificates, monkeypa
 
 def test_a_server_bounds_its_handshakes(certificates, monkeypatch):
     monkeypatch.setattr(protocol, "MAX_HANDSHAKES", 3)
-    server = TLSServer(TLSFiles(certificates.authority.folder / "relay"))
+    server = TLSServer(reactor, TLSFiles(certificates.authority.folder / "relay"))
 
     async def scenario(port):
         silent = [await connect(reactor, port) for _ in range(5)]
