@@ -21,9 +21,11 @@ def ask(runner, context, request):
     """Send a request by TLS and return the answer."""
     talk = Talk(runner.port)
     talk.lines.close()
-    with context.wrap_socket(talk.socket, server_hostname="127.0.0.1") as talk.socket:
-        with talk.socket.makefile("rb") as talk.lines:
-            return talk.ask(request)
+    with (
+        context.wrap_socket(talk.socket, server_hostname="127.0.0.1") as talk.socket,
+        talk.socket.makefile("rb") as talk.lines,
+    ):
+        return talk.ask(request)
 
 
 def test_only_a_client_with_a_certificate_starts_an_instance(runners, own):
