@@ -3,12 +3,14 @@
 import shutil
 import socket
 import ssl
+import subprocess
 from pathlib import Path
 
 import pytest
 
 from tests.proxy.virtual import Bench, HandReactor, Peer
 from tests.support.certificates import Certificates
+from tests.support.tools import need_tool
 from up.tls.files import TLSFiles
 from up_proxy.config import ProxyConfig, TLSConfig
 from up_proxy.listener import StartError
@@ -224,10 +226,37 @@ def test_a_tls_client_on_the_plain_port_fails_immediately(certificates):
 
 
 def test_renegotiation_is_refused(certificates):
-    """OpenSSL's client asks for it; the ssl module of Python cannot."""
-    context = TLSFiles(device(certificates, "relay")).server()
-    assert context.options & ssl.OP_NO_RENEGOTIATION
-    assert context.minimum_version == ssl.TLSVersion.TLSv1_2
+    need_tool("openssl", "openssl")
+    own = device(certificates, "laptop")
+    with bench(certificates) as b:
+        command = [
+            "openssl",
+            "s_client",
+            "-tls1_2",
+            "-connect",
+            f"127.0.0.1:{b.proxy.tls_ports[1]}",
+        ]
+        files = [
+            "-CAfile",
+            own / "ca.pem",
+            "-cert",
+            own / "certificate.pem",
+            "-key",
+            own / "key.pem",
+        ]
+        asking = subprocess.Popen(
+            [*command, *files],
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+        )
+        asking.stdin.write(b"R\n")
+        asking.stdin.close()
+        b.until(lambda: asking.poll() is not None, "the end of openssl")
+        with asking.stdout as said:
+            answer = said.read()
+    assert b"RENEGOTIATING" in answer
+    assert b":no renegotiation:" in answer
 
 
 def test_half_open_handshakes_are_bounded_and_the_others_served(certificates):
