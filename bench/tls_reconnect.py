@@ -47,6 +47,7 @@ class Watcher:
             return
         if self._light_s is not None:
             print(f"{reactor.seconds() - self._light_s:.3f}", flush=True)
+            self._light_s = None
             reactor.stop()
         elif not self._is_dark:
             self._is_dark = True

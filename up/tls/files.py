@@ -54,7 +54,11 @@ class TLSFiles:
         Raises TLSError, but only if there was never a good context: later a faulty file is logged,
         and the files read before remain in force.
         """
-        signature = (self._is_clock_wrong(), *map(self._stamp, (CA, CERTIFICATE, KEY, REVOKED)))
+        signature = (
+            clients,
+            self._is_clock_wrong(),
+            *map(self._stamp, (CA, CERTIFICATE, KEY, REVOKED)),
+        )
         if self._made is None or self._made[0] != signature:
             try:
                 self._made = (signature, self._server(clients))
@@ -71,10 +75,10 @@ class TLSFiles:
 
         The number is searched in the list's bytes: a long random one occurs there only as an entry.
         """
-        lines = self._read(REVOKED).splitlines()
         try:
+            lines = self._read(REVOKED).splitlines()
             der = base64.b64decode("".join(each for each in lines if not each.startswith("-")))
-        except ValueError:
+        except (TLSError, ValueError):
             return False
         return serial in der
 

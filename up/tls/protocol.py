@@ -19,6 +19,7 @@ from twisted.logger import Logger
 from twisted.python.failure import Failure
 from zope.interface import implementer
 
+from up.log.limits import Limited
 from up.system.clock import Timer, cancel
 from up.tls.errors import TIMEOUT, TLSError, fault_of
 from up.tls.files import TLSFiles, peer_name
@@ -26,6 +27,8 @@ from up.tls.files import TLSFiles, peer_name
 HANDSHAKE_LIMIT_S = 5.0
 MAX_HANDSHAKES = 64
 """Of a server; at a further connection the oldest handshake is ended."""
+LOG_INTERVAL_S = 10.0
+"""Minimum time between two log lines of one code."""
 _READ_BYTES = 65536
 
 Build = Callable[[Any], Protocol | None]
@@ -237,6 +240,7 @@ class TLSServerFactory(ServerFactory):
         self._wrapped = wrapped
         self._clients = clients
         self._pending: dict[TLSProtocol, None] = {}
+        self._limited = Limited(reactor, LOG_INTERVAL_S)
         files.server(clients=clients)
 
     def doStart(self) -> None:  # noqa: N802 - Twisted's name
@@ -244,6 +248,7 @@ class TLSServerFactory(ServerFactory):
         self._wrapped.doStart()
 
     def doStop(self) -> None:  # noqa: N802 - Twisted's name
+        self._limited.stop()
         self._wrapped.doStop()
         super().doStop()  # type: ignore[no-untyped-call]
 
@@ -262,5 +267,14 @@ class TLSServerFactory(ServerFactory):
         self._pending.pop(made, None)
 
     def _on_failed(self, failure: Failure, host: str) -> None:
-        fault: Any = failure.value
-        self.log.warn("{host}: {fault}", host=host, fault=str(fault), code=fault.code)
+        error: Any = failure.value
+        if not self.numPorts:
+            return  # closed
+        self._limited.log(
+            self.log.warn,
+            "{host}: {error}",
+            key=error.code,
+            host=host,
+            error=str(error),
+            code=error.code,
+        )
