@@ -128,8 +128,9 @@ class Acceptor:
     def _accept(self, peer: socket.socket, host: str) -> None:
         error = self._check(host)
         if error is not None:
-            with suppress(OSError):
-                peer.send(Refused(error.code, error.reason).encode())
+            if self.tls is None:
+                with suppress(OSError):
+                    peer.send(Refused(error.code, error.reason).encode())
             peer.close()
             return
         peer.setblocking(False)
