@@ -107,8 +107,8 @@ class ProxyConfig:
     i_accept_plain: bool = key(
         False,
         "Without TLS every host that reaches the ports can listen, and can take control when it is "
-        "free. Peers with public addresses are refused there until this is true. Set it only when a "
-        "firewall or VPN protects the ports, or when you accept the risk.",
+        "free. Peers with public addresses are refused there until this is true. Set it only when "
+        "a firewall or VPN protects the ports, or when you accept the risk.",
     )
     metrics_port: int = key(
         9303,

@@ -116,12 +116,6 @@ class TLSProtocol(Protocol):
         self._is_closed = True
         self.transport.abortConnection()
 
-    def pauseProducing(self) -> None:  # noqa: N802 - Twisted's name
-        self.transport.pauseProducing()
-
-    def resumeProducing(self) -> None:  # noqa: N802 - Twisted's name
-        self.transport.resumeProducing()
-
     def stopProducing(self) -> None:  # noqa: N802 - Twisted's name
         self.loseConnection()
 
