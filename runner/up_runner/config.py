@@ -43,7 +43,7 @@ class ProxyAddress:
     tls: str = key(
         "",
         "Folder with the instances' certificate (mission_control.yml: remote_server: tls), "
-        "relative to this file. Empty: their links are plain.",
+        "relative to this file. Empty: remote_server: tls applies.",
         max_length=4096,
     )
 

@@ -175,8 +175,10 @@ class Runner:
     def _proxy_settings(self) -> Mapping[str, Mapping[str, Any]]:
         """Return the settings with which an instance uses the proxy named in the answers."""
         proxy = self._config.proxy
-        tls = str(self._config_folder / proxy.tls) if proxy.tls else ""
-        server = {"url": proxy.host, "port": proxy.airborne_port, "tls": tls}
+        server: dict[str, Any] = {"url": proxy.host, "port": proxy.airborne_port}
+        if proxy.tls:
+            # Otherwise that of the base stays: nothing here makes a protected link plain.
+            server["tls"] = str(self._config_folder / proxy.tls)
         return {"mission_control.yml": {"remote_server": server}} if proxy.host else {}
 
     def _check(self) -> None:
