@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import math
 from collections.abc import Mapping
+from pathlib import Path
 from typing import Any
 
 from up.cli.option_parser import OptionParser, add_json_option
@@ -33,8 +34,8 @@ examples
   up-ground control request                         requests it of its owner
 
 environment
-  UP_GROUND_HOST, UP_GROUND_PORT, UP_GROUND_AIRCRAFT, UP_GROUND_DIRECT=1 stand
-  for the options
+  UP_GROUND_HOST, UP_GROUND_PORT, UP_GROUND_AIRCRAFT, UP_GROUND_DIRECT=1 and
+  UP_GROUND_TLS stand for the options
 """
 _WATCH_EPILOG = """\
 On a terminal: a picture of the aircraft, at most ten times a second. Stale
@@ -139,11 +140,14 @@ def _add_connection(
     direct = given.get("UP_GROUND_DIRECT", "") not in ("", "0")
     text = "send no hello: for a legacy proxy or an old aircraft on the same LAN"
     add("--direct", text, direct, action="store_true")
+    text = "folder with this ground's certificate: the link speaks TLS alone (port 3014 of a proxy)"
+    tls = given.get("UP_GROUND_TLS")
+    add("--tls", text, Path(tls) if tls else None, type=Path, metavar="DIR")
 
 
 def settings_of(options: argparse.Namespace, seat: Seat) -> Settings:
     """Return the settings of the peer to connect to."""
-    return Settings(options.host, options.port, options.aircraft, seat, options.direct)
+    return Settings(options.host, options.port, options.aircraft, seat, options.direct, options.tls)
 
 
 def _add_watch(verbs: Any) -> None:

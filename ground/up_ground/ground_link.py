@@ -33,6 +33,9 @@ from up.protocols.proxy_lines import (
     parse_line,
 )
 from up.system.backoff import Backoff
+from up.tls.errors import TLSError
+from up.tls.files import TLSFiles
+from up.tls.protocol import TLSClientEndpoint
 from up_ground.ground_protocol import GroundProtocol
 from up_ground.link_status import LinkState, LinkStatus
 from up_ground.settings import Seat, Settings
@@ -67,6 +70,7 @@ class GroundLink:
         self.status = LinkStatus(since_s=reactor.seconds())
         self._reactor = reactor
         self._settings = settings
+        self._tls = None if settings.tls is None else TLSFiles(settings.tls)
         self._listener = listener
         self._tokens = tokens
         self._wanted = settings.seat
@@ -172,10 +176,14 @@ class GroundLink:
     def connect(self, protocolFactory: IProtocolFactory) -> Deferred[Any]:  # noqa: N803
         """Make one attempt; the service calls it as its endpoint."""
         self.status.state = LinkState.CONNECTING
-        endpoint = HostnameEndpoint(
-            self._reactor, self._settings.host, self._settings.port, timeout=CONNECT_TIMEOUT_S
+        host = self._settings.host
+        endpoint: Any = HostnameEndpoint(
+            self._reactor, host, self._settings.port, timeout=CONNECT_TIMEOUT_S
         )
-        return endpoint.connect(protocolFactory).addErrback(self._on_failed)
+        if self._tls is not None:
+            endpoint = TLSClientEndpoint(self._reactor, endpoint, self._tls, host)
+        connecting: Deferred[Any] = endpoint.connect(protocolFactory)
+        return connecting.addErrback(self._on_failed)
 
     def _obey(self, connection: GroundProtocol, said: ProxyLine) -> None:
         status = self.status
@@ -215,6 +223,8 @@ class GroundLink:
         status.rejection = ""
         status.failures = 0
         status.connections += 1
+        if self._tls is not None and self._connection is not None:
+            status.tls_peer = self._connection.transport.peer_name
         self._backoff.reset()
 
     def _build(self) -> GroundProtocol:
@@ -225,7 +235,8 @@ class GroundLink:
         return GroundProtocol(self._reactor, self, hello)
 
     def _on_failed(self, failure: Failure) -> Failure:
-        self._on_no_link(f"cannot reach {self._settings.address}: {_why(failure)}", "unreachable")
+        code = failure.value.code if isinstance(failure.value, TLSError) else "unreachable"
+        self._on_no_link(f"cannot reach {self._settings.address}: {_why(failure)}", code)
         return failure
 
     def _on_no_link(self, reason: str, code: str) -> None:

@@ -39,6 +39,8 @@ class LinkStatus:
     asked_by: int | None = None
     """The listener that requests the seat held here."""
     is_aircraft_online: bool | None = None
+    tls_peer: str | None = None
+    """The name in the peer's certificate; None: the link is plain."""
     round_trip_ms: float | None = None
     """The kernel's measure of the way to the proxy and back."""
     failures: int = 0
@@ -68,7 +70,7 @@ class LinkStatus:
         self.code = code
         self.seat = self.holder = self.asked_by = self.is_aircraft_online = None
         self.is_holder_known = False
-        self.round_trip_ms = None
+        self.round_trip_ms = self.tls_peer = None
 
 
 ASK_INTERVAL_S = 1.1

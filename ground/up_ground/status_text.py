@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 
 from up.commands.telemetry_schema import MODE_REASONS, RULES
-from up_ground.link_status import LinkState, LinkStatus
+from up_ground.link_status import LinkStatus
 from up_ground.settings import Seat
 from up_ground.telemetry import Telemetry
 
@@ -109,9 +109,12 @@ def control_text(status: LinkStatus) -> str:
 
 
 def link_text(status: LinkStatus, now_s: float) -> str:
-    """Return the state of the connection, with its last error."""
-    if status.state is LinkState.OPEN or not status.failures:
-        return status.state.value
+    """Return the state of the connection, and how it is protected: plain, or TLS and the peer."""
+    state: str = status.state.value
+    if status.is_open:
+        return f"{state}, {'plain' if status.tls_peer is None else f'TLS {status.tls_peer}'}"
+    if not status.failures:
+        return state
     return f"down for {age_text(now_s - status.since_s)}, attempt {status.failures + 1}"
 
 

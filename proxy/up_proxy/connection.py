@@ -7,6 +7,7 @@ from collections.abc import Callable
 from up.protocols.line_decoder import LineBuffer
 from up_proxy.poller import PAUSED, READ, WRITE, Poller
 from up_proxy.send_buffer import SendBuffer
+from up_proxy.tls_socket import TLSSocket
 
 LINE_MAX_BYTES = 65536
 """A connection that sends a longer line is closed."""
@@ -50,6 +51,7 @@ class Connection:
         "_poller",
         "_queue",
         "_socket",
+        "_tls",
         "failure",
         "host",
         "last_rx_s",
@@ -66,7 +68,7 @@ class Connection:
 
     def __init__(
         self,
-        sock: socket.socket,
+        sock: socket.socket | TLSSocket,
         poller: Poller,
         host: str,
         owner: Owner,
@@ -74,6 +76,7 @@ class Connection:
         queue_bytes: int,
     ) -> None:
         self._socket = sock
+        self._tls = sock if isinstance(sock, TLSSocket) else None
         self._closed = closed
         self._poller = poller
         self._queue: SendBuffer | None = None
@@ -90,6 +93,16 @@ class Connection:
         self.speaks_hello = False
         self.token = ""
         poller.watch(sock.fileno(), self)
+
+    @property
+    def peer_name(self) -> str:
+        """The name in the peer's certificate; empty on a plain connection."""
+        return "" if self._tls is None else self._tls.name
+
+    @property
+    def serial(self) -> bytes:
+        """The serial number of the peer's certificate; empty on a plain connection."""
+        return b"" if self._tls is None else self._tls.serial
 
     @property
     def waiting_bytes(self) -> int:
@@ -203,6 +216,8 @@ class Connection:
                 self.last_tx_s = self._poller.now_s
             self._queue = SendBuffer(self.queue_bytes)
             self._queue.put_rest(rest)
+            if self._tls is not None:
+                self._queue.keep(self._tls.attempted)
             self._watch()
 
     def _write(self) -> None:
@@ -213,6 +228,8 @@ class Connection:
             sent = self._socket.send(queue.head())
         except OSError as error:
             self._on_error(error)
+            if self._tls is not None:
+                queue.keep(self._tls.attempted)
             return
         self.last_tx_s = self._poller.now_s
         queue.sent(sent)

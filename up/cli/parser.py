@@ -51,6 +51,16 @@ modules that the cog adds to an application.
 """
 
 
+_CERTIFICATES_EPILOG = """\
+example: a relay, an aircraft and a ground station
+  up certificates init
+  up certificates device relay --host relay.example.org
+  up certificates device glider-1      the name of the aircraft
+  up certificates device laptop
+Each makes a folder to copy to the device; docs/security.md continues from there.
+"""
+
+
 def make_parser(arguments: Sequence[str] | None = None) -> OptionParser:
     """Return the parser of the whole command line.
 
@@ -92,6 +102,7 @@ def make_parser(arguments: Sequence[str] | None = None) -> OptionParser:
     add_json_option(modules)
     schemas = _add(verbs, "schemas", "write the JSON Schema of each configuration file for editors")
     schemas.add_argument("folder", type=Path, metavar="DIR", help="created if missing")
+    _add_certificates(verbs)
     update = add_verb(verbs, "update", "up.cli.update", "upgrade the framework", aliases=("u",))
     update.add_argument("--dry-run", action="store_true", help="only show the pip command")
     for each in (start, check):
@@ -150,6 +161,52 @@ def _add_create(verbs: Any) -> None:
             kind.add_argument(
                 "-i", "--identifier", required=True, help="name of the Command, like plane.bay.open"
             )
+
+
+def _add_certificates(verbs: Any) -> None:
+    group = verbs.add_parser(
+        "certificates",
+        help="make and revoke the certificates of TLS links",
+        epilog=_CERTIFICATES_EPILOG,
+    )
+    group.set_defaults(parser=group)
+    actions = group.add_subparsers(title="action", metavar="ACTION")
+    for name, function, text in (
+        ("init", "init", "make a private CA"),
+        ("device", "device", "make the key and certificate of a relay, aircraft, ground or runner"),
+        ("list", "show", "list the certificates that were issued"),
+        ("revoke", "revoke", "revoke every certificate of a device"),
+        ("renew", "renew", "make new certificates for devices, or for all that expire soon"),
+    ):
+        action = add_verb(actions, name, f"up.cli.certificates:{function}", text)
+        action.add_argument(
+            "--folder",
+            type=Path,
+            metavar="DIR",
+            default=Path("certificates"),
+            help="folder of the CA (default: certificates)",
+        )
+        if name == "init":
+            action.add_argument("--name", default="Up", help="name of the CA (default: Up)")
+        if name in ("device", "revoke"):
+            action.add_argument("name", metavar="NAME", help="name of the device")
+        if name == "device":
+            text = "name or address of a server, again for each; none: the device is a client"
+            action.add_argument("--host", action="append", metavar="HOST", help=text)
+        if name == "renew":
+            action.add_argument("names", metavar="NAME", nargs="*", help="name of a device")
+        if name in ("device", "renew"):
+            text = "validity (default: %(default)s)"
+            action.add_argument("--days", type=_days, default=825, metavar="N", help=text)
+        if name == "list":
+            add_json_option(action)
+
+
+def _days(text: str) -> int:
+    days = int(text) if text.isascii() and text.isdigit() and len(text) < 5 else 0
+    if not 1 <= days <= 3650:
+        raise argparse.ArgumentTypeError(f"a validity is 1 to 3650 days, not {text[:60]!r}")
+    return days
 
 
 def _add_explore(verbs: Any) -> None:

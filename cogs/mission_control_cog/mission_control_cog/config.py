@@ -21,6 +21,14 @@ class RemoteServerConfig:
     url: str = key("", "Host name or address of the proxy. Empty: no proxy.", max_length=255)
     port: int = key(3003, "TCP port of the proxy's airborne side.", minimum=1, maximum=65535)
 
+    tls: str = key(
+        "",
+        "Folder with ca.pem, certificate.pem and key.pem, as 'up certificates device' makes it; "
+        "relative to this file. The link then speaks TLS alone, with the proxy's TLS port (3013). "
+        "Empty: plain.",
+        max_length=4096,
+    )
+
     def problems(self) -> Iterator[tuple[str, str]]:
         if not _HOST.fullmatch(self.url):
             yield "url", "must be a host name or an address alone, without http:// and port"
@@ -77,10 +85,10 @@ class MissionControlConfig:
     )
     i_accept_plain: bool = key(
         False,
-        "The link does not authenticate the ground. While this is false, a pilot whose link goes "
-        "to a public address has only the rights of an operator, and ground stations with public "
-        "addresses cannot connect to the listener. Set it when a VPN or firewall protects the "
-        "proxy, or when you accept the risk.",
+        "A plain link does not authenticate the ground. While this is false, a pilot whose plain "
+        "link goes to a public address has only the rights of an operator, and ground stations "
+        "with public addresses cannot connect to the listener. Set it when a VPN or firewall "
+        "protects the proxy, or when you accept the risk.",
     )
     listener: ListenerConfig = section(ListenerConfig)
 

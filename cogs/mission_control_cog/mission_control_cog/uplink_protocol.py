@@ -11,6 +11,7 @@ from twisted.python.failure import Failure
 from up.protocols.general_message_link import GeneralMessageProtocol
 from up.protocols.proxy_lines import HELLO_MAX_BYTES, Accepted, Hello, Refused, parse_line
 from up.system.clock import Clock, Timer, cancel
+from up.tls.errors import TLSError
 
 HEARTBEAT_S = 1.0
 ANSWER_LIMIT_S = 5.0
@@ -72,6 +73,8 @@ class UplinkProtocol(GeneralMessageProtocol):
     def connectionLost(self, reason: Failure = connectionDone) -> None:  # noqa: N802 - Twisted's name
         self.is_ready = False
         cancel(self._pulse)
+        if isinstance(reason.value, TLSError):
+            self.lost_code = reason.value.code
         super().connectionLost(reason)
 
     def close(self) -> None:

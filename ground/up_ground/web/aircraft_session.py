@@ -163,6 +163,7 @@ class AircraftSession(AircraftSource):
                 "code": status.code,
                 "since_s": round(now_s - status.since_s, 3),
                 "aircraft_online": status.is_aircraft_online,
+                "tls_peer": status.tls_peer,
                 "round_trip_ms": status.round_trip_ms,
                 "connections": status.connections,
                 "frames": telemetry.frames,

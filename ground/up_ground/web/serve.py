@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 from up.cli.cli_error import UsageError
 from up.system.aircraft_name import AIRCRAFT_NAME
+from up.tls.files import TLSFiles
 from up_ground.catalogue import Catalogue
 from up_ground.settings import Seat, Settings
 from up_ground.token_store import TokenStore, state_folder
@@ -51,13 +52,17 @@ def parse_aircraft(text: str, usual: Settings) -> Settings:
         )
     host = match["host"]
     if host is None:
-        return Settings(usual.host, usual.port, match["name"], Seat.LISTEN, usual.direct)
-    return Settings(host.strip("[]"), port, match["name"], Seat.LISTEN, bool(match["direct"]))
+        return Settings(usual.host, usual.port, match["name"], Seat.LISTEN, usual.direct, usual.tls)
+    return Settings(
+        host.strip("[]"), port, match["name"], Seat.LISTEN, bool(match["direct"]), usual.tls
+    )
 
 
 def fleet_of(options: argparse.Namespace) -> list[Settings]:
     """Return the aircraft to watch; raises UsageError."""
-    usual = Settings(options.host, options.port, options.aircraft, Seat.LISTEN, options.direct)
+    usual = Settings(
+        options.host, options.port, options.aircraft, Seat.LISTEN, options.direct, options.tls
+    )
     chosen = [parse_aircraft(text, usual) for text in options.fleet or [options.aircraft]]
     names = [each.aircraft for each in chosen]
     for name in names:
@@ -76,6 +81,7 @@ class PageOptions:
     access: Access
     make_tiles: MakeTiles | None
     attribution: str
+    https: TLSFiles | None = None
 
     @classmethod
     def of(cls, options: argparse.Namespace, environ: Mapping[str, str]) -> PageOptions:
@@ -95,7 +101,11 @@ class PageOptions:
         # On loopback a key is needed only if one is given.
         key = options.key or (None if listen.is_loopback else secrets.token_urlsafe(12))
         access = Access(machine_names(options.name or ()), key, options.watch_only)
-        return cls(listen, access, _tiles_of(options.tiles, environ), options.attribution)
+        https = None if options.https is None else TLSFiles(options.https)
+        if https is not None:
+            https.server(clients=False)
+        tiles = _tiles_of(options.tiles, environ)
+        return cls(listen, access, tiles, options.attribution, https)
 
     def server(self, reactor: Any, make_sources: Any, **more: Any) -> Any:
         server = importlib.import_module("up_ground.web.server")
@@ -107,6 +117,7 @@ class PageOptions:
             make_sources,
             tiles=tiles,
             attribution=self.attribution,
+            https=self.https,
             **more,
         )
 

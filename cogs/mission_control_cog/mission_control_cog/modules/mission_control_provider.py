@@ -17,6 +17,7 @@ from up.protocols.general_message import GeneralMessage, MalformedMessage
 from up.providers.base_mission_control_provider import BaseMissionControlProvider
 from up.system.addresses import is_private
 from up.system.backoff import Backoff
+from up.tls.files import TLSFiles
 
 LINK = "mission_control"
 ROLE_KEY = "mission_control.yml: role"
@@ -70,6 +71,7 @@ class MissionControlProvider(BaseMissionControlProvider):
                 on_ready=self._on_ready,
                 on_lost=self._on_lost,
                 backoff=Backoff(self.context.random.random),
+                tls=TLSFiles(self.context.config_folder / server.tls) if server.tls else None,
             )
 
     def add_outlet(self, outlet: Outlet) -> None:
@@ -160,7 +162,9 @@ class MissionControlProvider(BaseMissionControlProvider):
         resolve to another address later, and refusing to start would also stop telemetry.
         """
         role, key = self._role, ROLE_KEY
-        if role is Role.PILOT and not self.config.i_accept_plain and not is_private(host):
+        is_plain = self._uplink is None or not self._uplink.is_protected
+        is_exposed = is_plain and not self.config.i_accept_plain and not is_private(host)
+        if role is Role.PILOT and is_exposed:
             role, key = Role.OPERATOR, PLAIN_KEY
             self.log.error(
                 "{host} is a public address and the link is plain: the ground is an operator, not a"

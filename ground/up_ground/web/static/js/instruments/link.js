@@ -14,6 +14,7 @@ export function mount(element, store, connection) {
     lost: new PlainRow(list, "Lost, dropped", "link.lost"),
     page: new PlainRow(list, "This page", "link.page"),
     proxy: new PlainRow(list, "Proxy", "link.proxy"),
+    security: new PlainRow(list, "Security", "link.security"),
     latency: new PlainRow(list, "Proxy's round trip", "link.latency"),
     aircraft: new PlainRow(list, "Aircraft", "link.aircraft"),
   };
@@ -36,6 +37,7 @@ export function mount(element, store, connection) {
       plain.ages.show(agesText(store), "", isOld || store.isSilent);
       showPage(plain.page, connection);
       showProxy(plain.proxy, link, isDoubtful);
+      plain.security.show(securityText(link), "", isDoubtful);
       showNumber(plain.latency, link.round_trip_ms, (ms) => `${numberText(ms)} ms`, isDoubtful);
       showNumber(plain.rate, link.rate_hz, (hz) => `${numberText(hz, 1)} frames/s`, isOld);
       const dropped = number(link.dropped);
@@ -88,6 +90,15 @@ function showProxy(row, link, isOld) {
   const words = state === null ? null : reason === "" ? state : `${state}: ${reason}`;
   row.show(words, state === "connected" ? "" : "warning", isOld);
   row.setState(state ?? "");
+}
+
+/** Whether the link between the ground server and the proxy is protected, and the proxy's name. */
+function securityText(link) {
+  if (link.state !== "connected") {
+    return null;
+  }
+  const peer = text(link.tls_peer);
+  return peer === null ? "plain" : `TLS, ${peer}`;
 }
 
 function showNumber(row, found, format, isOld) {
