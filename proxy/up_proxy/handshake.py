@@ -105,6 +105,7 @@ class Handshake(Owner):
     def _admit(self, connection: Connection, hello: Hello) -> None:
         session = self._registry.session(hello.aircraft)
         connection.speaks_hello = True
+        connection.reads_packed = hello.packed
         if self._side is Side.AIRBORNE:
             lease = session.air_lease
             resumed = lease.is_resumed_by(hello.token)
