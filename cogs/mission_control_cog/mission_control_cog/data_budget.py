@@ -14,6 +14,8 @@ HOLDS_S = (0.0, 1.0, 2.0)
 """Levels of detail: how long a frame may repeat everything but attitude, alarms and events."""
 _RETRY_S = 30.0
 _MARGIN = 1.1
+_SHARE = 0.99
+"""Share of the limit that is spent: what a counter has not yet seen must not exceed it."""
 _BURST_S = 2.0
 _LEVEL_S = 2.0
 _HOUR_S = 3600.0
@@ -31,7 +33,9 @@ class DataBudget:
         self.total_bytes = 0
         self.left_out = 0
         self.level = 0
-        self._limit = None if limit_mb_per_hour is None else limit_mb_per_hour * _MB / _HOUR_S
+        self._limit = (
+            None if limit_mb_per_hour is None else limit_mb_per_hour * _SHARE * _MB / _HOUR_S
+        )
         self._credit = 0.0
         self._now_s = self._sent_s = self._level_s = now_s
         self._level_bytes = self._level_frames = 0
