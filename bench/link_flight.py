@@ -16,6 +16,7 @@ from up_simulator.demo.main import ROOT, read_options
 
 SETTLE_S = 12.0
 TABLE = "inet link"
+LOAD_GUARD = ("load_guard.LoadGuard", "system_state_provider.SystemStateProvider")
 
 
 class MeteredFlight(DemoFlight):
@@ -28,9 +29,8 @@ class MeteredFlight(DemoFlight):
         folder = self._folder / "config"
         with (folder / "mission_control.yml").open("a", encoding="utf-8") as file:
             file.write(f"data_budget_mb_per_hour: {self.budget}\n")
-        (folder / "load_guard.yml").write_text(
-            "panic threshold: 100.0\ncalm down threshold: 99.0\n"
-        )
+        disabled = ", ".join(f"load_guard_cog.modules.{name}" for name in LOAD_GUARD)
+        (folder / "disabled_modules.yml").write_text(f"disabled modules: [{disabled}]\n")
         count_port(self._ports.airborne)
 
 

@@ -1,5 +1,7 @@
 """The budget of the uplink, with frames that cost what theirs do."""
 
+from itertools import pairwise
+
 import pytest
 from mission_control_cog.data_budget import HOLDS_S, SLOWEST_S, USEFUL_HZ, DataBudget
 
@@ -54,6 +56,6 @@ def test_the_detail_comes_back():
 
 def test_a_burst_of_other_data_never_silences_attitude_for_longer_than_a_second():
     _, frames = fly(1.0, 60, extra=lambda now_s: 100_000 if now_s == 31.0 else 0)
-    pauses = [after[0] - before[0] for before, after in zip(frames, frames[1:], strict=False)]
+    pauses = [after[0] - before[0] for before, after in pairwise(frames)]
     assert max(pauses) <= SLOWEST_S + 0.11
     assert len(HOLDS_S) == len(COSTS)

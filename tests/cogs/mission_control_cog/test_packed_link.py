@@ -147,10 +147,14 @@ def test_every_ground_has_telemetry_again_within_a_second(tmp_path, monkeypatch,
             elif action == "daemon":
                 aircraft.stop()
                 aircraft = Flying(net, tmp_path / f"a{number}")
-            ends = [*(each.link.status for each in grounds)]
-            net.run_until(lambda a=aircraft, e=ends: a.provider.connected and all(
-                each.is_open for each in e), 30)  # fmt: skip
-            began_s = net.now_s
-            net.run_until(lambda s=began_s: all(
-                each.frames and each.frames[-1][0] > s for each in grounds), RECOVERY_S)  # fmt: skip
+            statuses = [each.link.status for each in grounds]
+            net.run_until(
+                lambda a=aircraft, s=statuses: a.provider.connected and all(x.is_open for x in s),
+                30,
+            )
+            now_s = net.now_s
+            net.run_until(
+                lambda since_s=now_s: all(x.frames and x.frames[-1][0] > since_s for x in grounds),
+                RECOVERY_S,
+            )
         assert all(each.link.status.malformed == 0 for each in grounds)

@@ -85,4 +85,4 @@ def test_any_content_passes(contents, hold_s):
     thinning = Thinning()
     for number, each in enumerate(contents):
         thin = thinning.apply(each, number * 0.6, hold_s)
-        assert hold_s or set(thin) >= set(each)
+        assert hold_s or set(thin) >= set(each) - {"counters"}

@@ -1,6 +1,6 @@
 """The real proxy, aircraft and ground links on one clock of the test; their sockets are real."""
 
-# ruff: noqa: N802, N803 - Twisted's names
+# ruff: noqa: N802, N803, N815 - Twisted's names
 
 from mission_control_cog.modules.mission_control_provider import MissionControlProvider
 from twisted.internet.address import IPv4Address
