@@ -96,12 +96,16 @@ def _with_ages(content: Mapping[str, Any], more_ms: float) -> Mapping[str, Any]:
     ages = content.get("age_ms")
     if not isinstance(ages, Mapping):
         return content
-    older = {name: age if age is None else age + more_ms for name, age in ages.items()}
+    older = {name: age + more_ms if _is_number(age) else age for name, age in ages.items()}
     return {**content, "age_ms": older}
 
 
+def _is_number(value: Any) -> bool:
+    return type(value) in (int, float)
+
+
 def _step(reading: str, age_ms: Any) -> Any:
-    if reading not in READINGS or type(age_ms) not in (int, float):
+    if reading not in READINGS or not _is_number(age_ms):
         return age_ms
     step_ms = 1000 * READINGS[reading].stale_s / _AGE_STEPS
     if age_ms > 2 * _AGE_STEPS * step_ms:

@@ -82,6 +82,34 @@ def test_one_ground_that_cannot_unpack_gets_whole_frames_and_so_do_all(net, tmp_
     assert ground.frames[-1][0] > net.now_s - 0.3
 
 
+def test_a_packed_line_on_its_way_never_reaches_a_ground_that_cannot_read_it(net):
+    air, _ = net.hello_air("a", " packed=1")
+    new, _ = net.hello_ground("a", "listen", extra=" packed=1")
+    old, _ = net.hello_ground("a", "listen")
+    air.say(b"\x01one\n{}\n\x02two\n\x01three\n")
+    new.expect(b"\x01one\n{}\n\x02two\n\x01three\n")
+    old.expect(b"{}\n\x02two\n")
+    air.say(b"\x01four\n{}\n")
+    old.expect(b"{}\n")
+    assert b"\x01" not in old.heard
+
+
+def test_the_budget_holds_and_what_it_leaves_out_is_not_lost(net, tmp_path):
+    aircraft = Flying(net, tmp_path / "a", "data_budget_mb_per_hour: 1.5\n")
+    ground = Ground(net, tmp_path / "g")
+    net.run(10)
+    wire, before = aircraft.wire, len(ground.frames)
+    began = wire.bytes_out + 104 * wire.segments
+    net.run(60)
+    spent = (wire.bytes_out + 104 * wire.segments - began) / 1e6 * 60
+    assert 1.3 < spent <= 1.5
+    assert 60 < len(ground.frames) - before < 300
+    assert ground.telemetry.lost == 0
+    uplink = ground.frames[-1][1].data["uplink"]
+    assert uplink["mb_per_hour"] == pytest.approx(spent, rel=0.05)
+    assert uplink["left_out"] > 300
+
+
 def test_an_old_proxys_aircraft_sends_whole_frames(net, tmp_path):
     aircraft = Flying(net, tmp_path / "a")
     net.aircraft("a").report_watchers = lambda **_: None

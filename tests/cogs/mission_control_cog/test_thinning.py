@@ -1,6 +1,6 @@
 """Telemetry as the uplink sends it."""
 
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 from mission_control_cog.thinning import SLOW_S, Thinning
 
@@ -78,6 +78,7 @@ JSON = st.recursive(
 KEYS = ("orientation", "age_ms", "counters", "rx", "load", "arduino", "navigation", "system")
 
 
+@settings(max_examples=40)
 @given(
     st.lists(st.dictionaries(st.sampled_from(KEYS), JSON), max_size=4), st.sampled_from([0.0, 1.0])
 )

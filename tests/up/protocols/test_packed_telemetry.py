@@ -1,6 +1,7 @@
 """Packed telemetry: frames come back, nothing else passes, and memory stays bounded."""
 
 import json
+import tracemalloc
 import zlib
 from contextlib import suppress
 
@@ -108,6 +109,17 @@ def test_what_is_no_frame_is_refused(data):
         unpacker.unpack(body(data))
     assert not isinstance(refused.value, UnknownKeyError)
     assert unpacker.unpack(body(raw(bytes(MAX_LINE_BYTES - 1)))) == bytes(MAX_LINE_BYTES - 1)
+
+
+def test_a_bomb_is_never_inflated_whole():
+    bomb = body(raw(bytes(50_000_000)))
+    tracemalloc.start()
+    try:
+        with pytest.raises(PackedError):
+            Unpacker().unpack(bomb)
+        assert tracemalloc.get_traced_memory()[1] < 1_000_000
+    finally:
+        tracemalloc.stop()
 
 
 def test_only_the_newest_key_is_kept():
