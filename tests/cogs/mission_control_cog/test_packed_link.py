@@ -22,10 +22,11 @@ def kinds(wire_bytes):
 def test_nobody_watches_then_full_rate_within_300_ms(net, tmp_path):
     aircraft = Flying(net, tmp_path / "a")
     net.run(1)
-    before = aircraft.wire.bytes_out
+    before, segments = aircraft.wire.bytes_out, aircraft.wire.segments
     net.run(30)
     # Three frames, packed, and nothing else.
-    assert 0 < aircraft.wire.bytes_out - before < 3 * 250
+    assert aircraft.wire.segments - segments == 3
+    assert aircraft.wire.bytes_out - before < 3 * 250
     assert aircraft.up.beacons.was_sent(aircraft.up.beacons._next - 290)
     ground = Ground(net, tmp_path / "g")
     assert ground.link.status.is_aircraft_online
@@ -88,7 +89,7 @@ def test_a_packed_line_on_its_way_never_reaches_a_ground_that_cannot_read_it(net
     old, _ = net.hello_ground("a", "listen")
     air.say(b"\x01one\n{}\n\x02two\n\x01three\n")
     new.expect(b"\x01one\n{}\n\x02two\n\x01three\n")
-    old.expect(b"{}\n\x02two\n")
+    assert b"\x01" not in old.expect(b"{}\n\x02two\n")
     air.say(b"\x01four\n{}\n")
     old.expect(b"{}\n")
     assert b"\x01" not in old.heard
