@@ -13,6 +13,8 @@ WATCH_INTERVAL_S = 0.5
 """Minimum time between two lines to an aircraft about its watchers."""
 UNWATCHED_IDLE_S = 12
 """An aircraft that nobody watches sends only every 10 s: no probes in between."""
+PULSE_S, UNWATCHED_PULSE_S = 5.0, 10.0
+"""An aircraft that was sent nothing for this long gets an empty line: it finds a dead path so."""
 _PACKED = bytes((PACKED,))
 _log = UpLogger.get_logger("proxy")
 
@@ -143,6 +145,17 @@ class AircraftSession(Owner):
         air.expect_silence(KEEPALIVE_IDLE_S if grounds else UNWATCHED_IDLE_S)
         packed = all(each.reads_packed for each in grounds)
         air.send(Watchers(len(grounds), int(packed)).encode())
+
+    def sweep(self) -> None:
+        """Send what is due: to the grounds, and to an aircraft that knows `Watchers`."""
+        self.announce()
+        self.report_watchers(is_news=False)
+        air, now_s = self.air_lease.owner, self._poller.now_s
+        # A silent aircraft gets none, so that its connection is found idle.
+        if air is None or not air.reads_packed or now_s - air.last_rx_s > IDLE_S:
+            return
+        if now_s - air.last_tx_s >= (PULSE_S if self.grounds.connections else UNWATCHED_PULSE_S):
+            air.send(b"\n")
 
     def _report(self, code: str, text: str, **fields: object) -> None:
         key = (self.name, code.partition("_")[0])

@@ -27,6 +27,8 @@ HEARTBEAT_S = 1.0
 UNWATCHED_HEARTBEAT_S = 12.0
 """Of a link that no ground watches; also the kernel's pause before a probe."""
 ANSWER_LIMIT_S = 5.0
+SILENCE_S, UNWATCHED_SILENCE_S = 12.0, 25.0
+"""A proxy that tells of watchers sends something every 5 s, without grounds every 10 s."""
 
 
 class UplinkProtocol(GeneralMessageProtocol):
@@ -174,6 +176,11 @@ class UplinkProtocol(GeneralMessageProtocol):
         self._on_ready(self)
 
     def _beat(self) -> None:
+        limit_s = UNWATCHED_SILENCE_S if self.is_unwatched else SILENCE_S
+        if self.watchers is not None and self._clock.seconds() - self._heard_s > limit_s:
+            # A relay on the way may acknowledge what it cannot pass on.
+            self._give_up("proxy_silent", "the proxy is silent")
+            return
         period_s = UNWATCHED_HEARTBEAT_S if self.is_unwatched else HEARTBEAT_S
         silence_s = self._clock.seconds() - self._sent_s
         if silence_s >= period_s:

@@ -53,6 +53,30 @@ def test_an_unwatched_aircraft_keeps_its_name_and_its_connection(net, tmp_path):
     assert aircraft.provider.connected
 
 
+def test_a_path_that_swallows_everything_is_left(net, tmp_path):
+    """As through a relay that acknowledges what it cannot pass on: TCP does not notice."""
+    aircraft = Flying(net, tmp_path / "a")
+    ground = Ground(net, tmp_path / "g")
+    net.run(20)
+    wire = aircraft.wire
+    wire.is_dark = True
+    assert 7 < net.run_until(lambda: wire.peer.closed, 30) <= 13
+    net.run_until(lambda: aircraft.provider.connected, 5)
+    now_s = net.now_s
+    net.run_until(lambda: ground.frames[-1][0] > now_s, 1)
+    ground.stop()
+    net.run(40)
+    wire = aircraft.wire
+    wire.is_dark = True
+    assert 15 < net.run_until(lambda: wire.peer.closed, 60) <= 40
+
+
+def test_an_aircraft_that_hangs_is_found_idle(net):
+    silent, _ = net.hello_air("a", " packed=1")
+    net.pass_time(40)
+    silent.expect_closed()
+
+
 def test_the_lease_of_a_watched_aircraft_is_as_short_as_ever(net):
     silent, _ = net.hello_air("a", " packed=1")
     silent.expect("UP1 watch grounds=0 packed=1\n")

@@ -31,12 +31,12 @@ class Wire(Transport):
     def __init__(self, net, port, protocol):
         super().__init__("127.0.0.1", port)
         self.peer, self.protocol, self.lose_lines, self.bytes_out = Peer(net, port), protocol, 0, 0
-        self.segments, self.is_over = 0, False
+        self.segments, self.is_over, self.is_dark = 0, False, False
 
     def write(self, data):
         self.bytes_out += len(data)
         self.segments += 1
-        if not self.peer.closed:
+        if not self.peer.closed and not self.is_dark:
             self.peer.socket.send(data)
 
     def loseConnection(self):
@@ -58,6 +58,8 @@ class Wire(Transport):
         *lines, rest = self.peer.heard.split(b"\n")
         self.peer.heard = rest
         for line in lines:
+            if self.is_dark:
+                continue
             if self.lose_lines and not line.startswith(b"UP1"):
                 self.lose_lines -= 1
             else:
