@@ -13,6 +13,7 @@ SUBJECTS = {
     "codecs": "the serial line and orientation from bytes",
     "cascade": "the control loop's arithmetic",
     "latency": "sensor to actuator through the running daemon",
+    "link": "data of the uplink at IP level, and CPU of packed telemetry",
     "startup": "start to ports bound, and memory",
     "load": "CPU of the daemon in flight and idle",
     "recorder": "what recording the flight costs",

@@ -73,6 +73,8 @@ NAMES_ALLOWED = (
         ("commands/telemetry_schema.py", word)
         for word in ("arduino", "Arduino", "android", "phone")
     ),
+    # A frame of telemetry as it was sent.
+    *(("protocols/packed_dictionary.py", word) for word in ("arduino", "android")),
 )
 
 

@@ -111,6 +111,7 @@ def python_telemetry(schema: Schema) -> str:
         return {
             "path": row.name,
             **known,
+            **({"decimals": row.decimals} if row.decimals != 3 else {}),
             **({"command": command, "key": row.key} if command else {}),
         }
 

@@ -14,7 +14,9 @@ from twisted.internet.protocol import Factory
 from twisted.python.failure import Failure
 from zope.interface import implementer
 
-from up.protocols.general_message import GeneralMessage, MalformedMessage, decode
+from up.protocols.binary_line import PACKED, to_body
+from up.protocols.general_message import GeneralMessage, decode
+from up.protocols.packed_telemetry import UnknownKeyError, Unpacker
 from up.protocols.proxy_lines import (
     Accepted,
     Access,
@@ -28,6 +30,7 @@ from up.protocols.proxy_lines import (
     ControlRequested,
     GroundLine,
     Hello,
+    KeyRequest,
     ProxyLine,
     Refused,
     parse_line,
@@ -42,6 +45,9 @@ from up_ground.settings import Seat, Settings
 from up_ground.token_store import TokenStore
 
 CONNECT_TIMEOUT_S = 5.0
+_PACKED = bytes((PACKED,))
+KEY_INTERVAL_S = 0.5
+"""Minimum time between two requests for a key."""
 
 
 class LinkListener(Interface):
@@ -79,6 +85,8 @@ class GroundLink:
         self._connection: GroundProtocol | None = None
         self._too_long = 0
         self._is_greeted = False
+        self._unpacker = Unpacker()
+        self._key_asked_s = -KEY_INTERVAL_S
         factory: Any = Factory.forProtocol(self._build)
         factory.noisy = False
         make: Any = ClientService
@@ -152,11 +160,23 @@ class GroundLink:
             return
         self.status.too_long = self._too_long + connection.dropped_too_long
         try:
+            if line[:1] == _PACKED:
+                line = self._unpacker.unpack(to_body(line))
             message = decode(line)
-        except MalformedMessage:
+        except UnknownKeyError:
+            self.status.keyless += 1
+            self._request_key(connection)
+            return
+        except ValueError:
             self.status.malformed += 1
             return
         self._listener.on_message(message)
+
+    def _request_key(self, connection: GroundProtocol) -> None:
+        now_s = self._reactor.seconds()
+        if now_s - self._key_asked_s >= KEY_INTERVAL_S:
+            self._key_asked_s = now_s
+            connection.send(KeyRequest().encode())
 
     def on_control(self, connection: GroundProtocol, line: bytes) -> None:
         said = None if self._settings.direct else parse_line(line)
@@ -231,7 +251,9 @@ class GroundLink:
         hello = None
         if not self._settings.direct:
             token = self._token if self._wanted is Seat.COMMAND else None
-            hello = Hello(self._settings.aircraft, Access(self._wanted.value), token).encode()
+            hello = Hello(
+                self._settings.aircraft, Access(self._wanted.value), token, packed=True
+            ).encode()
         return GroundProtocol(self._reactor, self, hello)
 
     def _on_failed(self, failure: Failure) -> Failure:

@@ -49,6 +49,8 @@ class LinkStatus:
     malformed: int = 0
     """Lines that were no General Messages."""
     too_long: int = 0
+    keyless: int = 0
+    """Packed frames whose key was not received here."""
     strange_control: int = 0
     """Unknown control lines."""
 
@@ -58,7 +60,7 @@ class LinkStatus:
 
     @property
     def dropped(self) -> int:
-        return self.malformed + self.too_long + self.strange_control
+        return self.malformed + self.too_long + self.keyless + self.strange_control
 
     def disconnected(
         self, state: LinkState, now_s: float, reason: str = "", code: str = ""

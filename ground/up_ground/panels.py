@@ -134,7 +134,9 @@ def draw_power(writer: PanelWriter, row: int, column: int) -> int:
     writer.value(row, end + 1, phone, style=phone_style)
     cpu = number_text(telemetry.number("load", "cpu"), 0)
     ram = number_text(telemetry.number("load", "ram"), 0)
-    writer.value(row + 1, column, f"load {cpu} % memory {ram} %")
+    data = telemetry.number("uplink", "mb_per_hour") or None
+    rate = "" if data is None else f" {number_text(data)} MB/h"
+    writer.value(row + 1, column, f"load {cpu} % memory {ram} %{rate}")
     if telemetry.flag("load", "panic"):
         writer.value(row + 1, column, busy_text(telemetry))
     return row + 2

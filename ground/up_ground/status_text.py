@@ -97,6 +97,16 @@ def mission_text(telemetry: Telemetry) -> str | None:
     return f"mission item {item:.0f} of {count:.0f}{way}"
 
 
+def data_text(telemetry: Telemetry) -> str:
+    """Return what the aircraft's link costs; empty while it is not known."""
+    total = telemetry.number("uplink", "mb")
+    if not total:
+        return ""
+    rate = number_text(telemetry.number("uplink", "mb_per_hour"))
+    limit = telemetry.number("uplink", "budget_mb_per_hour")
+    return f"{rate}{'' if limit is None else f' of {limit:g}'} MB/h, {total:.1f} MB"
+
+
 def control_text(status: LinkStatus) -> str:
     """Return the owner of control: ours, free, or the number of a ground."""
     if status.seat is None:
@@ -161,6 +171,9 @@ def plain_line(status: LinkStatus, telemetry: Telemetry, now_s: float) -> str:
         parts.append(f"{word}: {'; '.join(vetoes)}"[:200])
     if telemetry.flag("load", "panic"):
         parts.append(busy_text(telemetry))
+    if data := data_text(telemetry):
+        soon = number_text(telemetry.number("uplink", "mb_in_an_hour"))
+        parts.append(f"data {data}, in an hour {soon} MB")
     return " | ".join(parts)
 
 

@@ -35,6 +35,7 @@ class Telemetry:
         self._received_s: float | None = None
         self._delay = OneWayDelayEstimator()
         self._held_s: float | None = None
+        self._left_out = 0
         self._stamp_ms: float | None = None
         self._late_since_s: float | None = None
         self._round_trip_s = 0.0
@@ -54,8 +55,11 @@ class Telemetry:
         held_s = self._delay.update(stamp_ms, now_s)
         if self._is_superseded(stamp_ms, held_s, now_s):
             return False
-        if 1 < gap <= _MAX_GAP:
-            self.lost += gap - 1
+        left_out = int(_number(_at(message.data, ("uplink", "left_out"))) or 0)
+        lost = gap - 1 - max(0, left_out - self._left_out)
+        if 0 < lost <= _MAX_GAP:
+            self.lost += lost
+        self._left_out = left_out
         self.beacon = message.beacon
         self.data = message.data
         self.frames += 1

@@ -1,12 +1,21 @@
 """One aircraft by name: its airborne connection, its grounds, the two leases."""
 
 from up.log import Limited, UpLogger
-from up.protocols.control_lease import ControlLease
-from up.protocols.proxy_lines import PREFIX, AircraftPresence, ControlOwner
-from up_proxy.connection import Connection, Owner
+from up.protocols.binary_line import PACKED
+from up.protocols.control_lease import ALIVE_S, ControlLease
+from up.protocols.proxy_lines import PREFIX, AircraftPresence, ControlOwner, Watchers
+from up_proxy.connection import IDLE_S, Connection, Owner
 from up_proxy.ground_side import GroundSide
+from up_proxy.listener import KEEPALIVE_IDLE_S
 from up_proxy.poller import Poller
 
+WATCH_INTERVAL_S = 0.5
+"""Minimum time between two lines to an aircraft about its watchers."""
+UNWATCHED_IDLE_S = 12
+"""An aircraft that nobody watches sends only every 10 s: no probes in between."""
+PULSE_S, UNWATCHED_PULSE_S = 5.0, 10.0
+"""An aircraft that was sent nothing for this long gets an empty line: it finds a dead path so."""
+_PACKED = bytes((PACKED,))
 _log = UpLogger.get_logger("proxy")
 
 
@@ -25,6 +34,8 @@ class AircraftSession(Owner):
         """Lines to slow grounds that newer lines replaced."""
         self.rejected_lines = 0
         """Lines from grounds without control, or for an absent aircraft."""
+        self._watch_told_s = -WATCH_INTERVAL_S
+        self._is_watch_due = False
         self._shown_online = False
         self._shown_owner: int | None = None
 
@@ -46,6 +57,9 @@ class AircraftSession(Owner):
         displaced = self.air_lease.acquire(air, air.token or None)
         if displaced is not None:
             displaced.fail("replaced by another connection of this aircraft")
+        self.air_lease.alive_s = ALIVE_S
+        self._watch_told_s = -WATCH_INTERVAL_S
+        self.report_watchers()
         self.announce()
 
     def on_lines(self, connection: Connection, lines: bytes) -> None:
@@ -54,15 +68,15 @@ class AircraftSession(Owner):
             return
         self.air_bytes += len(lines)
         if PREFIX in lines and (lines.startswith(PREFIX) or b"\n" + PREFIX in lines):
-            # Split at LF alone; bytes.splitlines would also split at CR.
-            every = lines.split(b"\n")[:-1]
-            relayed = [line for line in every if not line.startswith(PREFIX)]
-            self.dropped_lines += len(every) - len(relayed)
-            if not relayed:
+            before = lines.count(b"\n")
+            lines = _without(PREFIX, lines)
+            self.dropped_lines += before - lines.count(b"\n")
+            if not lines:
                 return
-            lines = b"\n".join(relayed) + b"\n"
+        plain = lines if _PACKED not in lines else _without(_PACKED, lines)
         for ground in self.grounds.connections:
-            dropped = ground.relay(lines)
+            readable = lines if ground.reads_packed else plain
+            dropped = ground.relay(readable) if readable else 0
             if dropped:
                 self.dropped_lines += dropped
 
@@ -73,6 +87,7 @@ class AircraftSession(Owner):
     def on_end(self, connection: Connection, reason: str) -> None:
         """Reserve the aircraft's lease for its token."""
         if self.air_lease.owner is connection:
+            self.air_lease.alive_s = ALIVE_S
             self.air_lease.disconnect()
             self._resume_grounds()
             self._poller.tick()
@@ -109,6 +124,39 @@ class AircraftSession(Owner):
             newcomer.send(presence.encode())
             newcomer.send(owner.encode())
 
+    def report_watchers(self, *, is_news: bool = True) -> None:
+        """Tell the aircraft what its grounds are: at a change, and when one of them lacks a key.
+
+        While nobody watches, the aircraft sends rarely, and its lease lasts as long as a
+        connection without data. The first ground's line counts as a byte of the aircraft, so that
+        it has time to answer.
+        """
+        self._is_watch_due |= is_news
+        air, now_s = self.air_lease.owner, self._poller.now_s
+        if air is None or not air.reads_packed or not self._is_watch_due:
+            return
+        if now_s - self._watch_told_s < WATCH_INTERVAL_S:
+            return
+        self._watch_told_s, self._is_watch_due = now_s, False
+        grounds = self.grounds.connections
+        if grounds and self.air_lease.alive_s != ALIVE_S:
+            air.last_rx_s = now_s
+        self.air_lease.alive_s = ALIVE_S if grounds else IDLE_S
+        air.expect_silence(KEEPALIVE_IDLE_S if grounds else UNWATCHED_IDLE_S)
+        packed = all(each.reads_packed for each in grounds)
+        air.send(Watchers(len(grounds), int(packed)).encode())
+
+    def sweep(self) -> None:
+        """Send what is due: to the grounds, and to an aircraft that knows `Watchers`."""
+        self.announce()
+        self.report_watchers(is_news=False)
+        air, now_s = self.air_lease.owner, self._poller.now_s
+        # A silent aircraft gets none, so that its connection is found idle.
+        if air is None or not air.reads_packed or now_s - air.last_rx_s > IDLE_S:
+            return
+        if now_s - air.last_tx_s >= (PULSE_S if self.grounds.connections else UNWATCHED_PULSE_S):
+            air.send(b"\n")
+
     def _report(self, code: str, text: str, **fields: object) -> None:
         key = (self.name, code.partition("_")[0])
         self._limited.log(_log.info, text, key=key, code=code, aircraft=self.name, **fields)
@@ -121,3 +169,9 @@ class AircraftSession(Owner):
     def _resume_grounds(self) -> None:
         for ground in self.grounds.connections:
             ground.resume()
+
+
+def _without(prefix: bytes, lines: bytes) -> bytes:
+    """Return the whole lines that do not begin with `prefix`."""
+    # Split at LF alone; bytes.splitlines would also split at CR.
+    return b"".join(each + b"\n" for each in lines.split(b"\n")[:-1] if not each.startswith(prefix))

@@ -3,6 +3,7 @@
 import select
 import socket
 from collections.abc import Callable
+from contextlib import suppress
 
 from up.protocols.line_decoder import LineBuffer
 from up_proxy.poller import PAUSED, READ, WRITE, Poller
@@ -61,6 +62,7 @@ class Connection:
         "partial",
         "paused_s",
         "queue_bytes",
+        "reads_packed",
         "requested_s",
         "speaks_hello",
         "token",
@@ -91,6 +93,8 @@ class Connection:
         self.failure: str | None = None
         self.number = 0
         self.speaks_hello = False
+        self.reads_packed = False
+        """It named packed telemetry in its hello; an aircraft: it also knows `Watchers`."""
         self.token = ""
         poller.watch(sock.fileno(), self)
 
@@ -107,6 +111,11 @@ class Connection:
     @property
     def waiting_bytes(self) -> int:
         return 0 if self._queue is None else len(self._queue)
+
+    def expect_silence(self, seconds: int) -> None:
+        """Let the kernel probe the peer only after this long without data."""
+        with suppress(OSError):
+            self._socket.setsockopt(socket.IPPROTO_TCP, socket.TCP_KEEPIDLE, seconds)
 
     def is_idle(self, now_s: float) -> bool:
         return now_s - self.last_rx_s > IDLE_S and now_s - self.last_tx_s > IDLE_S

@@ -13,6 +13,7 @@ from up.protocols.proxy_lines import (
     ControlRequest,
     ControlRequested,
     GroundLine,
+    KeyRequest,
     parse_line,
 )
 from up_proxy.connection import IDLE_S, Connection, Owner
@@ -47,6 +48,7 @@ class GroundSide(Owner):
         ground.number = self._next_number
         self._next_number += 1
         self.connections = (*self.connections, ground)
+        self._aircraft.report_watchers()
         lease = self.lease
         if access is not Access.COMMAND:
             return Access.LISTEN
@@ -65,6 +67,8 @@ class GroundSide(Owner):
     def on_lines(self, connection: Connection, lines: bytes) -> None:
         """Relay the owner's lines, handle control lines, reject and count the rest."""
         self._aircraft.ground_bytes += len(lines)
+        if lines == b"\n" and connection.speaks_hello:
+            return  # a heartbeat: it keeps this connection, and would cost the aircraft data
         if PREFIX in lines:
             self._relay_mixed(connection, lines)
         elif connection is self.lease.owner:
@@ -75,6 +79,7 @@ class GroundSide(Owner):
     def on_end(self, connection: Connection, reason: str) -> None:
         """Reserve the owner's lease for its token; a legacy client has none and frees it."""
         self.connections = tuple(each for each in self.connections if each is not connection)
+        self._aircraft.report_watchers()
         if self.lease.owner is connection:
             self.lease.disconnect()
         self._poller.tick()
@@ -116,7 +121,9 @@ class GroundSide(Owner):
 
     def _apply(self, connection: Connection, control: GroundLine) -> bool:
         """Handle a control line; False: it is rejected."""
-        if isinstance(control, ControlRequest):
+        if isinstance(control, KeyRequest):
+            self._aircraft.report_watchers()
+        elif isinstance(control, ControlRequest):
             self._on_request(connection)
         elif self.lease.owner is not connection:
             return False

@@ -111,6 +111,7 @@ class Handshake(Owner):
     def _admit(self, connection: Connection, hello: Hello) -> None:
         session = self._registry.session(hello.aircraft)
         connection.speaks_hello = True
+        connection.reads_packed = hello.packed
         if self._side is Side.AIRBORNE:
             _check_name(connection, hello.aircraft)
             lease = session.air_lease

@@ -83,7 +83,7 @@ class AircraftRegistry:
         """Detect silent peers, and remove aircraft without connections."""
         for name, session in list(self._sessions.items()):
             session.grounds.keep_paused_alive(now_s)
-            session.announce()
+            session.sweep()
             if session.is_deserted(now_s):
                 self._gone.add(session)
                 del self._sessions[name]

@@ -84,6 +84,17 @@ def test_everything_that_is_known_is_there():
         assert text in picture, text
 
 
+def test_what_the_link_costs_is_shown():
+    uplink = {"mb_per_hour": 9.04, "mb": 3.2, "mb_in_an_hour": 12.2, "budget_mb_per_hour": None}
+    limited = {**uplink, "budget_mb_per_hour": 11.0}
+    shown = state(frame(uplink=limited))
+    assert "load 12 % memory 31 % 9.0 MB/h" in text_of(shown)
+    line = plain_line(shown.status, shown.telemetry, 100.0)
+    assert line.endswith(" | data 9.0 of 11 MB/h, 3.2 MB, in an hour 12.2 MB")
+    shown = state(frame(uplink=uplink))
+    assert "9.0 MB/h, 3.2 MB" in plain_line(shown.status, shown.telemetry, 100.0)
+
+
 def test_what_is_not_known_is_two_dashes():
     picture = text_of(state({}))
     for text in ("roll       -- deg", "altitude       -- m", "battery -- %", "flight mode --"):

@@ -28,7 +28,8 @@ class Reading(NamedTuple):
 class Field(NamedTuple):
     """A field of telemetry; ``reading``: whose age it has ("": its frame's).
 
-    ``key`` is the field of the ``command`` that carries the value ("": none does).
+    ``key`` is the field of the ``command`` that carries the value ("": none does); ``decimals`` is
+    the resolution of a number.
     """
 
     path: str
@@ -37,6 +38,7 @@ class Field(NamedTuple):
     reading: str = ""
     command: str = ""
     key: str = ""
+    decimals: int = 3
 
 
 class Rule(NamedTuple):

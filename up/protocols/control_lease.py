@@ -71,18 +71,20 @@ class ControlLease(Generic[T]):
     `is_resumed_by`.
     """
 
-    __slots__ = ("_last_rx_s", "_state", "owner", "token")
+    __slots__ = ("_last_rx_s", "_state", "alive_s", "owner", "token")
 
     def __init__(self) -> None:
         self.owner: T | None = None
         """The connection that has the lease, alive or silent."""
         self.token: str | None = None
+        self.alive_s = ALIVE_S
+        """How long its owner may be silent."""
         self._state = State.FREE
         self._last_rx_s = 0.0
 
     def state(self, now_s: float) -> State:
         last_rx_s = self._last_rx_s if self.owner is None else self.owner.last_rx_s
-        self._feed(Input.TIMEOUT if now_s - last_rx_s > ALIVE_S else Input.RECEIVE)
+        self._feed(Input.TIMEOUT if now_s - last_rx_s > self.alive_s else Input.RECEIVE)
         return self._state
 
     def is_free(self, now_s: float) -> bool:

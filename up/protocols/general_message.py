@@ -83,9 +83,14 @@ def _decode(line: bytes, longest: int) -> tuple[dict[str, Any], bool]:
 
 
 def encode(
-    name: str, data: dict[str, Any], id: str | None = None, beacon: int | None = None
+    name: str,
+    data: dict[str, Any],
+    id: str | None = None,
+    beacon: int | None = None,
+    *,
+    is_compact: bool = False,
 ) -> bytes:
-    """Return one line with its LF, the keys in the order of the protocol.
+    """Return one line with its LF, the keys in the order of the protocol; compact: no spaces.
 
     Raises ValueError, naming the key, for NaN, infinity and values that JSON cannot hold, and for a
     line of more than 16 KiB.
@@ -94,7 +99,7 @@ def encode(
     if beacon is not None:
         fields["beacon"] = beacon
     try:
-        text = _ENCODER.encode(fields)
+        text = (_COMPACT if is_compact else _ENCODER).encode(fields)
     except (ValueError, TypeError) as error:
         fault = _find_fault(data, "data") or str(error)
         raise ValueError(f"{name}: {fault}") from None
@@ -233,3 +238,4 @@ _LENIENT = json.JSONDecoder(
     object_pairs_hook=_lenient_object,
 )
 _ENCODER = json.JSONEncoder(allow_nan=False)
+_COMPACT = json.JSONEncoder(allow_nan=False, separators=(",", ":"))

@@ -12,7 +12,8 @@ from twisted.python.failure import Failure
 
 from up.protocols.general_message import GeneralMessage, MalformedMessage, decode
 from up.protocols.line_decoder import MAX_LINE_BYTES, LineDecoder
-from up.protocols.link_output import LinkOutput
+from up.protocols.link_output import LinkOutput, Make
+from up.protocols.proxy_lines import PREFIX
 from up.protocols.tcp_options import watch_peer, why_lost
 from up.system.clock import Clock, Timer, cancel
 from up.system.token_bucket import TokenBucket
@@ -125,8 +126,8 @@ class GeneralMessageProtocol(Protocol):
         """Send `message` in order; False without a link, or when 64 KiB wait already."""
         return self.output.send(message)
 
-    def send_newest(self, message: bytes) -> bool:
-        """Send `message`; a slow peer gets only the newest."""
+    def send_newest(self, message: bytes | Make) -> bool:
+        """Send `message`; a slow peer gets only the newest. A function makes it when it leaves."""
         return self.output.send_newest(message)
 
     def close(self) -> None:
@@ -157,6 +158,8 @@ class GeneralMessageProtocol(Protocol):
         for index, line in enumerate(lines):
             if not self._is_open:
                 return
+            if line.startswith(PREFIX) and self._on_control(line):
+                continue
             if not permits(self.bucket, self.peer, len(lines) - index):
                 return
             try:
@@ -166,6 +169,10 @@ class GeneralMessageProtocol(Protocol):
                 self._on_malformed(self, fault)
             else:
                 self._on_message(self, message)
+
+    def _on_control(self, line: bytes) -> bool:
+        """Take a control line of a proxy; False: it is none here."""
+        return False
 
     def connectionLost(self, reason: Failure = connectionDone) -> None:  # noqa: N802 - Twisted's name
         self._is_open = False

@@ -92,14 +92,16 @@ class LinkOutput(BaseOutput):
         self._put(message)
         return True
 
-    def send_newest(self, message: bytes) -> bool:
+    def send_newest(self, message: bytes | Make) -> bool:
         """Send `message` in place of one that still waits; False without a link.
 
-        While the peer acknowledges nothing, a message waits until the next one replaces it: TCP
-        would deliver everything it was given, late and in order.
+        A function makes the message when it leaves, or is never called. While the peer acknowledges
+        nothing, a message waits until the next one replaces it: TCP would deliver everything it was
+        given, late and in order.
         """
         if self._transport is None:
             return False
         may_leave = self._is_drained and not is_stalled(self._transport)
-        self._put_news("", lambda: message, may_leave=may_leave)
+        make = message if callable(message) else lambda: message
+        self._put_news("", make, may_leave=may_leave)
         return True

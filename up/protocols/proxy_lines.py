@@ -128,6 +128,25 @@ class AircraftPresence(_Line):
 
 
 @dataclass(frozen=True, slots=True)
+class Watchers(_Line):
+    """Proxy to aircraft: so many grounds listen; `packed` 1: all read packed telemetry.
+
+    Each such line also says that a ground may lack the present key.
+    """
+
+    FORMAT: ClassVar[str] = "watch grounds={grounds} packed={packed}"
+    grounds: int
+    packed: int
+
+
+@dataclass(frozen=True, slots=True)
+class KeyRequest(_Line):
+    """Ground to proxy: a frame of packed telemetry could not be read for want of its key."""
+
+    FORMAT: ClassVar[str] = "key"
+
+
+@dataclass(frozen=True, slots=True)
 class ControlRequest(_Line):
     """Ground to proxy: requests control."""
 
@@ -157,8 +176,9 @@ ProxyLine = (
     | ControlRequested
     | ControlOwner
     | AircraftPresence
+    | Watchers
 )
-GroundLine = ControlRequest | ControlRelease | ControlGive
+GroundLine = KeyRequest | ControlRequest | ControlRelease | ControlGive
 
 _LINES: dict[str, Callable[[Mapping[str, str]], ProxyLine | GroundLine]] = {
     "ok": lambda words: Accepted(words["aircraft"], Access(words["seat"]), _token(words["token"])),
@@ -170,6 +190,8 @@ _LINES: dict[str, Callable[[Mapping[str, str]], ProxyLine | GroundLine]] = {
     ),
     "aircraft online": lambda words: AircraftPresence(True),
     "aircraft offline": lambda words: AircraftPresence(False),
+    "watch": lambda words: Watchers(_number(words["grounds"]), int(words["packed"] == "1")),
+    "key": lambda words: KeyRequest(),
     "seat request": lambda words: ControlRequest(),
     "seat release": lambda words: ControlRelease(),
     "seat give": lambda words: ControlGive(_number(words["to"])),
@@ -215,16 +237,21 @@ def is_token(text: str) -> bool:
 
 @dataclass(frozen=True, slots=True)
 class Hello:
-    """The first line of a client. `access` None: the airborne side; `token` None or "": none."""
+    """The first line of a client. `access` None: the airborne side; `token` None or "": none.
+
+    `packed`: the client sends or reads packed telemetry, and knows `Watchers` and `KeyRequest`.
+    """
 
     aircraft: str
     access: Access | None = None
     token: str | None = None
+    packed: bool = False
 
     def encode(self) -> bytes:
+        packed = " packed=1" if self.packed else ""
         access = f" seat={self.access.value}" if self.access else ""
         token = f" token={self.token}" if self.token else ""
-        return f"UP1 aircraft={self.aircraft}{access}{token}\n".encode("ascii")
+        return f"UP1 aircraft={self.aircraft}{access}{token}{packed}\n".encode("ascii")
 
 
 def parse_hello(line: bytes, side: Side) -> Hello:
@@ -254,7 +281,8 @@ def parse_hello(line: bytes, side: Side) -> Hello:
         raise _malformed(f"aircraft= must be {AIRCRAFT_NAME_RULE}")
     if token is not None and not _TOKEN.fullmatch(token):
         raise _malformed("token= must be 32 to 64 hexadecimal digits")
-    return Hello(name, _access(words.get("seat"), side), token and token.lower())
+    access = _access(words.get("seat"), side)
+    return Hello(name, access, token and token.lower(), words.get("packed") == "1")
 
 
 def _access(word: str | None, side: Side) -> Access | None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import socket
+import struct
 from typing import Any
 
 from twisted.internet.error import ConnectionAborted, ConnectionDone
@@ -15,6 +16,10 @@ KEEPALIVE_IDLE_S = 3
 KEEPALIVE_INTERVAL_S = 1
 KEEPALIVE_PROBES = 3
 _TCPI_RETRANSMITS = 2
+_TCPI_TRAFFIC = struct.Struct("=128x QII 56x Q")
+"""Bytes received, segments sent and received, bytes sent with repetitions (Linux 4.19)."""
+HEADER_BYTES, HEADER_BYTES_IP6 = 52, 72
+"""IP and TCP headers of a segment, with the time stamps that every Linux peer sends."""
 UNSENT_LIMIT = 4096
 """Bytes that the kernel takes beyond what it can send; the rest waits where it can be replaced."""
 
@@ -54,6 +59,17 @@ def is_stalled(transport: Any) -> bool:
         info = transport.getHandle().getsockopt(socket.IPPROTO_TCP, socket.TCP_INFO, 3)
         return bool(info[_TCPI_RETRANSMITS])
     return False
+
+
+def ip_bytes(transport: Any) -> int | None:
+    """Return what a connection has cost in both directions with headers; None: not known."""
+    with contextlib.suppress(OSError, AttributeError, struct.error):
+        size = _TCPI_TRAFFIC.size
+        info = transport.getHandle().getsockopt(socket.IPPROTO_TCP, socket.TCP_INFO, size)
+        received, out, into, sent = _TCPI_TRAFFIC.unpack(info)
+        is_ip6 = ":" in transport.getPeer().host
+        return int(sent + received + (out + into) * (HEADER_BYTES_IP6 if is_ip6 else HEADER_BYTES))
+    return None
 
 
 def why_lost(reason: Failure) -> str:

@@ -90,6 +90,13 @@ class MissionControlConfig:
         "with public addresses cannot connect to the listener. Set it when a VPN or firewall "
         "protects the proxy, or when you accept the risk.",
     )
+    data_budget_mb_per_hour: float | None = key(
+        None,
+        "Most data of the link to the proxy, in both directions and with all headers, in MB an "
+        "hour. Empty: no limit. Telemetry becomes rarer, below 4 frames a second it has less "
+        "detail; attitude and alarms come last.",
+        minimum=1.0,
+    )
     listener: ListenerConfig = section(ListenerConfig)
 
     def problems(self) -> Iterator[tuple[str, str]]:

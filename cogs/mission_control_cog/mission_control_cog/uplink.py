@@ -70,6 +70,7 @@ class Uplink:
         self._backoff = backoff or Backoff()
         self._addresses = HostAddresses(reactor, host, port)
         self._link: UplinkProtocol | None = None
+        self._counted = 0
         self._began_s = 0.0
         self._ready_s: float | None = None
         self._reported = ""
@@ -94,6 +95,27 @@ class Uplink:
     def send_newest(self, message: bytes) -> bool:
         """Send in place of an older unsent message."""
         return self._link is not None and self._link.send_newest(message)
+
+    def send_packed(self, frame: bytes) -> bool:
+        """Send a frame of telemetry packed, in place of an older unsent message."""
+        return self._link is not None and self._link.send_packed(frame)
+
+    @property
+    def may_pack(self) -> bool:
+        return self._link is not None and self._link.may_pack
+
+    @property
+    def grounds(self) -> int | None:
+        """Return how many ground stations the proxy counts; None: it does not tell."""
+        watchers = None if self._link is None else self._link.watchers
+        return None if watchers is None else watchers.grounds
+
+    def take_ip_bytes(self) -> int:
+        """Return what the link has cost since the last call, both ways with headers."""
+        counted = None if self._link is None else self._link.ip_bytes()
+        more = 0 if counted is None else counted - self._counted
+        self._counted += more
+        return more
 
     def start(self) -> None:
         self._service.startService()
@@ -137,9 +159,10 @@ class Uplink:
         return self._backoff.pause_s(now_s - self._began_s)
 
     def _build(self) -> UplinkProtocol:
+        self._counted = 0
         self._link = UplinkProtocol(
             self._reactor,
-            None if self._hello is None else Hello(self._hello, token=self._token),
+            None if self._hello is None else Hello(self._hello, token=self._token, packed=True),
             on_token=self._take_token,
             on_ready=self._ready,
             on_message=lambda link, message: self._on_message(message),

@@ -8,13 +8,28 @@ from typing import Any
 from twisted.internet.protocol import connectionDone
 from twisted.python.failure import Failure
 
+from up.protocols.binary_line import to_line
 from up.protocols.general_message_link import GeneralMessageProtocol
-from up.protocols.proxy_lines import HELLO_MAX_BYTES, Accepted, Hello, Refused, parse_line
+from up.protocols.link_output import Make
+from up.protocols.packed_telemetry import Packer
+from up.protocols.proxy_lines import (
+    HELLO_MAX_BYTES,
+    Accepted,
+    Hello,
+    Refused,
+    Watchers,
+    parse_line,
+)
+from up.protocols.tcp_options import KEEPALIVE_IDLE_S, ip_bytes, set_option
 from up.system.clock import Clock, Timer, cancel
 from up.tls.errors import TLSError
 
 HEARTBEAT_S = 1.0
+UNWATCHED_HEARTBEAT_S = 12.0
+"""Of a link that no ground watches; also the kernel's pause before a probe."""
 ANSWER_LIMIT_S = 5.0
+SILENCE_S, UNWATCHED_SILENCE_S = 12.0, 25.0
+"""A proxy that tells of watchers sends something every 5 s, without grounds every 10 s."""
 
 
 class UplinkProtocol(GeneralMessageProtocol):
@@ -22,7 +37,9 @@ class UplinkProtocol(GeneralMessageProtocol):
 
     ``on_token`` gets the token for the next hello, empty after a refusal: the name may belong to
     another aircraft. ``on_ready`` gets the link when messages can be sent. ``lost_code`` is the
-    code of the loss. A link with hello sends an empty line in every second without other data.
+    code of the loss. A link with hello sends an empty line in every second without other data,
+    more rarely while ``watchers`` says that there is no ground. ``watchers`` is None at a proxy
+    that does not tell.
     """
 
     def __init__(
@@ -37,6 +54,8 @@ class UplinkProtocol(GeneralMessageProtocol):
         super().__init__(clock, on_connected=self._begin, **callbacks)
         self.is_ready = False
         self.lost_code = "link_lost"
+        self.watchers: Watchers | None = None
+        self._packer = Packer()
         self._hello = hello
         self._on_token = on_token
         self._on_ready = on_ready
@@ -52,11 +71,46 @@ class UplinkProtocol(GeneralMessageProtocol):
         self._sent_s = self._clock.seconds()
         return super().send(message)
 
-    def send_newest(self, message: bytes) -> bool:
+    @property
+    def is_unwatched(self) -> bool:
+        """Return whether the proxy says that there is no ground."""
+        return self.watchers is not None and not self.watchers.grounds
+
+    @property
+    def may_pack(self) -> bool:
+        """Return whether every ground reads packed telemetry."""
+        return self.watchers is not None and bool(self.watchers.packed)
+
+    def ip_bytes(self) -> int | None:
+        """Return the bytes of this connection so far, both ways with headers; None: not known."""
+        return ip_bytes(self.transport)
+
+    def send_newest(self, message: bytes | Make) -> bool:
         if not self.is_ready:
             return False
         self._sent_s = self._clock.seconds()
         return super().send_newest(message)
+
+    def send_packed(self, frame: bytes) -> bool:
+        """Send a frame of telemetry, a line, packed when it leaves."""
+        return self.send_newest(lambda: self._pack(frame))
+
+    def _pack(self, frame: bytes) -> bytes:
+        return to_line(self._packer.pack(frame[:-1], self._clock.seconds()))
+
+    def _on_control(self, line: bytes) -> bool:
+        said = parse_line(line)
+        if self._hello is None or not isinstance(said, Watchers):
+            return False
+        was_unwatched = self.is_unwatched
+        self.watchers = said
+        self._packer.restart()
+        if self.is_unwatched != was_unwatched:
+            idle_s = int(UNWATCHED_HEARTBEAT_S) if self.is_unwatched else KEEPALIVE_IDLE_S
+            set_option(self.transport, "TCP_KEEPIDLE", idle_s)
+            cancel(self._pulse)
+            self._pulse = self._clock.callLater(0, self._beat)
+        return True
 
     def dataReceived(self, data: bytes) -> None:  # noqa: N802 - Twisted's name
         """Take the answer to the hello, then messages."""
@@ -125,8 +179,14 @@ class UplinkProtocol(GeneralMessageProtocol):
         self._on_ready(self)
 
     def _beat(self) -> None:
+        limit_s = UNWATCHED_SILENCE_S if self.is_unwatched else SILENCE_S
+        if self.watchers is not None and self._clock.seconds() - self._heard_s > limit_s:
+            # A relay on the way may acknowledge what it cannot pass on.
+            self._give_up("proxy_silent", "the proxy is silent")
+            return
+        period_s = UNWATCHED_HEARTBEAT_S if self.is_unwatched else HEARTBEAT_S
         silence_s = self._clock.seconds() - self._sent_s
-        if silence_s >= HEARTBEAT_S:
+        if silence_s >= period_s:
             self.send(b"\n")
             silence_s = 0.0
-        self._pulse = self._clock.callLater(HEARTBEAT_S - silence_s, self._beat)
+        self._pulse = self._clock.callLater(period_s - silence_s, self._beat)

@@ -44,7 +44,7 @@ class Stopped(Exception):  # noqa: N818 - a signal is not an error
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run everything; return 0 after Ctrl-C, 1 when a part failed, 2 for wrong input."""
-    options = _options(arguments)
+    options = read_options(arguments)
     folder = (options.folder or ROOT / "run" / "demo").resolve()
     if not (ROOT / "main.py").is_file():
         text = "the demo runs from a clone of the project: make run"
@@ -96,7 +96,8 @@ def _fly(options: argparse.Namespace, folder: Path) -> int:
     return 1 if failure else 0
 
 
-def _options(arguments: Sequence[str] | None) -> argparse.Namespace:
+def read_options(arguments: Sequence[str] | None) -> argparse.Namespace:
+    """Return the options of the command line."""
     parser = OptionParser(
         prog="make run",
         allow_abbrev=False,

@@ -30,7 +30,7 @@ def test_hello_first_then_telemetry_after_the_answer(tmp_path):
         peer = await server.peer()
         await until(lambda: peer.received)
         await sleep(0.3)
-        assert peer.received == b"UP1 aircraft=glider-1\n"
+        assert peer.received == b"UP1 aircraft=glider-1 packed=1\n"
         assert not a.provider.connected
         # In two parts, and with a message right behind.
         peer.say(OK[:9])
@@ -51,7 +51,9 @@ def test_the_link_reconnects_with_its_token_and_without_the_partial_line(tmp_pat
         await until(lambda: first.named("up.telemetry.update"))
         first.transport.abortConnection()
         second = await accepted(server, 1)
-        assert second.received.startswith(b"UP1 aircraft=default token=" + b"ab" * 16 + b"\n")
+        assert second.received.startswith(
+            b"UP1 aircraft=default token=" + b"ab" * 16 + b" packed=1\n"
+        )
         second.say(b"50}}\n", {**PERIOD, "id": "x"})
         await second.answer("x")
         assert a.heard.count(TelemetryFrequencyCommand(90)) == 1
@@ -94,7 +96,7 @@ def test_a_refused_hello_is_tried_again_without_the_token(tmp_path):
         await until(lambda: b"token=" in third.received)
         third.say(b'UP1 error code=token reason="no"\n')
         fourth = await server.peer(3)
-        assert await until(lambda: fourth.received) == b"UP1 aircraft=default\n"
+        assert await until(lambda: fourth.received) == b"UP1 aircraft=default packed=1\n"
         assert a.up.command_receiver.counters["received"] == 0
 
 

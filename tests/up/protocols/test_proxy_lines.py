@@ -23,8 +23,10 @@ from up.protocols.proxy_lines import (
     ControlRequested,
     Hello,
     HelloError,
+    KeyRequest,
     Refused,
     Side,
+    Watchers,
     parse_hello,
     parse_line,
 )
@@ -46,7 +48,7 @@ def test_golden_vectors(vector):
         assert refused.value.code == vector["error"]
         return
     access = vector["seat"] and Access(vector["seat"])
-    hello = Hello(vector["aircraft"], access, vector["token"])
+    hello = Hello(vector["aircraft"], access, vector["token"], vector.get("packed", False))
     assert parse_hello(line, side) == hello
     if "future" not in vector["line"]:
         assert hello.encode() == line
@@ -185,6 +187,9 @@ def test_mutated_hellos():
         ("seat request", ControlRequest()),
         ("seat release", ControlRelease()),
         ("seat give to=12", ControlGive(12)),
+        ("watch grounds=0 packed=1", Watchers(0, 1)),
+        ("watch grounds=12 packed=0", Watchers(12, 0)),
+        ("key", KeyRequest()),
     ],
 )
 def test_every_line_is_written_and_read(line, message):
@@ -218,6 +223,8 @@ def test_unknown_words_of_an_answer_are_ignored():
         b"UP1 seat give to=1234567890",
         b"UP1 seat give to=1 2",
         b"UP1 aircraft maybe",
+        b"UP1 watch grounds=-1 packed=1",
+        b"UP1 watch grounds=1",
         b"UP1 dance",
         b"UP1 \xff",
     ],

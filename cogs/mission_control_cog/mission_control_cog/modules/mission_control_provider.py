@@ -6,6 +6,8 @@ from collections.abc import Mapping
 from typing import Any, Protocol
 
 from mission_control_cog.config import MISSION_CONTROL, aircraft_name
+from mission_control_cog.data_budget import DataBudget
+from mission_control_cog.thinning import Thinning
 from mission_control_cog.tuning_policy import TuningPolicy
 from mission_control_cog.uplink import Uplink
 from up.commands.flight_state_command import FlightStateCommand
@@ -13,7 +15,7 @@ from up.commands.origin import Origin
 from up.commands.roles import Role
 from up.commands.system_commands import LinkStateCommand
 from up.commands.telemetry_commands import TelemetryCommand
-from up.protocols.general_message import GeneralMessage, MalformedMessage
+from up.protocols.general_message import GeneralMessage, MalformedMessage, encode
 from up.providers.base_mission_control_provider import BaseMissionControlProvider
 from up.system.addresses import is_private
 from up.system.backoff import Backoff
@@ -22,6 +24,10 @@ from up.tls.files import TLSFiles
 LINK = "mission_control"
 ROLE_KEY = "mission_control.yml: role"
 PLAIN_KEY = "mission_control.yml: i_accept_plain"
+
+
+UNWATCHED_PERIOD_S = 10.0
+"""Period of telemetry while the proxy counts no ground."""
 
 
 class Outlet(Protocol):
@@ -47,11 +53,15 @@ class MissionControlProvider(BaseMissionControlProvider):
         self._uplink: Uplink | None = None
         self._outlets: list[Outlet] = []
         self._telemetry_faults = 0
+        self._thinning = Thinning()
+        self._sent_s = 0.0
 
     def on_init(self) -> None:
         super().on_init()
         config = self.config
         self._role = Role(config.role)
+        now_s = self.context.reactor.seconds()
+        self._budget = DataBudget(config.data_budget_mb_per_hour, now_s)
         self.tuning_policy = TuningPolicy(config.tune_in_flight)
         self.up.command_executor.register_command(
             FlightStateCommand, self.tuning_policy.on_flight_state
@@ -99,12 +109,33 @@ class MissionControlProvider(BaseMissionControlProvider):
         # An unprotected link to a proxy may grant less than the configured role.
         role = self._link.origin.role if self.connected else self._role
         ground = {"role": role.value, "tune_in_flight": self.config.tune_in_flight}
-        return {"counters": {"mission_control": counters}, "ground": ground}
+        return {
+            "counters": {"mission_control": counters},
+            "ground": ground,
+            "uplink": self._uplink_content(),
+        }
+
+    def _uplink_content(self) -> Mapping[str, Any]:
+        budget = self._budget
+        rate = budget.mb_per_hour
+        return {
+            "grounds": None if self._uplink is None else self._uplink.grounds,
+            "mb_per_hour": round(rate, 2),
+            "mb": round(budget.mb, 3),
+            "mb_in_an_hour": round(budget.mb + rate, 1),
+            "budget_mb_per_hour": self.config.data_budget_mb_per_hour,
+            "left_out": budget.left_out,
+        }
 
     def transmit_telemetry(self, command: TelemetryCommand) -> None:
         """Send a frame of telemetry; one that cannot be encoded is logged once and counted."""
         try:
-            super().transmit_telemetry(command)
+            if any(len(outlet) for outlet in self._outlets):
+                frame = encode(command.NAME, command.content, None, command.beacon)
+                for outlet in self._outlets:
+                    outlet.send_newest(frame)
+            if self._uplink is not None:
+                self._transmit_up(self._uplink, command)
         except ValueError as error:
             self._telemetry_faults += 1
             if self._telemetry_faults == 1:
@@ -136,11 +167,26 @@ class MissionControlProvider(BaseMissionControlProvider):
             taken = outlet.send(message) or taken
         return taken
 
+    def _transmit_up(self, uplink: Uplink, command: TelemetryCommand) -> None:
+        """Send a frame to the proxy, as far as grounds watch, can read, and the budget permits."""
+        now_s, budget = self.context.reactor.seconds(), self._budget
+        budget.count(uplink.take_ip_bytes(), now_s)
+        if uplink.grounds == 0 and now_s - self._sent_s < UNWATCHED_PERIOD_S:
+            budget.left_out += 1
+            return
+        if not budget.permits(now_s):
+            return
+        self._sent_s = now_s
+        content, beacon = command.content, command.beacon
+        if uplink.may_pack:
+            content = self._thinning.apply(content, now_s, budget.hold_s)
+            uplink.send_packed(encode(command.NAME, content, None, beacon, is_compact=True))
+        else:
+            self._transmit_newest(encode(command.NAME, content, None, beacon))
+
     def _transmit_newest(self, message: bytes) -> None:
         if self._uplink is not None:
             self._uplink.send_newest(message)
-        for outlet in self._outlets:
-            outlet.send_newest(message)
 
     def _on_message(self, message: GeneralMessage) -> None:
         self.up.command_receiver.receive(message, self._link)

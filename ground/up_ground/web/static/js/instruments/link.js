@@ -17,6 +17,7 @@ export function mount(element, store, connection) {
     security: new PlainRow(list, "Security", "link.security"),
     latency: new PlainRow(list, "Proxy's round trip", "link.latency"),
     aircraft: new PlainRow(list, "Aircraft", "link.aircraft"),
+    data: new PlainRow(list, "Aircraft's data", "link.data"),
   };
   const rows = [
     new Row(list, "Board's serial link", "arduino.connected", "flag", joined, warnIfGone),
@@ -46,6 +47,7 @@ export function mount(element, store, connection) {
       const online = isOnline === null ? null : isOnline ? "at the proxy" : "not at the proxy";
       plain.aircraft.show(online, isOnline === false ? "warning" : "", isDoubtful);
       plain.aircraft.setState(isOnline === false ? "offline" : "online");
+      plain.data.show(dataText(store), "", isOld || store.isSilent);
       for (const row of rows) {
         row.update(store);
       }
@@ -65,6 +67,18 @@ function agesText(store) {
   return store.number("system.clock_ms") === null
     ? "without the delay to the proxy: the aircraft reports no clock"
     : "by the aircraft's clock";
+}
+
+/** As `9.0 of 11.0 MB/h, 3.2 MB since start, in an hour 12.2 MB`. */
+function dataText(store) {
+  const [rate, limit, total, soon] = ["mb_per_hour", "budget_mb_per_hour", "mb", "mb_in_an_hour"].map(
+    (name) => store.number(`uplink.${name}`),
+  );
+  if (!total) {
+    return null;
+  }
+  const budget = limit === null ? "" : ` of ${numberText(limit, 1)}`;
+  return `${numberText(rate, 1)}${budget} MB/h, ${numberText(total, 1)} MB since start, in an hour ${numberText(soon, 1)} MB`;
 }
 
 function joined(isThere) {

@@ -102,19 +102,25 @@ public final class TelemetrySchema {
                 "age_ms.orientation", "age_ms.rx", "age_ms.servo", "age_ms.flight",
                 "age_ms.location", "age_ms.altitude", "age_ms.heading", "age_ms.battery",
                 "age_ms.navigation");
-        put(UNITS, "MB", "black_box.megabytes");
+        put(UNITS, "MB/h", "uplink.mb_per_hour", "uplink.budget_mb_per_hour");
+        put(UNITS, "MB", "uplink.mb", "uplink.mb_in_an_hour", "black_box.megabytes");
+        put(DECIMALS, 1, "orientation.roll", "orientation.pitch", "orientation.yaw", "rates.roll",
+                "rates.pitch", "rates.yaw", "location.altitude", "home.altitude",
+                "navigation.altitude", "navigation.height", "navigation.speed", "navigation.climb",
+                "navigation.airspeed", "navigation.wind.speed", "navigation.sd.position",
+                "navigation.sd.altitude", "navigation.sd.wind", "navigation.sd.airspeed",
+                "navigation.sd.heading", "navigation.target.altitude", "navigation.target.radius",
+                "altitude", "uplink.mb_in_an_hour", "black_box.megabytes");
         put(DECIMALS, 6, "location.latitude", "location.longitude", "home.latitude",
                 "home.longitude", "navigation.latitude", "navigation.longitude",
                 "navigation.target.latitude", "navigation.target.longitude");
-        put(DECIMALS, 1, "home.altitude", "navigation.altitude", "navigation.height",
-                "navigation.speed", "navigation.climb", "navigation.airspeed", "navigation.course",
-                "navigation.heading", "navigation.wind.speed", "navigation.sd.position",
-                "navigation.sd.altitude", "navigation.sd.wind", "navigation.sd.airspeed",
-                "navigation.sd.heading", "navigation.target.altitude", "navigation.target.radius");
-        put(DECIMALS, 0, "home.time_s", "navigation.wind.from", "location.satellites",
-                "mission.count", "mission.item", "mission.distance", "fence.count", "fence.margin",
-                "fence.radius", "fence.ceiling", "fence.floor");
-        put(DECIMALS, 2, "arduino.flight_battery_v");
+        put(DECIMALS, 0, "home.distance", "home.bearing", "home.time_s", "navigation.course",
+                "navigation.heading", "navigation.wind.from", "location.satellites",
+                "mission.count", "mission.item", "mission.distance", "fence.count",
+                "heading.actual", "fence.margin", "fence.radius", "fence.ceiling", "fence.floor",
+                "load.cpu", "load.ram", "uplink.grounds", "uplink.left_out");
+        put(DECIMALS, 2, "arduino.flight_battery_v", "uplink.mb_per_hour", "uplink.mb",
+                "uplink.budget_mb_per_hour");
         LIMITS.put("battery_low", 20.0);
         LIMITS.put("battery_empty", 10.0);
         MODE_REASONS.put("mode_failed", "it failed");

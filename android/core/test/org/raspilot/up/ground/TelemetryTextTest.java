@@ -24,8 +24,8 @@ public final class TelemetryTextTest {
 
     @Test
     public void eachValueHasItsPathTextAndUnit() {
-        assertEquals(Arrays.asList("orientation.roll 3.5 deg", "orientation.yaw -0.25 deg",
-                "rates.roll 12 deg/s", "rx.throttle 1500 us", "altitude 12.346 m", "armed no",
+        assertEquals(Arrays.asList("orientation.roll 3.5 deg", "orientation.yaw -0.2 deg",
+                "rates.roll 12 deg/s", "rx.throttle 1500 us", "altitude 12.3 m", "armed no",
                 "altitude_required --", "vetoes no receiver, 2", "flight_mode FBW",
                 "location.latitude 49.123457 deg", "android.batteryLevel 70 %",
                 "age_ms.flight 20 ms", "load.panic yes", "system.providers none"),

@@ -1,0 +1,84 @@
+"""Packed telemetry: a frame as raw deflate with an earlier frame as its dictionary.
+
+A body is the type byte, three bytes and the deflate data. The three bytes, big-endian, are the
+number of the dictionary, and in their highest bit whether this frame is a key: the dictionary of
+later ones. A number is the low 23 bits of the CRC-32 of the dictionary, so that a key that is not
+the sender's is never taken for it. Keys are packed against the previous key, after `restart`
+against `DICTIONARY`, which every reader has; all other frames can be left out.
+"""
+
+from __future__ import annotations
+
+import zlib
+
+from up.protocols.binary_line import PACKED
+from up.protocols.line_decoder import MAX_LINE_BYTES
+from up.protocols.packed_dictionary import DICTIONARY
+
+KEY_AGE_S = 1.0
+"""A frame that is sent when the key is older becomes the next key."""
+_WINDOW_BITS = -13
+_KEY_FLAG = 1 << 23
+_HEAD_BYTES = 4
+
+
+class PackedError(ValueError):
+    """A body that is no packed frame, or too large."""
+
+
+class UnknownKeyError(PackedError):
+    """A frame whose dictionary was not received here."""
+
+
+def number_of(key: bytes) -> int:
+    """Return the number by which frames name their dictionary."""
+    return zlib.crc32(key) & (_KEY_FLAG - 1)
+
+
+class Packer:
+    """Packs the frames of one connection; each result must be sent, in order."""
+
+    def __init__(self) -> None:
+        self._key = DICTIONARY
+        self._key_s: float | None = None
+
+    def restart(self) -> None:
+        """Make the next frame a key that every reader can unpack."""
+        self._key = DICTIONARY
+        self._key_s = None
+
+    def pack(self, frame: bytes, now_s: float) -> bytes:
+        """Return the body of a frame that leaves now."""
+        is_key = self._key_s is None or now_s - self._key_s >= KEY_AGE_S
+        number = number_of(self._key) | (_KEY_FLAG if is_key else 0)
+        coder = zlib.compressobj(6, zlib.DEFLATED, _WINDOW_BITS, 8, 0, self._key)
+        data = coder.compress(frame) + coder.flush()
+        if is_key:
+            self._key, self._key_s = frame, now_s
+        return bytes((PACKED,)) + number.to_bytes(3, "big") + data
+
+
+class Unpacker:
+    """Unpacks the frames of one aircraft; keeps the newest key alone."""
+
+    def __init__(self) -> None:
+        self._keys = {number_of(DICTIONARY): DICTIONARY}
+
+    def unpack(self, body: bytes) -> bytes:
+        """Return the frame of a body, at most 16 KiB; raises PackedError."""
+        if len(body) <= _HEAD_BYTES or body[0] != PACKED:
+            raise PackedError("not a packed frame")
+        number = int.from_bytes(body[1:_HEAD_BYTES], "big")
+        key = self._keys.get(number & ~_KEY_FLAG)
+        if key is None:
+            raise UnknownKeyError("the key of this frame was not received")
+        decoder = zlib.decompressobj(_WINDOW_BITS, key)
+        try:
+            frame = decoder.decompress(body[_HEAD_BYTES:], MAX_LINE_BYTES)
+        except zlib.error:
+            raise PackedError("not deflate data") from None
+        if not decoder.eof or decoder.unused_data or len(frame) >= MAX_LINE_BYTES:
+            raise PackedError("too large, cut off or continued")
+        if number & _KEY_FLAG:
+            self._keys = {number_of(DICTIONARY): DICTIONARY, number_of(frame): frame}
+        return frame
