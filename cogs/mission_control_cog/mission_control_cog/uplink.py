@@ -46,6 +46,7 @@ class Uplink:
         *,
         on_message: Callable[[GeneralMessage], object],
         on_malformed: Callable[[MalformedMessage], object],
+        on_binary: Callable[[bytes], object] | None = None,
         on_ready: Callable[[str], object],
         on_lost: Callable[[], object],
         backoff: Backoff | None = None,
@@ -59,6 +60,7 @@ class Uplink:
         self._token = ""
         self._on_message = on_message
         self._on_malformed = on_malformed
+        self._on_binary = on_binary
         self._on_ready = on_ready
         self._on_lost = on_lost
         self._backoff = backoff or Backoff()
@@ -128,6 +130,7 @@ class Uplink:
             on_message=lambda link, message: self._on_message(message),
             on_malformed=lambda link, fault: self._on_malformed(fault),
             on_lost=self._link_lost,
+            on_binary=None if (take := self._on_binary) is None else lambda _, line: take(line),
             bucket=self.bucket,
         )
         return self._link

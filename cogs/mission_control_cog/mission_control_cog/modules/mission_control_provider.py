@@ -2,17 +2,25 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Mapping
+from pathlib import Path
 from typing import Any, Protocol
 
-from mission_control_cog.config import MISSION_CONTROL, aircraft_name
+from mission_control_cog.audit_log import AuditLog
+from mission_control_cog.config import MISSION_CONTROL, aircraft_name, security_of
+from mission_control_cog.key_ring import KeyRing
+from mission_control_cog.protection import Protection
 from mission_control_cog.tuning_policy import TuningPolicy
 from mission_control_cog.uplink import Uplink
+from up.commands.answer_commands import CommandAnsweredCommand
 from up.commands.flight_state_command import FlightStateCommand
 from up.commands.origin import Origin
+from up.commands.refusal import Code
 from up.commands.roles import Role
 from up.commands.system_commands import LinkStateCommand
 from up.commands.telemetry_commands import TelemetryCommand
+from up.config.keys_file import KEYS
 from up.protocols.general_message import GeneralMessage, MalformedMessage
 from up.providers.base_mission_control_provider import BaseMissionControlProvider
 from up.system.addresses import is_private
@@ -21,10 +29,16 @@ from up.system.backoff import Backoff
 LINK = "mission_control"
 ROLE_KEY = "mission_control.yml: role"
 PLAIN_KEY = "mission_control.yml: i_accept_plain"
+SECURITY_KEY = "mission_control.yml: remote_server.security"
+UNPROTECTED = "this link requires protected messages: pair this device ('up keys add')"
+AUDITED = frozenset({LINK, "ground"})
 
 
 class Outlet(Protocol):
     """Another link to the ground, beside the proxy."""
+
+    requires_protection: bool
+    """Whether it sends protected lines only."""
 
     def __len__(self) -> int:
         """Return how many ground stations are connected."""
@@ -40,12 +54,15 @@ class MissionControlProvider(BaseMissionControlProvider):
     """Keeps a link to the proxy of ``remote_server``; without one it only serves its outlets."""
 
     CONFIG = MISSION_CONTROL
+    WRITTEN_FILES = (KEYS,)
 
     def __init__(self, config: Any = None, silent: bool = False) -> None:
         super().__init__(config, silent)
         self._uplink: Uplink | None = None
         self._outlets: list[Outlet] = []
         self._telemetry_faults = 0
+        self._requires_protection = False
+        self._audit: AuditLog | None = None
 
     def on_init(self) -> None:
         super().on_init()
@@ -58,15 +75,20 @@ class MissionControlProvider(BaseMissionControlProvider):
         self._link = self.up.open_link(
             LINK, self._role, self._send, role_key=ROLE_KEY, policy=self.tuning_policy
         )
-        server = config.remote_server
+        server, name = config.remote_server, aircraft_name(config, self.context.instance)
+        self.protection = Protection(self.up, name, self.tuning_policy)
+        self._keys = KeyRing(
+            self.context.reactor, self.context.config_folder, self.protection.on_keys
+        )
         if server.url:
             self._uplink = Uplink(
                 self.context.reactor,
                 server.url,
                 server.port,
-                aircraft_name(config, self.context.instance) if config.hello else None,
+                name if config.hello else None,
                 on_message=self._on_message,
                 on_malformed=self._on_malformed,
+                on_binary=None if server.security == "off" else self._on_binary,
                 on_ready=self._on_ready,
                 on_lost=self._on_lost,
                 backoff=Backoff(self.context.random.random),
@@ -93,6 +115,7 @@ class MissionControlProvider(BaseMissionControlProvider):
             "too_many": 0 if uplink is None else uplink.bucket.refused,
             "unsent": self.unsent,
             "telemetry_faults": self._telemetry_faults,
+            "protected": dict(self.protection.counters),
         }
         # An unprotected link to a proxy may grant less than the configured role.
         role = self._link.origin.role if self.connected else self._role
@@ -113,6 +136,8 @@ class MissionControlProvider(BaseMissionControlProvider):
                 )
 
     def on_start(self) -> bool:
+        self._keys.start()
+        self._open_audit()
         if self._uplink is None:
             self.log.info(
                 "no proxy is configured (mission_control.yml: remote_server)", code="no_proxy"
@@ -122,26 +147,50 @@ class MissionControlProvider(BaseMissionControlProvider):
         return True
 
     async def on_stop(self) -> None:
+        self._keys.stop()
         if self._uplink is not None:
             await self._uplink.stop()
+        self.protection.stop()
+        if self._audit is not None:
+            self._audit.close()
 
     def _send(self, message: bytes) -> bool:
         return self._uplink is not None and self._uplink.send(message)
 
     def _transmit_data(self, message: bytes) -> bool:
-        taken = self._send(message)
+        forms = _forms(message, self.protection.message(message))
+        mine = forms[self._requires_protection]
+        taken = bool(mine) and self._send(mine)
         for outlet in self._outlets:
-            taken = outlet.send(message) or taken
+            form = forms[outlet.requires_protection]
+            taken = (bool(form) and outlet.send(form)) or taken
         return taken
 
     def _transmit_newest(self, message: bytes) -> None:
-        if self._uplink is not None:
-            self._uplink.send_newest(message)
+        forms = _forms(message, self.protection.frame(message))
+        if self._uplink is not None and forms[self._requires_protection]:
+            self._uplink.send_newest(forms[self._requires_protection])
         for outlet in self._outlets:
-            outlet.send_newest(message)
+            if forms[outlet.requires_protection]:
+                outlet.send_newest(forms[outlet.requires_protection])
 
     def _on_message(self, message: GeneralMessage) -> None:
-        self.up.command_receiver.receive(message, self._link)
+        if self._requires_protection:
+            self.up.command_receiver.refuse(self._link, message, Code.UNPROTECTED, UNPROTECTED)
+        else:
+            self.up.command_receiver.receive(message, self._link)
+
+    def _on_binary(self, line: bytes) -> None:
+        self.protection.receive(line, LINK, self._send)
+
+    def _open_audit(self) -> None:
+        state = os.environ.get("STATE_DIRECTORY", "").partition(":")[0]
+        path = self.config.audit_log or (state and f"{state}/audit.jsonl")
+        if path:
+            self._audit = AuditLog(self.context.reactor, Path(path), AUDITED)
+            self.up.command_executor.register_command(
+                CommandAnsweredCommand, self._audit.on_answered
+            )
 
     def _on_malformed(self, fault: MalformedMessage) -> None:
         self.up.command_receiver.receive_malformed(fault, self._link)
@@ -160,7 +209,13 @@ class MissionControlProvider(BaseMissionControlProvider):
         resolve to another address later, and refusing to start would also stop telemetry.
         """
         role, key = self._role, ROLE_KEY
-        if role is Role.PILOT and not self.config.i_accept_plain and not is_private(host):
+        config = self.config
+        is_public = not is_private(host)
+        security = security_of(config.remote_server.security, is_public, config.i_accept_plain)
+        self._requires_protection = security == "require"
+        if self._requires_protection:
+            role, key = Role.OBSERVER, SECURITY_KEY
+        elif role is Role.PILOT and not config.i_accept_plain and is_public:
             role, key = Role.OPERATOR, PLAIN_KEY
             self.log.error(
                 "{host} is a public address and the link is plain: the ground is an operator, not a"
@@ -172,3 +227,8 @@ class MissionControlProvider(BaseMissionControlProvider):
             )
         self._link.origin = Origin(LINK, role)
         self._link.role_key = key
+
+
+def _forms(plain: bytes, sealed: bytes) -> tuple[bytes, bytes]:
+    """Return what a link that accepts plain peers sends, and what one that requires sessions."""
+    return plain + sealed, sealed

@@ -1,0 +1,57 @@
+"""Who did what: the outcome of every Command from the ground, as lines of JSON."""
+
+from __future__ import annotations
+
+import json
+import time
+from datetime import UTC, datetime
+from pathlib import Path
+from typing import Any
+
+from twisted.logger import Logger
+from twisted.python.failure import Failure
+
+from up.commands.answer_commands import CommandAnsweredCommand
+from up.log.json_lines import RotatingFile
+from up.system.disk_thread import DiskThread
+
+_ROTATE_BYTES = 1_000_000
+_KEEP = 4
+
+
+class AuditLog:
+    """Writes outcomes beside the reactor; their publisher limits their rate.
+
+    A failed write ends it, and is logged: it never delays or refuses a Command.
+    """
+
+    log = Logger()
+
+    def __init__(self, reactor: Any, path: Path, links: frozenset[str]) -> None:
+        self._file = RotatingFile(path, _ROTATE_BYTES, _KEEP)
+        self._links = links
+        self._disk = DiskThread(reactor)
+        self._is_open = True
+        self._disk.run(self._file.open).addErrback(self._on_failed)
+
+    def on_answered(self, command: CommandAnsweredCommand) -> None:
+        """Write one outcome."""
+        if not self._is_open or command.link not in self._links:
+            return
+        moment = datetime.fromtimestamp(time.time(), UTC).isoformat(timespec="milliseconds")
+        line = json.dumps({"time": moment, **command.data}).encode() + b"\n"
+        self._disk.run(lambda: self._file.write(line)).addErrback(self._on_failed)
+
+    def close(self) -> None:
+        self._is_open = False
+        self._disk.run(self._file.close)
+
+    def _on_failed(self, failure: Failure) -> None:
+        if self._is_open:
+            self._is_open = False
+            self.log.error(
+                "cannot write {path}, the audit log stops: {reason}",
+                path=str(self._file.path),
+                reason=failure.getErrorMessage(),
+                code="audit_failed",
+            )
