@@ -74,6 +74,7 @@ setup(
     ],
     extras_require={
         "ground": ["autobahn>=24.4"],
+        "keys": ["segno>=1.5"],
         "log": ["matplotlib>=3.8"],
         "sim": ["jsbsim==1.3.3; platform_machine == 'x86_64'", "matplotlib>=3.8"],
         "bench": ["pymavlink", "pluggy>=1", "blinker>=1.6", "mcap>=1.2", "simple-pid>=2.0"],
@@ -85,6 +86,7 @@ setup(
             "hypothesis>=6.100",
             "mcap>=1.2",
             "gpxpy>=1.6",
+            "segno>=1.5",
             "simple-pid>=2.0",
             "ruff>=0.6",
             "mypy>=1.11",

@@ -14,6 +14,7 @@ from twisted.internet.protocol import Factory
 from twisted.python.failure import Failure
 from zope.interface import implementer
 
+from up.protocols.binary_line import HANDSHAKE, PROTECTED
 from up.protocols.general_message import GeneralMessage, MalformedMessage, decode
 from up.protocols.proxy_lines import (
     Accepted,
@@ -34,6 +35,7 @@ from up.protocols.proxy_lines import (
 )
 from up.system.backoff import Backoff
 from up_ground.ground_protocol import GroundProtocol
+from up_ground.link_security import LinkSecurity
 from up_ground.link_status import LinkState, LinkStatus
 from up_ground.settings import Seat, Settings
 from up_ground.token_store import TokenStore
@@ -75,6 +77,8 @@ class GroundLink:
         self._connection: GroundProtocol | None = None
         self._too_long = 0
         self._is_greeted = False
+        pairing = settings.pairing
+        self._security = None if pairing is None else LinkSecurity(reactor, pairing, self.status)
         factory: Any = Factory.forProtocol(self._build)
         factory.noisy = False
         make: Any = ClientService
@@ -97,7 +101,13 @@ class GroundLink:
         self._tokens.close()
 
     def send(self, line: bytes) -> bool:
-        """Send an encoded message; return False without a connection."""
+        """Send an encoded message; return False without a connection, or without its session."""
+        if self._security is None:
+            return self._send(line)
+        sealed = self._security.seal(line)
+        return sealed is not None and self._send(sealed)
+
+    def _send(self, line: bytes) -> bool:
         connection = self._connection
         return self.status.is_open and connection is not None and connection.send(line)
 
@@ -105,13 +115,13 @@ class GroundLink:
         """Request the seat; a free one is granted immediately. Return False if not sent."""
         self._wanted = Seat.COMMAND
         self._tokens.hold()
-        return not self._settings.direct and self.send(ControlRequest().encode())
+        return not self._settings.direct and self._send(ControlRequest().encode())
 
     def give_seat(self, to: int) -> bool:
-        return self.status.seat is Seat.COMMAND and self.send(ControlGive(to).encode())
+        return self.status.seat is Seat.COMMAND and self._send(ControlGive(to).encode())
 
     def release_seat(self) -> bool:
-        return self.status.seat is Seat.COMMAND and self.send(ControlRelease().encode())
+        return self.status.seat is Seat.COMMAND and self._send(ControlRelease().encode())
 
     def reconnect(self, seat: Seat) -> None:
         """Repeat the hello for another seat: an aircraft's own listener grants it only that way."""
@@ -147,12 +157,24 @@ class GroundLink:
             )
             return
         self.status.too_long = self._too_long + connection.dropped_too_long
+        body = self._open(line)
+        if body is None:
+            return
         try:
-            message = decode(line)
+            message = decode(body)
         except MalformedMessage:
             self.status.malformed += 1
             return
         self._listener.on_message(message)
+
+    def _open(self, line: bytes) -> bytes | None:
+        """Return the body of a line, as far as this device may take it."""
+        if self._security is not None:
+            return self._security.open(line)
+        if line[0] in (PROTECTED, HANDSHAKE):
+            self.status.unprotected += 1
+            return None
+        return line
 
     def on_control(self, connection: GroundProtocol, line: bytes) -> None:
         said = None if self._settings.direct else parse_line(line)
@@ -167,6 +189,8 @@ class GroundLink:
         self._too_long += connection.dropped_too_long
         self.status.too_long = self._too_long
         self._connection = None
+        if self._security is not None:
+            self._security.stop()
         self._on_no_link(reason, code)
 
     def connect(self, protocolFactory: IProtocolFactory) -> Deferred[Any]:  # noqa: N803
@@ -204,6 +228,8 @@ class GroundLink:
             status.is_holder_known = True
         elif isinstance(said, AircraftPresence):
             status.is_aircraft_online = said.is_online
+            if said.is_online and self._security is not None:
+                self._security.renew()
 
     def _keep(self, token: str) -> None:
         self._token = token
@@ -216,6 +242,8 @@ class GroundLink:
         status.failures = 0
         status.connections += 1
         self._backoff.reset()
+        if self._security is not None:
+            self._security.start(self._send)
 
     def _build(self) -> GroundProtocol:
         hello = None

@@ -49,6 +49,19 @@ class LinkStatus:
     too_long: int = 0
     strange_control: int = 0
     """Unknown control lines."""
+    is_keyed: bool = False
+    """Whether this device has a key for the aircraft, so that plain lines are refused."""
+    key_name: str = ""
+    key_role: str = ""
+    """The role of the key in the open session; empty without a session."""
+    key_refusal: str = ""
+    """The code with which the aircraft refused the key."""
+    refused: int = 0
+    """Lines that the key does not authenticate, or that came before."""
+    unprotected: int = 0
+    """Plain lines on a link with a key, or protected ones without a key."""
+    clock: tuple[float, float] | None = None
+    """The aircraft's clock, ms, and the time here when it was read, authenticated by the key."""
 
     @property
     def is_open(self) -> bool:
@@ -56,7 +69,14 @@ class LinkStatus:
 
     @property
     def dropped(self) -> int:
-        return self.malformed + self.too_long + self.strange_control
+        return self.malformed + self.too_long + self.strange_control + self.refused
+
+    @property
+    def security(self) -> str:
+        """Return plain, end_to_end, or, with a key and no session yet, none."""
+        if not self.is_keyed:
+            return "plain"
+        return "end_to_end" if self.key_role else "none"
 
     def disconnected(
         self, state: LinkState, now_s: float, reason: str = "", code: str = ""

@@ -18,13 +18,24 @@ class OneWayDelayEstimator:
     def __init__(self) -> None:
         self.has_begun = False
         """Whether the last message was the first of its clock."""
+        self._is_trusted = False
         self._least_s: float | None = None
         self._excess_s = 0.0
         self._stamp_s = 0.0
         self._now_s = 0.0
 
     def reset(self) -> None:
-        self._least_s = None
+        if not self._is_trusted:
+            self._least_s = None
+
+    def trust(self, stamp_ms: float, moment_s: float) -> None:
+        """Take a reading of the sender's clock that is authentic, at its time here.
+
+        From now on only another one counts as a new clock: messages that are held back show it.
+        """
+        self._is_trusted = True
+        self._least_s = moment_s - stamp_ms / 1000
+        self._stamp_s, self._now_s = stamp_ms / 1000, moment_s
 
     def update(self, stamp_ms: float | None, now_s: float) -> float | None:
         """Take a message that arrives now; return its delay in seconds.
@@ -39,7 +50,8 @@ class OneWayDelayEstimator:
         if self._least_s is not None:
             least_s = min(apart_s, self._least_s + DRIFT * (now_s - self._now_s))
             has_jumped = apart_s - least_s > self._excess_s + NEW_CLOCK_S
-            self._least_s = None if stamp_s < self._stamp_s or has_jumped else least_s
+            is_new = not self._is_trusted and (stamp_s < self._stamp_s or has_jumped)
+            self._least_s = None if is_new else least_s
         if self._least_s is None:
             self.has_begun = True
             self._least_s = apart_s

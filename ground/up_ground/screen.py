@@ -19,7 +19,14 @@ from up_ground.panels import (
 from up_ground.sanitize_text import sanitize_text
 from up_ground.screen_buffer import PanelWriter, ScreenBuffer, Style
 from up_ground.settings import Seat, Settings
-from up_ground.status_text import age_text, control_text, flag_text, link_text, number_text
+from up_ground.status_text import (
+    age_text,
+    control_text,
+    flag_text,
+    link_text,
+    number_text,
+    security_text,
+)
 from up_ground.telemetry import Telemetry
 
 PITCH_RANGE_DEG = 60.0
@@ -125,8 +132,9 @@ def _draw_header(screen: ScreenBuffer, state: State, now_s: float) -> None:
     screen.put(
         1,
         column + 2,
-        f"{rate} Hz  proxy {way} ms  lost {telemetry.lost}  dropped {status.dropped}",
-        Style.DIM,
+        f"{rate} Hz  proxy {way} ms  lost {telemetry.lost}  dropped {status.dropped}"
+        f"  {security_text(status)}",
+        Style.DIM if status.security != "none" else Style.BAD,
     )
 
 

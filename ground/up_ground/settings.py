@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from enum import Enum
 
+from up.protocols.pairing import Pairing
+
 DEFAULT_HOST = "127.0.0.1"
 DEFAULT_PORT = 3004
 DEFAULT_AIRCRAFT = "default"
@@ -26,6 +28,8 @@ class Settings:
     aircraft: str = DEFAULT_AIRCRAFT
     seat: Seat = Seat.LISTEN
     direct: bool = False
+    pairing: Pairing | None = None
+    """This device's key for the aircraft; None: the link is plain."""
 
     @property
     def address(self) -> str:

@@ -90,6 +90,7 @@ class Watch(LinkTask):
             self._measured_s = now_s
             self.link.measure()
             self.state.telemetry.on_round_trip(self.state.status.round_trip_ms)
+            self.state.telemetry.on_clock(self.state.status.clock)
         self.on_tick(now_s)
         self.after(self._reactor, "tick", self.PERIOD_S, self._tick)
 

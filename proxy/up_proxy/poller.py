@@ -80,6 +80,9 @@ class Poller:
         """
         self._ending.append(handler)
 
+    def seconds(self) -> float:
+        return self.now_s
+
     def tick(self) -> float:
         self.now_s = self._seconds()
         return self.now_s

@@ -24,8 +24,6 @@ from up.protocols.envelope import (
 
 NONCE_BYTES = 16
 KEY_ID_BYTES = 8
-MAX_BYTES = 256
-"""No handshake is longer; the proxy relays no longer one of a listener."""
 ROLES = ("observer", "operator", "pilot", "admin")
 REFUSALS = ("unknown_key", "revoked", "expired", "changed")
 _SALT = b"up handshake 1"

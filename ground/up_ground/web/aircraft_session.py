@@ -6,6 +6,7 @@ from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
 from up.protocols.general_message import GeneralMessage
+from up.protocols.handshake import ROLES
 from up.system.clock import Timer
 from up.system.token_bucket import TokenBucket
 from up_ground.catalogue import Catalogue
@@ -149,11 +150,12 @@ class AircraftSession(AircraftSource):
     def on_second(self) -> None:
         self.link.measure()
         self.telemetry.on_round_trip(self.link.status.round_trip_ms)
+        self.telemetry.on_clock(self.link.status.clock)
 
     def status(self, page: ClientSession) -> dict[str, Any]:
         now_s, status, telemetry = self._reactor.seconds(), self.link.status, self.telemetry
         age_s, rate_hz = telemetry.age_s(now_s), telemetry.rate_hz(now_s)
-        role = telemetry.text("ground", "role")
+        role = status.key_role or telemetry.text("ground", "role")
         return {
             "type": "status",
             "aircraft": self.name,
@@ -165,6 +167,9 @@ class AircraftSession(AircraftSource):
                 "aircraft_online": status.is_aircraft_online,
                 "round_trip_ms": status.round_trip_ms,
                 "connections": status.connections,
+                "security": status.security,
+                "key": status.key_name,
+                "key_refusal": status.key_refusal,
                 "frames": telemetry.frames,
                 "lost": telemetry.lost,
                 "dropped": status.dropped,
@@ -177,7 +182,7 @@ class AircraftSession(AircraftSource):
                     {"page": each.number, "name": each.name} for each in self._subscribers.all()
                 ],
             },
-            "role": role if role in ("observer", "operator", "pilot") else None,
+            "role": role if role in ROLES else None,
             "tune_in_flight": telemetry.flag("ground", "tune_in_flight"),
             "home": self._home.position(),
         }

@@ -5,15 +5,17 @@ from __future__ import annotations
 import argparse
 import importlib
 import importlib.util
+import os
 import re
 import secrets
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 from up.cli.cli_error import UsageError
 from up.system.aircraft_name import AIRCRAFT_NAME
 from up_ground.catalogue import Catalogue
+from up_ground.key_store import KeyStore
 from up_ground.settings import Seat, Settings
 from up_ground.token_store import TokenStore, state_folder
 from up_ground.web.access import Access, machine_names
@@ -58,7 +60,9 @@ def parse_aircraft(text: str, usual: Settings) -> Settings:
 def fleet_of(options: argparse.Namespace) -> list[Settings]:
     """Return the aircraft to watch; raises UsageError."""
     usual = Settings(options.host, options.port, options.aircraft, Seat.LISTEN, options.direct)
+    store = KeyStore(state_folder(os.environ))
     chosen = [parse_aircraft(text, usual) for text in options.fleet or [options.aircraft]]
+    chosen = [replace(each, pairing=store.get(each.aircraft)) for each in chosen]
     names = [each.aircraft for each in chosen]
     for name in names:
         if names.count(name) > 1:
