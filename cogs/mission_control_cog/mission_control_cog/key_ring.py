@@ -37,12 +37,10 @@ class KeyRing:
         reactor: Any,
         folder: Path,
         on_keys: Callable[[Mapping[bytes, Key]], object],
-        wall_s: Callable[[], float] = time.time,
     ) -> None:
         self._folder = folder
         self._path = folder / KEYS.filename
         self._on_keys = on_keys
-        self._wall_s = wall_s
         self._stamp: object = ()
         self._newest_s = 0.0
         self._configured: Mapping[str, KeyConfig] = {}
@@ -63,7 +61,7 @@ class KeyRing:
         if stamp != self._stamp:
             self._stamp = stamp
             self._load()
-        self._newest_s = max(self._newest_s, changed_s, self._wall_s())
+        self._newest_s = max(self._newest_s, changed_s, time.time())
         if stamp is not None and self._newest_s - changed_s > _CLOCK_S:
             with contextlib.suppress(OSError):
                 os.utime(self._path, (self._newest_s, self._newest_s))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from typing import Any
 
 from twisted.internet.error import CannotListenError
@@ -23,6 +23,7 @@ from up.commands.system_commands import LinkStateCommand
 from up.log.limits import Limited
 from up.needs import needs
 from up.protocols.general_message import GeneralMessage, MalformedMessage
+from up.system.addresses import stays_here
 from up.system.peer_filter import PeerFilter
 
 LINK = "ground"
@@ -63,6 +64,12 @@ class GroundListener(BaseStartedModule):
         self._has_owner = False
         self._limited = Limited(self.context.reactor, _LOG_INTERVAL_S)
         self.mission_control.add_outlet(self._grounds)
+
+    def plain_links(self) -> Iterable[tuple[str, str]]:
+        """Yield the listener, unless it requires protection."""
+        listener = self.config.listener
+        if listener.security != "require" and not stays_here(listener.address):
+            yield "listener.security", "ground stations on this network may send plain Commands"
 
     @property
     def telemetry_content(self) -> Mapping[str, Any]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any, Protocol
 
@@ -23,7 +23,7 @@ from up.commands.telemetry_commands import TelemetryCommand
 from up.config.keys_file import KEYS
 from up.protocols.general_message import GeneralMessage, MalformedMessage
 from up.providers.base_mission_control_provider import BaseMissionControlProvider
-from up.system.addresses import is_private
+from up.system.addresses import is_private, stays_here
 from up.system.backoff import Backoff
 
 LINK = "mission_control"
@@ -121,6 +121,17 @@ class MissionControlProvider(BaseMissionControlProvider):
         role = self._link.origin.role if self.connected else self._role
         ground = {"role": role.value, "tune_in_flight": self.config.tune_in_flight}
         return {"counters": {"mission_control": counters}, "ground": ground}
+
+    def plain_links(self) -> Iterable[tuple[str, str]]:
+        """Yield the link to the proxy, unless it surely requires protection."""
+        server, accepts = self.config.remote_server, self.config.i_accept_plain
+        if not server.url or stays_here(server.url) or server.security == "require":
+            return
+        if server.security != "auto" or accepts:
+            yield "remote_server.security", "the link to the proxy takes plain Commands"
+        else:
+            text = "the link to the proxy takes plain Commands while its address is private"
+            yield "remote_server.security", text
 
     def transmit_telemetry(self, command: TelemetryCommand) -> None:
         """Send a frame of telemetry; one that cannot be encoded is logged once and counted."""
