@@ -51,4 +51,4 @@ class KeyStore:
     def _write(self, known: dict[str, Pairing]) -> None:
         self._path.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
         text = "".join(f"{each.encode()}\n" for each in known.values())
-        write_atomically(self._path, text.encode("ascii"), is_secret=True)
+        write_atomically(self._path, text.encode("ascii"), 0o600)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import re
 import secrets
 from collections.abc import Iterator
@@ -76,9 +77,13 @@ KEYS = ConfigFile("keys.yml", KeysConfig, is_secret=True)
 
 
 def save_keys(folder: Path, keys: dict[str, KeyConfig]) -> None:
-    """Write keys.yml, which only its owner may read; raises OSError."""
-    text = KEYS.render(KeysConfig(keys))
-    write_atomically(Path(folder) / KEYS.filename, text.encode(), is_secret=True)
+    """Write keys.yml, which only its owner, that of the folder, may read; raises OSError."""
+    path = Path(folder) / KEYS.filename
+    write_atomically(path, KEYS.render(KeysConfig(keys)).encode(), 0o600)
+    if os.geteuid() == 0:
+        # The program does not run as root.
+        owner = path.parent.stat()
+        os.chown(path, owner.st_uid, owner.st_gid)
 
 
 def add_key(folder: Path, name: str, role: KeyRole, not_after: str = "") -> tuple[str, KeyConfig]:

@@ -66,9 +66,9 @@ def is_newer(counter: int, newest: int) -> bool:
 
 
 def place_of(body: bytes) -> tuple[int, int]:
-    """Return session and counter of a protected body; raises EnvelopeError for a short one."""
-    if len(body) < _BODY_AT:
-        raise EnvelopeError("cut")
+    """Return session and counter of a protected body; raises EnvelopeError for another body."""
+    if len(body) < _BODY_AT or body[0] != PROTECTED:
+        raise EnvelopeError("malformed")
     session, counter = _PLACE.unpack_from(body, 1)
     return session, counter
 
@@ -93,7 +93,7 @@ class Stream:
         return bytes((PROTECTED,)) + place + self._mac(place, payload) + payload
 
     def open(self, body: bytes) -> bytes:
-        """Return the payload; raises EnvelopeError: cut, forged or replayed."""
+        """Return the payload; raises EnvelopeError: malformed, forged or replayed."""
         session, counter = place_of(body)
         payload = body[_BODY_AT:]
         place = _PLACE.pack(session, counter)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from up.protocols.binary_line import TYPES
+
 MAX_LINE_BYTES = 16384
 """Bytes of a General Message line with its LF (docs/protocols.md 4)."""
 
@@ -40,7 +42,7 @@ class LineBuffer:
 
 
 class LineDecoder:
-    """Splits a stream at LF and removes a CR before it.
+    """Splits a stream at LF and removes a CR before it, except from a binary line.
 
     A line longer than `max_length` bytes, LF included, is dropped up to its LF and counted; memory
     stays below that bound for any input. Empty lines are heartbeats and are left out.
@@ -61,6 +63,8 @@ class LineDecoder:
         for line in self._buffer.feed(data).split(b"\n")[:-1]:
             if len(line) > self._max_content:
                 self.dropped_too_long += 1
+            elif line[:1] and line[0] in TYPES:
+                lines.append(line)
             elif content := line.removesuffix(b"\r"):
                 lines.append(content)
         if len(self._buffer) > self._max_content:

@@ -26,8 +26,8 @@ from up.mode import Mode
 from up.protocols.general_message import GeneralMessage, MalformedMessage, encode
 from up.protocols.general_message_link import GeneralMessageLink
 from up.protocols.orientation_forward import OrientationFrame
-from up.system.clock import Timer
 from up.system.addresses import stays_here
+from up.system.clock import Timer
 from up.system.peer_filter import PeerFilter
 
 LINK = "android"
