@@ -257,11 +257,12 @@ def test_handshakes_of_listeners_reach_the_aircraft_at_a_limited_rate(bench):
 
 
 def test_a_handshake_takes_no_control_and_is_short(bench):
-    air, _ = bench.hello_air("default")
-    legacy = bench.ground(HANDSHAKE)
+    air, _ = bench.hello_air()
+    listener, _ = bench.hello_ground(asks="listen")
+    listener.say(HANDSHAKE)
     air.expect(HANDSHAKE)
-    assert bench.aircraft("default").grounds.lease.owner is None
-    legacy.say(b"\x03" + b"h" * 300 + b"\n")
+    assert bench.aircraft().grounds.lease.owner is None
+    listener.say(b"\x03" + b"h" * 300 + b"\n")
     bench.settle()
     assert air.heard == b""
-    assert bench.aircraft("default").rejected_lines == 1
+    assert bench.aircraft().rejected_lines == 1
