@@ -13,6 +13,7 @@ from up_ground.catalogue import Catalogue
 from up_ground.ground_link import GroundLink
 from up_ground.link_status import LinkState
 from up_ground.settings import Settings
+from up_ground.status_text import security_text
 from up_ground.telemetry import NAME, Telemetry
 from up_ground.token_store import TokenStore
 from up_ground.web.aircraft_source import AircraftSource
@@ -168,8 +169,7 @@ class AircraftSession(AircraftSource):
                 "round_trip_ms": status.round_trip_ms,
                 "connections": status.connections,
                 "security": status.security,
-                "key": status.key_name,
-                "key_refusal": status.key_refusal,
+                "security_text": security_text(status),
                 "frames": telemetry.frames,
                 "lost": telemetry.lost,
                 "dropped": status.dropped,

@@ -14,6 +14,7 @@ export function mount(element, store, connection) {
     lost: new PlainRow(list, "Lost, dropped", "link.lost"),
     page: new PlainRow(list, "This page", "link.page"),
     proxy: new PlainRow(list, "Proxy", "link.proxy"),
+    security: new PlainRow(list, "Commands, telemetry", "link.security"),
     latency: new PlainRow(list, "Proxy's round trip", "link.latency"),
     aircraft: new PlainRow(list, "Aircraft", "link.aircraft"),
   };
@@ -36,6 +37,8 @@ export function mount(element, store, connection) {
       plain.ages.show(agesText(store), "", isOld || store.isSilent);
       showPage(plain.page, connection);
       showProxy(plain.proxy, link, isDoubtful);
+      const isRefused = link.security === "none";
+      plain.security.show(text(link.security_text), isRefused ? "warning" : "", isDoubtful);
       showNumber(plain.latency, link.round_trip_ms, (ms) => `${numberText(ms)} ms`, isDoubtful);
       showNumber(plain.rate, link.rate_hz, (hz) => `${numberText(hz, 1)} frames/s`, isOld);
       const dropped = number(link.dropped);
