@@ -72,6 +72,17 @@ class LinkStatus:
         return self.malformed + self.too_long + self.strange_control + self.refused
 
     @property
+    def key_fault(self) -> tuple[str, str] | None:
+        """Return why nothing of the aircraft is readable, a sentence and its code."""
+        if self.key_refusal:
+            return f"the aircraft refuses this device's key: {self.key_refusal}", self.key_refusal
+        if self.is_keyed and not self.key_role:
+            return "no protected session: the aircraft does not answer this key", "no_session"
+        if self.unprotected and not self.is_keyed:
+            return "the aircraft requires a key: run 'up-ground pair'", "key_missing"
+        return None
+
+    @property
     def security(self) -> str:
         """Return plain, end_to_end, or, with a key and no session yet, none."""
         if not self.is_keyed:

@@ -118,7 +118,8 @@ def _draw_header(screen: ScreenBuffer, state: State, now_s: float) -> None:
     words = f" {settings.aircraft} at {settings.address}  {link_text(status, now_s)}"
     column = screen.put(0, 0, sanitize_text(words), Style.HEADER)
     if status.is_open and not settings.direct:
-        screen.put(0, column, f"  control {control_text(status)}", Style.HEADER)
+        column = screen.put(0, column, f"  control {control_text(status)}", Style.HEADER)
+    screen.put(0, column, f"  {security_text(status)}", Style.HEADER)
     online = flag_text(status.is_aircraft_online, "online", "offline")
     is_silent = telemetry.is_silent(now_s)
     style = Style.PLAIN
@@ -132,9 +133,8 @@ def _draw_header(screen: ScreenBuffer, state: State, now_s: float) -> None:
     screen.put(
         1,
         column + 2,
-        f"{rate} Hz  proxy {way} ms  lost {telemetry.lost}  dropped {status.dropped}"
-        f"  {security_text(status)}",
-        Style.DIM if status.security != "none" else Style.BAD,
+        f"{rate} Hz  proxy {way} ms  lost {telemetry.lost}  dropped {status.dropped}",
+        Style.DIM,
     )
 
 

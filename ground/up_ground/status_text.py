@@ -111,7 +111,7 @@ def control_text(status: LinkStatus) -> str:
 def security_text(status: LinkStatus) -> str:
     """Return how the link is protected, with the name and role of this device's key."""
     if not status.is_keyed:
-        return "plain"
+        return "plain" if not status.unprotected else "plain, no key of this aircraft"
     if status.key_role:
         return f"end to end: {status.key_name} ({status.key_role})"
     return f"key {status.key_name} {status.key_refusal or 'not accepted yet'}"

@@ -146,6 +146,7 @@ class OnceWatch(Watch):
     def on_time_over(self) -> None:
         status = self.link.status
         reason, code = status.reason or "no telemetry", status.code or "no_telemetry"
+        reason, code = status.key_fault or (reason, code)
         if status.is_aircraft_online is False:
             aircraft = self.state.settings.aircraft
             reason, code = f"{aircraft} is not connected to the proxy", "aircraft_offline"

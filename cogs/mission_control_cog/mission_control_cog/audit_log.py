@@ -14,9 +14,12 @@ from twisted.python.failure import Failure
 from up.commands.answer_commands import CommandAnsweredCommand
 from up.log.json_lines import RotatingFile
 from up.system.disk_thread import DiskThread
+from up.system.token_bucket import TokenBucket
 
 _ROTATE_BYTES = 1_000_000
 _KEEP = 4
+_STRANGERS_HZ, _STRANGERS_BURST = 0.2, 60
+"""Outcomes without a key: a flood of them must not push those of keys out of the files."""
 
 
 class AuditLog:
@@ -31,12 +34,15 @@ class AuditLog:
         self._file = RotatingFile(path, _ROTATE_BYTES, _KEEP)
         self._links = links
         self._disk = DiskThread(reactor)
+        self._strangers = TokenBucket(reactor, _STRANGERS_HZ, _STRANGERS_BURST)
         self._is_open = True
         self._disk.run(self._file.open).addErrback(self._on_failed)
 
     def on_answered(self, command: CommandAnsweredCommand) -> None:
         """Write one outcome."""
         if not self._is_open or command.link not in self._links:
+            return
+        if not command.key and not self._strangers.take():
             return
         moment = datetime.fromtimestamp(time.time(), UTC).isoformat(timespec="milliseconds")
         line = json.dumps({"time": moment, **command.data}).encode() + b"\n"

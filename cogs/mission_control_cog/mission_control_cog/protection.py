@@ -66,9 +66,12 @@ class Protection:
     def on_keys(self, keys: Mapping[bytes, Key]) -> None:
         """Use these keys from now on, and notify the devices whose sessions end."""
         self._answers = {key_id: self._answers.get(key_id, OrderedDict()) for key_id in keys}
+        ended: dict[bytes, tuple[Origin, str]] = {}
         for session, refusal in self.sessions.replace_keys(keys):
             session.owner.send(to_line(refusal[1]))
-            self._report(session.owner.commands.origin, refusal[0].code)
+            ended[session.key.id] = (session.owner.commands.origin, refusal[0].code)
+        for each in ended.values():
+            self._report(*each)
 
     def receive(self, line: bytes, link: str, send: Send, refusal: str = "") -> None:
         """Take a binary line of a link; ``send`` sends a line back on it.

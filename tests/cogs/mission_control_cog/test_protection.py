@@ -1,6 +1,7 @@
 """Protected links between a real aircraft and real ground links."""
 
 import json
+from dataclasses import replace
 
 import pytest
 from mission_control_cog.config import security_of
@@ -8,12 +9,15 @@ from mission_control_cog.config import security_of
 from tests.cogs.mission_control_cog.attacks import deliver
 from tests.cogs.mission_control_cog.hostile_relay import Ground, fly, pair
 from tests.cogs.mission_control_cog.system import Aircraft
-from tests.support.reactor import run_in_reactor, until
+from tests.support.reactor import reactor, run_in_reactor, until
 from up.commands.answer_commands import CommandAnsweredCommand
 from up.commands.arming_commands import ArmCommand
 from up.config.keys_file import KEYS, revoke_key
 from up.protocols.binary_line import HANDSHAKE, PROTECTED
 from up.protocols.general_message import decode, encode
+from up_ground.mission_tasks import TransferTask
+from up_ground.settings import Seat
+from up_ground.token_store import TokenStore
 
 
 def plain(s):
@@ -80,6 +84,25 @@ def test_every_protected_command_needs_a_beacon(tmp_path):
         assert await answer(s, "f") == "no_beacon"
 
     fly(body, tmp_path)
+
+
+def test_a_plan_is_transferred_in_a_protected_session(tmp_path):
+    """Its requests need no beacon on a plain link; the scene's aircraft has no missions."""
+
+    async def body(s):
+        await s.ground.ready()
+        settings = replace(s.ground.link._settings, seat=Seat.COMMAND)
+        await s.ground.link.stop()
+        tokens = TokenStore(s.folder, settings)
+        task = TransferTask(reactor, settings, tokens, plans={"mission": None})
+        task.start()
+        await task.finished
+        await task.stop()
+        return dict(s.aircraft.up.command_receiver.counters)
+
+    counters = fly(body, tmp_path)
+    assert counters["received"] > 0
+    assert "no_beacon" not in counters
 
 
 def test_a_command_repeated_in_the_next_session_is_answered_and_not_repeated(tmp_path):
