@@ -17,6 +17,8 @@ ANSWER_S = 2.0
 """An answer that takes longer is void: the relay may have held it back."""
 RENEW_S = 60.0
 """Period of new sessions, which compare the clocks again."""
+SLOW_S, AGAIN_S = 0.3, 5.0
+"""After an answer that took longer the clocks are compared again soon."""
 _RETRY_S = 1.0
 """Minimum time between hellos after an unknown stream."""
 
@@ -105,9 +107,9 @@ class LinkSecurity:
         now_s = self._clock.seconds()
         status = self._status
         status.key_role, status.key_refusal = ROLES[said.role], ""
-        # The clock was read between hello and answer; half of that is the error's bound.
-        status.clock = (said.clock_ms, (now_s + self._sent_s) / 2)
-        self._schedule(RENEW_S, self._hello)
+        status.clock = (said.clock_ms, self._sent_s, now_s)
+        is_slow = now_s - self._sent_s > SLOW_S
+        self._schedule(AGAIN_S if is_slow else RENEW_S, self._hello)
 
     def _schedule(self, delay_s: float, call: Callable[[], object]) -> None:
         cancel(self._timer)

@@ -60,8 +60,8 @@ class LinkStatus:
     """Lines that the key does not authenticate, or that came before."""
     unprotected: int = 0
     """Plain lines on a link with a key, or protected ones without a key."""
-    clock: tuple[float, float] | None = None
-    """The aircraft's clock, ms, and the time here when it was read, authenticated by the key."""
+    clock: tuple[float, float, float] | None = None
+    """The aircraft's clock, ms, authenticated by the key; it was read between two times here."""
 
     @property
     def is_open(self) -> bool:

@@ -39,7 +39,7 @@ class Telemetry:
         self._late_since_s: float | None = None
         self._round_trip_s = 0.0
         self._least_trip_s: float | None = None
-        self._clock: tuple[float, float] | None = None
+        self._clock: tuple[float, float, float] | None = None
         self._times_s: deque[float] = deque(maxlen=32)
 
     def update(self, message: GeneralMessage, now_s: float) -> bool:
@@ -84,7 +84,7 @@ class Telemetry:
         if round_trip_ms is not None:
             self._least_trip_s = min(self._round_trip_s, self._least_trip_s or self._round_trip_s)
 
-    def on_clock(self, clock: tuple[float, float] | None) -> None:
+    def on_clock(self, clock: tuple[float, float, float] | None) -> None:
         """Take the aircraft's clock as a protected session reports it, once for each session."""
         if clock is not None and clock != self._clock:
             self._clock = clock

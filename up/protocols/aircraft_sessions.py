@@ -13,6 +13,8 @@ from up.protocols.handshake import NONCE_BYTES, ROLES, Answer, Hello, Refusal, S
 from up.protocols.handshake import broadcast_streams as streams_of
 
 SESSIONS_PER_KEY = 8
+IDLE_MS = 150_000
+"""A session that is neither used nor renewed ends: a ground renews it each minute."""
 _MAX_ID = BROADCAST - 2
 
 
@@ -30,9 +32,10 @@ class Key:
 class Session:
     """One ground device; ``owner`` is the caller's own object."""
 
-    def __init__(self, key: Key, hello: Hello, keys: SessionKeys, number: int) -> None:
+    def __init__(self, key: Key, hello: Hello, keys: SessionKeys, number: int, now_ms: int) -> None:
         self.key = key
         self.number = number
+        self.used_ms = now_ms
         self.owner: Any = None
         self.hello = hello
         self.commands = keys.stream(b"command", number)
@@ -105,7 +108,7 @@ class AircraftSessions:
             return self._refuse(hello, key.secret, key.refusal)
         nonce = self._random(NONCE_BYTES)
         keys = SessionKeys(self._aircraft, key.id, key.secret, (hello.nonce, nonce))
-        session = Session(key, hello, keys, self._draw_number())
+        session = Session(key, hello, keys, self._draw_number(), self._clock_ms())
         self._make_room(key.id)
         self._sessions[session.number] = session
         reply = Answer(
@@ -127,7 +130,16 @@ class AircraftSessions:
         session = self._sessions.get(place_of(body)[0])
         if session is None:
             raise EnvelopeError("unknown_session")
-        return session, session.commands.open(body)
+        payload = session.commands.open(body)
+        session.used_ms = self._clock_ms()
+        return session, payload
+
+    def end_idle(self) -> None:
+        """End the sessions of grounds that have gone."""
+        oldest_ms = self._clock_ms() - IDLE_MS
+        for session in list(self._sessions.values()):
+            if session.used_ms < oldest_ms:
+                del self._sessions[session.number]
 
     def seal_frame(self, payload: bytes) -> bytes:
         """Return the protected body of telemetry, for all grounds."""

@@ -91,6 +91,7 @@ class Protection:
 
     def frame(self, message: bytes) -> bytes:
         """Return the protected line of a line of telemetry; empty while there is no session."""
+        self.sessions.end_idle()
         return self._seal(self.sessions.seal_frame, message)
 
     def message(self, message: bytes) -> bytes:

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from up.protocols import handshake
-from up.protocols.aircraft_sessions import SESSIONS_PER_KEY, AircraftSessions, Key, Session
+from up.protocols.aircraft_sessions import IDLE_MS, SESSIONS_PER_KEY, AircraftSessions, Key, Session
 from up.protocols.binary_line import to_body, to_line
 from up.protocols.envelope import HEADER_BYTES, EnvelopeError, Stream, expand, extract
 from up.protocols.ground_session import GroundSession
@@ -173,6 +173,21 @@ def test_repeated_hellos_do_not_end_the_session_that_is_used():
     assert len(others) == 3 * SESSIONS_PER_KEY
     assert len(air) == SESSIONS_PER_KEY
     assert air.open(ground.seal(b"{}"))[0] is session
+
+
+def test_a_session_that_is_not_used_ends():
+    times_ms = [0]
+    air = AircraftSessions("a", lambda: times_ms[0])
+    air.replace_keys({KEY.id: KEY})
+    grounds = [GroundSession("a", KEY.id, KEY.secret) for _ in range(2)]
+    for ground in grounds:
+        ground.on_handshake(air.answer(ground.hello())[1])
+    times_ms[0] = IDLE_MS
+    air.open(grounds[0].seal(b"{}"))
+    times_ms[0] += 1
+    air.end_idle()
+    assert len(air) == 1
+    air.open(grounds[0].seal(b"{}"))
 
 
 def test_two_sessions_never_have_the_same_number(monkeypatch):
