@@ -35,8 +35,10 @@ class AuditLog:
         self._links = links
         self._disk = DiskThread(reactor)
         self._strangers = TokenBucket(reactor, _STRANGERS_HZ, _STRANGERS_BURST)
+        self._waiting: list[bytes] = []
+        self._is_writing = True
         self._is_open = True
-        self._disk.run(self._file.open).addErrback(self._on_failed)
+        self._disk.run(self._file.open).addCallbacks(self._write, self._on_failed)
 
     def on_answered(self, command: CommandAnsweredCommand) -> None:
         """Write one outcome."""
@@ -45,12 +47,25 @@ class AuditLog:
         if not command.key and not self._strangers.take():
             return
         moment = datetime.fromtimestamp(time.time(), UTC).isoformat(timespec="milliseconds")
-        line = json.dumps({"time": moment, **command.data}).encode() + b"\n"
-        self._disk.run(lambda: self._file.write(line)).addErrback(self._on_failed)
+        self._waiting.append(json.dumps({"time": moment, **command.data}).encode() + b"\n")
+        if not self._is_writing:
+            self._write(None)
 
     def close(self) -> None:
+        """Close the file as soon as all outcomes are written."""
         self._is_open = False
-        self._disk.run(self._file.close)
+        if not self._is_writing:
+            self._file.close()
+
+    def _write(self, _: object) -> None:
+        """Write what waits, in order: one piece of work at a time."""
+        lines, self._waiting = self._waiting, []
+        self._is_writing = bool(lines)
+        if lines:
+            work = self._disk.run(lambda: self._file.write(b"".join(lines)))
+            work.addCallbacks(self._write, self._on_failed)
+        elif not self._is_open:
+            self._file.close()
 
     def _on_failed(self, failure: Failure) -> None:
         if self._is_open:

@@ -89,17 +89,21 @@ class Protection:
         except ValueError:
             self._refused(link, "malformed")
 
-    def frame(self, message: bytes) -> bytes:
-        """Return the protected line of a line of telemetry; empty while there is no session."""
+    def frame_lines(self, body: bytes, *, is_required: bool) -> bytes:
+        """Return what a link sends of a frame of telemetry: protected, and plain where it may.
+
+        It is empty where protection is required and no session is open.
+        """
         self.sessions.end_idle()
-        return self._seal(self.sessions.seal_frame, message)
+        return self._lines(self.sessions.seal_frame, body, is_required)
 
-    def message(self, message: bytes) -> bytes:
-        """Return the protected line of another line to all grounds; empty without a session."""
-        return self._seal(self.sessions.seal_message, message)
+    def message_lines(self, body: bytes, *, is_required: bool) -> bytes:
+        """Return what a link sends of another message to all grounds."""
+        return self._lines(self.sessions.seal_message, body, is_required)
 
-    def _seal(self, seal: Callable[[bytes], bytes], message: bytes) -> bytes:
-        return to_line(seal(message.removesuffix(b"\n"))) if len(self.sessions) else b""
+    def _lines(self, seal: Callable[[bytes], bytes], body: bytes, is_required: bool) -> bytes:
+        sealed = to_line(seal(body)) if len(self.sessions) else b""
+        return sealed if is_required else to_line(body) + sealed
 
     def _on_hello(self, body: bytes, link: str, send: Send) -> None:
         said, reply = self.sessions.answer(body)

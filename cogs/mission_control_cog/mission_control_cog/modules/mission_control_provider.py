@@ -169,21 +169,28 @@ class MissionControlProvider(BaseMissionControlProvider):
         return self._uplink is not None and self._uplink.send(message)
 
     def _transmit_data(self, message: bytes) -> bool:
-        forms = _forms(message, self.protection.message(message))
-        mine = forms[self._requires_protection]
-        taken = bool(mine) and self._send(mine)
+        lines = self._message_lines(message, self._requires_protection)
+        taken = bool(lines) and self._send(lines)
         for outlet in self._outlets:
-            form = forms[outlet.requires_protection]
-            taken = (bool(form) and outlet.send(form)) or taken
+            lines = self._message_lines(message, outlet.requires_protection)
+            taken = (bool(lines) and outlet.send(lines)) or taken
         return taken
 
     def _transmit_newest(self, message: bytes) -> None:
-        forms = _forms(message, self.protection.frame(message))
-        if self._uplink is not None and forms[self._requires_protection]:
-            self._uplink.send_newest(forms[self._requires_protection])
+        if self._uplink is not None:
+            lines = self._frame_lines(message, self._requires_protection)
+            if lines:
+                self._uplink.send_newest(lines)
         for outlet in self._outlets:
-            if forms[outlet.requires_protection]:
-                outlet.send_newest(forms[outlet.requires_protection])
+            lines = self._frame_lines(message, outlet.requires_protection)
+            if lines:
+                outlet.send_newest(lines)
+
+    def _message_lines(self, message: bytes, is_required: bool) -> bytes:
+        return self.protection.message_lines(message[:-1], is_required=is_required)
+
+    def _frame_lines(self, message: bytes, is_required: bool) -> bytes:
+        return self.protection.frame_lines(message[:-1], is_required=is_required)
 
     def _on_message(self, message: GeneralMessage) -> None:
         if self._requires_protection:
@@ -238,8 +245,3 @@ class MissionControlProvider(BaseMissionControlProvider):
             )
         self._link.origin = Origin(LINK, role)
         self._link.role_key = key
-
-
-def _forms(plain: bytes, sealed: bytes) -> tuple[bytes, bytes]:
-    """Return what a link that accepts plain peers sends, and what one that requires sessions."""
-    return plain + sealed, sealed
