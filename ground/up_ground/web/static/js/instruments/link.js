@@ -38,7 +38,7 @@ export function mount(element, store, connection) {
       showPage(plain.page, connection);
       showProxy(plain.proxy, link, isDoubtful);
       const isRefused = link.security === "none";
-      plain.security.show(text(link.security_text), isRefused ? "warning" : "", isDoubtful);
+      plain.security.show(text(link.security_text), isRefused ? "warning" : "", isOld || store.isSilent);
       showNumber(plain.latency, link.round_trip_ms, (ms) => `${numberText(ms)} ms`, isDoubtful);
       showNumber(plain.rate, link.rate_hz, (hz) => `${numberText(hz, 1)} frames/s`, isOld);
       const dropped = number(link.dropped);
