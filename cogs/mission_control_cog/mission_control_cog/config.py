@@ -88,10 +88,11 @@ class MissionControlConfig:
     )
     i_accept_plain: bool = key(
         False,
-        "The link does not authenticate the ground. While this is false, a pilot whose link goes "
-        "to a public address has only the rights of an operator, and ground stations with public "
-        "addresses cannot connect to the listener. Set it when a VPN or firewall protects the "
-        "proxy, or when you accept the risk.",
+        "A plain link does not authenticate the ground. While this is false, a link to a public "
+        "address requires protection (security: auto) or, where it accepts plain Commands, grants "
+        "a pilot only the rights of an operator, and ground stations with public addresses cannot "
+        "connect to a listener that does not require it. Set it when a VPN or firewall protects "
+        "the proxy, or when you accept the risk.",
     )
     listener: ListenerConfig = section(ListenerConfig)
     audit_log: str = key(
