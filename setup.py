@@ -74,6 +74,7 @@ setup(
     ],
     extras_require={
         "ground": ["autobahn>=24.4"],
+        "keys": ["segno>=1.5"],
         "log": ["matplotlib>=3.8"],
         # To make certificates; TLS itself is in Python. Debian 12 has 38.
         "tls": ["cryptography>=38"],
@@ -88,6 +89,7 @@ setup(
             "hypothesis>=6.100",
             "mcap>=1.2",
             "gpxpy>=1.6",
+            "segno>=1.5",
             "simple-pid>=2.0",
             "ruff>=0.6",
             "mypy>=1.11",

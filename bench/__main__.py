@@ -11,6 +11,7 @@ from bench.table import LeftOutError, Row, format_table
 SUBJECTS = {
     "bus": "publishing to 1, 10 and 100 subscribers",
     "codecs": "the serial line and orientation from bytes",
+    "envelope": "protected messages beside plain ones, and mutated ones",
     "cascade": "the control loop's arithmetic",
     "latency": "sensor to actuator through the running daemon",
     "link": "data of the uplink at IP level, and CPU of packed telemetry",

@@ -70,7 +70,8 @@ class TransferTask(CommandTask):
             self._transfer.upload(items)
 
     def _send(self, command: BaseCommand, id_: str) -> None:
-        beacon = self.telemetry.beacon if command.NEEDS_BEACON else None
+        needs_beacon = command.NEEDS_BEACON or self.link.status.is_keyed
+        beacon = self.telemetry.beacon if needs_beacon else None
         self.link.send(encode(command.NAME, command.data, id_, beacon))
 
     def _on_progress(self, phase: str, done: int, of: int) -> None:

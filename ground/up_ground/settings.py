@@ -6,6 +6,8 @@ from dataclasses import dataclass
 from enum import Enum
 from pathlib import Path
 
+from up.protocols.pairing import Pairing
+
 DEFAULT_HOST = "127.0.0.1"
 DEFAULT_PORT = 3004
 DEFAULT_AIRCRAFT = "default"
@@ -31,6 +33,8 @@ class Settings:
     seat: Seat = Seat.LISTEN
     direct: bool = False
     tls: Path | None = None
+    pairing: Pairing | None = None
+    """This device's key for the aircraft; None: the link is plain."""
 
     @property
     def address(self) -> str:

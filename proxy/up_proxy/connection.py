@@ -6,6 +6,7 @@ from collections.abc import Callable
 from contextlib import suppress
 
 from up.protocols.line_decoder import LineBuffer
+from up.system.token_bucket import TokenBucket
 from up_proxy.poller import PAUSED, READ, WRITE, Poller
 from up_proxy.send_buffer import SendBuffer
 from up_proxy.tls_socket import TLSSocket
@@ -54,6 +55,7 @@ class Connection:
         "_socket",
         "_tls",
         "failure",
+        "handshakes",
         "host",
         "last_rx_s",
         "last_tx_s",
@@ -88,6 +90,7 @@ class Connection:
         self.queue_bytes = queue_bytes
         self.last_rx_s = self.last_tx_s = poller.now_s
         self.requested_s = 0.0
+        self.handshakes: TokenBucket | None = None
         self.paused_s: float | None = None
         self.partial: LineBuffer | None = None
         self.failure: str | None = None

@@ -89,6 +89,9 @@ class Poller:
         """Call a step that takes a millisecond or more: one after each batch of events."""
         self._steps.append(step)
 
+    def seconds(self) -> float:
+        return self.now_s
+
     def tick(self) -> float:
         self.now_s = self._seconds()
         return self.now_s

@@ -45,6 +45,11 @@ Cogfile.yml, each cog from exactly one source:
   my_cog: {pypi: my-cog, version: "1.2.3"}
   my_cog: {url: https://example.org/my_cog.git, revision: v1}
 """
+_KEYS_EPILOG = """\
+examples:
+  up keys add --role pilot --name tablet   then, on the device: up-ground pair
+  up keys revoke tablet                    ends its sessions at once
+"""
 _EXPLORE_EPILOG = """\
 In a cog's folder, 'up explore -w' writes registered_modules.yml, the list of the
 modules that the cog adds to an application.
@@ -112,6 +117,7 @@ def make_parser(arguments: Sequence[str] | None = None) -> OptionParser:
     for each in (check, modules):
         modes = [mode.value for mode in Mode]
         each.add_argument("--mode", choices=modes, help="as if this mode were configured")
+    _add_keys(verbs)
     asked = None if arguments is None else verb_of(arguments)
     if asked not in verbs.choices:
         add_plugin_verbs(verbs, UP_VERBS, asked)
@@ -207,6 +213,35 @@ def _days(text: str) -> int:
     if not 1 <= days <= 3650:
         raise argparse.ArgumentTypeError(f"a validity is 1 to 3650 days, not {text[:60]!r}")
     return days
+
+
+def _add_keys(verbs: Any) -> None:
+    keys = verbs.add_parser(
+        "keys",
+        help="pair and revoke the devices that may send protected Commands",
+        epilog=_KEYS_EPILOG,
+    )
+    keys.set_defaults(parser=keys)
+    actions = keys.add_subparsers(title="actions", metavar="ACTION")
+
+    def action(name: str, text: str, function: str = "") -> argparse.ArgumentParser:
+        parser = add_verb(actions, name, f"up.cli.keys:{function or name}", text)
+        add_config_option(parser)
+        return parser
+
+    add = action("add", "make a key, and print what pairs the device")
+    roles = ("observer", "operator", "pilot", "admin")
+    add.add_argument("--role", choices=roles, required=True)
+    add.add_argument("--name", required=True, help="of the device, for logs and screens")
+    add.add_argument("--not-after", default="", metavar="DAY", help="last day, YYYY-MM-DD (UTC)")
+    show = action("show", "print again what pairs a device")
+    show.add_argument("name", help="name or id of the key")
+    for each in (add, show):
+        each.add_argument("--aircraft", metavar="NAME", help="(default: as configured)")
+        each.add_argument("--png", type=Path, metavar="FILE", help="write the QR code there too")
+    revoke = action("revoke", "refuse a device from now on; a running program notices it")
+    revoke.add_argument("name", help="name or id of the key")
+    action("list", "list the keys without their secrets", "list_")
 
 
 def _add_explore(verbs: Any) -> None:

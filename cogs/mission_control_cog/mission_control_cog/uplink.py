@@ -50,6 +50,7 @@ class Uplink:
         *,
         on_message: Callable[[GeneralMessage], object],
         on_malformed: Callable[[MalformedMessage], object],
+        on_binary: Callable[[bytes], object] | None = None,
         on_ready: Callable[[str], object],
         on_lost: Callable[[], object],
         backoff: Backoff | None = None,
@@ -65,6 +66,7 @@ class Uplink:
         self._token = ""
         self._on_message = on_message
         self._on_malformed = on_malformed
+        self._on_binary = on_binary
         self._on_ready = on_ready
         self._on_lost = on_lost
         self._backoff = backoff or Backoff()
@@ -96,9 +98,12 @@ class Uplink:
         """Send in place of an older unsent message."""
         return self._link is not None and self._link.send_newest(message)
 
-    def send_packed(self, frame: bytes) -> bool:
-        """Send a frame of telemetry packed, in place of an older unsent message."""
-        return self._link is not None and self._link.send_packed(frame)
+    def send_packed(self, frame: bytes, lines: Callable[[bytes], bytes]) -> bool:
+        """Send a frame of telemetry packed, in place of an older unsent message.
+
+        ``lines`` makes of the packed body, when it leaves, what is sent of it.
+        """
+        return self._link is not None and self._link.send_packed(frame, lines)
 
     @property
     def may_pack(self) -> bool:
@@ -168,6 +173,7 @@ class Uplink:
             on_message=lambda link, message: self._on_message(message),
             on_malformed=lambda link, fault: self._on_malformed(fault),
             on_lost=self._link_lost,
+            on_binary=None if (take := self._on_binary) is None else lambda _, line: take(line),
             bucket=self.bucket,
         )
         return self._link

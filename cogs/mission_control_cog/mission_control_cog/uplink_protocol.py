@@ -91,12 +91,13 @@ class UplinkProtocol(GeneralMessageProtocol):
         self._sent_s = self._clock.seconds()
         return super().send_newest(message)
 
-    def send_packed(self, frame: bytes) -> bool:
-        """Send a frame of telemetry, a line, packed when it leaves."""
-        return self.send_newest(lambda: self._pack(frame))
+    def send_packed(self, frame: bytes, lines: Callable[[bytes], bytes] = to_line) -> bool:
+        """Send a frame of telemetry, a line, packed when it leaves; ``lines`` is of its body."""
+        return self.send_newest(lambda: self._pack(frame, lines))
 
-    def _pack(self, frame: bytes) -> bytes:
-        return to_line(self._packer.pack(frame[:-1], self._clock.seconds()))
+    def _pack(self, frame: bytes, lines: Callable[[bytes], bytes]) -> bytes:
+        # A link that sends nothing would not ask for more.
+        return lines(self._packer.pack(frame[:-1], self._clock.seconds())) or b"\n"
 
     def _on_control(self, line: bytes) -> bool:
         said = parse_line(line)

@@ -5,16 +5,18 @@ from __future__ import annotations
 import argparse
 import importlib
 import importlib.util
+import os
 import re
 import secrets
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 from up.cli.cli_error import UsageError
 from up.system.aircraft_name import AIRCRAFT_NAME
 from up.tls.files import TLSFiles
 from up_ground.catalogue import Catalogue
+from up_ground.key_store import KeyStore
 from up_ground.settings import Seat, Settings
 from up_ground.token_store import TokenStore, state_folder
 from up_ground.web.access import Access, machine_names
@@ -63,7 +65,9 @@ def fleet_of(options: argparse.Namespace) -> list[Settings]:
     usual = Settings(
         options.host, options.port, options.aircraft, Seat.LISTEN, options.direct, options.tls
     )
+    store = KeyStore(state_folder(os.environ))
     chosen = [parse_aircraft(text, usual) for text in options.fleet or [options.aircraft]]
+    chosen = [replace(each, pairing=store.get(each.aircraft)) for each in chosen]
     names = [each.aircraft for each in chosen]
     for name in names:
         if names.count(name) > 1:

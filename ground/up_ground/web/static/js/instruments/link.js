@@ -14,7 +14,8 @@ export function mount(element, store, connection) {
     lost: new PlainRow(list, "Lost, dropped", "link.lost"),
     page: new PlainRow(list, "This page", "link.page"),
     proxy: new PlainRow(list, "Proxy", "link.proxy"),
-    security: new PlainRow(list, "Security", "link.security"),
+    security: new PlainRow(list, "Link to the proxy", "link.tls"),
+    keys: new PlainRow(list, "Commands, telemetry", "link.security"),
     latency: new PlainRow(list, "Proxy's round trip", "link.latency"),
     aircraft: new PlainRow(list, "Aircraft", "link.aircraft"),
     data: new PlainRow(list, "Aircraft's data", "link.data"),
@@ -39,6 +40,8 @@ export function mount(element, store, connection) {
       showPage(plain.page, connection);
       showProxy(plain.proxy, link, isDoubtful);
       plain.security.show(securityText(link), "", isDoubtful);
+      const isRefused = link.security === "none";
+      plain.keys.show(text(link.security_text), isRefused ? "warning" : "", isOld || store.isSilent);
       showNumber(plain.latency, link.round_trip_ms, (ms) => `${numberText(ms)} ms`, isDoubtful);
       showNumber(plain.rate, link.rate_hz, (hz) => `${numberText(hz, 1)} frames/s`, isOld);
       const dropped = number(link.dropped);
