@@ -5,7 +5,8 @@ import ssl
 import pytest
 from twisted.internet.endpoints import TCP4ClientEndpoint
 
-from tests.ground.aircraft import Aircraft, coded, codes, ground
+from tests.ground import aircraft
+from tests.ground.aircraft import Aircraft, codes, ground
 from tests.ground.web.page import Page, Serve
 from tests.proxy.program import Program
 from tests.support.certificates import Certificates
@@ -36,23 +37,14 @@ def test_the_terminal_shows_the_protection_and_the_name_of_the_proxy(relay, own,
     laptop = str(own.authority.folder / "laptop")
     with Aircraft(relay.airborne_port):
         port = relay.tls_port("ground")
-        status, said, _ = ground(tmp_path, port, "watch", "--once", "--tls", laptop)
-        assert (status, "TLS relay" in said) == (0, True)
-        answer = ground(tmp_path, port, "send", "up.home.set", UP_GROUND_TLS=laptop)
-        assert (answer[0], codes(answer[1])) == (0, ["ack"])
+        status, said, _ = ground(tmp_path, port, "watch", "--once", UP_GROUND_TLS=laptop)
+    assert (status, "TLS relay" in said) == (0, True)
 
 
 def test_a_failure_has_a_code(relay, own, tmp_path):
-    laptop = own.authority.folder / "laptop"
-    stranger = own.of_another_ca("stranger")
-    for port, folder, code in (
-        (relay.tls_port("ground"), stranger, "tls_unknown_ca"),
-        (relay.ground_port, laptop, "tls_peer_plain"),
-    ):
-        words = ("send", "up.home.set", "--tls", str(folder))
-        status, _, stderr = ground(tmp_path, port, *words)
-        assert status == 3
-        assert [each["code"] for each in coded(stderr)] == [code]
+    words = ("send", "up.home.set", "--tls", str(own.of_another_ca("stranger")))
+    status, _, stderr = ground(tmp_path, relay.tls_port("ground"), *words)
+    assert (status, codes(stderr)) == (3, ["tls_unknown_ca"])
 
 
 class SecurePage(Page):
@@ -70,7 +62,9 @@ class SecurePage(Page):
         return self
 
 
-def test_the_page_comes_by_https_and_shows_the_protection(relay, own, tmp_path):
+def test_the_page_comes_by_https_and_shows_the_protection(relay, own, tmp_path, monkeypatch):
+    # The name of the other test's aircraft stays reserved for a while.
+    monkeypatch.setattr(aircraft, "NAME", "kite")
     folder = own.authority.folder
     words = ("--tls", str(folder / "laptop"), "--https", str(folder / "relay"))
     with (
