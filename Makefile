@@ -13,7 +13,7 @@ SETUPS := setup.py pyproject.toml flightlog/setup.py $(addsuffix /setup.py,$(COG
 	$(wildcard $(addsuffix /*/registered_modules.yml,$(COGS)))
 TEST ?=
 # More than CI has cores: many tests wait for real time.
-WORKERS ?= 3
+WORKERS ?= 4
 BENCH ?=
 SCENARIO ?=
 CONTROLLER ?=
@@ -23,7 +23,7 @@ ARGS ?=
 VENDOR := ground/up_ground/web/static/vendor
 WEB := $(VENDOR)/.stamp
 
-.PHONY: help run scenarios test test-browser check bench pictures format schema schemas clean
+.PHONY: help run scenarios test test-browser check check-python check-phone bench pictures format schema schemas clean
 
 help:
 	@echo 'make run      set up everything and fly the virtual aircraft; Ctrl-C stops it'
@@ -75,7 +75,12 @@ test: $(VENV)/.dev-ready $(WEB)
 test-browser: $(VENV)/.dev-ready $(WEB)
 	$(PY) -m pytest tests/test_browser.py
 
-check: $(VENV)/.dev-ready
+check: check-python check-phone
+
+check-phone: | $(VENV)/.dev-ready
+	@android/tools/where_ready check
+
+check-python: $(VENV)/.dev-ready
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
 	$(BIN)/mypy main.py tools/import_contracts.py tools/command_tables.py \
@@ -88,7 +93,6 @@ check: $(VENV)/.dev-ready
 	$(PY) tools/plain_english.py --max 1
 	$(PY) tools/sentence_assertions.py --max 40
 	$(PY) tools/schema.py --check
-	@android/tools/where_ready check
 
 # The peers besides; HAProxy, socat and gcc (Debian) are measured where they are installed.
 $(VENV)/.bench-ready: $(SETUPS) | $(PY)

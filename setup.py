@@ -74,17 +74,22 @@ setup(
     ],
     extras_require={
         "ground": ["autobahn>=24.4"],
+        "keys": ["segno>=1.5"],
         "log": ["matplotlib>=3.8"],
+        # To make certificates; TLS itself is in Python. Debian 12 has 38.
+        "tls": ["cryptography>=38"],
         "sim": ["jsbsim==1.3.3; platform_machine == 'x86_64'", "matplotlib>=3.8"],
         "bench": ["pymavlink", "pluggy>=1", "blinker>=1.6", "mcap>=1.2", "simple-pid>=2.0"],
         "dev": [
             "autobahn>=24.4",
+            "cryptography>=38",
             "pytest>=8",
             "pytest-xdist>=3.7",
             "pytest-timeout>=2.3",
             "hypothesis>=6.100",
             "mcap>=1.2",
             "gpxpy>=1.6",
+            "segno>=1.5",
             "simple-pid>=2.0",
             "ruff>=0.6",
             "mypy>=1.11",

@@ -11,6 +11,7 @@ from bench.table import LeftOutError, Row, format_table
 SUBJECTS = {
     "bus": "publishing to 1, 10 and 100 subscribers",
     "codecs": "the serial line and orientation from bytes",
+    "envelope": "protected messages beside plain ones, and mutated ones",
     "cascade": "the control loop's arithmetic",
     "latency": "sensor to actuator through the running daemon",
     "link": "data of the uplink at IP level, and CPU of packed telemetry",
@@ -19,6 +20,7 @@ SUBJECTS = {
     "recorder": "what recording the flight costs",
     "flight_log": "writing and reading flight logs beside the official package",
     "relay": "the proxy beside HAProxy and socat",
+    "tls": "the proxy's TLS beside HAProxy's: round trip, memory, handshakes, reconnect",
     "firmware": "the compiled firmware in the AVR simulator",
     "navigation": "loiter, legs, return, lost position and a stopped motor with a phone's GPS",
     "attitude": "the firmware's attitude beside the truth, with the gyro errors of each seed",

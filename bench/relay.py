@@ -77,12 +77,12 @@ def process(*command: str) -> Iterator[subprocess.Popen[str]]:
 
 
 @contextmanager
-def our_proxy(folder: Path) -> Iterator[tuple[int, int, int]]:
+def our_proxy(folder: Path, more: str = "") -> Iterator[tuple[int, int, int]]:
     """Run up-proxy on the relay's core; yield its pid, its airborne and its ground port."""
     (folder / "proxy.yml").write_text(
         "airborne port: 0\nground port: 0\nmetrics: false\n"
         "limits:\n  connections per side: 6000\n  connections per address: 6000\n"
-        "  aircraft: 6000\n"
+        f"  aircraft: 6000\n{more}"
     )
     proxy = RealProxy(folder, folder)
     proxy.start()
@@ -115,8 +115,9 @@ def wait_for_port(port: int) -> None:
 class Load:
     """The load generator's process."""
 
-    def __init__(self, mode: str, seconds: float, **ports: int) -> None:
-        job = {"mode": mode, "pairs": PAIRS, "rate_hz": RATE_HZ, "seconds": seconds,
+    def __init__(self, mode: str, seconds: float, tls: Path | None = None, **ports: int) -> None:
+        job = {"mode": mode, "pairs": PAIRS, "tls": str(tls or ""),
+               "rate_hz": RATE_HZ, "seconds": seconds,
                "size": SIZE, "cpu": cores()[1], "echo": 0, **ports}  # fmt: skip
         self._process = subprocess.Popen(
             [sys.executable, str(LOAD)], text=True, stdin=subprocess.PIPE, stdout=subprocess.PIPE

@@ -3,7 +3,8 @@
 Reads one JSON object from stdin: {"mode": "proxy" | "forward" | "direct", "send": port,
 "echo": port, "pairs": n, "rate_hz": r, "seconds": s, "size": bytes}; prints one JSON object with
 the round trips' percentiles in microseconds. `proxy`: both ends dial the relay and say hello;
-`forward`: the relay dials our echo port; `direct`: no relay.
+`forward`: the relay dials our echo port; `direct`: no relay. With "tls", the path of a folder of
+certificates, both legs are TLS.
 """
 
 import json
@@ -11,9 +12,13 @@ import math
 import os
 import select
 import socket
+import ssl
 import sys
 import time
+from pathlib import Path
 from typing import Any
+
+from up.tls.files import TLSFiles
 
 WARM_UP_S = 1.0
 MIN_TRIPS = 200
@@ -21,9 +26,14 @@ EXTRA_S = 10.0
 """A busy machine gets this much longer to complete the least number of round trips."""
 
 
-def dial(port: int, hello: str = "") -> socket.socket:
+_NOT_READY = (BlockingIOError, ssl.SSLWantReadError)
+
+
+def dial(port: int, hello: str = "", tls: ssl.SSLContext | None = None) -> socket.socket:
     peer = socket.create_connection(("127.0.0.1", port))
     peer.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
+    if tls is not None:
+        peer = tls.wrap_socket(peer, server_hostname="127.0.0.1")
     if hello:
         peer.sendall(hello.encode("ascii"))
         answer = peer.recv(4096)
@@ -36,6 +46,9 @@ def pairs(job: dict[str, Any]) -> list[tuple[socket.socket, socket.socket]]:
     """Return the sending and the echoing end of each pair."""
     found = []
     listener = None
+    folder = Path(job["tls"]) if job.get("tls") else None
+    client = None if folder is None else TLSFiles(folder / "client").client()
+    server = None if folder is None else TLSFiles(folder / "relay").server(clients=False)
     if job["mode"] != "proxy":
         listener = socket.create_server(("127.0.0.1", job["echo"]), backlog=1024)
         print(json.dumps({"echo": listener.getsockname()[1]}), flush=True)
@@ -45,12 +58,17 @@ def pairs(job: dict[str, Any]) -> list[tuple[socket.socket, socket.socket]]:
             job["send"] = listener.getsockname()[1]
     for number in range(job["pairs"]):
         if listener is None:
-            echo = dial(job["echo"], f"UP1 aircraft=bench-{number}\n")
-            send = dial(job["send"], f"UP1 aircraft=bench-{number} seat=command\n")
+            own = client
+            if folder is not None:
+                own = TLSFiles(folder / f"bench-{number}").client()
+            echo = dial(job["echo"], f"UP1 aircraft=bench-{number}\n", own)
+            send = dial(job["send"], f"UP1 aircraft=bench-{number} seat=command\n", client)
         else:
-            send = dial(job["send"])
+            send = dial(job["send"], tls=client)
             echo, _ = listener.accept()
             echo.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
+            if server is not None:
+                echo = server.wrap_socket(echo, server_side=True)
         found.append((send, echo))
     return found
 
@@ -71,7 +89,7 @@ def measure(job: dict[str, Any], ends: list[tuple[socket.socket, socket.socket]]
         while True:
             try:
                 send.recv(65536)
-            except BlockingIOError:
+            except _NOT_READY:
                 break
     order = [send for send, _ in ends]
     line = b"x" * (job["size"] - 1) + b"\n"
@@ -100,10 +118,13 @@ def measure(job: dict[str, Any], ends: list[tuple[socket.socket, socket.socket]]
                 peer.send(line)
         for descriptor, _ in poll.poll(0):
             echo = echoes.get(descriptor)
-            if echo is not None:
-                echo.send(echo.recv(65536))
+            try:
+                if echo is not None:
+                    echo.send(echo.recv(65536))
+                    continue
+                answer = senders[descriptor].recv(65536)
+            except _NOT_READY:
                 continue
-            answer = senders[descriptor].recv(65536)
             if answer.endswith(b"x\n"):
                 if sent_ns[descriptor] > warm_ns:
                     trips.append(clock() - sent_ns[descriptor])

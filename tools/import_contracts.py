@@ -30,7 +30,7 @@ ARROWS: dict[str, set[str]] = {
 }
 # The parts of Up for a program on another machine: the proxy uses no modules and no bus.
 PROXY_MAY_USE = {
-    "cli", "config", "errors", "fields", "log", "output", "protocols", "system", "version"
+    "cli", "config", "errors", "fields", "log", "output", "protocols", "system", "tls", "version"
 }  # fmt: skip
 
 # The layers of Up, from the highest to the lowest: a part imports only from the lines below it.
@@ -51,6 +51,7 @@ LAYERS = (
     "needs | vetoes | earth | mission",
     "commands",
     "cleanup | protocols | context",
+    "tls",
     "config | mode",
     "log",
     "system",

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Awaitable, Callable, Coroutine, Mapping
+from collections.abc import Awaitable, Callable, Coroutine, Iterable, Mapping
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from twisted.logger import Logger
@@ -50,6 +50,13 @@ class BaseModule:
     def load(self) -> bool:
         """Return whether to load the module; may read mode and configuration."""
         return True
+
+    def plain_links(self) -> Iterable[tuple[str, str]]:
+        """Yield each unprotected link that may leave this machine: its key, and one sentence.
+
+        ``up check`` warns of them.
+        """
+        return ()
 
     def initialize(self, up: Up) -> None:
         """Enter the initialization phase; the framework calls this once.

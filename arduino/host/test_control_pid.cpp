@@ -75,7 +75,7 @@ TEST_CASE("no input leaves the limits or 32 bits") {
   std::uniform_real_distribution<float> gain(0.0f, 50.0f);
   std::uniform_int_distribution<int> input(-32767, 32767);
   for (int round = 0; round < 300; ++round) {
-    const int32_t limit = round % 2 ? 400 << 14 : 120 << 17;
+    const int32_t limit = round % 2 ? 400 << 14 : 225 << 17;
     Pid pid = Pid();
     for (int slot = 0; slot < 200; ++slot) {
       if (slot % 50 == 0) pid.tune({gain(random), gain(random), gain(random)});

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import argparse
 import math
+import os
 from collections.abc import Mapping
+from pathlib import Path
 from typing import Any
 
 from up.cli.option_parser import OptionParser, add_json_option
@@ -12,10 +14,13 @@ from up.cli.server_parser import port_number
 from up.cli.verb import add_verb
 from up.system.aircraft_name import AIRCRAFT_NAME, AIRCRAFT_NAME_RULE
 from up.version import VERSION
+from up_ground.key_store import KeyStore
 from up_ground.mission_verb import add_mission
 from up_ground.page_options import add_page_options
+from up_ground.pair import add_pair
 from up_ground.replay.verb import add_replay
 from up_ground.settings import DEFAULT_AIRCRAFT, DEFAULT_HOST, DEFAULT_PORT, Seat, Settings
+from up_ground.token_store import state_folder
 
 _MAX_S = 1e7
 
@@ -33,8 +38,8 @@ examples
   up-ground control request                         requests it of its owner
 
 environment
-  UP_GROUND_HOST, UP_GROUND_PORT, UP_GROUND_AIRCRAFT, UP_GROUND_DIRECT=1 stand
-  for the options
+  UP_GROUND_HOST, UP_GROUND_PORT, UP_GROUND_AIRCRAFT, UP_GROUND_DIRECT=1 and
+  UP_GROUND_TLS stand for the options
 """
 _WATCH_EPILOG = """\
 On a terminal: a picture of the aircraft, at most ten times a second. Stale
@@ -101,6 +106,7 @@ def make_parser(environ: Mapping[str, str]) -> OptionParser:
         _add_connection(verb)
     _add_serve(verbs)
     add_replay(verbs)
+    add_pair(verbs)
     text = "list the Commands that a ground may send"
     commands = add_verb(verbs, "commands", "up_ground.main:commands", text)
     commands.add_argument("name", nargs="?", help="only this one")
@@ -139,11 +145,17 @@ def _add_connection(
     direct = given.get("UP_GROUND_DIRECT", "") not in ("", "0")
     text = "send no hello: for a legacy proxy or an old aircraft on the same LAN"
     add("--direct", text, direct, action="store_true")
+    text = "folder with this ground's certificate: the link speaks TLS alone (port 3014 of a proxy)"
+    tls = given.get("UP_GROUND_TLS")
+    add("--tls", text, Path(tls) if tls else None, type=Path, metavar="DIR")
 
 
 def settings_of(options: argparse.Namespace, seat: Seat) -> Settings:
-    """Return the settings of the peer to connect to."""
-    return Settings(options.host, options.port, options.aircraft, seat, options.direct)
+    """Return the settings of the peer to connect to; raises UserError for faulty keys."""
+    key = KeyStore(state_folder(os.environ)).get(options.aircraft)
+    return Settings(
+        options.host, options.port, options.aircraft, seat, options.direct, options.tls, key
+    )
 
 
 def _add_watch(verbs: Any) -> None:

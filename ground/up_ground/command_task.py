@@ -86,6 +86,8 @@ class CommandTask(LinkTask):
         if self.link.status.is_aircraft_online is False:
             text = f"the aircraft {self._settings.aircraft} is not connected to the proxy"
             self.fail(text, "aircraft_offline", EXIT_NO_ANSWER)
+        elif fault := self.link.status.key_fault:
+            self.fail(*fault, EXIT_NO_ANSWER)
         else:
             text = f"no telemetry within {TELEMETRY_LIMIT_S:g} s, and {self.what} needs its beacon"
             self.fail(text, "no_telemetry", EXIT_NO_ANSWER)

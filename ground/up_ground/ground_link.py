@@ -14,7 +14,7 @@ from twisted.internet.protocol import Factory
 from twisted.python.failure import Failure
 from zope.interface import implementer
 
-from up.protocols.binary_line import PACKED, to_body
+from up.protocols.binary_line import HANDSHAKE, PACKED, PROTECTED, to_body
 from up.protocols.general_message import GeneralMessage, decode
 from up.protocols.packed_telemetry import UnknownKeyError, Unpacker
 from up.protocols.proxy_lines import (
@@ -36,7 +36,11 @@ from up.protocols.proxy_lines import (
     parse_line,
 )
 from up.system.backoff import Backoff
+from up.tls.errors import TLSError
+from up.tls.files import TLSFiles
+from up.tls.protocol import TLSClientEndpoint
 from up_ground.ground_protocol import GroundProtocol
+from up_ground.link_security import LinkSecurity
 from up_ground.link_status import LinkState, LinkStatus
 from up_ground.settings import Seat, Settings
 from up_ground.token_store import TokenStore
@@ -73,6 +77,7 @@ class GroundLink:
         self.status = LinkStatus(since_s=reactor.seconds())
         self._reactor = reactor
         self._settings = settings
+        self._tls = None if settings.tls is None else TLSFiles(settings.tls)
         self._listener = listener
         self._tokens = tokens
         self._wanted = settings.seat
@@ -83,6 +88,8 @@ class GroundLink:
         self._is_greeted = False
         self._unpacker = Unpacker()
         self._key_asked_s = -KEY_INTERVAL_S
+        pairing = settings.pairing
+        self._security = None if pairing is None else LinkSecurity(reactor, pairing, self.status)
         factory: Any = Factory.forProtocol(self._build)
         factory.noisy = False
         make: Any = ClientService
@@ -105,7 +112,13 @@ class GroundLink:
         self._tokens.close()
 
     def send(self, line: bytes) -> bool:
-        """Send an encoded message; return False without a connection."""
+        """Send an encoded message; return False without a connection, or without its session."""
+        if self._security is None:
+            return self._send(line)
+        sealed = self._security.seal(line)
+        return sealed is not None and self._send(sealed)
+
+    def _send(self, line: bytes) -> bool:
         connection = self._connection
         return self.status.is_open and connection is not None and connection.send(line)
 
@@ -113,13 +126,13 @@ class GroundLink:
         """Request the seat; a free one is granted immediately. Return False if not sent."""
         self._wanted = Seat.COMMAND
         self._tokens.hold()
-        return not self._settings.direct and self.send(ControlRequest().encode())
+        return not self._settings.direct and self._send(ControlRequest().encode())
 
     def give_seat(self, to: int) -> bool:
-        return self.status.seat is Seat.COMMAND and self.send(ControlGive(to).encode())
+        return self.status.seat is Seat.COMMAND and self._send(ControlGive(to).encode())
 
     def release_seat(self) -> bool:
-        return self.status.seat is Seat.COMMAND and self.send(ControlRelease().encode())
+        return self.status.seat is Seat.COMMAND and self._send(ControlRelease().encode())
 
     def reconnect(self, seat: Seat) -> None:
         """Repeat the hello for another seat: an aircraft's own listener grants it only that way."""
@@ -155,10 +168,13 @@ class GroundLink:
             )
             return
         self.status.too_long = self._too_long + connection.dropped_too_long
+        body = self._open(line)
+        if body is None:
+            return
         try:
-            if line[:1] == _PACKED:
-                line = self._unpacker.unpack(to_body(line))
-            message = decode(line)
+            if body[:1] == _PACKED:
+                body = self._unpacker.unpack(body)
+            message = decode(body)
         except UnknownKeyError:
             self.status.keyless += 1
             self._request_key(connection)
@@ -167,6 +183,15 @@ class GroundLink:
             self.status.malformed += 1
             return
         self._listener.on_message(message)
+
+    def _open(self, line: bytes) -> bytes | None:
+        """Return the body of a line, as far as this device may take it; raises ValueError."""
+        if self._security is not None:
+            return self._security.open(line)
+        if line[0] in (PROTECTED, HANDSHAKE):
+            self.status.unprotected += 1
+            return None
+        return to_body(line)
 
     def _request_key(self, connection: GroundProtocol) -> None:
         now_s = self._reactor.seconds()
@@ -187,15 +212,21 @@ class GroundLink:
         self._too_long += connection.dropped_too_long
         self.status.too_long = self._too_long
         self._connection = None
+        if self._security is not None:
+            self._security.stop()
         self._on_no_link(reason, code)
 
     def connect(self, protocolFactory: IProtocolFactory) -> Deferred[Any]:  # noqa: N803
         """Make one attempt; the service calls it as its endpoint."""
         self.status.state = LinkState.CONNECTING
-        endpoint = HostnameEndpoint(
-            self._reactor, self._settings.host, self._settings.port, timeout=CONNECT_TIMEOUT_S
+        host = self._settings.host
+        endpoint: Any = HostnameEndpoint(
+            self._reactor, host, self._settings.port, timeout=CONNECT_TIMEOUT_S
         )
-        return endpoint.connect(protocolFactory).addErrback(self._on_failed)
+        if self._tls is not None:
+            endpoint = TLSClientEndpoint(self._reactor, endpoint, self._tls, host)
+        connecting: Deferred[Any] = endpoint.connect(protocolFactory)
+        return connecting.addErrback(self._on_failed)
 
     def _obey(self, connection: GroundProtocol, said: ProxyLine) -> None:
         status = self.status
@@ -224,6 +255,8 @@ class GroundLink:
             status.is_holder_known = True
         elif isinstance(said, AircraftPresence):
             status.is_aircraft_online = said.is_online
+            if said.is_online and self._security is not None:
+                self._security.renew()
 
     def _keep(self, token: str) -> None:
         self._token = token
@@ -235,7 +268,11 @@ class GroundLink:
         status.rejection = ""
         status.failures = 0
         status.connections += 1
+        if self._tls is not None and self._connection is not None:
+            status.tls_peer = self._connection.transport.peer_name
         self._backoff.reset()
+        if self._security is not None:
+            self._security.start(self._send)
 
     def _build(self) -> GroundProtocol:
         hello = None
@@ -247,7 +284,8 @@ class GroundLink:
         return GroundProtocol(self._reactor, self, hello)
 
     def _on_failed(self, failure: Failure) -> Failure:
-        self._on_no_link(f"cannot reach {self._settings.address}: {_why(failure)}", "unreachable")
+        code = failure.value.code if isinstance(failure.value, TLSError) else "unreachable"
+        self._on_no_link(f"cannot reach {self._settings.address}: {_why(failure)}", code)
         return failure
 
     def _on_no_link(self, reason: str, code: str) -> None:

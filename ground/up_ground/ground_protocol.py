@@ -13,6 +13,7 @@ from up.protocols.line_decoder import LineDecoder
 from up.protocols.proxy_lines import PREFIX
 from up.protocols.tcp_options import watch_peer
 from up.system.clock import Clock, Timer, cancel
+from up.tls.errors import TLSError
 
 if TYPE_CHECKING:
     from up_ground.ground_link import GroundLink
@@ -104,7 +105,8 @@ class GroundProtocol(Protocol):
         self._is_open = False
         self._lines.reset()
         cancel(self._timer)
-        text, code = self._reason if self._reason[0] else (reason.getErrorMessage(), "lost")
+        code = reason.value.code if isinstance(reason.value, TLSError) else "lost"
+        text, code = self._reason if self._reason[0] else (reason.getErrorMessage(), code)
         self._owner.on_lost(self, text, code)
 
     def _on_no_answer(self) -> None:

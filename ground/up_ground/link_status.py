@@ -39,6 +39,8 @@ class LinkStatus:
     asked_by: int | None = None
     """The listener that requests the seat held here."""
     is_aircraft_online: bool | None = None
+    tls_peer: str | None = None
+    """The name in the peer's certificate; None: the link is plain."""
     round_trip_ms: float | None = None
     """The kernel's measure of the way to the proxy and back."""
     failures: int = 0
@@ -51,6 +53,19 @@ class LinkStatus:
     """Packed frames whose key was not received here."""
     strange_control: int = 0
     """Unknown control lines."""
+    is_keyed: bool = False
+    """Whether this device has a key for the aircraft, so that plain lines are refused."""
+    key_name: str = ""
+    key_role: str = ""
+    """The role of the key in the open session; empty without a session."""
+    key_refusal: str = ""
+    """The code with which the aircraft refused the key."""
+    refused: int = 0
+    """Lines that the key does not authenticate, or that came before."""
+    unprotected: int = 0
+    """Plain lines on a link with a key, or protected ones without a key."""
+    clock: tuple[float, float, float] | None = None
+    """The aircraft's clock, ms, authenticated by the key; it was read between two times here."""
 
     @property
     def is_open(self) -> bool:
@@ -58,7 +73,26 @@ class LinkStatus:
 
     @property
     def dropped(self) -> int:
-        return self.malformed + self.too_long + self.keyless + self.strange_control
+        counted = self.malformed + self.too_long + self.keyless + self.strange_control
+        return counted + self.refused
+
+    @property
+    def key_fault(self) -> tuple[str, str] | None:
+        """Return why nothing of the aircraft is readable, a sentence and its code."""
+        if self.key_refusal:
+            return f"the aircraft refuses this device's key: {self.key_refusal}", self.key_refusal
+        if self.is_keyed and not self.key_role:
+            return "no protected session: the aircraft does not answer this key", "no_session"
+        if self.unprotected and not self.is_keyed:
+            return "the aircraft requires a key: run 'up-ground pair'", "key_missing"
+        return None
+
+    @property
+    def security(self) -> str:
+        """Return plain, end_to_end, or, with a key and no session yet, none."""
+        if not self.is_keyed:
+            return "plain"
+        return "end_to_end" if self.key_role else "none"
 
     def disconnected(
         self, state: LinkState, now_s: float, reason: str = "", code: str = ""
@@ -70,7 +104,7 @@ class LinkStatus:
         self.code = code
         self.seat = self.holder = self.asked_by = self.is_aircraft_online = None
         self.is_holder_known = False
-        self.round_trip_ms = None
+        self.round_trip_ms = self.tls_peer = None
 
 
 ASK_INTERVAL_S = 1.1

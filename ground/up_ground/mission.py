@@ -122,10 +122,14 @@ def _transfer(
         return tasks[0]
 
     status = run_task(make)
-    outcomes = tasks[0].outcomes
+    outcomes, restored = tasks[0].outcomes, tasks[0].restored
     if status == EXIT_OK and save is not None:
         save(tasks[0])
     told = {each: _data(each, outcome, numbers) for each, outcome in outcomes.items()}
+    if restored is not None:
+        first = next(iter(outcomes))
+        del outcomes[first]
+        told[first] = {**_data(first, restored, ()), "restored": not restored.code}
     if options.json:
         echo(json.dumps(told, indent=1))
     for plan, outcome in outcomes.items():
@@ -137,6 +141,8 @@ def _transfer(
             done = "in use" if save is None else f"written to {options.file}"
             text = f"{plan}: {_count(outcome.items, plan)} {done}"
             echo(text, code, plan=plan, count=len(outcome.items), id=outcome.plan_id)
+    if restored is not None:
+        _print_restored(first, restored)
     return status
 
 
@@ -192,6 +198,16 @@ def _number(problem: PlanProblem, numbers: Sequence[int]) -> int | None:
     """Return the number in the file of an item that the aircraft names."""
     is_item = problem.plan == MISSION and 0 < problem.item <= len(numbers)
     return numbers[problem.item - 1] if is_item else None
+
+
+def _print_restored(plan: str, outcome: PlanOutcome) -> None:
+    """Report what became of the plan that was replaced before another one was refused."""
+    if outcome.code:
+        text = f"{plan}: that of the file is in use; the one before is not restored"
+        print_error(f"{text}: {outcome.reason}", "not_restored", plan=plan, detail=outcome.detail)
+    else:
+        text = f"{plan}: restored, as before the upload: {_count(outcome.items, plan)} in use"
+        print_error(text, "plan_restored", plan=plan, count=len(outcome.items), id=outcome.plan_id)
 
 
 def _print_refusal(plan: str, outcome: PlanOutcome, numbers: Sequence[int]) -> None:

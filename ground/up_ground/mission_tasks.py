@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import os
 import sys
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 from up.cli.option_parser import EXIT_FAILED, EXIT_OK
@@ -18,26 +18,35 @@ from up_ground.command_task import CommandTask
 from up_ground.plan_transfer import PlanOutcome, PlanTransfer
 from up_ground.send import Send
 
+NOT_USED = frozenset({"plan_invalid", "plan_incomplete", "plan_changed", "plan_not_saved"})
+"""Details of a refusal after which the aircraft uses the plan that it had."""
+
 
 class TransferTask(CommandTask):
-    """Uploads or (None) downloads plans one after the other; ends at the first that fails."""
+    """Uploads or (None) downloads plans one after the other; ends at the first that fails.
+
+    Before two are uploaded the first one is read: if the aircraft refuses the second, the first is
+    restored, so that a file is used as a whole or not at all. ``restored`` is how that ended; None:
+    nothing was restored.
+    """
 
     what = "an upload"
 
     def __init__(self, *args: Any, plans: Mapping[str, Sequence[PlanItem] | None]) -> None:
         super().__init__(*args)
         self.outcomes: dict[str, PlanOutcome] = {}
+        self.restored: PlanOutcome | None = None
         self._plans = list(plans.items())
+        self._first = self._plans[0][0]
+        self._is_reading = len(plans) > 1 and None not in plans.values()
+        self._before: Sequence[PlanItem] | None = None
         self._transfer: PlanTransfer | None = None
 
     def on_ready(self) -> None:
-        plan, items = self._plans.pop(0)
-        transfer = PlanTransfer(self._reactor, self._send, plan, self._on_progress, self._on_end)
-        self._transfer = transfer
-        if items is None:
-            transfer.download()
+        if self._is_reading:
+            self._begin(self._first, None, self._on_read)
         else:
-            transfer.upload(items)
+            self._begin(*self._plans.pop(0), self._on_end)
 
     def on_answer(self, message: GeneralMessage) -> None:
         if self._transfer is not None:
@@ -48,8 +57,21 @@ class TransferTask(CommandTask):
             self._transfer.stop()
         await super().stop()
 
+    def _begin(
+        self,
+        plan: str,
+        items: Sequence[PlanItem] | None,
+        on_end: Callable[[PlanOutcome], object],
+    ) -> None:
+        self._transfer = PlanTransfer(self._reactor, self._send, plan, self._on_progress, on_end)
+        if items is None:
+            self._transfer.download()
+        else:
+            self._transfer.upload(items)
+
     def _send(self, command: BaseCommand, id_: str) -> None:
-        beacon = self.telemetry.beacon if command.NEEDS_BEACON else None
+        needs_beacon = command.NEEDS_BEACON or self.link.status.is_keyed
+        beacon = self.telemetry.beacon if needs_beacon else None
         self.link.send(encode(command.NAME, command.data, id_, beacon))
 
     def _on_progress(self, phase: str, done: int, of: int) -> None:
@@ -57,15 +79,32 @@ class TransferTask(CommandTask):
             sys.stderr.write(f"\r{phase} {done} of {of}\x1b[K" + ("\r\x1b[K" if done == of else ""))
             sys.stderr.flush()
 
+    def _on_read(self, outcome: PlanOutcome) -> None:
+        self._is_reading = False
+        self._before = outcome.items
+        if outcome.code:
+            self.outcomes[self._first] = outcome
+            self.finish(EXIT_FAILED)
+        else:
+            self.on_ready()
+
     def _on_end(self, outcome: PlanOutcome) -> None:
         assert self._transfer is not None
-        self.outcomes[self._transfer.plan] = outcome
-        if outcome.code:
+        plan = self._transfer.plan
+        self.outcomes[plan] = outcome
+        before, used = self._before, self.outcomes[self._first].items
+        if plan != self._first and outcome.detail in NOT_USED and before not in (None, used):
+            self._begin(self._first, before, self._on_restored)
+        elif outcome.code:
             self.finish(EXIT_FAILED)
         elif self._plans:
             self.on_ready()
         else:
             self.finish(EXIT_OK)
+
+    def _on_restored(self, outcome: PlanOutcome) -> None:
+        self.restored = outcome
+        self.finish(EXIT_FAILED)
 
 
 class StartMission(Send):

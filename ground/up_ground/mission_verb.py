@@ -26,7 +26,8 @@ The first flight of a mission
   up-ground mission start --item 1       begins again
 
 A file without borders leaves the fence of the aircraft unchanged, one without
-items its mission. Of a file with both the fence is uploaded first.
+items its mission. Of a file with both the fence is uploaded first; if the
+mission is refused then, the fence that was in use before is restored.
 
 exit status
   0 done; 1 problems in the file, or refused by the aircraft, which keeps

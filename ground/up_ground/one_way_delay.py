@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from up.commands.telemetry_schema import DRIFT, NEW_CLOCK_S
 
+_SAME_CLOCK_S = 1.0
+
 
 class OneWayDelayEstimator:
     """Estimates how much longer a message was under way than the quickest one.
@@ -18,13 +20,30 @@ class OneWayDelayEstimator:
     def __init__(self) -> None:
         self.has_begun = False
         """Whether the last message was the first of its clock."""
+        self._is_trusted = False
         self._least_s: float | None = None
         self._excess_s = 0.0
         self._stamp_s = 0.0
         self._now_s = 0.0
 
     def reset(self) -> None:
-        self._least_s = None
+        if not self._is_trusted:
+            self._least_s = None
+
+    def trust(self, stamp_ms: float, from_s: float, to_s: float) -> None:
+        """Take an authentic reading of the sender's clock, made between two times here.
+
+        From now on only another one counts as a new clock: messages that are held back show it.
+        An estimate that this reading permits stays, so that a slow reading spoils no quick one.
+        """
+        stamp_s = stamp_ms / 1000
+        low_s, high_s = from_s - stamp_s, to_s - stamp_s
+        known_s = self._least_s if self._is_trusted else None
+        if known_s is None or not low_s - _SAME_CLOCK_S < known_s < high_s + _SAME_CLOCK_S:
+            known_s = (low_s + high_s) / 2
+        self._is_trusted = True
+        self._least_s = min(max(known_s, low_s), high_s)
+        self._stamp_s, self._now_s = stamp_s, to_s
 
     def update(self, stamp_ms: float | None, now_s: float) -> float | None:
         """Take a message that arrives now; return its delay in seconds.
@@ -39,7 +58,8 @@ class OneWayDelayEstimator:
         if self._least_s is not None:
             least_s = min(apart_s, self._least_s + DRIFT * (now_s - self._now_s))
             has_jumped = apart_s - least_s > self._excess_s + NEW_CLOCK_S
-            self._least_s = None if stamp_s < self._stamp_s or has_jumped else least_s
+            is_new = not self._is_trusted and (stamp_s < self._stamp_s or has_jumped)
+            self._least_s = None if is_new else least_s
         if self._least_s is None:
             self.has_begun = True
             self._least_s = apart_s

@@ -6,6 +6,7 @@ import argparse
 import os
 import re
 from collections.abc import Mapping
+from pathlib import Path
 
 DEFAULT_LISTEN = "127.0.0.1:8080"
 _HOST_NAME = re.compile(r"[A-Za-z0-9.-]{1,253}", re.ASCII)
@@ -21,6 +22,12 @@ def add_page_options(
         default=DEFAULT_LISTEN,
         metavar="ADDRESS:PORT",
         help="address of the page; 0.0.0.0 is every interface (default %(default)s)",
+    )
+    parser.add_argument(
+        "--https",
+        type=Path,
+        metavar="DIR",
+        help="serve by HTTPS, with certificate.pem and key.pem of this folder",
     )
     parser.add_argument(
         "--name",

@@ -19,7 +19,14 @@ from up_ground.panels import (
 from up_ground.sanitize_text import sanitize_text
 from up_ground.screen_buffer import PanelWriter, ScreenBuffer, Style
 from up_ground.settings import Seat, Settings
-from up_ground.status_text import age_text, control_text, flag_text, link_text, number_text
+from up_ground.status_text import (
+    age_text,
+    control_text,
+    flag_text,
+    link_text,
+    number_text,
+    security_text,
+)
 from up_ground.telemetry import Telemetry
 
 PITCH_RANGE_DEG = 60.0
@@ -111,7 +118,8 @@ def _draw_header(screen: ScreenBuffer, state: State, now_s: float) -> None:
     words = f" {settings.aircraft} at {settings.address}  {link_text(status, now_s)}"
     column = screen.put(0, 0, sanitize_text(words), Style.HEADER)
     if status.is_open and not settings.direct:
-        screen.put(0, column, f"  control {control_text(status)}", Style.HEADER)
+        column = screen.put(0, column, f"  control {control_text(status)}", Style.HEADER)
+    screen.put(0, column, f"  {security_text(status)}", Style.HEADER)
     online = flag_text(status.is_aircraft_online, "online", "offline")
     is_silent = telemetry.is_silent(now_s)
     style = Style.PLAIN

@@ -4,6 +4,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from enum import Enum
+from pathlib import Path
+
+from up.protocols.pairing import Pairing
 
 DEFAULT_HOST = "127.0.0.1"
 DEFAULT_PORT = 3004
@@ -19,13 +22,19 @@ class Seat(Enum):
 
 @dataclass(frozen=True, slots=True)
 class Settings:
-    """The peer: a proxy's ground side or, with ``direct``, a listener without a hello."""
+    """The peer: a proxy's ground side or, with ``direct``, a listener without a hello.
+
+    ``tls`` is the folder with this ground's certificate; None: a plain link.
+    """
 
     host: str = DEFAULT_HOST
     port: int = DEFAULT_PORT
     aircraft: str = DEFAULT_AIRCRAFT
     seat: Seat = Seat.LISTEN
     direct: bool = False
+    tls: Path | None = None
+    pairing: Pairing | None = None
+    """This device's key for the aircraft; None: the link is plain."""
 
     @property
     def address(self) -> str:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 
 from up.commands.telemetry_schema import MODE_REASONS, RULES
-from up_ground.link_status import LinkState, LinkStatus
+from up_ground.link_status import LinkStatus
 from up_ground.settings import Seat
 from up_ground.telemetry import Telemetry
 
@@ -118,10 +118,22 @@ def control_text(status: LinkStatus) -> str:
     return "free" if status.holder is None else f"ground {status.holder}"
 
 
+def security_text(status: LinkStatus) -> str:
+    """Return how the link is protected, with the name and role of this device's key."""
+    if not status.is_keyed:
+        return "plain" if not status.unprotected else "plain, no key of this aircraft"
+    if status.key_role:
+        return f"end to end: {status.key_name} ({status.key_role})"
+    return f"key {status.key_name} {status.key_refusal or 'not accepted yet'}"
+
+
 def link_text(status: LinkStatus, now_s: float) -> str:
-    """Return the state of the connection, with its last error."""
-    if status.state is LinkState.OPEN or not status.failures:
-        return status.state.value
+    """Return the state of the connection, and how it is protected: plain, or TLS and the peer."""
+    state: str = status.state.value
+    if status.is_open:
+        return f"{state}, {'plain' if status.tls_peer is None else f'TLS {status.tls_peer}'}"
+    if not status.failures:
+        return state
     return f"down for {age_text(now_s - status.since_s)}, attempt {status.failures + 1}"
 
 
@@ -132,7 +144,8 @@ def plain_line(status: LinkStatus, telemetry: Telemetry, now_s: float) -> str:
         return f"{link}: {status.reason}"
     online = flag_text(status.is_aircraft_online, "online", "offline")
     age = age_text(telemetry.age_s(now_s))
-    parts = [link, f"control {control_text(status)}", f"aircraft {online}", f"age {age}"]
+    parts = [link, security_text(status)]
+    parts += [f"control {control_text(status)}", f"aircraft {online}", f"age {age}"]
     if telemetry.is_silent(now_s):
         return " | ".join([*parts, "silent"])
     orientation = [_fresh(telemetry, now_s, "orientation", name) for name in _AXES]

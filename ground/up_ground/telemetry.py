@@ -40,6 +40,7 @@ class Telemetry:
         self._late_since_s: float | None = None
         self._round_trip_s = 0.0
         self._least_trip_s: float | None = None
+        self._clock: tuple[float, float, float] | None = None
         self._times_s: deque[float] = deque(maxlen=32)
 
     def update(self, message: GeneralMessage, now_s: float) -> bool:
@@ -87,11 +88,20 @@ class Telemetry:
         if round_trip_ms is not None:
             self._least_trip_s = min(self._round_trip_s, self._least_trip_s or self._round_trip_s)
 
+    def on_clock(self, clock: tuple[float, float, float] | None) -> None:
+        """Take the aircraft's clock as a protected session reports it, once for each session."""
+        if clock is not None and clock != self._clock:
+            self._clock = clock
+            self._delay.trust(*clock)
+
     @property
     def way_s(self) -> float:
         """Return how long the newest frame was on its way, as far as that is known."""
         if self._held_s is None:
             return self._round_trip_s / 2
+        if self._clock is not None:
+            # By a clock that was compared: the whole way.
+            return max(self._held_s, self._round_trip_s / 2)
         # The held time includes the queue before the proxy: its minimum is the path itself.
         return (self._least_trip_s or self._round_trip_s) / 2 + self._held_s
 

@@ -90,6 +90,7 @@ class Watch(LinkTask):
             self._measured_s = now_s
             self.link.measure()
             self.state.telemetry.on_round_trip(self.state.status.round_trip_ms)
+            self.state.telemetry.on_clock(self.state.status.clock)
         self.on_tick(now_s)
         self.after(self._reactor, "tick", self.PERIOD_S, self._tick)
 
@@ -145,6 +146,7 @@ class OnceWatch(Watch):
     def on_time_over(self) -> None:
         status = self.link.status
         reason, code = status.reason or "no telemetry", status.code or "no_telemetry"
+        reason, code = status.key_fault or (reason, code)
         if status.is_aircraft_online is False:
             aircraft = self.state.settings.aircraft
             reason, code = f"{aircraft} is not connected to the proxy", "aircraft_offline"

@@ -5,14 +5,18 @@ import socket
 from collections import Counter
 from contextlib import suppress
 
-from up.log import UpLogger
+from up.log import Limited, UpLogger
 from up.protocols.proxy_lines import ADDRESS, FULL, HelloError, Refused, Side
 from up.system.addresses import is_private, neighbourhood, plain
 from up.system.clock import Clock, Timer
+from up.tls.files import TLSFiles
 from up_proxy.config import ProxyConfig
 from up_proxy.connection import Connection
 from up_proxy.handshake import Handshake
 from up_proxy.poller import Poller
+from up_proxy.registry import LOG_INTERVAL_S
+from up_proxy.tls_handshakes import TLSHandshakes
+from up_proxy.tls_socket import TLSSocket
 
 _ACCEPT_BATCH = 64
 _OUT_OF_DESCRIPTORS = (errno.EMFILE, errno.ENFILE, errno.ENOBUFS, errno.ENOMEM)
@@ -31,14 +35,15 @@ class Acceptor:
         clock: Clock,
         side: Side,
         config: ProxyConfig,
+        tls: TLSFiles | None = None,
     ) -> None:
         self._listener = listener
         self._handshake = handshake
         self._poller = poller
         self._clock = clock
-        self._side = side
+        self.side = side
         self._limits = config.limits
-        self._accepts_public = config.i_accept_plain
+        self._accepts_public = config.i_accept_plain or tls is not None
         # The queue of an aircraft is bounded by pausing the ground, never by dropping lines.
         self._queue_bytes = config.limits.queue_bytes if side is Side.GROUND else 0
         self._sources: Counter[str] = Counter()
@@ -50,6 +55,13 @@ class Acceptor:
         self.over_limit = 0
         self.idle_closed = 0
         self.refused = handshake.refused
+        self.tls: TLSHandshakes | None = None
+        if tls is not None:
+            self._log = Limited(clock, LOG_INTERVAL_S)
+            self.tls = TLSHandshakes(
+                tls, poller, self._log, config.tls.handshakes, self._connect, self._release
+            )
+            self._context = tls.server()
 
     @property
     def port(self) -> int:
@@ -57,11 +69,13 @@ class Acceptor:
 
     def open(self) -> None:
         self._poller.watch(self._listener.fileno(), self)
+        text = "{side} side listens on port {port}"
         _log.info(
-            "{side} side listens on port {port}",
+            text if self.tls is None else f"{text} (TLS)",
             code="port_open",
-            side=self._side.value,
+            side=self.side.value,
             port=self.port,
+            tls=self.tls is not None,
         )
 
     def close(self) -> None:
@@ -69,6 +83,9 @@ class Acceptor:
             self._retry.cancel()
             self._retry = None
         self.end()
+        if self.tls is not None:
+            self.tls.close()
+            self._log.stop()
         for connection in self.connections:
             connection.fail("the proxy is stopping")
 
@@ -104,22 +121,42 @@ class Acceptor:
                 self.idle_closed += 1
                 connection.fail("idle")
         self._handshake.sweep(now_s)
+        if self.tls is not None:
+            self.tls.sweep(now_s)
+            self._check_revoked(self.tls.files)
 
     def _accept(self, peer: socket.socket, host: str) -> None:
         error = self._check(host)
         if error is not None:
-            with suppress(OSError):
-                peer.send(Refused(error.code, error.reason).encode())
+            if self.tls is None:
+                with suppress(OSError):
+                    peer.send(Refused(error.code, error.reason).encode())
             peer.close()
             return
         peer.setblocking(False)
-        self.accepted += 1
         self._sources[neighbourhood(host)] += 1
+        if self.tls is None:
+            self._connect(peer, host)
+        else:
+            self.tls.begin(peer, host)
+
+    def _connect(self, peer: socket.socket | TLSSocket, host: str) -> None:
+        self.accepted += 1
         connection = Connection(
             peer, self._poller, host, self._handshake, self._on_closed, self._queue_bytes
         )
         self.connections.add(connection)
         self._handshake.begin(connection)
+
+    def _check_revoked(self, files: TLSFiles) -> None:
+        """End the connections whose certificates a new list names."""
+        context = files.server()
+        if context is self._context:
+            return
+        self._context = context
+        for connection in self.connections:
+            if files.revokes(connection.serial):
+                connection.fail("its certificate is revoked")
 
     def _check(self, host: str) -> HelloError | None:
         if not self._accepts_public and not is_private(host):
@@ -131,7 +168,7 @@ class Acceptor:
                     "'i_accept_plain: true' in proxy.yml (logged once)",
                     code="public_peer_refused",
                     host=host,
-                    side=self._side.value,
+                    side=self.side.value,
                 )
             return HelloError(ADDRESS, "plain connections from public addresses are not accepted")
         if len(self.connections) >= self._limits.connections:
@@ -144,7 +181,10 @@ class Acceptor:
 
     def _discard(self, connection: Connection) -> None:
         self.connections.discard(connection)
-        source = neighbourhood(connection.host)
+        self._release(connection.host)
+
+    def _release(self, host: str) -> None:
+        source = neighbourhood(host)
         self._sources[source] -= 1
         if self._sources[source] <= 0:
             del self._sources[source]
@@ -154,7 +194,7 @@ class Acceptor:
             _log.error(
                 "{side} side accepts nothing for {pause_s:g} s: too many open files",
                 code="out_of_descriptors",
-                side=self._side.value,
+                side=self.side.value,
                 pause_s=_RETRY_S,
             )
             self._poller.discard(self._listener.fileno())

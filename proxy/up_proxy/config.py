@@ -48,6 +48,39 @@ class LimitsConfig:
 
 
 @dataclass(frozen=True, slots=True)
+class TLSConfig:
+    """Ports with TLS: each peer needs a certificate of the CA, whatever its address."""
+
+    folder: str = key(
+        "",
+        "Folder with ca.pem, certificate.pem, key.pem and revoked.pem, as 'up certificates device' "
+        "makes it; relative to this file. Empty: no TLS.",
+        max_length=4096,
+    )
+    airborne_port: int = key(
+        3013,
+        "TLS port for aircraft. 0: any free port, which is logged.",
+        name="airborne port",
+        minimum=0,
+        maximum=65535,
+    )
+    ground_port: int = key(
+        3014,
+        "TLS port for ground stations. 0: any free port, which is logged.",
+        name="ground port",
+        minimum=0,
+        maximum=65535,
+    )
+    plain: bool = key(False, "Whether the plain ports are open, too.", name="plain ports")
+    handshakes: int = key(
+        500,
+        "Unfinished handshakes on each side; a further one ends the oldest.",
+        minimum=1,
+        maximum=10000,
+    )
+
+
+@dataclass(frozen=True, slots=True)
 class ProxyConfig:
     """The Ground Station Proxy: the relay between aircraft and ground stations."""
 
@@ -73,9 +106,9 @@ class ProxyConfig:
     )
     i_accept_plain: bool = key(
         False,
-        "The proxy uses the plain protocol: every host that reaches its ports can listen, and can "
-        "take control when it is free. Peers with public addresses are refused until this is true. "
-        "Set it only when a firewall or VPN protects the ports, or when you accept the risk.",
+        "Without TLS every host that reaches the ports can listen, and can take control when it is "
+        "free. Peers with public addresses are refused there until this is true. Set it only when "
+        "a firewall or VPN protects the ports, or when you accept the risk.",
     )
     metrics_port: int = key(
         9303,
@@ -98,6 +131,7 @@ class ProxyConfig:
         name="log file",
         max_length=4096,
     )
+    tls: TLSConfig = section(TLSConfig)
     limits: LimitsConfig = section(LimitsConfig)
 
 

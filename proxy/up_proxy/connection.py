@@ -6,8 +6,10 @@ from collections.abc import Callable
 from contextlib import suppress
 
 from up.protocols.line_decoder import LineBuffer
+from up.system.token_bucket import TokenBucket
 from up_proxy.poller import PAUSED, READ, WRITE, Poller
 from up_proxy.send_buffer import SendBuffer
+from up_proxy.tls_socket import TLSSocket
 
 LINE_MAX_BYTES = 65536
 """A connection that sends a longer line is closed."""
@@ -51,7 +53,9 @@ class Connection:
         "_poller",
         "_queue",
         "_socket",
+        "_tls",
         "failure",
+        "handshakes",
         "host",
         "last_rx_s",
         "last_tx_s",
@@ -68,7 +72,7 @@ class Connection:
 
     def __init__(
         self,
-        sock: socket.socket,
+        sock: socket.socket | TLSSocket,
         poller: Poller,
         host: str,
         owner: Owner,
@@ -76,6 +80,7 @@ class Connection:
         queue_bytes: int,
     ) -> None:
         self._socket = sock
+        self._tls = sock if isinstance(sock, TLSSocket) else None
         self._closed = closed
         self._poller = poller
         self._queue: SendBuffer | None = None
@@ -85,6 +90,7 @@ class Connection:
         self.queue_bytes = queue_bytes
         self.last_rx_s = self.last_tx_s = poller.now_s
         self.requested_s = 0.0
+        self.handshakes: TokenBucket | None = None
         self.paused_s: float | None = None
         self.partial: LineBuffer | None = None
         self.failure: str | None = None
@@ -94,6 +100,16 @@ class Connection:
         """It named packed telemetry in its hello; an aircraft: it also knows `Watchers`."""
         self.token = ""
         poller.watch(sock.fileno(), self)
+
+    @property
+    def peer_name(self) -> str:
+        """The name in the peer's certificate; empty on a plain connection."""
+        return "" if self._tls is None else self._tls.name
+
+    @property
+    def serial(self) -> bytes:
+        """The serial number of the peer's certificate; empty on a plain connection."""
+        return b"" if self._tls is None else self._tls.serial
 
     @property
     def waiting_bytes(self) -> int:
@@ -212,6 +228,8 @@ class Connection:
                 self.last_tx_s = self._poller.now_s
             self._queue = SendBuffer(self.queue_bytes)
             self._queue.put_rest(rest)
+            if self._tls is not None:
+                self._queue.keep(self._tls.attempted)
             self._watch()
 
     def _write(self) -> None:
@@ -222,6 +240,8 @@ class Connection:
             sent = self._socket.send(queue.head())
         except OSError as error:
             self._on_error(error)
+            if self._tls is not None:
+                queue.keep(self._tls.attempted)
             return
         self.last_tx_s = self._poller.now_s
         queue.sent(sent)

@@ -2,6 +2,7 @@
 
 from typing import TYPE_CHECKING
 
+from up.protocols import binary_line
 from up.protocols.control_lease import ControlLease
 from up.protocols.proxy_lines import (
     PREFIX,
@@ -16,6 +17,7 @@ from up.protocols.proxy_lines import (
     KeyRequest,
     parse_line,
 )
+from up.system.token_bucket import TokenBucket
 from up_proxy.connection import IDLE_S, Connection, Owner
 from up_proxy.poller import Poller
 
@@ -24,6 +26,9 @@ if TYPE_CHECKING:
 
 REQUEST_INTERVAL_S = 1.0
 """Minimum time between two requests of one listener that reach the owner of control."""
+HANDSHAKES_HZ, HANDSHAKES_BURST = 1.0, 4
+HANDSHAKE_MAX_BYTES = 256
+HANDSHAKE = bytes((binary_line.HANDSHAKE,))
 
 
 class GroundSide(Owner):
@@ -99,6 +104,10 @@ class GroundSide(Owner):
             connection.pause()
 
     def _from_listener(self, connection: Connection, lines: bytes) -> None:
+        if HANDSHAKE in lines:
+            lines = self._relay_handshakes(connection, lines)
+            if not lines:
+                return
         if not connection.speaks_hello and self.lease.is_free(self._poller.now_s):
             # A legacy client cannot request control: it takes free control by sending.
             self._grant(connection)
@@ -106,6 +115,22 @@ class GroundSide(Owner):
             self._relay(connection, lines)
         else:
             self._aircraft.rejected_lines += lines.count(b"\n")
+
+    def _relay_handshakes(self, connection: Connection, lines: bytes) -> bytes:
+        """Relay a listener's handshakes at a limited rate, and return its other lines.
+
+        A device that only listens needs a protected session too.
+        """
+        every = [line + b"\n" for line in lines.split(b"\n")[:-1]]
+        found = [each for each in every if each.startswith(HANDSHAKE)]
+        if connection.handshakes is None:
+            connection.handshakes = TokenBucket(self._poller, HANDSHAKES_HZ, HANDSHAKES_BURST)
+        for line in found:
+            if len(line) <= HANDSHAKE_MAX_BYTES and connection.handshakes.take():
+                self._relay(connection, line)
+            else:
+                self._aircraft.rejected_lines += 1
+        return b"".join(each for each in every if each not in found)
 
     def _relay_mixed(self, connection: Connection, lines: bytes) -> None:
         """Handle lines one by one: a control line may change the owner in between."""

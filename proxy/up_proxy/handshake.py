@@ -6,6 +6,7 @@ from up.protocols.proxy_lines import (
     CODES,
     HELLO_MAX_BYTES,
     MALFORMED,
+    NAME,
     PREFIX,
     TAKEN,
     TOKEN,
@@ -29,6 +30,8 @@ LINGER_S = 2.0
 """A refused connection has this long to read the reason."""
 LINGER_BYTES = 1_000_000
 """A peer that sends more than this while it lingers is closed immediately."""
+_CLIENT_HELLO = b"\x16\x03"
+"""The first bytes of a TLS connection."""
 LEGACY_AIRCRAFT = "default"
 """The aircraft of clients that never send a name."""
 
@@ -73,7 +76,10 @@ class Handshake(Owner):
         partial = connection.partial
         if partial is None:
             return
-        if partial.starts_with(b"{"):
+        if partial.starts_with(_CLIENT_HELLO):
+            del self._since_s[connection]
+            self._refuse(connection, HelloError(MALFORMED, "this port does not speak TLS"))
+        elif partial.starts_with(b"{"):
             del self._since_s[connection]
             self._admit_legacy(connection, silent=False)
         elif len(partial) >= HELLO_MAX_BYTES:
@@ -107,6 +113,7 @@ class Handshake(Owner):
         connection.speaks_hello = True
         connection.reads_packed = hello.packed
         if self._side is Side.AIRBORNE:
+            _check_name(connection, hello.aircraft)
             lease = session.air_lease
             resumed = lease.is_resumed_by(hello.token)
             if not resumed and not lease.is_free(self._poller.now_s):
@@ -128,6 +135,7 @@ class Handshake(Owner):
         try:
             session = self._registry.session(LEGACY_AIRCRAFT)
             if self._side is Side.AIRBORNE:
+                _check_name(connection, LEGACY_AIRCRAFT)
                 if not session.air_lease.is_free(self._poller.now_s):
                     raise HelloError(TAKEN, "an aircraft of this name is connected")
                 session.admit(connection)
@@ -143,6 +151,12 @@ class Handshake(Owner):
             return
         if silent:
             connection.owner = LegacyClientAdapter(connection.owner, self)
+
+
+def _check_name(connection: Connection, aircraft: str) -> None:
+    """Raise HelloError if the certificate is of another aircraft, or of a ground."""
+    if connection.peer_name not in ("", aircraft):
+        raise HelloError(NAME, f"the certificate names {connection.peer_name}, not {aircraft}")
 
 
 class LegacyClientAdapter(Owner):

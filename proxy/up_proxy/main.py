@@ -38,11 +38,11 @@ def raise_descriptor_limit(config: ProxyConfig) -> None:
         )
 
 
-def run(reactor: Any, config: ProxyConfig) -> int:
+def run(reactor: Any, config: ProxyConfig, folder: Path = Path()) -> int:
     """Serve until SIGTERM, SIGINT or SIGHUP; return the exit status."""
     from up_proxy.proxy import Proxy
 
-    proxy = Proxy(reactor, config)
+    proxy = Proxy(reactor, config, folder)
     try:
         proxy.start()
     except StartError as error:
@@ -84,13 +84,13 @@ def main(arguments: Sequence[str] | None = None) -> int:
         prog="up-proxy",
         description="Relay between aircraft and ground stations: the Ground Station Proxy.",
     )
-    _, _, config = parser.load(arguments, Path("config"))
+    _, folder, config = parser.load(arguments, Path("config"))
     start_logging(config.log_level, json_path=Path(config.log_file) if config.log_file else None)
     raise_descriptor_limit(config)
     from twisted.internet import reactor
 
     use_monotonic_time(reactor)
-    return run(reactor, config)
+    return run(reactor, config, folder)
 
 
 if __name__ == "__main__":

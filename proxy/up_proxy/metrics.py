@@ -1,9 +1,11 @@
 """The metrics of the proxy, in the Prometheus text exposition format, version 0.0.4."""
 
-from collections.abc import Callable, Iterable, Mapping
+from collections import Counter
+from collections.abc import Callable, Iterable, Mapping, Sequence
 
 import psutil
 
+from up.protocols.proxy_lines import Side
 from up_proxy.acceptor import Acceptor
 from up_proxy.aircraft import AircraftSession
 from up_proxy.loop_tick import LoopTick
@@ -18,17 +20,19 @@ Metric = tuple[str, str, str, Samples]
 
 
 def render(
-    air: Acceptor, ground: Acceptor, registry: AircraftRegistry, tick: LoopTick, now_s: float
+    acceptors: Sequence[Acceptor], registry: AircraftRegistry, tick: LoopTick, now_s: float
 ) -> str:
     """Return the page: ports, sums since the start, connected aircraft, process."""
     present = registry.aircraft()
     totals = registry.totals()
 
+    sides = {side: [each for each in acceptors if each.side is side] for side in Side}
+
     def by_side(airborne: float, on_ground: float) -> Samples:
         return [({"side": "airborne"}, airborne), ({"side": "ground"}, on_ground)]
 
     def ports(counter: str) -> Samples:
-        return by_side(getattr(air, counter), getattr(ground, counter))
+        return by_side(*(sum(getattr(each, counter) for each in sides[side]) for side in Side))
 
     def each(of: Callable[[AircraftSession], float]) -> Samples:
         return [({"aircraft": craft.name}, of(craft)) for craft in present]
@@ -36,12 +40,9 @@ def render(
     def one(value: float) -> Samples:
         return [({}, value)]
 
-    connections = by_side(len(air.connections), len(ground.connections))
-    refused: Samples = [
-        ({"side": side, "code": code}, count)
-        for side, acceptor in (("airborne", air), ("ground", ground))
-        for code, count in acceptor.refused.items()
-    ]
+    connections = by_side(*(sum(len(each.connections) for each in sides[side]) for side in Side))
+    refused = _by_code(sides, lambda each: each.refused)
+    tls_failed = _by_code(sides, lambda each: {} if each.tls is None else each.tls.failed)
     received = by_side(totals.air_bytes, totals.ground_bytes)
     aircraft_received: Samples = [
         ({"aircraft": craft.name, "side": side}, count)
@@ -57,6 +58,7 @@ def render(
         ("over_limit", "Connections closed because of a limit.", ports("over_limit")),
         ("idle_closed", "Closed idle connections.", ports("idle_closed")),
         ("refused", "Refused connections, by code.", refused),
+        ("tls_failed", "Failed TLS handshakes, by code.", tls_failed),
         ("bytes", "Bytes received from a side.", received),
         ("dropped_lines", "Old lines to slow grounds that newer ones replaced.", dropped),
         ("rejected_lines", "Lines from grounds without control or to no aircraft.", rejected),
@@ -89,6 +91,16 @@ def render(
             resident,
         ]
     )
+
+
+def _by_code(
+    sides: Mapping[Side, Iterable[Acceptor]], of: Callable[[Acceptor], Mapping[str, int]]
+) -> Samples:
+    counts: Counter[tuple[str, str]] = Counter()
+    for side, acceptors in sides.items():
+        for each in acceptors:
+            counts.update({(side.value, code): count for code, count in of(each).items()})
+    return [({"side": side, "code": code}, count) for (side, code), count in counts.items()]
 
 
 def page(metrics: Iterable[Metric]) -> str:

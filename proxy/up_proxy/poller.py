@@ -6,6 +6,7 @@ an idle connection no entry in the reactor.
 
 import select
 import time
+from collections import deque
 from collections.abc import Callable
 from typing import Any, Protocol
 
@@ -13,6 +14,7 @@ from twisted.internet.interfaces import IReadDescriptor
 from zope.interface import implementer
 
 from up.log import UpLogger
+from up.system.clock import Timer, cancel
 
 READ = select.EPOLLIN | select.EPOLLRDHUP
 WRITE = select.EPOLLOUT
@@ -48,6 +50,8 @@ class Poller:
         self._epoll = select.epoll()
         self._handlers: dict[int, Handler] = {}
         self._ending: list[Handler] = []
+        self._steps: deque[Callable[[], None]] = deque()
+        self._again: Timer | None = None
         self.busy_poll_s = BUSY_POLL_S
         self.now_s = seconds()
 
@@ -56,6 +60,7 @@ class Poller:
 
     def stop(self) -> None:
         """Stop and close the epoll; the owners close their sockets."""
+        cancel(self._again)
         self._reactor.removeReader(self)
         self._epoll.close()
 
@@ -79,6 +84,13 @@ class Poller:
         list of receivers must not change during a send.
         """
         self._ending.append(handler)
+
+    def do_later(self, step: Callable[[], None]) -> None:
+        """Call a step that takes a millisecond or more: one after each batch of events."""
+        self._steps.append(step)
+
+    def seconds(self) -> float:
+        return self.now_s
 
     def tick(self) -> float:
         self.now_s = self._seconds()
@@ -108,11 +120,25 @@ class Poller:
         poll = self._epoll.poll
         events = poll(0, _BATCH)
         leave_s = self._seconds() + self.busy_poll_s
-        while events:
+        while events or self._steps:
             self._handle(events)
+            if self._steps:
+                self._take_step()
             if self.now_s >= leave_s:
-                return
-            events = poll(self.busy_poll_s, _BATCH)
+                break
+            events = poll(0 if self._steps else self.busy_poll_s, _BATCH)
+        if self._steps and self._again is None:
+            self._again = self._reactor.callLater(0, self._continue)
+
+    def _continue(self) -> None:
+        self._again = None
+        self.doRead()
+
+    def _take_step(self) -> None:
+        try:
+            self._steps.popleft()()
+        except Exception:  # noqa: BLE001 - as in _handle
+            _log.failure("a connection failed on a bug of the proxy", code="proxy_bug")
 
     def _handle(self, events: list[tuple[int, int]]) -> None:
         handlers = self._handlers

@@ -1,10 +1,13 @@
 """The Ground Station Proxy as a whole: two ports, the aircraft between them, its tick."""
 
+from pathlib import Path
 from typing import Any
 
 from up.log import UpLogger
 from up.protocols.proxy_lines import Side
 from up.system.peer_filter import PeerFilter
+from up.tls.errors import TLSError
+from up.tls.files import TLSFiles
 from up_proxy.acceptor import Acceptor
 from up_proxy.config import ProxyConfig
 from up_proxy.handshake import Handshake
@@ -21,9 +24,10 @@ _log = UpLogger.get_logger("proxy")
 class Proxy:
     """Relays between airborne and ground side; `start` and `stop` do not wait."""
 
-    def __init__(self, reactor: Any, config: ProxyConfig) -> None:
+    def __init__(self, reactor: Any, config: ProxyConfig, folder: Path = Path()) -> None:
         self._reactor = reactor
         self._config = config
+        self._tls = TLSFiles(folder / config.tls.folder) if config.tls.folder else None
         self._poller = Poller(reactor, reactor.seconds)
         limits = config.limits
         self.registry = AircraftRegistry(reactor, self._poller, limits.aircraft, limits.listeners)
@@ -33,34 +37,44 @@ class Proxy:
 
     @property
     def airborne_port(self) -> int:
+        """The plain port, if there is one, otherwise the TLS port."""
         return self._acceptors[0].port
 
     @property
     def ground_port(self) -> int:
         return self._acceptors[1].port
 
+    @property
+    def tls_ports(self) -> tuple[int, int]:
+        """The TLS ports for aircraft and for grounds."""
+        return self._acceptors[-2].port, self._acceptors[-1].port
+
     def start(self) -> None:
         """Open the ports.
 
-        Raises StartError: code `cannot_listen`, or `bad_address` for an address that is invalid
-        or, without `i_accept_plain`, public; no port stays open then.
+        Raises StartError: code `cannot_listen`, `bad_address` for an address that is invalid
+        or, without `i_accept_plain`, public, or that of a TLSError; no port stays open then.
         """
-        config = self._config
-        peers = PeerFilter(config.i_accept_plain, "proxy.yml: i_accept_plain")
+        config, tls = self._config, self._tls
+        peers = PeerFilter(config.i_accept_plain or not self._is_plain, "proxy.yml: i_accept_plain")
         if refusal := peers.refusal_of(config.address):
             raise StartError("bad_address", f"{refusal} (proxy.yml: address)", status=2)
         try:
-            for side, port in (
-                (Side.AIRBORNE, config.airborne_port),
-                (Side.GROUND, config.ground_port),
-            ):
-                self._acceptors.append(self._acceptor(side, port))
+            if self._is_plain:
+                self._acceptors.append(self._acceptor(Side.AIRBORNE, config.airborne_port))
+                self._acceptors.append(self._acceptor(Side.GROUND, config.ground_port))
+            if tls is not None:
+                own = config.tls
+                self._acceptors.append(self._acceptor(Side.AIRBORNE, own.airborne_port, tls))
+                self._acceptors.append(self._acceptor(Side.GROUND, own.ground_port, tls))
             if config.metrics:
                 self._metrics_port = serve_metrics(self._reactor, config.metrics_port, self.page)
-        except StartError:
+        except (StartError, TLSError) as error:
             for acceptor in self._acceptors:
                 acceptor.end()
             self._acceptors.clear()
+            if isinstance(error, TLSError):
+                raise StartError(error.code, f"{error} (proxy.yml: tls)", status=2) from None
             raise
         for acceptor in self._acceptors:
             acceptor.open()
@@ -85,18 +99,23 @@ class Proxy:
         self.registry.stop()
 
     def is_healthy(self) -> bool:
-        return len(self._acceptors) == 2 and all(acceptor.is_open() for acceptor in self._acceptors)
+        return bool(self._acceptors) and all(acceptor.is_open() for acceptor in self._acceptors)
 
     def page(self) -> str:
-        air, ground = self._acceptors
-        return render(air, ground, self.registry, self._loop_tick, self._poller.tick())
+        return render(self._acceptors, self.registry, self._loop_tick, self._poller.tick())
 
-    def _acceptor(self, side: Side, port: int) -> Acceptor:
+    @property
+    def _is_plain(self) -> bool:
+        return self._tls is None or self._config.tls.plain
+
+    def _acceptor(self, side: Side, port: int, tls: TLSFiles | None = None) -> Acceptor:
         config = self._config
+        if tls is not None:
+            tls.server()
         label = f"{side.value} port"
         listener = listen(label, config.address, port, config.limits.user_timeout_ms)
         handshake = Handshake(side, self.registry, self._poller)
-        return Acceptor(listener, handshake, self._poller, self._reactor, side, config)
+        return Acceptor(listener, handshake, self._poller, self._reactor, side, config, tls)
 
     def _tick(self) -> None:
         now_s = self._poller.tick()

@@ -31,6 +31,11 @@ class SendBuffer:
         self._buffer += rest
         self._kept = rest.find(b"\n") + 1
 
+    def keep(self, count: int) -> None:
+        """Keep at least this many bytes of the head unchanged, up to the end of a line."""
+        if count > self._kept:
+            self._kept = self._buffer.find(b"\n", count - 1) + 1 or len(self._buffer)
+
     def put(self, lines: bytes) -> None:
         buffer = self._buffer
         buffer += lines

@@ -25,6 +25,7 @@ from up.needs import wants
 from up.providers.base_mission_control_provider import BaseMissionControlProvider
 
 ROLL_RATE_LIMIT_DEG_S = 120.0
+INVERTED_ROLL_RATE_LIMIT_DEG_S = 225.0
 PITCH_RATE_LIMIT_DEG_S = 80.0
 CENTRE_US = 1500
 MIN_US, MAX_US = 1000, 2000
@@ -96,6 +97,10 @@ class AttitudeController(BaseModule):
             limits = self._limits
             bank_deg = max(-limits.roll_deg, min(limits.roll_deg, demand.roll_deg))
             nose_deg = max(-limits.pitch_down_deg, min(limits.pitch_up_deg, demand.pitch_deg))
+            is_inverted = abs(roll_deg) >= 90
+            self._roll.limit_rate(
+                INVERTED_ROLL_RATE_LIMIT_DEG_S if is_inverted else ROLL_RATE_LIMIT_DEG_S
+            )
             ailerons_us = CENTRE_US + self._roll.hold_angle(bank_deg, roll_deg, roll_rate, dt_s)
             wanted_deg_s = self._pitch.rate_towards(nose_deg, attitude.pitch_deg, dt_s)
             turn_deg_s = pitch_rate_in_turn(wanted_deg_s, roll_deg, yaw_rate)

@@ -17,10 +17,10 @@ class Pid:
     per step, because every frame waits for five of them.
     """
 
-    __slots__ = ("_d", "_i", "_integral", "_last", "_limit", "_p")
+    __slots__ = ("_d", "_i", "_integral", "_last", "_p", "limit")
 
     def __init__(self, gains: Gains, limit: float) -> None:
-        self._limit = limit
+        self.limit = limit
         self.tune(gains)
         self.reset()
 
@@ -34,7 +34,7 @@ class Pid:
 
     def step(self, wanted: float, measured: float, dt_s: float) -> float:
         """Return the output ``dt_s`` after the last step."""
-        limit = self._limit
+        limit = self.limit
         last = self._last
         self._last = measured
         error = wanted - measured
@@ -86,6 +86,9 @@ class Cascade:
         """Set other gains, keeping the integrals."""
         self._rate.tune(rate)
         self._stabilize.tune(stabilize)
+
+    def limit_rate(self, rate_limit_deg_s: float) -> None:
+        self._stabilize.limit = rate_limit_deg_s
 
     def reset(self) -> None:
         self._rate.reset()

@@ -12,6 +12,7 @@ from typing import TypeAlias
 from up.flight_modes.navigation_state import LocalFrame, Point
 from up.mission.items import Border
 
+ROUNDING_M2 = 1.0
 _Edge: TypeAlias = tuple[Point, Point]
 
 
@@ -134,7 +135,9 @@ def leads_straight(borders: LocalBorders, home: Point) -> bool:
 
 def _cross(a: Point, b: Point, c: Point, d: Point) -> bool:
     """Return whether the ways from a to b and from c to d cross, apart from their ends."""
-    return _side(a, b, c) * _side(a, b, d) < 0.0 and _side(c, d, a) * _side(c, d, b) < 0.0
+    pairs = ((_side(a, b, c), _side(a, b, d)), (_side(c, d, a), _side(c, d, b)))
+    # Not where all lie on one line but for the rounding.
+    return all(min(each) < -ROUNDING_M2 and max(each) > ROUNDING_M2 for each in pairs)
 
 
 def _side(a: Point, b: Point, point: Point) -> float:

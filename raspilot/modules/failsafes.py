@@ -52,7 +52,11 @@ class Failsafes(BasePeriodicModule):
 
     def on_init(self) -> None:
         self._engine = FailsafeEngine(self.config.triggers)
-        self._fence = FenceWatch(self.config.fence)
+        fence = self.config.fence
+        self._fence = FenceWatch(fence)
+        limits = {"radius": fence.radius_m, "ceiling": fence.ceiling_m, "floor": fence.floor_m}
+        # Every frame has them: those that are not set cost nothing.
+        self._limits = {name: each for name, each in limits.items() if each is not None}
         self.flight.home.is_outside = self._fence.is_outside
         self._progress = ProgressWatch(self.context.config(NAVIGATION))
         self._grounds = self.up.get_modules(BaseMissionControlProvider)
@@ -75,7 +79,7 @@ class Failsafes(BasePeriodicModule):
         cause = self._acting if self.flight.is_flying else None
         return {
             "failsafe": {"active": self._engine.active, "cause": cause},
-            "fence": {"margin": self._fence.margin_m},
+            "fence": {"margin": self._fence.margin_m, **self._limits},
         }
 
     def _contradictions(self) -> Iterator[str]:

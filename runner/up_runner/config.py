@@ -40,6 +40,12 @@ class ProxyAddress:
     ground_port: int = key(
         3004, "TCP port of its ground side.", name="ground port", minimum=1, maximum=65535
     )
+    tls: str = key(
+        "",
+        "Folder with the instances' certificate (mission_control.yml: remote_server: tls), "
+        "relative to this file. Empty: remote_server: tls applies.",
+        max_length=4096,
+    )
 
 
 @dataclass(frozen=True, slots=True)
@@ -126,11 +132,18 @@ class RunnerConfig:
     address: str = key(
         "", "Address to listen on. Empty: every IPv4 address; '::': every address.", max_length=64
     )
+    tls: str = key(
+        "",
+        "Folder with ca.pem, certificate.pem, key.pem and revoked.pem, as 'up certificates device' "
+        "makes it; relative to this file. The port then speaks TLS alone, and a client of any "
+        "address needs a certificate of the CA. Empty: plain.",
+        max_length=4096,
+    )
     i_accept_plain: bool = key(
         False,
-        "Requests are not authenticated: every host that reaches the port can start instances. "
-        "Peers with public addresses are therefore rejected; true accepts them (for a server that "
-        "phones reach over the mobile network).",
+        "Plain requests are not authenticated: every host that reaches the port can start "
+        "instances. Peers with public addresses are therefore rejected; true accepts them (for a "
+        "server that phones reach over the mobile network).",
     )
     i_accept_root: bool = key(
         False,

@@ -7,7 +7,7 @@ from collections.abc import Callable
 from typing import Any, cast
 
 from twisted.internet.defer import Deferred
-from twisted.internet.protocol import Factory
+from twisted.internet.protocol import ServerFactory
 from twisted.logger import Logger
 
 from up.log import Limited
@@ -21,7 +21,7 @@ LOG_INTERVAL_S = 10.0
 Handle = Callable[[Request], Deferred[Response]]
 
 
-class RequestServer(Factory):
+class RequestServer(ServerFactory):
     """Accepts clients within limits and passes their requests to `handle`.
 
     Rejects a public peer unless `accept_public`. `counts` has the rejections by reason.

@@ -10,11 +10,15 @@ from typing import Any
 
 from twisted.internet.defer import Deferred
 from twisted.internet.error import CannotListenError
+from twisted.internet.protocol import ServerFactory
 from twisted.logger import Logger
 from twisted.python.failure import Failure
 
 from up.system.notify import Notifier, WatchdogPinger
 from up.system.peer_filter import PeerFilter
+from up.tls.errors import TLSError
+from up.tls.files import TLSFiles
+from up.tls.protocol import TLSServerFactory
 from up_runner.config import RunnerConfig
 from up_runner.instance_config import InstanceConfig
 from up_runner.instance_host import Application, InstanceHost
@@ -53,6 +57,7 @@ class Runner:
     ) -> None:
         self._reactor = reactor
         self._config = config
+        self._config_folder = config_folder.absolute()
         self._paths = Paths.of(config, config_folder, environ, os.geteuid())
         self._stops_instances = config.stop_instances_on_exit
         if self._stops_instances is None:
@@ -75,7 +80,7 @@ class Runner:
             limit=config.connections.limit,
             address_limit=config.connections.address_limit,
             idle_s=config.connections.idle_s,
-            accept_public=config.i_accept_plain,
+            accept_public=config.i_accept_plain or bool(config.tls),
         )
         self._port: Any = None
 
@@ -86,6 +91,7 @@ class Runner:
     def start(self) -> None:
         """Take the run folder, listen, find older instances; raises CannotStart."""
         self._check()
+        factory = self._factory()
         try:
             self._run_folder.take()
         except RunFolderError as error:
@@ -93,7 +99,7 @@ class Runner:
         try:
             self._port = self._reactor.listenTCP(
                 self._config.port,
-                self.server,
+                factory,
                 backlog=LISTEN_BACKLOG,
                 interface=self._config.address,
             )
@@ -126,6 +132,15 @@ class Runner:
             self.instances.close()
         self._pinger.stop()
         self._run_folder.release()
+
+    def _factory(self) -> ServerFactory:
+        if not self._config.tls:
+            return self.server
+        try:
+            files = TLSFiles(self._config_folder / self._config.tls)
+            return TLSServerFactory(self._reactor, files, self.server, clients=True)
+        except TLSError as fault:
+            raise CannotStart(fault.code, f"{fault} (runner.yml: tls)") from None
 
     def _host(self, environ: Mapping[str, str]) -> InstanceHost:
         config, paths = self._config, self._paths
@@ -160,11 +175,15 @@ class Runner:
     def _proxy_settings(self) -> Mapping[str, Mapping[str, Any]]:
         """Return the settings with which an instance uses the proxy named in the answers."""
         proxy = self._config.proxy
-        server = {"url": proxy.host, "port": proxy.airborne_port}
+        server: dict[str, Any] = {"url": proxy.host, "port": proxy.airborne_port}
+        if proxy.tls:
+            # Otherwise that of the base stays: nothing here makes a protected link plain.
+            server["tls"] = str(self._config_folder / proxy.tls)
         return {"mission_control.yml": {"remote_server": server}} if proxy.host else {}
 
     def _check(self) -> None:
-        peers = PeerFilter(self._config.i_accept_plain, "runner.yml: i_accept_plain")
+        accepts_public = self._config.i_accept_plain or bool(self._config.tls)
+        peers = PeerFilter(accepts_public, "runner.yml: i_accept_plain")
         if refusal := peers.refusal_of(self._config.address):
             raise CannotStart("bad_address", f"{refusal} (runner.yml: address)")
         if os.geteuid() == 0 and not self._config.i_accept_root:

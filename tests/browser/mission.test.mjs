@@ -154,6 +154,7 @@ test("a refused mission marks its items; a changed one is checked, used, read ba
   assert.deepEqual(await marked(), []);
   assert.equal(await page.isDisabled("#mission-from"), true, "the aircraft has no such item");
   assert.deepEqual(await upload(), ["ack", "", ""]);
+  assert.match(await ground.text("#plan-note"), /mission with 3 items, read back/);
   await ground.until(() => document.querySelector("#mission-state").dataset.code === "same", "the aircraft's mission");
   await ground.until(() => document.querySelector("#plan-table tr[data-flown=true]")?.dataset.item === "1", "the item flown");
   assert.equal(await page.locator(".plan-point.is-flown").textContent(), "1");

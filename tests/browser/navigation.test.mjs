@@ -55,6 +55,9 @@ test("the modes are those of the aircraft; one that is not offered is disabled w
     GUIDED: ["no_target", true], GLIDE: ["altitude", true], FBW: ["", false], RATE: ["", false],
   });
   assert.equal(await ground.attribute('[data-mode="LOITER"]', "aria-pressed"), "true");
+  const cut = await ground.page.$$eval("#flight-modes [data-mode]", (all) =>
+    all.filter((each) => each.scrollHeight > each.clientHeight || each.scrollWidth > each.clientWidth).map((each) => each.dataset.mode));
+  assert.deepEqual(cut, []);
   assert.equal(await ground.text("#bar-mode"), "LOITER");
   assert.match(await ground.text('[data-mode="GLIDE"] small'), /altitude .*too old/);
   const guided = await ground.text('[data-mode="GUIDED"] small');
@@ -168,6 +171,13 @@ test("the flying view has attitude, map, RETURN and every mode on a small screen
   assert.ok(Math.min(width, height) >= 44, `RETURN: ${width} x ${height}`);
   await ground.press('[data-mode="RETURN"]');
   assert.deepEqual(await sentAfter(ground, 1), { "up.flight_mode.set": { mode: "RETURN" } });
+  await ground.page.click("#map-draw");
+  const { x, y, width: wide_px, height: high_px } = await ground.page.locator(".map-canvas").boundingBox();
+  await ground.page.touchscreen.tap(x + wide_px / 3, y + high_px / 2);
+  await ground.page.locator('#plan-table tr[data-item="1"]').hover();
+  assert.deepEqual(await outside(), []);
+  await ground.page.click("#map-draw");
+  assert.equal(await ground.page.isVisible("#panel-mission"), false);
   // The choice lasts; on another screen everything is shown until it is chosen there.
   await ground.press("#view-button");
   await ground.page.reload();

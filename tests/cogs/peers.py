@@ -8,9 +8,10 @@ import json
 
 from twisted.internet.defer import Deferred
 from twisted.internet.endpoints import TCP4ClientEndpoint, TCP4ServerEndpoint, TCP6ClientEndpoint
-from twisted.internet.protocol import DatagramProtocol, Factory, Protocol
+from twisted.internet.protocol import DatagramProtocol, Factory, Protocol, ServerFactory
 
 from tests.support.reactor import until
+from up.tls.protocol import TLSServerFactory
 
 
 class Peer(Protocol):
@@ -98,6 +99,22 @@ class Server:
         await self.port.stopListening()
         for peer in self.peers:
             await peer.close()
+
+
+class TLSServer(Server):
+    """A server with TLS in front of Peer."""
+
+    def __init__(self, reactor, files):
+        super().__init__(reactor)
+        self.files = files
+
+    async def open(self, number=0):
+        wrapped = ServerFactory()
+        wrapped.noisy = False
+        wrapped.buildProtocol = lambda addr: self._new()
+        self.factory = TLSServerFactory(self.reactor, self.files, wrapped, clients=True)
+        self.port = self.reactor.listenTCP(number, self.factory, interface="127.0.0.1")
+        return self.port.getHost().port
 
 
 async def connect(reactor, port, host="127.0.0.1"):

@@ -28,6 +28,7 @@ _ERRORS = (
     "output.py",
     "cli/*.py",
     "cogs/*.py",
+    "config/file.py",
     "loading/*.py",
     "program.py",
     "life_cycle.py",

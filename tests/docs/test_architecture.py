@@ -24,6 +24,7 @@ from raspilot.flight_modes.acro import Acro
 from raspilot.flight_modes.fbw import FlyByWire
 from tests.cogs.arduino_cog.board import BoardRig
 from tests.cogs.black_box_cog.flights import BOARD, Flight
+from tests.cogs.mission_control_cog.hostile_relay import fly
 from tests.ground.aircraft import Aircraft as Kite
 from tests.ground.web.page import Page, Serve
 from tests.proxy.program import Program
@@ -169,6 +170,18 @@ def test_one_ground_command(aircraft):
     aircraft.wire.producer.resumeProducing()
     assert b'"name": "up.ack", "data": {"id": "a"}' in aircraft.wire.value()
     assert_in_order(steps("command"), calls)
+
+
+def test_one_protected_command(tmp_path):
+    async def body(scene):
+        await scene.ground.ready()
+        with traced() as calls:
+            scene.ground.send()
+            await until(lambda: scene.armed)
+        return calls
+
+    calls = fly(body, tmp_path)
+    assert_in_order(steps("protected"), calls)
 
 
 def test_a_wrong_order_would_be_found(aircraft):

@@ -11,11 +11,15 @@ from up.commands.refusal import CommandRefusedError
 
 
 class Flying(Aircraft):
-    """An aircraft that keeps plans; `problems` are what its check finds."""
+    """An aircraft that keeps plans; `problems` are what its check finds in each of them.
 
-    def __init__(self, port, folder, problems=()):
+    It does not save the plans of `refused_ids`.
+    """
+
+    def __init__(self, port, folder):
         self.stores = {plan: PlanStore(plan, folder) for plan in ("mission", "fence")}
-        self.problems = problems
+        self.problems = {}
+        self.refused_ids = set()
         answers = {
             "up.mission.part": lambda message: self._do(message, MissionPartCommand, self._part),
             "up.mission.commit": lambda message: self._do(
@@ -37,16 +41,19 @@ class Flying(Aircraft):
         return [*told, ("up.ack", {"id": message["id"]})]
 
     def _told(self, command):
-        if isinstance(command, MissionCommitCommand):
+        if isinstance(command, MissionCommitCommand) and self.problems.get(command.plan):
             data = {"plan": command.plan, "plan_id": command.plan_id}
-            yield "up.mission.problems", {**data, "problems": self.problems, "untold": 2}
+            problems = self.problems[command.plan]
+            yield "up.mission.problems", {**data, "problems": problems, "untold": 2}
 
     def _part(self, store, command):
         store.stage(command)
 
     def _commit(self, store, command):
         items, _ = store.staged(command)
-        if self.problems:
+        if command.plan_id in self.refused_ids:
+            raise CommandRefusedError("disk full", detail="plan_not_saved")
+        if self.problems.get(command.plan):
             raise CommandRefusedError("too far", detail="plan_invalid")
         store.use(tuple(items), command.plan_id)
 

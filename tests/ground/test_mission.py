@@ -90,13 +90,42 @@ def test_a_file_of_waypoints_has_no_place_for_a_fence(offline, tmp_path):
 
 
 def test_problems_of_the_aircraft_name_the_items_of_the_file(proxy, flying, tmp_path):
-    flying.problems = [{"item": 2, "code": "too_far", "text": "9000 m from home"}]
+    flying.problems = {"mission": [{"item": 2, "code": "too_far", "text": "9000 m from home"}]}
     path = written(tmp_path, rows(row(1, 189), *(row(n, 16, *PLACE) for n in (2, 3))), "a.txt")
     status, said, stderr = run(tmp_path, proxy, "upload", path)
     assert (status, codes(stderr)) == (1, ["left_out", "refused", "too_far", "untold"])
     (problem,) = json.loads(said)["mission"]["problems"]
     assert (problem["item"], problem["number"], problem["code"]) == (2, 3, "too_far")
     assert flying.stores["mission"].items == ()
+
+
+@pytest.mark.parametrize("is_fenced", [True, False])
+def test_a_refused_mission_leaves_the_fence_that_was_in_use(proxy, flying, tmp_path, is_fenced):
+    other = document(circles=[{**CIRCLE, "circle": {**CIRCLE["circle"], "radius": 700.0}}])
+    if is_fenced:
+        assert run(tmp_path, proxy, "upload", written(tmp_path, other, "other.plan"))[0] == 0
+    before = flying.stores["fence"].items
+    assert len(before) == is_fenced
+    flying.problems = {"mission": [{"item": 2, "code": "too_far", "text": "9000 m from home"}]}
+    flying.received.clear()
+    status, said, stderr = run(tmp_path, proxy, "upload", written(tmp_path, MANY))
+    assert (status, codes(stderr)) == (1, ["refused", "too_far", "untold", "plan_restored"])
+    assert flying.stores["fence"].items == before
+    assert flying.stores["mission"].items == ()
+    told = json.loads(said)
+    assert (told["fence"]["restored"], told["fence"]["plan_id"]) == (True, plan_id(before))
+    assert told["mission"]["detail"] == "plan_invalid"
+    commits = [each["data"]["plan"] for each in flying.received if "commit" in each["name"]]
+    assert commits == ["fence", "mission", "fence"]
+
+
+def test_a_fence_that_cannot_be_restored_is_reported(proxy, flying, tmp_path):
+    flying.problems = {"mission": [{"item": 1, "code": "too_far", "text": "9000 m from home"}]}
+    flying.refused_ids = {plan_id(())}
+    status, said, stderr = run(tmp_path, proxy, "upload", written(tmp_path, MANY))
+    assert (status, codes(stderr)[-1]) == (1, "not_restored")
+    assert len(flying.stores["fence"].items) == 1
+    assert json.loads(said)["fence"]["restored"] is False
 
 
 PLACE = (0, 0, 0, 0, 50.08, 14.43, 60)

@@ -124,3 +124,38 @@ def test_no_stamps_break_it(messages):
     delay = OneWayDelayEstimator()
     for stamp_ms, now_s in sorted(messages, key=lambda each: each[1]):
         assert delay.update(stamp_ms, now_s) >= 0
+
+
+def trusted(from_s=100.0, to_s=100.2):
+    """A clock that was 5 s behind when it was read."""
+    delay = OneWayDelayEstimator()
+    delay.trust(95_100, from_s, to_s)
+    return delay
+
+
+def test_a_compared_clock_shows_a_delay_that_every_message_has():
+    delay = trusted()
+    assert delay.update(96_000, 104.0) == pytest.approx(3.0, abs=0.001)
+    # Neither a long pause nor a step back makes it a new clock.
+    assert delay.update(97_000, 97.0 + 5 + 3 + NEW_CLOCK_S + 1) > NEW_CLOCK_S
+    delay.reset()
+    assert delay.update(97_000 - 1, 140.0) > NEW_CLOCK_S
+
+
+def test_the_error_of_a_comparison_is_at_most_half_of_its_round_trip():
+    delay = trusted(100.0, 102.0)
+    # Read at the last moment: 1 s too little; at the first: 1 s too much.
+    assert delay.update(95_200, 95.2 + 6.9) == pytest.approx(1.0, abs=0.01)
+    assert trusted(100.0, 102.0).update(95_200, 95.2 + 4.9) == 0.0
+
+
+def test_a_slow_comparison_keeps_what_a_quick_one_found():
+    delay = trusted()
+    delay.trust(105_000, 110.0 - 0.9, 110.0 + 1.0)
+    assert delay.update(106_000, 111.0) == pytest.approx(0.0, abs=0.1)
+
+
+def test_a_comparison_with_another_life_begins_anew():
+    delay = trusted()
+    delay.trust(1_000, 200.0, 200.2)
+    assert delay.update(2_000, 201.1) == pytest.approx(0.0, abs=0.01)

@@ -83,6 +83,13 @@ class Program:
     def ground_port(self):
         return self._port("ground")
 
+    def tls_port(self, side):
+        def find():
+            ports = [each for each in self.events if each.get("tls") and each["side"] == side]
+            return ports and ports[0]["port"]
+
+        return until(find, f"the TLS port; log {self.log}")
+
     @property
     def metrics_port(self):
         return self._port("metrics")

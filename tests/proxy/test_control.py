@@ -237,3 +237,32 @@ def test_an_aircraft_without_connections_is_removed_but_its_counts_stay(bench):
     bench.pass_time(3.5)
     assert len(bench.proxy.registry) == 0
     assert bench.proxy.registry.totals().air_bytes == 9
+
+
+HANDSHAKE = b"\x03" + b"h" * 40 + b"\n"
+
+
+def test_handshakes_of_listeners_reach_the_aircraft_at_a_limited_rate(bench):
+    air, _ = bench.hello_air()
+    bench.hello_ground()
+    listener, _ = bench.hello_ground(asks="listen")
+    listener.say(HANDSHAKE * 6 + b'{"name": "up.arm"}\n')
+    assert air.expect(HANDSHAKE * 4) == b""
+    bench.settle()
+    assert air.heard == b""
+    assert bench.aircraft().rejected_lines == 3
+    bench.pass_time(1.0)
+    listener.say(HANDSHAKE)
+    air.expect(HANDSHAKE)
+
+
+def test_a_handshake_takes_no_control_and_is_short(bench):
+    air, _ = bench.hello_air()
+    listener, _ = bench.hello_ground(asks="listen")
+    listener.say(HANDSHAKE)
+    air.expect(HANDSHAKE)
+    assert bench.aircraft().grounds.lease.owner is None
+    listener.say(b"\x03" + b"h" * 300 + b"\n")
+    bench.settle()
+    assert air.heard == b""
+    assert bench.aircraft().rejected_lines == 1

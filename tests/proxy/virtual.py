@@ -5,7 +5,7 @@ import time
 
 from twisted.internet import task
 
-from up_proxy.config import LimitsConfig, ProxyConfig
+from up_proxy.config import LimitsConfig, ProxyConfig, TLSConfig
 from up_proxy.proxy import Proxy
 
 DEADLINE_S = 20.0
@@ -82,7 +82,7 @@ class Peer:
 class Bench:
     """A proxy between two free ports; `pump` lets it work, `pass_time` moves its clock."""
 
-    def __init__(self, i_accept_plain=False, **limits):
+    def __init__(self, i_accept_plain=False, tls=None, **limits):
         self.reactor = HandReactor()
         self.peers = []
         config = ProxyConfig(
@@ -92,6 +92,7 @@ class Bench:
             metrics=False,
             i_accept_plain=i_accept_plain,
             limits=LimitsConfig(**limits),
+            tls=tls or TLSConfig(),
         )
         self.proxy = Proxy(self.reactor, config)
         self.proxy._poller.busy_poll_s = 0.001

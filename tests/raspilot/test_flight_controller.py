@@ -63,6 +63,14 @@ def test_what_the_airframes_configuration_does_not_say_is_as_a_new_board_has_it(
     assert rig.frame(50.0, -25.0) == OutputCommand(1500, 1500, 0, 1500, 1)
 
 
+def test_inverted_it_demands_a_faster_roll_until_it_is_at_90_degrees(tmp_path):
+    loop = LoopGains(Gains(1.0), Gains(1.0), Gains(0.0))
+    rig = Rig(tmp_path, gains=GainSet(loop, LoopGains(Gains(8.0), Gains(8.0))))
+    rig.state()
+    rig.sticks()
+    assert [rig.frame(roll).ailerons_us for roll in (-170.0, 90.0, 89.0)] == [1781, 1219, 1350]
+
+
 def test_the_rudder_is_the_stick_and_a_damper(rig):
     rig.sticks(rudder=1700)
     assert rig.frame().rudder_us == 1700

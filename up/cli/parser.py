@@ -45,9 +45,24 @@ Cogfile.yml, each cog from exactly one source:
   my_cog: {pypi: my-cog, version: "1.2.3"}
   my_cog: {url: https://example.org/my_cog.git, revision: v1}
 """
+_KEYS_EPILOG = """\
+examples:
+  up keys add --role pilot --name tablet   then, on the device: up-ground pair
+  up keys revoke tablet                    ends its sessions at once
+"""
 _EXPLORE_EPILOG = """\
 In a cog's folder, 'up explore -w' writes registered_modules.yml, the list of the
 modules that the cog adds to an application.
+"""
+
+
+_CERTIFICATES_EPILOG = """\
+example: a relay, an aircraft and a ground station
+  up certificates init
+  up certificates device relay --host relay.example.org
+  up certificates device glider-1      the name of the aircraft
+  up certificates device laptop
+Each makes a folder to copy to the device; docs/security.md continues from there.
 """
 
 
@@ -92,6 +107,7 @@ def make_parser(arguments: Sequence[str] | None = None) -> OptionParser:
     add_json_option(modules)
     schemas = _add(verbs, "schemas", "write the JSON Schema of each configuration file for editors")
     schemas.add_argument("folder", type=Path, metavar="DIR", help="created if missing")
+    _add_certificates(verbs)
     update = add_verb(verbs, "update", "up.cli.update", "upgrade the framework", aliases=("u",))
     update.add_argument("--dry-run", action="store_true", help="only show the pip command")
     for each in (start, check):
@@ -101,6 +117,7 @@ def make_parser(arguments: Sequence[str] | None = None) -> OptionParser:
     for each in (check, modules):
         modes = [mode.value for mode in Mode]
         each.add_argument("--mode", choices=modes, help="as if this mode were configured")
+    _add_keys(verbs)
     asked = None if arguments is None else verb_of(arguments)
     if asked not in verbs.choices:
         add_plugin_verbs(verbs, UP_VERBS, asked)
@@ -150,6 +167,81 @@ def _add_create(verbs: Any) -> None:
             kind.add_argument(
                 "-i", "--identifier", required=True, help="name of the Command, like plane.bay.open"
             )
+
+
+def _add_certificates(verbs: Any) -> None:
+    group = verbs.add_parser(
+        "certificates",
+        help="make and revoke the certificates of TLS links",
+        epilog=_CERTIFICATES_EPILOG,
+    )
+    group.set_defaults(parser=group)
+    actions = group.add_subparsers(title="action", metavar="ACTION")
+    for name, function, text in (
+        ("init", "init", "make a private CA"),
+        ("device", "device", "make the key and certificate of a relay, aircraft, ground or runner"),
+        ("list", "show", "list the certificates that were issued"),
+        ("revoke", "revoke", "revoke every certificate of a device"),
+        ("renew", "renew", "make new certificates for devices, or for all that expire soon"),
+    ):
+        action = add_verb(actions, name, f"up.cli.certificates:{function}", text)
+        action.add_argument(
+            "--folder",
+            type=Path,
+            metavar="DIR",
+            default=Path("certificates"),
+            help="folder of the CA (default: certificates)",
+        )
+        if name == "init":
+            action.add_argument("--name", default="Up", help="name of the CA (default: Up)")
+        if name in ("device", "revoke"):
+            action.add_argument("name", metavar="NAME", help="name of the device")
+        if name == "device":
+            text = "name or address of a server, again for each; none: the device is a client"
+            action.add_argument("--host", action="append", metavar="HOST", help=text)
+        if name == "renew":
+            action.add_argument("names", metavar="NAME", nargs="*", help="name of a device")
+        if name in ("device", "renew"):
+            text = "validity (default: %(default)s)"
+            action.add_argument("--days", type=_days, default=825, metavar="N", help=text)
+        if name == "list":
+            add_json_option(action)
+
+
+def _days(text: str) -> int:
+    days = int(text) if text.isascii() and text.isdigit() and len(text) < 5 else 0
+    if not 1 <= days <= 3650:
+        raise argparse.ArgumentTypeError(f"a validity is 1 to 3650 days, not {text[:60]!r}")
+    return days
+
+
+def _add_keys(verbs: Any) -> None:
+    keys = verbs.add_parser(
+        "keys",
+        help="pair and revoke the devices that may send protected Commands",
+        epilog=_KEYS_EPILOG,
+    )
+    keys.set_defaults(parser=keys)
+    actions = keys.add_subparsers(title="actions", metavar="ACTION")
+
+    def action(name: str, text: str, function: str = "") -> argparse.ArgumentParser:
+        parser = add_verb(actions, name, f"up.cli.keys:{function or name}", text)
+        add_config_option(parser)
+        return parser
+
+    add = action("add", "make a key, and print what pairs the device")
+    roles = ("observer", "operator", "pilot", "admin")
+    add.add_argument("--role", choices=roles, required=True)
+    add.add_argument("--name", required=True, help="of the device, for logs and screens")
+    add.add_argument("--not-after", default="", metavar="DAY", help="last day, YYYY-MM-DD (UTC)")
+    show = action("show", "print again what pairs a device")
+    show.add_argument("name", help="name or id of the key")
+    for each in (add, show):
+        each.add_argument("--aircraft", metavar="NAME", help="(default: as configured)")
+        each.add_argument("--png", type=Path, metavar="FILE", help="write the QR code there too")
+    revoke = action("revoke", "refuse a device from now on; a running program notices it")
+    revoke.add_argument("name", help="name or id of the key")
+    action("list", "list the keys without their secrets", "list_")
 
 
 def _add_explore(verbs: Any) -> None:

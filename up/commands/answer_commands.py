@@ -36,7 +36,10 @@ class NackCommand(BaseCommand):
 
 @dataclass(frozen=True, slots=True)
 class CommandAnsweredCommand(BaseCommand):
-    """The outcome of a Command of a link; ``untold`` counts unreported outcomes before it."""
+    """The outcome of a Command of a link; ``untold`` counts unreported outcomes before it.
+
+    ``key`` names the device's key, empty on a plain link; ``age_ms`` is the age of the beacon.
+    """
 
     NAME: ClassVar[str] = "up.command.answered"
     link: str = value(max_length=64)
@@ -47,3 +50,6 @@ class CommandAnsweredCommand(BaseCommand):
     reason: str = value("", max_length=MAX_REASON)
     detail: str = value("", max_length=MAX_DETAIL)
     untold: int = value(0, minimum=0)
+    key: str = value("", max_length=32)
+    role: str = value("", max_length=16)
+    age_ms: int | None = value(None, minimum=0)

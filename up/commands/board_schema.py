@@ -103,7 +103,7 @@ DATA = (
     Datum('frame_errors', 'frame_errors', None, 'number', '', 'dropped frames since reset, stays at 65535', True, 'dropped_frames'),
     Datum('frames_lost', 'frames_lost', None, 'number', '', 'frames missing by sequence, stays at 65535', False, 'missing_frames'),
     Datum('uptime_s', 'uptime_s', None, 'number', 's', 'time since reset, stays at 65535', False, 'uptime_s'),
-    Datum('rx_age_ms', 'rx_age_ms', None, 'number', 'ms', "age of the receiver's newest pulses, stays at 65535", False, 'receiver_age_ms'),
+    Datum('rx_age_ms', 'rx_age_ms', None, 'number', 'ms', "age of the receiver's newest pulses, stays at 65535 (age_ms.rx is that of the message)", False, 'receiver_age_ms'),
     Datum('imu_age_ms', 'imu_age_ms', None, 'number', 'ms', "age of the IMU's newest sample, stays at 65535", False, 'imu_age_ms'),
     Datum('battery_mv', 'battery_mv', None, 'number', 'mV', "voltage of the flight battery at A7; 0: no divider, not calibrated, or beyond the pin's 1.1 V", False, 'battery_mv'),
 )

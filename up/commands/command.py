@@ -55,7 +55,7 @@ class BaseCommand(WireFields):
     it from outside (empty: none), ``ROLES_WHERE`` those for a value of a field, ``ROUTE`` the link
     to which it is forwarded instead of being handled here, ``NEEDS_BEACON`` whether it must echo a
     fresh beacon, ``NEEDS_CONTROL`` whether only one module at a time may publish it
-    (``ControlLease``).
+    (``PublisherControl``).
     """
 
     NAME: ClassVar[str] = ""

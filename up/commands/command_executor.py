@@ -19,8 +19,8 @@ from up.cleanup import add_cleanup
 from up.commands.base_command_handler import BaseCommandHandler
 from up.commands.command import BaseCommand
 from up.commands.command_registry import CommandRegistry
-from up.commands.control_lease import ControlLease, calling_publisher
 from up.commands.origin import INTERNAL, Origin
+from up.commands.publisher_control import PublisherControl, calling_publisher
 from up.commands.refusal import CommandRefusedError, UnhandledCommandError
 from up.commands.roles import Role
 from up.log.limits import Limited
@@ -78,7 +78,7 @@ class CommandExecutor:
     ) -> None:
         self.registry = registry
         self.limited = limited
-        self.control = ControlLease(seconds)
+        self.control = PublisherControl(seconds)
         self.origin: Origin = INTERNAL
         self.dispatching_since = 0.0
         self.dispatching: BaseCommand | None = None

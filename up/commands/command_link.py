@@ -25,12 +25,17 @@ class _Answer:
     message: bytes | None = None
 
 
+Answers = OrderedDict[str, _Answer]
+
+
 class CommandLink:
     """The state that the Command Receiver keeps per link; it outlives the link's connections.
 
     ``role_key`` names the configuration key that grants the role, for the nack; ``send`` takes an
     encoded answer and returns whether it was sent. ``policy`` may refuse a Command that the role
-    permits: it returns the reason, or None.
+    permits: it returns the reason, or None. ``key`` names the device's key if the link is a
+    protected session; the sessions of one key share ``answers``, so that a Command that is
+    repeated in the next session is not carried out again.
     """
 
     def __init__(
@@ -43,17 +48,23 @@ class CommandLink:
         role_key: str = "",
         priority: int = 0,
         policy: Callable[[BaseCommand], str | None] | None = None,
+        key: str = "",
+        answers: Answers | None = None,
     ) -> None:
-        self.origin = Origin(name, role, priority)
+        self.origin = Origin(name, role, priority, key)
         self.role_key = role_key
         self.policy = policy
         self._send = send
         self._clock = clock
-        self._answers: OrderedDict[str, _Answer] = OrderedDict()
+        self._answers: Answers = OrderedDict() if answers is None else answers
 
     @property
     def name(self) -> str:
         return self.origin.link
+
+    @property
+    def is_protected(self) -> bool:
+        return bool(self.origin.key)
 
     def is_repeated(self, message: GeneralMessage) -> bool:
         """Remember a message's id; return True for a repeated message and send its answer again.

@@ -40,7 +40,7 @@ class CommandReceiver:
         self._beacons = beacons
         self._clock = clock
         self._routes: dict[str, Route] = {}
-        self._outcomes = OutcomePublisher(executor, clock)
+        self.outcomes = OutcomePublisher(executor, clock)
 
     def execute_command(self, command: BaseCommand, origin: Origin = INTERNAL) -> None:
         """Publish a Command from a module of this program (the prototype's name)."""
@@ -70,7 +70,7 @@ class CommandReceiver:
                 name=message.name,
                 link=link.name,
             )
-            self._refuse(link, message, Code.FAILED, _FAILED)
+            self.refuse(link, message, Code.FAILED, _FAILED)
 
     def _receive(self, message: GeneralMessage, link: CommandLink) -> None:
         cls = self._executor.registry.get(message.name)
@@ -78,23 +78,23 @@ class CommandReceiver:
             self.counters["repeated"] += 1
             return
         if cls is None:
-            self._refuse(link, message, Code.UNKNOWN, f"no Command {message.name[:64]!r}")
+            self.refuse(link, message, Code.UNKNOWN, f"no Command {message.name[:64]!r}")
             return
         try:
             command = cls.from_data(message.data)
         except InvalidCommandError as error:
-            self._refuse(link, message, Code.INVALID, f"{cls.NAME}: {error}")
+            self.refuse(link, message, Code.INVALID, f"{cls.NAME}: {error}")
             return
         if link.origin.role.includes.isdisjoint(command.roles()):
-            self._refuse(link, message, Code.FORBIDDEN, self._forbidden(command, link))
+            self.refuse(link, message, Code.FORBIDDEN, self._forbidden(command, link))
             return
         reason = None if link.policy is None else link.policy(command)
         if reason is not None:
-            self._refuse(link, message, Code.FORBIDDEN, f"{command.NAME}: {reason}")
+            self.refuse(link, message, Code.FORBIDDEN, f"{command.NAME}: {reason}")
             return
-        refusal = self._check_beacon(command, message)
+        refusal = self._check_beacon(command, message, link)
         if refusal is not None:
-            self._refuse(link, message, *refusal)
+            self.refuse(link, message, *refusal)
             return
         self._carry_out(command, message, link)
 
@@ -106,13 +106,14 @@ class CommandReceiver:
         link.nack(malformed.id, Code.MALFORMED, malformed.reason)
         if malformed.id is not None:
             code = Code.MALFORMED.value
-            self._outcomes.report(link.name, "", malformed.id, code, malformed.reason)
+            self.outcomes.report(link.origin, "", malformed.id, code, malformed.reason)
 
     def _check_beacon(
-        self, command: BaseCommand, message: GeneralMessage
+        self, command: BaseCommand, message: GeneralMessage, link: CommandLink
     ) -> tuple[Code, str] | None:
         if message.beacon is None:
-            if command.NEEDS_BEACON:
+            # Without one a relay could hold a protected Command back for hours.
+            if command.NEEDS_BEACON or link.is_protected:
                 return Code.NO_BEACON, f"{command.NAME} must echo the newest telemetry's beacon"
             return None
         if not self._beacons.was_sent(message.beacon):
@@ -126,46 +127,61 @@ class CommandReceiver:
             done = self._route(command, message, link)
         elif message.id is None:
             self._executor.execute_command(command, link.origin)
+            if link.is_protected:
+                self._report(link, message, self._age_ms(message))
             return
         else:
             done = self._executor.execute_and_wait(command, link.origin)
         if done is None:
             return
         done.addTimeout(OUTCOME_LIMIT_S, self._clock)
+        age_ms = self._age_ms(message)
         done.addCallbacks(
-            self._carried_out, self._refused_later, (message, link), errbackArgs=(message, link)
+            self._carried_out, self._refused_later, (message, link, age_ms), {}, (message, link)
         )
 
-    def _carried_out(self, _: object, message: GeneralMessage, link: CommandLink) -> None:
+    def _carried_out(
+        self, _: object, message: GeneralMessage, link: CommandLink, age_ms: int | None
+    ) -> None:
         link.ack(message.id)
-        if message.id is not None:
-            self._outcomes.report(link.name, message.name, message.id)
+        if message.id is not None or link.is_protected:
+            self._report(link, message, age_ms)
+
+    def _report(
+        self, link: CommandLink, message: GeneralMessage, age_ms: int | None, *refusal: str
+    ) -> None:
+        self.outcomes.report(link.origin, message.name, message.id, *refusal, age_ms=age_ms)
+
+    def _age_ms(self, message: GeneralMessage) -> int | None:
+        """Return the age of the telemetry that the sender had seen."""
+        age_s = None if message.beacon is None else self._beacons.age_s(message.beacon)
+        return None if age_s is None else round(age_s * 1000)
 
     def _route(
         self, command: BaseCommand, message: GeneralMessage, link: CommandLink
     ) -> Deferred[None] | None:
         route = self._routes.get(command.ROUTE)
         if route is None:
-            self._refuse(
+            self.refuse(
                 link, message, Code.UNAVAILABLE, f"no module forwards Commands to {command.ROUTE}"
             )
             return None
         try:
             return route(command, link, message.id)
         except CommandRefusedError as error:
-            self._refuse(link, message, error.code, error.reason, error.detail)
+            self.refuse(link, message, error.code, error.reason, error.detail)
             return None
 
     def _refused_later(self, failure: Failure, message: GeneralMessage, link: CommandLink) -> None:
         error = failure.value
         if isinstance(error, CommandRefusedError):
-            self._refuse(link, message, error.code, error.reason, error.detail)
+            self.refuse(link, message, error.code, error.reason, error.detail)
         elif isinstance(error, UnhandledCommandError):
-            self._refuse(link, message, Code.UNAVAILABLE, f"no module handles {message.name}")
+            self.refuse(link, message, Code.UNAVAILABLE, f"no module handles {message.name}")
         elif isinstance(error, TimeoutError):
-            self._refuse(link, message, Code.TIMEOUT, "the module that executes it did not answer")
+            self.refuse(link, message, Code.TIMEOUT, "the module that executes it did not answer")
         else:
-            self._refuse(link, message, Code.FAILED, _FAILED)
+            self.refuse(link, message, Code.FAILED, _FAILED)
 
     def _forbidden(self, command: BaseCommand, link: CommandLink) -> str:
         wanted = " or ".join(sorted(role.value for role in command.roles())) or "nobody"
@@ -174,16 +190,16 @@ class CommandReceiver:
             reason += f" ({link.role_key})"
         return reason
 
-    def _refuse(
+    def refuse(
         self, link: CommandLink, message: GeneralMessage, code: Code, reason: str, detail: str = ""
     ) -> None:
+        """Refuse a message: count, log, nack and report it."""
         self.counters[code.value] += 1
         # All unknown names share one key, so that a peer cannot add keys.
         name = "" if code is Code.UNKNOWN else message.name
         self._log_refusal(link, (code, name), f"refused: {reason}")
         link.nack(message.id, code, reason, detail)
-        outcome = (code.value, reason, detail)
-        self._outcomes.report(link.name, message.name, message.id, *outcome)
+        self._report(link, message, self._age_ms(message), code.value, reason, detail)
 
     def _log_refusal(self, link: CommandLink, key: tuple[Code, str], text: str) -> None:
         limited = self._executor.limited

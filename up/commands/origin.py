@@ -12,12 +12,14 @@ class Origin:
     """The link that a Command came on.
 
     ``link`` names it ("mission_control", ...); providers use the name as the
-    source of a reading, and ``priority`` to choose between sources (the higher wins).
+    source of a reading, and ``priority`` to choose between sources (the higher wins). ``key`` is
+    the name of the device's key; empty for a plain link, whose role is configuration.
     """
 
     link: str
     role: Role
     priority: int = 0
+    key: str = ""
 
 
 INTERNAL = Origin("internal", Role.INTERNAL)

@@ -6,6 +6,7 @@ from collections import Counter
 
 from up.commands.answer_commands import MAX_DETAIL, MAX_REASON, CommandAnsweredCommand
 from up.commands.command_executor import CommandExecutor
+from up.commands.origin import Origin
 from up.system.clock import Clock
 
 ANSWERS_HZ = 20
@@ -20,20 +21,26 @@ class OutcomePublisher:
     def __init__(self, executor: CommandExecutor, clock: Clock) -> None:
         self._executor = executor
         self._clock = clock
-        self._published: Counter[str] = Counter()
-        self._unreported: Counter[str] = Counter()
+        self._published: Counter[tuple[str, str]] = Counter()
+        self._unreported: Counter[tuple[str, str]] = Counter()
         self._second = 0
 
     def report(
         self,
-        link: str,
+        origin: Origin,
         name: str,
         command_id: str | None,
         code: str = "",
         reason: str = "",
         detail: str = "",
+        *,
+        age_ms: int | None = None,
     ) -> None:
-        """Report the outcome of a Command; an empty ``code`` means that it was carried out."""
+        """Report the outcome of a Command; an empty ``code`` means that it was carried out.
+
+        ``age_ms`` is the age of its beacon. A flood on a plain link hides no report of a key.
+        """
+        link = (origin.link, origin.key)
         second = int(self._clock.seconds())
         if second != self._second:
             self._second = second
@@ -46,7 +53,7 @@ class OutcomePublisher:
         self._published[link] += 1
         self._executor.execute_command(
             CommandAnsweredCommand(
-                link=link,
+                link=origin.link,
                 name=name[:_NAME_LIMIT],
                 command_id=command_id,
                 outcome="nack" if code else "ack",
@@ -54,5 +61,8 @@ class OutcomePublisher:
                 reason=reason[:MAX_REASON],
                 detail=detail[:MAX_DETAIL],
                 untold=self._unreported.pop(link, 0),
+                key=origin.key,
+                role=origin.role.value,
+                age_ms=age_ms,
             )
         )

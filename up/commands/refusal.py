@@ -13,6 +13,7 @@ class Code(Enum):
     UNKNOWN = "unknown"
     INVALID = "invalid"
     FORBIDDEN = "forbidden"
+    UNPROTECTED = "unprotected"
     STALE = "stale"
     NO_BEACON = "no_beacon"
     UNKNOWN_BEACON = "unknown_beacon"

@@ -50,12 +50,13 @@ def write_schemas(files: Iterable[ConfigFile[Any]], folder: Path) -> list[Path]:
     return written
 
 
-def write_atomically(path: Path, data: bytes) -> None:
+def write_atomically(path: Path, data: bytes, mode: int = 0o666) -> None:
     """Replace the file's contents so that a power cut leaves either the old or the new ones.
 
-    Raises OSError; the old contents then remain and no other file is left behind.
+    ``mode`` has the permissions of the file, less the umask. Raises OSError; the old contents then
+    remain and no other file is left behind.
     """
-    temporary = _write_temporary(path, data)
+    temporary = _write_temporary(path, data, mode)
     try:
         temporary.replace(path)
     except OSError:
@@ -99,10 +100,10 @@ def _create_exclusively(path: Path, data: bytes) -> bool:
     return True
 
 
-def _write_temporary(path: Path, data: bytes) -> Path:
+def _write_temporary(path: Path, data: bytes, mode: int = 0o666) -> Path:
     temporary = path.with_name(f".{path.name}.{os.getpid()}-{secrets.token_hex(4)}.tmp")
     try:
-        with temporary.open("xb") as file:
+        with open(temporary, "xb", opener=lambda name, flags: os.open(name, flags, mode)) as file:
             _write_and_sync(file.fileno(), data)
     except OSError:
         _remove(temporary)

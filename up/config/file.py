@@ -26,14 +26,15 @@ class ConfigFile(Generic[T]):
 
     ``removed`` maps an old key (dotted inside a section) that is no longer used, or has another
     meaning, to the sentence that names its replacement; ``ignored`` maps one that has no effect any
-    more to the sentence why: it is no mistake. Raises TypeError or ValueError when `cls` is
-    declared wrongly.
+    more to the sentence why: it is no mistake. Only its owner may read a file that `is_secret`.
+    Raises TypeError or ValueError when `cls` is declared wrongly.
     """
 
     filename: str
     cls: type[T]
     removed: Mapping[str, str] = field(default_factory=dict)
     ignored: Mapping[str, str] = field(default_factory=dict)
+    is_secret: bool = False
     schema: Schema = field(init=False, repr=False)
 
     def __post_init__(self) -> None:
@@ -47,6 +48,9 @@ class ConfigFile(Generic[T]):
         path = Path(folder) / self.filename
         problems = Problems(path)
         text = read_text(path, problems.report)
+        if text is not None and self.is_secret and path.stat().st_mode & 0o077:
+            what = f"others may read these secrets: run 'chmod 600 {path}'"
+            problems.report(1, 1, what, "secrets_readable")
         value = self.cls() if text is None else self._parse(text, problems, whole=False)
         problems.raise_if_any()
         return value

@@ -89,9 +89,12 @@ def key(
     max_length: int | None = None,
     nullable: bool = False,
     ignore_case: bool = False,
+    is_secret: bool = False,
     replaced: tuple[str, ...] = (),
 ) -> T:
     """Declare a key with one value, whose type is the field's annotation (`X | None`: nullable).
+
+    The value of one that `is_secret` is not part of the dataclass's text.
 
     In the file its name is `name`, otherwise the attribute's. `replaced` lists its former names:
     they are refused with a sentence that gives the new one.
@@ -106,7 +109,8 @@ def key(
         "ignore_case": ignore_case,
     }
     declared = _Declared("key", comment, name, replaced, bounds)
-    return dataclasses.field(default=default, metadata={_METADATA: declared})
+    metadata = {_METADATA: declared}
+    return dataclasses.field(default=default, repr=not is_secret, metadata=metadata)
 
 
 def section(

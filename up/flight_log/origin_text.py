@@ -9,10 +9,14 @@ KEY = "_origin"
 
 
 def origin_text(origin: Origin) -> str:
-    """Return ``ground (pilot)``: link and role; ``internal`` for a module's own Commands."""
+    """Return ``ground (pilot)``: link and role; ``internal`` for a module's own Commands.
+
+    ``ground/tablet (pilot)`` for a Command that the key ``tablet`` protects.
+    """
     if origin.link == INTERNAL.link:
         return INTERNAL.link
-    return f"{origin.link} ({origin.role.value})"
+    key = f"/{origin.key}" if origin.key else ""
+    return f"{origin.link}{key} ({origin.role.value})"
 
 
 def link_and_role(text: object) -> tuple[str, str]:

@@ -61,6 +61,7 @@ def check_application(
     findings.warnings += _unknown(context.config_folder, findings.files)
     findings.warnings += _disabled_for_nothing(disabled, found)
     findings.warnings += _unwritable_log(context)
+    findings.warnings += _plain_links(findings.plan)
     for file in findings.files:
         findings.warnings += file.ignored_keys(context.config_folder)
     return findings
@@ -129,6 +130,14 @@ def _unwritable_log(context: Context) -> Iterator[UserError]:
         text = f"{file}: log file: the user of this check cannot write {show(log_file)}: {reason}"
         text += " (a service runs as another user, who must be able to)"
         yield UserError(text, "log_file_unwritable", file=file, key="log file", value=log_file)
+
+
+def _plain_links(plan: Plan) -> Iterator[UserError]:
+    for module in plan.modules:
+        for key, what in module.plain_links():
+            file = "" if module.CONFIG is None else module.CONFIG.filename
+            text = f"{file}: {key}: {what}"
+            yield UserError(text, "link_plain", file=file, key=key)
 
 
 def config_files(modules: Iterable[BaseModule | type[BaseModule]]) -> list[ConfigFile[Any]]:

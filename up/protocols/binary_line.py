@@ -1,14 +1,15 @@
 """Lines that are not JSON: a type byte and binary data, on a link whose messages end with LF.
 
-Packed telemetry and protected messages travel so. In the line LF and ESC are two bytes, ESC and
-the byte with bit 6 inverted; a relay sees whole lines. A message of JSON is a line as it is.
+Packed telemetry, protected messages and handshakes travel so. In the line LF and ESC are two
+bytes, ESC and the byte with bit 6 inverted; a relay sees whole lines. A message of JSON is a line
+as it is.
 """
 
 from __future__ import annotations
 
-PACKED, PROTECTED = 0x01, 0x02
+PACKED, PROTECTED, HANDSHAKE = 0x01, 0x02, 0x03
 """The first byte of such a line."""
-TYPES = frozenset({PACKED, PROTECTED})
+TYPES = frozenset({PACKED, PROTECTED, HANDSHAKE})
 _ESC, _LF, _FLIP = b"\x1b", b"\n", 0x40
 _ESC_CODED, _LF_CODED = _ESC + bytes((_ESC[0] ^ _FLIP,)), _ESC + bytes((_LF[0] ^ _FLIP,))
 

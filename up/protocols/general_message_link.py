@@ -10,6 +10,7 @@ from twisted.internet.protocol import Protocol, connectionDone
 from twisted.logger import Logger
 from twisted.python.failure import Failure
 
+from up.protocols.binary_line import TYPES
 from up.protocols.general_message import GeneralMessage, MalformedMessage, decode
 from up.protocols.line_decoder import MAX_LINE_BYTES, LineDecoder
 from up.protocols.link_output import LinkOutput, Make
@@ -51,6 +52,7 @@ OnMessage = Callable[[Any, GeneralMessage], object]
 OnMalformed = Callable[[Any, MalformedMessage], object]
 OnConnected = Callable[[Any], object]
 OnLost = Callable[[Any, str], object]
+OnBinary = Callable[[Any, bytes], object]
 
 
 def permits(bucket: TokenBucket, peer: str, waiting: int = 1) -> bool:
@@ -76,7 +78,8 @@ class GeneralMessageProtocol(Protocol):
     """One connection; create a new one for each.
 
     Every callback gets this link as its first argument: `on_message` also a message, `on_malformed`
-    an invalid line, `on_connected` nothing else, `on_lost` the reason as text. Counters:
+    an invalid line, `on_connected` nothing else, `on_lost` the reason as text, `on_binary` a line
+    that is not JSON (up/protocols/binary_line.py), which is malformed without it. Counters:
     `malformed`, `output.dropped`, `output.replaced`, `dropped_too_long` and `bucket.refused`; the
     connections of one peer may share `bucket`. A line of more than `longest_line` bytes is
     malformed.
@@ -92,6 +95,7 @@ class GeneralMessageProtocol(Protocol):
         on_malformed: OnMalformed,
         on_connected: OnConnected,
         on_lost: OnLost,
+        on_binary: OnBinary | None = None,
         user_timeout_ms: int = USER_TIMEOUT_MS,
         bucket: TokenBucket | None = None,
     ) -> None:
@@ -105,6 +109,7 @@ class GeneralMessageProtocol(Protocol):
         self._on_malformed = on_malformed
         self._on_connected = on_connected
         self._on_lost = on_lost
+        self._on_binary = on_binary
         self._user_timeout_ms = user_timeout_ms
         self._lines = LineDecoder()
         self._heard_s = 0.0
@@ -162,6 +167,9 @@ class GeneralMessageProtocol(Protocol):
                 continue
             if not permits(self.bucket, self.peer, len(lines) - index):
                 return
+            if self._on_binary is not None and line[0] in TYPES:
+                self._on_binary(self, line)
+                continue
             try:
                 message = decode(line, self.longest_line)
             except MalformedMessage as fault:

@@ -10,6 +10,8 @@ from typing import Any
 from twisted.internet.error import ConnectionAborted, ConnectionDone
 from twisted.python.failure import Failure
 
+from up.tls.errors import TLSError
+
 KEEPALIVE_IDLE_S = 3
 KEEPALIVE_INTERVAL_S = 1
 KEEPALIVE_PROBES = 3
@@ -76,4 +78,6 @@ def why_lost(reason: Failure) -> str:
         return "closed"
     if reason.check(ConnectionAborted):
         return "cut off by this side"
+    if reason.check(TLSError):
+        return str(reason.value)
     return "the connection broke"

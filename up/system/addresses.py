@@ -40,6 +40,14 @@ def is_private(host: str) -> bool:
     )
 
 
+def stays_here(host: str) -> bool:
+    """Return whether a host, a name or a literal address, is certainly this machine."""
+    try:
+        return host == "localhost" or _parsed(host).is_loopback
+    except ValueError:
+        return False
+
+
 def is_wildcard(host: str) -> bool:
     """Return whether a listener on `host` listens on every interface: empty, 0.0.0.0 or ::.
 

@@ -2,7 +2,12 @@
 
 from __future__ import annotations
 
-from up.system.clock import Clock
+from typing import Protocol
+
+
+class _Time(Protocol):
+    def seconds(self) -> float:
+        """Return the time in seconds."""
 
 
 class TokenBucket:
@@ -11,7 +16,7 @@ class TokenBucket:
     ``refused`` counts the refused events.
     """
 
-    def __init__(self, clock: Clock, rate_hz: float, burst: float) -> None:
+    def __init__(self, clock: _Time, rate_hz: float, burst: float) -> None:
         self.refused = 0
         self._clock = clock
         self._rate_hz = rate_hz

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Literal
 
 from up.config import ConfigFile, key, section
@@ -14,12 +15,29 @@ from up.system.aircraft_name import AIRCRAFT_NAME, AIRCRAFT_NAME_RULE
 _HOST = re.compile(r"[A-Za-z0-9_.:%-]*", re.ASCII)
 
 
+Security = Literal["auto", "off", "accept", "require"]
+_SECURITY = (
+    "End-to-end protection of this link: require refuses Commands of devices without a key; accept "
+    "takes them too, with at most the link's role; off refuses protected sessions; auto is require "
+    "towards a public address, otherwise, or with i_accept_plain, accept."
+)
+
+
 @dataclass(frozen=True, slots=True)
 class RemoteServerConfig:
     """Where the Ground Station Proxy is."""
 
     url: str = key("", "Host name or address of the proxy. Empty: no proxy.", max_length=255)
     port: int = key(3003, "TCP port of the proxy's airborne side.", minimum=1, maximum=65535)
+    security: Security = key("auto", _SECURITY)
+
+    tls: str = key(
+        "",
+        "Folder with ca.pem, certificate.pem and key.pem, as 'up certificates device' makes it; "
+        "relative to this file. The link then speaks TLS alone, with the proxy's TLS port (3013). "
+        "Empty: plain.",
+        max_length=4096,
+    )
 
     def problems(self) -> Iterator[tuple[str, str]]:
         if not _HOST.fullmatch(self.url):
@@ -41,6 +59,7 @@ class ListenerConfig:
         "Address of the interface to listen on. Empty: all, IPv4 only; '::': all, also IPv6.",
         max_length=64,
     )
+    security: Security = key("auto", _SECURITY)
 
     def problems(self) -> Iterator[tuple[str, str]]:
         try:
@@ -77,10 +96,11 @@ class MissionControlConfig:
     )
     i_accept_plain: bool = key(
         False,
-        "The link does not authenticate the ground. While this is false, a pilot whose link goes "
-        "to a public address has only the rights of an operator, and ground stations with public "
-        "addresses cannot connect to the listener. Set it when a VPN or firewall protects the "
-        "proxy, or when you accept the risk.",
+        "A plain link does not authenticate the ground. While this is false, a link to a public "
+        "address requires protection (security: auto) or, where it accepts plain Commands and has "
+        "no TLS, grants a pilot only the rights of an operator, and ground stations with public "
+        "addresses cannot connect to a listener that does not require it. Set it when a VPN or "
+        "firewall protects the proxy, or when you accept the risk.",
     )
     data_budget_mb_per_hour: float | None = key(
         None,
@@ -90,10 +110,25 @@ class MissionControlConfig:
         minimum=1.0,
     )
     listener: ListenerConfig = section(ListenerConfig)
+    audit_log: str = key(
+        "",
+        "File of the outcomes of all Commands from the ground, one line of JSON each, an absolute "
+        "path. Empty: audit.jsonl in the state directory that systemd sets, otherwise none.",
+        max_length=1024,
+    )
 
     def problems(self) -> Iterator[tuple[str, str]]:
+        if self.audit_log and not Path(self.audit_log).is_absolute():
+            yield "audit_log", "must be an absolute path"
         if self.aircraft and not AIRCRAFT_NAME.fullmatch(self.aircraft):
             yield "aircraft", f"must be {AIRCRAFT_NAME_RULE}"
+
+
+def security_of(security: Security, is_public: bool, accepts_plain: bool) -> Security:
+    """Return the protection of a link: its own, or that for its peer's address."""
+    if security != "auto":
+        return security
+    return "require" if is_public and not accepts_plain else "accept"
 
 
 def aircraft_name(config: MissionControlConfig, instance: str) -> str:

@@ -13,6 +13,7 @@ from twisted.internet.protocol import Factory, Protocol
 from mission_control_cog.ground_connection import GroundConnection
 from up.commands.command_link import CommandLink
 from up.commands.refusal import Code
+from up.protocols.binary_line import HANDSHAKE
 from up.protocols.control_lease import ControlLease
 from up.protocols.general_message import GeneralMessage, MalformedMessage
 from up.protocols.proxy_lines import Accepted, Access, Hello
@@ -20,6 +21,7 @@ from up.system.clock import Clock
 from up.system.peer_filter import PeerFilter
 
 MAX_STATIONS = 8
+_NO_CONTROL = "another ground station has control"
 
 
 class Grounds(Factory):
@@ -41,10 +43,13 @@ class Grounds(Factory):
         on_message: Callable[[GeneralMessage, CommandLink], object],
         on_malformed: Callable[[MalformedMessage, CommandLink], object],
         on_owner: Callable[[str], object],
+        on_binary: Callable[[bytes, Callable[[bytes], object], str], object] | None = None,
+        requires_protection: bool = False,
         random: Random | None = None,
     ) -> None:
         self.dropped = 0
         self.too_many = 0
+        self.requires_protection = requires_protection
         self._clock = clock
         self._peers = peers
         self._aircraft = aircraft
@@ -52,6 +57,7 @@ class Grounds(Factory):
         self._on_message = on_message
         self._on_malformed = on_malformed
         self._on_owner = on_owner
+        self._on_binary = on_binary
         self._random = random or SystemRandom()
         self._stations: dict[GroundConnection, CommandLink] = {}
         self._lease: ControlLease[GroundConnection] = ControlLease()
@@ -91,6 +97,7 @@ class Grounds(Factory):
             on_malformed=self._malformed,
             on_connected=self._connected,
             on_lost=self._lost,
+            on_binary=None if self._on_binary is None else self._binary,
         )
 
     def _connected(self, station: GroundConnection) -> None:
@@ -117,7 +124,17 @@ class Grounds(Factory):
             self._on_message(message, link)
             return
         self.dropped += 1
-        link.nack(message.id, Code.FORBIDDEN, "another ground station has control")
+        link.nack(message.id, Code.FORBIDDEN, _NO_CONTROL)
+
+    def _binary(self, station: GroundConnection, line: bytes) -> None:
+        """Hand on a handshake of any station, and a protected message with the rule for others."""
+        assert self._on_binary is not None
+        is_message = line[0] != HANDSHAKE
+        if is_message and station is not self._lease.owner and self._is_free():
+            self._acquire(station)
+        is_refused = is_message and station is not self._lease.owner
+        self.dropped += is_refused
+        self._on_binary(line, station.send, _NO_CONTROL if is_refused else "")
 
     def _malformed(self, station: GroundConnection, fault: MalformedMessage) -> None:
         if station is self._lease.owner:

@@ -21,6 +21,9 @@ from up.protocols.general_message_link import MAX_BURST, MAX_MESSAGES_HZ
 from up.protocols.proxy_lines import Hello
 from up.system.backoff import Backoff
 from up.system.token_bucket import TokenBucket
+from up.tls.errors import TLSError
+from up.tls.files import TLSFiles
+from up.tls.protocol import TLSClientEndpoint
 
 CONNECT_LIMIT_S = 5.0
 """Within it the kernel repeats a lost SYN after 1 and 3 s."""
@@ -32,7 +35,8 @@ class Uplink:
     """Connects, sends the hello, and retries after every failure and loss.
 
     ``hello`` is the aircraft's name, None for a legacy client. The token of the last link resumes
-    the aircraft's lease at the proxy immediately. Data sent without a link are lost.
+    the aircraft's lease at the proxy immediately. Data sent without a link are lost. With ``tls``
+    there is no plain attempt.
     """
 
     log = Logger()
@@ -46,19 +50,23 @@ class Uplink:
         *,
         on_message: Callable[[GeneralMessage], object],
         on_malformed: Callable[[MalformedMessage], object],
+        on_binary: Callable[[bytes], object] | None = None,
         on_ready: Callable[[str], object],
         on_lost: Callable[[], object],
         backoff: Backoff | None = None,
+        tls: TLSFiles | None = None,
     ) -> None:
         self.connects = 0
         self.bucket = TokenBucket(reactor, MAX_MESSAGES_HZ, MAX_BURST)
         self._reactor = reactor
         self._host = host
         self._port = port
+        self._tls = tls
         self._hello = hello
         self._token = ""
         self._on_message = on_message
         self._on_malformed = on_malformed
+        self._on_binary = on_binary
         self._on_ready = on_ready
         self._on_lost = on_lost
         self._backoff = backoff or Backoff()
@@ -74,6 +82,11 @@ class Uplink:
         self._service = make(self, factory, retryPolicy=self._pause_s, clock=reactor)
 
     @property
+    def is_protected(self) -> bool:
+        """Return whether only a proxy with a valid certificate can be the peer."""
+        return self._tls is not None
+
+    @property
     def is_ready(self) -> bool:
         return self._link is not None and self._link.is_ready
 
@@ -85,9 +98,12 @@ class Uplink:
         """Send in place of an older unsent message."""
         return self._link is not None and self._link.send_newest(message)
 
-    def send_packed(self, frame: bytes) -> bool:
-        """Send a frame of telemetry packed, in place of an older unsent message."""
-        return self._link is not None and self._link.send_packed(frame)
+    def send_packed(self, frame: bytes, lines: Callable[[bytes], bytes]) -> bool:
+        """Send a frame of telemetry packed, in place of an older unsent message.
+
+        ``lines`` makes of the packed body, when it leaves, what is sent of it.
+        """
+        return self._link is not None and self._link.send_packed(frame, lines)
 
     @property
     def may_pack(self) -> bool:
@@ -126,12 +142,18 @@ class Uplink:
         try:
             address = await self._addresses.next()
             make = TCP6ClientEndpoint if ":" in address else TCP4ClientEndpoint
-            endpoint = make(self._reactor, address, self._port, CONNECT_LIMIT_S)
+            endpoint: Any = make(self._reactor, address, self._port, CONNECT_LIMIT_S)
+            if self._tls is not None:
+                endpoint = TLSClientEndpoint(self._reactor, endpoint, self._tls, self._host)
             return await endpoint.connect(factory)
         except (ConnectError, OSError, HostNotFoundError) as error:
             self._addresses.failed(address)
             reason = str(error).strip() or type(error).__name__
             self._report("no_connection", f"no connection: {reason}")
+            raise
+        except TLSError as fault:
+            self._addresses.failed(address)
+            self._report(fault.code, f"no connection: {fault}")
             raise
 
     def _pause_s(self, failed_attempts: int) -> float:
@@ -151,6 +173,7 @@ class Uplink:
             on_message=lambda link, message: self._on_message(message),
             on_malformed=lambda link, fault: self._on_malformed(fault),
             on_lost=self._link_lost,
+            on_binary=None if (take := self._on_binary) is None else lambda _, line: take(line),
             bucket=self.bucket,
         )
         return self._link
@@ -162,7 +185,9 @@ class Uplink:
         self.connects += 1
         self._ready_s = self._reactor.seconds()
         self._reported = ""
-        self.log.info("connected to {peer}", peer=link.peer, code="uplink_connected")
+        security = "plain" if self._tls is None else f"TLS with {link.transport.peer_name}"
+        text = "connected to {peer}, {security}"
+        self.log.info(text, peer=link.peer, security=security, code="uplink_connected")
         self._on_ready(link.peer.rpartition(":")[0])
 
     def _link_lost(self, link: UplinkProtocol, reason: str) -> None:

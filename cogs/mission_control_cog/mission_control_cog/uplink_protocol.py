@@ -22,6 +22,7 @@ from up.protocols.proxy_lines import (
 )
 from up.protocols.tcp_options import KEEPALIVE_IDLE_S, ip_bytes, set_option
 from up.system.clock import Clock, Timer, cancel
+from up.tls.errors import TLSError
 
 HEARTBEAT_S = 1.0
 UNWATCHED_HEARTBEAT_S = 12.0
@@ -89,12 +90,13 @@ class UplinkProtocol(GeneralMessageProtocol):
         self._sent_s = self._clock.seconds()
         return super().send_newest(message)
 
-    def send_packed(self, frame: bytes) -> bool:
-        """Send a frame of telemetry, a line, packed when it leaves."""
-        return self.send_newest(lambda: self._pack(frame))
+    def send_packed(self, frame: bytes, lines: Callable[[bytes], bytes] = to_line) -> bool:
+        """Send a frame of telemetry, a line, packed when it leaves; ``lines`` is of its body."""
+        return self.send_newest(lambda: self._pack(frame, lines))
 
-    def _pack(self, frame: bytes) -> bytes:
-        return to_line(self._packer.pack(frame[:-1], self._clock.seconds()))
+    def _pack(self, frame: bytes, lines: Callable[[bytes], bytes]) -> bytes:
+        # A link that sends nothing would not ask for more.
+        return lines(self._packer.pack(frame[:-1], self._clock.seconds())) or b"\n"
 
     def _on_control(self, line: bytes) -> bool:
         said = parse_line(line)
@@ -125,6 +127,8 @@ class UplinkProtocol(GeneralMessageProtocol):
     def connectionLost(self, reason: Failure = connectionDone) -> None:  # noqa: N802 - Twisted's name
         self.is_ready = False
         cancel(self._pulse)
+        if isinstance(reason.value, TLSError):
+            self.lost_code = reason.value.code
         super().connectionLost(reason)
 
     def close(self) -> None:

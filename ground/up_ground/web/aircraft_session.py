@@ -6,12 +6,14 @@ from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
 from up.protocols.general_message import GeneralMessage
+from up.protocols.handshake import ROLES
 from up.system.clock import Timer
 from up.system.token_bucket import TokenBucket
 from up_ground.catalogue import Catalogue
 from up_ground.ground_link import GroundLink
 from up_ground.link_status import LinkState
 from up_ground.settings import Settings
+from up_ground.status_text import security_text
 from up_ground.telemetry import NAME, Telemetry
 from up_ground.token_store import TokenStore
 from up_ground.web.aircraft_source import AircraftSource
@@ -149,11 +151,12 @@ class AircraftSession(AircraftSource):
     def on_second(self) -> None:
         self.link.measure()
         self.telemetry.on_round_trip(self.link.status.round_trip_ms)
+        self.telemetry.on_clock(self.link.status.clock)
 
     def status(self, page: ClientSession) -> dict[str, Any]:
         now_s, status, telemetry = self._reactor.seconds(), self.link.status, self.telemetry
         age_s, rate_hz = telemetry.age_s(now_s), telemetry.rate_hz(now_s)
-        role = telemetry.text("ground", "role")
+        role = status.key_role or telemetry.text("ground", "role")
         return {
             "type": "status",
             "aircraft": self.name,
@@ -163,8 +166,11 @@ class AircraftSession(AircraftSource):
                 "code": status.code,
                 "since_s": round(now_s - status.since_s, 3),
                 "aircraft_online": status.is_aircraft_online,
+                "tls_peer": status.tls_peer,
                 "round_trip_ms": status.round_trip_ms,
                 "connections": status.connections,
+                "security": status.security,
+                "security_text": security_text(status),
                 "frames": telemetry.frames,
                 "lost": telemetry.lost,
                 "dropped": status.dropped,
@@ -177,7 +183,7 @@ class AircraftSession(AircraftSource):
                     {"page": each.number, "name": each.name} for each in self._subscribers.all()
                 ],
             },
-            "role": role if role in ("observer", "operator", "pilot") else None,
+            "role": role if role in ROLES else None,
             "tune_in_flight": telemetry.flag("ground", "tune_in_flight"),
             "home": self._home.position(),
         }

@@ -118,13 +118,14 @@ class CommandGate:
             reason = f"{name} needs a fresh beacon, and no telemetry was received"
             return Answer("refused", "no_beacon", reason)
         roles = cls.from_data(data).roles()
-        role = self._telemetry.text("ground", "role")
+        role = self._link.status.key_role or self._telemetry.text("ground", "role")
         given = _ROLES.get(role or "")
         if given is not None and not roles & given.includes:
+            where = "keys.yml" if self._link.status.key_role else "mission_control.yml: role"
             reason = (
                 f"{name} takes the role {least_role(roles)}, and this aircraft's link is {role}"
             )
-            return Answer("refused", "forbidden", f"{reason} (mission_control.yml: role)")
+            return Answer("refused", "forbidden", f"{reason} ({where})")
         return None
 
 

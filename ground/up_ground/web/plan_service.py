@@ -186,7 +186,8 @@ class PlanService:
             notify(answer_message(ask, answer, outcome.problems, outcome.untold, **result))
 
         def send(command: BaseCommand, id_: str) -> None:
-            beacon = self._telemetry.beacon if command.NEEDS_BEACON else None
+            needs_beacon = command.NEEDS_BEACON or self._link.status.is_keyed
+            beacon = self._telemetry.beacon if needs_beacon else None
             if command.NEEDS_BEACON and page is not self._control.holder:
                 text = "this page lost control before the aircraft used the plan"
                 on_end(PlanOutcome("no_control", text))

@@ -5,15 +5,18 @@ from __future__ import annotations
 import argparse
 import importlib
 import importlib.util
+import os
 import re
 import secrets
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 from up.cli.cli_error import UsageError
 from up.system.aircraft_name import AIRCRAFT_NAME
+from up.tls.files import TLSFiles
 from up_ground.catalogue import Catalogue
+from up_ground.key_store import KeyStore
 from up_ground.settings import Seat, Settings
 from up_ground.token_store import TokenStore, state_folder
 from up_ground.web.access import Access, machine_names
@@ -51,14 +54,20 @@ def parse_aircraft(text: str, usual: Settings) -> Settings:
         )
     host = match["host"]
     if host is None:
-        return Settings(usual.host, usual.port, match["name"], Seat.LISTEN, usual.direct)
-    return Settings(host.strip("[]"), port, match["name"], Seat.LISTEN, bool(match["direct"]))
+        return Settings(usual.host, usual.port, match["name"], Seat.LISTEN, usual.direct, usual.tls)
+    return Settings(
+        host.strip("[]"), port, match["name"], Seat.LISTEN, bool(match["direct"]), usual.tls
+    )
 
 
 def fleet_of(options: argparse.Namespace) -> list[Settings]:
     """Return the aircraft to watch; raises UsageError."""
-    usual = Settings(options.host, options.port, options.aircraft, Seat.LISTEN, options.direct)
+    usual = Settings(
+        options.host, options.port, options.aircraft, Seat.LISTEN, options.direct, options.tls
+    )
+    store = KeyStore(state_folder(os.environ))
     chosen = [parse_aircraft(text, usual) for text in options.fleet or [options.aircraft]]
+    chosen = [replace(each, pairing=store.get(each.aircraft)) for each in chosen]
     names = [each.aircraft for each in chosen]
     for name in names:
         if names.count(name) > 1:
@@ -76,6 +85,7 @@ class PageOptions:
     access: Access
     make_tiles: MakeTiles | None
     attribution: str
+    https: TLSFiles | None = None
 
     @classmethod
     def of(cls, options: argparse.Namespace, environ: Mapping[str, str]) -> PageOptions:
@@ -95,7 +105,11 @@ class PageOptions:
         # On loopback a key is needed only if one is given.
         key = options.key or (None if listen.is_loopback else secrets.token_urlsafe(12))
         access = Access(machine_names(options.name or ()), key, options.watch_only)
-        return cls(listen, access, _tiles_of(options.tiles, environ), options.attribution)
+        https = None if options.https is None else TLSFiles(options.https)
+        if https is not None:
+            https.server(clients=False)
+        tiles = _tiles_of(options.tiles, environ)
+        return cls(listen, access, tiles, options.attribution, https)
 
     def server(self, reactor: Any, make_sources: Any, **more: Any) -> Any:
         server = importlib.import_module("up_ground.web.server")
@@ -107,6 +121,7 @@ class PageOptions:
             make_sources,
             tiles=tiles,
             attribution=self.attribution,
+            https=self.https,
             **more,
         )
 

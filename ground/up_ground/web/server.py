@@ -9,6 +9,8 @@ from typing import TYPE_CHECKING, Any
 from twisted.internet.error import CannotListenError
 
 from up.cli.option_parser import EXIT_OK
+from up.tls.files import TLSFiles
+from up.tls.protocol import TLSServerFactory
 from up_ground.catalogue import Catalogue, catalogue_message
 from up_ground.one_shot_task import EXIT_NO_ANSWER, OneShotTask
 from up_ground.web.access import Access
@@ -43,6 +45,7 @@ class Server(OneShotTask):
         catalogue: Catalogue | None = None,
         is_replay: bool = False,
         folder: Path = STATIC,
+        https: TLSFiles | None = None,
     ) -> None:
         super().__init__()
         told = None
@@ -60,7 +63,10 @@ class Server(OneShotTask):
         link = link_resource(reactor, self.pages)
         files = StaticFiles(folder)
         resource = GroundResource(access, files, link, tiles)
-        self._factory = Connections(reactor, make_site(reactor, resource))
+        self._factory: Any = Connections(reactor, make_site(reactor, resource))
+        self._is_https = https is not None
+        if https is not None:
+            self._factory = TLSServerFactory(reactor, https, self._factory, clients=False)
         self._port: Any = None
 
     def start(self) -> None:
@@ -99,7 +105,7 @@ class Server(OneShotTask):
         for aircraft in self.pages.fleet.values():
             self.echo(f"  {aircraft.summary}", "aircraft", name=aircraft.name)
         key = None if self._access.is_watch_only else self._access.key
-        urls = self._listen.urls(port, key)
+        urls = self._listen.urls(port, key, "https" if self._is_https else "http")
         self.echo(f"open {urls[0]}", "page_open", url=urls[0])
         for url in urls[1:]:
             self.echo(f"  or {url}", "page_address", url=url)

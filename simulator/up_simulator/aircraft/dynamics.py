@@ -84,6 +84,7 @@ class FlightDynamics:
         self.crash: str | None = None
         self.motor_works = True
         self.is_thrown = False
+        self.is_landed = False
         self._may_land = may_land
         self._run: GroundRun | None = None
         self._seed = seed
@@ -164,9 +165,9 @@ class FlightDynamics:
         self._air.apply(self._steps * self.STEP_S - self._launched_s)
         self._motion = None
         if self._run is not None:
-            if self._is_landed or self.is_thrown:
+            if self.is_landed or self.is_thrown:
                 self._run.advance(self.STEP_S)
-            if self._is_landed or not self._run.is_over:
+            if self.is_landed or not self._run.is_over:
                 return
             self._run = None
         try:
@@ -212,7 +213,7 @@ class FlightDynamics:
             self._motor.spin_up(start.throttle, self._read_airspeed() * FOOT_M)
             self._set_thrust(self._motor.thrust_n * _NEWTON_LBS)
         self._air = Air(self._fdm, self.weather)
-        self._is_landed = False
+        self.is_landed = False
         self._run = None
         if start.throw_m_s is not None:
             self._run = GroundRun.in_the_hand(self._read_state(), start.throw_m_s)
@@ -257,7 +258,7 @@ class FlightDynamics:
         if height_m > 0.1 and abs(load_g) <= self.airframe.limits.break_g:
             return
         if height_m <= 0.1 and self._may_land and is_soft(self._read_state()):
-            self._is_landed = True
+            self.is_landed = True
             self._run = GroundRun.on_the_ground(self._read_state())
             return
         time_s = self.time_s - self._launched_s

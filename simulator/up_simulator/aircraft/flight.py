@@ -102,6 +102,10 @@ class FlightSource(Dynamics, Protocol):
     def servos(self) -> Servos:
         """Return the present servo positions, us, which lag behind the commanded ones."""
 
+    @property
+    def is_landed(self) -> bool:
+        """Return whether it has touched down; it then slides and rests."""
+
     def change_battery(self) -> None:
         """Put a full battery in."""
 

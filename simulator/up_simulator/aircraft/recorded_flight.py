@@ -73,6 +73,10 @@ class RecordedFlight:
         return None
 
     @property
+    def is_landed(self) -> bool:
+        return False
+
+    @property
     def motion(self) -> Motion:
         state = self._state
         rates = (state.roll_rate_deg_s, state.pitch_rate_deg_s, state.yaw_rate_deg_s)

@@ -8,8 +8,15 @@ from pathlib import Path
 import yaml
 
 from up_simulator.aircraft import Airframe
+from up_simulator.aircraft.start import GROUND_M, START_LATITUDE_DEG, START_LONGITUDE_DEG
 from up_simulator.harness.ports import Ports
 
+HOME = {
+    "latitude_deg": START_LATITUDE_DEG,
+    "longitude_deg": START_LONGITUDE_DEG,
+    "altitude_m": GROUND_M,
+    "radius_m": None,
+}
 FLIGHTS = "flights"
 """Where, in the folder of a run, the black box writes."""
 
@@ -22,11 +29,13 @@ def write_config(
     controller: str,
     airframe: Airframe,
     uplink_port: int = 0,
+    is_at_start: bool = True,
 ) -> None:
     """Write the files of a run; gains that an earlier run of the same airframe saved stay.
 
     ``controller`` (arduino or raspberry) holds the attitude: nothing else differs. The aircraft
-    finds the proxy at ``uplink_port`` if a bad link lies between them.
+    finds the proxy at ``uplink_port`` if a bad link lies between them. ``is_at_start``: it is
+    launched above the simulator's usual place, whose ground is home.
     """
     folder.mkdir(parents=True, exist_ok=True)
     files = {
@@ -50,8 +59,12 @@ def write_config(
             f"metrics port: {ports.metrics}\n"
         ),
     }
-    # This flight is another one than that of which an earlier run kept home and flight mode.
-    (folder / "flight_state.yml").unlink(missing_ok=True)
+    # This flight is another one than that of which an earlier run kept home and flight mode. It
+    # begins in the air, where the daemon resumes it: home is on the ground, as after an arming.
+    for name in ("flight_state.yml", "flight_state.yml.good"):
+        (folder / name).unlink(missing_ok=True)
+    if is_at_start:
+        files["flight_state.yml"] = yaml.safe_dump({"mode": "", "home": HOME})
     for name, text in files.items():
         head = "# Written by 'make run', at every start.\n"
         (folder / name).write_text(head + text, encoding="utf-8")

@@ -26,7 +26,7 @@ READING_TIME_S = 8
 POLL_PERIOD_S = 0.1
 UNPRINTED = ("board_ready", "board_mode", "late")
 """Codes of the aircraft's start that are not printed."""
-NEWS = ("crashed", "relaunched", "battery_changed", "phone_lost", "late")
+NEWS = ("crashed", "landed", "relaunched", "battery_changed", "phone_lost", "late")
 """Codes of the aircraft's lines that are printed immediately in flight."""
 RESTORE_SCREEN = "\x1b[0m\x1b[?25h\x1b[?1049l"
 """Leaves the alternate screen and shows the cursor, for a screen that could not do so itself."""
@@ -173,6 +173,7 @@ class DemoFlight:
             controller=self._options.controller,
             airframe=self._airframe,
             uplink_port=self._ports.uplink if self._options.link else 0,
+            is_at_start=not self._options.replay,
         )
 
     def _start_daemon(self, *, resumes: bool = False) -> Child:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 
 from up_simulator.aircraft import Start
@@ -14,6 +15,8 @@ from up_simulator.radio.choice import is_initially_armed
 from up_simulator.radio.sticks import Radio
 
 RELAUNCH_DELAY_S = 3.0
+LANDED_DELAY_S = 20.0
+"""Enough for the aircraft to notice that it stands, after 10 s, and for the user to see it."""
 MIN_BATTERY_PERCENT = 12.0
 BATTERY_PERIOD_S = 1.0
 
@@ -22,8 +25,9 @@ class FirmwareAircraft:
     """A world with its radio; ``radio_name`` decides whether the pilot arms on the ground.
 
     A crash is reported, and 3 s later the aircraft is in the air again with a freshly powered
-    board. A nearly empty battery is replaced in flight, with a report: it would end every long
-    session. ``describe_pilot`` returns the mode and the owner of the sticks for the crash report.
+    board; after a landing it stands for 20 s before. A nearly empty battery is replaced in flight,
+    with a report: it would end every long session. ``describe_pilot`` returns the mode and the
+    owner of the sticks for the reports.
     Raises ``BoardCrashedError``.
     """
 
@@ -42,10 +46,10 @@ class FirmwareAircraft:
         self._clock = clock
         self._log = log
         self._arms = is_initially_armed(radio_name)
-        self._crashed_s: float | None = None
+        self._ended_s: float | None = None
         self._battery_s = 0.0
         self._describe_pilot = describe_pilot
-        self._cause = ""
+        self._end = ""
         world = World(flight, board)
         world.boot(arms=self._arms)
         self.real_time = RealTimeWorld(world, line, radio, clock, log)
@@ -53,19 +57,33 @@ class FirmwareAircraft:
     def advance(self) -> None:
         """Fly until now. Raises ``BoardCrashedError``."""
         self.real_time.advance()
-        if self._flight.crash is None:
+        flight, now_s = self._flight, self._clock.seconds()
+        if flight.crash is None and not flight.is_landed:
             self._watch_battery()
-            return
-        now_s = self._clock.seconds()
-        if self._crashed_s is None:
-            self._crashed_s = now_s
-            self._cause = f" ({self._describe_pilot()})" if self._describe_pilot() else ""
-            text = f"{self._flight.crash}{self._cause}; relaunch in {RELAUNCH_DELAY_S:.0f} s"
-            self._log(text, code="crashed", crash=self._flight.crash)
-        elif now_s - self._crashed_s >= RELAUNCH_DELAY_S:
-            self._crashed_s = None
+        elif self._ended_s is None:
+            self._ended_s = now_s
+            self._report_end()
+        elif now_s - self._ended_s >= self._delay_s:
+            self._ended_s = None
             self.real_time.relaunch(self._launch)
-            self._log(f"relaunched in the air after the crash{self._cause}", code="relaunched")
+            self._log(f"relaunched in the air after the {self._end}", code="relaunched")
+
+    @property
+    def _delay_s(self) -> float:
+        return LANDED_DELAY_S if self._flight.is_landed else RELAUNCH_DELAY_S
+
+    def _report_end(self) -> None:
+        flight, pilot = self._flight, self._describe_pilot()
+        self._end = "landing" if flight.is_landed else f"crash{pilot and f' ({pilot})'}"
+        again = f"relaunch in {self._delay_s:.0f} s"
+        if flight.is_landed:
+            state = flight.state
+            away_m = math.hypot(state.north_m, state.east_m)
+            text = f"landed {away_m:.0f} m from the launch{pilot and f' ({pilot})'}; {again}"
+            self._log(text, code="landed", distance_m=round(away_m, 1))
+        else:
+            text = f"{flight.crash}{pilot and f' ({pilot})'}; {again}"
+            self._log(text, code="crashed", crash=flight.crash)
 
     def _watch_battery(self) -> None:
         # Reading the whole state costs more than a step of the flight.

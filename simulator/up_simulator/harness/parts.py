@@ -32,7 +32,7 @@ def make_flight(options: argparse.Namespace, airframe: Airframe, log: Log) -> Fl
         return read_recording(options.replay)
     weather = Weather(wind_m_s=options.wind, turbulence=options.turbulence)
     try:
-        flight = FlightDynamics(airframe, Start(), weather, options.seed)
+        flight = FlightDynamics(airframe, Start(), weather, options.seed, may_land=True)
     except FlightUnavailableError as error:
         text = f"{error}: flying a recorded flight, the servos have no effect"
         log(text, code="flight_selected", source="recording", reason=str(error))

@@ -8,7 +8,7 @@ from typing import Protocol
 from up_simulator.aircraft.flight import Clock, FlightSource
 from up_simulator.harness.user_log import Log, no_log
 from up_simulator.harness.world import BYTES_A_STEP, STEP_S, World
-from up_simulator.radio.sticks import Radio, Sticks, Transmitter
+from up_simulator.radio.sticks import SWITCH_US, Radio, Sticks, Transmitter
 
 MAX_LATE_S = 0.25
 REPORT_PERIOD_S = 60.0
@@ -127,9 +127,10 @@ class RealTimeWorld:
     def relaunch(self, boot: Callable[[World], None]) -> None:
         """Let ``boot`` put the aircraft back into the air; its duration does not count as delay.
 
-        Before it the sticks are in the positions for power-on.
+        Before it the sticks are in the positions for power-on, and the mode switch is not at AUTO,
+        which ends the flight mode that the last flight had.
         """
-        self._transmitter.send(Sticks())
+        self._transmitter.send(Sticks(aux1=SWITCH_US["FBW"]))
         boot(self.world)
         # Booting may have moved the switches.
         self._transmitter = Transmitter(self.world.board)

@@ -36,6 +36,8 @@ NEAR_M, LOW_M = 200.0, 25.0
 TURBULENCE = ("none", "light", "moderate")
 MAX_WIND_M_S = 8.0
 GALE = 1.1
+GPS_WITHIN_S, GPS_LASTS_S = 10.0, 10.0
+"""A second failure begins so soon after the first one, and lasts so long at most."""
 THOROUGH = 500
 
 
@@ -144,11 +146,11 @@ def limits_of(case: Case, setup: Setup) -> Limits:
         setup.stall_m_s,
         fail_s,
         deadline_s,
-        max(deadline_s, over_s + row.order_s) + TURN_S,
+        max(deadline_s, _order_s(case) if fail_s == FAIL_S else over_s + row.order_s) + TURN_S,
         trigger,
         demanded["action"],
         tuple(order[: order.index(trigger)]) if trigger else (),
-        fence["radius_m"],
+        None if fence["radius_m"] is None else fence["radius_m"] + _blind_m(case),
         fence["ceiling_m"],
         fence["floor_m"],
         # The Arduino's own circle, where the owner wants it, ends on the ground.
@@ -157,6 +159,22 @@ def limits_of(case: Case, setup: Setup) -> Limits:
         arrived_m=3 * setup.value("return.yml", "radius_m"),
         circle_m=2 * setup.value("loiter.yml", "radius_m") if case.point == "turn" else 0.0,
     )
+
+
+def _order_s(case: Case) -> float:
+    """Return when the ground commands RETURN: a position is known again."""
+    row = row_of(case.row)
+    over_s = FAIL_S + (row.lasts_s or 0.0)
+    if case.gps:
+        over_s = max(over_s, FAIL_S + GPS_WITHIN_S + GPS_LASTS_S)
+    return over_s + row.order_s
+
+
+def _blind_m(case: Case) -> float:
+    """Return how far the wind drifts a circle that is flown without a position."""
+    row = row_of(case.row)
+    is_blind = not row.begin.keys().isdisjoint(("gps", "phone"))
+    return case.wind_m_s * ((row.lasts_s or 0.0) if is_blind else GPS_LASTS_S if case.gps else 0.0)
 
 
 def _approach_s(row: Row, setup: Setup) -> float:
@@ -216,12 +234,12 @@ def scenario_of(case: Case, setup: Setup) -> Scenario:
         if row.end:
             events.append(Event(limits.fail_s + (row.lasts_s or 0.0), name="end", **row.end))
         if not row.trigger and point.mode != "RETURN":
-            events.append(_mode(limits.fail_s + (row.lasts_s or 0.0) + row.order_s, "RETURN"))
+            events.append(_mode(_order_s(case), "RETURN"))
     if case.gps:
         draw = random.Random(f"gps {case.seed}")
-        begin_s = FAIL_S + draw.uniform(0.0, 10.0)
+        begin_s = FAIL_S + draw.uniform(0.0, GPS_WITHIN_S)
         events.append(Event(begin_s, gps=case.gps))  # type: ignore[arg-type]
-        events.append(Event(begin_s + draw.uniform(2.0, 10.0), gps="back"))
+        events.append(Event(begin_s + draw.uniform(2.0, GPS_LASTS_S), gps="back"))
     sticks = [StickPoint(at_s=0.0, mode="FBW" if by_sticks else "AUTO", arm=True, throttle=0.55)]
     if by_sticks and point.climbs:
         sticks.append(StickPoint(at_s=1.0, over_s=1.0, elevator=0.3, throttle=0.85))

@@ -24,8 +24,11 @@ function listen() {
   };
 }
 
-/** One element of each of the parts that draw themselves. */
+/** One element of each of the parts that draw themselves; one that comes later moves what is below it. */
 const PARTS = [
+  "#turn > *",
+  "#compass > *",
+  ...["navigation", "sticks", "servos", "battery", "board", "link", "readings"].map((id) => `#${id} > h3 + *`),
   "#horizon-ball",
   '[data-key="altitude"]',
   '[data-key="flight_mode"]',

@@ -41,7 +41,9 @@ class Plans:
             sent = self._rig.ground.sent
             count = len(sent)
             got = self._rig.outcome(cls.from_data(message["data"]))
-            self._rig.settle()
+            # The disk's answer reaches the reactor after the disk is done.
+            while not got:
+                self._rig.settle()
             said = [(each.NAME, each.data) for each in sent[count:]]
             if got == [None]:
                 return [*said, ("up.ack", {"id": message["id"]})]

@@ -12,8 +12,9 @@ from up.life_cycle import LifeCycle
 class Aircraft:
     """Built, started, and stopped again; ``heard`` has the published Commands of chosen types."""
 
-    def __init__(self, folder, port=None, text="", host="127.0.0.1", modules=()):
-        server = "" if port is None else f"remote_server: {{url: {host}, port: {port}}}\n"
+    def __init__(self, folder, port=None, text="", host="127.0.0.1", modules=(), security="auto"):
+        peer = f"url: {host}, port: {port}, security: {security}"
+        server = "" if port is None else f"remote_server: {{{peer}}}\n"
         config = {"mission_control.yml": server + text}
         mine = (MissionControlProvider, GroundListener)
         self.up = build_up((*mine, *modules), reactor, folder, config=config)

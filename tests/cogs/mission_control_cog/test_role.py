@@ -17,7 +17,7 @@ def arm(tmp_path, text):
     async def fly():
         server = Server(reactor)
         port = await server.open()
-        async with Aircraft(tmp_path, port, text) as a:
+        async with Aircraft(tmp_path, port, text, security="accept") as a:
             a.listen_to(ArmCommand)
             peer = await accepted(server)
             (frame, *_) = await until(lambda: peer.named("up.telemetry.update"))
@@ -54,7 +54,7 @@ def test_the_role_is_checked_at_every_connection(tmp_path, monkeypatch):
     async def fly():
         server = Server(reactor)
         port = await server.open()
-        async with Aircraft(tmp_path, port, "role: pilot\n") as a:
+        async with Aircraft(tmp_path, port, "role: pilot\n", security="accept") as a:
             a.listen_to(ArmCommand)
             codes = []
             for index, private in enumerate((False, True, False)):
@@ -86,7 +86,8 @@ def test_telemetry_reports_the_granted_role(tmp_path, monkeypatch, text, private
     async def fly():
         server = Server(reactor)
         port = await server.open()
-        async with Aircraft(tmp_path, port, text + "tune_in_flight: true\n"):
+        tuning = text + "tune_in_flight: true\n"
+        async with Aircraft(tmp_path, port, tuning, security="accept"):
             peer = await accepted(server)
             (frame, *_) = await until(lambda: peer.named("up.telemetry.update"))
         await server.close()

@@ -187,6 +187,7 @@ def test_the_result_of_sending_a_command_to_the_ground(tmp_path):
             "unsent": 1,
             "telemetry_faults": 0,
             "too_many": 0,
+            "protected": {},
         }
 
 

@@ -99,6 +99,12 @@ def test_the_switch_ends_it_and_the_same_failure_does_not_act_again(rig):
     assert rig.seen() == (["uplink_lost"], None, None)
 
 
+def test_telemetry_has_the_limits_that_are_set(tmp_path):
+    rig = FailsafeRig(tmp_path, "fence: {radius_m: 500, floor_m: -20}\n")
+    limits = rig.failsafes.telemetry_content["fence"]
+    assert limits == {"margin": None, "radius": 500.0, "floor": -20.0}
+
+
 def test_in_flight_neither_a_target_nor_home_may_be_outside_the_fence(tmp_path):
     rig = FailsafeRig(tmp_path, modules=(Plans,))
     rig.take_off()

@@ -3,6 +3,8 @@ import signal
 import pytest
 import yaml
 
+from raspilot.flight_controller.flight_memory import MEMORY, Place
+from up.config import PersistedFile
 from up_simulator.aircraft import load_airframe
 from up_simulator.demo.config import write_config
 from up_simulator.demo.main import main
@@ -29,6 +31,16 @@ def test_saved_gains_replace_the_airframes(tmp_path):
     (tmp_path / "pids.yml").write_text("tuned")
     write(tmp_path)
     assert (tmp_path / "pids.yml").read_text() == "tuned"
+
+
+def test_home_is_the_ground_below_the_launch(tmp_path):
+    write(tmp_path)
+    memory = PersistedFile(tmp_path / MEMORY.filename, MEMORY)
+    values, problem = memory.load()
+    assert (values.mode, values.home, problem) == ("", Place(50.0, 14.5, 250.0), None)
+    memory.save(values)
+    write(tmp_path, is_at_start=False)
+    assert memory.load() == (MEMORY.cls(), None), "a recorded flight is elsewhere"
 
 
 def test_another_airframe_begins_with_its_own_gains(tmp_path):

@@ -7,7 +7,11 @@ from up_rig.pty_line import PtyLine
 from up_rig.sticks import read_sticks
 from up_simulator.aircraft import FlightDynamics, Start, load_airframe
 from up_simulator.firmware.direct_board import DirectBoard
-from up_simulator.harness.firmware_aircraft import MIN_BATTERY_PERCENT, FirmwareAircraft
+from up_simulator.harness.firmware_aircraft import (
+    LANDED_DELAY_S,
+    MIN_BATTERY_PERCENT,
+    FirmwareAircraft,
+)
 from up_simulator.radio.choice import ScriptedRadio
 
 DIVES = "t=0 elevator=1350 throttle=1000"
@@ -18,7 +22,7 @@ class Flown:
 
     def __init__(self, script, **start):
         self.clock, self.logged, self.line = Clock(), [], PtyLine()
-        self.flight = FlightDynamics(load_airframe("glider"), Start(**start))
+        self.flight = FlightDynamics(load_airframe("glider"), Start(**start), may_land=True)
         radio = ScriptedRadio(read_sticks(script))
         self.aircraft = FirmwareAircraft(
             self.flight, DirectBoard(), self.line, radio, self.clock, "script", self.log,
@@ -58,6 +62,23 @@ def test_a_crashed_aircraft_is_relaunched(fly):
     flown.run(1.0)
     assert flown.logged[1][0] == "relaunched"
     assert flown.flight.crash is None
+    assert flown.flight.state.height_m > 100
+
+
+def test_a_landed_aircraft_stands_before_the_flight_begins_again(fly):
+    flown = fly("t=0 throttle=1000", height_m=1.0)
+    flown.run(10.0, until=lambda: flown.logged)
+    ((code, fields),) = flown.logged
+    assert (code, flown.flight.crash) == ("landed", None)
+    assert 5.0 < fields["distance_m"] < 100.0
+    flown.run(LANDED_DELAY_S - 0.5)
+    assert len(flown.logged) == 1
+    assert (flown.flight.state.height_m, flown.flight.state.speed_m_s) == (
+        pytest.approx(0, abs=0.2),
+        0,
+    )
+    flown.run(1.0)
+    assert [each for each, _ in flown.logged] == ["landed", "relaunched"]
     assert flown.flight.state.height_m > 100
 
 

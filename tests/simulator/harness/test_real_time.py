@@ -13,14 +13,21 @@ from up_simulator.harness.real_time import RealTimeFlight, RealTimeWorld
 from up_simulator.harness.user_log import LogLine
 from up_simulator.harness.world import World
 from up_simulator.radio.choice import ScriptedRadio
+from up_simulator.radio.sticks import SWITCH_US
 
 
 class EchoBoard(DirectBoard):
-    """A board that echoes its input, and records the times of reception."""
+    """A board that echoes its input, and records the times of reception, and its switches."""
 
     def __init__(self):
         super().__init__(seed=1)
         self.received = []
+        self.switched = []
+
+    def set_stick(self, channel, width_us):
+        super().set_stick(channel, width_us)
+        if channel == "aux1":
+            self.switched.append(width_us)
 
     def write(self, data):
         self.received.append((self.now_us, data))
@@ -117,14 +124,17 @@ def test_bytes_pass_both_ways_at_the_baud_rate(flown):
     os.close(file)
 
 
-def test_a_relaunch_does_not_count_as_a_delay(flown):
+def test_a_relaunch_does_not_count_as_a_delay_and_ends_the_flight_mode_by_the_switch(flown):
     flown.run(1.0)
+    flown.board.switched.clear()
 
     def boot(world):
         flown.clock.advance(5.0)
 
     flown.made.relaunch(boot)
+    assert flown.board.switched == [SWITCH_US["FBW"]]
     flown.run(1.0)
+    assert flown.board.switched[1:] == [SWITCH_US["AUTO"]]
     assert flown.time_s == pytest.approx(2.0)
     assert flown.logged == []
 

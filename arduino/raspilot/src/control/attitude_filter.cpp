@@ -327,7 +327,8 @@ uint16_t AttitudeFilter::age_ms() const {
 bool AttitudeFilter::has_searched_long() const { return searched_slots_ == SEARCH_SLOTS; }
 
 AttitudeState AttitudeFilter::state() const {
-  AttitudeState state = state_;
+  AttitudeState state;
+  static_cast<AttitudeFound&>(state) = state_;
   state.speed_m_s = tilt_.speed_m_s();
   return state;
 }

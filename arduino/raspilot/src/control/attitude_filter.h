@@ -11,15 +11,19 @@
 
 namespace raspilot {
 
-/** What the filter has found, as it keeps it and as it survives a reset. */
-struct AttitudeState {
+/** What the filter has found. */
+struct AttitudeFound {
   int32_t gravity_q30[3];  // direction of down in body axes
   int32_t bias_q36[3];     // of the gyro, rad per slot
   uint32_t yaw;            // a full circle is 2^32
-  float speed_m_s;         // the airspeed that turns have shown
   bool has_bias : 1;          // measured at some time: since power-on, or kept in EEPROM
   bool has_own_bias : 1;      // measured since power-on
   bool has_ended_search : 1;  // for a still second
+};
+
+/** It as it survives a reset. */
+struct AttitudeState : AttitudeFound {
+  float speed_m_s;  // the airspeed that turns have shown
 };
 
 /**
@@ -49,7 +53,7 @@ struct AttitudeMemory {
   Attitude attitude_;
   int16_t measured_[3];   // four samples of the accelerometer as down, Q13 of 1 g
   int16_t remainder_[3];  // of the angle of a slot, rad Q32
-  AttitudeState state_;
+  AttitudeFound state_;
   Level level_;
   Stillness stillness_;
   TiltFilter tilt_;

@@ -28,8 +28,7 @@ constexpr int16_t CDEG_TO_16THS = 5243;
 constexpr int32_t RATE_LIMIT = 400L << 14;
 constexpr int32_t UNIT_TO_UPPER_HALF = 10;
 // Angles are in 2^-7, so a Stabilize PID answers in 2^-17 of a deg/s: 2^13 make a sixteenth.
-constexpr int32_t ROLL_RATE_LIMIT = static_cast<int32_t>(ROLL_RATE_LIMIT_DEG_S) << 17;
-constexpr int32_t PITCH_RATE_LIMIT = static_cast<int32_t>(PITCH_RATE_LIMIT_DEG_S) << 17;
+constexpr int32_t RATE_TO_LIMIT = 1L << 17;
 constexpr int32_t RATE_TO_UPPER_HALF = 8;
 // 128 / 100 in Q14.
 constexpr int16_t CDEG_TO_128THS = 20972;
@@ -47,12 +46,12 @@ OUT_OF_LINE int16_t deflection_q15(Ticks stick) {
   return times_q14(static_cast<int16_t>(ticks * 32), STICK_TO_Q15);
 }
 
-/** The shorter way from an angle to another. */
+/** The shorter way from an angle to one of at most 90 degrees. */
 int16_t shorter_way_cdeg(int16_t to, int16_t from) {
-  const int32_t way = static_cast<int32_t>(to) - from;
+  const int16_t way = static_cast<int16_t>(to - from);
   if (way > HALF_CIRCLE_CDEG) return static_cast<int16_t>(way - CIRCLE_CDEG);
   if (way < -HALF_CIRCLE_CDEG) return static_cast<int16_t>(way + CIRCLE_CDEG);
-  return static_cast<int16_t>(way);
+  return way;
 }
 
 int16_t to_128ths(int16_t cdeg) { return times_q14(cdeg, CDEG_TO_128THS); }
@@ -168,8 +167,10 @@ int16_t FlightController::wanted_rate_16(Channel channel, const Demand& demand,
   const int16_t wanted_cdeg = wanted_angle_cdeg(channel, demand);
   const int16_t angle_cdeg = is_roll ? attitude.roll_cdeg : attitude.pitch_cdeg;
   const int16_t error = to_128ths(shorter_way_cdeg(wanted_cdeg, angle_cdeg));
-  const int32_t rate = stabilize_[channel].update(error, to_128ths(angle_cdeg),
-                                                  is_roll ? ROLL_RATE_LIMIT : PITCH_RATE_LIMIT);
+  int16_t limit_deg_s = is_roll ? ROLL_RATE_LIMIT_DEG_S : PITCH_RATE_LIMIT_DEG_S;
+  if (is_roll && attitude.cos_roll <= 0) limit_deg_s = INVERTED_ROLL_RATE_LIMIT_DEG_S;
+  const int32_t rate =
+      stabilize_[channel].update(error, to_128ths(angle_cdeg), limit_deg_s * RATE_TO_LIMIT);
   return upper_half(rate * RATE_TO_UPPER_HALF);
 }
 

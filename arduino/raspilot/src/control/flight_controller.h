@@ -15,6 +15,8 @@ constexpr int16_t PITCH_STICK_DEG_S = 90;
 /** The fastest rotations that an angle demands, deg/s, as in the Raspberry Pi's controller. */
 constexpr int16_t ROLL_RATE_LIMIT_DEG_S = 120;
 constexpr int16_t PITCH_RATE_LIMIT_DEG_S = 80;
+/** The same of roll beyond 90 degrees of bank, where height is lost until the ailerons are done. */
+constexpr int16_t INVERTED_ROLL_RATE_LIMIT_DEG_S = 225;
 
 /** The controller's demand in this slot. */
 struct Demand {

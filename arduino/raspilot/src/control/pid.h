@@ -21,7 +21,7 @@ class Pid {
   void tune(const PidGains& gains);
   /** Clears the state, which means nothing after a pause. */
   void reset();
-  /** `limit` is at most 2^24. */
+  /** `limit` is at most 3e7: the integral and its greatest step fit in 32 bits. */
   int32_t update(int16_t error, int16_t measured, int32_t limit);
 
  private:

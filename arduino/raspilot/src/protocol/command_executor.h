@@ -1,6 +1,6 @@
 /**
- * The register of Commands and their handlers (thesis 3.1.2, 4.4.2). A file in commands/ fills in a
- * table and a CommandGroup beside it; nothing else names it.
+ * The register of Commands and their handlers (thesis 3.1.2, 4.4.2). A file in commands/ has a
+ * REGISTERED table; nothing else names it.
  */
 #pragma once
 
@@ -31,7 +31,7 @@ typedef Reason (*Handler)(Autopilot& autopilot, const Request& request);
  */
 enum class Answer : uint8_t { CONFIRMED, UNANSWERED, OWN };
 
-/** Description of a Command's type; tables of these lie in flash (PROGMEM). */
+/** Description of a Command's type. */
 struct CommandDefinition {
   char type;
   uint8_t size;
@@ -39,27 +39,12 @@ struct CommandDefinition {
   Handler handler;
 };
 
-/** A table of Commands that enters the register when the firmware starts. */
-class CommandGroup {
- public:
-  template <size_t N>
-  explicit CommandGroup(const CommandDefinition (&table)[N]) {
-    enter(table, static_cast<uint8_t>(N));
-  }
-  CommandGroup(const CommandGroup&) = delete;
-  CommandGroup& operator=(const CommandGroup&) = delete;
-
- private:
-  friend class CommandExecutor;
-
-  void enter(const CommandDefinition* table, uint8_t count);
-
-  static CommandGroup* first_;
-
-  const CommandDefinition* table_;
-  CommandGroup* next_;
-  uint8_t count_;
-};
+/**
+ * Enters a table of CommandDefinition into the register: the linker puts all of them one after the
+ * other, into flash. Their own alignment leaves no gap between them.
+ */
+#define REGISTERED \
+  __attribute__((section("raspilot_commands"), used, aligned(alignof(CommandDefinition))))
 
 class CommandExecutor {
  public:

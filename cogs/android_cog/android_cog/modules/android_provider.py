@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from typing import Any, ClassVar
 
 from android_cog.config import ANDROID
@@ -26,6 +26,7 @@ from up.mode import Mode
 from up.protocols.general_message import GeneralMessage, MalformedMessage, encode
 from up.protocols.general_message_link import GeneralMessageLink
 from up.protocols.orientation_forward import OrientationFrame
+from up.system.addresses import stays_here
 from up.system.clock import Timer
 from up.system.peer_filter import PeerFilter
 
@@ -47,6 +48,11 @@ class AndroidProvider(BaseStartedModule):
 
     CONFIG = ANDROID
     DATA_SOURCE: ClassVar[bool] = True
+
+    def plain_links(self) -> Iterable[tuple[str, str]]:
+        """Yield the phone's ports: its sensors have no key."""
+        if not stays_here(self.config.address):
+            yield "address", "phones on this network send sensor data unprotected"
 
     def on_init(self) -> None:
         clock = self.context.reactor

@@ -2,25 +2,28 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from typing import Any
 
 from twisted.internet.error import CannotListenError
 
-from mission_control_cog.config import MISSION_CONTROL, aircraft_name
+from mission_control_cog.config import MISSION_CONTROL, aircraft_name, security_of
 from mission_control_cog.grounds import Grounds
 from mission_control_cog.modules.mission_control_provider import (
     PLAIN_KEY,
     ROLE_KEY,
+    UNPROTECTED,
     MissionControlProvider,
 )
 from up.base_started_module import BaseStartedModule, StartFailedError
 from up.commands.command_link import CommandLink
+from up.commands.refusal import Code
 from up.commands.roles import Role
 from up.commands.system_commands import LinkStateCommand
 from up.log.limits import Limited
 from up.needs import needs
 from up.protocols.general_message import GeneralMessage, MalformedMessage
+from up.system.addresses import stays_here
 from up.system.peer_filter import PeerFilter
 
 LINK = "ground"
@@ -42,7 +45,9 @@ class GroundListener(BaseStartedModule):
 
     def on_init(self) -> None:
         config = self.config
-        self._peers = PeerFilter(config.i_accept_plain, PLAIN_KEY)
+        self._security = security_of(config.listener.security, False, config.i_accept_plain)
+        requires = self._security == "require"
+        self._peers = PeerFilter(config.i_accept_plain or requires, PLAIN_KEY)
         self._grounds = Grounds(
             self.context.reactor,
             self._peers,
@@ -51,12 +56,20 @@ class GroundListener(BaseStartedModule):
             on_message=self._on_message,
             on_malformed=self._on_malformed,
             on_owner=self._on_owner,
+            on_binary=None if self._security == "off" else self._on_binary,
+            requires_protection=requires,
             random=self.context.random,
         )
         self._port: Any = None
         self._has_owner = False
         self._limited = Limited(self.context.reactor, _LOG_INTERVAL_S)
         self.mission_control.add_outlet(self._grounds)
+
+    def plain_links(self) -> Iterable[tuple[str, str]]:
+        """Yield the listener, unless it requires protection."""
+        listener = self.config.listener
+        if listener.security != "require" and not stays_here(listener.address):
+            yield "listener.security", "ground stations on this network may send plain Commands"
 
     @property
     def telemetry_content(self) -> Mapping[str, Any]:
@@ -99,7 +112,13 @@ class GroundListener(BaseStartedModule):
         )
 
     def _on_message(self, message: GeneralMessage, link: CommandLink) -> None:
-        self.up.command_receiver.receive(message, link)
+        if self._grounds.requires_protection:
+            self.up.command_receiver.refuse(link, message, Code.UNPROTECTED, UNPROTECTED)
+        else:
+            self.up.command_receiver.receive(message, link)
+
+    def _on_binary(self, line: bytes, send: Any, refusal: str) -> None:
+        self.mission_control.protection.receive(line, LINK, send, refusal)
 
     def _on_malformed(self, fault: MalformedMessage, link: CommandLink) -> None:
         self.up.command_receiver.receive_malformed(fault, link)

@@ -2,27 +2,40 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import os
+from collections.abc import Iterable, Mapping
+from functools import partial
+from pathlib import Path
 from typing import Any, Protocol
 
-from mission_control_cog.config import MISSION_CONTROL, aircraft_name
+from mission_control_cog.audit_log import AuditLog
+from mission_control_cog.config import MISSION_CONTROL, aircraft_name, security_of
 from mission_control_cog.data_budget import DataBudget
+from mission_control_cog.key_ring import KeyRing
+from mission_control_cog.protection import Protection
 from mission_control_cog.thinning import Thinning
 from mission_control_cog.tuning_policy import TuningPolicy
 from mission_control_cog.uplink import Uplink
+from up.commands.answer_commands import CommandAnsweredCommand
 from up.commands.flight_state_command import FlightStateCommand
 from up.commands.origin import Origin
+from up.commands.refusal import Code
 from up.commands.roles import Role
 from up.commands.system_commands import LinkStateCommand
 from up.commands.telemetry_commands import TelemetryCommand
+from up.config.keys_file import KEYS
 from up.protocols.general_message import GeneralMessage, MalformedMessage, encode
 from up.providers.base_mission_control_provider import BaseMissionControlProvider
-from up.system.addresses import is_private
+from up.system.addresses import is_private, stays_here
 from up.system.backoff import Backoff
+from up.tls.files import TLSFiles
 
 LINK = "mission_control"
 ROLE_KEY = "mission_control.yml: role"
 PLAIN_KEY = "mission_control.yml: i_accept_plain"
+SECURITY_KEY = "mission_control.yml: remote_server.security"
+UNPROTECTED = "this link requires protected messages: pair this device ('up keys add')"
+AUDITED = frozenset({LINK, "ground"})
 
 
 UNWATCHED_PERIOD_S = 10.0
@@ -31,6 +44,9 @@ UNWATCHED_PERIOD_S = 10.0
 
 class Outlet(Protocol):
     """Another link to the ground, beside the proxy."""
+
+    requires_protection: bool
+    """Whether it sends protected lines only."""
 
     def __len__(self) -> int:
         """Return how many ground stations are connected."""
@@ -46,6 +62,7 @@ class MissionControlProvider(BaseMissionControlProvider):
     """Keeps a link to the proxy of ``remote_server``; without one it only serves its outlets."""
 
     CONFIG = MISSION_CONTROL
+    WRITTEN_FILES = (KEYS,)
 
     def __init__(self, config: Any = None, silent: bool = False) -> None:
         super().__init__(config, silent)
@@ -54,6 +71,8 @@ class MissionControlProvider(BaseMissionControlProvider):
         self._telemetry_faults = 0
         self._thinning = Thinning()
         self._sent_s = 0.0
+        self._requires_protection = False
+        self._audit: AuditLog | None = None
 
     def on_init(self) -> None:
         super().on_init()
@@ -68,18 +87,24 @@ class MissionControlProvider(BaseMissionControlProvider):
         self._link = self.up.open_link(
             LINK, self._role, self._send, role_key=ROLE_KEY, policy=self.tuning_policy
         )
-        server = config.remote_server
+        server, name = config.remote_server, aircraft_name(config, self.context.instance)
+        self.protection = Protection(self.up, name, self.tuning_policy)
+        self._keys = KeyRing(
+            self.context.reactor, self.context.config_folder, self.protection.on_keys
+        )
         if server.url:
             self._uplink = Uplink(
                 self.context.reactor,
                 server.url,
                 server.port,
-                aircraft_name(config, self.context.instance) if config.hello else None,
+                name if config.hello else None,
                 on_message=self._on_message,
                 on_malformed=self._on_malformed,
+                on_binary=None if server.security == "off" else self._on_binary,
                 on_ready=self._on_ready,
                 on_lost=self._on_lost,
                 backoff=Backoff(self.context.random.random),
+                tls=TLSFiles(self.context.config_folder / server.tls) if server.tls else None,
             )
 
     def add_outlet(self, outlet: Outlet) -> None:
@@ -103,6 +128,7 @@ class MissionControlProvider(BaseMissionControlProvider):
             "too_many": 0 if uplink is None else uplink.bucket.refused,
             "unsent": self.unsent,
             "telemetry_faults": self._telemetry_faults,
+            "protected": dict(self.protection.counters),
         }
         # An unprotected link to a proxy may grant less than the configured role.
         role = self._link.origin.role if self.connected else self._role
@@ -125,13 +151,26 @@ class MissionControlProvider(BaseMissionControlProvider):
             "left_out": budget.left_out,
         }
 
+    def plain_links(self) -> Iterable[tuple[str, str]]:
+        """Yield the link to the proxy, unless it surely requires protection."""
+        server, accepts = self.config.remote_server, self.config.i_accept_plain
+        if not server.url or stays_here(server.url) or server.security == "require":
+            return
+        if server.security != "auto" or accepts:
+            yield "remote_server.security", "the link to the proxy takes plain Commands"
+        else:
+            text = "the link to the proxy takes plain Commands while its address is private"
+            yield "remote_server.security", text
+
     def transmit_telemetry(self, command: TelemetryCommand) -> None:
         """Send a frame of telemetry; one that cannot be encoded is logged once and counted."""
         try:
             if any(len(outlet) for outlet in self._outlets):
                 frame = encode(command.NAME, command.content, None, command.beacon)
                 for outlet in self._outlets:
-                    outlet.send_newest(frame)
+                    lines = self._frame_lines(frame, outlet.requires_protection)
+                    if lines:
+                        outlet.send_newest(lines)
             if self._uplink is not None:
                 self._transmit_up(self._uplink, command)
         except ValueError as error:
@@ -144,6 +183,8 @@ class MissionControlProvider(BaseMissionControlProvider):
                 )
 
     def on_start(self) -> bool:
+        self._keys.start()
+        self._open_audit()
         if self._uplink is None:
             self.log.info(
                 "no proxy is configured (mission_control.yml: remote_server)", code="no_proxy"
@@ -153,16 +194,22 @@ class MissionControlProvider(BaseMissionControlProvider):
         return True
 
     async def on_stop(self) -> None:
+        self._keys.stop()
         if self._uplink is not None:
             await self._uplink.stop()
+        self.protection.stop()
+        if self._audit is not None:
+            self._audit.close()
 
     def _send(self, message: bytes) -> bool:
         return self._uplink is not None and self._uplink.send(message)
 
     def _transmit_data(self, message: bytes) -> bool:
-        taken = self._send(message)
+        lines = self._message_lines(message, self._requires_protection)
+        taken = bool(lines) and self._send(lines)
         for outlet in self._outlets:
-            taken = outlet.send(message) or taken
+            lines = self._message_lines(message, outlet.requires_protection)
+            taken = (bool(lines) and outlet.send(lines)) or taken
         return taken
 
     def _transmit_up(self, uplink: Uplink, command: TelemetryCommand) -> None:
@@ -172,22 +219,48 @@ class MissionControlProvider(BaseMissionControlProvider):
         if uplink.grounds == 0 and now_s - self._sent_s < UNWATCHED_PERIOD_S:
             budget.left_out += 1
             return
-        if not budget.permits(now_s):
+        required = self._requires_protection
+        if (required and not self.protection.sessions) or not budget.permits(now_s):
             return
         self._sent_s = now_s
         content, beacon = command.content, command.beacon
         if uplink.may_pack:
             content = self._thinning.apply(content, now_s, budget.hold_s)
-            uplink.send_packed(encode(command.NAME, content, None, beacon, is_compact=True))
+            frame = encode(command.NAME, content, None, beacon, is_compact=True)
+            lines = partial(self.protection.frame_lines, is_required=required)
+            uplink.send_packed(frame, lines)
         else:
             self._transmit_newest(encode(command.NAME, content, None, beacon))
 
     def _transmit_newest(self, message: bytes) -> None:
         if self._uplink is not None:
-            self._uplink.send_newest(message)
+            lines = self._frame_lines(message, self._requires_protection)
+            if lines:
+                self._uplink.send_newest(lines)
+
+    def _message_lines(self, message: bytes, is_required: bool) -> bytes:
+        return self.protection.message_lines(message[:-1], is_required=is_required)
+
+    def _frame_lines(self, message: bytes, is_required: bool) -> bytes:
+        return self.protection.frame_lines(message[:-1], is_required=is_required)
 
     def _on_message(self, message: GeneralMessage) -> None:
-        self.up.command_receiver.receive(message, self._link)
+        if self._requires_protection:
+            self.up.command_receiver.refuse(self._link, message, Code.UNPROTECTED, UNPROTECTED)
+        else:
+            self.up.command_receiver.receive(message, self._link)
+
+    def _on_binary(self, line: bytes) -> None:
+        self.protection.receive(line, LINK, self._send)
+
+    def _open_audit(self) -> None:
+        state = os.environ.get("STATE_DIRECTORY", "").partition(":")[0]
+        path = self.config.audit_log or (state and f"{state}/audit.jsonl")
+        if path:
+            self._audit = AuditLog(self.context.reactor, Path(path), AUDITED)
+            self.up.command_executor.register_command(
+                CommandAnsweredCommand, self._audit.on_answered
+            )
 
     def _on_malformed(self, fault: MalformedMessage) -> None:
         self.up.command_receiver.receive_malformed(fault, self._link)
@@ -206,7 +279,15 @@ class MissionControlProvider(BaseMissionControlProvider):
         resolve to another address later, and refusing to start would also stop telemetry.
         """
         role, key = self._role, ROLE_KEY
-        if role is Role.PILOT and not self.config.i_accept_plain and not is_private(host):
+        config = self.config
+        is_plain = self._uplink is None or not self._uplink.is_protected
+        is_public = not is_private(host)
+        security = security_of(config.remote_server.security, is_public, config.i_accept_plain)
+        self._requires_protection = security == "require"
+        is_exposed = is_plain and is_public and not config.i_accept_plain
+        if self._requires_protection:
+            role, key = Role.OBSERVER, SECURITY_KEY
+        elif role is Role.PILOT and is_exposed:
             role, key = Role.OPERATOR, PLAIN_KEY
             self.log.error(
                 "{host} is a public address and the link is plain: the ground is an operator, not a"

@@ -64,13 +64,12 @@ Reason on_battery(Autopilot& autopilot, const Request& request) {
   return Reason::NONE;
 }
 
-const CommandDefinition COMMANDS[] PROGMEM = {
+const CommandDefinition COMMANDS[] REGISTERED = {
     {'C', PROFILE_SIZE, Answer::CONFIRMED, on_profile},
     {'c', 0, Answer::OWN, on_profile_asked},
     {'e', 1, Answer::CONFIRMED, on_calibrate},
     {'V', 2, Answer::CONFIRMED, on_battery},
 };
-CommandGroup group(COMMANDS);
 
 }  // namespace
 }  // namespace raspilot

@@ -33,14 +33,13 @@ Reason on_mode_asked(Autopilot& autopilot, const Request&) {
   return Reason::NONE;
 }
 
-const CommandDefinition COMMANDS[] PROGMEM = {
+const CommandDefinition COMMANDS[] REGISTERED = {
     {'a', 0, Answer::CONFIRMED, on_arm},
     {'d', 0, Answer::CONFIRMED, on_disarm},
     {'v', 1, Answer::UNANSWERED, on_veto},
     {'M', 1, Answer::CONFIRMED, on_mode},
     {'m', 0, Answer::OWN, on_mode_asked},
 };
-CommandGroup group(COMMANDS);
 
 }  // namespace
 }  // namespace raspilot

@@ -60,13 +60,12 @@ Reason on_airspeed(Autopilot& autopilot, const Request& request) {
   return Reason::NONE;
 }
 
-const CommandDefinition COMMANDS[] PROGMEM = {
+const CommandDefinition COMMANDS[] REGISTERED = {
     {'u', 10, Answer::UNANSWERED, on_output},
     {'S', 10, Answer::UNANSWERED, on_setpoint},
     {'R', 10, Answer::UNANSWERED, on_return},
     {'A', 2, Answer::UNANSWERED, on_airspeed},
 };
-CommandGroup group(COMMANDS);
 
 }  // namespace
 }  // namespace raspilot

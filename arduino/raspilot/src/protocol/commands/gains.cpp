@@ -20,11 +20,10 @@ Reason on_gains_asked(Autopilot& autopilot, const Request&) {
   return Reason::NONE;
 }
 
-const CommandDefinition COMMANDS[] PROGMEM = {
+const CommandDefinition COMMANDS[] REGISTERED = {
     {'g', GAINS_SIZE, Answer::CONFIRMED, on_gains},
     {'G', 0, Answer::OWN, on_gains_asked},
 };
-CommandGroup group(COMMANDS);
 
 }  // namespace
 }  // namespace raspilot

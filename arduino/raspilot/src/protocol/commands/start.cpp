@@ -23,11 +23,10 @@ Reason on_panic(Autopilot& autopilot, const Request& request) {
   return Reason::NONE;
 }
 
-const CommandDefinition COMMANDS[] PROGMEM = {
+const CommandDefinition COMMANDS[] REGISTERED = {
     {'s', 0, Answer::CONFIRMED, on_start},
     {'p', 3, Answer::CONFIRMED, on_panic},
 };
-CommandGroup group(COMMANDS);
 
 }  // namespace
 }  // namespace raspilot

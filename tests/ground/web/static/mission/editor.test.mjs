@@ -4,7 +4,7 @@ import { test } from "node:test";
 import { Storage } from "../../../../../ground/up_ground/web/static/js/link/storage.js";
 import { Editor } from "../../../../../ground/up_ground/web/static/js/mission/editor.js";
 import { FENCE, MISSION } from "../../../../../ground/up_ground/web/static/js/mission/plan.js";
-import { progressText, usedState } from "../../../../../ground/up_ground/web/static/js/mission/progress.js";
+import { limitsText, progressText, usedState } from "../../../../../ground/up_ground/web/static/js/mission/progress.js";
 import { NewestFrame } from "../../../../../ground/up_ground/web/static/js/state/newest_frame.js";
 
 const place = (number) => ({ latitude: 50 + number / 1000, longitude: 14 });
@@ -82,9 +82,20 @@ test("problems mark the plan that was sent, until it is edited", () => {
   assert.deepEqual(editor.problems, []);
 });
 
+test("the limits that are set, in words", () => {
+  assert.match(limitsText(telemetry({ fence: { count: 1, radius: 350, floor: -5 } })), /: radius 350 m, floor -5 m\.$/);
+  assert.equal(limitsText(telemetry({ fence: { count: 1 } })), "");
+});
+
 test("progress in words", () => {
-  const text = (mission) => progressText(telemetry({ mission }));
-  assert.equal(text({ count: 12, item: 3, distance: 339.6, is_finished: false }), "Item 3 of 12, 340 m ahead.");
+  const text = (mission, mode = "MISSION") =>
+    progressText(telemetry({ mission, flight_mode: "SETPOINT", flight_control: { mode } }));
+  const third = { count: 12, item: 3, distance: 339.6, is_finished: false };
+  assert.equal(text(third), "Item 3 of 12, 340 m ahead.");
+  assert.equal(text(third, "LOITER"), "Item 3 of 12 is next, 340 m away.");
+  assert.equal(text(third, "RETURN"), "Returning; item 3 of 12 is next.");
+  assert.equal(text({ ...third, item: 12 }, "LAND"), "Landing: item 12 of 12.");
+  assert.equal(text({ ...third, item: 1 }, "TAKEOFF"), "Taking off: item 1 of 12.");
   assert.equal(text({ count: 12, item: 12, is_finished: true }), "Finished: all 12 items.");
   assert.equal(text({ count: 0 }), "");
 });

@@ -6,7 +6,7 @@ import {
 } from "../../../../../ground/up_ground/web/static/js/state/earth.js";
 import { linesBetween, stepOf, stepText, windowOf } from "../../../../../ground/up_ground/web/static/js/state/earth.js";
 import { placeText } from "../../../../../ground/up_ground/web/static/js/map/map_actions.js";
-import { circlesOf } from "../../../../../ground/up_ground/web/static/js/map/overlay.js";
+import { circlesOf, limitOf } from "../../../../../ground/up_ground/web/static/js/map/overlay.js";
 import { homeText, pictureOf } from "../../../../../ground/up_ground/web/static/js/map/picture.js";
 import { NewestFrame } from "../../../../../ground/up_ground/web/static/js/state/newest_frame.js";
 
@@ -109,6 +109,10 @@ test("the map shows the estimate with two standard deviations, and the fix besid
   assert.equal(picture.heading_deg, 33);
   assert.deepEqual(picture.home, HOME);
   assert.match(homeText(picture), / 1:05$/);
+  const limited = pictureOf(storeOf({ navigation: NAVIGATION, home: HOME, fence: { radius: 300 } }));
+  assert.deepEqual(circlesOf(limited)[0], { name: "fence", place: HOME, radius_m: 300 });
+  assert.equal(limitOf(limited).length, 48);
+  assert.deepEqual(limitOf({ ...limited, home: null }), []);
   const circles = new Map(circlesOf({ ...picture, chosen: null }).map(({ name, ...more }) => [name, more]));
   assert.deepEqual([...circles.keys()], ["uncertainty", "target", "fix", "target-point"]);
   assert.equal(circles.get("uncertainty").radius_m, 5);

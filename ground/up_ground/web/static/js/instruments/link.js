@@ -14,6 +14,8 @@ export function mount(element, store, connection) {
     lost: new PlainRow(list, "Lost, dropped", "link.lost"),
     page: new PlainRow(list, "This page", "link.page"),
     proxy: new PlainRow(list, "Proxy", "link.proxy"),
+    security: new PlainRow(list, "Link to the proxy", "link.tls"),
+    keys: new PlainRow(list, "Commands, telemetry", "link.security"),
     latency: new PlainRow(list, "Proxy's round trip", "link.latency"),
     aircraft: new PlainRow(list, "Aircraft", "link.aircraft"),
     data: new PlainRow(list, "Aircraft's data", "link.data"),
@@ -37,6 +39,9 @@ export function mount(element, store, connection) {
       plain.ages.show(agesText(store), "", isOld || store.isSilent);
       showPage(plain.page, connection);
       showProxy(plain.proxy, link, isDoubtful);
+      plain.security.show(securityText(link), "", isDoubtful);
+      const isRefused = link.security === "none";
+      plain.keys.show(text(link.security_text), isRefused ? "warning" : "", isOld || store.isSilent);
       showNumber(plain.latency, link.round_trip_ms, (ms) => `${numberText(ms)} ms`, isDoubtful);
       showNumber(plain.rate, link.rate_hz, (hz) => `${numberText(hz, 1)} frames/s`, isOld);
       const dropped = number(link.dropped);
@@ -102,6 +107,15 @@ function showProxy(row, link, isOld) {
   const words = state === null ? null : reason === "" ? state : `${state}: ${reason}`;
   row.show(words, state === "connected" ? "" : "warning", isOld);
   row.setState(state ?? "");
+}
+
+/** Whether the link between the ground server and the proxy is protected, and the proxy's name. */
+function securityText(link) {
+  if (link.state !== "connected") {
+    return null;
+  }
+  const peer = text(link.tls_peer);
+  return peer === null ? "plain" : `TLS, ${peer}`;
 }
 
 function showNumber(row, found, format, isOld) {

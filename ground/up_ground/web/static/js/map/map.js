@@ -5,6 +5,7 @@ import { MISSION, placesOf } from "../mission/plan.js";
 import { PlanLayer } from "../mission/plan_layer.js";
 import { usedState } from "../mission/progress.js";
 import { MapActions } from "./map_actions.js";
+import { limitOf } from "./overlay.js";
 import { homeText, pictureOf } from "./picture.js";
 import { PlainMap } from "./plain_map.js";
 import { Wind } from "./wind.js";
@@ -21,7 +22,7 @@ export function mount(place, store, connection) {
   follow.id = "map-follow";
   const closer = button("+", "Closer", () => map?.zoom(1));
   const farther = button("−", "Farther", () => map?.zoom(-1));
-  const whole = button("All", "All of the track, the mission and the fence", () => map?.showAll(placesOf(editor.drawn)));
+  const whole = button("All", "All of the track, the mission and the fence", () => map?.showAll([...placesOf(editor.drawn), ...limitOf(pictureOf(store))]));
   const tools = html("div.map-tools", {}, follow, whole, closer, farther);
   const words = html("p.map-words", { id: "map-home" });
   const wind = new Wind();

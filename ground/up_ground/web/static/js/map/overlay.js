@@ -1,5 +1,8 @@
+import { around } from "../mission/plan.js";
+
 /** Circles of the map: what it draws around or at a place, in metres or pixels. */
 const CIRCLES = {
+  fence: ({ home, fenceRadius_m }) => ({ place: home, radius_m: fenceRadius_m }),
   uncertainty: ({ aircraft, uncertainty_m }) => ({ place: aircraft, radius_m: uncertainty_m }),
   target: ({ target, radius_m }) => ({ place: target, radius_m }),
 };
@@ -18,6 +21,11 @@ export function circlesOf(picture) {
     ...circles.filter(({ place, radius_m }) => place && radius_m >= MIN_RADIUS_M),
     ...dots.filter(({ place }) => place),
   ];
+}
+
+/** Places of the limit around home; none where it is not known. */
+export function limitOf({ home, fenceRadius_m: radius }) {
+  return home && radius ? around({ ...home, radius }) : [];
 }
 
 /** The circles on Leaflet's map. */

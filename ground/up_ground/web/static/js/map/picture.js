@@ -5,12 +5,12 @@ import { clockText } from "../panels/messages.js";
 
 /**
  * Content of a map: the name of the aircraft, its estimated or last position, home, the track.
- * uncertainty_m: two standard deviations of the estimate; fix: the receiver's position beside it;
+ * fenceRadius_m: of failsafe.yml, around home; uncertainty_m: two standard deviations of the estimate; fix: the receiver's position beside it;
  * plans: as the page draws them; target: what the mode flies to; time_s: of the way home; null: it does not arrive, undefined: unknown.
  * @typedef {{latitude: number, longitude: number}} Place
  * @typedef {{name: ?string, aircraft: ?Place, heading_deg: ?number, uncertainty_m: ?number,
  *   fix: ?Place, target: ?Place, radius_m: ?number, freshness: "live"|"stale"|"none", age: string,
- *   home: ?Place, time_s: ?number|undefined, track: object,
+ *   home: ?Place, fenceRadius_m: ?number, time_s: ?number|undefined, track: object,
  *   plans: {mission: object[], fence: object[]}}} Picture
  */
 
@@ -37,6 +37,7 @@ export function pictureOf(store) {
     fix: estimate === null ? null : fix,
     target: placeAt(store, "navigation.target"),
     radius_m: store.number("navigation.target.radius"),
+    fenceRadius_m: store.number("fence.radius"),
     home: placeAt(store, "home") ?? placeOf(known?.latitude, known?.longitude),
     time_s: estimate === null || store.number("home.latitude") === null ? undefined : store.number("home.time_s"),
     track: store.track,

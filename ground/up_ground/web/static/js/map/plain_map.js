@@ -1,5 +1,5 @@
 import { setAttribute, setText, svg } from "../dom.js";
-import { circlesOf } from "./overlay.js";
+import { circlesOf, limitOf } from "./overlay.js";
 import { AircraftSymbol } from "./picture.js";
 import { piecesOf } from "./track_line.js";
 import { around, legsOf } from "../mission/plan.js";
@@ -66,8 +66,9 @@ export class PlainMap {
     );
     const craft = aircraft === null ? null : offsetOf(origin, aircraft);
     const shown = craft === null ? pieces.flat() : [...pieces.flat(), craft];
+    const limit = limitOf(picture).map((each) => offsetOf(origin, each));
     const lines = linesOf(plans, home).map((line) => ({ ...line, at: line.places.map((each) => offsetOf(origin, each)) }));
-    const view = windowOf([...shown, ...lines.flatMap(({ at }) => at), { east_m: 0, north_m: 0 }], size);
+    const view = windowOf([...shown, ...limit, ...lines.flatMap(({ at }) => at), { east_m: 0, north_m: 0 }], size);
     const x = (each) => size.width_px / 2 + (each.east_m - view.east_m) / view.metresPerPixel;
     const y = (each) => size.height_px / 2 - (each.north_m - view.north_m) / view.metresPerPixel;
     this.#placeAtPixel = (x_px, y_px) =>

@@ -8,7 +8,7 @@ import { AREA, CIRCLE, editorOf } from "./editor.js";
 import { heightOfAll, ItemForm } from "./item_form.js";
 import { FENCE, isPlaced, KINDS, MISSION } from "./plan.js";
 import { PlanTable } from "./plan_table.js";
-import { flownItem, usedState } from "./progress.js";
+import { flownItem, limitsText, usedState } from "./progress.js";
 import { Transfer } from "./transfer.js";
 
 const COMMIT = "up.mission.commit";
@@ -25,6 +25,7 @@ export function mount(place, store, connection) {
   const table = new PlanTable(editor);
   const form = new ItemForm(editor);
   const state = html("p", { id: "mission-state" });
+  const limits = html("p.quiet", { id: "plan-limits" });
   const why = html("p.why", { id: "mission-why" });
   const note = html("p.note", { id: "mission-note", role: "status" });
   const tabs = new Map([MISSION, FENCE].map((name) => [name, button(name === FENCE ? "Fence" : "Mission", `plan-${name}`, () => editor.show(name))]));
@@ -50,6 +51,7 @@ export function mount(place, store, connection) {
     html("summary", {}, place.querySelector("h2"), state),
     group("Plan", ...tabs.values()),
     table.element,
+    limits,
     group("Items", kind, add, remove, clear),
     form.element,
     heights,
@@ -151,6 +153,7 @@ export function mount(place, store, connection) {
       const { home, homeAltitude_m } = places();
       const isShown = editor.name === MISSION && code === "same";
       table.update(home, homeAltitude_m, isShown ? store.number("mission.item") : null);
+      setText(limits, limitsText(store));
       form.update();
       showKinds();
       showButtons();

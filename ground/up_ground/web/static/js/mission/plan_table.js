@@ -3,7 +3,7 @@ import { clockText } from "../panels/messages.js";
 import { distance_m, distanceText } from "../state/earth.js";
 import { headingText, plainNumber } from "../state/format.js";
 import { kindText } from "./drawing_bar.js";
-import { FENCE, legsOf, totalOf } from "./plan.js";
+import { FENCE, legsOf, MISSION, totalOf } from "./plan.js";
 
 const HEADS = { mission: ["No.", "Kind", "Height", "", "Leg", "Time"], fence: ["No.", "Shape", "Side", "Size"] };
 
@@ -97,15 +97,20 @@ export function totalText(list, home, homeAltitude_m) {
   }
   const { length_m, time_s, highest_m } = totalOf(list, home, homeAltitude_m);
   const height = highest_m === null ? "" : `, at most ${plainNumber(highest_m)} m above home`;
-  const count = list.length === 1 ? "1 item" : `${list.length} items`;
-  return `${count}, ${distanceText(length_m)}, ${clockText(time_s)} without wind${height}`;
+  return `${countText(MISSION, list.length)}, ${distanceText(length_m)}, ${clockText(time_s)} without wind${height}`;
 }
 
 export function fenceText(list) {
   if (list.length === 0) {
     return "No borders. Draw on the map, or open a file.";
   }
-  return list.length === 1 ? "1 border" : `${list.length} borders`;
+  return countText(FENCE, list.length);
+}
+
+/** As `1 border`, `4 items`; name: of the plan. */
+export function countText(name, count) {
+  const noun = name === FENCE ? "border" : "item";
+  return count === 1 ? `1 ${noun}` : `${count} ${noun}s`;
 }
 
 function borderCells(border) {

@@ -1,4 +1,9 @@
+import { actingMode } from "../state/flight_mode.js";
+import { plainNumber } from "../state/format.js";
 import { FENCE, MISSION } from "./plan.js";
+
+/** What the modes that replace MISSION at an item do with it. */
+const REPLACING = { LAND: "Landing", RETURN: "Returning", TAKEOFF: "Taking off" };
 
 /**
  * Whether the aircraft has the drawn plan: `unknown` (it reports none of its plans), `none` (it has
@@ -19,6 +24,7 @@ export function usedState(editor, store, name) {
   return editor.isUsed(id, name) ? "same" : "other";
 }
 
+const FLIES = "MISSION";
 const STATES = {
   unknown: (name) => `The aircraft reports no ${name}.`,
   none: (name) => `The aircraft has no ${name}.`,
@@ -35,7 +41,14 @@ export function flownItem(editor, store) {
   return { code, text: [STATES[code](name), progress].filter(Boolean).join(" ") };
 }
 
-/** As `Item 3 of 12 is next, 340 m.`; empty: no mission. */
+/** The limits of failsafe.yml, as `Limits around home: radius 300 m, ceiling 120 m.`; empty: none. */
+export function limitsText(store) {
+  const limits = ["radius", "ceiling", "floor"].map((name) => [name, store.number(`${FENCE}.${name}`)]);
+  const parts = limits.filter(([, value_m]) => value_m !== null).map(([name, value_m]) => `${name} ${plainNumber(value_m)} m`);
+  return parts.length === 0 ? "" : `Limits around and above home (failsafe.yml): ${parts.join(", ")}.`;
+}
+
+/** As `Item 3 of 12, 340 m ahead.`, `Landing: item 4 of 4.`, `Landing; item 2 of 4 is next.`, `Item 3 of 12 is next.`; empty: no mission. */
 export function progressText(store) {
   const count = store.number(`${MISSION}.count`);
   const item = store.number(`${MISSION}.item`);
@@ -45,6 +58,13 @@ export function progressText(store) {
   if (store.flag(`${MISSION}.is_finished`) === true) {
     return `Finished: all ${count} items.`;
   }
+  const mode = actingMode(store);
+  if (Object.hasOwn(REPLACING, mode)) {
+    // An item with such a mode is the first one (TAKEOFF) or the last one; elsewhere the ground or a failsafe chose it.
+    const isItem = item === (mode === "TAKEOFF" ? 1 : count);
+    return isItem ? `${REPLACING[mode]}: item ${item} of ${count}.` : `${REPLACING[mode]}; item ${item} of ${count} is next.`;
+  }
   const distance_m = store.number(`${MISSION}.distance`);
-  return `Item ${item} of ${count}${distance_m === null ? "" : `, ${Math.round(distance_m)} m ahead`}.`;
+  const away = distance_m === null ? "" : `, ${Math.round(distance_m)} m ${mode === FLIES ? "ahead" : "away"}`;
+  return `Item ${item} of ${count}${mode === FLIES ? "" : " is next"}${away}.`;
 }

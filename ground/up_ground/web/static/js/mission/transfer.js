@@ -2,8 +2,8 @@ import { confirm } from "../dialog.js";
 import { html, setText } from "../dom.js";
 import { notesOf } from "../panels/command_sender.js";
 import { answerCode, answerLook, answerText } from "../panels/messages.js";
-import { FENCE, listOf, MISSION } from "./plan.js";
-import { fenceText, totalText } from "./plan_table.js";
+import { FENCE, listOf, MISSION, PLANS } from "./plan.js";
+import { countText, fenceText, totalText } from "./plan_table.js";
 
 /** The server and the aircraft end a transfer before. */
 const TRANSFER_S = 600;
@@ -49,7 +49,8 @@ export class Transfer {
       return;
     }
     const beacon = this.#connection.shownBeacon();
-    const answer = await this.#request({ type: "plan.upload", aircraft, plan: name, items: list, beacon }, TRANSFER_S);
+    const upload = { type: "plan.upload", aircraft, plan: name, items: list, beacon };
+    const answer = await this.#request(upload, TRANSFER_S, (answer) => this.#uploadedText(answer, name, list));
     if (answer.outcome === "ack") {
       this.#editor.setUsed(name, String(answer.plan_id), list);
     }
@@ -62,7 +63,8 @@ export class Transfer {
   async download() {
     const { name } = this.#editor;
     const { aircraft } = this.#store;
-    const answer = await this.#request({ type: "plan.download", aircraft, plan: name }, TRANSFER_S);
+    const download = { type: "plan.download", aircraft, plan: name };
+    const answer = await this.#request(download, TRANSFER_S, (answer) => downloadedText(answer, name));
     if (answer.outcome === "ack" && aircraft === this.#store.aircraft) {
       const list = listOf(answer.items);
       this.#editor.load({ [name]: list });
@@ -100,14 +102,26 @@ export class Transfer {
     }
   }
 
-  async #request(message, limit_s) {
+  // After an upload: what is in use now.
+  #uploadedText(answer, name, list) {
+    if (answer.outcome === "ack") {
+      return list.length === 0 ? `The aircraft has no ${name} now.` : `In use now: ${name} with ${countText(name, list.length)}, read back and equal to the drawn one.`;
+    }
+    const isKept = ["refused", "unsent"].includes(answer.outcome) || String(answer.detail).startsWith("plan_");
+    const plans = PLANS.map((each) => [each, this.#store.number(`${each}.count`) ?? 0]);
+    const kept = plans.map(([each, count]) => `${each} with ${countText(each, count)}`).join(", ");
+    return `${answerText(answer)}${isKept ? `. Still in use: ${kept}.` : ""}`;
+  }
+
+  /** textOf: the words for the answer. */
+  async #request(message, limit_s, textOf = answerText) {
     this.isBusy = true;
     this.#remarks.replaceChildren();
     this.#notes.show(this.#note, "sent, waiting for the answer", "plain", "waiting");
     const answer = await this.#connection.request(message, limit_s);
     this.isBusy = false;
     this.#bar.hidden = true;
-    this.#notes.show(this.#note, answerText(answer), answerLook(answer), answerCode(answer));
+    this.#notes.show(this.#note, textOf(answer), answerLook(answer), answerCode(answer));
     const isUpload = message.type === "plan.upload";
     const remarks = [...(isUpload ? [] : listed(answer.problems)), ...listed(answer.notes)];
     this.#remarks.replaceChildren(...remarks.map(({ item, code, text }) => html("li", { "data-code": code, text: `${item ? `${item}: ` : ""}${text}` })));
@@ -122,6 +136,11 @@ export class Transfer {
       setText(this.#note, `${phase}: ${done} of ${of}`);
     }
   }
+}
+
+function downloadedText(answer, name) {
+  const count = countText(name, listOf(answer.items).length);
+  return answer.outcome === "ack" ? `Drawn as the aircraft has it: ${count}.` : answerText(answer);
 }
 
 function listed(found) {

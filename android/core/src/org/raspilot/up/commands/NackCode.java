@@ -13,6 +13,8 @@ public enum NackCode {
     INVALID,
     /** The link's role, or its configuration now, does not permit it; the reason names the key to change. */
     FORBIDDEN,
+    /** The link requires protected messages: pair this device with a key of the aircraft. */
+    UNPROTECTED,
     /** The echoed beacon is older than 2 s, or, where telemetry's period is longer, than that and 1 s. */
     STALE,
     /** Arming and disarming need an echoed beacon. */

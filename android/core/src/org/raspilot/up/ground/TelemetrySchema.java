@@ -91,7 +91,8 @@ public final class TelemetrySchema {
         put(UNITS, "m", "location.altitude", "home.distance", "home.altitude",
                 "navigation.altitude", "navigation.height", "navigation.sd.position",
                 "navigation.sd.altitude", "navigation.target.altitude", "navigation.target.radius",
-                "mission.distance", "altitude", "altitude_required", "fence.margin");
+                "mission.distance", "altitude", "altitude_required", "fence.margin", "fence.radius",
+                "fence.ceiling", "fence.floor");
         put(UNITS, "s", "home.time_s", "system.uptime_s");
         put(UNITS, "m/s", "navigation.speed", "navigation.climb", "navigation.airspeed",
                 "navigation.wind.speed", "navigation.sd.wind", "navigation.sd.airspeed");
@@ -116,8 +117,8 @@ public final class TelemetrySchema {
         put(DECIMALS, 0, "home.distance", "home.bearing", "home.time_s", "navigation.course",
                 "navigation.heading", "navigation.wind.from", "location.satellites",
                 "mission.count", "mission.item", "mission.distance", "fence.count",
-                "heading.actual", "fence.margin", "load.cpu", "load.ram", "uplink.grounds",
-                "uplink.left_out");
+                "heading.actual", "fence.margin", "fence.radius", "fence.ceiling", "fence.floor",
+                "load.cpu", "load.ram", "uplink.grounds", "uplink.left_out");
         put(DECIMALS, 2, "arduino.flight_battery_v", "uplink.mb_per_hour", "uplink.mb",
                 "uplink.budget_mb_per_hour");
         LIMITS.put("battery_low", 20.0);

@@ -15,7 +15,7 @@ SILENCE_S = 0.25
 """Silence after which the owner loses control: the longest lifetime of a set-point or Output."""
 
 
-class ControlLease:
+class PublisherControl:
     """Grants control to the first publisher, until it stops or is silent for ``SILENCE_S``.
 
     Other publishers are refused, logged once per pair, and counted by name in ``refused``.

@@ -8,9 +8,9 @@ from twisted.internet.task import LoopingCall
 
 from tests.up.commands.samples import Log
 from up.base_started_module import BaseStartedModule
-from up.commands.control_lease import SILENCE_S
 from up.commands.origin import Origin
 from up.commands.output_command import OutputCommand, SetpointCommand
+from up.commands.publisher_control import SILENCE_S
 from up.commands.refusal import CommandRefusedError
 from up.commands.roles import Role
 from up.commands.system_commands import LinkStateCommand
