@@ -14,11 +14,12 @@ class TLSSocket:
     must begin with the same ones.
     """
 
-    __slots__ = ("_socket", "attempted", "fileno", "name", "serial")
+    __slots__ = ("_socket", "attempted", "fileno", "name", "serial", "setsockopt")
 
     def __init__(self, connected: ssl.SSLSocket, name: str, serial: bytes) -> None:
         self._socket = connected
         self.fileno = connected.fileno
+        self.setsockopt = connected.setsockopt
         self.attempted = 0
         self.name = name
         self.serial = serial
