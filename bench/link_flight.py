@@ -1,4 +1,4 @@
-"""A flight of `make run` in a network namespace of its own, and what its uplink costs at IP level.
+"""A flight of `make run` in a separate network namespace, and what its uplink costs at IP level.
 
 `python -m bench.link_flight SECONDS WATCHED [BUDGET]`, as root inside `unshare --net`; prints one
 JSON object: IP packets and bytes in both directions between aircraft and proxy, and the seconds.

@@ -12,7 +12,7 @@ from up_proxy.poller import Poller
 WATCH_INTERVAL_S = 0.5
 """Minimum time between two lines to an aircraft about its watchers."""
 UNWATCHED_IDLE_S = 12
-"""An aircraft that nobody watches sends only every 10 s: no probes in between."""
+"""An aircraft without grounds sends only every 10 s: no probes in between."""
 PULSE_S, UNWATCHED_PULSE_S = 5.0, 10.0
 """An aircraft that was sent nothing for this long gets an empty line: it finds a dead path so."""
 _PACKED = bytes((PACKED,))
@@ -127,7 +127,7 @@ class AircraftSession(Owner):
     def report_watchers(self, *, is_news: bool = True) -> None:
         """Tell the aircraft what its grounds are: at a change, and when one of them lacks a key.
 
-        While nobody watches, the aircraft sends rarely, and its lease lasts as long as a
+        Without grounds the aircraft sends rarely, and its lease lasts as long as a
         connection without data. The first ground's line counts as a byte of the aircraft, so that
         it has time to answer.
         """

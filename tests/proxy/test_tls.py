@@ -110,6 +110,17 @@ def test_a_pair_with_certificates_is_served_as_on_the_plain_ports(certificates):
         assert air.socket.version() == "TLSv1.3"
 
 
+def test_an_aircraft_over_tls_is_told_of_its_watchers(certificates):
+    with bench(certificates) as b:
+        air_port, _ = b.proxy.tls_ports
+        air = TLSPeer(b, air_port, context_of(device(certificates, "glider-1")))
+        air.say("UP1 aircraft=glider-1 packed=1\n").expect("UP1 watch grounds=0 packed=1\n")
+        b.ground("UP1 aircraft=glider-1 packed=1\n").expect("seat=command")
+        b.pass_time(0.5)
+        air.expect("UP1 watch grounds=1 packed=1\n")
+        assert not air.closed
+
+
 def test_a_slow_tls_ground_gets_whole_newest_lines(certificates):
     """What OpenSSL has encrypted already must be repeated exactly, also when lines are dropped."""
     with bench(certificates, queue_bytes=40000) as b:

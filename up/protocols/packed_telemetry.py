@@ -23,7 +23,7 @@ _HEAD_BYTES = 4
 
 
 class PackedError(ValueError):
-    """A body that is no packed frame, or too large."""
+    """Not a packed frame, or too large."""
 
 
 class UnknownKeyError(PackedError):

@@ -129,9 +129,9 @@ class AircraftPresence(_Line):
 
 @dataclass(frozen=True, slots=True)
 class Watchers(_Line):
-    """Proxy to aircraft: so many grounds listen; `packed` 1: all read packed telemetry.
+    """Proxy to aircraft: the number of grounds; `packed` 1: all read packed telemetry.
 
-    Each such line also says that a ground may lack the present key.
+    After each such line a ground may lack the present key.
     """
 
     FORMAT: ClassVar[str] = "watch grounds={grounds} packed={packed}"

@@ -41,7 +41,7 @@ _LIVE = tree_of(dict.fromkeys((
     *(rule.path for rule in RULES), "orientation", "system.clock_ms", "system.period_ms",
     "uplink.left_out", "age_ms.orientation", "age_ms.flight",
 )))  # fmt: skip
-"""What every frame has anew, however small the budget: attitude, alarms, events."""
+"""Always new, however small the budget: attitude, alarms, events."""
 
 
 class Thinning:

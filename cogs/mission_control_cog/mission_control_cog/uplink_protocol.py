@@ -38,8 +38,7 @@ class UplinkProtocol(GeneralMessageProtocol):
     ``on_token`` gets the token for the next hello, empty after a refusal: the name may belong to
     another aircraft. ``on_ready`` gets the link when messages can be sent. ``lost_code`` is the
     code of the loss. A link with hello sends an empty line in every second without other data,
-    more rarely while ``watchers`` says that there is no ground. ``watchers`` is None at a proxy
-    that does not tell.
+    more rarely without any ground. ``watchers`` stays None at a proxy that does not tell.
     """
 
     def __init__(
@@ -73,7 +72,7 @@ class UplinkProtocol(GeneralMessageProtocol):
 
     @property
     def is_unwatched(self) -> bool:
-        """Return whether the proxy says that there is no ground."""
+        """Return whether the proxy counts no ground."""
         return self.watchers is not None and not self.watchers.grounds
 
     @property

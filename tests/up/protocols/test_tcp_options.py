@@ -31,7 +31,7 @@ def test_payload_headers_and_acknowledgements_count(family, host, header):
             far.recv(SIZE, socket.MSG_WAITALL)
             far.sendall(b"!")
             near.recv(1)
-        # Each answer carries the acknowledgement; a late one of its own may follow it.
+        # Each answer carries the acknowledgement; a late acknowledgement may follow.
         least = MESSAGES * (SIZE + header + 1 + header)
         until(lambda: ip_bytes(transport) - before >= least, "the last segment")
         assert ip_bytes(transport) - before <= least + MESSAGES * header
