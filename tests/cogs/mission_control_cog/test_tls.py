@@ -17,7 +17,7 @@ from up.tls.files import TLSFiles
 
 def settings(port, folder):
     # Relative to the folder of mission_control.yml.
-    server = f"remote_server: {{url: 127.0.0.1, port: {port}, tls: {folder}}}\n"
+    server = f"remote_server: {{url: 127.0.0.1, port: {port}, tls: {folder}, security: accept}}\n"
     return f"{server}aircraft: glider-1\nrole: pilot\n"
 
 

@@ -50,7 +50,7 @@ def test_a_mission_is_uploaded_and_downloaded(server, aircraft):
         answer = await ask("plan.download", page, 2, **here)
         assert answer["items"] == [each.data for each in items]
 
-        aircraft.problems = [{"item": 1, "code": "too_far", "text": "9 km"}]
+        aircraft.problems = {"mission": [{"item": 1, "code": "too_far", "text": "9 km"}]}
         beacon = page.newest("frame")["beacon"]
         answer = await ask("plan.upload", page, 3, items=[POINT], beacon=beacon, **here)
         assert (told(answer), answer["detail"]) == (("nack", "refused"), "plan_invalid")
