@@ -11,7 +11,7 @@ from tests.simulator.scenarios.shipped import ALONE
 from tests.support.firmware import build_firmware
 from tests.support.virtual_environment import REPOSITORY
 from up_simulator.cli import VERBS, main
-from up_simulator.demo.main import _options as read_demo_options
+from up_simulator.demo.main import read_options as read_demo_options
 from up_simulator.harness.start_options import read_options
 from up_simulator.scenario.event import EVENT_KINDS
 
