@@ -16,7 +16,7 @@ const LIVE_LOCATION_S = 1.9 + 0.2;
 /** The page's and its server's own values, current even when the aircraft is silent. */
 const OF_THE_PAGE = ["link.age", "link.rate", "link.lost", "link.page"];
 /** The proxy reports that the aircraft is gone: all these values are current then. */
-const OF_THE_PROXY = ["link.proxy", "link.latency", "link.aircraft"];
+const OF_THE_PROXY = ["link.proxy", "link.tls", "link.latency", "link.aircraft"];
 let showcase;
 
 before(async () => {

@@ -22,6 +22,20 @@ async function framesOf(ground) {
   return new Map(frames.map(({ message }) => [message.beacon, message.data]));
 }
 
+/** The link rounds to the sensors' resolution (docs/ground.md), the log does not. */
+const RESOLUTION = { latitude: 1e-6, longitude: 1e-6, ailerons: 2, elevator: 2, throttle: 2, rudder: 2 };
+
+/** A recorded value, with those of its numbers replaced that are as they were sent. */
+function beside(recorded, sent) {
+  if (recorded === null || typeof recorded !== "object") {
+    return recorded;
+  }
+  return Object.fromEntries(Object.entries(recorded).map(([key, value]) => {
+    const isNear = typeof value === "number" && Math.abs(value - sent[key]) <= (RESOLUTION[key] ?? 0.051);
+    return [key, isNear ? sent[key] : value];
+  }));
+}
+
 test("a flight is watched", async () => {
   const ground = await (await GroundPage.open(browser, showcase.address)).isLive();
   const pilot = await new Pilot(showcase).ready();
@@ -72,7 +86,7 @@ test("the log of that flight shows the same on the page, and takes no Commands",
   for (const beacon of common) {
     const [now, then] = [played.get(beacon), seen.get(beacon)];
     for (const key of ["orientation", "location", "servo", "flight_mode", "armed"]) {
-      assert.deepEqual(now[key], then[key], `${key} of frame ${beacon}`);
+      assert.deepEqual(beside(now[key], then[key]), then[key], `${key} of frame ${beacon}`);
     }
   }
   t.diagnostic(`${common.length} of ${seen.size} frames that were seen live were seen again`);

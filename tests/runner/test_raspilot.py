@@ -63,7 +63,7 @@ def test_the_instance_uses_the_proxy_that_the_answer_names(raspilot):
         assert answer["proxy"] == {"host": "127.0.0.1", "airborne": port, "ground": 3004}
         peer, _ = announced.accept()
         with peer, peer.makefile("rb") as lines:
-            assert lines.readline() == b"UP1 aircraft=glider-1\n"
+            assert lines.readline() == b"UP1 aircraft=glider-1 packed=1\n"
 
 
 def test_it_runs_under_the_units_system_call_filter(raspilot):

@@ -48,6 +48,11 @@ class KeyRing:
         self._poll = LoopingCall(self.update)
         self._poll.clock = reactor
 
+    @property
+    def is_empty(self) -> bool:
+        """Return whether no device may open a session."""
+        return all(each.refusal for each in (self._keys or {}).values())
+
     def start(self) -> None:
         self._poll.start(POLL_S)
 

@@ -6,6 +6,7 @@ from tests.cogs.mission_control_cog.system import Aircraft
 from tests.cogs.mission_control_cog.test_uplink import accepted
 from tests.cogs.peers import Server
 from tests.support.reactor import reactor, run_in_reactor, until
+from tests.up.commands.samples import Log
 from up.commands.arming_commands import ArmCommand
 
 PUBLIC = "mission_control_cog.modules.mission_control_provider.is_private"
@@ -94,3 +95,18 @@ def test_telemetry_reports_the_granted_role(tmp_path, monkeypatch, text, private
         return frame["data"]["ground"]
 
     assert run_in_reactor(fly) == {"role": role, "tune_in_flight": True}
+
+
+def test_a_public_link_without_a_paired_device_is_reported(tmp_path, monkeypatch):
+    monkeypatch.setattr(PUBLIC, lambda host: False)
+
+    async def fly():
+        server = Server(reactor)
+        port = await server.open()
+        with Log() as log:
+            async with Aircraft(tmp_path, port, "role: pilot\n"):
+                await accepted(server)
+                await until(lambda: [e for e in log.events if e.get("code") == "keys_missing"])
+        await server.close()
+
+    run_in_reactor(fly)

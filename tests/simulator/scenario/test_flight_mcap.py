@@ -85,7 +85,8 @@ def test_estimate_and_truth_have_equal_times(flown):
     truth = dict(log.messages["simulator.truth"])
     told = log.messages["up.orientation.update"]
     assert len(truth) == 201
-    assert len(told) > 190
+    # Those that arrive between two samples of 20 ms: some get none, some two.
+    assert len(told) > 150
     assert max(abs(data["roll"]) for _, data in told) > 20
     assert max(abs(data["roll"] - truth[time_s]["roll_deg"]) for time_s, data in told) < 3
     name, schema = log.schemas["up.orientation.update"]

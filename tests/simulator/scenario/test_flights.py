@@ -88,7 +88,7 @@ def test_held_back_telemetry_has_its_true_age():
             "  - {name: b, signal: ground.latency_s, after: the end, becomes_above: 0.15,"
             " within_s: 0.1}\n"
             "  - {name: c, signal: ground.latency_s, from_s: 4.4, to_s: 4.6, below: 0.1}\n"
-            "  - {name: d, signal: ground.latency_s, from_s: 10, between: [1.2, 2.3]}\n"
+            "  - {name: d, signal: ground.latency_s, from_s: 10, between: [1.2, 2.4]}\n"
         )
     )
     assert not_held(fly(text)) == []

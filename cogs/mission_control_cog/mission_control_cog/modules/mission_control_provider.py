@@ -287,6 +287,14 @@ class MissionControlProvider(BaseMissionControlProvider):
         is_exposed = is_plain and is_public and not config.i_accept_plain
         if self._requires_protection:
             role, key = Role.OBSERVER, SECURITY_KEY
+            if self._keys.is_empty:
+                self.log.error(
+                    "{host}: this link requires protected messages, and no device is paired:"
+                    " nothing is sent; run 'up keys add' ({key})",
+                    code="keys_missing",
+                    host=host,
+                    key=SECURITY_KEY,
+                )
         elif role is Role.PILOT and is_exposed:
             role, key = Role.OPERATOR, PLAIN_KEY
             self.log.error(
