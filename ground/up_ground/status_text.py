@@ -121,7 +121,9 @@ def control_text(status: LinkStatus) -> str:
 def security_text(status: LinkStatus) -> str:
     """Return how the link is protected, with the name and role of this device's key."""
     if not status.is_keyed:
-        return "plain" if not status.unprotected else "plain, no key of this aircraft"
+        return (
+            "no key" if not status.unprotected else "no key of this aircraft: run 'up-ground pair'"
+        )
     if status.key_role:
         return f"end to end: {status.key_name} ({status.key_role})"
     return f"key {status.key_name} {status.key_refusal or 'not accepted yet'}"
