@@ -46,7 +46,7 @@ $(PY):
 
 # What a user needs: the program, the simulator, the cogs of the Cogfile.
 $(VENV)/.run-ready: $(SETUPS) | $(PY)
-	@tools/install $(PY) sim,ground,log
+	@tools/install $(PY) sim,ground,log,keys
 	@touch $@
 
 # What a developer needs besides.
