@@ -168,10 +168,10 @@ class GroundLink:
             )
             return
         self.status.too_long = self._too_long + connection.dropped_too_long
-        body = self._open(line)
-        if body is None:
-            return
         try:
+            body = self._open(line)
+            if body is None:
+                return
             if body[:1] == _PACKED:
                 body = self._unpacker.unpack(body)
             message = decode(body)

@@ -98,6 +98,13 @@ def test_what_is_no_message_is_dropped_and_counted(bench):
     assert bench.messages == ["a"]
 
 
+@pytest.mark.parametrize("line", [b"\x01\x1b", b"\x01\x1bx", b"\x01abcd", b"\x02\x1b"])
+def test_a_binary_line_that_is_damaged_is_dropped_and_counted(bench, line):
+    bench.hear(ok("listen"), line)
+    assert bench.status.malformed + bench.status.keyless + bench.status.unprotected == 1
+    assert bench.messages == []
+
+
 def test_the_seat_comes_and_goes_with_its_token(bench):
     bench.hear(ok("listen"))
     assert not bench.link.give_seat(2)
