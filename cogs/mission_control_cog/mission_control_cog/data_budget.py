@@ -83,7 +83,8 @@ class DataBudget:
         return True
 
     def _choose_level(self, now_s: float, limit: float) -> None:
-        cost = self._level_bytes / self._level_frames
+        # At least a byte: without a link, or a kernel that counts, there are none.
+        cost = max(1, self._level_bytes) / self._level_frames
         self._costs[self.level] = (cost, now_s)
         if limit / cost < USEFUL_HZ:
             self.level = min(self.level + 1, len(HOLDS_S) - 1)

@@ -59,3 +59,9 @@ def test_a_burst_of_other_data_never_silences_attitude_for_longer_than_a_second(
     pauses = [after[0] - before[0] for before, after in pairwise(frames)]
     assert max(pauses) <= SLOWEST_S + 0.11
     assert len(HOLDS_S) == len(COSTS)
+
+
+def test_a_link_whose_bytes_are_not_known_sends_every_frame():
+    budget, frames = fly(3.0, 60, costs=(0, 0, 0))
+    assert rate_hz(frames) == pytest.approx(10, rel=0.01)
+    assert (budget.left_out, budget.level) == (0, 0)
