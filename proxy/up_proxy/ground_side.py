@@ -122,15 +122,16 @@ class GroundSide(Owner):
         A device that only listens needs a protected session too.
         """
         every = [line + b"\n" for line in lines.split(b"\n")[:-1]]
-        found = [each for each in every if each.startswith(HANDSHAKE)]
         if connection.handshakes is None:
             connection.handshakes = TokenBucket(self._poller, HANDSHAKES_HZ, HANDSHAKES_BURST)
-        for line in found:
+        for line in every:
+            if not line.startswith(HANDSHAKE):
+                continue
             if len(line) <= HANDSHAKE_MAX_BYTES and connection.handshakes.take():
                 self._relay(connection, line)
             else:
                 self._aircraft.rejected_lines += 1
-        return b"".join(each for each in every if each not in found)
+        return b"".join(each for each in every if not each.startswith(HANDSHAKE))
 
     def _relay_mixed(self, connection: Connection, lines: bytes) -> None:
         """Handle lines one by one: a control line may change the owner in between."""
