@@ -154,8 +154,9 @@ class Acceptor:
         if context is self._context:
             return
         self._context = context
+        revoked = files.revoked_among(each.serial for each in self.connections)
         for connection in self.connections:
-            if files.revokes(connection.serial):
+            if connection.serial in revoked:
                 connection.fail("its certificate is revoked")
 
     def _check(self, host: str) -> HelloError | None:

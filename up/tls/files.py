@@ -5,7 +5,7 @@ from __future__ import annotations
 import base64
 import ssl
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from pathlib import Path
 
 from twisted.logger import Logger
@@ -70,17 +70,17 @@ class TLSFiles:
                 self.log.error(text, fault=str(fault), code=fault.code)
         return self._made[1]
 
-    def revokes(self, serial: bytes) -> bool:
-        """Return whether the list names this serial number.
+    def revoked_among(self, serials: Iterable[bytes]) -> set[bytes]:
+        """Return those of the serial numbers that the list names.
 
-        The number is searched in the list's bytes: a long random one occurs there only as an entry.
+        They are searched in the list's bytes: a long random one occurs there only as an entry.
         """
         try:
             lines = self._read(REVOKED).splitlines()
             der = base64.b64decode("".join(each for each in lines if not each.startswith("-")))
         except (TLSError, ValueError):
-            return False
-        return serial in der
+            return set()
+        return {each for each in serials if each and each in der}
 
     def _server(self, clients: bool) -> ssl.SSLContext:
         context = _context(ssl.PROTOCOL_TLS_SERVER)

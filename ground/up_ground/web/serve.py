@@ -52,12 +52,11 @@ def parse_aircraft(text: str, usual: Settings) -> Settings:
             f"{text!r} is not NAME[@HOST:PORT[/direct]], such as glider-1@192.168.1.5:50002/direct",
             "invalid_aircraft",
         )
+    named = replace(usual, aircraft=match["name"], seat=Seat.LISTEN)
     host = match["host"]
     if host is None:
-        return Settings(usual.host, usual.port, match["name"], Seat.LISTEN, usual.direct, usual.tls)
-    return Settings(
-        host.strip("[]"), port, match["name"], Seat.LISTEN, bool(match["direct"]), usual.tls
-    )
+        return named
+    return replace(named, host=host.strip("[]"), port=port, direct=bool(match["direct"]))
 
 
 def fleet_of(options: argparse.Namespace) -> list[Settings]:
