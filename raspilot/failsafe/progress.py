@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import math
 
-from raspilot.navigation.planning import distance_m, flyable_radius_m
-from up.flight_modes.demand import Bank, Circle, Course, Line
+from raspilot.navigation.planning import distance_m, flyable_radius_m, left_along_m
+from up.flight_modes.demand import Circle, Line, PathDemand
 from up.flight_modes.navigation_file import NavigationConfig
 from up.flight_modes.navigation_state import NavigationState
 
@@ -23,10 +23,9 @@ class ProgressWatch:
         self._nearest_m = math.inf
         self._since_s = 0.0
 
-    def stalled_s(
-        self, now_s: float, path: Line | Circle | Course | Bank | None, state: NavigationState
-    ) -> float:
+    def stalled_s(self, now_s: float, demand: PathDemand | None, state: NavigationState) -> float:
         """Return for how long the distance has not become less; 0.0: the path ends nowhere."""
+        path = None if demand is None else demand.path
         away_m = self._away_m(path, state)
         if path != self._path or away_m is None:
             self._path, self._nearest_m = path, math.inf
@@ -39,10 +38,7 @@ class ProgressWatch:
     def _away_m(self, path: object, state: NavigationState) -> float | None:
         """Return how far it is to the point of a line ahead, or to a circle; None: it is there."""
         if isinstance(path, Line):
-            north_m = path.point.north_m - state.position.north_m
-            east_m = path.point.east_m - state.position.east_m
-            course = math.radians(path.course_deg)
-            left_m = north_m * math.cos(course) + east_m * math.sin(course)
+            left_m = left_along_m(state.position, path.point, path.course_deg)
             return left_m if left_m > 0.0 else None
         if not isinstance(path, Circle):
             return None

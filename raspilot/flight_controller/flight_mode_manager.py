@@ -29,16 +29,7 @@ from up.commands.refusal import CommandRefusedError
 from up.commands.roles import Role
 from up.flight_controller.base_flight_controller import BaseFlightController
 from up.flight_modes.declarations import GROUND_MODES, auto_mode_problem
-from up.flight_modes.demand import (
-    AttitudeDemand,
-    Bank,
-    Circle,
-    Course,
-    Demand,
-    Line,
-    PathDemand,
-    SurfacesDemand,
-)
+from up.flight_modes.demand import AttitudeDemand, Demand, PathDemand, SurfacesDemand
 from up.flight_modes.flight_mode import FlightMode, FlightSituation, Target
 from up.flight_modes.navigation_file import NAVIGATION
 from up.flight_modes.navigation_state import NavigationState
@@ -66,8 +57,8 @@ class FlightModeManager(BaseFlightController):
     Its demand becomes an Output (``flight controller: raspberry``) or a set-point (``arduino``).
     Without a mode that can act, or from an orientation that is not the board's, nothing is
     published: the board's own failsafe acts. When the switch leaves AUTO, the selection ends.
-    ``choices`` counts the selections by the pilot, the ground and the failsafes; ``flown_path`` is
-    that of the newest demand, None for one without.
+    ``choices`` counts the selections by the pilot, the ground and the failsafes; ``path_demand`` is
+    the newest demand, None for one without a path.
     """
 
     MODES: ClassVar[frozenset[Mode]] = WITH_BOARD
@@ -85,7 +76,7 @@ class FlightModeManager(BaseFlightController):
         self.published = 0
         self.choices = 0
         self.is_resumed = False
-        self.flown_path: Line | Circle | Course | Bank | None = None
+        self.path_demand: PathDemand | None = None
         self._is_asked = True
         self._has_begun = False
         self._stepped_at_s = float("-inf")
@@ -253,7 +244,7 @@ class FlightModeManager(BaseFlightController):
     def _carry_out(
         self, demand: Demand, situation: FlightSituation, dt_s: float
     ) -> OutputCommand | SetpointCommand:
-        self.flown_path = demand.path if isinstance(demand, PathDemand) else None
+        self.path_demand = demand if isinstance(demand, PathDemand) else None
         if isinstance(demand, PathDemand):
             demand = self._attitude_of(demand, situation, dt_s)
         # In receiver failsafe the board follows nothing but set-points that are marked so.

@@ -31,9 +31,9 @@ STANDING_M_S = 3.0
 class HomeKeeper:
     """Home is the first accurate position, then that of the standing aircraft when it is armed.
 
-    In flight only a Command moves it. ``place`` is None while home is not known; ``on_changed`` is
-    called with every new one. ``is_outside`` says whether a point is outside the fence, whose
-    radius is measured from the home that is given, if one is.
+    In flight only a Command moves it. ``place`` is None until home is set; ``on_changed`` gets
+    every new one. ``is_outside`` returns whether a point is outside the fence; its radius counts
+    from the given home, and without one not at all.
     """
 
     log = Logger()

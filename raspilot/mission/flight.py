@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from typing import Protocol
 
 from raspilot.mission.legs import lead_m, turn_between_deg
@@ -10,6 +9,7 @@ from raspilot.navigation.planning import (
     course_to_deg,
     distance_m,
     ground_speed_m_s,
+    left_along_m,
     turn_radius_m,
 )
 from up.flight_modes.demand import Circle, Course, Line, PathDemand
@@ -76,10 +76,7 @@ class LineFlight:
         return PathDemand(line, altitude_m, airspeed_m_s=self._airspeed_m_s)
 
     def _left_m(self, state: NavigationState) -> float:
-        course = math.radians(self._course_deg)
-        north_m = self._end.north_m - state.position.north_m
-        east_m = self._end.east_m - state.position.east_m
-        return north_m * math.cos(course) + east_m * math.sin(course)
+        return left_along_m(state.position, self._end, self._course_deg)
 
     def _lead_m(self, state: NavigationState) -> float:
         if self._next_deg is None:

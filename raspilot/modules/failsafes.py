@@ -133,7 +133,7 @@ class Failsafes(BasePeriodicModule):
         # A restart in flight does not forget that there was a ground.
         self._was_linked = self._was_linked or is_linked or flight.is_resumed
         state = None if situation is None else situation.navigation
-        path = flight.flown_path if flight.acting_mode else None
+        demand = flight.path_demand if flight.acting_mode else None
         if self.plans is not None:
             borders: Any = self.plans.fences.items
             self._fence.use(borders)
@@ -144,7 +144,7 @@ class Failsafes(BasePeriodicModule):
             "receiver_lost": flight.board.is_failsafe,
             "uplink_lost": self._was_linked and not is_linked,
             "no_progress": state is not None
-            and self._progress.stalled_s(self._seconds(), path, state) > 0.0,
+            and self._progress.stalled_s(self._seconds(), demand, state) > 0.0,
         }
 
     def _reported_failures(self) -> dict[str, bool]:

@@ -60,6 +60,13 @@ def airspeed_for_wind_m_s(
     return best
 
 
+def left_along_m(position: Point, end: Point, course_deg: float) -> float:
+    """Return how far a point is ahead along a course; negative: it is behind."""
+    course = math.radians(course_deg)
+    north_m, east_m = end.north_m - position.north_m, end.east_m - position.east_m
+    return north_m * math.cos(course) + east_m * math.sin(course)
+
+
 def flyable_radius_m(config: NavigationConfig, state: NavigationState, radius_m: float) -> float:
     """Return the radius, or the least one that bank limit, airspeed and wind permit."""
     fastest = config.airspeed.cruise_m_s + math.hypot(*state.wind_m_s)

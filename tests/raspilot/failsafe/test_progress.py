@@ -4,7 +4,7 @@ from dataclasses import replace
 
 from raspilot.failsafe.progress import ProgressWatch
 from tests.raspilot.navigation_rig import NAVIGATION
-from up.flight_modes.demand import Course, Line
+from up.flight_modes.demand import Course, Line, PathDemand
 from up.flight_modes.navigation_file import NavigationConfig
 from up.flight_modes.navigation_state import Point
 
@@ -15,7 +15,9 @@ def test_towards_the_end_of_a_line():
     watch = ProgressWatch(NavigationConfig())
 
     def stalled_s(now_s, east_m, path=EAST):
-        return watch.stalled_s(now_s, path, replace(NAVIGATION, position=Point(50.0, east_m)))
+        return watch.stalled_s(
+            now_s, PathDemand(path), replace(NAVIGATION, position=Point(50.0, east_m))
+        )
 
     assert stalled_s(0.0, 0.0) == 0.0
     assert stalled_s(20.0, 5.0) == 20.0, "5 m in 20 s are no progress"
