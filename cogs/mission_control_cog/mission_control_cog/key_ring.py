@@ -5,25 +5,41 @@ from __future__ import annotations
 import contextlib
 import os
 import time
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
 from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
 
 from twisted.internet.task import LoopingCall
 from twisted.logger import Logger
+from twisted.python.failure import Failure
 
-from up.config import ConfigErrors
+from up.config import ConfigErrors, ConfigProblem
 from up.config.keys_file import KEYS, KeyConfig
 from up.protocols.aircraft_sessions import Key
+from up.system.disk_thread import DiskThread
 
 POLL_S = 0.5
 """A revoked key ends its sessions within this time."""
 _CLOCK_S = 3600.0
 
 
+@dataclass(frozen=True, slots=True)
+class _Found:
+    """What a look at the file has found; ``configured`` is None if it was not read, or is faulty.
+
+    ``newest_s`` is the latest time that the clock or the file has shown.
+    """
+
+    stamp: object
+    newest_s: float
+    configured: Mapping[str, KeyConfig] | None = None
+    problems: Sequence[ConfigProblem] = ()
+
+
 class KeyRing:
-    """Follows keys.yml; ``on_keys`` gets all keys at the start and after each change.
+    """Follows keys.yml, beside the reactor; ``on_keys`` gets all keys at the start and each change.
 
     A faulty file keeps the keys read before: a typing error must not take control from a pilot in
     flight. A deleted file revokes all. Today is never before the file's last change, which is
@@ -41,11 +57,13 @@ class KeyRing:
         self._folder = folder
         self._path = folder / KEYS.filename
         self._on_keys = on_keys
+        self._disk = DiskThread(reactor)
+        self._is_looking = False
         self._stamp: object = ()
         self._newest_s = 0.0
         self._configured: Mapping[str, KeyConfig] = {}
         self._keys: Mapping[bytes, Key] | None = None
-        self._poll = LoopingCall(self.update)
+        self._poll = LoopingCall(self._look_again)
         self._poll.clock = reactor
 
     @property
@@ -54,23 +72,49 @@ class KeyRing:
         return all(each.refusal for each in (self._keys or {}).values())
 
     def start(self) -> None:
-        self._poll.start(POLL_S)
+        self._use(self._look())
+        self._poll.start(POLL_S, now=False)
 
     def stop(self) -> None:
         if self._poll.running:
             self._poll.stop()
 
-    def update(self) -> None:
-        """Read the file if it has changed, and report the keys if any of them differs now."""
-        stamp, changed_s = self._look()
+    def _look_again(self) -> None:
+        if not self._is_looking:
+            self._is_looking = True
+            self._disk.run(self._look).addCallbacks(self._use, self._on_fault)
+
+    def _look(self) -> _Found:
+        """Read the file if it has changed; on the disk's thread."""
+        stamp, changed_s = self._stat()
+        newest_s = max(self._newest_s, changed_s, time.time())
         if stamp != self._stamp:
-            self._stamp = stamp
-            self._load()
-        self._newest_s = max(self._newest_s, changed_s, time.time())
-        if stamp is not None and self._newest_s - changed_s > _CLOCK_S:
+            try:
+                return _Found(stamp, newest_s, KEYS.load(self._folder).keys)
+            except ConfigErrors as errors:
+                return _Found(stamp, newest_s, None, errors.problems)
+        if stamp is not None and newest_s - changed_s > _CLOCK_S:
             with contextlib.suppress(OSError):
-                os.utime(self._path, (self._newest_s, self._newest_s))
-                self._stamp = self._look()[0]
+                os.utime(self._path, (newest_s, newest_s))
+                stamp = self._stat()[0]
+        return _Found(stamp, newest_s)
+
+    def _stat(self) -> tuple[object, float]:
+        try:
+            found = self._path.stat()
+        except OSError:
+            return None, 0.0
+        return (found.st_ino, found.st_size, found.st_mtime_ns, found.st_mode), found.st_mtime
+
+    def _use(self, found: _Found) -> None:
+        """Report the keys if any of them differs now."""
+        self._is_looking = False
+        self._stamp, self._newest_s = found.stamp, found.newest_s
+        for problem in found.problems:
+            text = "{problem}; the keys read before stay valid"
+            self.log.error(text, problem=str(problem), code="keys_faulty")
+        if found.configured is not None:
+            self._configured = found.configured
         today = datetime.fromtimestamp(self._newest_s, UTC).date()
         keys = {
             bytes.fromhex(key_id): Key(
@@ -86,20 +130,6 @@ class KeyRing:
             self._keys = keys
             self._on_keys(keys)
 
-    def _look(self) -> tuple[object, float]:
-        try:
-            found = self._path.stat()
-        except OSError:
-            return None, 0.0
-        return (found.st_ino, found.st_size, found.st_mtime_ns, found.st_mode), found.st_mtime
-
-    def _load(self) -> None:
-        try:
-            self._configured = KEYS.load(self._folder).keys
-        except ConfigErrors as errors:
-            for problem in errors.problems:
-                self.log.error(
-                    "{problem}; the keys read before stay valid",
-                    problem=str(problem),
-                    code="keys_faulty",
-                )
+    def _on_fault(self, failure: Failure) -> None:
+        self._is_looking = False
+        self.log.failure("the keys were not read", failure, code="keys_unread")
