@@ -8,6 +8,7 @@ import pytest
 from twisted.internet.main import CONNECTION_LOST
 from twisted.logger import capturedLogs
 
+from up.system.disk_thread import DiskThread
 from up_simulator.in_process.reactor import SimulatedReactor
 
 
@@ -41,6 +42,15 @@ def test_calls_made_in_a_step_run_in_the_next_one(reactor):
     reactor.callLater(0, again)
     reactor.advance(0.01)
     assert made_s == [0.002, 0.004, 0.006, 0.008, 0.01]
+
+
+def test_a_slow_disk_does_not_delay_a_flight(reactor):
+    host, done = reactor.host(), []
+    held = threading.Event()
+    threading.Timer(0.2, held.set).start()
+    DiskThread(host).run(held.wait).addCallback(done.append)
+    reactor.advance(0.002)
+    assert done == [True]
 
 
 def test_a_due_call_may_be_cancelled_and_moved_by_one_before_it(reactor):
