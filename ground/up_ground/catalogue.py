@@ -130,7 +130,7 @@ def wire_name(field: dataclasses.Field[Any]) -> str:
 
 
 def requested_content(name: str, data: Mapping[str, Any]) -> str:
-    """Return the message that a Command requests besides its ack; empty: none."""
+    """Return the message that a Command requests in addition to its ack; empty: none."""
     is_request = name != GAINS or data.get("request") is True
     return _CONTENT_OF.get(name, "") if is_request else ""
 

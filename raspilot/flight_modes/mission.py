@@ -164,7 +164,7 @@ class Mission(FlightMode):
         else:
             radius_m = flyable_radius_m(config, state, radius_m)
             circle = Circle(point, radius_m, item.is_clockwise)
-        # Until a mode that replaces this one does not refuse any more.
+        # Until a mode that replaces this one no longer refuses.
         altitude_m = state.altitude_m if self.successor else _altitude_m(item, home)
         flight = CircleFlight(
             circle,

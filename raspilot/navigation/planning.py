@@ -12,7 +12,7 @@ from up.flight_modes.navigation_state import NavigationState, Point
 BANK_RESERVE = 0.8
 """Part of the bank limit that a steady circle may need."""
 AVIONICS_M_S = 0.3
-"""What receiver, computer and radio use besides the motor, as a sink."""
+"""What receiver, computer and radio use in addition to the motor, as a sink."""
 AIRSPEED_STEP_M_S = 0.5
 SETTLE_S = 1.0
 

@@ -70,7 +70,7 @@ class EnergyControl:
         if not demand.motor or not model.has_motor:
             return self._glide(airspeed, wanted, acceleration, load, dt_s), 0.0
 
-        # A long climb is flown faster; the throttle alone accelerates, the pitch climbs meanwhile.
+        # A long climb is flown faster; the throttle alone accelerates, while the pitch climbs.
         share = max(0.0, min(1.0, asked_climb / config.climb_limit_m_s - 1.0))
         fastest = wanted + share * max(0.0, self._climb_airspeed_m_s - wanted)
         wanted_energy = wanted_climb + self._stored(airspeed, fastest)

@@ -45,7 +45,7 @@ test("without control nothing is offered, with the reason", async () => {
   await ground.reason("#any-why", "control_free");
   assert.equal(await ground.page.isDisabled("#any-send"), true);
   await ground.takeControl();
-  await ground.until(() => document.querySelector("#any-why").hidden, "no reason any more");
+  await ground.until(() => document.querySelector("#any-why").hidden, "no reason is left");
 });
 
 test("a cog's Command has a form with its bounds, is sent, and is carried out", async () => {

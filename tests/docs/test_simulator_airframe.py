@@ -21,7 +21,7 @@ TEXT = (REPOSITORY / "docs" / PAGE).read_text(encoding="utf-8")
 
 @pytest.fixture
 def folder(tmp_path, monkeypatch):
-    """The folder of a user who has followed the page."""
+    """The folder of a user after following the page."""
     for name, text in files_of(PAGE).items():
         (tmp_path / name).parent.mkdir(exist_ok=True)
         (tmp_path / name).write_text(text, encoding="utf-8")

@@ -39,8 +39,8 @@ def test_a_bug_ends_one_connection_and_is_logged(failures):
         victim.say("trouble\n")
         victim.expect_closed()
         assert owner.reason == "internal error"
-        air.say("going on\n")
-        assert ground.line() == "going on\n"
+        air.say("continues\n")
+        assert ground.line() == "continues\n"
     assert [failure.type for failure in failures] == [ZeroDivisionError]
 
 

@@ -56,7 +56,7 @@ class ConfigFile(Generic[T]):
         return value
 
     def ignored_keys(self, folder: Path) -> list[ConfigProblem]:
-        """Return the keys of the file in `folder` that have no effect any more, for a warning."""
+        """Return the keys of the file in `folder` that no longer have an effect, for a warning."""
         path = Path(folder) / self.filename
         problems = Problems(path)
         root = read_tree(path, problems.report) if self.ignored else None

@@ -44,7 +44,7 @@ class GroundSession:
         return Hello(self._key_id, self._nonce).encode(self._aircraft, self._secret)
 
     def forget_hello(self) -> None:
-        """Accept no answer to the last hello any more."""
+        """Refuse every answer to the last hello."""
         self._nonce = b""
 
     def on_handshake(self, body: bytes) -> Answer | Refusal | None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 
 class RigError(Exception):
-    """The rig cannot do what was asked."""
+    """The rig cannot carry out a request."""
 
     def __init__(self, text: str, code: str) -> None:
         super().__init__(text)

@@ -41,7 +41,7 @@ class AndroidConfig:
     )
     forward_interval_ms: float = key(
         500.0,
-        "The phone gets telemetry at most so often.",
+        "The shortest time between two telemetry frames to the phone.",
         name="forward interval for onboard device (ms)",
         unit="ms",
         minimum=20,
@@ -64,7 +64,7 @@ class AndroidConfig:
     )
     low_battery_percent: float = key(
         20.0,
-        "Level of the phone's battery at and below which it is said loudly. 0: never.",
+        "Level of the phone's battery at and below which an alarm is raised. 0: never.",
         name="low battery (percent)",
         unit="percent",
         minimum=0,

@@ -27,7 +27,7 @@ from up.log.text import source_of, text_of
 class LogLine:
     """One line of the program's log; ``level`` as foxglove.Log counts.
 
-    An event with a ``code`` has its fields besides.
+    An event with a ``code`` has its fields too.
     """
 
     level: int

@@ -72,7 +72,7 @@ class SimulatedHost:
         self.reactor.call_from_thread(partial(self.do, partial(callable, *args, **kw)))
 
     def start_thread(self, work: Callable[[], None]) -> None:
-        """Do the work of a disk at once: a flight must not depend on this computer's disk."""
+        """Do the work of a disk immediately: a flight must not depend on this computer's disk."""
         work()
 
     def addReader(self, reader: Any) -> None:  # noqa: N802 - Twisted's name

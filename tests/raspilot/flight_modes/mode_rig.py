@@ -25,7 +25,7 @@ def sticks(ailerons=1500, elevator=1500, rudder=1500):
 
 
 class ModeRig:
-    """``given`` are the readings and requests that the mode sees besides the estimate."""
+    """``given`` are the readings and requests that the mode sees in addition to the estimate."""
 
     def __init__(self, mode, plane=None, *, has_navigation=True, **given):
         self.mode = mode
