@@ -305,7 +305,7 @@ class FlightModeManager(BaseFlightController):
                 self._resume(command)
             else:
                 self.home.memory.clear()
-        elif not command.is_auto and not command.is_failsafe:
+        elif command.flight_mode and not command.is_auto and not command.is_failsafe:
             self._is_asked = True
             if self._selector.selected != self._auto:
                 self._select(self._auto)

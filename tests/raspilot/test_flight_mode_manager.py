@@ -124,6 +124,21 @@ def test_the_pilot_ends_a_mode_by_the_switch_and_gets_no_surprise_later(rig):
     assert rig.shown()["selected"] is None
 
 
+def test_a_mode_flies_again_when_a_silent_board_is_back_with_the_switch_at_auto(rig):
+    rig.state()
+    rig.outcome(FlightModeCommand("BANK"))
+    assert rig.setpoint()
+    rig.bus.execute_command(FlightStateCommand(None, False, False, False), BOARD)
+    assert rig.setpoint() is None
+    assert (rig.shown()["mode"], rig.shown()["selected"]) == (None, "BANK")
+    rig.state("FBW")
+    assert rig.setpoint().roll_deg == 20.0
+    rig.bus.execute_command(FlightStateCommand(None, False, False, False), BOARD)
+    rig.state("FBW", auto=False)
+    rig.state("SETPOINT")
+    assert rig.setpoint() is None, "the pilot has moved the switch"
+
+
 @pytest.mark.parametrize("mode", ["LOITER", "RETURN"])
 def test_without_fixes_a_circle_by_dead_reckoning_and_later_a_glide_then_the_mode_again(rig, mode):
     rig.state()
