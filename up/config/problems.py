@@ -17,6 +17,7 @@ CODES = {
     "cut_short": "A file of learned values lacks its last line.",
     "file_empty": "A file that must hold a whole set of values is empty.",
     "file_too_large": "More than 1 MiB, 50000 values or 20 levels.",
+    "import_missing": "The value needs a Python package that is not installed.",
     "inconsistent": "The value contradicts another key.",
     "key_missing": "A set of values that is valid only as a whole lacks a key.",
     "key_removed": "The key is no longer used; the text names its replacement.",
