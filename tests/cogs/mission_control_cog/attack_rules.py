@@ -19,6 +19,7 @@ from up.commands.beacon import Beacons
 from up.commands.roles import Role
 from up.config.keys_file import KeyConfig
 from up.protocols import aircraft_sessions, envelope, ground_session, handshake
+from up.protocols.encrypted_stream import EncryptedStream
 from up_ground import telemetry
 from up_ground.link_security import LinkSecurity
 from up_ground.one_way_delay import OneWayDelayEstimator
@@ -96,7 +97,7 @@ def no_name(m):
     m.setattr(
         aircraft_sessions.AircraftSessions,
         "__init__",
-        lambda a, name, *more: real(a, "default", *more),
+        lambda a, name, *more, **named: real(a, "default", *more, **named),
     )
 
 
@@ -135,6 +136,23 @@ def same_random(m):
     m.setattr(Beacons, "was_sent", _yes)
     no_age(m)
 
+
+def no_encryption(m):
+    m.setattr(EncryptedStream, "_protect", envelope.Stream._protect)
+    m.setattr(EncryptedStream, "_unprotect", envelope.Stream._unprotect)
+
+
+def secrecy_optional(m):
+    """The aircraft takes the hello of a ground that does not encrypt."""
+    real = aircraft_sessions.AircraftSessions.__init__
+    m.setattr(
+        aircraft_sessions.AircraftSessions,
+        "__init__",
+        lambda a, *args, **_: real(a, *args, secrecy=False),
+    )
+
+
+SECRECY = {"text": "role: pilot\nsecrecy: require\n"}
 
 ATTACKS = (
     Attack("forged Command", "MAC", attacks.forged, no_mac),
@@ -219,5 +237,20 @@ ATTACKS = (
         "fresh nonces",
         attacks.restarted_ground,
         same_random,
+    ),
+    Attack("relay reads, secrecy required", "encryption", attacks.read, no_encryption, SECRECY),
+    Attack(
+        "hello for secrecy dropped, the plain one repeated",
+        "plain hellos are refused",
+        attacks.secrecy_stripped,
+        secrecy_optional,
+        SECRECY,
+    ),
+    Attack(
+        "one key and nonce in two lives of both sides",
+        "fresh nonces",
+        attacks.same_keystream,
+        same_random,
+        SECRECY,
     ),
 )

@@ -5,7 +5,8 @@ from tests.support.reactor import reactor, until
 from up.config.keys_file import revoke_key
 from up.protocols.binary_line import HANDSHAKE, to_body, to_line
 from up.protocols.envelope import HEADER_BYTES, place_of
-from up.protocols.general_message import encode
+from up.protocols.general_message import MalformedMessage, decode, encode
+from up.protocols.handshake import Answer, Hello
 
 BODY_AT = HEADER_BYTES + 1
 
@@ -286,3 +287,54 @@ async def restarted_ground(s):
     s.relay.to_ground(b"{}")
     await until(lambda: s.ground.status.unprotected)
     return s.ground.frames, sent
+
+
+def readable(lines):
+    """Return how many protected lines show their message to the relay."""
+    count = 0
+    for line in lines:
+        try:
+            count += decode(to_body(line)[BODY_AT:]) is not None
+        except MalformedMessage:
+            continue
+    return count
+
+
+async def read(s):
+    """The relay reads a Command, its answer and the telemetry of a session."""
+    await s.ground.ready()
+    s.ground.send(id_="a")
+    await until(lambda: s.ground.answers("a") and s.ground.frames >= 3)
+    lines = s.relay.protected(s.relay.up + s.relay.down)[:5]
+    return readable(lines), len(lines)
+
+
+async def secrecy_stripped(s):
+    """The relay drops the hello for secrecy, and repeats the plain one."""
+
+    def without_secrecy(line):
+        if line[0] != HANDSHAKE or line[1] == Hello.KIND:
+            s.relay.to_air(line)
+
+    def handshakes(lines):
+        return [line for line in lines if line[0] == HANDSHAKE]
+
+    s.relay.on_up = without_secrecy
+    plain, *_ = await until(lambda: handshakes(s.relay.up))
+    for _ in range(3):
+        s.relay.to_air(plain)
+    await until(lambda: len(handshakes(s.relay.down)) >= 4)
+    return sum(line[1] == Answer.KIND for line in handshakes(s.relay.down)), 4
+
+
+async def same_keystream(s):
+    """The first Command of two lives of both sides begins with the same text."""
+    first = await captured(s, hold=False)
+    await s.ground.link.stop()
+    await s.aircraft.__aexit__()
+    s.relay.ends.clear()
+    await s.start_aircraft(s.air_port)
+    s.ground = Ground(s.folder, s.ground_port, s.pairing)
+    second = await captured(s)
+    beginning = slice(BODY_AT, BODY_AT + 16)
+    return int(first[beginning] == second[beginning]), 1

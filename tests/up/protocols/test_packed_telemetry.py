@@ -71,6 +71,18 @@ def test_frames_between_keys_can_be_left_out():
             assert unpacker.unpack(each) == b"frame %d" % number
 
 
+def test_a_frame_that_changes_much_is_a_key_before_its_time():
+    """With a data budget most frames repeat most values: a renewal is paid for once."""
+    held, renewed = (bytes(range(low, low + 100)) * 4 for low in (0, 100))
+    packer, unpacker, sizes = Packer(), Unpacker(), []
+    for number, content in enumerate((held, held, held, renewed, renewed)):
+        frame = content + b"%d" % number
+        packed = packer.pack(frame, number / 10)
+        sizes.append(len(packed))
+        assert unpacker.unpack(packed) == frame
+    assert max(sizes[2], sizes[4]) < sizes[3] / 2
+
+
 def test_a_frame_without_its_key_is_refused_until_a_restart():
     packer, unpacker = Packer(), Unpacker()
     packer.pack(b"lost key", 0.0)
