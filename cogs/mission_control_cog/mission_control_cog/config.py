@@ -128,7 +128,7 @@ class MissionControlConfig:
         if self.secrecy == "require":
             if not is_available():
                 text = "needs the Python package cryptography: pip install 'raspilot[tls]'"
-                yield "secrecy", text, "import_missing"
+                yield "secrecy", text, "package_missing"
             if {self.remote_server.security, self.listener.security} & {"off", "accept"}:
                 yield "secrecy", "require needs security: require, or auto, on every link"
         if self.audit_log and not Path(self.audit_log).is_absolute():
