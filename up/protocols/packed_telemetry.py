@@ -16,7 +16,7 @@ from up.protocols.binary_line import PACKED
 from up.protocols.line_decoder import MAX_LINE_BYTES
 from up.protocols.packed_dictionary import DICTIONARY
 
-KEY_AGE_S = 1.0
+KEY_AGE_S = 0.3
 """A frame that is sent when the key is older becomes the next key."""
 RENEWAL = 1.7
 """So does a frame with this many times the data of the smallest one since the key."""
