@@ -9,6 +9,7 @@ from pathlib import Path
 
 from bench.table import Row
 from tests.cogs.mission_control_cog.attack_rules import ATTACKS, attempt
+from tests.support.reactor import reactor
 
 
 def rows(quick: bool = False) -> Iterable[Row]:
@@ -24,3 +25,5 @@ def rows(quick: bool = False) -> Iterable[Row]:
             target="0",
             met=accepted == 0 < without,
         )
+    if reactor.threadpool is not None:
+        reactor.threadpool.stop()  # its threads would keep this process
