@@ -294,5 +294,5 @@ def rows(quick: bool = False) -> Iterable[Row]:
     with certificates(PAIRS) as own:
         yield from relay_rows(3 if quick else ROUNDS, 0.5 if quick else 3.0, own)
         yield memory_row(100 if quick else 400, own)
-        yield from storm_rows(1 if quick else 3, own)
+        yield from storm_rows(1 if quick else 5, own)
         yield reconnect_row(QUICK_DARK_S if quick else DARK_S, 1 if quick else 3, own)

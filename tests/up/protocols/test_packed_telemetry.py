@@ -77,7 +77,7 @@ def test_a_frame_that_changes_much_is_a_key_before_its_time():
     packer, unpacker, sizes = Packer(), Unpacker(), []
     for number, content in enumerate((held, held, held, renewed, renewed)):
         frame = content + b"%d" % number
-        packed = packer.pack(frame, number / 10)
+        packed = packer.pack(frame, number * KEY_AGE_S / 10)
         sizes.append(len(packed))
         assert unpacker.unpack(packed) == frame
     assert max(sizes[2], sizes[4]) < sizes[3] / 2
