@@ -9,6 +9,7 @@ from subprocess import SubprocessError
 from bench.table import LeftOutError, Row, format_table
 
 SUBJECTS = {
+    "attacks": "attacks of a hostile relay, with the rule that stops each and without it",
     "bus": "publishing to 1, 10 and 100 subscribers",
     "codecs": "the serial line and orientation from bytes",
     "envelope": "protected messages beside plain ones, and mutated ones",

@@ -41,20 +41,21 @@ def content(properties: dict[str, Any], draws: random.Random) -> dict[str, Any]:
     }
 
 
-def pair() -> tuple[AircraftSessions, GroundSession]:
+def pair(secrecy: bool = False) -> tuple[AircraftSessions, GroundSession]:
     """Return both ends of a session."""
-    air = AircraftSessions("glider-1", lambda: 0)
+    air = AircraftSessions("glider-1", lambda: 0, secrecy=secrecy)
     air.replace_keys({KEY.id: KEY})
     ground = GroundSession("glider-1", KEY.id, KEY.secret)
+    ground.secrecy = secrecy
     ground.on_handshake(air.answer(ground.hello())[1])
     return air, ground
 
 
-def works() -> list[Work]:
+def works(secrecy: bool = False) -> list[Work]:
     """Return encode plain and protected, decode plain and protected, the MAC alone, handshakes."""
     draws = random.Random(1)
     frames = [content(PROPERTIES, draws) for _ in range(20)] * (FRAMES // 20)
-    air, ground = pair()
+    air, ground = pair(secrecy)
     lines = [encode(NAME, each, None, 1) for each in frames]
     payload = lines[0][:-1]
     stream = Stream(bytes(32), b"telemetry", b"glider-1", b"", 1)
@@ -117,9 +118,13 @@ def accepted(count: int) -> int:
 
 def rows(quick: bool) -> Iterable[Row]:
     """Yield the figures."""
-    found = cpu_us(*works(), rounds=QUICK_ROUNDS if quick else ROUNDS)
-    plain, protected, read, _, opened, mac, handshakes = found
+    rounds = QUICK_ROUNDS if quick else ROUNDS
+    plain, encrypted, read, _, opened, *_ = cpu_us(*works(secrecy=True), rounds=rounds)
     limit = Limit(RATIO)
+    yield compared("frame encoded and encrypted, CPU", "us", encrypted, "plain", plain, limit)
+    yield compared("frame decrypted and decoded, CPU", "us", opened, "plain", read, limit)
+    found = cpu_us(*works(), rounds=rounds)
+    plain, protected, read, _, opened, mac, handshakes = found
     yield compared("frame encoded and protected, CPU", "us", protected, "plain", plain, limit)
     yield compared("frame opened and decoded, CPU", "us", opened, "plain", read, limit)
     yield compared("of that the MAC, CPU", "us", mac, limit=Limit(MAC_US))

@@ -1,37 +1,76 @@
 """A flight of `make run` in a separate network namespace, and what its uplink costs at IP level.
 
-`python -m bench.link_flight SECONDS WATCHED [BUDGET]`, as root inside `unshare --net`; prints one
-JSON object: IP packets and bytes in both directions between aircraft and proxy, and the seconds.
+`python -m bench.link_flight SECONDS WATCHED SECURITY [BUDGET]`, as root inside `unshare --net`;
+prints one JSON object: IP packets and bytes in both directions between aircraft and proxy, packets
+with a frame of telemetry, and the seconds. A protected aircraft sends frames to an open session
+alone.
 """
 
 import json
+import os
 import subprocess
 import sys
 import tempfile
 import time
 from pathlib import Path
 
+import yaml
+
+from up.config.keys_file import add_key
+from up.protocols.pairing import Pairing
+from up.tls.authority import Authority
+from up_ground.key_store import KeyStore
+from up_ground.token_store import state_folder
 from up_simulator.demo.flight import DemoFlight
 from up_simulator.demo.main import ROOT, read_options
 
 SETTLE_S = 12.0
 TABLE = "inet link"
+AIRCRAFT = "default"
+FRAME_BYTES = 100
+"""A packet from the aircraft with a frame is larger, a heartbeat is smaller."""
 LOAD_GUARD = ("load_guard.LoadGuard", "system_state_provider.SystemStateProvider")
 
 
 class MeteredFlight(DemoFlight):
-    """Flies with a data budget; other programs' load does not slow its telemetry."""
+    """Flies with a data budget; other programs' load does not slow its telemetry.
 
-    budget = ""
+    ``is_protected``: TLS on both hops, and the page has a key, without which it gets nothing.
+    """
+
+    budget: float | None = None
+    is_protected = False
 
     def _write_config(self) -> None:
         super()._write_config()
-        folder = self._folder / "config"
-        with (folder / "mission_control.yml").open("a", encoding="utf-8") as file:
-            file.write(f"data_budget_mb_per_hour: {self.budget}\n")
+        folder, ports = self._folder / "config", self._ports
+        path = folder / "mission_control.yml"
+        config = yaml.safe_load(path.read_text(encoding="utf-8"))
+        config["data_budget_mb_per_hour"] = self.budget
+        if self.is_protected:
+            own = certificates(self._folder / "certificates")
+            config["remote_server"] |= {"security": "require", "tls": str(own / AIRCRAFT)}
+            tls = {"folder": str(own / "relay")}
+            tls |= {"airborne port": ports.airborne, "ground port": ports.ground}
+            (folder / "proxy.yml").write_text(yaml.safe_dump({"metrics": False, "tls": tls}))
+            key_id, key = add_key(folder, "page", "pilot")
+            pairing = Pairing(AIRCRAFT, key_id, key.secret, key.role, key.name)
+            os.environ["XDG_STATE_HOME"] = str(self._folder / "state")
+            os.environ["UP_GROUND_TLS"] = str(own / "ground")
+            KeyStore(state_folder(os.environ)).put(pairing)
+        path.write_text(yaml.safe_dump(config), encoding="utf-8")
         disabled = ", ".join(f"load_guard_cog.modules.{name}" for name in LOAD_GUARD)
         (folder / "disabled_modules.yml").write_text(f"disabled modules: [{disabled}]\n")
-        count_port(self._ports.airborne)
+        count_port(ports.airborne)
+
+
+def certificates(folder: Path) -> Path:
+    authority = Authority(folder)
+    authority.create("bench")
+    authority.issue("relay", ["127.0.0.1"], 2)
+    for name in (AIRCRAFT, "ground"):
+        authority.issue(name, [], 2)
+    return folder
 
 
 def nft(*words: str) -> str:
@@ -42,18 +81,18 @@ def count_port(port: int) -> None:
     """Count the packets from and to a TCP port; on the loopback each passes `input` once."""
     subprocess.run(["ip", "link", "set", "lo", "up"], check=True)
     nft(f"add table {TABLE}; add chain {TABLE} c {{ type filter hook input priority 0; }}")
-    for way in ("sport", "dport"):
-        nft(f"add rule {TABLE} c tcp {way} {port} counter")
+    for rule in (f"sport {port}", f"dport {port}", f"dport {port} meta length > {FRAME_BYTES}"):
+        nft(f"add rule {TABLE} c tcp {rule} counter")
 
 
-def counted() -> tuple[int, int]:
-    """Return packets and bytes so far."""
+def counted() -> tuple[int, int, int]:
+    """Return packets, bytes, and packets with a frame so far."""
     items = json.loads(nft("list table " + TABLE))["nftables"]
-    counters = [
+    up, down, frames = (
         part["counter"] for item in items if "rule" in item
         for part in item["rule"]["expr"] if "counter" in part
-    ]  # fmt: skip
-    return sum(each["packets"] for each in counters), sum(each["bytes"] for each in counters)
+    )  # fmt: skip
+    return up["packets"] + down["packets"], up["bytes"] + down["bytes"], frames["packets"]
 
 
 def main() -> None:
@@ -62,16 +101,19 @@ def main() -> None:
     with tempfile.TemporaryDirectory(prefix="upb-") as name:
         options = read_options([*words, "--folder", name, "--board", "host", "--phone", "python"])
         flight = MeteredFlight(options, Path(name), ROOT, lambda line: None)
-        flight.budget = "".join(sys.argv[3:])
+        flight.is_protected = sys.argv[3] == "protected"
+        flight.budget = float(sys.argv[4]) if sys.argv[4:] else None
         try:
             flight.start()
             time.sleep(SETTLE_S)
-            began_s, (packets, size) = time.monotonic(), counted()
+            began_s, before = time.monotonic(), counted()
             time.sleep(seconds)
-            (more, bytes_), passed_s = counted(), time.monotonic() - began_s
+            after, passed_s = counted(), time.monotonic() - began_s
         finally:
             flight.stop()
-    print(json.dumps({"packets": more - packets, "bytes": bytes_ - size, "seconds": passed_s}))
+    packets, size, frames = (b - a for a, b in zip(before, after, strict=True))
+    found = {"packets": packets, "bytes": size, "frames": frames, "seconds": passed_s}
+    print(json.dumps(found))
 
 
 if __name__ == "__main__":

@@ -14,7 +14,7 @@ import subprocess
 import sys
 import tempfile
 import time
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from pathlib import Path
@@ -46,6 +46,7 @@ class Figures:
     p50_us: float
     p99_us: float
     cpu_us: float
+    longest_us: float = math.nan
 
 
 def tree_cpu_s(pid: int) -> float:
@@ -136,9 +137,13 @@ class Load:
             raise RuntimeError(f"the load generator answered {answer} instead of {key}")
         return answer
 
-    def figures(self, relay_pid: int | None) -> Figures:
+    def figures(
+        self, relay_pid: int | None, during: Callable[[], object] = lambda: None
+    ) -> Figures:
+        """Return the figures of the run; ``during`` is called once it has warmed up."""
         self.hear("ready")
         self.hear("warm")
+        during()
         begin_s = tree_cpu_s(relay_pid) if relay_pid is not None else 0.0
         self.hear("done")
         used_s = tree_cpu_s(relay_pid) - begin_s if relay_pid is not None else 0.0
@@ -146,7 +151,7 @@ class Load:
         end = self.hear("count")
         self._process.wait(10)
         cpu_us = used_s * 1e6 / end["count"] if end["count"] else math.nan
-        return Figures(end["p50_us"], end["p99_us"], cpu_us)
+        return Figures(end["p50_us"], end["p99_us"], cpu_us, end["longest_us"])
 
 
 def measure_direct(seconds: float) -> Figures:

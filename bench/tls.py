@@ -17,7 +17,8 @@ from collections.abc import Iterable, Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
-from bench.processes import cpu_s, resident_mib
+from bench.daemon import MAIN, ROOT, write_config
+from bench.processes import cpu_s, resident_mib, running
 from bench.relay import (
     PAIRS,
     RATE_HZ,
@@ -35,16 +36,21 @@ from bench.relay import (
 from bench.relay_load import dial
 from bench.table import LeftOutError, Row, compared
 from bench.timing import Limit
+from up.config.keys_file import add_key
+from up.protocols.pairing import Pairing
 from up.tls.authority import Authority
 from up.tls.files import TLSFiles
+from up_ground.key_store import KeyStore
+from up_simulator.harness.ports import choose_ports
 
 TARGET = Limit(1.5)
 PAIR_KIB_TARGET = 60.0
 DARKNESS_TARGET_S = 3.0
-STORM = 500
+STORM, STORM_LOAD_S, GOOD_PAIRS = 500, 2.0, 4
 DARK_S, QUICK_DARK_S = 30.0, 5.0
 RECONNECT = Path(__file__).with_name("tls_reconnect.py")
 NAMESPACE = "up-bench-tls"
+AIRCRAFT = "bench-0"
 HERE, THERE = "10.249.7.1", "10.249.7.2"
 
 
@@ -65,18 +71,20 @@ def tls_settings(folder: Path) -> str:
 
 
 @contextmanager
-def haproxy(folder: Path, port: int, echo: int) -> Iterator[int]:
-    """Run HAProxy with TLS on both legs and yield its pid."""
+def haproxy(folder: Path, port: int, echo: int, storm: int = 0) -> Iterator[int]:
+    """Run HAProxy with TLS on both legs and yield its pid; behind ``storm`` is no server."""
     own = folder / "relay"
     both = own / "both.pem"
     both.write_bytes((own / "certificate.pem").read_bytes() + (own / "key.pem").read_bytes())
     check = f"ca-file {own / 'ca.pem'} verify required"
     path = folder / "haproxy.cfg"
+    bind = f"ssl crt {both} {check} no-tls-tickets"
+    second = f"listen storm\n  bind 127.0.0.1:{storm} {bind}\n" if storm else ""
     path.write_text(
         "global\n  nbthread 1\n  maxconn 4000\n  tune.ssl.cachesize 0\ndefaults\n  mode tcp\n"
         "  timeout connect 5s\n  timeout client 60s\n  timeout server 60s\n"
-        f"listen relay\n  bind 127.0.0.1:{port} ssl crt {both} {check} no-tls-tickets\n"
-        f"  server echo 127.0.0.1:{echo} ssl {check}\n"
+        f"listen relay\n  bind 127.0.0.1:{port} {bind}\n"
+        f"  server echo 127.0.0.1:{echo} ssl {check}\n{second}"
     )
     with process("haproxy", "-db", "-q", "-f", str(path)) as running:
         wait_for_port(port)
@@ -179,21 +187,40 @@ def storm_s(port: int, pid: int, own: Path, count: int) -> tuple[float, float]:
 
 
 def storm_rows(rounds: int, own: Path) -> Iterable[Row]:
+    """Yield what a storm costs, and the round trips of good peers that are relayed meanwhile."""
     ours, theirs = [], []
     for _ in range(rounds):
         with (
             tempfile.TemporaryDirectory() as folder,
-            our_proxy(Path(folder), tls_settings(own)) as (pid, _, ground),
+            our_proxy(Path(folder), tls_settings(own)) as (pid, air, ground),
         ):
-            ours.append(storm_s(ground, pid, own, STORM))
+            load = Load("proxy", STORM_LOAD_S, own, pairs=GOOD_PAIRS, echo=air, send=ground)
+            ours.append(storm(load, ground, pid, own))
         if shutil.which("haproxy") is not None:
-            port = free_port()
-            with haproxy(own, port, free_port()) as pid:
-                theirs.append(storm_s(port, pid, own, STORM))
+            load = Load("forward", STORM_LOAD_S, own, pairs=GOOD_PAIRS)
+            echo = int(load.hear("echo")["echo"])
+            port, stormed = free_port(), free_port()
+            with haproxy(own, port, echo, stormed) as pid:
+                load.tell({"send": port})
+                theirs.append(storm(load, stormed, pid, own))
     what = f"TLS relay, storm of {STORM} handshakes"
-    for index, (name, unit) in enumerate((("until the last", "s"), ("CPU of one", "ms"))):
+    for index, (name, unit, limit) in enumerate(
+        (
+            ("until the last", "s", None),
+            ("CPU of one", "ms", TARGET),
+            (f"p50 of {GOOD_PAIRS} good pairs", "ms", TARGET),
+            (f"standstill of {GOOD_PAIRS} good pairs (longest round trip)", "ms", TARGET),
+        )
+    ):
         mine, others = ([run[index] for run in runs] for runs in (ours, theirs))
-        yield compared(f"{what}, {name}", unit, mine, "HAProxy", others)
+        yield compared(f"{what}, {name}", unit, mine, "HAProxy", others, limit)
+
+
+def storm(load: Load, port: int, pid: int, own: Path) -> tuple[float, ...]:
+    """Return the figures of a storm on a relay under load, in the order of the rows."""
+    found: list[float] = []
+    trips = load.figures(pid, lambda: found.extend(storm_s(port, pid, own, STORM)))
+    return (*found, trips.p50_us / 1000, trips.longest_us / 1000)
 
 
 @contextmanager
@@ -219,33 +246,46 @@ def dark_network() -> Iterator[tuple[str, ...]]:
         subprocess.run(("ip", "netns", "del", NAMESPACE), capture_output=True, check=False)
 
 
-def reconnect_row(dark_s: float, own: Path) -> Row:
-    """Return how long after the end of darkness a ground's link is open again."""
-    port = free_port()
-    settings = (
-        f"metrics: false\ntls: {{folder: {own / 'relay'}, airborne port: 0, ground port: {port}}}\n"
+def reconnect_row(dark_s: float, rounds: int, own: Path) -> Row:
+    """Return how long after the end of darkness the ground reads telemetry again.
+
+    A real daemon and a real ground link, both with TLS and keys, lose the proxy together.
+    """
+    ports, took_s = choose_ports(any_ports=True), []
+    tls = (
+        f"{{folder: {own / 'relay'}, airborne port: {ports.airborne}, ground port: {ports.ground}}}"
     )
-    with tempfile.TemporaryDirectory() as folder, dark_network() as inside:
-        Path(folder, "proxy.yml").write_text(settings)
-        command = (*inside, sys.executable, "-m", "up_proxy.main", "--config", folder)
-        proxy = subprocess.Popen(command, stderr=subprocess.DEVNULL)
-        try:
-            words = (THERE, str(port), str(own / "client"), str(dark_s), " ".join(inside))
-            done = subprocess.run(
-                (sys.executable, str(RECONNECT), *words),
-                capture_output=True,
-                text=True,
-                timeout=dark_s + 120,
-            )
-        finally:
-            proxy.terminate()
-            proxy.wait()
-    if done.returncode or not done.stdout:
-        raise RuntimeError((done.stderr.strip() or "it never connected again").splitlines()[-1])
-    took_s = float(done.stdout)
-    what = f"TLS, ground connected again after {dark_s:g} s of darkness"
+    with tempfile.TemporaryDirectory() as name, dark_network() as inside:
+        folder = Path(name)
+        (folder / "proxy.yml").write_text(f"metrics: false\ntls: {tls}\n")
+        write_config(folder, ports)
+        (folder / "mission_control.yml").write_text(
+            f"aircraft: {AIRCRAFT}\nremote_server:\n  url: {THERE}\n  port: {ports.airborne}\n"
+            f"  tls: {own / AIRCRAFT}\n  security: require\n"
+        )
+        key_id, key = add_key(folder, "bench", "pilot")
+        KeyStore(folder).put(Pairing(AIRCRAFT, key_id, key.secret, key.role, key.name))
+        proxy = (*inside, sys.executable, "-m", "up_proxy.main", "--config", folder)
+        words = (THERE, str(ports.ground), own / "client", folder, str(dark_s), " ".join(inside))
+        with (
+            (folder / "log").open("w") as log,
+            running(proxy, log, ROOT),
+            running((sys.executable, MAIN, "--config", folder), log, ROOT),
+        ):
+            for _ in range(rounds):
+                done = subprocess.run(
+                    (sys.executable, RECONNECT, *words),
+                    capture_output=True,
+                    text=True,
+                    timeout=dark_s + 120,
+                )
+                if done.returncode or not done.stdout:
+                    reason = done.stderr.strip() or "it never connected again"
+                    raise RuntimeError(reason.splitlines()[-1])
+                took_s.append(float(done.stdout))
+    what = f"TLS and envelope, a frame read after {dark_s:g} s of darkness, worst of {rounds}"
     target = f"<= {DARKNESS_TARGET_S:g} s"
-    return Row(what, f"{took_s:.2f} s", target=target, met=took_s <= DARKNESS_TARGET_S)
+    return Row(what, f"{max(took_s):.2f} s", target=target, met=max(took_s) <= DARKNESS_TARGET_S)
 
 
 def rows(quick: bool = False) -> Iterable[Row]:
@@ -254,5 +294,5 @@ def rows(quick: bool = False) -> Iterable[Row]:
     with certificates(PAIRS) as own:
         yield from relay_rows(3 if quick else ROUNDS, 0.5 if quick else 3.0, own)
         yield memory_row(100 if quick else 400, own)
-        yield from storm_rows(1 if quick else 3, own)
-        yield reconnect_row(QUICK_DARK_S if quick else DARK_S, own)
+        yield from storm_rows(1 if quick else 5, own)
+        yield reconnect_row(QUICK_DARK_S if quick else DARK_S, 1 if quick else 3, own)

@@ -1,7 +1,8 @@
-"""A ground's TLS link through a time without packets, a separate process.
+"""A ground's link through a time without packets, a separate process.
 
-Arguments: host, port, folder of the certificate, seconds of darkness, the prefix of a command in
-the namespace of the relay. Prints the seconds from the end of darkness to the next open link.
+Arguments: host, port, folder of the certificate, folder of the key, seconds of darkness, the prefix
+of a command in the namespace of the relay. Prints the seconds from the end of darkness to the next
+telemetry that the key authenticates.
 """
 
 import subprocess
@@ -14,7 +15,9 @@ from twisted.internet import reactor as _reactor
 
 from up.protocols.general_message import GeneralMessage
 from up_ground.ground_link import GroundLink
+from up_ground.key_store import KeyStore
 from up_ground.settings import Seat, Settings
+from up_ground.telemetry import NAME as TELEMETRY
 from up_ground.token_store import TokenStore
 
 reactor: Any = _reactor
@@ -28,9 +31,11 @@ class Watcher:
     """Darkens the network once the link is open, and measures the way back."""
 
     def __init__(
-        self, host: str, port: int, folder: Path, dark_s: float, inside: list[str]
+        self, host: str, port: int, folders: list[Path], dark_s: float, inside: list[str]
     ) -> None:
-        settings = Settings(host, port, "bench", Seat.LISTEN, tls=folder)
+        certificate, keys = folders
+        ((aircraft, pairing),) = KeyStore(keys).all().items()
+        settings = Settings(host, port, aircraft, Seat.LISTEN, tls=certificate, pairing=pairing)
         self._link = GroundLink(
             reactor, settings, self, TokenStore(Path(tempfile.mkdtemp()), settings)
         )
@@ -40,10 +45,8 @@ class Watcher:
         self._is_dark = False
         self._link.start()
 
-    def on_message(self, message: GeneralMessage) -> None: ...
-
-    def on_link(self) -> None:
-        if not self._link.status.is_open:
+    def on_message(self, message: GeneralMessage) -> None:
+        if message.name != TELEMETRY:
             return
         if self._light_s is not None:
             print(f"{reactor.seconds() - self._light_s:.3f}", flush=True)
@@ -52,6 +55,8 @@ class Watcher:
         elif not self._is_dark:
             self._is_dark = True
             reactor.callLater(1.0, self._darken)
+
+    def on_link(self) -> None: ...
 
     def _darken(self) -> None:
         self._nft(DROP)
@@ -69,7 +74,8 @@ class Watcher:
 
 
 if __name__ == "__main__":
-    host, port, folder, dark_s, inside = sys.argv[1:]
-    watcher = Watcher(host, int(port), Path(folder), float(dark_s), inside.split())
+    host, port, certificate, keys, dark_s, inside = sys.argv[1:]
+    folders = [Path(certificate), Path(keys)]
+    watcher = Watcher(host, int(port), folders, float(dark_s), inside.split())
     reactor.callLater(float(dark_s) + 60, reactor.stop)
     reactor.run()

@@ -6,6 +6,7 @@ from collections.abc import Callable
 from typing import Any
 
 from up.protocols.binary_line import HANDSHAKE, PROTECTED, to_body, to_line
+from up.protocols.encrypted_stream import is_available
 from up.protocols.envelope import EnvelopeError
 from up.protocols.ground_session import GroundSession
 from up.protocols.handshake import ROLES, Answer, Refusal
@@ -99,6 +100,11 @@ class LinkSecurity:
             self._on_answer(said)
         elif isinstance(said, Refusal):
             self._status.key_role = ""
+            was_secret, session = self._session.secrecy, self._session
+            session.secrecy = said.code == "secrecy_required" and is_available()
+            if session.secrecy and not was_secret:
+                self._hello()
+                return
             self._status.key_refusal = said.code
             self._session.forget_hello()
             self._schedule(RENEW_S if said.code == "revoked" else ANSWER_S, self._hello)
@@ -107,6 +113,7 @@ class LinkSecurity:
         now_s = self._clock.seconds()
         status = self._status
         status.key_role, status.key_refusal = ROLES[said.role], ""
+        status.is_secret = self._session.secrecy
         status.clock = (said.clock_ms, self._sent_s, now_s)
         is_slow = now_s - self._sent_s > SLOW_S
         self._schedule(AGAIN_S if is_slow else RENEW_S, self._hello)

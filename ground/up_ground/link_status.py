@@ -58,6 +58,8 @@ class LinkStatus:
     key_name: str = ""
     key_role: str = ""
     """The role of the key in the open session; empty without a session."""
+    is_secret: bool = False
+    """Whether the open session is encrypted, so that no relay reads it."""
     key_refusal: str = ""
     """The code with which the aircraft refused the key."""
     refused: int = 0
@@ -79,6 +81,9 @@ class LinkStatus:
     @property
     def key_fault(self) -> tuple[str, str] | None:
         """Return why nothing of the aircraft is readable, a sentence and its code."""
+        if self.key_refusal == "secrecy_required":
+            text = "the aircraft requires secrecy, and the Python package cryptography is missing"
+            return text, self.key_refusal
         if self.key_refusal:
             return f"the aircraft refuses this device's key: {self.key_refusal}", self.key_refusal
         if self.is_keyed and not self.key_role:

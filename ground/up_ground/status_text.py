@@ -125,7 +125,8 @@ def security_text(status: LinkStatus) -> str:
             "no key" if not status.unprotected else "no key of this aircraft: run 'up-ground pair'"
         )
     if status.key_role:
-        return f"end to end: {status.key_name} ({status.key_role})"
+        secrecy = ", encrypted" if status.is_secret else ""
+        return f"end to end{secrecy}: {status.key_name} ({status.key_role})"
     return f"key {status.key_name} {status.key_refusal or 'not accepted yet'}"
 
 

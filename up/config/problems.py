@@ -30,6 +30,7 @@ CODES = {
     "not_utf8": "The file is not UTF-8 text.",
     "not_yaml": "The syntax is wrong; often it is the indentation.",
     "out_of_range": "The number is too small or too large.",
+    "package_missing": "The value needs a Python package that is not installed.",
     "secrets_readable": "Other users may read a file of secrets.",
     "source_missing": "The folder of a cog has neither setup.py nor pyproject.toml.",
     "source_unclear": "A cog has no source, or several.",

@@ -8,8 +8,18 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from up.protocols import handshake
-from up.protocols.envelope import BROADCAST, SECRET_BYTES, EnvelopeError, place_of
-from up.protocols.handshake import NONCE_BYTES, ROLES, Answer, Hello, Refusal, SessionKeys
+from up.protocols.encrypted_stream import EncryptedStream
+from up.protocols.envelope import BROADCAST, SECRET_BYTES, EnvelopeError, Stream, place_of
+from up.protocols.handshake import (
+    NONCE_BYTES,
+    ROLES,
+    Answer,
+    Hello,
+    Refusal,
+    SecrecyAnswer,
+    SecrecyHello,
+    SessionKeys,
+)
 from up.protocols.handshake import broadcast_streams as streams_of
 
 SESSIONS_PER_KEY = 8
@@ -51,7 +61,8 @@ class AircraftSessions:
     """Answers hellos, opens the grounds' messages, seals those to them.
 
     ``clock_ms`` is the clock that telemetry reports. Nothing here survives a restart: the ids of
-    sessions and streams are drawn at random, their keys come from fresh nonces.
+    sessions and streams are drawn at random, their keys come from fresh nonces. With ``secrecy``
+    all sessions are encrypted.
     """
 
     def __init__(
@@ -59,7 +70,10 @@ class AircraftSessions:
         aircraft: str,
         clock_ms: Callable[[], int],
         random: Callable[[int], bytes] = secrets.token_bytes,
+        secrecy: bool = False,
     ) -> None:
+        self._secrecy = secrecy
+        self._form = EncryptedStream if secrecy else Stream
         self._aircraft = aircraft.encode()
         self._clock_ms = clock_ms
         self._random = random
@@ -106,12 +120,15 @@ class AircraftSessions:
         hello.check(body, self._aircraft, key.secret)
         if key.refusal:
             return self._refuse(hello, key.secret, key.refusal)
+        if isinstance(hello, SecrecyHello) is not self._secrecy:
+            code = "secrecy_required" if self._secrecy else "changed"
+            return self._refuse(hello, key.secret, code)
         nonce = self._random(NONCE_BYTES)
-        keys = SessionKeys(self._aircraft, key.id, key.secret, (hello.nonce, nonce))
+        keys = SessionKeys(self._aircraft, key.id, key.secret, (hello.nonce, nonce), self._form)
         session = Session(key, hello, keys, self._draw_number(), self._clock_ms())
         self._make_room(key.id)
         self._sessions[session.number] = session
-        reply = Answer(
+        reply = (SecrecyAnswer if self._secrecy else Answer)(
             key.id,
             hello.nonce,
             nonce,
@@ -152,7 +169,9 @@ class AircraftSessions:
     def _draw_streams(self) -> None:
         self._stream_key = self._random(SECRET_BYTES)
         number = BROADCAST | int.from_bytes(self._random(4), "big") & ~1
-        self._frames, self._messages = streams_of(self._stream_key, self._aircraft, number)
+        self._frames, self._messages = streams_of(
+            self._stream_key, self._aircraft, number, self._form
+        )
 
     def _draw_number(self) -> int:
         while True:

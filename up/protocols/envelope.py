@@ -13,7 +13,8 @@ from up.protocols.binary_line import PROTECTED
 SECRET_BYTES = 32
 MAC_BYTES = 16
 _PLACE = struct.Struct(">IQ")
-_BODY_AT = 1 + _PLACE.size + MAC_BYTES
+_MAC_AT = 1 + _PLACE.size
+_BODY_AT = _MAC_AT + MAC_BYTES
 HEADER_BYTES = _BODY_AT - 1
 """Session, counter and MAC, between the type byte and the payload."""
 BROADCAST = 1 << 31
@@ -90,18 +91,26 @@ class Stream:
         """Return the protected body of the next message."""
         self.counter += 1
         place = _PLACE.pack(self.session, self.counter)
-        return bytes((PROTECTED,)) + place + self._mac(place, payload) + payload
+        return bytes((PROTECTED,)) + place + self._protect(place, payload)
 
     def open(self, body: bytes) -> bytes:
         """Return the payload; raises EnvelopeError: malformed, forged or replayed."""
-        session, counter = place_of(body)
-        payload = body[_BODY_AT:]
-        place = _PLACE.pack(session, counter)
-        if not is_authentic(body[1 + _PLACE.size : _BODY_AT], self._mac(place, payload)):
-            raise EnvelopeError("forged")
+        _, counter = place_of(body)
+        payload = self._unprotect(body[1:_MAC_AT], body[_MAC_AT:])
         if not is_newer(counter, self.counter):
             raise EnvelopeError("replayed")
         self.counter = counter
+        return payload
+
+    def _protect(self, place: bytes, payload: bytes) -> bytes:
+        """Return the MAC and what follows it."""
+        return self._mac(place, payload) + payload
+
+    def _unprotect(self, place: bytes, protected: bytes) -> bytes:
+        """Return the payload of MAC and what follows it; raises EnvelopeError: forged."""
+        payload = protected[MAC_BYTES:]
+        if not is_authentic(protected[:MAC_BYTES], self._mac(place, payload)):
+            raise EnvelopeError("forged")
         return payload
 
     def _mac(self, place: bytes, payload: bytes) -> bytes:

@@ -6,8 +6,17 @@ import secrets
 from collections.abc import Callable
 
 from up.protocols import handshake
+from up.protocols.encrypted_stream import EncryptedStream
 from up.protocols.envelope import BROADCAST, SECRET_BYTES, EnvelopeError, Stream, place_of
-from up.protocols.handshake import NONCE_BYTES, Answer, Hello, Refusal, SessionKeys
+from up.protocols.handshake import (
+    NONCE_BYTES,
+    Answer,
+    Hello,
+    Refusal,
+    SecrecyAnswer,
+    SecrecyHello,
+    SessionKeys,
+)
 from up.protocols.handshake import broadcast_streams as streams_of
 
 
@@ -15,7 +24,8 @@ class GroundSession:
     """Sends hellos, checks answers, seals Commands, opens what the aircraft sends.
 
     A new session replaces the old one only when it is answered; answers on the one before are
-    still accepted.
+    still accepted. ``secrecy``: the next hello asks for an encrypted session, and only the answer
+    that opens one is taken.
     """
 
     def __init__(
@@ -29,6 +39,7 @@ class GroundSession:
         self._key_id = key_id
         self._secret = secret
         self._random = random
+        self.secrecy = False
         self._nonce = b""
         self._last_nonce = b""
         self._commands: Stream | None = None
@@ -41,7 +52,8 @@ class GroundSession:
     def hello(self) -> bytes:
         """Return the body of a hello with a fresh nonce; an answer to an earlier one is void."""
         self._nonce = self._random(NONCE_BYTES)
-        return Hello(self._key_id, self._nonce).encode(self._aircraft, self._secret)
+        form = SecrecyHello if self.secrecy else Hello
+        return form(self._key_id, self._nonce).encode(self._aircraft, self._secret)
 
     def forget_hello(self) -> None:
         """Refuse every answer to the last hello."""
@@ -60,6 +72,8 @@ class GroundSession:
             # To another program with this key, or to an earlier hello.
             return None
         said.check(body, self._aircraft, self._secret)
+        if isinstance(said, SecrecyAnswer) is not self.secrecy:
+            raise EnvelopeError("malformed")
         self._open(said)
         return said
 
@@ -94,11 +108,12 @@ class GroundSession:
 
     def _open(self, said: Answer) -> None:
         nonces = (said.ground_nonce, said.nonce)
-        keys = SessionKeys(self._aircraft, self._key_id, self._secret, nonces)
+        form = EncryptedStream if self.secrecy else Stream
+        keys = SessionKeys(self._aircraft, self._key_id, self._secret, nonces, form)
         answers = keys.stream(b"answer", said.session)
         stream_key = keys.wrap(said.wrapped, said.session, said.broadcast)
         assert len(stream_key) == SECRET_BYTES
-        frames, messages = streams_of(stream_key, self._aircraft, said.broadcast)
+        frames, messages = streams_of(stream_key, self._aircraft, said.broadcast, form)
         # Messages from before the hello are not live, and none is taken twice.
         for stream, counter in ((frames, said.frame_counter), (messages, said.message_counter)):
             known = self._streams.get(stream.session)

@@ -25,7 +25,7 @@ from up.protocols.envelope import (
 NONCE_BYTES = 16
 KEY_ID_BYTES = 8
 ROLES = ("observer", "operator", "pilot", "admin")
-REFUSALS = ("unknown_key", "revoked", "expired", "changed")
+REFUSALS = ("unknown_key", "revoked", "expired", "changed", "secrecy_required")
 _SALT = b"up handshake 1"
 
 
@@ -100,8 +100,24 @@ class Refusal(_Handshake):
         return REFUSALS[self.reason]
 
 
+@dataclass(frozen=True, slots=True)
+class SecrecyHello(Hello):
+    """The hello of a ground that can encrypt, to an aircraft that requires it."""
+
+    KIND = 4
+    LABEL = b"secrecy hello"
+
+
+@dataclass(frozen=True, slots=True)
+class SecrecyAnswer(Answer):
+    """The answer that opens a session whose streams are encrypted."""
+
+    KIND = 5
+    LABEL = b"secrecy answer"
+
+
 _FORMS: dict[int, type[Hello | Answer | Refusal]] = {
-    each.KIND: each for each in (Hello, Answer, Refusal)
+    each.KIND: each for each in (Hello, Answer, Refusal, SecrecyHello, SecrecyAnswer)
 }
 
 
@@ -119,11 +135,20 @@ def decode(body: bytes) -> Hello | Answer | Refusal:
 
 
 class SessionKeys:
-    """The keys of one session: its two streams, and the pad for the streams' key."""
+    """The keys of one session: its two streams, and the pad for the streams' key.
+
+    ``form`` is Stream or EncryptedStream.
+    """
 
     def __init__(
-        self, aircraft: bytes, key_id: bytes, secret: bytes, nonces: tuple[bytes, bytes]
+        self,
+        aircraft: bytes,
+        key_id: bytes,
+        secret: bytes,
+        nonces: tuple[bytes, bytes],
+        form: type[Stream] = Stream,
     ) -> None:
+        self._form = form
         self._root = extract(b"".join(nonces), secret)
         self._aircraft = aircraft
         self._key_id = key_id
@@ -131,7 +156,7 @@ class SessionKeys:
     def stream(self, direction: bytes, session: int) -> Stream:
         """Return the stream ``command`` to the aircraft or ``answer`` to the ground."""
         key = self._expand(direction, session)
-        return Stream(key, direction, self._aircraft, self._key_id, session)
+        return self._form(key, direction, self._aircraft, self._key_id, session)
 
     def wrap(self, key: bytes, session: int, broadcast: int) -> bytes:
         """Return the key of the streams under this session's one-time pad, or back."""
@@ -143,11 +168,13 @@ class SessionKeys:
         return expand(self._root, label, self._aircraft, self._key_id, *numbers)
 
 
-def broadcast_streams(key: bytes, aircraft: bytes, broadcast: int) -> tuple[Stream, Stream]:
+def broadcast_streams(
+    key: bytes, aircraft: bytes, broadcast: int, form: type[Stream] = Stream
+) -> tuple[Stream, Stream]:
     """Return the streams to all grounds: of telemetry, which may be skipped, and of messages."""
     return (
-        Stream(key, b"telemetry", aircraft, b"", broadcast),
-        Stream(key, b"message", aircraft, b"", broadcast + 1),
+        form(key, b"telemetry", aircraft, b"", broadcast),
+        form(key, b"message", aircraft, b"", broadcast + 1),
     )
 
 

@@ -9,14 +9,17 @@ against `DICTIONARY`, which every reader has; all other frames can be left out.
 
 from __future__ import annotations
 
+import math
 import zlib
 
 from up.protocols.binary_line import PACKED
 from up.protocols.line_decoder import MAX_LINE_BYTES
 from up.protocols.packed_dictionary import DICTIONARY
 
-KEY_AGE_S = 1.0
+KEY_AGE_S = 0.3
 """A frame that is sent when the key is older becomes the next key."""
+RENEWAL = 1.7
+"""So does a frame with this many times the data of the smallest one since the key."""
 _WINDOW_BITS = -13
 _KEY_FLAG = 1 << 23
 _HEAD_BYTES = 4
@@ -41,6 +44,7 @@ class Packer:
     def __init__(self) -> None:
         self._key = DICTIONARY
         self._key_s: float | None = None
+        self._least: float = math.inf
 
     def restart(self) -> None:
         """Make the next frame a key that every reader can unpack."""
@@ -49,10 +53,12 @@ class Packer:
 
     def pack(self, frame: bytes, now_s: float) -> bytes:
         """Return the body of a frame that leaves now."""
-        is_key = self._key_s is None or now_s - self._key_s >= KEY_AGE_S
-        number = number_of(self._key) | (_KEY_FLAG if is_key else 0)
         coder = zlib.compressobj(6, zlib.DEFLATED, _WINDOW_BITS, 8, 0, self._key)
         data = coder.compress(frame) + coder.flush()
+        is_due = self._key_s is None or now_s - self._key_s >= KEY_AGE_S
+        is_key = is_due or len(data) > RENEWAL * self._least
+        number = number_of(self._key) | (_KEY_FLAG if is_key else 0)
+        self._least = math.inf if is_key else min(self._least, len(data))
         if is_key:
             self._key, self._key_s = frame, now_s
         return bytes((PACKED,)) + number.to_bytes(3, "big") + data

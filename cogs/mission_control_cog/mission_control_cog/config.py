@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Literal
 
 from up.config import ConfigFile, key, section
+from up.protocols.encrypted_stream import is_available
 from up.system.addresses import is_wildcard
 from up.system.aircraft_name import AIRCRAFT_NAME, AIRCRAFT_NAME_RULE
 
@@ -102,6 +103,12 @@ class MissionControlConfig:
         "addresses cannot connect to a listener that does not require it. Set it when a VPN or "
         "firewall protects the proxy, or when you accept the risk.",
     )
+    secrecy: Literal["off", "require"] = key(
+        "off",
+        "Whether protected messages are also encrypted, so that no relay can read them. require: "
+        "every link of the aircraft requires protection and secrecy; devices that cannot encrypt "
+        "are refused. Both ends need the Python package cryptography.",
+    )
     data_budget_mb_per_hour: float | None = key(
         None,
         "Most data of the link to the proxy, in both directions and with all headers, in MB an "
@@ -117,18 +124,25 @@ class MissionControlConfig:
         max_length=1024,
     )
 
-    def problems(self) -> Iterator[tuple[str, str]]:
+    def problems(self) -> Iterator[tuple[str, str] | tuple[str, str, str]]:
+        if self.secrecy == "require":
+            if not is_available():
+                text = "needs the Python package cryptography: pip install 'raspilot[tls]'"
+                yield "secrecy", text, "package_missing"
+            if {self.remote_server.security, self.listener.security} & {"off", "accept"}:
+                yield "secrecy", "require needs security: require, or auto, on every link"
         if self.audit_log and not Path(self.audit_log).is_absolute():
             yield "audit_log", "must be an absolute path"
         if self.aircraft and not AIRCRAFT_NAME.fullmatch(self.aircraft):
             yield "aircraft", f"must be {AIRCRAFT_NAME_RULE}"
 
 
-def security_of(security: Security, is_public: bool, accepts_plain: bool) -> Security:
+def security_of(security: Security, is_public: bool, config: MissionControlConfig) -> Security:
     """Return the protection of a link: its own, or that for its peer's address."""
     if security != "auto":
         return security
-    return "require" if is_public and not accepts_plain else "accept"
+    is_exposed = is_public and not config.i_accept_plain
+    return "require" if is_exposed or config.secrecy == "require" else "accept"
 
 
 def aircraft_name(config: MissionControlConfig, instance: str) -> str:

@@ -44,14 +44,23 @@ class _Device:
 class Protection:
     """Opens sessions, carries out protected Commands with the role of their key, seals the rest.
 
-    ``counters`` counts refused bodies by their code.
+    ``counters`` counts refused bodies by their code. With ``secrecy`` all sessions are encrypted.
     """
 
     log = Logger()
 
-    def __init__(self, up: Up, aircraft: str, policy: Callable[[Any], str | None]) -> None:
+    def __init__(
+        self,
+        up: Up,
+        aircraft: str,
+        policy: Callable[[Any], str | None],
+        *,
+        secrecy: bool = False,
+    ) -> None:
         reactor = up.context.reactor
-        self.sessions = AircraftSessions(aircraft, lambda: round(reactor.seconds() * 1000))
+        self.sessions = AircraftSessions(
+            aircraft, lambda: round(reactor.seconds() * 1000), secrecy=secrecy
+        )
         self.counters: Counter[str] = Counter()
         self._up = up
         self._policy = policy

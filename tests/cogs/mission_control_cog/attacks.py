@@ -4,8 +4,9 @@ from tests.cogs.mission_control_cog.hostile_relay import Ground, pair
 from tests.support.reactor import reactor, until
 from up.config.keys_file import revoke_key
 from up.protocols.binary_line import HANDSHAKE, to_body, to_line
-from up.protocols.envelope import HEADER_BYTES, place_of
-from up.protocols.general_message import encode
+from up.protocols.envelope import BROADCAST, HEADER_BYTES, place_of
+from up.protocols.general_message import MalformedMessage, decode, encode
+from up.protocols.handshake import Answer, Hello
 
 BODY_AT = HEADER_BYTES + 1
 
@@ -35,6 +36,15 @@ async def deliver(s, *bodies, lines=False):
         s.relay.to_air(body if lines else to_line(body)[:-1])
     await until(lambda: len(taken) >= wanted, what="delivery")
     provider.protection.receive, uplink._on_message = real, before
+
+
+async def hold_down(s):
+    """Hold back what the aircraft sends, and wait until the ground has read all before that."""
+    s.relay.on_down = s.relay.hold
+    status = s.ground.status
+    before = status.unprotected + status.malformed
+    s.relay.to_ground(b"{}")
+    await until(lambda: status.unprotected + status.malformed > before)
 
 
 async def captured(s, *, hold=True):
@@ -113,7 +123,11 @@ async def reflect(s):
     s.ground.send(id_="a")
     await until(lambda: s.ground.answers("a"))
     before = s.received
-    lines = [line for line in s.relay.down if line[0] in (2, HANDSHAKE)]
+    answer = next(line for line in s.relay.down if line[0] == HANDSHAKE)
+    places = [(place_of(to_body(line))[0], line) for line in s.relay.protected(s.relay.down)]
+    frame = next(line for number, line in places if number & BROADCAST)
+    ack = next(line for number, line in places if not number & BROADCAST)
+    lines = [answer, frame, ack]
     await deliver(s, *lines, lines=True)
     return s.received - before, len(lines)
 
@@ -143,13 +157,14 @@ async def strip(s):
 async def downgrade(s):
     """Only plain lines arrive: the ground takes no telemetry and sends nothing."""
     await s.ground.ready()
-    s.relay.on_down = s.relay.hold
-    before = s.ground.frames
+    await hold_down(s)
+    frames = s.ground.frames
+    seen = frames + s.ground.status.unprotected
     for beacon in range(20):
         plain = encode("up.telemetry.update", {}, None, s.ground.telemetry.beacon + beacon)
         s.relay.to_ground(plain[:-1])
-    await until(lambda: s.ground.status.unprotected + s.ground.frames - before >= 20)
-    return s.ground.frames - before, 20
+    await until(lambda: s.ground.status.unprotected + s.ground.frames - seen >= 20)
+    return s.ground.frames - frames, 20
 
 
 async def fake_ack(s):
@@ -172,7 +187,7 @@ async def old_telemetry(s):
     """Frames of before are repeated as if they were live."""
     await s.ground.ready()
     await until(lambda: s.ground.frames >= 4)
-    s.relay.on_down = s.relay.hold
+    await hold_down(s)
     frames, refused = s.ground.frames, s.ground.status.refused
     old = [line for line in s.relay.down if line[0] == 2][:3]
     for line in old:
@@ -273,7 +288,7 @@ async def restarted_ground(s):
     await s.ground.ready()
     await until(lambda: s.ground.frames >= 3)
     s.relay.on_down = s.relay.hold
-    old = list(s.relay.down)
+    old = s.relay.down[:4]
     await s.ground.link.stop()
     s.relay.on_up = s.relay.hold
     del s.relay.ends["command"]
@@ -286,3 +301,54 @@ async def restarted_ground(s):
     s.relay.to_ground(b"{}")
     await until(lambda: s.ground.status.unprotected)
     return s.ground.frames, sent
+
+
+def readable(lines):
+    """Return how many protected lines show their message to the relay."""
+    count = 0
+    for line in lines:
+        try:
+            count += decode(to_body(line)[BODY_AT:]) is not None
+        except MalformedMessage:
+            continue
+    return count
+
+
+async def read(s):
+    """The relay reads a Command, its answer and the telemetry of a session."""
+    await s.ground.ready()
+    s.ground.send(id_="a")
+    await until(lambda: s.ground.answers("a") and s.ground.frames >= 3)
+    lines = s.relay.protected(s.relay.up + s.relay.down)[:5]
+    return readable(lines), len(lines)
+
+
+async def secrecy_stripped(s):
+    """The relay drops the hello for secrecy, and repeats the plain one."""
+
+    def without_secrecy(line):
+        if line[0] != HANDSHAKE or line[1] == Hello.KIND:
+            s.relay.to_air(line)
+
+    def handshakes(lines):
+        return [line for line in lines if line[0] == HANDSHAKE]
+
+    s.relay.on_up = without_secrecy
+    plain, *_ = await until(lambda: handshakes(s.relay.up))
+    for _ in range(3):
+        s.relay.to_air(plain)
+    await until(lambda: len(handshakes(s.relay.down)) >= 4)
+    return sum(line[1] == Answer.KIND for line in handshakes(s.relay.down)), 4
+
+
+async def same_keystream(s):
+    """The first Command of two lives of both sides begins with the same text."""
+    first = await captured(s, hold=False)
+    await s.ground.link.stop()
+    await s.aircraft.__aexit__()
+    s.relay.ends.clear()
+    await s.start_aircraft(s.air_port)
+    s.ground = Ground(s.folder, s.ground_port, s.pairing)
+    second = await captured(s)
+    beginning = slice(BODY_AT, BODY_AT + 16)
+    return int(first[beginning] == second[beginning]), 1

@@ -1,10 +1,11 @@
 """Protected links between a real aircraft and real ground links."""
 
 import json
+import sys
 from dataclasses import replace
 
 import pytest
-from mission_control_cog.config import security_of
+from mission_control_cog.config import MISSION_CONTROL, MissionControlConfig, security_of
 
 from tests.cogs.mission_control_cog.attacks import deliver
 from tests.cogs.mission_control_cog.hostile_relay import Ground, fly, pair
@@ -12,12 +13,16 @@ from tests.cogs.mission_control_cog.system import Aircraft
 from tests.support.reactor import reactor, run_in_reactor, until
 from up.commands.answer_commands import CommandAnsweredCommand
 from up.commands.arming_commands import ArmCommand
+from up.config import ConfigErrors
 from up.config.keys_file import KEYS, revoke_key
 from up.protocols.binary_line import HANDSHAKE, PROTECTED
 from up.protocols.general_message import decode, encode
+from up_ground import link_security
 from up_ground.mission_tasks import TransferTask
 from up_ground.settings import Seat
 from up_ground.token_store import TokenStore
+
+CIPHERS = "cryptography.hazmat.primitives.ciphers.aead"
 
 
 def plain(s):
@@ -208,15 +213,54 @@ def test_the_aircrafts_own_listener_has_protected_sessions(tmp_path, security):
 
 
 @pytest.mark.parametrize(
-    ("security", "is_public", "accepts_plain", "expected"),
+    ("security", "is_public", "more", "expected"),
     [
-        ("auto", True, False, "require"),
-        ("auto", True, True, "accept"),
-        ("auto", False, False, "accept"),
-        ("off", True, False, "off"),
-        ("accept", True, False, "accept"),
-        ("require", False, True, "require"),
+        ("auto", True, {}, "require"),
+        ("auto", True, {"i_accept_plain": True}, "accept"),
+        ("auto", False, {}, "accept"),
+        ("auto", False, {"i_accept_plain": True, "secrecy": "require"}, "require"),
+        ("off", True, {}, "off"),
+        ("accept", True, {}, "accept"),
+        ("require", False, {"i_accept_plain": True}, "require"),
     ],
 )
-def test_the_protection_that_a_link_has(security, is_public, accepts_plain, expected):
-    assert security_of(security, is_public, accepts_plain) == expected
+def test_the_protection_that_a_link_has(security, is_public, more, expected):
+    assert security_of(security, is_public, MissionControlConfig(**more)) == expected
+
+
+def test_secrecy_needs_protection_on_every_link_and_the_package(tmp_path, monkeypatch):
+    def codes(text):
+        (tmp_path / MISSION_CONTROL.filename).write_text(text)
+        try:
+            MISSION_CONTROL.load(tmp_path)
+        except ConfigErrors as errors:
+            return [(each.key, each.code) for each in errors.problems]
+        return []
+
+    assert codes("secrecy: require\n") == []
+    for link in ("listener", "remote_server"):
+        for weak in ("accept", "'off'"):
+            text = f"secrecy: require\n{link}: {{security: {weak}}}\n"
+            assert codes(text) == [("secrecy", "inconsistent")]
+    monkeypatch.setitem(sys.modules, CIPHERS, None)
+    assert codes("secrecy: require\n") == [("secrecy", "package_missing")]
+    assert codes("secrecy: 'off'\n") == []
+
+
+@pytest.mark.parametrize("can_encrypt", [True, False])
+def test_a_device_encrypts_or_is_refused_with_a_code(tmp_path, monkeypatch, can_encrypt):
+    monkeypatch.setattr(link_security, "is_available", lambda: can_encrypt)
+
+    async def fly_and_arm(s):
+        if not can_encrypt:
+            await until(lambda: s.ground.status.key_refusal)
+            assert not s.ground.send(id_="a")
+            return s.ground.status.key_fault[1], s.counters["secrecy_required"], s.armed
+        await s.ground.ready()
+        s.ground.send(id_="a")
+        (answer,) = await until(lambda: s.ground.answers("a"))
+        return answer.name, s.ground.status.is_secret, s.armed
+
+    expected = ("up.ack", True, 1) if can_encrypt else ("secrecy_required", 1, 0)
+    text = "role: pilot\nsecrecy: require\n"
+    assert fly(fly_and_arm, tmp_path, text=text) == expected

@@ -41,6 +41,8 @@ def test_a_pilot_on_a_public_address_may_arm_by_tls_and_data_flow(tmp_path, monk
             link = a.provider._uplink._link.transport
             option = link.getHandle().getsockopt(socket.IPPROTO_TCP, socket.TCP_USER_TIMEOUT)
             assert option == 1500
+            # The data budget counts what TLS adds: here the certificates of both sides.
+            assert a.provider._uplink._link.ip_bytes() > 2000 + len(peer.received)
             peer.transport.abortConnection()
             await accepted(server, 1)
         await server.close()

@@ -63,12 +63,24 @@ def test_every_frame_comes_back_through_lines(frames, pauses_s, restart_at):
 
 def test_frames_between_keys_can_be_left_out():
     packer, unpacker = Packer(), Unpacker()
-    bodies = [packer.pack(b"frame %d" % number, number * 0.1) for number in range(25)]
+    bodies = [packer.pack(b"frame %d" % number, number * 0.031) for number in range(25)]
     keys = {0, 10, 20}
     for number, each in enumerate(bodies):
         assert bool(each[1] & 0x80) is (number in keys)
         if number in keys or number % 3 == 0:
             assert unpacker.unpack(each) == b"frame %d" % number
+
+
+def test_a_frame_that_changes_much_is_a_key_before_its_time():
+    """With a data budget most frames repeat most values: a renewal is paid for once."""
+    held, renewed = (bytes(range(low, low + 100)) * 4 for low in (0, 100))
+    packer, unpacker, sizes = Packer(), Unpacker(), []
+    for number, content in enumerate((held, held, held, renewed, renewed)):
+        frame = content + b"%d" % number
+        packed = packer.pack(frame, number * KEY_AGE_S / 10)
+        sizes.append(len(packed))
+        assert unpacker.unpack(packed) == frame
+    assert max(sizes[2], sizes[4]) < sizes[3] / 2
 
 
 def test_a_frame_without_its_key_is_refused_until_a_restart():

@@ -45,7 +45,7 @@ class GroundListener(BaseStartedModule):
 
     def on_init(self) -> None:
         config = self.config
-        self._security = security_of(config.listener.security, False, config.i_accept_plain)
+        self._security = security_of(config.listener.security, False, config)
         requires = self._security == "require"
         self._peers = PeerFilter(config.i_accept_plain or requires, PLAIN_KEY)
         self._grounds = Grounds(
@@ -68,7 +68,8 @@ class GroundListener(BaseStartedModule):
     def plain_links(self) -> Iterable[tuple[str, str]]:
         """Yield the listener, unless it requires protection."""
         listener = self.config.listener
-        if listener.security != "require" and not stays_here(listener.address):
+        requires = "require" in (listener.security, self.config.secrecy)
+        if not requires and not stays_here(listener.address):
             yield "listener.security", "ground stations on this network may send plain Commands"
 
     @property

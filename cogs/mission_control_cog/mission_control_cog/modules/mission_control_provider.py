@@ -88,7 +88,9 @@ class MissionControlProvider(BaseMissionControlProvider):
             LINK, self._role, self._send, role_key=ROLE_KEY, policy=self.tuning_policy
         )
         server, name = config.remote_server, aircraft_name(config, self.context.instance)
-        self.protection = Protection(self.up, name, self.tuning_policy)
+        self.protection = Protection(
+            self.up, name, self.tuning_policy, secrecy=config.secrecy == "require"
+        )
         self._keys = KeyRing(
             self.context.reactor, self.context.config_folder, self.protection.on_keys
         )
@@ -154,7 +156,8 @@ class MissionControlProvider(BaseMissionControlProvider):
     def plain_links(self) -> Iterable[tuple[str, str]]:
         """Yield the link to the proxy, unless it surely requires protection."""
         server, accepts = self.config.remote_server, self.config.i_accept_plain
-        if not server.url or stays_here(server.url) or server.security == "require":
+        requires = "require" in (server.security, self.config.secrecy)
+        if not server.url or stays_here(server.url) or requires:
             return
         if server.security != "auto" or accepts:
             yield "remote_server.security", "the link to the proxy takes plain Commands"
@@ -282,7 +285,7 @@ class MissionControlProvider(BaseMissionControlProvider):
         config = self.config
         is_plain = self._uplink is None or not self._uplink.is_protected
         is_public = not is_private(host)
-        security = security_of(config.remote_server.security, is_public, config.i_accept_plain)
+        security = security_of(config.remote_server.security, is_public, config)
         self._requires_protection = security == "require"
         is_exposed = is_plain and is_public and not config.i_accept_plain
         if self._requires_protection:
