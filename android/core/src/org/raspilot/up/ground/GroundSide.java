@@ -100,8 +100,7 @@ public final class GroundSide implements TelemetrySource {
         final Telemetry newest = stream.newest();
         final LinkStatus facts = link.facts();
         return new GroundStatus(facts, settings.isDirect, stream.rateHz(nowMs), newest, nowMs,
-                home.home(), new GroundCounters(facts.connections, stream.frames(),
-                        stream.lost(), facts.malformed, link.tooLong(), facts.strangeControl,
+                home.home(), new GroundCounters(facts, stream, link.tooLong(),
                         answers.unmatched()));
     }
 
@@ -274,6 +273,11 @@ public final class GroundSide implements TelemetrySource {
             answers.receive(message);
             executor.executeCommand(new BaseCommand(message));
             reportChanges();
+        }
+
+        @Override
+        public void onClock(double clockMs, long fromMs, long toMs) {
+            stream.onClock(clockMs, fromMs, toMs);
         }
 
         @Override

@@ -6,7 +6,8 @@ import org.raspilot.up.wire.GeneralMessage;
  * Makes frames of messages and tracks the stream: missing frames and delay.
  *
  * <p>The transit time of a frame is half of the shortest round trip to the proxy, plus its delay
- * relative to the fastest frame by the aircraft's own clock ({@code system.clock_ms}).
+ * relative to the fastest frame by the aircraft's own clock ({@code system.clock_ms}); with a
+ * protected session, all of it by that clock.
  */
 final class TelemetryStream {
     private static final long MAX_GAP = 1000;
@@ -67,6 +68,11 @@ final class TelemetryStream {
         }
     }
 
+    /** Takes the aircraft's clock as a protected session reports it. */
+    void onClock(double clockMs, long fromMs, long toMs) {
+        delay.trust(clockMs, fromMs, toMs);
+    }
+
     /** Discards the newest frame: the link is restarted. */
     void reset() {
         newest = Telemetry.EMPTY;
@@ -95,6 +101,10 @@ final class TelemetryStream {
     private double wayMs(Double delayMs) {
         if (delayMs == null) {
             return roundTripMs / 2;
+        }
+        if (delay.isTrusted()) {
+            // By a clock that was compared: the whole way.
+            return Math.max(delayMs, roundTripMs / 2);
         }
         // Queueing on the way to the proxy is delay: the minimum is the transit time itself.
         return (minRoundTripMs == null ? roundTripMs : minRoundTripMs) / 2 + delayMs;
