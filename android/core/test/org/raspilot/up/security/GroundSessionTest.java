@@ -154,6 +154,16 @@ public final class GroundSessionTest {
     }
 
     @Test
+    public void framesTakenBeforeADelayedAnswerAreNotTakenAgain() throws Exception {
+        begin();
+        final byte[] delayed = air.answer(ground.hello());
+        final byte[] frame = air.frame("{}");
+        ground.open(frame);
+        ground.onHandshake(delayed);
+        refused("replayed", frame);
+    }
+
+    @Test
     public void itsOwnCommandSentBackIsNoAnswer() throws Exception {
         begin();
         refused("forged", ground.seal(Vectors.bytes("{\"name\":\"up.ack\"}")));

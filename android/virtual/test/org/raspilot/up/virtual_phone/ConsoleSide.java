@@ -80,8 +80,7 @@ final class ConsoleSide implements LoopProgram.Part, GroundListener, HandlerFaul
         event.put("role", status.commandRole);
         event.put("security", status.securityText());
         event.put("key_fault", status.keyFault);
-        event.put("unprotected", status.counters.unprotected);
-        event.put("dropped", status.counters.dropped());
+        event.put("refused", status.counters.refused);
         event.put("tune_in_flight", status.tuneInFlight);
         event.put("reason", status.reason);
         event.put("rejection", status.rejection);
