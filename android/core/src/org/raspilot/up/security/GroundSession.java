@@ -1,5 +1,9 @@
 package org.raspilot.up.security;
 
+import java.io.DataInputStream;
+import java.io.FileInputStream;
+import java.io.IOException;
+import java.security.SecureRandom;
 import java.util.Arrays;
 import java.util.LinkedHashMap;
 import java.util.Map;
@@ -13,6 +17,8 @@ import java.util.Random;
  * accepted. Source: docs/security.md.
  */
 public final class GroundSession {
+    private static final int SEED_BYTES = 32;
+
     private final byte[] aircraft;
     private final byte[] keyId;
     private final byte[] secret;
@@ -25,7 +31,7 @@ public final class GroundSession {
     private final Map<Integer, MessageStream> streams = new LinkedHashMap<>();
 
     public GroundSession(Pairing pairing) {
-        this(pairing, FreshRandom.create());
+        this(pairing, seeded(new SecureRandom()));
     }
 
     /** Draws its nonces from {@code random}. */
@@ -132,6 +138,25 @@ public final class GroundSession {
         }
         lastNonce = nonce;
         nonce = null;
+    }
+
+    /** Mixes bytes of the kernel in: the generator of Android 4.3 and earlier may repeat itself. */
+    private static Random seeded(SecureRandom random) {
+        final byte[] seed = new byte[SEED_BYTES];
+        try {
+            final DataInputStream kernel =
+                    new DataInputStream(new FileInputStream("/dev/urandom"));
+            try {
+                kernel.readFully(seed);
+            } finally {
+                kernel.close();
+            }
+            random.setSeed(seed);
+        } catch (IOException absent) {
+            // Not Linux: the system's own seed must do.
+            return random;
+        }
+        return random;
     }
 
     private long newest(MessageStream stream, long told) {
