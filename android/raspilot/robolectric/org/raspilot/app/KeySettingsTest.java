@@ -135,6 +135,15 @@ public final class KeySettingsTest extends AppBench {
     }
 
     @Test
+    public void aKeyOfAnOlderSystemIsEncryptedWhereTheNewOneCan() {
+        file().edit().putString("glider-1", TEXT).commit();
+        assertEquals("pilot", new PairingStore(handset.application).get("glider-1").role);
+        boolean isPlain = file().getAll().toString().contains(SECRET);
+        assertEquals(Build.VERSION.SDK_INT < 23, isPlain);
+        assertEquals(TEXT, new PairingStore(handset.application).get("glider-1").toText());
+    }
+
+    @Test
     public void aScannerPairs() {
         Preference scan = keys().getPreference(1);
         scan.getOnPreferenceClickListener().onPreferenceClick(scan);

@@ -84,7 +84,7 @@ final class KeySettings implements Preference.OnPreferenceChangeListener,
         }
         try {
             store.put(pairing);
-        } catch (IllegalStateException fault) {
+        } catch (IllegalArgumentException fault) {
             tell(fault.getMessage());
             return;
         }

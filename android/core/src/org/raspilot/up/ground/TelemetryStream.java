@@ -21,6 +21,7 @@ final class TelemetryStream {
     private Telemetry newest = Telemetry.EMPTY;
     private long frames;
     private long lost;
+    private double leftOut;
     private double roundTripMs;
     private Double minRoundTripMs;
 
@@ -39,17 +40,22 @@ final class TelemetryStream {
     /** Takes a message of that name and returns it as a frame. */
     Telemetry receive(GeneralMessage message, long nowMs) {
         final Long beacon = message.beacon;
+        final Telemetry bare = Telemetry.of(message.data, beacon, nowMs, 0);
+        final Double told = bare.number("uplink.left_out");
+        final double leftOutNow = told == null ? 0 : told;
         if (beacon != null && newest.beacon != null) {
             // Beacons are the peer's: their difference may not fit a long.
             final double gap = (double) beacon - (double) newest.beacon;
-            if (gap > 1 && gap <= MAX_GAP) {
-                lost += (long) gap - 1;
+            // The aircraft left some out itself: because of its data budget.
+            final double missing = gap - 1 - Math.max(0, leftOutNow - leftOut);
+            if (missing > 0 && missing <= MAX_GAP) {
+                lost += (long) missing;
             }
             if (Math.abs(gap) > ONE_LIFE) {
                 delay.reset();
             }
         }
-        final Telemetry bare = Telemetry.of(message.data, beacon, nowMs, 0);
+        leftOut = leftOutNow;
         final Double delayMs = delay.update(bare.number("system.clock_ms"), nowMs);
         if (delay.isReset()) {
             minRoundTripMs = roundTripMs > 0 ? Double.valueOf(roundTripMs) : null;

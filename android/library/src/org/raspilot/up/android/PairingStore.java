@@ -53,6 +53,10 @@ public final class PairingStore {
             Pairing found = Pairing.parse(value.startsWith(ENCRYPTED)
                     ? decrypted(value.substring(ENCRYPTED.length())) : value);
             if (found != null && found.aircraft.equals(aircraft)) {
+                if (isInKeystore() && !value.startsWith(ENCRYPTED)) {
+                    // The system was older when it was paired.
+                    put(found);
+                }
                 return found;
             }
         } catch (GeneralSecurityException | IOException | ProviderException fault) {
@@ -64,7 +68,7 @@ public final class PairingStore {
     /**
      * Keeps a key in place of an older one of its aircraft.
      *
-     * @throws IllegalStateException with a sentence if this phone cannot keep it
+     * @throws IllegalArgumentException with a sentence if this phone cannot keep it
      */
     public void put(Pairing pairing) {
         String text = pairing.toText();
@@ -73,11 +77,11 @@ public final class PairingStore {
                 text = ENCRYPTED + Base64.encodeToString(
                         KeystoreCipher.encrypt(text.getBytes(ASCII)), Base64.NO_WRAP);
             } catch (GeneralSecurityException | IOException | ProviderException fault) {
-                throw new IllegalStateException("The phone's keystore fails: " + fault, fault);
+                throw new IllegalArgumentException("The phone's keystore fails: " + fault, fault);
             }
         }
         if (!kept.edit().putString(pairing.aircraft, text).commit()) {
-            throw new IllegalStateException("The phone's storage is full");
+            throw new IllegalArgumentException("The phone's storage is full");
         }
     }
 
