@@ -115,7 +115,7 @@ def java_titles(text: str) -> str:
 def java_dictionary(text: str) -> str:
     """Return PackedDictionary.java with the dictionary of the first packed frame."""
     content = _module("up.protocols.packed_dictionary").DICTIONARY.decode("ascii")
-    lines = [json.dumps(content[at : at + 72]) for at in range(0, len(content), 72)]
+    lines = [json.dumps(content[at : at + 64]) for at in range(0, len(content), 64)]
     joined = "\n            + ".join(lines)
     return _region(text, f"            {joined}\n", "// schema begin", "// schema end")
 

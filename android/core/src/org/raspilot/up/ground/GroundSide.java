@@ -211,7 +211,8 @@ public final class GroundSide implements TelemetrySource {
         if (wasSilent != frame.isSilent(nowMs) || wasLate != frame.age.isLate(nowMs)) {
             reportStatus();
         }
-        if (gate.standing() == ControlStatus.OURS && !frame.isSilent(nowMs)) {
+        if (gate.standing() == ControlStatus.OURS && !frame.isSilent(nowMs)
+                && link.facts().keyFault().isEmpty()) {
             gains.onTick();
         }
         reportChanges();

@@ -37,7 +37,7 @@ public final class GroundStatus {
     public final boolean isLate;
     /** The key's role, or that of grounds at this aircraft as telemetry reports; null: unknown. */
     public final String commandRole;
-    /** Why the session of the key is not open, a code of {@link KeyTexts}; empty: it is, or no key. */
+    /** Why the key's session is not open, a code of {@link KeyTexts}; empty: it is, or no key. */
     public final String keyFault;
     /** The name of this device's key for the aircraft; empty: the link is plain. */
     public final String keyName;
@@ -137,9 +137,11 @@ public final class GroundStatus {
         if (!isSilent && !isOffline) {
             return "connected";
         }
-        final boolean isKeyMissing = keyName.isEmpty() && counters.unprotected > 0;
-        if (!isOffline && (isKeyMissing || !keyFault.isEmpty())) {
-            return KeyTexts.fault(isKeyMissing ? "key_missing" : keyFault);
+        if (!isOffline && !keyFault.isEmpty()) {
+            return securityText();
+        }
+        if (!isOffline && keyName.isEmpty() && counters.unprotected > 0) {
+            return KeyTexts.fault("key_missing");
         }
         final String code = silenceCode();
         return code.equals("silent") && counters.frames == 0 ? "connected, no telemetry yet"

@@ -28,7 +28,7 @@ final class LinkStatus {
     long refused;
     /** Plain lines on a link with a key, or protected ones without a key. */
     long unprotected;
-    /** The name of this device's key for the aircraft, so that plain lines are refused; empty: none. */
+    /** The name of this device's key: plain lines are refused; empty: it has none. */
     String keyName = "";
     /** The role of the key in the open session; empty without a session. */
     String keyRole = "";

@@ -218,6 +218,20 @@ public final class LinkSecurityTest {
     }
 
     @Test
+    public void theGainsAreRequestedWhenTheSessionOfANewConnectionIsOpen() throws Exception {
+        open(0);
+        bench.peer().end("lost");
+        bench.loop.advance(700);
+        bench.accept(ProxyRole.COMMAND);
+        final byte[] hello = hello();
+        line(frame("{}"));
+        assertNull(written(BinaryLine.PROTECTED));
+        line(air.answer(hello));
+        line(frame("{}"));
+        assertTrue(command().contains("arduino.pids.tunings"));
+    }
+
+    @Test
     public void aRestartedAircraftGetsAHelloOnceASecond() {
         open(0);
         air.restart();

@@ -3,7 +3,7 @@ package org.raspilot.up.security;
 import java.nio.ByteBuffer;
 import java.util.Arrays;
 
-/** The aircraft's end of a protected link with one paired device; its numbers are drawn in order. */
+/** The aircraft's end of a protected link with one paired device; it draws known numbers. */
 public final class TestAircraft {
     public static final String TEXT = "upkey:1:glider:0001020304050607:"
             + "000102030405060708090a0b0c0d0e0f101112131415161718191a1b1c1d1e1f:pilot:tablet";

@@ -80,7 +80,9 @@ public final class ControlPanel implements View.OnClickListener {
         if (!status.isOpen()) {
             return text;
         }
-        text += " " + sentence(status.securityText());
+        if (status.keyFault.isEmpty()) {
+            text += " " + sentence(status.securityText());
+        }
         if (status.isSilent || status.rateHz == null) {
             return text;
         }
