@@ -21,6 +21,7 @@ import org.junit.Before;
 import org.junit.Test;
 import org.raspilot.up.android.PairingStore;
 import org.raspilot.up.ground.GroundSettings;
+import org.robolectric.annotation.Config;
 import org.robolectric.shadows.ShadowAlertDialog;
 import org.robolectric.shadows.ShadowToast;
 
@@ -34,11 +35,14 @@ public final class KeySettingsTest extends AppBench {
     private SettingsFragment settings;
 
     @Before
-    public void openSettings() {
+    public void addKeystore() {
         if (Build.VERSION.SDK_INT >= 23) {
             Security.addProvider(new TestKeystore());
         }
         handset.set(R.string.key_ground_host, "192.0.2.1");
+    }
+
+    private void openSettings() {
         handset.open();
         handset.choose(Screen.SETTINGS);
         settings = (SettingsFragment) handset.window.get().getFragmentManager()
@@ -74,6 +78,7 @@ public final class KeySettingsTest extends AppBench {
 
     @Test
     public void aPastedTextPairsAndItsSecretIsNotInTheSettings() {
+        openSettings();
         assertFalse("the settings must not keep it", paste(" " + TEXT + "\n"));
         assertEquals("glider-1", ground().aircraft);
         assertEquals("tablet (pilot)", ground().pairing.toString());
@@ -87,7 +92,9 @@ public final class KeySettingsTest extends AppBench {
     }
 
     @Test
+    @Config(sdk = 29)
     public void twoAircraftHaveTwoKeysAndANewOneReplacesTheOld() {
+        openSettings();
         paste(TEXT);
         paste(TEXT.replace("glider-1", "glider-2"));
         paste(TEXT.replace(":pilot:", ":observer:"));
@@ -97,16 +104,25 @@ public final class KeySettingsTest extends AppBench {
     }
 
     @Test
-    public void anotherTextIsRefused() {
+    @Config(sdk = 29)
+    public void whatDoesNotPairIsSaid() {
+        openSettings();
         paste("upkey:1:glider-1");
         assertEquals(handset.application.getString(R.string.pairing_invalid),
+                ShadowToast.getTextOfLatestToast());
+        shadowOf(handset.application).checkActivities(true);
+        Preference scan = keys().getPreference(1);
+        scan.getOnPreferenceClickListener().onPreferenceClick(scan);
+        assertEquals(handset.application.getString(R.string.scan_none),
                 ShadowToast.getTextOfLatestToast());
         assertEquals(2, keys().getPreferenceCount());
         assertNull(ground().pairing);
     }
 
     @Test
+    @Config(sdk = 29)
     public void aKeyIsForgottenAfterAQuestion() {
+        openSettings();
         paste(TEXT);
         Preference shown = keys().getPreference(2);
         shown.getOnPreferenceClickListener().onPreferenceClick(shown);
@@ -121,6 +137,7 @@ public final class KeySettingsTest extends AppBench {
 
     @Test
     public void aKeyThatCannotBeReadClosesTheLinkAndMakesItNotPlain() {
+        openSettings();
         paste(TEXT);
         String kept = file().getString("glider-1", "");
         file().edit().putString("glider-1", kept.substring(0, kept.length() - 8)).commit();
@@ -144,7 +161,9 @@ public final class KeySettingsTest extends AppBench {
     }
 
     @Test
+    @Config(sdk = 29)
     public void aScannerPairs() {
+        openSettings();
         Preference scan = keys().getPreference(1);
         scan.getOnPreferenceClickListener().onPreferenceClick(scan);
         Intent wish = shadowOf((Activity) handset.window.get())
@@ -155,14 +174,5 @@ public final class KeySettingsTest extends AppBench {
         settings.onActivityResult(KeySettings.SCAN, Activity.RESULT_OK,
                 new Intent().putExtra("SCAN_RESULT", TEXT));
         assertEquals("tablet", ground().pairing.name);
-    }
-
-    @Test
-    public void withoutAScannerItIsSaid() {
-        shadowOf(handset.application).checkActivities(true);
-        Preference scan = keys().getPreference(1);
-        scan.getOnPreferenceClickListener().onPreferenceClick(scan);
-        assertEquals(handset.application.getString(R.string.scan_none),
-                ShadowToast.getTextOfLatestToast());
     }
 }
