@@ -112,10 +112,22 @@ def java_titles(text: str) -> str:
     return _region(text, puts, "// schema begin", "// schema end")
 
 
+def java_dictionary(text: str) -> str:
+    """Return PackedDictionary.java with the dictionary of the first packed frame."""
+    content = _module("up.protocols.packed_dictionary").DICTIONARY.decode("ascii")
+    lines = [json.dumps(content[at : at + 64]) for at in range(0, len(content), 64)]
+    joined = "\n            + ".join(lines)
+    return _region(text, f"            {joined}\n", "// schema begin", "// schema end")
+
+
 def _commands() -> Any:
-    """Import the Commands, when the tables that their modules import are written."""
+    return _module("tools.command_tables")
+
+
+def _module(name: str) -> Any:
+    """Import a module, when the tables that it imports are written."""
     try:
-        return importlib.import_module("tools.command_tables")
+        return importlib.import_module(name)
     except ImportError as error:
         raise SchemaError(f"{error}: run tools/schema.py by make schema") from None
 
@@ -136,6 +148,9 @@ OUTPUTS: dict[str, Callable[[Schema, str], str]] = {
     "up/commands/refusal.py": answer_codes,
     "android/core/src/org/raspilot/up/commands/NackCode.java": java_answer_codes,
     "android/core/src/org/raspilot/up/ground/CommandTexts.java": lambda _, text: java_titles(text),
+    "android/core/src/org/raspilot/up/wire/PackedDictionary.java": (
+        lambda _, text: java_dictionary(text)
+    ),
     "android/raspilot/assets/commands.json": lambda *_: _commands().forms(),
     "docs/protocols.md": documents,
 }

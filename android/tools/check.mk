@@ -15,14 +15,14 @@ $(BUILD)/api-$(LEAST).signature: $(JARS)/.stubs $(BOOT) $(BUILD)/signatures.jar
 	@$(SNIFF) build $@ $(STUBS) $(BOOT)
 
 # Everything keeps to the java.* of API 16; android.* too, but for the classes of newer levels,
-# which keep to what is public in theirs. Those are reached behind the check of the version only.
-# Names in resources are checked against the same level.
+# which keep to what is public in theirs, ciphers' parameters included. Those are reached behind
+# the check of the version only. Names in resources are checked against the same level.
 $(BUILD)/.guarded: $(BACKPORTED) $(MANIFEST) $(BUILD)/api-$(LEAST).signature \
 		tools/guards.py tools/resources.py $(RES) $(filter-out %-29,$(LEVELS:%=$(JARS)/.level-%)) \
 		$(wildcard tools/newer-*.list)
 	@echo 'check that no call is newer than its guard'
 	@$(SNIFF) check $(BUILD)/api-$(LEAST).signature $(OURS) - $(filter-out $(JAVA7)/newer-%,$(BACKPORTED)) \
-		$(if $(LEVELS),-- $(BUILD)/api-$(LEAST).signature $(OURS)$(comma)android - $(filter $(JAVA7)/newer-%,$(BACKPORTED))) \
+		$(if $(LEVELS),-- $(BUILD)/api-$(LEAST).signature $(OURS)$(comma)android$(comma)javax.crypto.spec - $(filter $(JAVA7)/newer-%,$(BACKPORTED))) \
 		$(foreach each,$(LEVELS),-- $(PUBLIC_$(each)) $(OURS) \
 		$(or $(wildcard tools/newer-$(each).list),-) $(JAVA7)/newer-$(each).jar)
 	@$(PYTHON) tools/guards.py $(MANIFEST) $(BACKPORTED)

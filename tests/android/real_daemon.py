@@ -18,13 +18,14 @@ GUARDS = (
 class RealDaemon(Daemon):
     """Raspilot, with a proxy and an Arduino where they are named; it flies without as well."""
 
-    def __init__(self, folder, proxy=None, board=None, mission="", **files):
+    def __init__(self, folder, proxy=None, board=None, mission="", security="auto", **files):
         folder.mkdir(exist_ok=True)
         (self.ports,) = choose_port_sets(1)
         self.flights = folder / "flights"
         server = ""
         if proxy is not None:
-            server = f"remote_server: {{url: 127.0.0.1, port: {proxy.airborne_port}}}\n"
+            port = proxy.airborne_port
+            server = f"remote_server: {{url: 127.0.0.1, port: {port}, security: {security}}}\n"
         texts = {
             "config": "mode: flight controller\n",
             "android": f"general port: {self.ports.general}\n"

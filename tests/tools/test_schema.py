@@ -17,7 +17,8 @@ ROOT = Path(__file__).parents[2]
 TREES = ("schema", "up", "cogs/arduino_cog", "cogs/load_guard_cog", "arduino/raspilot/src",
          "ground/up_ground", "flightlog/up_flightlog", "simulator/up_simulator",
          "android/core/src/org/raspilot/up/ground",
-         "android/core/src/org/raspilot/up/commands")  # fmt: skip
+         "android/core/src/org/raspilot/up/commands",
+         "android/core/src/org/raspilot/up/wire")  # fmt: skip
 LINES = {
     "status": (
         "  - {name: brown_outs, type: u8, about: brown-outs since power-on,"

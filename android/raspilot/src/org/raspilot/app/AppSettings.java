@@ -7,6 +7,7 @@ import java.util.Locale;
 import org.raspilot.up.airborne.AirborneSettings.AirborneMode;
 import org.raspilot.up.airborne.AirborneSettings.OrientationTransport;
 import org.raspilot.up.airborne.AirborneSettings;
+import org.raspilot.up.android.PairingStore;
 import org.raspilot.up.ground.GroundSettings;
 import org.raspilot.up.providers.Mounting;
 import org.raspilot.up.providers.Side;
@@ -48,17 +49,18 @@ final class AppSettings {
                 .build();
     }
 
-    /** Returns all of the ground side. */
+    /** Returns all of the ground side, with this phone's key of the aircraft. */
     GroundSettings ground() {
         boolean isListening = preferences.getBoolean(
                 context.getString(R.string.key_ground_listen), false);
         boolean isDirect = preferences.getBoolean(
                 context.getString(R.string.key_ground_direct), false);
+        String aircraft = text(R.string.key_ground_aircraft, R.string.default_ground_aircraft);
         return new GroundSettings(
                 text(R.string.key_ground_host, R.string.default_ground_host),
-                port(R.string.key_ground_port, R.string.default_ground_port),
-                text(R.string.key_ground_aircraft, R.string.default_ground_aircraft),
-                isListening ? ProxyRole.LISTEN : ProxyRole.COMMAND, isDirect);
+                port(R.string.key_ground_port, R.string.default_ground_port), aircraft,
+                isListening ? ProxyRole.LISTEN : ProxyRole.COMMAND, isDirect)
+                .withPairing(new PairingStore(context).get(aircraft));
     }
 
     /** Returns who the phone speaks to. */

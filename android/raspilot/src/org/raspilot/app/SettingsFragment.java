@@ -1,5 +1,6 @@
 package org.raspilot.app;
 
+import android.content.Intent;
 import android.content.SharedPreferences;
 import android.os.Bundle;
 import android.preference.EditTextPreference;
@@ -20,6 +21,7 @@ public final class SettingsFragment extends PreferenceFragment
     private static final String GROUND = "ground_";
 
     private final Map<String, SettingRule> rules = new LinkedHashMap<>();
+    private KeySettings keys;
 
     @Override
     public void onCreate(Bundle saved) {
@@ -38,7 +40,15 @@ public final class SettingsFragment extends PreferenceFragment
         rule(R.string.key_ground_host, SettingRule.HOST_OR_NOTHING);
         rule(R.string.key_ground_port, SettingRule.PORT);
         rule(R.string.key_ground_aircraft, SettingRule.AIRCRAFT);
+        keys = new KeySettings(this);
         showAll();
+    }
+
+    @Override
+    public void onActivityResult(int request, int result, Intent data) {
+        if (request == KeySettings.SCAN) {
+            keys.onScanned(data);
+        }
     }
 
     @Override

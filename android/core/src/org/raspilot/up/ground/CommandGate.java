@@ -48,6 +48,9 @@ public final class CommandGate {
             GroundStatus status, Telemetry telemetry, long nowMs) {
         DisabledReason ofLink = status == null ? DisabledReason.NO_LINK
                 : ofLink(status.isOpen(), status.isAircraftOnline, status.control);
+        if (ofLink == DisabledReason.NONE && !status.keyFault.isEmpty()) {
+            return DisabledReason.NO_SESSION;
+        }
         if (ofLink != DisabledReason.NONE) {
             return ofLink;
         }
@@ -72,7 +75,13 @@ public final class CommandGate {
             return Answer.refused(command.name(), "busy",
                     "too many Commands wait for their answer");
         }
-        return PendingCommands.isRequest(command) ? null : beaconFault(command, shown);
+        final LinkStatus facts = link.facts();
+        if (!facts.keyFault().isEmpty()) {
+            return Answer.refused(command.name(), facts.keyFault(),
+                    KeyTexts.fault(facts.keyFault()));
+        }
+        return PendingCommands.isRequest(command) && !facts.isKeyed() ? null
+                : beaconFault(command, shown);
     }
 
     /** Returns the state of the seat; a seat we left is not ours, even while unconfirmed. */
@@ -184,6 +193,8 @@ public final class CommandGate {
         NO_LINK,
         /** The proxy does not have the aircraft. */
         NO_AIRCRAFT,
+        /** The link requires a protected session, and there is none. */
+        NO_SESSION,
         /** No ground commands: control must be requested. */
         CONTROL_FREE,
         /** Another ground commands. */

@@ -25,9 +25,13 @@ final class CommandService {
     /**
      * Sends a Command once.
      *
-     * @param shown the beacon of the frame that the pilot has seen; null: none
+     * @param seen the beacon of the frame that the pilot has seen; null: none
      */
-    void send(BaseCommand command, Long shown, AnswerListener listener) {
+    void send(BaseCommand command, Long seen, AnswerListener listener) {
+        final boolean isProtectedRequest = link.facts().isKeyed()
+                && PendingCommands.isRequest(command);
+        // A protected request needs a beacon, too, though no pilot has to have seen its frame.
+        final Long shown = isProtectedRequest && seen == null ? beacons.newest() : seen;
         final Answer refused = gate.refusal(command, shown);
         if (refused != null) {
             listener.onAnswer(refused);

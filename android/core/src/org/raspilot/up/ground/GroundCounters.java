@@ -14,22 +14,30 @@ public final class GroundCounters {
     public final long tooLong;
     /** The number of unknown or unexpected lines of the proxy. */
     public final long strangeControl;
+    /** How many packed frames had a key that was not received here. */
+    public final long keyless;
+    /** How many lines the key did not authenticate, or came before. */
+    public final long refused;
+    /** How many plain lines came on a link with a key, or protected ones without. */
+    public final long unprotected;
     /** How many answers were of no Command that waits for one. */
     public final long strangeAnswers;
 
-    GroundCounters(long connections, long frames, long lostFrames, long malformed, long tooLong,
-            long strangeControl, long strangeAnswers) {
-        this.connections = connections;
-        this.frames = frames;
-        this.lostFrames = lostFrames;
-        this.malformed = malformed;
+    GroundCounters(LinkStatus facts, TelemetryStream stream, long tooLong, long strangeAnswers) {
+        connections = facts.connections;
+        frames = stream.frames();
+        lostFrames = stream.lost();
+        malformed = facts.malformed;
         this.tooLong = tooLong;
-        this.strangeControl = strangeControl;
+        strangeControl = facts.strangeControl;
+        keyless = facts.keyless;
+        refused = facts.refused;
+        unprotected = facts.unprotected;
         this.strangeAnswers = strangeAnswers;
     }
 
     /** Returns how many lines were dropped. */
     public long dropped() {
-        return malformed + tooLong + strangeControl;
+        return malformed + tooLong + strangeControl + keyless + refused;
     }
 }

@@ -10,10 +10,12 @@ import org.raspilot.up.net.UpSocket;
 import org.raspilot.up.net.UpSocketListener;
 import org.raspilot.up.net.UpSocketSettings;
 import org.raspilot.up.net.UpSocketStatus;
+import org.raspilot.up.wire.BinaryLine;
 import org.raspilot.up.wire.ControlLine;
 import org.raspilot.up.wire.GeneralMessage;
 import org.raspilot.up.wire.HelloAnswer;
 import org.raspilot.up.wire.MalformedException;
+import org.raspilot.up.wire.PackedTelemetry;
 import org.raspilot.up.wire.ProxyRole;
 import org.raspilot.up.wire.SafeText;
 
@@ -27,6 +29,8 @@ final class GroundLink implements UpSocketListener {
     /** By then, ms, a proxy has reported the owner of control; an aircraft itself never does. */
     static final long HOLDER_TOLD_MS = 1000;
 
+    /** Minimum time between two requests for a key of packed telemetry, ms. */
+    private static final long KEY_INTERVAL_MS = 500;
     private static final int CONNECT_TIMEOUT_MS = 5000;
     private static final int HEARTBEAT_MS = 1000;
     private static final int INITIAL_RETRY_MS = 500;
@@ -39,6 +43,9 @@ final class GroundLink implements UpSocketListener {
     private final LinkStatus facts = new LinkStatus();
     private final ControlLease claim;
     private final SilenceWatchdog quiet;
+    private final LinkSecurity security;
+    private final PackedTelemetry unpacker = new PackedTelemetry();
+    private Long keyAskedMs;
     private boolean isGreeted;
     private long connectingMs;
     private long connectTookMs;
@@ -53,6 +60,8 @@ final class GroundLink implements UpSocketListener {
         this.listener = listener;
         claim = new ControlLease(settings, tokens, facts);
         quiet = new SilenceWatchdog(loop, new Quiet());
+        security = settings.pairing == null ? null
+                : new LinkSecurity(loop, settings.pairing, facts, new Secured());
         final UpSocketSettings lines = UpSocketSettings.lines()
                 .withConnectTimeoutMs(CONNECT_TIMEOUT_MS)
                 .withRetryMs(INITIAL_RETRY_MS, MAX_RETRY_MS);
@@ -99,8 +108,16 @@ final class GroundLink implements UpSocketListener {
         socket.reconnectNow();
     }
 
-    /** Sends a line; returns false without a link, or when too much data waits. */
+    /**
+     * Sends a message's line; returns false without a link or without the session that its key
+     * requires, or when too much data waits.
+     */
     boolean send(byte[] line) {
+        final byte[] sealed = security == null ? line : security.seal(line);
+        return sealed != null && sendPlain(sealed);
+    }
+
+    private boolean sendPlain(byte[] line) {
         return isOpen() && socket.send(line);
     }
 
@@ -124,7 +141,7 @@ final class GroundLink implements UpSocketListener {
             // Only a new hello gives the seat of an aircraft's own listener.
             return reconnectWithHello();
         }
-        return send(ControlLine.seatRequest());
+        return sendPlain(ControlLine.seatRequest());
     }
 
     void dismissRequest() {
@@ -135,7 +152,7 @@ final class GroundLink implements UpSocketListener {
     }
 
     boolean giveControl(int to) {
-        return ownsControl() && to >= 0 && send(ControlLine.seatGive(to));
+        return ownsControl() && to >= 0 && sendPlain(ControlLine.seatGive(to));
     }
 
     boolean releaseControl() {
@@ -147,7 +164,7 @@ final class GroundLink implements UpSocketListener {
             claim.dropToken();
             return reconnectWithHello();
         }
-        facts.isReleased = send(ControlLine.seatRelease());
+        facts.isReleased = sendPlain(ControlLine.seatRelease());
         listener.onLink();
         return facts.isReleased;
     }
@@ -254,6 +271,9 @@ final class GroundLink implements UpSocketListener {
             facts.strangeControl++;
         } else {
             claim.onControl(said);
+            if (said.kind == ControlLine.Kind.AIRCRAFT_ONLINE && security != null) {
+                security.renew();
+            }
             listener.onLink();
         }
     }
@@ -261,13 +281,50 @@ final class GroundLink implements UpSocketListener {
     private void onLine(byte[] line, int length) {
         final GeneralMessage message;
         try {
-            message = GeneralMessage.read(line, length);
+            byte[] body = open(BinaryLine.toBody(line, length));
+            if (body == null) {
+                return;
+            }
+            if (body.length > 0 && body[0] == BinaryLine.PACKED) {
+                body = unpacker.unpack(body);
+            }
+            message = GeneralMessage.read(body, body.length);
         } catch (MalformedException fault) {
-            facts.malformed++;
+            if (fault.code.equals(PackedTelemetry.UNKNOWN_KEY)) {
+                facts.keyless++;
+                requestKey();
+            } else {
+                facts.malformed++;
+            }
             return;
         }
         quiet.onMessage();
         listener.onMessage(message);
+    }
+
+    /** Returns the body as far as this device may take it; null: it may not. */
+    private byte[] open(byte[] body) {
+        if (security != null) {
+            final String before = facts.keyFault();
+            final byte[] opened = security.open(body);
+            if (!before.equals(facts.keyFault())) {
+                listener.onLink();
+            }
+            return opened;
+        }
+        if (body[0] == BinaryLine.PROTECTED || body[0] == BinaryLine.HANDSHAKE) {
+            facts.unprotected++;
+            return null;
+        }
+        return body;
+    }
+
+    private void requestKey() {
+        final long nowMs = loop.nowMs();
+        if (keyAskedMs == null || nowMs - keyAskedMs >= KEY_INTERVAL_MS) {
+            keyAskedMs = nowMs;
+            sendPlain(ControlLine.keyRequest());
+        }
     }
 
     private void opened(long roundTripMs) {
@@ -277,6 +334,9 @@ final class GroundLink implements UpSocketListener {
         facts.rejection = "";
         facts.failures = 0;
         facts.connections++;
+        if (security != null) {
+            security.start();
+        }
         if (settings.isDirect) {
             listener.onOpened();
             listener.onLink();
@@ -292,15 +352,31 @@ final class GroundLink implements UpSocketListener {
     private void close(LinkState state, String code, String reason) {
         endHello();
         quiet.stop();
+        if (security != null) {
+            security.stop();
+        }
         isGreeted = false;
         facts.roundTripMs = null;
         facts.enter(state, loop.nowMs(), code, reason);
     }
 
+    private final class Secured implements LinkSecurity.Owner {
+        @Override
+        public void send(byte[] line) {
+            sendPlain(line);
+        }
+
+        @Override
+        public void onClock(double clockMs, long fromMs, long toMs) {
+            listener.onClock(clockMs, fromMs, toMs);
+        }
+    }
+
     private final class Quiet implements SilenceWatchdog.Owner {
         @Override
         public Boolean isAircraftOnline() {
-            return facts.isAircraftOnline;
+            // Without a session the aircraft sends nothing but replies to hellos.
+            return facts.keyFault().isEmpty() ? facts.isAircraftOnline : Boolean.FALSE;
         }
 
         @Override
@@ -313,6 +389,9 @@ final class GroundLink implements UpSocketListener {
     interface LinkListener {
         /** Takes a message from the aircraft. */
         void onMessage(GeneralMessage message);
+
+        /** Takes the aircraft's clock, authentic and read between two times here, ms. */
+        void onClock(double clockMs, long fromMs, long toMs);
 
         /** Called when the link is open: messages can be sent. */
         void onOpened();

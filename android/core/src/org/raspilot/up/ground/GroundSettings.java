@@ -2,6 +2,7 @@ package org.raspilot.up.ground;
 
 import org.raspilot.up.net.SettingRules.InvalidSettingException;
 import org.raspilot.up.net.SettingRules;
+import org.raspilot.up.security.Pairing;
 import org.raspilot.up.wire.ProxyRole;
 
 /** The peer of a ground device and the role it requests; immutable and valid. */
@@ -20,6 +21,8 @@ public final class GroundSettings {
     /** The seat that is requested first, COMMAND or LISTEN. */
     public final ProxyRole role;
     public final boolean isDirect;
+    /** This device's key of the aircraft; null: the link is plain. */
+    public final Pairing pairing;
 
     /**
      * Creates settings.
@@ -33,6 +36,11 @@ public final class GroundSettings {
      */
     public GroundSettings(String host, int port, String aircraft, ProxyRole seat,
             boolean isDirect) {
+        this(host, port, aircraft, seat, isDirect, null);
+    }
+
+    private GroundSettings(String host, int port, String aircraft, ProxyRole seat,
+            boolean isDirect, Pairing pairing) {
         SettingRules.host("host", host == null ? "" : host.trim());
         SettingRules.port("port", port);
         SettingRules.aircraft("aircraft's name", aircraft);
@@ -44,6 +52,15 @@ public final class GroundSettings {
         this.aircraft = aircraft;
         this.role = seat;
         this.isDirect = isDirect;
+        this.pairing = pairing;
+    }
+
+    /** Returns these settings with a key of the aircraft: plain lines are refused; null: none. */
+    public GroundSettings withPairing(Pairing key) {
+        if (key != null && !key.aircraft.equals(aircraft)) {
+            throw new InvalidSettingException("key", "is that of another aircraft");
+        }
+        return new GroundSettings(host, port, aircraft, role, isDirect, key);
     }
 
     /** Returns host and port as people write them. */

@@ -100,8 +100,7 @@ public final class GroundSide implements TelemetrySource {
         final Telemetry newest = stream.newest();
         final LinkStatus facts = link.facts();
         return new GroundStatus(facts, settings.isDirect, stream.rateHz(nowMs), newest, nowMs,
-                home.home(), new GroundCounters(facts.connections, stream.frames(),
-                        stream.lost(), facts.malformed, link.tooLong(), facts.strangeControl,
+                home.home(), new GroundCounters(facts, stream, link.tooLong(),
                         answers.unmatched()));
     }
 
@@ -212,7 +211,8 @@ public final class GroundSide implements TelemetrySource {
         if (wasSilent != frame.isSilent(nowMs) || wasLate != frame.age.isLate(nowMs)) {
             reportStatus();
         }
-        if (gate.standing() == ControlStatus.OURS && !frame.isSilent(nowMs)) {
+        if (gate.standing() == ControlStatus.OURS && !frame.isSilent(nowMs)
+                && link.facts().keyFault().isEmpty()) {
             gains.onTick();
         }
         reportChanges();
@@ -274,6 +274,11 @@ public final class GroundSide implements TelemetrySource {
             answers.receive(message);
             executor.executeCommand(new BaseCommand(message));
             reportChanges();
+        }
+
+        @Override
+        public void onClock(double clockMs, long fromMs, long toMs) {
+            stream.onClock(clockMs, fromMs, toMs);
         }
 
         @Override

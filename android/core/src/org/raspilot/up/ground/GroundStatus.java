@@ -35,8 +35,12 @@ public final class GroundStatus {
     public final boolean isSilent;
     /** Whether telemetry arrives, but so late that it counts as silence. */
     public final boolean isLate;
-    /** The role of grounds at this aircraft, as its telemetry reports; null: unknown. */
+    /** The key's role, or that of grounds at this aircraft as telemetry reports; null: unknown. */
     public final String commandRole;
+    /** Why the key's session is not open, a code of {@link KeyTexts}; empty: it is, or no key. */
+    public final String keyFault;
+    /** The name of this device's key for the aircraft; empty: the link is plain. */
+    public final String keyName;
     /** Whether gains may be set in flight, or null if unknown. */
     public final Boolean tuneInFlight;
     /** The aircraft's home; null: not known. */
@@ -61,7 +65,9 @@ public final class GroundStatus {
         this.rateHz = rateHz;
         isSilent = newest.isSilent(nowMs);
         isLate = newest.age.isLate(nowMs);
-        commandRole = newest.text("ground.role");
+        commandRole = facts.keyRole.isEmpty() ? newest.text("ground.role") : facts.keyRole;
+        keyFault = facts.keyFault();
+        keyName = facts.keyName;
         tuneInFlight = newest.flag("ground.tune_in_flight");
         this.home = home;
         this.counters = counters;
@@ -84,6 +90,15 @@ public final class GroundStatus {
             default:
                 return openSentence();
         }
+    }
+
+    /** Returns how the link is protected, with the key's name and role, without a full stop. */
+    public String securityText() {
+        if (keyName.isEmpty()) {
+            return "plain link";
+        }
+        return keyFault.isEmpty() ? "end to end: " + keyName + " (" + commandRole + ")"
+                : "key " + keyName + ": " + KeyTexts.fault(keyFault);
     }
 
     /** Describes the owner of control for a pilot, without a full stop. */
@@ -118,8 +133,15 @@ public final class GroundStatus {
     }
 
     private String openSentence() {
-        if (!isSilent && !Boolean.FALSE.equals(isAircraftOnline)) {
+        final boolean isOffline = Boolean.FALSE.equals(isAircraftOnline);
+        if (!isSilent && !isOffline) {
             return "connected";
+        }
+        if (!isOffline && !keyFault.isEmpty()) {
+            return securityText();
+        }
+        if (!isOffline && keyName.isEmpty() && counters.unprotected > 0) {
+            return KeyTexts.fault("key_missing");
         }
         final String code = silenceCode();
         return code.equals("silent") && counters.frames == 0 ? "connected, no telemetry yet"

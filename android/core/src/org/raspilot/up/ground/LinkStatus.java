@@ -22,6 +22,30 @@ final class LinkStatus {
     long connections;
     long malformed;
     long strangeControl;
+    /** Packed frames whose key was not received here. */
+    long keyless;
+    /** Lines that the key does not authenticate, or that came before. */
+    long refused;
+    /** Plain lines on a link with a key, or protected ones without a key. */
+    long unprotected;
+    /** The name of this device's key: plain lines are refused; empty: it has none. */
+    String keyName = "";
+    /** The role of the key in the open session; empty without a session. */
+    String keyRole = "";
+    /** The code with which the aircraft refused the key; empty: it did not. */
+    String keyRefusal = "";
+
+    boolean isKeyed() {
+        return !keyName.isEmpty();
+    }
+
+    /** Returns the code of what keeps the key's session closed; empty: it is open, or no key. */
+    String keyFault() {
+        if (!isKeyed() || !keyRole.isEmpty()) {
+            return "";
+        }
+        return keyRefusal.isEmpty() ? "no_session" : keyRefusal;
+    }
 
     /** Clears the state that needs a connection. */
     void enter(LinkState now, long nowMs, String whyCode, String why) {

@@ -10,6 +10,9 @@ package org.raspilot.up.ground;
  * step, is another clock: the estimate is reset.
  */
 public final class OneWayDelay {
+    private static final double SAME_CLOCK_MS = 1000;
+
+    private boolean isTrusted;
     private boolean hasMinimum;
     private boolean isReset;
     private double leastMs;
@@ -24,7 +27,30 @@ public final class OneWayDelay {
 
     /** Resets the estimate, for another clock or another path. */
     public void reset() {
-        hasMinimum = false;
+        hasMinimum = isTrusted;
+    }
+
+    /** Returns whether the sender's clock was read authentically. */
+    public boolean isTrusted() {
+        return isTrusted;
+    }
+
+    /**
+     * Takes an authentic reading of the sender's clock, made between two times here, ms. From now
+     * on only another one counts as a new clock: messages that are held back show it. An estimate
+     * that this reading permits stays, so that a slow reading spoils no quick one.
+     */
+    public void trust(double stamp, double fromMs, double toMs) {
+        final double lowMs = fromMs - stamp;
+        final double highMs = toMs - stamp;
+        final boolean isSame = isTrusted && leastMs > lowMs - SAME_CLOCK_MS
+                && leastMs < highMs + SAME_CLOCK_MS;
+        final double knownMs = isSame ? leastMs : (lowMs + highMs) / 2;
+        leastMs = Math.min(Math.max(knownMs, lowMs), highMs);
+        isTrusted = true;
+        hasMinimum = true;
+        stampMs = stamp;
+        nowMs = toMs;
     }
 
     /**
@@ -41,7 +67,7 @@ public final class OneWayDelay {
         if (hasMinimum) {
             final double least = Math.min(apartMs, leastMs + TelemetrySchema.DRIFT * (arrivalMs - nowMs));
             final boolean hasJumped = apartMs - least > excessMs + TelemetrySchema.NEW_CLOCK_MS;
-            hasMinimum = stamp >= stampMs && !hasJumped;
+            hasMinimum = isTrusted || stamp >= stampMs && !hasJumped;
             leastMs = least;
         }
         if (!hasMinimum) {

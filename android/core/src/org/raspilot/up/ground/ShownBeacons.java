@@ -65,6 +65,11 @@ final class ShownBeacons {
         return onShown == null ? null : Long.valueOf(onShown.beacon);
     }
 
+    /** Returns the beacon of the newest frame, seen or not; null: none. */
+    Long newest() {
+        return heard.isEmpty() ? null : Long.valueOf(heard.peekLast().beacon);
+    }
+
     /** Returns whether telemetry arrives without beacons, as the thesis's does. */
     boolean isLegacy() {
         return hasFrames && !hasBeacons;

@@ -6,7 +6,8 @@ import org.raspilot.up.wire.GeneralMessage;
  * Makes frames of messages and tracks the stream: missing frames and delay.
  *
  * <p>The transit time of a frame is half of the shortest round trip to the proxy, plus its delay
- * relative to the fastest frame by the aircraft's own clock ({@code system.clock_ms}).
+ * relative to the fastest frame by the aircraft's own clock ({@code system.clock_ms}); with a
+ * protected session, all of it by that clock.
  */
 final class TelemetryStream {
     private static final long MAX_GAP = 1000;
@@ -20,6 +21,7 @@ final class TelemetryStream {
     private Telemetry newest = Telemetry.EMPTY;
     private long frames;
     private long lost;
+    private double leftOut;
     private double roundTripMs;
     private Double minRoundTripMs;
 
@@ -38,17 +40,22 @@ final class TelemetryStream {
     /** Takes a message of that name and returns it as a frame. */
     Telemetry receive(GeneralMessage message, long nowMs) {
         final Long beacon = message.beacon;
+        final Telemetry bare = Telemetry.of(message.data, beacon, nowMs, 0);
+        final Double told = bare.number("uplink.left_out");
+        final double leftOutNow = told == null ? 0 : told;
         if (beacon != null && newest.beacon != null) {
             // Beacons are the peer's: their difference may not fit a long.
             final double gap = (double) beacon - (double) newest.beacon;
-            if (gap > 1 && gap <= MAX_GAP) {
-                lost += (long) gap - 1;
+            // The aircraft left some out itself: because of its data budget.
+            final double missing = gap - 1 - Math.max(0, leftOutNow - leftOut);
+            if (missing > 0 && missing <= MAX_GAP) {
+                lost += (long) missing;
             }
             if (Math.abs(gap) > ONE_LIFE) {
                 delay.reset();
             }
         }
-        final Telemetry bare = Telemetry.of(message.data, beacon, nowMs, 0);
+        leftOut = leftOutNow;
         final Double delayMs = delay.update(bare.number("system.clock_ms"), nowMs);
         if (delay.isReset()) {
             minRoundTripMs = roundTripMs > 0 ? Double.valueOf(roundTripMs) : null;
@@ -65,6 +72,11 @@ final class TelemetryStream {
         if (tookMs != null && (minRoundTripMs == null || tookMs < minRoundTripMs)) {
             minRoundTripMs = tookMs;
         }
+    }
+
+    /** Takes the aircraft's clock as a protected session reports it. */
+    void onClock(double clockMs, long fromMs, long toMs) {
+        delay.trust(clockMs, fromMs, toMs);
     }
 
     /** Discards the newest frame: the link is restarted. */
@@ -95,6 +107,10 @@ final class TelemetryStream {
     private double wayMs(Double delayMs) {
         if (delayMs == null) {
             return roundTripMs / 2;
+        }
+        if (delay.isTrusted()) {
+            // By a clock that was compared: the whole way.
+            return Math.max(delayMs, roundTripMs / 2);
         }
         // Queueing on the way to the proxy is delay: the minimum is the transit time itself.
         return (minRoundTripMs == null ? roundTripMs : minRoundTripMs) / 2 + delayMs;

@@ -49,6 +49,11 @@ public final class ControlLine {
         return Utf8.encode("UP1 seat give to=" + number + "\n");
     }
 
+    /** Returns the line that requests a key of packed telemetry. */
+    public static byte[] keyRequest() {
+        return Utf8.encode("UP1 key\n");
+    }
+
     /** Returns whether a line starts as those that are never relayed: not a General Message. */
     public static boolean isControlLine(byte[] line, int length) {
         return length >= 4 && line[0] == 'U' && line[1] == 'P' && line[2] == '1' && line[3] == ' ';

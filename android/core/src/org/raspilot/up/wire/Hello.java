@@ -3,7 +3,8 @@ package org.raspilot.up.wire;
 import java.util.regex.Pattern;
 
 /**
- * The first line of a ground to a proxy: which aircraft, which seat, and the token that resumes it.
+ * The first line of a ground to a proxy: which aircraft, which seat, the token that resumes it, and
+ * that packed telemetry is read.
  *
  * <p>Source: docs/protocols.md 9.
  */
@@ -34,7 +35,7 @@ public final class Hello {
                     "the token must be 32 to 64 hexadecimal digits in lower case");
         }
         return Utf8.encode("UP1 aircraft=" + aircraft + " seat=" + seat.word()
-                + (token == null ? "" : " token=" + token) + "\n");
+                + (token == null ? "" : " token=" + token) + " packed=1\n");
     }
 
     /** Returns whether a text is a valid name of an aircraft, for a proxy and for a runner. */

@@ -5,7 +5,7 @@ import java.util.Arrays;
 import java.util.List;
 
 /**
- * Splits a stream of bytes into lines at LF and removes a CR before it.
+ * Splits a stream of bytes into lines at LF and removes a CR before it, except from a binary line.
  *
  * <p>A line that is too long is dropped up to its LF and counted; the buffer never exceeds the
  * bound. Empty lines are heartbeats and are left out. Source: docs/protocols.md 4.
@@ -76,7 +76,7 @@ public final class LineSplitter {
 
     private void endLine(List<byte[]> lines) {
         int length = heldLength;
-        if (length > 0 && held[length - 1] == '\r') {
+        if (length > 0 && held[length - 1] == '\r' && !BinaryLine.isType(held[0])) {
             length--;
         }
         if (length > 0 && !isSkipping) {

@@ -139,6 +139,16 @@ public final class GroundTelemetryTest {
     }
 
     @Test
+    public void framesThatTheAircraftLeftOutAreNotLost() {
+        bench.open(ProxyRole.LISTEN);
+        bench.frame(1, "{\"uplink\": {\"left_out\": 7}}");
+        bench.frame(6, "{\"uplink\": {\"left_out\": 10}}");
+        assertEquals(1, bench.ground.status().counters.lostFrames);
+        bench.frame(10, "{\"uplink\": {\"left_out\": 13}}");
+        assertEquals(1, bench.ground.status().counters.lostFrames);
+    }
+
+    @Test
     public void beaconsOfAnyValueAreTaken() {
         bench.open(ProxyRole.LISTEN);
         bench.frame(Long.MAX_VALUE, "{}");

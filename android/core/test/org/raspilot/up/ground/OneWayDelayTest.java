@@ -51,6 +51,30 @@ public final class OneWayDelayTest {
     }
 
     @Test
+    public void aClockThatWasReadShowsTheWholeWayAndNoMessageMakesAnother() {
+        delay.trust(1000, 50000, 50100);
+        assertEquals(250, delay.update(1000.0, 50300), 0.1);
+        delay.reset();
+        assertEquals(40050, delay.update(1100.0, 90200), 40000 * TelemetrySchema.DRIFT + 0.1);
+        assertFalse(delay.isReset());
+    }
+
+    @Test
+    public void aSlowReadingSpoilsNoQuickOne() {
+        delay.trust(1000, 50000, 50010);
+        delay.trust(2000, 51000, 51900);
+        assertEquals(0, delay.update(3000.0, 52005), 0.1);
+        assertEquals(5, delay.update(3000.0, 52010), 0.1);
+    }
+
+    @Test
+    public void aReadingOfAnotherClockReplacesTheFirst() {
+        delay.trust(1000, 50000, 50010);
+        delay.trust(900000, 51000, 51100);
+        assertEquals(50, delay.update(900000.0, 51100), 0.1);
+    }
+
+    @Test
     public void whateverAClockSaysTheFigureIsNeverNegativeNorNoNumber() {
         final long seed = new Random().nextLong();
         final Random random = new Random(seed);

@@ -165,7 +165,8 @@ public final class TelemetryTest {
                 new HomeEstimator().update(hostile);
                 new EventMonitor(new EventLog(), new Alarms()).update(hostile,
                         new GroundStatus(new LinkStatus(), false, null, hostile, 0, null,
-                                new GroundCounters(0, 0, 0, 0, 0, 0, 0)), 0);
+                                new GroundCounters(new LinkStatus(), new TelemetryStream(),
+                                        0, 0)), 0);
             } catch (RuntimeException fault) {
                 throw new AssertionError("seed " + seed, fault);
             }

@@ -99,9 +99,13 @@ public final class ScriptedNetwork implements Network {
 
         /** Returns the bytes written since the last call. */
         public String written() {
-            final String text = new String(written.toByteArray(), UTF_8);
+            return new String(writtenBytes(), UTF_8);
+        }
+
+        public byte[] writtenBytes() {
+            final byte[] bytes = written.toByteArray();
             written.reset();
-            return text;
+            return bytes;
         }
     }
 

@@ -3,6 +3,7 @@ package org.raspilot.app.commands;
 import android.content.res.Resources;
 import java.util.Map;
 import org.raspilot.app.R;
+import org.raspilot.app.ground.ControlPanel;
 import org.raspilot.up.android.GroundSnapshot;
 import org.raspilot.up.ground.CommandGate.DisabledReason;
 import org.raspilot.up.ground.FlightModes;
@@ -53,6 +54,9 @@ public final class CommandTexts {
                 return words.getString(R.string.why_no_link);
             case NO_AIRCRAFT:
                 return words.getString(R.string.why_no_aircraft);
+            case NO_SESSION:
+                return picture.status == null ? ""
+                        : ControlPanel.sentence(picture.status.securityText());
             case CONTROL_FREE:
                 return words.getString(R.string.why_control_free);
             case CONTROL_TAKEN:

@@ -77,7 +77,13 @@ public final class ControlPanel implements View.OnClickListener {
 
     private String linkText(GroundStatus status) {
         String text = sentence(status.linkText());
-        if (!status.isOpen() || status.isSilent || status.rateHz == null) {
+        if (!status.isOpen()) {
+            return text;
+        }
+        if (status.keyFault.isEmpty()) {
+            text += " " + sentence(status.securityText());
+        }
+        if (status.isSilent || status.rateHz == null) {
             return text;
         }
         Double wayMs = status.roundTripMs;

@@ -5,12 +5,14 @@ import java.util.Collections;
 import java.util.Iterator;
 import java.util.List;
 import org.raspilot.up.ground.GroundSettings;
+import org.raspilot.up.security.Pairing;
 import org.raspilot.up.virtual_phone.OptionParser.OptionException;
 import org.raspilot.up.wire.ProxyRole;
 
 /**
  * The options of the ground console: {@code --proxy HOST:PORT} or {@code --direct HOST:PORT},
- * {@code --aircraft NAME}, {@code --seat command|listen}, {@code --values PATH,PATH} to print.
+ * {@code --aircraft NAME}, {@code --seat command|listen}, {@code --pairing TEXT}, {@code --values
+ * PATH,PATH} to print.
  */
 final class ConsoleOptions {
     final GroundSettings settings;
@@ -27,6 +29,7 @@ final class ConsoleOptions {
         String aircraft = GroundSettings.DEFAULT_AIRCRAFT;
         ProxyRole seat = ProxyRole.COMMAND;
         boolean isDirect = false;
+        Pairing pairing = null;
         List<String> values = Collections.singletonList("flight_mode");
         Iterator<String> words = Arrays.asList(arguments).iterator();
         while (words.hasNext()) {
@@ -44,6 +47,9 @@ final class ConsoleOptions {
                 case "--seat":
                     seat = ProxyRole.ofWord(value);
                     break;
+                case "--pairing":
+                    pairing = Pairing.parse(value);
+                    break;
                 case "--values":
                     values = Arrays.asList(value.split(","));
                     break;
@@ -52,6 +58,7 @@ final class ConsoleOptions {
             }
         }
         return new ConsoleOptions(new GroundSettings(place[0],
-                OptionParser.port("port", place[1]), aircraft, seat, isDirect), values);
+                OptionParser.port("port", place[1]), aircraft, seat, isDirect)
+                .withPairing(pairing), values);
     }
 }

@@ -78,6 +78,9 @@ final class ConsoleSide implements LoopProgram.Part, GroundListener, HandlerFaul
         event.put("asked_by", number(status.requestedBy));
         event.put("online", status.isAircraftOnline);
         event.put("role", status.commandRole);
+        event.put("security", status.securityText());
+        event.put("key_fault", status.keyFault);
+        event.put("refused", status.counters.refused);
         event.put("tune_in_flight", status.tuneInFlight);
         event.put("reason", status.reason);
         event.put("rejection", status.rejection);

@@ -23,7 +23,8 @@ import org.raspilot.up.virtual_phone.OptionParser.OptionException;
  * {"event": "telemetry", "beacon", "way_ms", "age_ms", "is_stale", "values": {PATH: value or null}}
  *                             every frame, by a handler of the Command (--values: which paths)
  * {"event": "status", "link", "sentence", "seat", "standing", "holder", "asked_by", "online",
- *  "role", "tune_in_flight", "reason", "rejection"}      whenever it changed
+ *  "role", "security", "key_fault", "refused", "tune_in_flight", "reason", "rejection"}
+ *                             whenever it changed
  * {"event": "answer", "tag", "name", "outcome", "code", "reason", "round_trip_ms", "data"}
  * {"event": "gains", "flying": {...} or null}            whenever they changed
  * {"event": "notice", "code", "text"}

@@ -1,0 +1,135 @@
+package org.raspilot.up.ground;
+
+import java.util.Arrays;
+import org.raspilot.up.loop.Cancellable;
+import org.raspilot.up.loop.Loop;
+import org.raspilot.up.security.EnvelopeException;
+import org.raspilot.up.security.GroundSession;
+import org.raspilot.up.security.Handshake;
+import org.raspilot.up.security.Pairing;
+import org.raspilot.up.wire.BinaryLine;
+
+/**
+ * The protected session on a link: hellos, renewal, and what {@link LinkStatus} shows of it.
+ *
+ * <p>Source: docs/security.md, docs/protocols.md 11.
+ */
+final class LinkSecurity {
+    /** An answer that takes longer, ms, is void: the relay may have held it back. */
+    static final long ANSWER_MS = 2000;
+    /** Period of new sessions, ms, which compare the clocks again. */
+    static final long RENEW_MS = 60000;
+
+    private static final long SLOW_MS = 300;
+    /** After an answer that took longer than that the clocks are compared again soon. */
+    private static final long AGAIN_MS = 5000;
+    private static final long LEAST_BETWEEN_MS = 1000;
+
+    private final Loop loop;
+    private final LinkStatus facts;
+    private final Owner owner;
+    private final GroundSession session;
+    private Cancellable timer = Cancellable.DONE;
+    private boolean isStarted;
+    private long sentMs;
+
+    interface Owner {
+        /** Sends a line. */
+        void send(byte[] line);
+
+        /** Called after an answer: the aircraft's clock, read between two times here, ms. */
+        void onClock(double clockMs, long fromMs, long toMs);
+    }
+
+    LinkSecurity(Loop loop, Pairing pairing, LinkStatus facts, Owner owner) {
+        this.loop = loop;
+        this.facts = facts;
+        this.owner = owner;
+        session = new GroundSession(pairing);
+        facts.keyName = pairing.name;
+    }
+
+    /** Begins on an open connection. */
+    void start() {
+        isStarted = true;
+        hello();
+    }
+
+    /** Ends with the connection: its session is not resumed. */
+    void stop() {
+        isStarted = false;
+        timer.cancel();
+        facts.keyRole = "";
+    }
+
+    /** Requests a new session, at most once a second. */
+    void renew() {
+        if (isStarted && loop.nowMs() - sentMs >= LEAST_BETWEEN_MS) {
+            hello();
+        }
+    }
+
+    /** Returns the protected line of a line with its LF; null without a session. */
+    byte[] seal(byte[] line) {
+        return facts.keyRole.isEmpty() ? null
+                : BinaryLine.toLine(session.seal(Arrays.copyOf(line, line.length - 1)));
+    }
+
+    /**
+     * Returns what a body protects; null: a handshake, for others, or refused and counted.
+     *
+     * <p>A plain body is refused: whoever can drop the protected ones could have written it.
+     */
+    byte[] open(byte[] body) {
+        try {
+            if (body[0] == BinaryLine.PROTECTED) {
+                return session.open(body);
+            }
+            if (body[0] == BinaryLine.HANDSHAKE) {
+                onReply(session.onHandshake(body));
+            } else {
+                facts.unprotected++;
+            }
+        } catch (EnvelopeException fault) {
+            if (fault.code.equals("unknown_stream")) {
+                // The aircraft has restarted, or drew a new key after a revocation.
+                renew();
+            } else {
+                facts.refused++;
+            }
+        }
+        return null;
+    }
+
+    private void hello() {
+        sentMs = loop.nowMs();
+        owner.send(BinaryLine.toLine(session.hello()));
+        schedule(ANSWER_MS, () -> {
+            session.forgetHello();
+            hello();
+        });
+    }
+
+    private void onReply(Handshake said) {
+        if (said == null) {
+            return;
+        }
+        if (said.refusal != null) {
+            facts.keyRole = "";
+            facts.keyRefusal = said.refusal;
+            session.forgetHello();
+            schedule(said.refusal.equals("revoked") ? RENEW_MS : ANSWER_MS, () -> hello());
+            return;
+        }
+        final long nowMs = loop.nowMs();
+        facts.keyRole = said.role;
+        facts.keyRefusal = "";
+        schedule(nowMs - sentMs > SLOW_MS ? AGAIN_MS : RENEW_MS, () -> hello());
+        owner.onClock(said.clockMs, sentMs, nowMs);
+    }
+
+    private void schedule(long delayMs, Runnable call) {
+        timer.cancel();
+        timer = loop.schedule(delayMs, call);
+    }
+}
