@@ -12,6 +12,7 @@ final class KeyTexts {
         FAULTS.put("revoked", "the aircraft's owner has revoked this key");
         FAULTS.put("expired", "this key has expired");
         FAULTS.put("changed", "the key was changed on the aircraft: pair again");
+        FAULTS.put("secrecy_required", "the aircraft requires secrecy, and the app cannot encrypt");
         FAULTS.put("no_session", "no protected session: the aircraft does not answer this key");
         FAULTS.put("key_missing", "the aircraft requires a key: pair this phone");
     }

@@ -23,7 +23,8 @@ public final class Handshake {
     private static final List<String> ROLES =
             Arrays.asList("observer", "operator", "pilot", "admin");
     private static final List<String> REFUSALS =
-            Arrays.asList("unknown_key", "revoked", "expired", "changed");
+            Arrays.asList("unknown_key", "revoked", "expired", "changed",
+                    "secrecy_required");
     private static final byte[] SALT = Hmac.ascii("up handshake 1");
     private static final int WRAPPED_BYTES = 32;
     private static final int ANSWER_BYTES = 123;

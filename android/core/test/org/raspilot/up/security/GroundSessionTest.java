@@ -215,6 +215,12 @@ public final class GroundSessionTest {
     }
 
     @Test
+    public void anAircraftThatRequiresSecrecyIsNamed() throws Exception {
+        air.answer(ground.hello());
+        assertEquals("secrecy_required", ground.onHandshake(air.refuse(4)).refusal);
+    }
+
+    @Test
     public void onlyTheAircraftItselfEndsAnOpenSession() throws Exception {
         begin();
         refusedReply("forged", air.refuseUnknown());
