@@ -10,6 +10,7 @@ from typing import Literal
 from up.config import ConfigFile, items, key, mapping, section
 from up.config.schema import ListOf
 from up.fields import Constraint
+from up.system.peer_filter import Security
 from up_runner.request import NAME
 
 FILE_NAME = Constraint(str, max_length=64)
@@ -17,7 +18,13 @@ KEY_NAME = Constraint(str, max_length=64)
 VARIABLE = re.compile(r"[A-Za-z_][A-Za-z0-9_]*\*?", re.ASCII)
 PLAIN_FILE = re.compile(r"[A-Za-z0-9][A-Za-z0-9_-]*\.yml", re.ASCII)
 NEVER_SETTABLE = frozenset(
-    ("disabled_modules.yml", "external_modules.yml", "registered_modules.yml", "runner.yml")
+    (
+        "disabled_modules.yml",
+        "external_modules.yml",
+        "keys.yml",
+        "registered_modules.yml",
+        "runner.yml",
+    )
 )
 NEVER_SETTABLE_KEY = re.compile(
     r"path|folder|\bfile\b|port\b|url|host|address|command|python|module|accept|role", re.I
@@ -125,6 +132,16 @@ class Connections:
 
 
 @dataclass(frozen=True, slots=True)
+class KeyQuota:
+    """What one key of keys.yml may start."""
+
+    instances: int = key(4, "Instances that run at the same time.", minimum=1, maximum=1000)
+    starts_per_minute: int = key(
+        6, "Starts of instances.", name="starts per minute", minimum=1, maximum=1000
+    )
+
+
+@dataclass(frozen=True, slots=True)
 class RunnerConfig:
     """The runner: spawns a Raspilot when a phone requests it, and supervises it."""
 
@@ -139,11 +156,18 @@ class RunnerConfig:
         "address needs a certificate of the CA. Empty: plain.",
         max_length=4096,
     )
+    security: Security = key(
+        "auto",
+        "Requests under a key of keys.yml beside this file ('up keys'): require refuses all "
+        "others; accept takes them too; off takes no keys; auto is require for peers with public "
+        "addresses, accept for others, with tls or with i_accept_plain.",
+    )
+    key_quota: KeyQuota = section(KeyQuota, name="key quota")
     i_accept_plain: bool = key(
         False,
         "Plain requests are not authenticated: every host that reaches the port can start "
-        "instances. Peers with public addresses are therefore rejected; true accepts them (for a "
-        "server that phones reach over the mobile network).",
+        "instances. Without a key or TLS, peers with public addresses are therefore rejected; true "
+        "accepts them.",
     )
     i_accept_root: bool = key(
         False,

@@ -10,6 +10,7 @@ from twisted.internet.defer import Deferred, succeed
 from twisted.internet.task import Clock
 from twisted.internet.testing import StringTransport
 
+from up_runner.request_gate import RequestGate
 from up_runner.request_server import RequestServer
 from up_runner.response import Response
 
@@ -32,12 +33,13 @@ class Line(StringTransport):
 class Port:
     """A request port with the test's answers, and one connection to it."""
 
-    def __init__(self, at_once=True, **limits):
+    def __init__(self, at_once=True, accepts_plain=False, **limits):
         self.clock = Clock()
         self.asked = []
         self.waiting = []
         self.at_once = at_once
-        defaults = {"limit": 10, "address_limit": 10, "idle_s": 15.0, "accept_public": False}
+        self.gate = RequestGate("auto", accepts_plain=accepts_plain)
+        defaults = {"limit": 10, "address_limit": 10, "idle_s": 15.0, "gate": self.gate}
         self.server = RequestServer(
             self.clock,
             self.ask,
@@ -169,7 +171,7 @@ def test_a_bug_has_its_code():
 )
 def test_public_peers_are_rejected_on_connect(host, in_):
     assert (Port().connect(host) is not None) is in_
-    assert Port(accept_public=True).connect(host) is not None
+    assert Port(accepts_plain=True).connect(host) is not None
     if not in_:
         port = Port()
         for _ in range(100):
@@ -179,7 +181,7 @@ def test_public_peers_are_rejected_on_connect(host, in_):
 
 
 def test_an_ipv4_mapped_address_is_shown_as_ipv4():
-    port = Port(accept_public=True)
+    port = Port(accepts_plain=True)
     connection = port.connect("::ffff:203.0.113.9")
     connection.dataReceived(b"x")
     assert answers(connection)[0]["myAddress"] == "203.0.113.9"

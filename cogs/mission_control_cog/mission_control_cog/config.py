@@ -11,11 +11,9 @@ from typing import Literal
 from up.config import ConfigFile, key, section
 from up.system.addresses import is_wildcard
 from up.system.aircraft_name import AIRCRAFT_NAME, AIRCRAFT_NAME_RULE
+from up.system.peer_filter import Security
 
 _HOST = re.compile(r"[A-Za-z0-9_.:%-]*", re.ASCII)
-
-
-Security = Literal["auto", "off", "accept", "require"]
 _SECURITY = (
     "End-to-end protection of this link: require refuses Commands of devices without a key; accept "
     "takes them too, with at most the link's role; off refuses protected sessions; auto is require "
@@ -60,6 +58,13 @@ class ListenerConfig:
         max_length=64,
     )
     security: Security = key("auto", _SECURITY)
+    tls: str = key(
+        "",
+        "Folder with ca.pem, certificate.pem, key.pem and revoked.pem, as 'up certificates device' "
+        "makes it for the host of this port; relative to this file. The port then speaks TLS "
+        "alone, and a ground station needs a certificate of the CA. Empty: plain.",
+        max_length=4096,
+    )
 
     def problems(self) -> Iterator[tuple[str, str]]:
         try:
@@ -122,13 +127,6 @@ class MissionControlConfig:
             yield "audit_log", "must be an absolute path"
         if self.aircraft and not AIRCRAFT_NAME.fullmatch(self.aircraft):
             yield "aircraft", f"must be {AIRCRAFT_NAME_RULE}"
-
-
-def security_of(security: Security, is_public: bool, accepts_plain: bool) -> Security:
-    """Return the protection of a link: its own, or that for its peer's address."""
-    if security != "auto":
-        return security
-    return "require" if is_public and not accepts_plain else "accept"
 
 
 def aircraft_name(config: MissionControlConfig, instance: str) -> str:

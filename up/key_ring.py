@@ -43,7 +43,8 @@ class KeyRing:
 
     A faulty file keeps the keys read before: a typing error must not take control from a pilot in
     flight. A deleted file revokes all. Today is never before the file's last change, which is
-    renewed every hour: a clock that is set back does not revive an expired key.
+    renewed every hour: a clock that is set back does not revive an expired key. With ``aircraft``
+    the keys for others are left out.
     """
 
     log = Logger()
@@ -53,10 +54,12 @@ class KeyRing:
         reactor: Any,
         folder: Path,
         on_keys: Callable[[Mapping[bytes, Key]], object],
+        aircraft: str | None = None,
     ) -> None:
         self._folder = folder
         self._path = folder / KEYS.filename
         self._on_keys = on_keys
+        self._aircraft = aircraft
         self._disk = DiskThread(reactor)
         self._is_looking = False
         self._stamp: object = ()
@@ -123,8 +126,10 @@ class KeyRing:
                 each.name,
                 each.role,
                 each.refusal(today),
+                each.aircraft,
             )
             for key_id, each in self._configured.items()
+            if self._aircraft is None or each.aircraft in ("", self._aircraft)
         }
         if keys != self._keys:
             self._keys = keys
