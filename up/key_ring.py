@@ -91,12 +91,14 @@ class KeyRing:
         """Read the file if it has changed; on the disk's thread."""
         stamp, changed_s = self._stat()
         newest_s = max(self._newest_s, changed_s, time.time())
+        if stamp is None:
+            return _Found(stamp, newest_s, {})
         if stamp != self._stamp:
             try:
                 return _Found(stamp, newest_s, KEYS.load(self._folder).keys)
             except ConfigErrors as errors:
                 return _Found(stamp, newest_s, None, errors.problems)
-        if stamp is not None and newest_s - changed_s > _CLOCK_S:
+        if newest_s - changed_s > _CLOCK_S:
             with contextlib.suppress(OSError):
                 os.utime(self._path, (newest_s, newest_s))
                 stamp = self._stat()[0]
@@ -105,8 +107,10 @@ class KeyRing:
     def _stat(self) -> tuple[object, float]:
         try:
             found = self._path.stat()
-        except OSError:
+        except FileNotFoundError:
             return None, 0.0
+        except OSError as error:
+            return error.errno, 0.0
         return (found.st_ino, found.st_size, found.st_mtime_ns, found.st_mode), found.st_mtime
 
     def _use(self, found: _Found) -> None:

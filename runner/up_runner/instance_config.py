@@ -111,12 +111,12 @@ class InstanceConfig:
 
     def _link_keys(self, target: Path, sources: Sequence[Path]) -> None:
         """Let the instance read the keys where they are: a revoked key ends there, too."""
-        own = [path for each in sources if (path := each / KEYS.filename).is_file()]
-        found = own[-1] if own else self.keys
-        if found is not None:
-            link = target / KEYS.filename
-            link.unlink(missing_ok=True)
-            link.symlink_to(found.absolute())
+        places = [self.keys, *(each / KEYS.filename for each in sources)]
+        found = [each.absolute() for each in places if each is not None and each.is_file()]
+        link = target / KEYS.filename
+        link.unlink(missing_ok=True)
+        if found:
+            link.symlink_to(found[-1])
 
     def _same_profile(self, request: Request, folder: Path) -> bool:
         try:

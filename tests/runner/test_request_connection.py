@@ -10,6 +10,7 @@ from twisted.internet.defer import Deferred, succeed
 from twisted.internet.task import Clock
 from twisted.internet.testing import StringTransport
 
+from up.protocols.aircraft_sessions import Key
 from up_runner.request_gate import RequestGate
 from up_runner.request_server import RequestServer
 from up_runner.response import Response
@@ -178,6 +179,28 @@ def test_public_peers_are_rejected_on_connect(host, in_):
             port.connect(host)
         assert port.server.counts["public_address"] == 100
         port.server.close()
+
+
+@pytest.mark.parametrize(
+    ("security", "refusal", "codes"),
+    [
+        ("auto", "", {"203.0.113.9": "unprotected", "10.1.2.3": None}),
+        ("require", "", {"203.0.113.9": "unprotected", "10.1.2.3": "unprotected"}),
+        ("auto", "revoked", {"203.0.113.9": "closed", "10.1.2.3": None}),
+        ("accept", "", {"203.0.113.9": "closed", "10.1.2.3": None}),
+        ("off", "", {"203.0.113.9": "closed", "10.1.2.3": None}),
+    ],
+)
+def test_who_needs_a_key(security, refusal, codes):
+    port = Port()
+    gate = port.server._gate = RequestGate(security, accepts_plain=False)
+    gate.use({b"id": Key(b"id", b"", "phone", "pilot", refusal)})
+    for host, code in codes.items():
+        connection = port.connect(host)
+        if connection is not None:
+            connection.dataReceived(b"{}\n")
+        assert ("closed" if connection is None else answers(connection)[0]["code"]) == code
+    port.server.close()
 
 
 def test_an_ipv4_mapped_address_is_shown_as_ipv4():
