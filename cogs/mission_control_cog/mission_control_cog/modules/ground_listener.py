@@ -26,7 +26,6 @@ from up.needs import needs
 from up.protocols.general_message import GeneralMessage, MalformedMessage
 from up.system.addresses import stays_here
 from up.system.peer_filter import PeerFilter, security_of
-from up.tls.errors import TLSError
 from up.tls.files import TLSFiles
 from up.tls.protocol import TLSServerFactory
 
@@ -112,16 +111,12 @@ class GroundListener(BaseStartedModule):
         self._limited.stop()
 
     def _factory(self) -> Factory:
+        """Return what accepts the stations; raises TLSError."""
         folder = self.config.listener.tls
         if not folder:
             return self._grounds
-        context = self.context
-        try:
-            files = TLSFiles(context.config_folder / folder)
-            return TLSServerFactory(context.reactor, files, self._grounds, clients=True)
-        except TLSError as fault:
-            text = f"{fault} (mission_control.yml: listener.tls)"
-            raise StartFailedError(text, fault.code) from fault
+        files = TLSFiles(self.context.config_folder / folder)
+        return TLSServerFactory(self.context.reactor, files, self._grounds, clients=True)
 
     def _open_link(self, send: Any) -> CommandLink:
         policy = self.mission_control.tuning_policy
