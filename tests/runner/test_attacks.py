@@ -328,13 +328,13 @@ SCENES = {
 
 @pytest.mark.parametrize("rule", ["kept", "removed"])
 @pytest.mark.parametrize("name", SCENES)
-def test_an_attack_succeeds_only_without_its_rule(tmp_path, monkeypatch, name, rule):
+def test_an_attack_succeeds_only_without_its_rule(short_path, monkeypatch, name, rule):
     attack, remove, code, scene = SCENES[name]
     if rule == "removed":
         remove(monkeypatch)
 
     async def run():
-        s = Scene(tmp_path, monkeypatch, **scene)
+        s = Scene(short_path, monkeypatch, **scene)
         await s.start()
         achieved, tries = await attack(s)
         await s.stop()
