@@ -1,5 +1,6 @@
 """A connection in virtual time, where silence and slowness are exact."""
 
+import itertools
 import json
 
 import pytest
@@ -11,6 +12,8 @@ from twisted.internet.task import Clock
 from twisted.internet.testing import StringTransport
 
 from up.protocols.aircraft_sessions import Key
+from up.protocols.pairing import Pairing
+from up.protocols.runner_session import RunnerSession, body_of, to_line
 from up_runner.request_gate import RequestGate
 from up_runner.request_server import RequestServer
 from up_runner.response import Response
@@ -201,6 +204,22 @@ def test_who_needs_a_key(security, refusal, codes):
             connection.dataReceived(b"{}\n")
         assert ("closed" if connection is None else answers(connection)[0]["code"]) == code
     port.server.close()
+
+
+def test_no_changed_byte_of_a_protected_request_is_accepted():
+    port = Port()
+    port.gate.use({bytes(8): Key(bytes(8), bytes(32), "phone", "pilot")})
+    connection = port.connect("203.0.113.9")
+    phone = RunnerSession(Pairing("glider-1", "00" * 8, "00" * 32, "pilot", "phone"))
+    say = lambda line: connection.dataReceived(line) or answers(connection)[-1]  # noqa: E731
+    line = phone.request(json.dumps(say(phone.hello())).encode(), b'{"aircraft": "glider-1"}')
+    body = body_of(json.loads(line))
+    for place, mask in itertools.product(range(len(body)), (1, 0x80, 0xFF)):
+        changed = bytes([*body[:place], body[place] ^ mask, *body[place + 1 :]])
+        assert say(to_line(changed))["code"] in ("forged", "malformed", "unknown_session")
+        assert say(to_line(body[:place] or b"\x02"))["code"]
+    assert port.asked == []
+    assert say(line)["body"] and port.asked[0].key == "00" * 8
 
 
 def test_an_ipv4_mapped_address_is_shown_as_ipv4():
