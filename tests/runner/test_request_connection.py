@@ -219,7 +219,12 @@ def test_no_changed_byte_of_a_protected_request_is_accepted():
         assert say(to_line(changed))["code"] in ("forged", "malformed", "unknown_session")
         assert say(to_line(body[:place] or b"\x02"))["code"]
     assert port.asked == []
-    assert say(line)["body"] and port.asked[0].key == "00" * 8
+    answer = phone.result(json.dumps(say(line)).encode())
+    assert json.loads(answer)["code"] is None and port.asked[0].key == "00" * 8
+    # A protected request within another one names no aircraft.
+    nested = to_line(phone._session.seal(line))
+    assert json.loads(phone.result(json.dumps(say(nested)).encode()))["code"] == "malformed_request"
+    assert len(port.asked) == 1
 
 
 def test_an_ipv4_mapped_address_is_shown_as_ipv4():
