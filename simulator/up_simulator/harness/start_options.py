@@ -90,6 +90,8 @@ def read_options(arguments: list[str] | None = None) -> argparse.Namespace:
         parser.error("--discover and --runner are two ways of finding the same: choose one")
     options.pairing = None
     if options.signed:
+        if options.phone != "python":
+            parser.error("--signed needs --phone python: the app's library cannot sign yet")
         options.pairing = KeyStore(state_folder(os.environ)).get(options.aircraft_name)
         if options.pairing is None:
             parser.error(f"--signed: no key of {options.aircraft_name}; run 'up-ground pair'")
