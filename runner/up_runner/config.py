@@ -18,13 +18,8 @@ KEY_NAME = Constraint(str, max_length=64)
 VARIABLE = re.compile(r"[A-Za-z_][A-Za-z0-9_]*\*?", re.ASCII)
 PLAIN_FILE = re.compile(r"[A-Za-z0-9][A-Za-z0-9_-]*\.yml", re.ASCII)
 NEVER_SETTABLE = frozenset(
-    (
-        "disabled_modules.yml",
-        "external_modules.yml",
-        "keys.yml",
-        "registered_modules.yml",
-        "runner.yml",
-    )
+    f"{name}.yml"
+    for name in ("disabled_modules", "external_modules", "keys", "registered_modules", "runner")
 )
 NEVER_SETTABLE_KEY = re.compile(
     r"path|folder|\bfile\b|port\b|url|host|address|command|python|module|accept|role", re.I

@@ -7,6 +7,7 @@ import secrets
 from collections.abc import Callable, Mapping
 from typing import Any
 
+from up.protocols.binary_line import HANDSHAKE
 from up.protocols.envelope import EnvelopeError
 from up.protocols.ground_session import GroundSession
 from up.protocols.handshake import Answer, Refusal
@@ -24,10 +25,11 @@ def to_line(body: bytes) -> bytes:
 
 def body_of(found: Mapping[str, Any]) -> bytes:
     """Return the body in a parsed line; raises ValueError."""
-    body = found.get("body")
-    if not isinstance(body, str) or not body:
+    digits = found.get("body")
+    body = bytes.fromhex(digits) if isinstance(digits, str) else b""
+    if not body:
         raise ValueError("body must be a text of hexadecimal digits")
-    return bytes.fromhex(body)
+    return body
 
 
 class RunnerSession:
@@ -63,7 +65,7 @@ class RunnerSession:
 
     def _handshake(self, body: bytes) -> Answer | None:
         """Return the answer to the hello; None for another body."""
-        if body[:1] != b"\x03":
+        if body[0] != HANDSHAKE:
             return None
         said = self._session.on_handshake(body)
         if isinstance(said, Refusal):
