@@ -10,9 +10,9 @@ from typing import Literal
 from up.config import ConfigFile, items, key, mapping, section
 from up.config.schema import ListOf
 from up.fields import Constraint
-from up.system.peer_filter import Security
 from up_runner.request import NAME
 
+Security = Literal["auto", "off", "accept", "require"]
 FILE_NAME = Constraint(str, max_length=64)
 KEY_NAME = Constraint(str, max_length=64)
 VARIABLE = re.compile(r"[A-Za-z_][A-Za-z0-9_]*\*?", re.ASCII)

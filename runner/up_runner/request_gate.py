@@ -6,7 +6,7 @@ from collections.abc import Mapping
 
 from up.protocols.aircraft_sessions import Key
 from up.system.addresses import is_private
-from up.system.peer_filter import Security, security_of
+from up_runner.config import Security
 from up_runner.request import Request
 from up_runner.response import Problem
 
@@ -38,7 +38,9 @@ class RequestGate:
         return self._accepts_plain
 
     def requires_key(self, host: str) -> bool:
-        return security_of(self._security, not is_private(host), self._accepts_plain) == "require"
+        if self._security == "auto":
+            return not self._accepts_plain and not is_private(host)
+        return self._security == "require"
 
 
 def refusal_of(key: Key, request: Request) -> Problem | None:

@@ -2,21 +2,11 @@
 
 from __future__ import annotations
 
-from typing import Literal
-
 from twisted.logger import Logger
 
 from up.system.addresses import is_private, is_wildcard
 
-Security = Literal["auto", "off", "accept", "require"]
 _LOGGED_LIMIT = 20
-
-
-def security_of(security: Security, is_public: bool, accepts_plain: bool) -> Security:
-    """Return the protection of a link: its own, or that for its peer's address."""
-    if security != "auto":
-        return security
-    return "require" if is_public and not accepts_plain else "accept"
 
 
 class PeerFilter:

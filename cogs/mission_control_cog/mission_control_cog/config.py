@@ -11,9 +11,11 @@ from typing import Literal
 from up.config import ConfigFile, key, section
 from up.system.addresses import is_wildcard
 from up.system.aircraft_name import AIRCRAFT_NAME, AIRCRAFT_NAME_RULE
-from up.system.peer_filter import Security
 
 _HOST = re.compile(r"[A-Za-z0-9_.:%-]*", re.ASCII)
+
+
+Security = Literal["auto", "off", "accept", "require"]
 _SECURITY = (
     "End-to-end protection of this link: require refuses Commands of devices without a key; accept "
     "takes them too, with at most the link's role; off refuses protected sessions; auto is require "
@@ -127,6 +129,13 @@ class MissionControlConfig:
             yield "audit_log", "must be an absolute path"
         if self.aircraft and not AIRCRAFT_NAME.fullmatch(self.aircraft):
             yield "aircraft", f"must be {AIRCRAFT_NAME_RULE}"
+
+
+def security_of(security: Security, is_public: bool, accepts_plain: bool) -> Security:
+    """Return the protection of a link: its own, or that for its peer's address."""
+    if security != "auto":
+        return security
+    return "require" if is_public and not accepts_plain else "accept"
 
 
 def aircraft_name(config: MissionControlConfig, instance: str) -> str:

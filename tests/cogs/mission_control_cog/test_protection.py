@@ -4,6 +4,7 @@ import json
 from dataclasses import replace
 
 import pytest
+from mission_control_cog.config import security_of
 
 from tests.cogs.mission_control_cog.attacks import deliver
 from tests.cogs.mission_control_cog.hostile_relay import Ground, fly, pair
@@ -14,7 +15,6 @@ from up.commands.arming_commands import ArmCommand
 from up.config.keys_file import KEYS, revoke_key
 from up.protocols.binary_line import HANDSHAKE, PROTECTED
 from up.protocols.general_message import decode, encode
-from up.system.peer_filter import security_of
 from up_ground.mission_tasks import TransferTask
 from up_ground.settings import Seat
 from up_ground.token_store import TokenStore

@@ -8,7 +8,7 @@ from typing import Any
 from twisted.internet.error import CannotListenError
 from twisted.internet.protocol import Factory
 
-from mission_control_cog.config import MISSION_CONTROL, aircraft_name
+from mission_control_cog.config import MISSION_CONTROL, aircraft_name, security_of
 from mission_control_cog.grounds import Grounds
 from mission_control_cog.modules.mission_control_provider import (
     PLAIN_KEY,
@@ -25,7 +25,7 @@ from up.log.limits import Limited
 from up.needs import needs
 from up.protocols.general_message import GeneralMessage, MalformedMessage
 from up.system.addresses import stays_here
-from up.system.peer_filter import PeerFilter, security_of
+from up.system.peer_filter import PeerFilter
 from up.tls.files import TLSFiles
 from up.tls.protocol import TLSServerFactory
 
@@ -72,8 +72,9 @@ class GroundListener(BaseStartedModule):
     def plain_links(self) -> Iterable[tuple[str, str]]:
         """Yield the listener, unless it has TLS or requires protection."""
         listener = self.config.listener
-        is_safe = listener.tls or listener.security == "require"
-        if not is_safe and not stays_here(listener.address):
+        if listener.tls:
+            return
+        if listener.security != "require" and not stays_here(listener.address):
             yield "listener.security", "ground stations on this network may send plain Commands"
 
     @property

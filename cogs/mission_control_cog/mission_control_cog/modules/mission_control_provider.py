@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any, Protocol
 
 from mission_control_cog.audit_log import AuditLog
-from mission_control_cog.config import MISSION_CONTROL, aircraft_name
+from mission_control_cog.config import MISSION_CONTROL, aircraft_name, security_of
 from mission_control_cog.data_budget import DataBudget
 from mission_control_cog.protection import Protection
 from mission_control_cog.thinning import Thinning
@@ -28,7 +28,6 @@ from up.protocols.general_message import GeneralMessage, MalformedMessage, encod
 from up.providers.base_mission_control_provider import BaseMissionControlProvider
 from up.system.addresses import is_private, stays_here
 from up.system.backoff import Backoff
-from up.system.peer_filter import security_of
 from up.tls.files import TLSFiles
 
 LINK = "mission_control"
