@@ -49,7 +49,7 @@ LAYERS = (
     "base_started_module",
     "base_module",
     "needs | vetoes | earth | mission",
-    "commands",
+    "commands | key_ring",
     "cleanup | protocols | context",
     "tls",
     "config | mode",

@@ -12,12 +12,14 @@ from up.config.schema import ListOf
 from up.fields import Constraint
 from up_runner.request import NAME
 
+Security = Literal["auto", "off", "accept", "require"]
 FILE_NAME = Constraint(str, max_length=64)
 KEY_NAME = Constraint(str, max_length=64)
 VARIABLE = re.compile(r"[A-Za-z_][A-Za-z0-9_]*\*?", re.ASCII)
 PLAIN_FILE = re.compile(r"[A-Za-z0-9][A-Za-z0-9_-]*\.yml", re.ASCII)
 NEVER_SETTABLE = frozenset(
-    ("disabled_modules.yml", "external_modules.yml", "registered_modules.yml", "runner.yml")
+    f"{name}.yml"
+    for name in ("disabled_modules", "external_modules", "keys", "registered_modules", "runner")
 )
 NEVER_SETTABLE_KEY = re.compile(
     r"path|folder|\bfile\b|port\b|url|host|address|command|python|module|accept|role", re.I
@@ -125,6 +127,16 @@ class Connections:
 
 
 @dataclass(frozen=True, slots=True)
+class KeyQuota:
+    """What one key of keys.yml may start."""
+
+    instances: int = key(4, "Instances that run at the same time.", minimum=1, maximum=1000)
+    starts_per_minute: int = key(
+        6, "Starts of instances.", name="starts per minute", minimum=1, maximum=1000
+    )
+
+
+@dataclass(frozen=True, slots=True)
 class RunnerConfig:
     """The runner: spawns a Raspilot when a phone requests it, and supervises it."""
 
@@ -139,11 +151,18 @@ class RunnerConfig:
         "address needs a certificate of the CA. Empty: plain.",
         max_length=4096,
     )
+    security: Security = key(
+        "auto",
+        "Requests under a key of keys.yml beside this file ('up keys'): require refuses all "
+        "others; accept takes them too; off takes no keys; auto is require for peers with public "
+        "addresses, accept for others, with tls or with i_accept_plain.",
+    )
+    key_quota: KeyQuota = section(KeyQuota, name="key quota")
     i_accept_plain: bool = key(
         False,
         "Plain requests are not authenticated: every host that reaches the port can start "
-        "instances. Peers with public addresses are therefore rejected; true accepts them (for a "
-        "server that phones reach over the mobile network).",
+        "instances. Without a key or TLS, peers with public addresses are therefore rejected; true "
+        "accepts them.",
     )
     i_accept_root: bool = key(
         False,

@@ -10,13 +10,14 @@ from typing import Any
 import yaml
 
 from up.config.atomic_writer import write_atomically
+from up.config.keys_file import KEYS
 from up.config.loader import read_text
 from up_runner.request import Request, Scalar
 from up_runner.response import Problem
 
 FOLDER = "config"
 _PROFILE_NOTE = "profile"
-_NOT_FOR_INSTANCES = frozenset(("runner.yml", "proxy.yml"))
+_NOT_FOR_INSTANCES = frozenset(("runner.yml", "proxy.yml", KEYS.filename))
 _HEAD = "# Put together by the runner; edit the base configuration or the profile instead.\n"
 
 Settings = dict[str, Any]
@@ -36,7 +37,8 @@ class InstanceConfig:
 
     `settable` and `dynamic_ports` map a file to keys: those that a request may set, and those that
     are 0 unless base or profile set a port. `persisted` files are kept while the profile is the
-    same. `imposed` maps a file to values of the runner itself, over base and profile.
+    same. `imposed` maps a file to values of the runner itself, over base and profile. `keys` is the
+    runner's keys.yml, which serves instances without one of their own.
     """
 
     base: Path
@@ -45,6 +47,7 @@ class InstanceConfig:
     dynamic_ports: Mapping[str, Sequence[str]] = field(default_factory=dict)
     persisted: Sequence[str] = ()
     imposed: Mapping[str, Mapping[str, Any]] = field(default_factory=dict)
+    keys: Path | None = None
 
     def check(self, request: Request) -> None:
         """Raise ConfigurationRefused for a forbidden key or an unknown profile."""
@@ -83,6 +86,7 @@ class InstanceConfig:
                 continue
             write_atomically(target / name, self._content(name, sources, request))
         self._remove_others(target, names, persisted)
+        self._link_keys(target, sources)
         write_atomically(folder / _PROFILE_NOTE, f"{request.profile or ''}\n".encode())
         return target
 
@@ -104,6 +108,15 @@ class InstanceConfig:
         for key, value in requested.items():
             settings[key] = _like(settings.get(key), value, f"{key!a} of {name}")
         return (_HEAD + yaml.safe_dump(settings, sort_keys=False)).encode()
+
+    def _link_keys(self, target: Path, sources: Sequence[Path]) -> None:
+        """Let the instance read the keys where they are: a revoked key ends there, too."""
+        places = [self.keys, *(each / KEYS.filename for each in sources)]
+        found = [each.absolute() for each in places if each is not None and each.is_file()]
+        link = target / KEYS.filename
+        link.unlink(missing_ok=True)
+        if found:
+            link.symlink_to(found[-1])
 
     def _same_profile(self, request: Request, folder: Path) -> bool:
         try:

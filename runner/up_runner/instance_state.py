@@ -51,6 +51,7 @@ class InstanceState:
                 },
             },
             "process": who and [who.pid, who.start_ticks, who.boot_id],
+            "key": self.request.key,
             "keep": self.keep,
             "ready": self.ready,
             "ports": self.ports,
@@ -65,6 +66,7 @@ def load(folder: Path) -> InstanceState | None:
         if found["version"] != _VERSION:
             return None
         request = parse(json.dumps(found["request"]).encode())
+        request = replace(request, key=str(found.get("key", "")))
         if request.aircraft != folder.name:
             return None
         who = found["process"]

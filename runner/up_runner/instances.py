@@ -12,6 +12,7 @@ from up_runner.instance import Instance
 from up_runner.instance_host import InstanceHost
 from up_runner.instance_machine import State
 from up_runner.instance_state import InstanceState
+from up_runner.key_starts import KeyStarts
 from up_runner.log_maintenance import LogMaintenance
 from up_runner.policy import Policy
 from up_runner.process import Identity, Process, ProcessGone, identity_of
@@ -33,11 +34,13 @@ class Instances:
         *,
         limit: int,
         kept: int,
+        starts: KeyStarts | None = None,
         on_change: Callable[[], None] = lambda: None,
     ) -> None:
         self._host = host
         self._policy = policy
         self._limit = limit
+        self._starts = starts
         self._on_change = on_change
         self._instances: dict[str, Instance] = {}
         self._maintenance = LogMaintenance(host, kept, lambda: list(self._instances))
@@ -85,6 +88,10 @@ class Instances:
             return Response(name, error=Problem("instance_limit", text))
         if (error := self._recent_failure(request)) is not None:
             return Response(name, error=error)
+        if self._starts is not None and request.key:
+            running = sum(each.request.key == request.key for each in self._instances.values())
+            if (error := self._starts.count(request.key, running)) is not None:
+                return Response(name, error=error)
         instance = Instance(request, self._host.reactor, self._policy, self._host, keep=keep)
         self._instances[name] = instance
         error = await instance.start()

@@ -8,6 +8,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any, Literal, NoReturn
 
+from up.protocols.runner_session import PROTECTED, body_of
 from up.system.aircraft_name import AIRCRAFT_NAME, AIRCRAFT_NAME_RULE
 
 MAX_LINE = 64 * 1024
@@ -29,12 +30,18 @@ class MalformedRequest(ValueError):  # noqa: N818 - it names the input, not a fa
 
 @dataclass(frozen=True, slots=True)
 class Request:
-    """A request: the aircraft, the profile and settings, and whether to start or only to query."""
+    """A request: the aircraft, the profile and settings, and whether to start or only to query.
+
+    `body` is that of a protected line, which is nothing else; `key` the id of the key that signed
+    the request.
+    """
 
     aircraft: str = DEFAULT_NAME
     profile: str | None = None
     configuration: Configuration = field(default_factory=dict)
     action: Literal["spawn", "status"] = "spawn"
+    body: bytes = b""
+    key: str = ""
 
     @property
     def wants_configuration(self) -> bool:
@@ -57,8 +64,13 @@ def parse(line: bytes) -> Request:
     if not isinstance(found, dict):
         raise MalformedRequest("the request is not a JSON object")
     action = found.get("action")
+    if action == PROTECTED:
+        try:
+            return Request(body=body_of(found))
+        except ValueError:
+            raise MalformedRequest("body must be a text of hexadecimal digits") from None
     if action not in (None, "spawn", "status"):
-        raise MalformedRequest("action must be spawn or status")
+        raise MalformedRequest("action must be spawn, status or protected")
     return Request(
         aircraft=_name(found, "aircraft") or DEFAULT_NAME,
         profile=_name(found, "profile"),

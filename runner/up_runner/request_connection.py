@@ -10,6 +10,8 @@ from twisted.internet.protocol import Protocol, connectionDone
 from twisted.python.failure import Failure
 from zope.interface import implementer
 
+from up.protocols.aircraft_sessions import AircraftSessions
+from up.protocols.runner_session import RUNNER
 from up.system.clock import Timer, cancel
 from up_runner.request import MAX_LINE, MalformedRequest, Request, parse
 from up_runner.response import BUG, Problem, Response
@@ -41,6 +43,8 @@ class RequestConnection(Protocol):
         self.host = host
         self.last_rx_s = 0.0
         self.busy = False
+        self.sessions = AircraftSessions(RUNNER, lambda: round(server.clock.seconds() * 1000))
+        """Those of this connection: no other one can use or end them."""
         self._server = server
         self._dialect = Dialect.UNKNOWN
         self._buffer = bytearray()
@@ -176,15 +180,15 @@ class RequestConnection(Protocol):
         self._set_reading()
         self._server.handle(self, request).addBoth(self._on_response, request)
 
-    def _on_response(self, response: Response | Failure, request: Request) -> None:
+    def _on_response(self, line: bytes | Failure, request: Request) -> None:
         self.busy = False
-        if isinstance(response, Failure):
-            self._server.log.failure("a bug in the runner", response, code="runner_bug")
-            response = Response(request.aircraft, error=BUG)
+        if isinstance(line, Failure):
+            self._server.log.failure("a bug in the runner", line, code="runner_bug")
+            line = self._server.encode(Response(request.aircraft, error=BUG), self.host)
         if self._closing:
             return
         self._on_activity()
-        self._write(response)
+        self._write(line)
         self._set_reading()
         if self._dialect is Dialect.LINES:
             self._handle_lines()
@@ -193,11 +197,11 @@ class RequestConnection(Protocol):
 
     def _reject(self, code: str, text: str) -> None:
         self._server.counts["malformed"] += 1
-        self._write(Response(None, error=Problem(code, text)))
+        self._write(self._server.encode(Response(None, error=Problem(code, text)), self.host))
 
-    def _write(self, response: Response) -> None:
+    def _write(self, line: bytes) -> None:
         self._answered = True
-        self.transport.write(self._server.encode(response, self.host))
+        self.transport.write(line)
 
     def _close(self) -> None:
         """Send the answer, read nothing more, and close soon."""

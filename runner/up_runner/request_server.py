@@ -4,18 +4,25 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable
+from dataclasses import replace
 from typing import Any, cast
 
-from twisted.internet.defer import Deferred
+from twisted.internet.defer import Deferred, succeed
 from twisted.internet.protocol import ServerFactory
 from twisted.logger import Logger
 
 from up.log import Limited
+from up.protocols.aircraft_sessions import Key
+from up.protocols.binary_line import HANDSHAKE
+from up.protocols.envelope import EnvelopeError, place_of
+from up.protocols.handshake import Refusal
+from up.protocols.runner_session import to_line
 from up.system.addresses import is_private, neighbourhood, plain
 from up.system.clock import Clock
-from up_runner.request import Request
+from up_runner.request import MalformedRequest, Request, parse
 from up_runner.request_connection import RequestConnection
-from up_runner.response import Response
+from up_runner.request_gate import OFF, UNPROTECTED, RequestGate, refusal_of
+from up_runner.response import Problem, Response
 
 LOG_INTERVAL_S = 10.0
 Handle = Callable[[Request], Deferred[Response]]
@@ -24,7 +31,8 @@ Handle = Callable[[Request], Deferred[Response]]
 class RequestServer(ServerFactory):
     """Accepts clients within limits and passes their requests to `handle`.
 
-    Rejects a public peer unless `accept_public`. `counts` has the rejections by reason.
+    `gate` decides about peers with public addresses and about requests without a key. `counts` has
+    the rejections by reason.
     """
 
     noisy = False
@@ -38,7 +46,7 @@ class RequestServer(ServerFactory):
         limit: int,
         address_limit: int,
         idle_s: float,
-        accept_public: bool,
+        gate: RequestGate,
     ) -> None:
         self.clock = clock
         self.idle_s = idle_s
@@ -48,7 +56,7 @@ class RequestServer(ServerFactory):
         self._handle = handle
         self._limit = limit
         self._address_limit = address_limit
-        self._accept_public = accept_public
+        self._gate = gate
         self._limited = Limited(cast(Any, clock), LOG_INTERVAL_S)
         self._connections: set[RequestConnection] = set()
         self._by_source: Counter[str] = Counter()
@@ -59,8 +67,11 @@ class RequestServer(ServerFactory):
     def buildProtocol(self, addr: Any) -> RequestConnection | None:  # noqa: N802
         """Return a connection for a peer, or None to reject it."""
         host = plain(addr.host)
-        if not self._accept_public and not is_private(host):
-            reason = "it is a public address; i_accept_plain: true in runner.yml permits it"
+        if not is_private(host) and not self._gate.accepts_public:
+            reason = (
+                "it is a public address; a key ('up keys add') permits it, and so does"
+                " i_accept_plain: true in runner.yml"
+            )
             self._reject("public_address", host, reason)
             return None
         source = neighbourhood(host)
@@ -76,17 +87,63 @@ class RequestServer(ServerFactory):
         self._by_source[source] += 1
         return connection
 
-    def handle(self, connection: RequestConnection, request: Request) -> Deferred[Response]:
+    def handle(self, connection: RequestConnection, request: Request) -> Deferred[bytes]:
+        """Return the line of the answer."""
+        host = connection.host
+        if request.body:
+            return self._handle_protected(connection, request.body)
+        if self._gate.requires_key(host):
+            return self._refuse(request.aircraft, UNPROTECTED, host).addCallback(self.encode, host)
+        return self._carry_out(request, host).addCallback(self.encode, host)
+
+    def _handle_protected(self, connection: RequestConnection, body: bytes) -> Deferred[bytes]:
+        sessions, host = connection.sessions, connection.host
+        ended = {each.number: refusal for each, refusal in sessions.replace_keys(self._gate.keys)}
+        try:
+            if self._gate.is_off:
+                return self._refuse(None, OFF, host).addCallback(self.encode, host)
+            if body[0] == HANDSHAKE:
+                said, reply = sessions.answer(body)
+            elif (number := place_of(body)[0]) in ended:
+                said, reply = ended[number]
+            else:
+                session, payload = sessions.open(body)
+                return self._answer(payload, session.key, host).addCallback(
+                    lambda found: to_line(session.answers.seal(self.encode(found, host)[:-1]))
+                )
+        except EnvelopeError as fault:
+            problem = Problem(fault.code, "the protected line is not accepted")
+            return self._refuse(None, problem, host).addCallback(self.encode, host)
+        if isinstance(said, Refusal):
+            self._reject(said.code, host, f"its key {sessions.name_of(said)!r} is not accepted")
+        return succeed(to_line(reply))
+
+    def _answer(self, payload: bytes, key: Key, host: str) -> Deferred[Response]:
+        try:
+            request = parse(payload)
+        except MalformedRequest as error:
+            return self._refuse(None, Problem("malformed_request", str(error)), host)
+        problem = refusal_of(key, request)
+        if problem is not None:
+            return self._refuse(request.aircraft, problem, host)
+        return self._carry_out(replace(request, key=key.id.hex()), host, key.name)
+
+    def _carry_out(self, request: Request, host: str, key: str = "") -> Deferred[Response]:
         self._limited.log(
             self.log.info,
-            "{host} requests {action} of {aircraft}",
+            "{host} requests {action} of {aircraft}, key {device!r}",
             code="request",
-            key=(connection.host, request.action, request.aircraft),
-            host=connection.host,
+            key=(host, request.action, request.aircraft, key),
+            host=host,
             action=request.action,
             aircraft=request.aircraft,
+            device=key,
         )
         return self._handle(request)
+
+    def _refuse(self, aircraft: str | None, problem: Problem, host: str) -> Deferred[Response]:
+        self._reject(problem.code, host, problem.text)
+        return succeed(Response(aircraft, error=problem))
 
     def on_gone(self, connection: RequestConnection) -> None:
         if connection in self._connections:

@@ -14,6 +14,9 @@ from twisted.internet.protocol import ServerFactory
 from twisted.logger import Logger
 from twisted.python.failure import Failure
 
+from up.config import ConfigErrors
+from up.config.keys_file import KEYS
+from up.key_ring import KeyRing
 from up.system.notify import Notifier, WatchdogPinger
 from up.system.peer_filter import PeerFilter
 from up.tls.errors import TLSError
@@ -23,10 +26,12 @@ from up_runner.config import RunnerConfig
 from up_runner.instance_config import InstanceConfig
 from up_runner.instance_host import Application, InstanceHost
 from up_runner.instances import Instances
+from up_runner.key_starts import KeyStarts
 from up_runner.log_keeper import LogKeeper
 from up_runner.paths import Paths
 from up_runner.policy import Policy, RestartPolicy
 from up_runner.request import Request
+from up_runner.request_gate import RequestGate
 from up_runner.request_server import RequestServer
 from up_runner.response import Response
 from up_runner.run_folder import RunFolder, RunFolderError
@@ -66,11 +71,16 @@ class Runner:
         self._notifier = Notifier.from_environment(environ)
         self._pinger = WatchdogPinger(reactor, lambda: True, self._notifier, environ)
         self._run_folder = RunFolder(self._paths.run)
+        is_safe = config.i_accept_plain or bool(config.tls)
+        self._gate = RequestGate(config.security, accepts_plain=is_safe)
+        self._keys = KeyRing(reactor, self._config_folder, self._gate.use)
+        quota = config.key_quota
         self.instances = Instances(
             self._host(environ),
             policy_of(config),
             limit=config.instances,
             kept=config.kept_instances,
+            starts=KeyStarts(reactor, quota.instances, quota.starts_per_minute),
             on_change=self._on_change,
         )
         self.server = RequestServer(
@@ -80,7 +90,7 @@ class Runner:
             limit=config.connections.limit,
             address_limit=config.connections.address_limit,
             idle_s=config.connections.idle_s,
-            accept_public=config.i_accept_plain or bool(config.tls),
+            gate=self._gate,
         )
         self._port: Any = None
 
@@ -90,6 +100,7 @@ class Runner:
 
     def start(self) -> None:
         """Take the run folder, listen, find older instances; raises CannotStart."""
+        self._read_keys()
         self._check()
         factory = self._factory()
         try:
@@ -131,7 +142,18 @@ class Runner:
                 self._log.info(text, code="leaving_instances", all=self.instances.summary())
             self.instances.close()
         self._pinger.stop()
+        self._keys.stop()
         self._run_folder.release()
+
+    def _read_keys(self) -> None:
+        try:
+            KEYS.load(self._config_folder)
+        except ConfigErrors as errors:
+            raise CannotStart("keys_faulty", str(errors)) from None
+        self._keys.start()
+        if self._config.security == "require" and self._keys.is_empty:
+            text = "every request needs a key, and there is none: run 'up keys add'"
+            self._log.error(text, code="keys_missing")
 
     def _factory(self) -> ServerFactory:
         if not self._config.tls:
@@ -156,6 +178,7 @@ class Runner:
             config.dynamic_ports if black_box else {},
             config.persisted_files,
             self._proxy_settings(),
+            self._config_folder / KEYS.filename,
         )
         logs = LogKeeper(paths.logs, config.logs.size, config.logs.keep)
         return InstanceHost(
@@ -182,8 +205,7 @@ class Runner:
         return {"mission_control.yml": {"remote_server": server}} if proxy.host else {}
 
     def _check(self) -> None:
-        accepts_public = self._config.i_accept_plain or bool(self._config.tls)
-        peers = PeerFilter(accepts_public, "runner.yml: i_accept_plain")
+        peers = PeerFilter(self._gate.accepts_public, "runner.yml: i_accept_plain")
         if refusal := peers.refusal_of(self._config.address):
             raise CannotStart("bad_address", f"{refusal} (runner.yml: address)")
         if os.geteuid() == 0 and not self._config.i_accept_root:

@@ -8,6 +8,7 @@ import yaml
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from up.config.keys_file import KEYS, add_key, revoke_key
 from up_runner.instance_config import ConfigurationRefused, InstanceConfig
 from up_runner.request import Request
 
@@ -53,6 +54,21 @@ def test_an_untouched_file_is_copied_byte_for_byte(config, tmp_path):
     text = "# a comment\nremote_server: {url: 'x'}   # another\n"
     (config.base / "mission_control.yml").write_text(text)
     assert build(config, tmp_path)["mission_control.yml"] == text
+
+
+def test_an_instance_reads_the_keys_where_they_are(config, tmp_path):
+    """Those of its profile, of the base, or the runner's own."""
+    places = tmp_path / "runner", config.base, config.profiles / "cub"
+    config = replace(config, keys=places[0] / KEYS.filename)
+    places[0].mkdir()
+    folder = config.build(Request("a", "cub"), tmp_path / "a")
+    assert KEYS.load(folder).keys == {}
+    for place in places:
+        key_id, _ = add_key(place, "tablet", "pilot")
+        config.build(Request("a", "cub"), tmp_path / "a")
+        assert list(KEYS.load(folder).keys) == [key_id]
+    revoke_key(places[-1], "tablet")
+    assert KEYS.load(folder).keys[key_id].revoked
 
 
 def test_the_runners_values_override_base_and_profile(config, tmp_path):

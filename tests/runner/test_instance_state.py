@@ -12,7 +12,7 @@ from up_runner.process import Identity
 from up_runner.request import Request
 
 FULL = InstanceState(
-    Request("glider-1", "cub", {"load_guard.yml": {"interval": 1.5}}),
+    Request("glider-1", "cub", {"load_guard.yml": {"interval": 1.5}}, key="0011223344556677"),
     Identity(4242, 123456, "b007"),
     keep=True,
     ready=True,

@@ -114,3 +114,9 @@ def test_only_another_configuration_is_another():
     assert Request("a", "cub").same_configuration(Request("b", "cub"))
     assert not Request("a", "cub").same_configuration(plain)
     assert not Request("a", None, {"f.yml": {"k": 1}}).same_configuration(plain)
+
+
+@pytest.mark.parametrize("body", [None, "", " ", "zz", "3", 3, ["03"]])
+def test_a_protected_line_has_a_body_and_is_no_nameless_request(body):
+    with pytest.raises(MalformedRequest):
+        parse(json.dumps({"action": "protected", "body": body}).encode())

@@ -1,5 +1,6 @@
 """A connection in virtual time, where silence and slowness are exact."""
 
+import itertools
 import json
 
 import pytest
@@ -10,6 +11,10 @@ from twisted.internet.defer import Deferred, succeed
 from twisted.internet.task import Clock
 from twisted.internet.testing import StringTransport
 
+from up.protocols.aircraft_sessions import Key
+from up.protocols.pairing import Pairing
+from up.protocols.runner_session import RunnerSession, body_of, to_line
+from up_runner.request_gate import RequestGate
 from up_runner.request_server import RequestServer
 from up_runner.response import Response
 
@@ -32,12 +37,13 @@ class Line(StringTransport):
 class Port:
     """A request port with the test's answers, and one connection to it."""
 
-    def __init__(self, at_once=True, **limits):
+    def __init__(self, at_once=True, accepts_plain=False, **limits):
         self.clock = Clock()
         self.asked = []
         self.waiting = []
         self.at_once = at_once
-        defaults = {"limit": 10, "address_limit": 10, "idle_s": 15.0, "accept_public": False}
+        self.gate = RequestGate("auto", accepts_plain=accepts_plain)
+        defaults = {"limit": 10, "address_limit": 10, "idle_s": 15.0, "gate": self.gate}
         self.server = RequestServer(
             self.clock,
             self.ask,
@@ -169,7 +175,7 @@ def test_a_bug_has_its_code():
 )
 def test_public_peers_are_rejected_on_connect(host, in_):
     assert (Port().connect(host) is not None) is in_
-    assert Port(accept_public=True).connect(host) is not None
+    assert Port(accepts_plain=True).connect(host) is not None
     if not in_:
         port = Port()
         for _ in range(100):
@@ -178,8 +184,51 @@ def test_public_peers_are_rejected_on_connect(host, in_):
         port.server.close()
 
 
+@pytest.mark.parametrize(
+    ("security", "refusal", "codes"),
+    [
+        ("auto", "", {"203.0.113.9": "unprotected", "10.1.2.3": None}),
+        ("require", "", {"203.0.113.9": "unprotected", "10.1.2.3": "unprotected"}),
+        ("auto", "revoked", {"203.0.113.9": "closed", "10.1.2.3": None}),
+        ("accept", "", {"203.0.113.9": "closed", "10.1.2.3": None}),
+        ("off", "", {"203.0.113.9": "closed", "10.1.2.3": None}),
+    ],
+)
+def test_who_needs_a_key(security, refusal, codes):
+    port = Port()
+    gate = port.server._gate = RequestGate(security, accepts_plain=False)
+    gate.use({b"id": Key(b"id", b"", "phone", "pilot", refusal)})
+    for host, code in codes.items():
+        connection = port.connect(host)
+        if connection is not None:
+            connection.dataReceived(b"{}\n")
+        assert ("closed" if connection is None else answers(connection)[0]["code"]) == code
+    port.server.close()
+
+
+def test_no_changed_byte_of_a_protected_request_is_accepted():
+    port = Port()
+    port.gate.use({bytes(8): Key(bytes(8), bytes(32), "phone", "pilot")})
+    connection = port.connect("203.0.113.9")
+    phone = RunnerSession(Pairing("glider-1", "00" * 8, "00" * 32, "pilot", "phone"))
+    say = lambda line: connection.dataReceived(line) or answers(connection)[-1]  # noqa: E731
+    line = phone.request(json.dumps(say(phone.hello())).encode(), b'{"aircraft": "glider-1"}')
+    body = body_of(json.loads(line))
+    for place, mask in itertools.product(range(len(body)), (1, 0x80, 0xFF)):
+        changed = bytes([*body[:place], body[place] ^ mask, *body[place + 1 :]])
+        assert say(to_line(changed))["code"] in ("forged", "malformed", "unknown_session")
+        assert say(to_line(body[:place] or b"\x02"))["code"]
+    assert port.asked == []
+    answer = phone.result(json.dumps(say(line)).encode())
+    assert json.loads(answer)["code"] is None and port.asked[0].key == "00" * 8
+    # A protected request within another one names no aircraft.
+    nested = to_line(phone._session.seal(line))
+    assert json.loads(phone.result(json.dumps(say(nested)).encode()))["code"] == "malformed_request"
+    assert len(port.asked) == 1
+
+
 def test_an_ipv4_mapped_address_is_shown_as_ipv4():
-    port = Port(accept_public=True)
+    port = Port(accepts_plain=True)
     connection = port.connect("::ffff:203.0.113.9")
     connection.dataReceived(b"x")
     assert answers(connection)[0]["myAddress"] == "203.0.113.9"

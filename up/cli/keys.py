@@ -21,7 +21,7 @@ MISSION_CONTROL = "mission_control.yml"
 def add(values: argparse.Namespace) -> int:
     """Make a key for a device, and print what pairs the device."""
     folder = _folder(values)
-    key_id, key = add_key(folder, values.name, values.role, values.not_after)
+    key_id, key = add_key(folder, values.name, values.role, values.not_after, _aircraft(values))
     text = f"{folder / KEYS.filename}: the key {key.name} ({key.role}) has the id {key_id}"
     echo(text, "key_added", key_id=key_id, name=key.name, role=key.role)
     _show(values, key_id, key)
@@ -50,8 +50,10 @@ def list_(values: argparse.Namespace) -> int:
     for key_id, key in KEYS.load(_folder(values)).keys.items():
         state = key.refusal(today) or "valid"
         until = f" until {key.not_after}" if key.not_after else ""
-        text = f"{key_id}  {key.name}  {key.role}  {state}{until}"
-        echo(text, "key", key_id=key_id, name=key.name, role=key.role, state=state)
+        whose = key.aircraft or "every aircraft"
+        text = f"{key_id}  {key.name}  {key.role}  {whose}  {state}{until}"
+        more = {"role": key.role, "aircraft": key.aircraft, "state": state}
+        echo(text, "key", key_id=key_id, name=key.name, **more)
     return EXIT_OK
 
 
@@ -71,7 +73,8 @@ def _aircraft(values: argparse.Namespace) -> str:
 
 def _show(values: argparse.Namespace, key_id: str, key: KeyConfig) -> None:
     """Print the pairing text and its QR code: to the user, never to a log."""
-    pairing = Pairing(_aircraft(values), key_id, key.secret, key.role, key.name)
+    aircraft = values.aircraft or key.aircraft or _aircraft(values)
+    pairing = Pairing(aircraft, key_id, key.secret, key.role, key.name)
     text = pairing.encode()
     code = _qr_code(text, is_wanted=values.png is not None)
     sys.stdout.write(f"{text}\n")

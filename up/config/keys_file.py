@@ -33,6 +33,9 @@ class KeyConfig:
     name: str = key("", "Name of the device, for logs and screens.", max_length=32)
     not_after: str = key("", "Last day of the key, YYYY-MM-DD (UTC). Empty: no end.", max_length=10)
     revoked: bool = key(False, "Whether the device is refused.")
+    aircraft: str = key(
+        "", "Aircraft that the key is for. Empty: every one that reads this file.", max_length=32
+    )
 
     def problems(self) -> Iterator[tuple[str, str]]:
         if not SECRET.fullmatch(self.secret):
@@ -40,8 +43,9 @@ class KeyConfig:
                 "secret",
                 "must be 64 hexadecimal digits: pair the device again with 'up keys add'",
             )
-        if not AIRCRAFT_NAME.fullmatch(self.name):
-            yield "name", f"must be {AIRCRAFT_NAME_RULE}"
+        for attribute, name in (("name", self.name), ("aircraft", self.aircraft or self.name)):
+            if not AIRCRAFT_NAME.fullmatch(name):
+                yield attribute, f"must be {AIRCRAFT_NAME_RULE}"
         if self.not_after and _day(self.not_after) is None:
             yield "not_after", f"must be a day such as 2027-12-31, not {self.not_after}"
 
@@ -86,14 +90,16 @@ def save_keys(folder: Path, keys: dict[str, KeyConfig]) -> None:
         os.chown(path, owner.st_uid, owner.st_gid)
 
 
-def add_key(folder: Path, name: str, role: KeyRole, not_after: str = "") -> tuple[str, KeyConfig]:
+def add_key(
+    folder: Path, name: str, role: KeyRole, not_after: str = "", aircraft: str = ""
+) -> tuple[str, KeyConfig]:
     """Make a key with a fresh secret, and return it with its id; raises UserError."""
     known = dict(KEYS.load(folder).keys)
     if any(each.name == name and not each.revoked for each in known.values()):
         raise UserError(f"a key with the name {name} exists: revoke it first", "key_exists")
     if len(known) >= MAX_KEYS:
         raise UserError(f"{KEYS.filename}: at most {MAX_KEYS} keys", "too_many_keys")
-    made = KeyConfig(secrets.token_hex(32), role, name, not_after)
+    made = KeyConfig(secrets.token_hex(32), role, name, not_after, aircraft=aircraft)
     for attribute, problem in made.problems():
         raise UserError(f"{attribute}: {problem}", "key_invalid")
     key_id = secrets.token_hex(8)

@@ -30,13 +30,17 @@ _MAX_ID = BROADCAST - 2
 
 @dataclass(frozen=True, slots=True)
 class Key:
-    """A paired device; ``refusal`` is one of handshake.REFUSALS, or empty for a valid key."""
+    """A paired device; ``refusal`` is one of handshake.REFUSALS, or empty for a valid key.
+
+    ``aircraft``: the one that the key is for; empty: every one that has the key.
+    """
 
     id: bytes
     secret: bytes = field(repr=False)
     name: str
     role: str
     refusal: str = ""
+    aircraft: str = ""
 
 
 class Session:

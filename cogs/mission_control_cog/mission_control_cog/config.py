@@ -61,6 +61,13 @@ class ListenerConfig:
         max_length=64,
     )
     security: Security = key("auto", _SECURITY)
+    tls: str = key(
+        "",
+        "Folder with ca.pem, certificate.pem, key.pem and revoked.pem, as 'up certificates device' "
+        "makes it for the host of this port; relative to this file. The port then speaks TLS "
+        "alone, and a ground station needs a certificate of the CA. Empty: plain.",
+        max_length=4096,
+    )
 
     def problems(self) -> Iterator[tuple[str, str]]:
         try:

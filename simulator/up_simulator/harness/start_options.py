@@ -9,6 +9,8 @@ from pathlib import Path
 from typing import TypeVar
 
 from up.cli.option_parser import OptionParser
+from up_ground.key_store import KeyStore
+from up_ground.token_store import state_folder
 from up_rig.sticks import StickMove, SticksError, read_sticks
 from up_simulator.aircraft.flight import FlightUnavailableError
 from up_simulator.aircraft.recorded_flight import read_recording
@@ -86,6 +88,13 @@ def read_options(arguments: list[str] | None = None) -> argparse.Namespace:
         parser.error("--no-board and --no-phone leave nothing to do")
     if options.discover and options.runner:
         parser.error("--discover and --runner are two ways of finding the same: choose one")
+    options.pairing = None
+    if options.signed:
+        if options.phone != "python":
+            parser.error("--signed needs --phone python: the app's library cannot sign yet")
+        options.pairing = KeyStore(state_folder(os.environ)).get(options.aircraft_name)
+        if options.pairing is None:
+            parser.error(f"--signed: no key of {options.aircraft_name}; run 'up-ground pair'")
     return options
 
 
@@ -196,6 +205,11 @@ def _add_phone(group: argparse._ArgumentGroup) -> None:
     )
     group.add_argument(
         "--runner", type=_place, metavar="HOST:PORT", help="request Raspilot from this runner first"
+    )
+    group.add_argument(
+        "--signed",
+        action="store_true",
+        help="sign the request to the runner by the key that 'up-ground pair' has stored",
     )
     group.add_argument(
         "--aircraft-name", default="default", metavar="NAME", help="the name that the runner gets"

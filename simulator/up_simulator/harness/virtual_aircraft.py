@@ -210,7 +210,7 @@ def _make_find(reactor: Any, options: argparse.Namespace) -> Callable[[], Awaita
         host = options.phone_host
         if options.runner:
             runner_host, runner_port = options.runner
-            runner = Runner(runner_host, runner_port, options.aircraft_name)
+            runner = Runner(runner_host, runner_port, options.aircraft_name, options.pairing)
             return await spawn(reactor, runner)
         if options.discover:
             host = await discover(reactor, *options.discover)

@@ -13,6 +13,9 @@ from twisted.internet.protocol import DatagramProtocol, Factory
 from twisted.protocols.basic import LineOnlyReceiver
 from twisted.python.failure import Failure
 
+from up.protocols.envelope import EnvelopeError
+from up.protocols.pairing import Pairing
+from up.protocols.runner_session import RunnerSession
 from up.system.addresses import is_private
 from up.system.clock import cancel
 
@@ -23,7 +26,11 @@ QUESTION = b"Where is Raspilot?"
 
 
 class NotFoundError(Exception):
-    """The Raspberry Pi cannot be found now: the message is one sentence."""
+    """The Raspberry Pi cannot be found now: one sentence, and the runner's code if it has one."""
+
+    def __init__(self, text: str, code: str = "not_found") -> None:
+        super().__init__(text)
+        self.code = code
 
 
 @dataclass(frozen=True, slots=True)
@@ -37,11 +44,12 @@ class RaspberryPi:
 
 @dataclass(frozen=True, slots=True)
 class Runner:
-    """A runner that is asked for an instance first, and the aircraft's name."""
+    """A runner that is asked for an instance first, the aircraft's name, and the key to sign by."""
 
     host: str
     port: int
     aircraft: str
+    pairing: Pairing | None = None
 
 
 async def discover(reactor: Any, host: str, port: int) -> str:
@@ -71,7 +79,8 @@ async def spawn(reactor: Any, runner: Runner) -> RaspberryPi:
 async def ask_runner(reactor: Any, runner: Runner, request: bytes) -> bytes:
     """Return a runner's answer to a request, both a line without its LF.
 
-    Raises ``NotFoundError`` without an answer.
+    With a key both are protected: a plain answer is then refused. Raises ``NotFoundError`` without
+    an answer.
     """
     endpoint = TCP4ClientEndpoint(reactor, runner.host, runner.port, timeout=ANSWER_S)
     try:
@@ -80,14 +89,20 @@ async def ask_runner(reactor: Any, runner: Runner, request: bytes) -> bytes:
         protocol: Any = await endpoint.connect(factory)
     except ConnectError as error:
         raise NotFoundError(f"no runner at {runner.host}:{runner.port}: {error}") from error
-    protocol.sendLine(request)
     limit = reactor.callLater(SPAWN_S, protocol.transport.abortConnection)
     try:
-        answer: bytes = await protocol.answer
+        if runner.pairing is None:
+            answer: bytes = await protocol.ask(request + b"\n")
+            return answer
+        session = RunnerSession(runner.pairing)
+        said = await protocol.ask(session.hello())
+        return session.result(await protocol.ask(session.request(said, request)))
+    except EnvelopeError as refusal:
+        text = f"no protected answer of the runner for {runner.aircraft}: {refusal.code}"
+        raise NotFoundError(text, refusal.code) from None
     finally:
         cancel(limit)
         protocol.transport.loseConnection()
-    return answer
 
 
 def read_spawn_answer(line: bytes, host: str) -> RaspberryPi:
@@ -95,9 +110,8 @@ def read_spawn_answer(line: bytes, host: str) -> RaspberryPi:
     try:
         answer = json.loads(line)
         if answer["running"] is not True:
-            raise NotFoundError(
-                f"refused by the runner: {answer.get('error') or answer.get('message')}"
-            )
+            text = f"refused by the runner: {answer.get('error') or answer.get('message')}"
+            raise NotFoundError(text, answer.get("code") or "refused")
         ports = answer["ports"]
         general, orientation = ports["general"], ports["orientation"]
     except (ValueError, RecursionError, KeyError, TypeError, AttributeError) as error:
@@ -142,13 +156,19 @@ class _Question(DatagramProtocol):
 
 
 class _Request(LineOnlyReceiver):
-    """One request to a runner and its answer of one line."""
+    """Requests to a runner, one after the other, and an answer of one line to each."""
 
     delimiter = b"\n"
     MAX_LENGTH = MAX_ANSWER
 
     def __init__(self) -> None:
         self.answer: Deferred[bytes] = Deferred()
+
+    def ask(self, line: bytes) -> Deferred[bytes]:
+        transport: Any = self.transport
+        self.answer = Deferred()
+        transport.write(line)
+        return self.answer
 
     def lineReceived(self, line: bytes) -> None:  # noqa: N802 - Twisted's name
         if not self.answer.called:

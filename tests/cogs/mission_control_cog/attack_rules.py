@@ -10,11 +10,12 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from mission_control_cog import key_ring, protection
+from mission_control_cog import protection
 from mission_control_cog.modules.mission_control_provider import MissionControlProvider
 
 from tests.cogs.mission_control_cog import attacks
 from tests.cogs.mission_control_cog.hostile_relay import fly
+from up import key_ring
 from up.commands.beacon import Beacons
 from up.commands.roles import Role
 from up.config.keys_file import KeyConfig

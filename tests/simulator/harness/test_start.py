@@ -11,6 +11,9 @@ import pytest
 
 from tests.simulator.program import Line, Program
 from tests.support.firmware import build_firmware
+from up.protocols.pairing import Pairing
+from up_ground.key_store import KeyStore
+from up_ground.token_store import state_folder
 from up_simulator.firmware.rig_board import RigBoard
 from up_simulator.harness.start_options import read_options
 
@@ -186,3 +189,16 @@ def test_it_follows_a_script(tmp_path):
             line.send("s")
             line.wait_for(lambda message: message.type == "x" and message.payload[1:2] == b"a")
         assert program.end()[0] == 0
+
+
+def test_a_request_is_signed_by_the_paired_key_or_not_made(tmp_path, monkeypatch, capsys):
+    monkeypatch.setenv("XDG_STATE_HOME", str(tmp_path))
+    words = ["--runner", "127.0.0.1:3002", "--aircraft-name", "kite", "--phone", "python"]
+    assert read_options(words).pairing is None
+    for wrong in (words, words[:-2]):
+        with pytest.raises(SystemExit) as end:
+            read_options([*wrong, "--signed"])
+        assert end.value.code == 2
+    pairing = Pairing("kite", "00" * 8, "00" * 32, "pilot", "phone")
+    KeyStore(state_folder(os.environ)).put(pairing)
+    assert read_options([*words, "--signed"]).pairing == pairing

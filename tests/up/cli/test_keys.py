@@ -34,7 +34,8 @@ def test_a_new_key_is_valid_and_only_its_owner_reads_the_file(keys):
     assert (made.aircraft, made.key_id, made.secret) == ("kite", key_id, key.secret)
     assert (key.role, key.name, key.revoked) == ("pilot", "tablet", False)
     assert stat.S_IMODE(path.stat().st_mode) == 0o600
-    assert pairing_of(keys("show", "tablet", "--aircraft", "kite")) == made
+    assert key.aircraft == "kite"
+    assert pairing_of(keys("show", "tablet")) == made
 
 
 def test_a_revoked_key_is_listed_and_shown_no_more(keys):

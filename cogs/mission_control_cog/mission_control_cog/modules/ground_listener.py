@@ -6,6 +6,7 @@ from collections.abc import Iterable, Mapping
 from typing import Any
 
 from twisted.internet.error import CannotListenError
+from twisted.internet.protocol import Factory
 
 from mission_control_cog.config import MISSION_CONTROL, aircraft_name, security_of
 from mission_control_cog.grounds import Grounds
@@ -25,6 +26,8 @@ from up.needs import needs
 from up.protocols.general_message import GeneralMessage, MalformedMessage
 from up.system.addresses import stays_here
 from up.system.peer_filter import PeerFilter
+from up.tls.files import TLSFiles
+from up.tls.protocol import TLSServerFactory
 
 LINK = "ground"
 _LOG_INTERVAL_S = 10.0
@@ -47,7 +50,8 @@ class GroundListener(BaseStartedModule):
         config = self.config
         self._security = security_of(config.listener.security, False, config)
         requires = self._security == "require"
-        self._peers = PeerFilter(config.i_accept_plain or requires, PLAIN_KEY)
+        is_safe = requires or bool(config.listener.tls)
+        self._peers = PeerFilter(config.i_accept_plain or is_safe, PLAIN_KEY)
         self._grounds = Grounds(
             self.context.reactor,
             self._peers,
@@ -66,8 +70,10 @@ class GroundListener(BaseStartedModule):
         self.mission_control.add_outlet(self._grounds)
 
     def plain_links(self) -> Iterable[tuple[str, str]]:
-        """Yield the listener, unless it requires protection."""
+        """Yield the listener, unless it has TLS or requires protection."""
         listener = self.config.listener
+        if listener.tls:
+            return
         requires = "require" in (listener.security, self.config.secrecy)
         if not requires and not stays_here(listener.address):
             yield "listener.security", "ground stations on this network may send plain Commands"
@@ -89,7 +95,7 @@ class GroundListener(BaseStartedModule):
             raise StartFailedError(f"{refusal} (mission_control.yml: listener.address)")
         try:
             self._port = self.context.reactor.listenTCP(
-                listener.port, self._grounds, interface=listener.address
+                listener.port, self._factory(), interface=listener.address
             )
         except CannotListenError as error:
             reason = getattr(error.socketError, "strerror", None) or error.socketError
@@ -105,6 +111,14 @@ class GroundListener(BaseStartedModule):
             await port.stopListening()
         await self._grounds.close()
         self._limited.stop()
+
+    def _factory(self) -> Factory:
+        """Return what accepts the stations; raises TLSError."""
+        folder = self.config.listener.tls
+        if not folder:
+            return self._grounds
+        files = TLSFiles(self.context.config_folder / folder)
+        return TLSServerFactory(self.context.reactor, files, self._grounds, clients=True)
 
     def _open_link(self, send: Any) -> CommandLink:
         policy = self.mission_control.tuning_policy

@@ -11,7 +11,6 @@ from typing import Any, Protocol
 from mission_control_cog.audit_log import AuditLog
 from mission_control_cog.config import MISSION_CONTROL, aircraft_name, security_of
 from mission_control_cog.data_budget import DataBudget
-from mission_control_cog.key_ring import KeyRing
 from mission_control_cog.protection import Protection
 from mission_control_cog.thinning import Thinning
 from mission_control_cog.tuning_policy import TuningPolicy
@@ -24,6 +23,7 @@ from up.commands.roles import Role
 from up.commands.system_commands import LinkStateCommand
 from up.commands.telemetry_commands import TelemetryCommand
 from up.config.keys_file import KEYS
+from up.key_ring import KeyRing
 from up.protocols.general_message import GeneralMessage, MalformedMessage, encode
 from up.providers.base_mission_control_provider import BaseMissionControlProvider
 from up.system.addresses import is_private, stays_here
@@ -92,7 +92,7 @@ class MissionControlProvider(BaseMissionControlProvider):
             self.up, name, self.tuning_policy, secrecy=config.secrecy == "require"
         )
         self._keys = KeyRing(
-            self.context.reactor, self.context.config_folder, self.protection.on_keys
+            self.context.reactor, self.context.config_folder, self.protection.on_keys, name
         )
         if server.url:
             self._uplink = Uplink(

@@ -43,7 +43,8 @@ class KeyRing:
 
     A faulty file keeps the keys read before: a typing error must not take control from a pilot in
     flight. A deleted file revokes all. Today is never before the file's last change, which is
-    renewed every hour: a clock that is set back does not revive an expired key.
+    renewed every hour: a clock that is set back does not revive an expired key. With ``aircraft``
+    the keys for others are left out.
     """
 
     log = Logger()
@@ -53,10 +54,12 @@ class KeyRing:
         reactor: Any,
         folder: Path,
         on_keys: Callable[[Mapping[bytes, Key]], object],
+        aircraft: str | None = None,
     ) -> None:
         self._folder = folder
         self._path = folder / KEYS.filename
         self._on_keys = on_keys
+        self._aircraft = aircraft
         self._disk = DiskThread(reactor)
         self._is_looking = False
         self._stamp: object = ()
@@ -88,12 +91,14 @@ class KeyRing:
         """Read the file if it has changed; on the disk's thread."""
         stamp, changed_s = self._stat()
         newest_s = max(self._newest_s, changed_s, time.time())
+        if stamp is None:
+            return _Found(stamp, newest_s, {})
         if stamp != self._stamp:
             try:
                 return _Found(stamp, newest_s, KEYS.load(self._folder).keys)
             except ConfigErrors as errors:
                 return _Found(stamp, newest_s, None, errors.problems)
-        if stamp is not None and newest_s - changed_s > _CLOCK_S:
+        if newest_s - changed_s > _CLOCK_S:
             with contextlib.suppress(OSError):
                 os.utime(self._path, (newest_s, newest_s))
                 stamp = self._stat()[0]
@@ -102,8 +107,10 @@ class KeyRing:
     def _stat(self) -> tuple[object, float]:
         try:
             found = self._path.stat()
-        except OSError:
+        except FileNotFoundError:
             return None, 0.0
+        except OSError as error:
+            return error.errno, 0.0
         return (found.st_ino, found.st_size, found.st_mtime_ns, found.st_mode), found.st_mtime
 
     def _use(self, found: _Found) -> None:
@@ -123,8 +130,10 @@ class KeyRing:
                 each.name,
                 each.role,
                 each.refusal(today),
+                each.aircraft,
             )
             for key_id, each in self._configured.items()
+            if self._aircraft is None or each.aircraft in ("", self._aircraft)
         }
         if keys != self._keys:
             self._keys = keys
