@@ -121,7 +121,8 @@ test("a cut link is greyed out within a second, and only fresh data return", asy
 
 test("a server that dies is reported, and the page reconnects", async () => {
   const words = ["serve", "--port", String(showcase.groundPort), "--listen"];
-  const first = startProgram("up-ground", [...words, "127.0.0.1:0"]);
+  const environment = { UP_GROUND_STATE: showcase.state };
+  const first = startProgram("up-ground", [...words, "127.0.0.1:0"], { environment });
   const address = (await first.line(/(http:\/\/\S+)/))[1];
   const ground = await (await GroundPage.open(browser, address)).isLive();
   await ground.page.evaluate(watchSilence, [OF_THE_PAGE, OF_THE_PROXY]);
@@ -131,7 +132,7 @@ test("a server that dies is reported, and the page reconnects", async () => {
   assert.ok(await ground.page.isVisible("#link-banner"));
   await ground.until(() => document.documentElement.dataset.aircraftState === "silent", "silence");
   await ground.until(() => document.querySelector("#link-banner-next").textContent !== "", "the next attempt");
-  const second = startProgram("up-ground", [...words, new URL(address).host]);
+  const second = startProgram("up-ground", [...words, new URL(address).host], { environment });
   try {
     await second.line(/(http:\/\/\S+)/);
     await ground.until(() => document.documentElement.dataset.link === "open", "the server again");
