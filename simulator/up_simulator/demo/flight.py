@@ -151,6 +151,8 @@ class DemoFlight:
         address = page.wait_for_address()
         if address is not None:
             self._log(f"  page       {address}  the ground station in a browser")
+            for note in page.notes:
+                self._log(f"             {note}")
         else:
             page.child.terminate()
             self._children.remove(page.child)

@@ -34,9 +34,16 @@ class Page:
     def wait_for_address(self) -> str | None:
         """Return the page's address; None when it has ended or reports none in time."""
         try:
+            self.child.wait_for("ready", LIMIT_S)
             return str(self.child.wait_for("page_open", LIMIT_S).fields["url"])
         except ParticipantError:
             return None
+
+    @property
+    def notes(self) -> list[str]:
+        """Return where its key is, and that a network may read it; nothing on loopback."""
+        codes = ("page_key", "page_plain")
+        return [line.text for line in self.child.lines() if line.code in codes]
 
     @property
     def reason(self) -> str:

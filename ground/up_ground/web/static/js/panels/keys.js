@@ -76,7 +76,7 @@ export class Pairing {
     this.#connection = connection;
     this.#field = new Field({
       id: "pairing",
-      label: "Pairing text of `up keys add`",
+      label: "Pairing text of up keys add",
       button: "Pair",
       input: { ...SECRET, maxlength: 300 },
       read: (text) => {
