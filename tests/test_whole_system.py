@@ -73,7 +73,10 @@ def test_gains_may_be_changed_from_the_page_in_flight(flight):
 def test_only_a_ground_station_with_the_key_of_the_run_sees_the_aircraft(flight):
     assert "ground (pilot)" in flight.said()
     assert "end to end: ground (pilot)" in flight.ground("watch", "--once").stdout
-    flight.state["UP_GROUND_STATE"], own = str(flight.folder / "none"), flight.state["UP_GROUND_STATE"]
+    flight.state["UP_GROUND_STATE"], own = (
+        str(flight.folder / "none"),
+        flight.state["UP_GROUND_STATE"],
+    )
     try:
         assert flight.ground("watch", "--json", "--for", "1").stdout == ""
     finally:

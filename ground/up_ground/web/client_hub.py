@@ -234,6 +234,9 @@ class ClientHub:
         if not self.sessions.use(link.session):
             link.session = ""
         denial = self.access.denial(bool(link.session))
+        if former is not None and former.may_control and denial is not None:
+            # The token names a page; the right to control is that of the session.
+            former = None
         if former is None:
             self._welcome_new(link, name, denial)
         elif former.link is None:

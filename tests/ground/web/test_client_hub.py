@@ -427,6 +427,18 @@ def test_signing_out_takes_control_from_all_pages_of_the_session():
     assert again.told[0]["may_control"] is False
 
 
+def test_the_token_of_a_page_does_not_replace_its_session():
+    bench = Bench(key=KEY)
+    session = bench.sign_in()
+    pilot = bench.open(session=session)
+    token = pilot.told[0]["token"]
+    bench.pages.on_closed(pilot)
+    stranger = bench.open(token=token)
+    assert stranger.told[0]["page"] != pilot.told[0]["page"]
+    again = bench.open(session=session, token=token)
+    assert again.told[0]["page"] == pilot.told[0]["page"]
+
+
 def pair(bench, text=PAIRING, is_private=True, **more):
     """Return the answer to a pairing text."""
     link = bench.open(**more)
