@@ -70,17 +70,11 @@ def test_gains_may_be_changed_from_the_page_in_flight(flight):
     assert "security: require" in mission and "tune_in_flight: true" in mission
 
 
-def test_only_a_ground_station_with_the_key_of_the_run_sees_the_aircraft(flight):
+def test_only_a_ground_station_with_the_key_of_the_run_sees_the_aircraft(flight, monkeypatch):
     assert "ground (pilot)" in flight.said()
     assert "end to end: ground (pilot)" in flight.ground("watch", "--once").stdout
-    flight.state["UP_GROUND_STATE"], own = (
-        str(flight.folder / "none"),
-        flight.state["UP_GROUND_STATE"],
-    )
-    try:
-        assert flight.ground("watch", "--json", "--for", "1").stdout == ""
-    finally:
-        flight.state["UP_GROUND_STATE"] = own
+    monkeypatch.setitem(flight.state, "UP_GROUND_STATE", str(flight.folder / "none"))
+    assert flight.ground("watch", "--json", "--for", "1").stdout == ""
 
 
 def test_telemetry_has_every_reading_with_source_and_age(flight):
