@@ -25,7 +25,7 @@ class SignInError(UserError):
 
 
 class Sessions:
-    """The sessions of one server, which end with it; only hashes of their tokens are kept."""
+    """The sessions of one server, which end with it, by the hashes of their tokens."""
 
     def __init__(self, clock: Clock, access: Access) -> None:
         self._clock = clock
