@@ -67,7 +67,14 @@ def test_the_page_serves_a_browser_and_forbids_other_content(flight):
 
 def test_gains_may_be_changed_from_the_page_in_flight(flight):
     mission = (flight.folder / "config" / "mission_control.yml").read_text(encoding="utf-8")
-    assert "role: pilot" in mission and "tune_in_flight: true" in mission
+    assert "security: require" in mission and "tune_in_flight: true" in mission
+
+
+def test_only_a_ground_station_with_the_key_of_the_run_sees_the_aircraft(flight, monkeypatch):
+    assert "ground (pilot)" in flight.said()
+    assert "end to end: ground (pilot)" in flight.ground("watch", "--once").stdout
+    monkeypatch.setitem(flight.state, "UP_GROUND_STATE", str(flight.folder / "none"))
+    assert flight.ground("watch", "--json", "--for", "1").stdout == ""
 
 
 def test_telemetry_has_every_reading_with_source_and_age(flight):

@@ -76,8 +76,8 @@ gains; a page that has control sends Commands. One page controls an aircraft,
 the others watch. The page selects one of several aircraft. An unreachable proxy is
 retried without end.
 
-On an address other than loopback only a page opened with the key, which is
-printed as part of the address, can control; without the key it only watches.
+On an address other than loopback a page only watches until its user signs in
+with the key, which is printed, or kept in the file whose name is printed.
 
 examples
   up-ground serve                              the aircraft 'default' of a proxy

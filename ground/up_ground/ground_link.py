@@ -17,6 +17,7 @@ from zope.interface import implementer
 from up.protocols.binary_line import HANDSHAKE, PACKED, PROTECTED, to_body
 from up.protocols.general_message import GeneralMessage, decode
 from up.protocols.packed_telemetry import UnknownKeyError, Unpacker
+from up.protocols.pairing import Pairing
 from up.protocols.proxy_lines import (
     Accepted,
     Access,
@@ -145,6 +146,16 @@ class GroundLink:
         self._backoff.reset()
         if self._connection is not None:
             self._connection.abort("reconnecting to request control", "reconnect")
+
+    def pair(self, pairing: Pairing) -> None:
+        """Use another key; the session of the one before ends."""
+        if self._security is not None:
+            self._security.stop()
+        self.status.key_refusal = ""
+        self._security = LinkSecurity(self._reactor, pairing, self.status)
+        if self.status.is_open:
+            self._security.start(self._send)
+        self._listener.on_link()
 
     def measure(self) -> None:
         if self._connection is not None and self.status.is_open:

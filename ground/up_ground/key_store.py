@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import secrets
+import sys
 from pathlib import Path
 
 from up.config.atomic_writer import write_atomically
@@ -9,6 +11,7 @@ from up.errors import UserError
 from up.protocols.pairing import Pairing, parse_pairing
 
 FILE = "keys.txt"
+PAGE_FILE = "page.key"
 
 
 class KeyStore:
@@ -24,10 +27,7 @@ class KeyStore:
     def all(self) -> dict[str, Pairing]:
         """Return all keys by aircraft."""
         try:
-            if self._path.stat().st_mode & 0o077:
-                text = f"{self._path}: others may read these secrets: run 'chmod 600 {self._path}'"
-                raise UserError(text, "secrets_readable")
-            lines = self._path.read_text(encoding="ascii", errors="replace").splitlines()
+            lines = _read_secrets(self._path).splitlines()
         except FileNotFoundError:
             return {}
         found = [parse_pairing(line) for line in lines]
@@ -49,6 +49,33 @@ class KeyStore:
         return True
 
     def _write(self, known: dict[str, Pairing]) -> None:
-        self._path.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
-        text = "".join(f"{each.encode()}\n" for each in known.values())
-        write_atomically(self._path, text.encode("ascii"), 0o600)
+        _write_secrets(self._path, "".join(f"{each.encode()}\n" for each in known.values()))
+
+
+def page_key(folder: Path) -> tuple[str, str]:
+    """Return the key of this user's pages, made at the first call, and where a user finds it.
+
+    Raises UserError for a file that others may read, OSError for one that cannot be written.
+    """
+    path = folder / PAGE_FILE
+    try:
+        key = _read_secrets(path).strip()
+    except FileNotFoundError:
+        key = secrets.token_urlsafe(12)
+        _write_secrets(path, f"{key}\n")
+    if not key:
+        raise UserError(f"{path}: the key is missing; remove the file", "page_key_missing")
+    # A terminal keeps no log.
+    return key, f"the key {key}" if sys.stdout.isatty() else f"the key in {path}"
+
+
+def _read_secrets(path: Path) -> str:
+    if path.stat().st_mode & 0o077:
+        text = f"{path}: others may read these secrets: run 'chmod 600 {path}'"
+        raise UserError(text, "secrets_readable")
+    return path.read_text(encoding="ascii", errors="replace")
+
+
+def _write_secrets(path: Path, text: str) -> None:
+    path.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
+    write_atomically(path, text.encode("ascii"), 0o600)

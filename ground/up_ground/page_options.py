@@ -55,8 +55,8 @@ def add_page_options(
         "--key",
         type=_key,
         default=environ.get("UP_GROUND_KEY") or None,
-        help="the key that lets a page control, of 8 to 64 letters, digits, _ and - (default: a"
-        " fresh one at each start, none on loopback; UP_GROUND_KEY hides it from others here)",
+        help="the key that a page signs in with to control, of 8 to 64 letters, digits, _ and -"
+        " (default: that in page.key, none on loopback; UP_GROUND_KEY hides it from others here)",
     )
 
 

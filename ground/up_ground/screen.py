@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from up_ground.link_status import LinkStatus
+from up_ground.link_status import LinkState, LinkStatus
 from up_ground.panels import (
     NAVIGATION_ROWS,
     draw_board,
@@ -115,7 +115,9 @@ def render(state: State, now_s: float, size: tuple[int, int]) -> str:
 def _draw_header(screen: ScreenBuffer, state: State, now_s: float) -> None:
     status, telemetry, settings = state.status, state.telemetry, state.settings
     screen.fill(0, Style.HEADER)
-    words = f" {settings.aircraft} at {settings.address}  {link_text(status, now_s)}"
+    # The name and the role of the key need the columns.
+    link = link_text(status, now_s).removeprefix(f"{LinkState.OPEN.value}, ")
+    words = f" {settings.aircraft} at {settings.address}  {link}"
     column = screen.put(0, 0, sanitize_text(words), Style.HEADER)
     if status.is_open and not settings.direct:
         column = screen.put(0, column, f"  control {control_text(status)}", Style.HEADER)

@@ -13,11 +13,14 @@ from pathlib import Path
 from up.protocols.proxy_lines import is_token
 from up_ground.settings import Settings
 
+STATE_VARIABLE = "UP_GROUND_STATE"
 _UNSAFE = re.compile(r"[^A-Za-z0-9_.-]")
 
 
 def state_folder(environ: Mapping[str, str]) -> Path:
-    """Return where tokens are kept: ``$XDG_STATE_HOME/up-ground``, or ``~/.local/state``'s."""
+    """Return where keys and tokens are: ``$UP_GROUND_STATE``, or up-ground in the user's state."""
+    if own := environ.get(STATE_VARIABLE):
+        return Path(own)
     home = environ.get("XDG_STATE_HOME", "")
     base = Path(home) if home.startswith("/") else Path.home() / ".local" / "state"
     return base / "up-ground"

@@ -1,5 +1,7 @@
 // Values that are no longer current stop looking current, and recover automatically.
 import assert from "node:assert/strict";
+import { readFileSync } from "node:fs";
+import { join } from "node:path";
 import { afterEach, before, test } from "node:test";
 
 import { GroundPage } from "./support/ground_page.mjs";
@@ -121,7 +123,8 @@ test("a cut link is greyed out within a second, and only fresh data return", asy
 
 test("a server that dies is reported, and the page reconnects", async () => {
   const words = ["serve", "--port", String(showcase.groundPort), "--listen"];
-  const first = startProgram("up-ground", [...words, "127.0.0.1:0"]);
+  const environment = { UP_GROUND_STATE: showcase.state };
+  const first = startProgram("up-ground", [...words, "127.0.0.1:0"], { environment });
   const address = (await first.line(/(http:\/\/\S+)/))[1];
   const ground = await (await GroundPage.open(browser, address)).isLive();
   await ground.page.evaluate(watchSilence, [OF_THE_PAGE, OF_THE_PROXY]);
@@ -131,7 +134,7 @@ test("a server that dies is reported, and the page reconnects", async () => {
   assert.ok(await ground.page.isVisible("#link-banner"));
   await ground.until(() => document.documentElement.dataset.aircraftState === "silent", "silence");
   await ground.until(() => document.querySelector("#link-banner-next").textContent !== "", "the next attempt");
-  const second = startProgram("up-ground", [...words, new URL(address).host]);
+  const second = startProgram("up-ground", [...words, new URL(address).host], { environment });
   try {
     await second.line(/(http:\/\/\S+)/);
     await ground.until(() => document.documentElement.dataset.link === "open", "the server again");
@@ -141,6 +144,46 @@ test("a server that dies is reported, and the page reconnects", async () => {
     assert.deepEqual([...new Set(silence.liveWhileSilent)], []);
   } finally {
       await second.stop();
+  }
+});
+
+test("a page signs in with the key, pairs, and signs out", async () => {
+  const key = "a-good-key";
+  const environment = { UP_GROUND_STATE: join(showcase.folder, "other"), UP_GROUND_KEY: key };
+  const words = ["serve", "--port", String(showcase.groundPort), "--listen", "127.0.0.1:0"];
+  const server = startProgram("up-ground", words, { environment });
+  try {
+    const address = (await server.line(/(http:\/\/\S+)/))[1];
+    const ground = await GroundPage.open(browser, `${address}#key=${key}`);
+    const asksForKey = () => document.querySelector("#page-key")?.checkVisibility() && !document.querySelector("#page-key").disabled;
+    await ground.until(asksForKey, "the field for the key");
+    assert.equal(await ground.page.evaluate(() => location.href), address);
+    const enter = async (field, text) => {
+      await ground.page.fill(field, text);
+      await ground.page.press(field, "Enter");
+    };
+    const isSignedIn = () => document.querySelector("#sign-out")?.checkVisibility();
+    await enter("#page-key", "a-wrong-key");
+    await ground.until(() => document.querySelector("#page-key").ariaInvalid === "true", "the refusal");
+    await enter("#page-key", key);
+    await ground.until(isSignedIn, "the session");
+    assert.equal(await ground.page.evaluate(() => document.cookie), "");
+    await ground.page.reload();
+    await ground.until(isSignedIn, "the session after a reload");
+    await ground.page.click("#panel-control summary");
+    const [pairing] = readFileSync(join(showcase.state, "keys.txt"), "ascii").split("\n");
+    await enter("#pairing", pairing);
+    await ground.isLive();
+    const isProtected = () => document.querySelector('[data-key="link.security"]').textContent === "end to end: ground (pilot)";
+    await ground.until(isProtected, "the key and its role");
+    await ground.page.click("#sign-out");
+    await ground.until(asksForKey, "the field for the key again");
+    assert.ok(!server.said.includes(key));
+    // The browser reports the wrong key itself.
+    assert.deepEqual(ground.seen.errors.filter((text) => !text.includes("403")), []);
+    assert.deepEqual(ground.seen.violations, []);
+  } finally {
+    await server.stop();
   }
 });
 

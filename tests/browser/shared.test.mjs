@@ -86,7 +86,7 @@ describe("gains go from the page into the firmware and back, and not where the a
   /** The board's own report of its active gains, to another ground station. */
   async function gainsOfBoard() {
     const port = String(showcase.groundPort);
-    const environment = { XDG_STATE_HOME: showcase.folder };
+    const environment = { UP_GROUND_STATE: showcase.state };
     const words = ["send", "--port", port, "arduino.pids.tunings", "request=true"];
     return until(async () => {
       const { said } = await run("up-ground", words, { environment });

@@ -99,6 +99,7 @@ def flying(folder: Path, files: Mapping[str, str], line: str = "make run") -> It
     environ = {
         **os.environ,
         "XDG_STATE_HOME": str(folder / "state"),
+        "UP_GROUND_STATE": "run/demo/ground",
         "PATH": f"{Path(sys.executable).parent}:{os.environ['PATH']}",
     }
     flight = Flight(tree, environ, process, said)

@@ -8,7 +8,7 @@ from tests.ground.aircraft import UP_GROUND, codes, environment
 from tests.support.waiting import DEADLINE_S
 from up.errors import UserError
 from up.protocols.pairing import Pairing
-from up_ground.key_store import FILE, KeyStore
+from up_ground.key_store import FILE, PAGE_FILE, KeyStore, page_key
 
 KITE = Pairing("kite", "0123456789abcdef", "ab" * 32, "pilot", "tablet")
 OTHER = Pairing("other", "0123456789abcdef", "cd" * 32, "observer", "phone")
@@ -55,3 +55,17 @@ def test_a_file_that_others_may_read_is_refused(tmp_path):
     with pytest.raises(UserError) as caught:
         store.get("kite")
     assert caught.value.code == "secrets_readable"
+
+
+def test_the_key_of_the_page_stays_and_only_this_user_may_read_it(tmp_path):
+    key, place = page_key(tmp_path)
+    path = tmp_path / PAGE_FILE
+    assert path.stat().st_mode & 0o777 == 0o600
+    assert len(key) == 16 and key not in place
+    assert page_key(tmp_path) == (key, place)
+    path.chmod(0o640)
+    with pytest.raises(UserError) as caught:
+        page_key(tmp_path)
+    assert caught.value.code == "secrets_readable"
+    path.unlink()
+    assert page_key(tmp_path)[0] != key

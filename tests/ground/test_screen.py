@@ -351,3 +351,11 @@ def test_a_fallback_is_told_with_its_reason():
     assert "replaces RETURN: navigation missing or too old" in line
     assert "wind 4.2 m/s from 255 deg" in line
     assert "replaces" not in plain_line(navigating().status, navigating().telemetry, 100.0)
+
+
+def test_how_the_link_is_protected_fits_into_eighty_columns():
+    shown = state(frame())
+    status = shown.status
+    status.is_keyed, status.key_name, status.key_role = True, "tablet", "observer"
+    first = text_of(shown, size=(80, 24)).splitlines()[0]
+    assert "  plain  " in first and "  end to end: tablet (observer)" in first

@@ -14,6 +14,8 @@ from tests.support.reactor import reactor, run_in_reactor, until
 from up.tls.files import TLSFiles
 from up.tls.protocol import TLSClientEndpoint
 
+KEY = "the-right-key"
+
 
 @pytest.fixture(scope="module")
 def own(tmp_path_factory):
@@ -66,7 +68,7 @@ def test_the_page_comes_by_https_and_shows_the_protection(relay, own, tmp_path, 
     # The name of the other test's aircraft stays reserved for a while.
     monkeypatch.setattr(aircraft, "NAME", "kite")
     folder = own.authority.folder
-    words = ("--tls", str(folder / "laptop"), "--https", str(folder / "relay"))
+    words = ("--tls", str(folder / "laptop"), "--https", str(folder / "relay"), "--key", KEY)
     with (
         Aircraft(relay.airborne_port),
         Serve(tmp_path, relay.tls_port("ground"), *words) as server,
@@ -84,9 +86,13 @@ def test_the_page_comes_by_https_and_shows_the_protection(relay, own, tmp_path, 
         context = ssl.SSLContext(ssl.PROTOCOL_TLS_CLIENT)
         context.load_verify_locations(folder / "ca.pem")
         assert get(server.port, context).startswith(b"HTTP/1.1 200 OK\r\n")
+        signed_in = get(
+            server.port, context, f"POST /session HTTP/1.1\r\nAuthorization: Bearer {KEY}"
+        )
+        assert signed_in.startswith(b"HTTP/1.1 204 ") and b"; Secure" in signed_in
 
 
-def get(port, context):
+def get(port, context, head="GET / HTTP/1.1"):
     """Request the page as a browser without a certificate does; return the whole answer."""
     import socket
 
@@ -94,7 +100,8 @@ def get(port, context):
         socket.create_connection(("127.0.0.1", port), 30) as plain,
         context.wrap_socket(plain, server_hostname="127.0.0.1") as connection,
     ):
-        connection.sendall(b"GET / HTTP/1.1\r\nHost: 127.0.0.1\r\nConnection: close\r\n\r\n")
+        rest = "Host: 127.0.0.1\r\nConnection: close\r\n\r\n"
+        connection.sendall(f"{head}\r\n{rest}".encode())
         answer = b""
         while chunk := connection.recv(65536):
             answer += chunk

@@ -26,7 +26,9 @@ class Showcase:
     def __init__(self, folder, *options, path=None, **environment):
         self.folder = folder
         self.log = folder / "showcase.log"
-        self.state = {"XDG_STATE_HOME": str(folder / "state")}
+        self.state = {
+            "XDG_STATE_HOME": str(folder / "state"), "UP_GROUND_STATE": str(folder / "ground"),
+        }  # fmt: skip
         with self.log.open("wb") as output:
             self.process = subprocess.Popen(
                 [sys.executable, "-m", "up_simulator.demo", "--folder", str(folder),

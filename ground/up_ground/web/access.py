@@ -7,8 +7,9 @@ import re
 import socket
 from collections.abc import Iterable
 from dataclasses import dataclass
+from urllib.parse import urlsplit
 
-from up.system.addresses import neighbourhood
+from up.system.addresses import neighbourhood, stays_here
 from up.system.clock import Clock
 from up.system.http_host import names_this_machine
 from up.system.token_bucket import TokenBucket
@@ -53,18 +54,28 @@ class Access:
         match = _ORIGIN.fullmatch(origin)
         return match is not None and host is not None and match[1].casefold() == host.casefold()
 
-    def denial(self, key: object) -> Denial | None:
-        """Return why a page with ``key`` may not control; None if it may."""
+    def is_key(self, key: str) -> bool:
+        """Return whether this is the key."""
+        given = key.encode("utf-8", "replace")
+        return self.key is not None and hmac.compare_digest(given, self.key.encode())
+
+    def denial(self, is_signed_in: bool) -> Denial | None:
+        """Return why a page may not control; None if it may."""
         if self.is_watch_only:
             return Denial("watch_only", "this server was started with --watch-only")
-        if self.key is None:
+        if self.key is None or is_signed_in:
             return None
-        if not isinstance(key, str):
-            text = "this page was opened without the key, which is part of the address"
-            return Denial("no_key", text)
-        if hmac.compare_digest(key.encode("utf-8", "replace"), self.key.encode()):
-            return None
-        return Denial("wrong_key", "the key in the address is wrong")
+        return Denial("no_key", "sign in with the key of this ground station")
+
+    def permits_secrets(self, peer: str, origin: str | None, is_https: bool) -> bool:
+        """Return whether nobody on a network reads what a page of ``origin`` sends.
+
+        A page without HTTPS must be on this machine; so must be a web server that speaks HTTPS for
+        this one.
+        """
+        page = urlsplit(origin or "http://localhost")
+        is_here = page.scheme == "https" or stays_here(page.hostname or "")
+        return is_https or (stays_here(peer) and is_here)
 
 
 def machine_names(more: Iterable[str] = ()) -> frozenset[str]:

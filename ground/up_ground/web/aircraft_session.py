@@ -5,12 +5,16 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
+from twisted.internet.threads import deferToThreadPool
+
 from up.protocols.general_message import GeneralMessage
 from up.protocols.handshake import ROLES
+from up.protocols.pairing import Pairing
 from up.system.clock import Timer
 from up.system.token_bucket import TokenBucket
 from up_ground.catalogue import Catalogue
 from up_ground.ground_link import GroundLink
+from up_ground.key_store import KeyStore
 from up_ground.link_status import LinkState
 from up_ground.settings import Settings
 from up_ground.status_text import security_text
@@ -46,6 +50,7 @@ class AircraftSession(AircraftSource):
         tokens: TokenStore,
         catalogue: Catalogue,
         subscribers: ClientHub,
+        keys: KeyStore,
     ) -> None:
         self.name = name
         self.link = GroundLink(reactor, settings, self, tokens)
@@ -53,6 +58,7 @@ class AircraftSession(AircraftSource):
         self._reactor = reactor
         self._settings = settings
         self._subscribers = subscribers
+        self._keys = keys
         lease = ProxyLease(self.link, settings.direct)
         self.control = Control(reactor, lease, self._report, self._send_status)
         gate = CommandGate(reactor, name, catalogue, self.link, lease, self.control, self.telemetry)
@@ -206,6 +212,14 @@ class AircraftSession(AircraftSource):
 
     def on_plan(self, page: ClientSession, kind: str, message: Reader) -> None:
         self.plans.on_plan(page, kind, message)
+
+    async def pair(self, page: ClientSession, pairing: Pairing) -> None:
+        if self.control.holder not in (None, page):
+            # The link has no session until the aircraft has answered the new key.
+            raise PageFault("another page has control of this aircraft", "no_control")
+        threads = self._reactor.getThreadPool()
+        await deferToThreadPool(self._reactor, threads, self._keys.put, pairing)
+        self.link.pair(pairing)
 
     def on_replay(self, page: ClientSession, action: str, message: Reader) -> None:
         raise PageFault("this is not a replay", "not_a_replay")

@@ -6,6 +6,7 @@ from abc import ABC, abstractmethod
 from collections.abc import Iterable
 from typing import Any
 
+from up.protocols.pairing import Pairing
 from up_ground.web.client_session import ClientSession, FrameMessage
 from up_ground.web.messages import PageFault, Reader
 
@@ -44,6 +45,10 @@ class AircraftSource(ABC):
 
     def on_plan(self, page: ClientSession, kind: str, message: Reader) -> None:
         """Begin an upload or a download; only a real aircraft has plans."""
+        raise PageFault("this is a replay", "replay")
+
+    async def pair(self, page: ClientSession, pairing: Pairing) -> None:
+        """Keep a key for the aircraft and use it; raises PageFault, UserError and OSError."""
         raise PageFault("this is a replay", "replay")
 
     def on_second(self) -> None:  # noqa: B027 - a replay has nothing to do

@@ -9,12 +9,14 @@ from typing import TYPE_CHECKING, Any
 
 from twisted.internet.defer import Deferred
 
+from up.errors import UserError
 from up.protocols.link_output import Make
+from up.protocols.pairing import Pairing, parse_pairing
 from up.system.clock import Clock, Timer, cancel
 from up.system.token_bucket import TokenBucket
 from up.version import VERSION
 from up_ground.sanitize_text import sanitize_text
-from up_ground.web.access import Access, Denial, KeyAttempts
+from up_ground.web.access import Access, Denial
 from up_ground.web.aircraft_source import AircraftSource
 from up_ground.web.client_session import (
     PAGES_LIMIT,
@@ -32,6 +34,7 @@ from up_ground.web.messages import (
     read_message,
 )
 from up_ground.web.plan_service import read_file, write_file
+from up_ground.web.sessions import Sessions
 
 if TYPE_CHECKING:
     from up_ground.web.page_link import PageLink
@@ -43,6 +46,7 @@ KEPT_S = 5.0
 """A lost page is expected back within this time."""
 ALIVE_S = 1.0
 FAULTS_LIMIT = 20
+MAX_PAIRING = 300
 GOING_AWAY = 4001
 VIOLATION = 4008
 LATER = 4013
@@ -73,7 +77,8 @@ class ClientHub:
     ) -> None:
         self.fleet: dict[str, AircraftSource] = {}
         self._clock = clock
-        self._access = access
+        self.access = access
+        self.sessions = Sessions(clock, access)
         self._tiles = tiles
         self._catalogue = None if catalogue is None else message_bytes(catalogue)
         self._is_replay = is_replay
@@ -81,7 +86,6 @@ class ClientHub:
         self._pages: dict[int, ClientSession] = {}
         self._timers: dict[int, Timer] = {}
         self._number = 0
-        self._attempts = KeyAttempts(clock)
         self._beat: Timer | None = None
         self._all_closed: Deferred[None] | None = None
 
@@ -122,6 +126,13 @@ class ClientHub:
     def send_status(self, aircraft: str) -> None:
         for page in self._pages.values():
             self._send_status(page, self.fleet[aircraft])
+
+    def sign_out(self, token: str) -> None:
+        """End a session; its pages lose control, and connect again to watch."""
+        self.sessions.end(token)
+        for page in list(self._pages.values()):
+            if token and page.session == token:
+                self._evict(page, GOING_AWAY, "signed out")
 
     # Called by a page's link.
 
@@ -194,6 +205,9 @@ class ClientHub:
             self._aircraft(message).on_control(page, action, message.optional_whole("to"))
         elif kind == "command":
             self._aircraft(message).on_command(page, message)
+        elif kind == "pair":
+            ask = message.whole("ask")
+            Deferred.fromCoroutine(self._pair(link, page, ask, message))
         elif kind in ("plan.upload", "plan.download"):
             self._aircraft(message).on_plan(page, kind, message)
         elif kind in ("plan.read", "plan.write"):
@@ -213,12 +227,16 @@ class ClientHub:
 
     def _on_hello(self, link: PageLink, connection: _Connection, message: Reader) -> None:
         name = " ".join(sanitize_text(message.optional_text("name") or "", 40).split())
-        key = message.optional_text("key", 200)
         token = message.optional_text("token", 64) or ""
         connection.timer.cancel()
         connection.is_greeting = True
         former = self._with_token(token)
-        denial = self._denial(link, key, former)
+        if not self.sessions.use(link.session):
+            link.session = ""
+        denial = self.access.denial(bool(link.session))
+        if former is not None and former.may_control and denial is not None:
+            # The token names a page; the right to control is that of the session.
+            former = None
         if former is None:
             self._welcome_new(link, name, denial)
         elif former.link is None:
@@ -241,19 +259,6 @@ class ClientHub:
 
             old.is_alive(ALIVE_S, decide)
 
-    def _denial(
-        self, link: PageLink, key: str | None, former: ClientSession | None
-    ) -> Denial | None:
-        denial = self._access.denial(key)
-        # A page that may control has shown before that it knows the key.
-        is_known = former is not None and former.may_control
-        if key is None or self._access.is_watch_only or is_known:
-            return denial
-        if self._attempts.permits(link.host, denial is None):
-            return denial
-        text = "too many wrong keys from this address: load the page again in a minute"
-        return Denial("too_many_keys", text)
-
     def _with_token(self, token: str) -> ClientSession | None:
         given = token.encode("utf-8", "replace")
         found = None
@@ -263,33 +268,33 @@ class ClientHub:
         return found
 
     def _welcome_new(self, link: PageLink, name: str, denial: Denial | None) -> None:
-        limit = PAGES_LIMIT if self._access.is_watch_only else WATCHERS_LIMIT
+        limit = PAGES_LIMIT if self.access.is_watch_only else WATCHERS_LIMIT
         try:
             leaving = admit_page(self._pages.values(), denial is None, limit)
         except AdmissionError as error:
             self._reject(link, str(error))
             return
         if leaving is not None:
-            self._evict(leaving)
+            self._evict(leaving, LATER, "a page that may control needs the place")
         self._number += 1
         number = self._number
         page = ClientSession(number, name or f"page {number}", secrets.token_hex(16), denial)
         self._pages[number] = page
         self._welcome(link, page)
 
-    def _evict(self, page: ClientSession) -> None:
+    def _evict(self, page: ClientSession, code: int, reason: str) -> None:
         link, page.link = page.link, None
         cancel(self._timers.get(page.number))
         if link is not None:
-            self._reject(link, "a page that may control needs the place")
+            self._reject(link, reason, code)
             for aircraft in self.fleet.values():
                 aircraft.on_away(page)
         self._drop(page)
 
-    def _reject(self, link: PageLink, reason: str) -> None:
+    def _reject(self, link: PageLink, reason: str, code: int = LATER) -> None:
         connection = self._connections.pop(link)
         cancel(connection.timer)
-        link.close(LATER, reason)
+        link.close(code, reason)
 
     def _welcome_back(
         self, link: PageLink, page: ClientSession, name: str, denial: Denial | None
@@ -304,6 +309,7 @@ class ClientHub:
         max_bytes = MAX_PLAN_BYTES if page.may_control else MAX_MESSAGE_BYTES
         link.admit(max_bytes)
         page.link = link
+        page.session = link.session
         # A reloaded page restarts its numbers at one; its old numbers are void.
         page.asks = {}
         self._connections[link].page = page
@@ -317,6 +323,7 @@ class ClientHub:
                 "version": VERSION,
                 "aircraft": list(self.fleet),
                 "may_control": denial is None,
+                "signed_in": bool(page.session),
                 "denial": None if denial is None else {"code": denial.code, "text": denial.text},
                 "tiles": self._tiles,
                 "is_replay": self._is_replay,
@@ -328,6 +335,33 @@ class ClientHub:
             page.send_bytes(self._catalogue)
         for aircraft in self.fleet.values():
             self.send_status(aircraft.name)
+
+    async def _pair(self, link: PageLink, page: ClientSession, ask: int, message: Reader) -> None:
+        """Give this ground station the key in a pairing text, and answer the page."""
+        answer: dict[str, Any] = {"type": "pair.answer", "ask": ask, "outcome": "ack"}
+        try:
+            pairing = self._pairing(link, page, message)
+            await self.fleet[pairing.aircraft].pair(page, pairing)
+            answer |= {"aircraft": pairing.aircraft, "key": pairing.name, "role": pairing.role}
+        except (PageFault, UserError, OSError) as error:
+            code = getattr(error, "code", "os_error")
+            reason = sanitize_text(str(error), 300)
+            answer |= {"outcome": "refused", "code": code, "reason": reason}
+        page.send(answer)
+
+    def _pairing(self, link: PageLink, page: ClientSession, message: Reader) -> Pairing:
+        if not page.may_control:
+            raise PageFault(f"this page may only watch: {page.denial}", "watch_only")
+        if not link.may_send_secrets:
+            text = "others may read this connection: pair by HTTPS, or on the server's own machine"
+            raise PageFault(text, "not_private")
+        pairing = parse_pairing(message.text("pairing", MAX_PAIRING))
+        if pairing is None:
+            raise PageFault("this is not a pairing text of 'up keys add'", "pairing_invalid")
+        if pairing.aircraft not in self.fleet:
+            text = f"the key is for {pairing.aircraft}, which this server does not show"
+            raise PageFault(text, "unknown_aircraft")
+        return pairing
 
     def _on_watch(self, page: ClientSession, aircraft: AircraftSource) -> None:
         page.watched = aircraft.name
@@ -354,6 +388,8 @@ class ClientHub:
 
     def _on_second(self) -> None:
         self._beat = self._clock.callLater(1.0, self._on_second)
+        for page in self.all():
+            self.sessions.use(page.session)
         for aircraft in self.fleet.values():
             aircraft.on_second()
             self.send_status(aircraft.name)

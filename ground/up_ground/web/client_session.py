@@ -127,6 +127,8 @@ class ClientSession:
         self.token = token
         self.denial = denial
         self.watched = ""
+        self.session = ""
+        """The token of the session in which it signed in; empty: it has none."""
         self.link: PageLink | None = None
         self.asks: dict[int, Ask] = {}
 

@@ -23,11 +23,10 @@ class ListenAddress:
         """Return whether only users of this machine reach it."""
         return not is_wildcard(self.host) and ip_address(self.host).is_loopback
 
-    def urls(self, port: int, key: str | None, scheme: str = "http") -> list[str]:
+    def urls(self, port: int, scheme: str) -> list[str]:
         """Return the URL for a browser; ``port`` is the one that was opened in the end."""
         hosts = _own_addresses(":" in self.host) if is_wildcard(self.host) else [self.host]
-        fragment = f"#key={key}" if key else ""
-        return [f"{scheme}://{authority(host, port)}/{fragment}" for host in hosts]
+        return [f"{scheme}://{authority(host, port)}/" for host in hosts]
 
 
 def authority(host: str, port: int) -> str:

@@ -11,6 +11,7 @@ from twisted.internet.interfaces import IAddress
 
 from up.protocols.tcp_options import watch_peer
 from up_ground.web.client_session import PageSendBuffer
+from up_ground.web.sessions import token_of
 
 if TYPE_CHECKING:
     from up_ground.web.client_hub import ClientHub
@@ -29,14 +30,25 @@ class PageLink(WebSocketServerProtocol):
     transport: Any
     host: str
     """Its remote address."""
+    session = ""
+    """The token in its cookie."""
+    may_send_secrets = False
 
-    def __init__(self, owner: ClientHub, clock: Any) -> None:
+    def __init__(self, owner: ClientHub, clock: Any, is_https: bool) -> None:
         super().__init__()
+        self._is_https = is_https
         self.output = PageSendBuffer(self._on_overrun)
         self._owner = owner
         self._clock = clock
         self._is_open = False
         self._asked: dict[bytes, Callable[[bool], object]] = {}
+
+    def onConnect(self, request: Any) -> None:  # noqa: N802 - the library's name
+        self.host = str(self.transport.getPeer().host)
+        self.session = token_of(request.headers.get("cookie"), self.transport.getHost().port)
+        self.may_send_secrets = self._owner.access.permits_secrets(
+            self.host, request.headers.get("origin"), self._is_https
+        )
 
     def onOpen(self) -> None:  # noqa: N802 - the library's name
         # The transport of the HTTP request is still registered there.
@@ -44,7 +56,6 @@ class PageLink(WebSocketServerProtocol):
         watch_peer(self.transport, USER_TIMEOUT_MS)
         self.output.start(self.transport)
         self._is_open = True
-        self.host = str(self.transport.getPeer().host)
         self._owner.on_opened(self)
 
     def admit(self, max_bytes: int) -> None:
@@ -103,11 +114,12 @@ class PageLink(WebSocketServerProtocol):
 class _Factory(WebSocketServerFactory):
     noisy = False
 
-    def __init__(self, reactor: Any, owner: ClientHub) -> None:
+    def __init__(self, reactor: Any, owner: ClientHub, is_https: bool) -> None:
         super().__init__(  # type: ignore[no-untyped-call]
             reactor=reactor, server="up-ground"
         )
         self._owner = owner
+        self._is_https = is_https
         configure: Any = self.setProtocolOptions
         configure(
             webStatus=False,
@@ -122,11 +134,11 @@ class _Factory(WebSocketServerFactory):
         )
 
     def buildProtocol(self, addr: IAddress | None) -> PageLink:  # noqa: N802 - Twisted's name
-        link = PageLink(self._owner, self.reactor)
+        link = PageLink(self._owner, self.reactor, self._is_https)
         link.factory = self
         return link
 
 
-def link_resource(reactor: Any, owner: ClientHub) -> WebSocketResource:
+def link_resource(reactor: Any, owner: ClientHub, is_https: bool) -> WebSocketResource:
     """Return the resource that upgrades a request; Host and Origin are checked before."""
-    return WebSocketResource(_Factory(reactor, owner))
+    return WebSocketResource(_Factory(reactor, owner, is_https))

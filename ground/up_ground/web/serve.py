@@ -7,7 +7,6 @@ import importlib
 import importlib.util
 import os
 import re
-import secrets
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
@@ -16,7 +15,7 @@ from up.cli.cli_error import UsageError
 from up.system.aircraft_name import AIRCRAFT_NAME
 from up.tls.files import TLSFiles
 from up_ground.catalogue import Catalogue
-from up_ground.key_store import KeyStore
+from up_ground.key_store import KeyStore, page_key
 from up_ground.settings import Seat, Settings
 from up_ground.token_store import TokenStore, state_folder
 from up_ground.web.access import Access, machine_names
@@ -85,6 +84,8 @@ class PageOptions:
     make_tiles: MakeTiles | None
     attribution: str
     https: TLSFiles | None = None
+    key_place: str = ""
+    """Where a user finds the key of the page; empty: none is needed."""
 
     @classmethod
     def of(cls, options: argparse.Namespace, environ: Mapping[str, str]) -> PageOptions:
@@ -102,13 +103,16 @@ class PageOptions:
         except ValueError as error:
             raise UsageError(str(error), "invalid_listen") from None
         # On loopback a key is needed only if one is given.
-        key = options.key or (None if listen.is_loopback else secrets.token_urlsafe(12))
+        key, place = options.key, "the key of --key" if options.key else ""
+        if key is None and not listen.is_loopback and not options.watch_only:
+            key, place = page_key(state_folder(environ))
+        place = "" if options.watch_only else place
         access = Access(machine_names(options.name or ()), key, options.watch_only)
         https = None if options.https is None else TLSFiles(options.https)
         if https is not None:
             https.server(clients=False)
         tiles = _tiles_of(options.tiles, environ)
-        return cls(listen, access, tiles, options.attribution, https)
+        return cls(listen, access, tiles, options.attribution, https, place)
 
     def server(self, reactor: Any, make_sources: Any, **more: Any) -> Any:
         server = importlib.import_module("up_ground.web.server")
@@ -121,6 +125,7 @@ class PageOptions:
             tiles=tiles,
             attribution=self.attribution,
             https=self.https,
+            key_place=self.key_place,
             **more,
         )
 
@@ -148,6 +153,9 @@ def make_sessions(
     catalogue: Catalogue,
 ) -> Iterable[AircraftSource]:
     """Yield an aircraft for each of the settings."""
+    keys = KeyStore(state_folder(environ))
     for settings in chosen:
         tokens = TokenStore(state_folder(environ), settings)
-        yield AircraftSession(reactor, settings.aircraft, settings, tokens, catalogue, subscribers)
+        yield AircraftSession(
+            reactor, settings.aircraft, settings, tokens, catalogue, subscribers, keys
+        )

@@ -19,6 +19,7 @@ from up_ground.web.client_hub import ClientHub
 from up_ground.web.connections import Connections
 from up_ground.web.listen_address import ListenAddress, authority
 from up_ground.web.page_link import link_resource
+from up_ground.web.sign_in import SignIn
 from up_ground.web.site import GroundResource, make_site
 from up_ground.web.static_files import StaticFiles
 
@@ -46,6 +47,7 @@ class Server(OneShotTask):
         is_replay: bool = False,
         folder: Path = STATIC,
         https: TLSFiles | None = None,
+        key_place: str = "",
     ) -> None:
         super().__init__()
         told = None
@@ -58,13 +60,13 @@ class Server(OneShotTask):
             self.pages.fleet[aircraft.name] = aircraft
         self._reactor = reactor
         self._listen = listen
-        self._access = access
         self._tiles = tiles
-        link = link_resource(reactor, self.pages)
-        files = StaticFiles(folder)
-        resource = GroundResource(access, files, link, tiles)
-        self._factory: Any = Connections(reactor, make_site(reactor, resource))
         self._is_https = https is not None
+        self._key_place = key_place
+        link = link_resource(reactor, self.pages, self._is_https)
+        sign_in = SignIn(self.pages, self._is_https)
+        resource = GroundResource(access, StaticFiles(folder), link, tiles, sign_in)
+        self._factory: Any = Connections(reactor, make_site(reactor, resource))
         if https is not None:
             self._factory = TLSServerFactory(reactor, https, self._factory, clients=False)
         self._port: Any = None
@@ -104,11 +106,14 @@ class Server(OneShotTask):
     def _print_addresses(self, port: int) -> None:
         for aircraft in self.pages.fleet.values():
             self.echo(f"  {aircraft.summary}", "aircraft", name=aircraft.name)
-        key = None if self._access.is_watch_only else self._access.key
-        urls = self._listen.urls(port, key, "https" if self._is_https else "http")
+        urls = self._listen.urls(port, "https" if self._is_https else "http")
         self.echo(f"open {urls[0]}", "page_open", url=urls[0])
         for url in urls[1:]:
             self.echo(f"  or {url}", "page_address", url=url)
-        if key:
-            self.echo("the part after # lets a page control; without it a page only watches")
+        if self._key_place:
+            text = f"a page signs in with {self._key_place}; without it a page only watches"
+            self.echo(text, "page_key")
+        if not self._is_https and not self._listen.is_loopback:
+            text = "not encrypted: others on the network may read the key; --https DIR protects it"
+            self.echo(text, "page_plain")
         self.echo("Ctrl-C ends it", "ready")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from http import HTTPStatus
 from typing import TYPE_CHECKING, Any
 
 from twisted.web import http
@@ -31,9 +32,14 @@ HEADERS = {
 }
 MISDIRECTED_REQUEST = 421
 UPGRADE_REQUIRED = 426
-_WORDS = {MISDIRECTED_REQUEST: b"Misdirected Request", UPGRADE_REQUIRED: b"Upgrade Required"}
+_WORDS = {
+    MISDIRECTED_REQUEST: b"Misdirected Request",
+    UPGRADE_REQUIRED: b"Upgrade Required",
+    HTTPStatus.TOO_MANY_REQUESTS: b"Too Many Requests",
+}
 """Those that Twisted has no words for."""
 LINK = b"/link"
+SESSION = b"/session"
 TILES = b"/tiles/"
 _BODY_REFUSED = (
     b"HTTP/1.1 413 Content Too Large\r\nServer: up-ground\r\nConnection: close\r\n"
@@ -53,8 +59,10 @@ class GroundResource(Resource):
         files: StaticFiles,
         link: Any,
         tiles: TileSource | None = None,
+        sign_in: Any = None,
     ) -> None:
         super().__init__()  # type: ignore[no-untyped-call]
+        self._sign_in = sign_in
         self._access = access
         self._files = files
         self._link = link
@@ -63,12 +71,17 @@ class GroundResource(Resource):
     def render(self, request: Any) -> Any:
         for name, value in HEADERS.items():
             request.setHeader(name, value)
-        if not self._access.permits_host(_only(request, b"host")):
+        if not self._access.permits_host(only(request, b"host")):
             return refuse(
                 request,
                 MISDIRECTED_REQUEST,
                 "unknown host name: open this server by its address, or start it with --name",
             )
+        if b"key" in request.args:
+            text = "a key does not belong into an address: open this page without it and sign in"
+            return refuse(request, http.BAD_REQUEST, text)
+        if request.path == SESSION and self._sign_in is not None:
+            return self._refusal_of_origin(request) or self._sign_in.render(request)
         if request.method not in (b"GET", b"HEAD"):
             request.setHeader(b"allow", b"GET, HEAD")
             return refuse(request, http.NOT_ALLOWED, "only GET and HEAD")
@@ -79,17 +92,19 @@ class GroundResource(Resource):
         return self._render_file(request)
 
     def _render_link(self, request: Any) -> Any:
-        upgrade = _only(request, b"upgrade") or ""
+        upgrade = only(request, b"upgrade") or ""
         if request.method != b"GET" or upgrade.casefold() != "websocket":
             request.setHeader(b"upgrade", b"websocket")
             return refuse(request, UPGRADE_REQUIRED, "this address is a WebSocket")
+        return self._refusal_of_origin(request) or self._link.render(request)
+
+    def _refusal_of_origin(self, request: Any) -> bytes | None:
+        """Refuse the page of another site; None: it is from here, or from a program."""
         origins = request.requestHeaders.getRawHeaders(b"origin", [])
-        origin = _only(request, b"origin")
-        if (origins and origin is None) or not self._access.permits_origin(
-            origin, _only(request, b"host")
-        ):
+        origin, host = only(request, b"origin"), only(request, b"host")
+        if (origins and origin is None) or not self._access.permits_origin(origin, host):
             return refuse(request, http.FORBIDDEN, "a page of another site may not connect")
-        return self._link.render(request)
+        return None
 
     def _render_file(self, request: Any) -> Any:
         found = self._files.get(request.path)
@@ -159,7 +174,7 @@ def finish(request: Any, content: bytes) -> None:
     request.finish()
 
 
-def _only(request: Any, name: bytes) -> str | None:
+def only(request: Any, name: bytes) -> str | None:
     """Return a header that occurs once; None: absent, repeated, or not text."""
     values = request.requestHeaders.getRawHeaders(name, [])
     if len(values) != 1:

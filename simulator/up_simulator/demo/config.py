@@ -30,12 +30,14 @@ def write_config(
     airframe: Airframe,
     uplink_port: int = 0,
     is_at_start: bool = True,
+    is_plain: bool = False,
 ) -> None:
     """Write the files of a run; gains that an earlier run of the same airframe saved stay.
 
     ``controller`` (arduino or raspberry) holds the attitude: nothing else differs. The aircraft
     finds the proxy at ``uplink_port`` if a bad link lies between them. ``is_at_start``: it is
-    launched above the simulator's usual place, whose ground is home.
+    launched above the simulator's usual place, whose ground is home. ``is_plain``: everyone who
+    reaches the proxy may arm and tune, otherwise only devices with a key.
     """
     folder.mkdir(parents=True, exist_ok=True)
     files = {
@@ -48,9 +50,8 @@ def write_config(
             "remote_server:\n"
             "  url: 127.0.0.1\n"
             f"  port: {uplink_port or ports.airborne}\n"
-            "# Only this machine reaches loopback: the ground may arm and tune.\n"
-            "role: pilot\n"
-            "tune_in_flight: true\n"
+            + ("role: pilot\n" if is_plain else "  security: require\n")
+            + "tune_in_flight: true\n"
         ),
         "navigation.yml": yaml.safe_dump(airframe.navigation, sort_keys=False),
         "proxy.yml": (

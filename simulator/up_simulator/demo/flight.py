@@ -11,9 +11,11 @@ from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
+from up_ground.token_store import STATE_VARIABLE
 from up_simulator.aircraft import load_airframe
 from up_simulator.demo.config import FLIGHTS, write_config
 from up_simulator.demo.hints import hints, log_hints, recordings
+from up_simulator.demo.keys import pair_ground, unpair_ground
 from up_simulator.demo.page import Page
 from up_simulator.harness.child import Child
 from up_simulator.harness.participants import ParticipantError
@@ -41,13 +43,14 @@ DESCRIPTIONS = {
 class DemoFlight:
     """One run: ``start`` prints the components, ``watch`` watches them, ``stop`` ends all of them.
 
-    Raises ``AirframeError``, and ``ParticipantError`` with the last
-    log lines of a part that failed.
+    Raises ``AirframeError``, ``UserError`` for faulty files of keys, and ``ParticipantError`` with
+    the last log lines of a part that failed.
     """
 
     def __init__(self, options: argparse.Namespace, folder: Path, root: Path, log: Log) -> None:
         self._options = options
         self._folder = folder
+        self._state = folder / "ground"
         self._root = root
         self._log = log
         self._children: list[Child] = []
@@ -65,15 +68,17 @@ class DemoFlight:
         log(f"all on this machine. Configuration and logs: {folder}")
         self._ports = ports = choose_ports(options.any_ports)
         self._write_config()
+        keys = self._pair()
         aircraft = self._start_aircraft()
         proxy = self._add("proxy", "-m", "up_proxy.main", "--config", folder / "config")
         proxy.wait_for("port_open", START_LIMIT_S, side="ground")
         log(f"  proxy      aircraft on port {ports.airborne}, ground on port {ports.ground}")
+        log(f"  keys       {keys}")
         if options.link:
             log(f"  link       from the aircraft to the proxy: {options.link}")
         if not options.no_page:
             # The parts that fly do not wait for it.
-            self._page = Page(folder, ports, options.page)
+            self._page = Page(folder, ports, self._state, options.page)
             self._children.append(self._page.child)
         aircraft.wait_for("board_selected", BUILD_LIMIT_S, on_line=self._log_part)
         daemon = self._daemon = self._start_daemon()
@@ -86,7 +91,7 @@ class DemoFlight:
             daemon.wait_for("source_selected", START_LIMIT_S, reading="orientation")
         address = None if self._page is None else self._show_page(self._page)
         log(f"It flies. {DESCRIPTIONS[options.controller]}")
-        for line in hints(ports, folder, address):
+        for line in hints(ports, folder, self._state, address):
             log(line)
 
     def watch(self) -> None:
@@ -146,6 +151,8 @@ class DemoFlight:
         address = page.wait_for_address()
         if address is not None:
             self._log(f"  page       {address}  the ground station in a browser")
+            for note in page.notes:
+                self._log(f"             {note}")
         else:
             page.child.terminate()
             self._children.remove(page.child)
@@ -174,6 +181,18 @@ class DemoFlight:
             airframe=self._airframe,
             uplink_port=self._ports.uplink if self._options.link else 0,
             is_at_start=not self._options.replay,
+            is_plain=self._options.plain,
+        )
+
+    def _pair(self) -> str:
+        """Give the ground station its key, or none; return how the link is protected."""
+        if self._options.plain:
+            unpair_ground(self._state)
+            return "none (--plain): everyone who reaches the proxy may command the aircraft"
+        key = pair_ground(self._folder / "config", self._state)
+        return (
+            f"the link is protected end to end; this ground station's key: {key.name} ({key.role})."
+            "\n             No TLS: all parts are on this machine. ARGS=--plain flies without keys"
         )
 
     def _start_daemon(self, *, resumes: bool = False) -> Child:
@@ -218,7 +237,13 @@ class DemoFlight:
         if self._options.radio == "keyboard":
             words = ["-m", "up_simulator", "radio", "keyboard", "--socket"]
             words.append(str(self._folder / "radio"))
-        child = Child("ground", [sys.executable, *words], self._folder, in_foreground=True)
+        child = Child(
+            "ground",
+            [sys.executable, *words],
+            self._folder,
+            in_foreground=True,
+            environment={STATE_VARIABLE: str(self._state)},
+        )
         self._children.append(child)
         return child
 

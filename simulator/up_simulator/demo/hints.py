@@ -7,14 +7,18 @@ import shlex
 import sys
 from pathlib import Path
 
+from up_ground.token_store import STATE_VARIABLE
 from up_simulator.harness.ports import Ports
 
 LAST_HINT = "Ctrl-C stops everything."
 """The last line of the start-up."""
 
 
-def hints(ports: Ports, folder: Path, page: str | None) -> list[str]:
-    """Return the suggestions; ``page`` is the address of the ground station for a browser."""
+def hints(ports: Ports, folder: Path, state: Path, page: str | None) -> list[str]:
+    """Return the suggestions; ``page`` is the address of the ground station for a browser.
+
+    ``state`` is the folder with the ground station's key.
+    """
     ground, sim = program("up-ground"), program("up-sim")
     port = "" if ports.ground == 3004 else f" --port {ports.ground}"
     socket = "" if folder == Path.cwd() / "run/demo" else f" --socket {folder / 'radio'}"
@@ -25,6 +29,7 @@ def hints(ports: Ports, folder: Path, page: str | None) -> list[str]:
     return [
         *(in_browser if page is not None else []),
         "Try, in another terminal:",
+        f"  export {state_setting(state)}     the key of this run",
         f"  {ground} watch{port}",
         f"  {ground} send{port} up.telemetry.frequency frequency=200",
         f"  {ground} send{port} arduino.pids.tunings request=true   the gains; see the guide",
@@ -36,6 +41,12 @@ def hints(ports: Ports, folder: Path, page: str | None) -> list[str]:
         f"  {sim} fly save       a scenario: the pilot takes over",
         LAST_HINT,
     ]
+
+
+def state_setting(state: Path) -> str:
+    """Return the shell's assignment that lets up-ground use the keys in a folder."""
+    here = os.path.relpath(state) if state.is_relative_to(Path.cwd()) else str(state)
+    return f"{STATE_VARIABLE}={shlex.quote(here)}"
 
 
 def recordings(flights: Path) -> set[Path]:

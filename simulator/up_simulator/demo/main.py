@@ -83,6 +83,8 @@ def _fly(options: argparse.Namespace, folder: Path) -> int:
     except AirframeError as error:
         # Before anything was started.
         return _fail(f"make run: {error}", WRONG_INPUT, "airframe")
+    except UserError as error:
+        return _fail(f"make run: {error}", WRONG_INPUT, error.code)
     except (ParticipantError, OSError) as error:
         failure = str(error)
     finally:
@@ -146,6 +148,7 @@ def read_options(arguments: Sequence[str] | None) -> argparse.Namespace:
         default="auto",
         help="the phone: java, the app's own Up Library; python, a stub; default auto",
     )
+    parser.add_argument("--plain", action="store_true", help="fly without end-to-end keys")
     parser.add_argument("--folder", type=Path, help="for configuration and logs (run/demo)")
     parser.add_argument(
         "--seconds", type=_seconds, help="stop after this many seconds; default: at Ctrl-C"

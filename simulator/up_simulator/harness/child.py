@@ -9,7 +9,7 @@ import signal
 import subprocess
 import sys
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import IO, Any
 
@@ -43,15 +43,17 @@ class Child:
         in_foreground: bool = False,
         is_piped: bool = False,
         death_signal: int = signal.SIGTERM,
+        environment: Mapping[str, str] | None = None,
     ) -> None:
         self.name = name
         self.log = folder / f"{name}.log"
         self._pid_file = folder / f"{name}.pid"
         self._start_at = 0
-        environment = {**os.environ, "PYTHONUNBUFFERED": "1", VARIABLE: str(self._pid_file)}
+        variables = {**os.environ, "PYTHONUNBUFFERED": "1", VARIABLE: str(self._pid_file)}
+        variables |= environment or {}
         output = None
         if not in_foreground:
-            environment |= JSON_ENVIRONMENT
+            variables |= JSON_ENVIRONMENT
             output = self.log.open("ab")
             self._start_at = output.tell()
         self._read_at = self._start_at
@@ -61,7 +63,7 @@ class Child:
                 stdin=_input_of(in_foreground, is_piped),
                 stdout=subprocess.PIPE if is_piped else output,
                 stderr=output if is_piped else subprocess.STDOUT if output else None,
-                env=environment,
+                env=variables,
                 start_new_session=not in_foreground,
                 preexec_fn=request_death_signal(death_signal),
             )

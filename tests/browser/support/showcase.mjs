@@ -19,6 +19,11 @@ export class Showcase {
     return this._folder.path;
   }
 
+  /** The folder with its ground station's key. */
+  get state() {
+    return join(this.folder, "ground");
+  }
+
   /** Where the radio's sticks are taken over. */
   get radio() {
     return join(this.folder, "radio");

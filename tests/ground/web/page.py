@@ -31,12 +31,15 @@ class _Client(WebSocketClientProtocol):
 class Page:
     """Keeps its received messages; `send` sends, the coroutines wait."""
 
-    def __init__(self, port, origin=None, host="127.0.0.1"):
+    def __init__(self, port, origin=None, host="127.0.0.1", cookie=""):
         self.port, self.told = port, []
         self.is_open = self.is_closed = False
         self.code, self.why = None, ""
         self.factory = WebSocketClientFactory(
-            f"ws://{host}:{port}/link", origin=origin, reactor=reactor
+            f"ws://{host}:{port}/link",
+            origin=origin,
+            reactor=reactor,
+            headers={"Cookie": cookie} if cookie else None,
         )
         self.factory.noisy = False
         self.factory.protocol = _Client
@@ -148,6 +151,12 @@ def get(port, path, method="GET", **headers):
     except urllib.error.HTTPError as error:
         with error:
             return error.code, error.headers, error.read()
+
+
+def sign_in(port, key, **headers):
+    """Return (status, cookie) of an attempt to sign in; the cookie is empty without success."""
+    status, answer, _ = get(port, "/session", "POST", Authorization=f"Bearer {key}", **headers)
+    return status, (answer["Set-Cookie"] or "").partition(";")[0]
 
 
 def with_pages(server, look, *names):

@@ -73,16 +73,40 @@ def test_only_the_servers_own_page_opens_a_link(origin, permitted):
     assert ACCESS.permits_origin(origin, "127.0.0.1:8080") is permitted
 
 
-@pytest.mark.parametrize("key", [None, "", "wrong-key", "right-ke", "right-key ", 7, "\ud800"])
-def test_without_the_key_a_page_watches(key):
-    assert ACCESS.denial(key).code == ("wrong_key" if isinstance(key, str) else "no_key")
+@pytest.mark.parametrize("key", ["", "wrong-key", "right-ke", "right-key ", "\ud800"])
+def test_another_key_is_wrong(key):
+    assert not ACCESS.is_key(key)
+    assert not Access().is_key(key)
 
 
-def test_with_the_key_it_controls():
-    assert ACCESS.denial("right-key") is None
-    assert Access().denial(None) is None
+def test_who_has_shown_the_key_controls():
+    assert ACCESS.is_key("right-key")
+    assert ACCESS.denial(is_signed_in=True) is None
+    assert ACCESS.denial(is_signed_in=False).code == "no_key"
+    assert Access().denial(is_signed_in=False) is None
     access = Access(key="right-key", is_watch_only=True)
-    assert access.denial("right-key").code == "watch_only"
+    assert access.denial(is_signed_in=True).code == "watch_only"
+
+
+@pytest.mark.parametrize(
+    ("peer", "origin", "is_https", "permitted"),
+    [
+        ("127.0.0.1", "http://127.0.0.1:8080", False, True),
+        ("::1", "http://[::1]:8080", False, True),
+        ("127.0.0.1", "http://localhost:8080", False, True),
+        ("127.0.0.1", None, False, True),
+        ("127.0.0.1", "https://ground.local", False, True),
+        ("192.168.1.5", "https://192.168.1.9:8080", True, True),
+        ("192.168.1.5", "http://192.168.1.9:8080", False, False),
+        ("192.168.1.5", "http://127.0.0.1:8080", False, False),
+        ("192.168.1.5", "https://ground.local", False, False),
+        ("192.168.1.5", None, False, False),
+        ("127.0.0.1", "http://ground.local", False, False),
+        ("127.0.0.1", "http://192.168.1.9:8080", False, False),
+    ],
+)
+def test_secrets_come_by_https_or_from_this_machine(peer, origin, is_https, permitted):
+    assert ACCESS.permits_secrets(peer, origin, is_https) is permitted
 
 
 def test_the_machine_has_names():

@@ -25,6 +25,10 @@ from up_ground.web.client_hub import (
     ClientHub,
 )
 from up_ground.web.client_session import PAGES_LIMIT, WATCHERS_LIMIT
+from up_ground.web.sessions import MAX_SESSIONS, UNUSED_S, SignInError
+
+KEY = "the-right-key"
+PAIRING = f"upkey:1:kite:{'1' * 16}:{'2' * 64}:pilot:tablet"
 
 
 class Output:
@@ -47,6 +51,7 @@ class Link:
     def __init__(self, host="192.0.2.1"):
         self.output, self.closed, self.alive = Output(), None, True
         self.host, self.is_admitted = host, False
+        self.session, self.may_send_secrets = "", True
 
     def admit(self, max_bytes):
         self.is_admitted, self.max_bytes = True, max_bytes
@@ -94,6 +99,9 @@ class Kite(AircraftSource):
         message.object("data")
         message.optional_whole("beacon")
 
+    async def pair(self, page, pairing):
+        self.heard.append(("pair", pairing.name))
+
     def on_replay(self, page, action, message):
         message.number("value")
 
@@ -111,12 +119,24 @@ class Bench:
         self.kite = Kite()
         self.pages.fleet["kite"] = self.kite
 
-    def open(self, hello=True, host="192.0.2.1", **more):
+    def open(self, hello=True, host="192.0.2.1", session="", **more):
         link = Link(host)
+        link.session = session
         self.pages.on_opened(link)
         if hello:
             self.send(link, type="hello", name="Ann", **more)
         return link
+
+    def sign_in(self, host="192.0.2.1"):
+        return self.pages.sessions.sign_in(host, KEY)
+
+    def denial(self, key, host):
+        """Return the code with which a key is refused; None: it opens a session."""
+        try:
+            self.pages.sessions.sign_in(host, key)
+        except SignInError as error:
+            return error.code
+        return None
 
     def send(self, link, **fields):
         self.pages.on_message(link, json.dumps(fields).encode())
@@ -217,7 +237,7 @@ _VALUES = st.recursive(
     ),
     max_leaves=12,
 )
-_KINDS = st.sampled_from(["hello", "watch", "control", "command", "replay", "ping", "x"])
+_KINDS = st.sampled_from(["hello", "watch", "control", "command", "replay", "ping", "pair", "x"])
 _KEYS = st.sampled_from(
     ["aircraft", "action", "to", "ask", "name", "data", "beacon", "value", "ping", "key", "token"]
 )
@@ -227,7 +247,7 @@ _FIELDS = st.dictionaries(_KEYS, _VALUES | st.sampled_from(["kite", "request", "
 @settings(max_examples=120, deadline=None)
 @given(st.lists(st.tuples(_KINDS, _FIELDS), max_size=5))
 def test_whatever_a_page_says_is_answered_or_done(said):
-    bench = Bench(key="the-right-key")
+    bench = Bench(key=KEY)
     link = bench.open()
     for kind, fields in said:
         bench.pages.on_message(link, json.dumps({**fields, "type": kind}).encode())
@@ -300,28 +320,28 @@ def test_the_page_that_comes_back_finds_its_place_in_a_full_house(bench):
 
 
 def test_only_a_page_that_may_control_sends_a_whole_plan():
-    bench = Bench(key="the-right-key")
-    watcher, pilot = bench.open(), bench.open(key="the-right-key")
+    bench = Bench(key=KEY)
+    watcher, pilot = bench.open(), bench.open(session=bench.sign_in())
     assert (watcher.max_bytes, pilot.max_bytes) == (1 << 16, 1 << 20)
     assert [each.told[0]["max_message"] for each in (watcher, pilot)] == [1 << 16, 1 << 20]
 
 
 def test_watchers_leave_places_for_those_who_may_control():
-    bench = Bench(key="the-right-key")
+    bench = Bench(key=KEY)
     watchers = [bench.open() for _ in range(WATCHERS_LIMIT)]
     assert bench.open().closed[0] == LATER
-    pilots = [bench.open(key="the-right-key") for _ in range(PAGES_LIMIT - WATCHERS_LIMIT)]
+    pilots = [bench.open(session=bench.sign_in()) for _ in range(PAGES_LIMIT - WATCHERS_LIMIT)]
     assert all(link.closed is None for link in (*watchers, *pilots))
     # A full house: the youngest watcher goes, and does not come back by its token.
-    assert bench.open(key="the-right-key").told[0]["may_control"] is True
+    assert bench.open(session=bench.sign_in()).told[0]["may_control"] is True
     assert watchers[-1].closed[0] == LATER
     assert all(link.closed is None for link in watchers[:-1])
     assert ("gone", WATCHERS_LIMIT) in bench.kite.heard
     bench.pages.on_closed(watchers[-1])
     assert bench.open(token=watchers[-1].told[0]["token"]).closed is not None
     for _ in range(WATCHERS_LIMIT - 1):
-        assert bench.open(key="the-right-key").closed is None
-    assert bench.open(key="the-right-key").closed[0] == LATER
+        assert bench.open(session=bench.sign_in()).closed is None
+    assert bench.open(session=bench.sign_in()).closed[0] == LATER
     assert len(bench.pages.all()) == PAGES_LIMIT
 
 
@@ -332,46 +352,133 @@ def test_where_nobody_may_control_all_places_are_for_watchers():
 
 
 def test_wrong_keys_are_limited_by_address():
-    bench = Bench(key="the-right-key")
-
-    def denial(key, host, **more):
-        link = bench.open(key=key, host=host, **more)
-        assert link.is_admitted
-        bench.pages.on_closed(link)
-        return (link.told[0]["denial"] or {}).get("code")
-
-    pilot = bench.open(key="the-right-key", host="2001:db8::1")
+    bench = Bench(key=KEY)
+    token = bench.sign_in("2001:db8::1")
     for number in range(MAX_ATTEMPTS):
         # One network of IPv6 is one address.
-        assert denial(f"guess-{number}", f"2001:db8::{number + 1:x}") == "wrong_key"
-    assert denial("guess", "2001:db8::99") == "too_many_keys"
+        assert bench.denial(f"guess-{number}", f"2001:db8::{number + 1:x}") == "wrong_key"
+    assert bench.denial("guess", "2001:db8::99") == "too_many_keys"
     # Otherwise a client that keeps guessing would see which guess was right.
-    assert denial("the-right-key", "2001:db8::1") == "too_many_keys"
-    assert denial("the-right-key", "2001:db8:0:1::1") is None
-    # A client that has shown the key before is not limited.
-    bench.pages.on_closed(pilot)
-    assert denial("the-right-key", "2001:db8::1", token=pilot.told[0]["token"]) is None
+    assert bench.denial(KEY, "2001:db8::1") == "too_many_keys"
+    assert bench.denial(KEY, "2001:db8:0:1::1") is None
+    # A page that has shown the key before is not limited.
+    assert bench.open(session=token, host="2001:db8::1").told[0]["may_control"]
     bench.clock.advance(1 / ATTEMPTS_RATE_HZ)
-    assert denial(None, "2001:db8::1") == "no_key"
-    assert denial("the-right-key", "2001:db8::1") is None
+    assert bench.denial(KEY, "2001:db8::1") is None
 
 
 def test_right_keys_of_one_address_use_nothing_up():
-    bench = Bench(key="the-right-key")
-    for _ in range(3 * MAX_ATTEMPTS):
-        link = bench.open(key="the-right-key")
-        assert link.told[0]["may_control"]
-        bench.pages.on_closed(link)
-        bench.clock.advance(KEPT_S)
+    bench = Bench(key=KEY)
+    assert [bench.denial(KEY, "192.0.2.1") for _ in range(3 * MAX_ATTEMPTS)] == [
+        None for _ in range(3 * MAX_ATTEMPTS)
+    ]
 
 
-def test_a_wrong_key_by_the_token_of_a_watcher_is_an_attempt_too():
-    bench = Bench(key="the-right-key")
-    link = bench.open()
-    for _ in range(MAX_ATTEMPTS + 1):
-        bench.pages.on_closed(link)
-        link = bench.open(key="guess", token=link.told[0]["token"])
-    assert link.told[0]["denial"]["code"] == "too_many_keys"
+@pytest.mark.parametrize("access", [{}, {"key": KEY, "is_watch_only": True}])
+def test_without_a_key_to_show_nobody_signs_in(access):
+    assert Bench(**access).denial(KEY, "192.0.2.1") == "no_sign_in"
+
+
+def test_an_unknown_token_is_no_session():
+    bench = Bench(key=KEY)
+    token = bench.sign_in()
+    for wrong in ("", token[:-1], token + "x", token.swapcase(), "\ud800"):
+        welcome = bench.open(session=wrong).told[0]
+        assert (welcome["may_control"], welcome["signed_in"]) == (False, False)
+    assert bench.sign_in() != token
+    welcome = bench.open(session=token).told[0]
+    assert (welcome["may_control"], welcome["signed_in"]) == (True, True)
+
+
+def test_a_session_ends_some_time_after_its_last_page():
+    bench = Bench(key=KEY)
+    bench.pages.start()
+    used, unused = bench.sign_in(), bench.sign_in()
+    link = bench.open(session=used)
+    for _ in range(4):
+        bench.clock.pump([1.0, UNUSED_S / 2 - 1.0])
+    bench.pages.on_closed(link)
+    bench.clock.advance(UNUSED_S - 1)
+    assert not bench.pages.sessions.use(unused)
+    assert bench.pages.sessions.use(used)
+    bench.clock.advance(UNUSED_S + 1)
+    assert not bench.pages.sessions.use(used)
+
+
+def test_of_too_many_sessions_the_least_used_ends():
+    bench = Bench(key=KEY)
+    first, second, *_ = [bench.sign_in() for _ in range(MAX_SESSIONS)]
+    assert bench.pages.sessions.use(first)
+    bench.sign_in()
+    assert not bench.pages.sessions.use(second)
+    assert bench.pages.sessions.use(first)
+    assert len(bench.pages.sessions._used_s) == MAX_SESSIONS
+
+
+def test_signing_out_takes_control_from_all_pages_of_the_session():
+    bench = Bench(key=KEY)
+    token, other = bench.sign_in(), bench.sign_in()
+    mine, tab, theirs, watcher = (bench.open(session=each) for each in (token, token, other, ""))
+    bench.pages.sign_out("")
+    bench.pages.sign_out(token)
+    assert [each.closed is None for each in (mine, tab, theirs, watcher)] == [0, 0, 1, 1]
+    assert [each for each in bench.kite.heard if each[0] == "gone"] == [("gone", 1), ("gone", 2)]
+    again = bench.open(session=token, token=mine.told[0]["token"])
+    assert again.told[0]["may_control"] is False
+
+
+def test_the_token_of_a_page_does_not_replace_its_session():
+    bench = Bench(key=KEY)
+    session = bench.sign_in()
+    pilot = bench.open(session=session)
+    token = pilot.told[0]["token"]
+    bench.pages.on_closed(pilot)
+    stranger = bench.open(token=token)
+    assert stranger.told[0]["page"] != pilot.told[0]["page"]
+    again = bench.open(session=session, token=token)
+    assert again.told[0]["page"] == pilot.told[0]["page"]
+
+
+def pair(bench, text=PAIRING, is_private=True, **more):
+    """Return the answer to a pairing text."""
+    link = bench.open(**more)
+    link.may_send_secrets = is_private
+    bench.send(link, type="pair", ask=1, pairing=text)
+    answer = link.told[-1]
+    assert (answer.pop("type"), answer.pop("ask")) == ("pair.answer", 1)
+    assert "2222" not in json.dumps(link.told)
+    return answer
+
+
+def test_a_page_that_may_control_pairs(bench):
+    assert pair(bench) == {
+        "outcome": "ack", "aircraft": "kite", "key": "tablet", "role": "pilot",
+    }  # fmt: skip
+    assert bench.kite.heard == [("pair", "tablet")]
+
+
+@pytest.mark.parametrize(
+    ("more", "code"),
+    [
+        ({"is_private": False}, "not_private"),
+        ({"text": PAIRING + " "}, None),
+        ({"text": PAIRING.replace("kite", "crow")}, "unknown_aircraft"),
+        ({"text": PAIRING.replace("pilot", "king")}, "pairing_invalid"),
+        ({"text": "x" * 301}, "invalid"),
+        ({"text": 7}, "invalid"),
+        ({"text": None}, "invalid"),
+    ],
+)
+def test_another_text_or_an_open_way_pairs_nothing(bench, more, code):
+    assert pair(bench, **more).get("code") == code
+    assert bool(bench.kite.heard) is (code is None)
+
+
+def test_a_page_that_only_watches_pairs_nothing():
+    bench = Bench(key=KEY)
+    assert pair(bench)["code"] == "watch_only"
+    assert pair(bench, session=bench.sign_in())["outcome"] == "ack"
+    assert bench.kite.heard == [("pair", "tablet")]
 
 
 def test_addresses_without_end_take_no_memory_without_end():

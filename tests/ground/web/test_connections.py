@@ -8,8 +8,9 @@ from twisted.internet.address import IPv4Address, IPv6Address
 from twisted.internet.protocol import Factory, Protocol
 from twisted.internet.task import Clock
 from twisted.internet.testing import StringTransportWithDisconnection
+from twisted.internet.threads import deferToThread
 
-from tests.ground.web.page import Page, Serve
+from tests.ground.web.page import Page, Serve, sign_in
 from tests.support.reactor import run_in_reactor, until
 from up_ground.web.access import Access
 from up_ground.web.connections import (
@@ -132,8 +133,10 @@ def test_slow_connections_keep_no_page_with_the_key_out(tmp_path):
     slow = []
 
     async def come():
-        page = Page(server.port)
-        welcome = await page.hello("pilot", watch=None, key=KEY)
+        status, cookie = await deferToThread(sign_in, server.port, KEY)
+        assert status == 204
+        page = Page(server.port, cookie=cookie)
+        welcome = await page.hello("pilot", watch=None)
         assert welcome["may_control"]
         await page.leave()
 

@@ -2,11 +2,15 @@ import signal
 
 import pytest
 import yaml
+from mission_control_cog.config import MISSION_CONTROL
 
 from raspilot.flight_controller.flight_memory import MEMORY, Place
 from up.config import PersistedFile
+from up.config.keys_file import KEYS, add_key, revoke_key
+from up_ground.key_store import KeyStore
 from up_simulator.aircraft import load_airframe
 from up_simulator.demo.config import write_config
+from up_simulator.demo.keys import pair_ground, unpair_ground
 from up_simulator.demo.main import main
 from up_simulator.harness.ports import Ports
 
@@ -146,3 +150,47 @@ def test_the_black_box_writes_into_the_folder_of_the_run(tmp_path):
     assert black_box == {"folder": str(folder / "flights")}
     board = yaml.safe_load((folder / "config" / "arduino.yml").read_text())
     assert board == {"port": str(folder / "config" / "board")}
+
+
+def mode(path):
+    return path.stat().st_mode & 0o777
+
+
+def test_the_ground_station_is_paired_once_and_other_devices_stay(tmp_path):
+    config, state = tmp_path / "config", tmp_path / "ground"
+    write(config)
+    ground = pair_ground(config, state)
+    assert (ground.name, ground.role) == ("ground", "pilot")
+    assert mode(config / "keys.yml") == mode(state / "keys.txt") == 0o600
+    add_key(config, "tablet", "observer")
+    assert pair_ground(config, state) == ground == KeyStore(state).get("default")
+    assert [each.name for each in KEYS.load(config).keys.values()] == ["ground", "tablet"]
+    revoke_key(config, "ground")
+    assert pair_ground(config, state).key_id != ground.key_id
+
+
+def test_plain_leaves_the_ground_station_without_a_key(tmp_path):
+    config, state = tmp_path / "config", tmp_path / "ground"
+    write(config)
+    pair_ground(config, state)
+    keyed = MISSION_CONTROL.load(config)
+    assert (keyed.remote_server.security, keyed.role) == ("require", "operator")
+    write(config, is_plain=True)
+    unpair_ground(state)
+    plain = MISSION_CONTROL.load(config)
+    assert (plain.remote_server.security, plain.role) == ("auto", "pilot")
+    assert KeyStore(state).all() == {}
+
+
+def test_keys_that_others_may_read_end_it(tmp_path, capsys):
+    config = tmp_path / "config"
+    config.mkdir()
+    (config / "keys.yml").write_text("keys: {}\n")
+    (config / "keys.yml").chmod(0o644)
+    before = {number: signal.getsignal(number) for number in SIGNALS}
+    try:
+        assert main(["--folder", str(tmp_path), "--any-ports"]) == 2
+    finally:
+        for number, handler in before.items():
+            signal.signal(number, handler)
+    assert "chmod 600" in capsys.readouterr().err

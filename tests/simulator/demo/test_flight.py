@@ -84,7 +84,8 @@ def test_a_killed_ground_station_does_not_end_the_flight(terminal):
     assert terminal.child("up_simulator")
     os.kill(terminal.child("\0serve\0"), signal.SIGKILL)
     terminal.wait_for("this starts it again: ")
-    command = terminal.wait_for("\n").split()
+    state, *command = terminal.wait_for("\n").split()
+    assert state.startswith("UP_GROUND_STATE=")
     assert Path(command[0]).name == "up-ground"
     # The same address as before: the pages that are open reconnect.
     listen = re.search(r"http://(127\.0\.0\.1:[0-9]+)", started)[1]

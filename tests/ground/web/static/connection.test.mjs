@@ -24,7 +24,7 @@ test("it says hello, and is open when it is welcomed", () => {
   page.start();
   assert.equal(page.isOpen, false);
   server.welcome();
-  assert.deepEqual(server.socket.sent[0], { type: "hello", name: "", key: null, token: null });
+  assert.deepEqual(server.socket.sent[0], { type: "hello", name: "", token: null });
   assert.equal(page.isOpen, true);
 });
 

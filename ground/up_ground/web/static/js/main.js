@@ -48,8 +48,7 @@ async function begin() {
   const address = new URL("link", location.href);
   address.protocol = address.protocol === "https:" ? "wss:" : "ws:";
   address.hash = address.search = "";
-  const asked = new URLSearchParams(location.hash.slice(1));
-  const connection = new Connection(address.href, { key: asked.get("key") });
+  const connection = new Connection(address.href);
   const store = new Store(connection);
   const registry = new PartRegistry(document.getElementById("missing"));
   mountTheme(document.getElementById("theme-button"));

@@ -22,7 +22,6 @@ const LOST = { code: "connection_lost", reason: "the connection to the ground se
  */
 export class Connection {
   #url;
-  #key;
   #socket = null;
   #backoff = new Backoff();
   #asks;
@@ -53,7 +52,6 @@ export class Connection {
 
   constructor(url, parts = {}) {
     this.#url = url;
-    this.#key = parts.key ?? null;
     this.#memory = parts.memory ?? storageOf("sessionStorage");
     this.#makeSocket = parts.makeSocket ?? ((address) => new WebSocket(address));
     this.#now_s = parts.now_s ?? now_s;
@@ -146,7 +144,7 @@ export class Connection {
     // Without a name the server chooses one.
     const name = this.#memory.get("name") ?? storageOf("localStorage").get("name") ?? "";
     this.#hello_s = this.#now_s();
-    socket.send(JSON.stringify({ type: "hello", name, key: this.#key, token }));
+    socket.send(JSON.stringify({ type: "hello", name, token }));
   }
 
   #onText(text) {
@@ -165,7 +163,7 @@ export class Connection {
       this.#welcomed(message);
     } else if (message.type === "pong") {
       this.#ponged(message);
-    } else if (message.type === "answer" || message.type === "plan.answer") {
+    } else if (["answer", "plan.answer", "pair.answer"].includes(message.type)) {
       this.#asks.take(message);
     }
     this.#tell("message", message);

@@ -2,6 +2,7 @@ import { html, setAttribute, setText } from "../dom.js";
 import { storageOf } from "../link/storage.js";
 import { ControlRequests, controlTexts, offeredActions } from "./control_requests.js";
 import { Field, textUpTo } from "./field.js";
+import { Pairing, SignIn } from "./keys.js";
 
 /** By which name the others see this page; kept in the browser. */
 export class PageName {
@@ -108,8 +109,8 @@ export function mount(place, store, connection) {
   }
   const answers = html("div.buttons", {}, buttons.get("give"), buttons.get("deny"));
   const own = html("div.buttons", {}, buttons.get("request"), buttons.get("release"));
-  const name = new PageName(connection);
-  place.append(holder, asked, answers, own, note, others, name.element);
+  const more = [new SignIn(connection), new Pairing(connection), new PageName(connection)];
+  place.append(holder, asked, answers, own, note, others, ...more.map((each) => each.element));
   const requests = new ControlRequests();
   const notice = new ControlNotice(store, connection, send);
   document.body.append(notice.element);
@@ -154,7 +155,9 @@ export function mount(place, store, connection) {
       setText(note, state?.text ?? "");
       setAttribute(note, "data-code", state?.code ?? "");
       notice.update();
-      name.update();
+      for (const each of more) {
+        each.update();
+      }
     },
   };
 }
