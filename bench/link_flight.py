@@ -16,11 +16,7 @@ from pathlib import Path
 
 import yaml
 
-from up.config.keys_file import add_key
-from up.protocols.pairing import Pairing
 from up.tls.authority import Authority
-from up_ground.key_store import KeyStore
-from up_ground.token_store import state_folder
 from up_simulator.demo.flight import DemoFlight
 from up_simulator.demo.main import ROOT, read_options
 
@@ -35,7 +31,7 @@ LOAD_GUARD = ("load_guard.LoadGuard", "system_state_provider.SystemStateProvider
 class MeteredFlight(DemoFlight):
     """Flies with a data budget; other programs' load does not slow its telemetry.
 
-    ``is_protected``: TLS on both hops, and the page has a key, without which it gets nothing.
+    ``is_protected``: TLS on both hops in addition to the demo's keys.
     """
 
     budget: float | None = None
@@ -49,15 +45,11 @@ class MeteredFlight(DemoFlight):
         config["data_budget_mb_per_hour"] = self.budget
         if self.is_protected:
             own = certificates(self._folder / "certificates")
-            config["remote_server"] |= {"security": "require", "tls": str(own / AIRCRAFT)}
+            config["remote_server"] |= {"tls": str(own / AIRCRAFT)}
             tls = {"folder": str(own / "relay")}
             tls |= {"airborne port": ports.airborne, "ground port": ports.ground}
             (folder / "proxy.yml").write_text(yaml.safe_dump({"metrics": False, "tls": tls}))
-            key_id, key = add_key(folder, "page", "pilot")
-            pairing = Pairing(AIRCRAFT, key_id, key.secret, key.role, key.name)
-            os.environ["XDG_STATE_HOME"] = str(self._folder / "state")
             os.environ["UP_GROUND_TLS"] = str(own / "ground")
-            KeyStore(state_folder(os.environ)).put(pairing)
         path.write_text(yaml.safe_dump(config), encoding="utf-8")
         disabled = ", ".join(f"load_guard_cog.modules.{name}" for name in LOAD_GUARD)
         (folder / "disabled_modules.yml").write_text(f"disabled modules: [{disabled}]\n")
@@ -98,6 +90,8 @@ def counted() -> tuple[int, int, int]:
 def main() -> None:
     seconds, is_watched = float(sys.argv[1]), sys.argv[2] == "watched"
     words = ["--any-ports", "--no-watch", *([] if is_watched else ["--no-page"])]
+    if sys.argv[3] == "plain":
+        words.append("--plain")
     with tempfile.TemporaryDirectory(prefix="upb-") as name:
         options = read_options([*words, "--folder", name, "--board", "host", "--phone", "python"])
         flight = MeteredFlight(options, Path(name), ROOT, lambda line: None)
