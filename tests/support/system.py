@@ -33,6 +33,8 @@ def build_up(
         (folder / name).write_text(text, encoding="utf-8")
     if not hasattr(reactor, "callFromThread"):
         reactor.callFromThread = lambda call, *args: reactor.callLater(0, call, *args)
+        # A Clock is not thread-safe: work with the disk is done immediately.
+        reactor.start_thread = lambda work: work()
     context = Context(reactor, mode, folder)
     found = Discovered()
     for cls in modules:
