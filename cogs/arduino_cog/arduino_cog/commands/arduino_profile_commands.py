@@ -5,9 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
-from arduino_cog.profile import Profile, nested
 from up.commands.command import BaseCommand, value
 from up.commands.roles import Role
+from up.flight_controller.profile_wire import Profile, nested
 
 
 @dataclass(frozen=True, slots=True)
