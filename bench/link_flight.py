@@ -60,7 +60,7 @@ def main() -> None:
     seconds, is_watched = float(sys.argv[1]), sys.argv[2] == "watched"
     words = ["--any-ports", "--no-watch", *([] if is_watched else ["--no-page"])]
     with tempfile.TemporaryDirectory(prefix="upb-") as name:
-        options = read_options([*words, "--folder", name, "--board", "host", "--phone", "python"])
+        options = read_options([*words, "--folder", name, "--board", "host"])
         flight = MeteredFlight(options, Path(name), ROOT, lambda line: None)
         flight.budget = "".join(sys.argv[3:])
         try:

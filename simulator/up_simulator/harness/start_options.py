@@ -14,7 +14,6 @@ from up_simulator.aircraft.flight import FlightUnavailableError
 from up_simulator.aircraft.recorded_flight import read_recording
 from up_simulator.harness.uplink import UplinkError, read_link
 from up_simulator.link.model import LinkSettings
-from up_simulator.phone.java_program import KINDS
 from up_simulator.radio.axis_map import AxisMap, read_axis_map
 from up_simulator.radio.sticks import RadioError
 
@@ -156,13 +155,6 @@ def _add_pilot(group: argparse._ArgumentGroup) -> None:
 
 def _add_phone(group: argparse._ArgumentGroup) -> None:
     group.add_argument("--no-phone", action="store_true", help="no phone aboard")
-    group.add_argument(
-        "--phone",
-        choices=KINDS,
-        default="auto",
-        help="the phone: java, the app's own Up Library on a Java virtual machine; python, a"
-        " stub; auto (default): java where available",
-    )
     group.add_argument(
         "--phone-host",
         default="127.0.0.1",

@@ -5,8 +5,7 @@ import subprocess
 
 import pytest
 
-from tests.support.java import CONSOLE, java_program
-from up_simulator.phone.java_program import MAIN
+from tests.support.java import CONSOLE, MAIN, java_program
 
 LIMIT_S = 60.0
 PLACE = ["--raspberry", "127.0.0.1:50001:50000"]
