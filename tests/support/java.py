@@ -16,7 +16,7 @@ from tests.support.tools import need_tool
 ANDROID = Path(__file__).parents[2] / "android"
 MAIN = "org.raspilot.up.virtual_phone.VirtualPhone"
 CONSOLE = "org.raspilot.up.virtual_phone.GroundConsole"
-JARS = ("up-core.jar", "virtual-phone.jar", "ground-console.jar")
+JARS = ("up-core.jar", "virtual-phone.jar")
 # Starts the JVM in a fifth of a second, with one thread of the garbage collector.
 QUICK_START = (
     "-Xshare:auto",
@@ -49,7 +49,7 @@ def java_program():
     with (ANDROID / "build" / ".lock").open("w") as lock:
         # One process builds, the others wait for it.
         fcntl.flock(lock, fcntl.LOCK_EX)
-        command = ["make", "-C", ANDROID, "core", "virtual", "build/ground-console.jar"]
+        command = ["make", "-C", ANDROID, "virtual"]
         done = subprocess.run(command, capture_output=True, text=True, check=False)
     if done.returncode:
         pytest.fail(done.stdout + done.stderr)
