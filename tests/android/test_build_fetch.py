@@ -119,7 +119,7 @@ def test_core_and_virtual_need_a_jdk_alone(copy, tmp_path):
     for name in ("core/src", "virtual/test"):
         source = copy / name / "Nothing.java"
         source.parent.mkdir(parents=True)
-        source.write_text(f"/** Nothing. */ public final class Nothing {{ }}\n")
+        source.write_text("/** Nothing. */ public final class Nothing { }\n")
     alone = path_without(tmp_path / "bin", "mvn", "aapt", "zipalign", "apksigner", "dexdump")
     make("core", "virtual", folder=copy, env={"PATH": alone})
     assert sorted(each.name for each in (copy / "build").glob("*.jar")) == [
