@@ -188,17 +188,6 @@ def test_a_short_blackout_only_delays_data():
     assert bench.there.lost is None
 
 
-def test_keepalive_detects_a_vanished_peer():
-    bench = Bench(SLOW)
-    bench.connect()
-    watch_peer(bench.here.transport, 0)
-    bench.reactor.advance(60.0)
-    assert bench.here.lost is None, "a living peer answers every probe"
-    bench.black_out()
-    bench.reactor.advance(10.0)
-    assert bench.here.lost == "ConnectionLost"
-
-
 def test_a_kill_closes_the_connections_of_the_program():
     bench = Bench(SLOW)
     bench.connect()
