@@ -7,7 +7,7 @@ from typing import Any
 from twisted.internet.defer import Deferred
 from twisted.python.failure import Failure
 
-from arduino_cog.commands.arduino_profile_commands import (
+from arduino_cog.commands.arduino_commands import (
     ArduinoProfileRequestCommand,
     ArduinoProfileValuesCommand,
 )
