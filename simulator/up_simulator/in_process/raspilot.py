@@ -188,12 +188,10 @@ class InProcessRaspilot:
         self.up = self._life = None
 
     def freeze(self) -> None:
-        if self._host is not None:
-            self._host.freeze()
+        """Raise ParticipantError: only a process can be suspended."""
+        raise ParticipantError("only a real daemon can be suspended: use 'runs: real'")
 
-    def thaw(self) -> None:
-        if self._host is not None:
-            self._host.thaw()
+    thaw = freeze
 
     def pump(self, board: FirmwareBoard) -> None:
         """Move the bytes of 2 ms between the board and the daemon; call it at every step."""

@@ -149,9 +149,6 @@ class TcpConnection:
 
     def flush(self) -> None:
         """Send as much as the connection takes, and resume the producer."""
-        if self._host.is_frozen:
-            self._host.do(self._want_to_write)
-            return
         if self.disconnected or not self.connected:
             return
         room = WINDOW - self._in_flight if self._is_established and not self._is_closed else 0

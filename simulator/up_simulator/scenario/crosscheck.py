@@ -110,6 +110,8 @@ def _events(scenario: Scenario, root: MapNode) -> Iterator[Problem]:
             yield node, "needs a ground station: add 'ground: {role: pilot}'"
         if kind in _NEEDS_REAL and not scenario.is_real:
             yield node, "needs real programs: 'raspilot: {runs: real}'"
+        if event.raspilot in ("hung", "awake") and not scenario.is_real:
+            yield node, "needs a process to suspend: 'raspilot: {runs: real}'"
         if event.at_s > scenario.duration_s:
             yield locate(root, "events", at, "at_s"), _after_end(scenario)
 

@@ -226,25 +226,3 @@ def test_addresses_are_available():
     here, there = bench.here.transport, bench.there.transport
     assert here.getPeer().port == PORT == there.getHost().port
     assert here.getHost() == there.getPeer() == bench.server.peers[0]
-
-
-def test_a_frozen_program_receives_all_data_when_it_resumes():
-    bench = Bench(SLOW)
-    bench.connect()
-    watch_peer(bench.here.transport, 1500)
-    due = []
-    bench.pi.callLater(0.5, due.append, "timer")
-    bench.pi.freeze()
-    bench.here.transport.write(b"its system takes this")
-    bench.phone.connectTCP("127.0.0.1", PORT, bench.client)
-    bench.reactor.advance(5.0)
-    assert (bench.there.received, due, len(bench.server.built)) == (b"", [], 1)
-    assert bench.client.built[0].lost is None, "its peer does not notice"
-    bench.pi.thaw()
-    bench.reactor.advance(0.2)
-    assert due == ["timer"]
-    assert bench.server.built[0].received == b"its system takes this"
-    assert len(bench.server.built) == 2
-    bench.server.built[1].transport.write(b"late")
-    bench.reactor.advance(0.2)
-    assert bench.here.received == b"late"
