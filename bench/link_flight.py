@@ -93,7 +93,7 @@ def main() -> None:
     if sys.argv[3] == "plain":
         words.append("--plain")
     with tempfile.TemporaryDirectory(prefix="upb-") as name:
-        options = read_options([*words, "--folder", name, "--board", "host", "--phone", "python"])
+        options = read_options([*words, "--folder", name, "--board", "host"])
         flight = MeteredFlight(options, Path(name), ROOT, lambda line: None)
         flight.is_protected = sys.argv[3] == "protected"
         flight.budget = float(sys.argv[4]) if sys.argv[4:] else None

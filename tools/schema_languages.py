@@ -196,9 +196,20 @@ def javascript(schema: Schema) -> str:
             "OUTCOMES", {each.code: each.text for each in schema.outcomes}),
     }  # fmt: skip
     return f"// {TELEMETRY_NOTE}\n" + "".join(
-        f"\n/** {about} */\nexport const {name} = {json.dumps(value, indent=2)};\n"
+        f"\n/** {about} */\nexport const {name} = {_javascript_rows(value)};\n"
         for about, (name, value) in tables.items()
     )
+
+
+def _javascript_rows(value: Any) -> str:
+    """Return a table with a line for each of its rows."""
+    if isinstance(value, dict):
+        rows = "".join(f"  {json.dumps(key)}: {json.dumps(each)},\n" for key, each in value.items())
+        return f"{{\n{rows}}}"
+    if isinstance(value, list):
+        rows = "".join(f"  {json.dumps(each)},\n" for each in value)
+        return f"[\n{rows}]"
+    return json.dumps(value)
 
 
 def _limits(schema: Schema) -> dict[str, float]:

@@ -32,7 +32,7 @@ $(BUILD)/.guarded: $(BACKPORTED) $(MANIFEST) $(BUILD)/api-$(LEAST).signature \
 SPOTBUGS_PATH = $(subst $(empty) $(empty),:,$(patsubst %,$(JARS)/%,$(shell \
 	$(PYTHON) tools/fetch.py --list $(JARS) spotbugs)))
 SPOTBUGS_KNOWN = $(STUBS):$(FRAMEWORK)
-SPOTTED := $(CORE_JAR) $(VIRTUAL_JAR) $(APP_JAR) $(NEWER_JARS)
+SPOTTED := $(CORE_JAR) $(APP_JAR) $(NEWER_JARS)
 
 # It reads the classes of the JDK that it runs on.
 SPOTBUGS_KNOWS := 22

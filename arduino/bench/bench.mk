@@ -1,7 +1,7 @@
 # The bench rig: its C part, and the firmware's figures measured on it.
 .PHONY: rig
 rig:
-	@cd bench && python3 -m up_rig --build
+	@cd bench && python3 -c "from up_rig.library import build_library; print(build_library())"
 
 # Latency, jitter, loop, interrupts, memory and size of the binary, against docs/performance.md.
 .PHONY: figures

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from up_simulator.phone.sensors import SWAP, body_to_world
+from tests.android.rotation import SWAP, body_to_world
 
 NAMES = ("roll", "pitch", "yaw", "roll_rate", "pitch_rate", "yaw_rate")
 YAW_RATE_STEP = 0.125

@@ -5,7 +5,7 @@ import time
 
 from tests.android.java_process import JavaProcess
 from tests.android.numbered_motion import MOST, sensors
-from up_simulator.phone.java_program import MAIN
+from tests.support.java import MAIN
 
 TICK_S = 0.002
 FIX = {

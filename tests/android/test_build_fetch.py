@@ -116,10 +116,10 @@ def test_a_missing_tool_is_a_sentence(copy, tmp_path, target, tool, named):
 def test_core_and_virtual_need_a_jdk_alone(copy, tmp_path):
     need_jdk()
     shutil.rmtree(copy / "build")
-    for name in ("core", "virtual"):
-        source = copy / name / "src" / "Nothing.java"
+    for name in ("core/src", "virtual/test"):
+        source = copy / name / "Nothing.java"
         source.parent.mkdir(parents=True)
-        source.write_text(f"/** Nothing. */ public final class Nothing {{ int {name}; }}\n")
+        source.write_text("/** Nothing. */ public final class Nothing { }\n")
     alone = path_without(tmp_path / "bin", "mvn", "aapt", "zipalign", "apksigner", "dexdump")
     make("core", "virtual", folder=copy, env={"PATH": alone})
     assert sorted(each.name for each in (copy / "build").glob("*.jar")) == [

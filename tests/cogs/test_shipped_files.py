@@ -6,7 +6,6 @@ from pathlib import Path
 
 import pytest
 from android_cog.config import ANDROID
-from arduino_cog.profile import AIRFRAME
 from black_box_cog.config import BLACK_BOX
 from discovery_cog.config import DISCOVERY
 from mission_control_cog.config import MISSION_CONTROL
@@ -16,6 +15,7 @@ from up.base_module import BaseModule
 from up.cogs.manifest import load_manifest
 from up.config import ConfigErrors
 from up.flight_controller.pids_file import PIDS
+from up.flight_controller.profile_wire import AIRFRAME
 
 ROOT = Path(__file__).parents[2]
 

@@ -9,11 +9,11 @@ import xml.etree.ElementTree as ElementTree
 from itertools import pairwise
 
 import pytest
-from arduino_cog.profile import AIRFRAME
 
 from tests.docs.flying import files_of, lines_of
 from tests.support.firmware import ARDUINO, CORE, need_toolchain
 from tests.support.virtual_environment import REPOSITORY
+from up.flight_controller.profile_wire import AIRFRAME
 
 PAGE = (REPOSITORY / "docs" / "wiring.md").read_text(encoding="utf-8")
 PINS = REPOSITORY / "arduino" / "raspilot" / "src" / "chip" / "pins.h"

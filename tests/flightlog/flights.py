@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 
-from android_cog.commands.android_battery_command import (
+from android_cog.commands.android_commands import (
     AndroidBatteryCommand,
     AndroidBatteryLowCommand,
 )

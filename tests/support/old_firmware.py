@@ -5,8 +5,9 @@ import struct
 import time
 from pathlib import Path
 
+from up.protocols.frame import UNFINISHED_TIMEOUT_S
 from up_rig.pty_line import PtyLine
-from up_simulator.firmware.wire import FRAME_TIMEOUT_S, Command
+from up_simulator.firmware.wire import Command
 
 THESIS_SIZES = {"p": 3, "t": 48, "T": 0, "h": 2, "b": 2, "B": 2, "l": 8}
 STREAM_S = 0.05
@@ -20,7 +21,7 @@ class ThesisReader:
         self._first_s = 0.0
 
     def feed(self, data, now_s):
-        if now_s - self._first_s >= FRAME_TIMEOUT_S:
+        if now_s - self._first_s >= UNFINISHED_TIMEOUT_S:
             self._buffer = b""
         for byte in data:
             if not self._buffer and chr(byte) not in THESIS_SIZES:

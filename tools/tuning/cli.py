@@ -35,8 +35,7 @@ from up_simulator.aircraft import DEFAULT_AIRFRAME, AirframeError, load_airframe
 from up_simulator.aircraft.flight import FlightUnavailableError
 from up_simulator.firmware.board import BoardCrashedError
 from up_simulator.firmware.build import BoardUnavailableError
-from up_simulator.firmware.preparation import PreparationError
-from up_simulator.firmware.settings_wire import SettingsError
+from up_simulator.firmware.preparation import PreparationError, SettingsError
 from up_simulator.harness.workers import MAX_PROCESSES, Workers
 from up_simulator.picture.flight_picture import draw_flight
 from up_simulator.scenario.log import LogError, read_log

@@ -14,8 +14,7 @@ from up_simulator.firmware.board import BoardKind, FirmwareBoard
 from up_simulator.firmware.build import choose_board
 from up_simulator.firmware.imu_errors import ImuErrors
 from up_simulator.firmware.line_monitor import LineMonitor
-from up_simulator.firmware.preparation import cached_eeprom
-from up_simulator.firmware.settings_wire import gains_bytes
+from up_simulator.firmware.preparation import cached_eeprom, gains_bytes
 from up_simulator.harness.world import STEP_S, World
 
 SAMPLE_S = 0.01

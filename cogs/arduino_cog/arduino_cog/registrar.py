@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from arduino_cog.config import FLIGHT_BATTERY
-from arduino_cog.profile import AIRFRAME
 from up.cogs.up_registrant import UpRegistrant
 from up.flight_controller.pids_file import PIDS
+from up.flight_controller.profile_wire import AIRFRAME
 
 
 class Registrant(UpRegistrant):

@@ -12,7 +12,7 @@ from typing import Any, cast
 from twisted.logger import ILogObserver, LogEvent, LogLevel, globalLogPublisher
 from zope.interface import implementer
 
-from black_box_cog.commands.record_command import RecordCommand
+from black_box_cog.commands.black_box_commands import RecordCommand
 from up.commands.command import BaseCommand
 from up.commands.origin import Origin
 from up.commands.roles import Role

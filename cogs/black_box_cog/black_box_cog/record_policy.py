@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from black_box_cog.commands.record_command import RecordCommand
+from black_box_cog.commands.black_box_commands import RecordCommand
 from black_box_cog.encoders import json_of
 from black_box_cog.ingest_queue import Recorded
 from up.commands.command_registry import CommandRegistry

@@ -30,9 +30,10 @@ class LoggedMessage:
 class FlightLog:
     """The messages of one flight, indexed, and decoded on demand.
 
-    Takes about 30 bytes of memory per message, whatever its size. Every pass opens the files again,
-    so that nothing needs closing. ``is_complete``: every part ended properly. ``start_unix_s`` is 0
-    for a log without messages. ``topics`` counts the messages by topic.
+    Takes about 30 bytes of memory per message, whatever its size; a part is in memory only while it
+    is indexed. Every pass opens the files again, so that nothing needs closing. ``is_complete``:
+    every part ended properly. ``start_unix_s`` is 0 for a log without messages. ``topics`` counts
+    the messages by topic.
     """
 
     def __init__(self, paths: Sequence[Path], index: LogIndex, parts: Sequence[PartReader]) -> None:

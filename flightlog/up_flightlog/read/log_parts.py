@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from pathlib import Path
 from struct import Struct
@@ -13,7 +13,7 @@ from up_flightlog.read.log_files import LogFiles
 from up_flightlog.read.log_index import LogIndex
 from up_flightlog.read.mcap_records import AttachedFile, Channel, Metadata, Schema, read_record
 from up_flightlog.read.problems import LogProblem, Problems
-from up_flightlog.read.record_scanner import RecordScanner, open_log
+from up_flightlog.read.record_scanner import Found, RecordScanner, read_file
 
 MAX_ATTACHMENTS = 1000
 MAX_METADATA = 1000
@@ -100,31 +100,31 @@ class PartReader:
     def read(self, index: LogIndex) -> None:
         """Add the messages of the file to the index, as far as they are readable."""
         try:
-            with open_log(self.path) as file:
-                scanner = RecordScanner(file, self._problems)
-                self._read(scanner, index)
-                self.is_complete = scanner.is_complete
+            data = read_file(self.path)
+            scanner = RecordScanner(data, self._problems)
+            self._read(scanner, data, index)
+            self.is_complete = scanner.is_complete
         except FlightLogError as error:
             self.fault = error
 
-    def _read(self, scanner: RecordScanner, index: LogIndex) -> None:
+    def _read(self, records: Iterable[Found], data: bytes, index: LogIndex) -> None:
         # Topic numbers by channel: the only lookup per message.
         topics: dict[int, int | None] = {}
         add = index.adder(self._number)
         unpack, size = _MESSAGE_HEAD.unpack_from, MESSAGE.size
-        for opcode, offset, start, length in scanner:
+        for opcode, offset, length in records:
             if opcode == _MESSAGE:
                 if length < size:
                     self._problems.add("short_message", "a message without its fields", offset)
                     continue
-                channel, _, time_ns = unpack(scanner.buffer, start)
+                channel, _, time_ns = unpack(data, offset)
                 topic = topics.get(channel)
                 if topic is None:
                     self._problems.add("unknown_channel", "a message of an unknown channel", offset)
                     continue
                 add(topic, time_ns, offset + size, length - size)
             elif opcode in _KEPT:
-                content = scanner.buffer[start : start + length]
+                content = data[offset : offset + length]
                 self._keep(opcode, offset, content, index.topic, topics)
 
     def _keep(

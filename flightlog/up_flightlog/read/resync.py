@@ -11,7 +11,7 @@ CONFIRMATION_RECORDS = 3
 MAX_LENGTH = 64 * 1024
 """Maximum length of a record accepted here; the records of a flight are far shorter."""
 MAX_RECORD = 16 * 1024 * 1024
-"""Longer records (except chunks, which are walked) are skipped; no window gets larger."""
+"""Longer records (except chunks, which are walked) are skipped."""
 _LIKELY = re.compile(rb"\x05[\s\S]{3}\0{5}")
 LAST = int(max(Opcode))
 

@@ -209,7 +209,7 @@ class DemoFlight:
             "--turbulence", options.turbulence, "--board", options.board, "--radio", radio,
             "--radio-socket", folder / "radio", "--gains", folder / "config" / "pids.yml",
             "--pty-link", folder / "board", "--general-port", str(ports.general),
-            "--orientation-port", str(ports.orientation), "--phone", options.phone, "--truth",
+            "--orientation-port", str(ports.orientation), "--truth",
         ]  # fmt: skip
         if options.link:
             words += ["--link", options.link, "--link-port", str(ports.uplink)]

@@ -33,7 +33,6 @@ from up_simulator.harness.start_options import (
     wind_m_s,
 )
 from up_simulator.harness.user_log import print_line
-from up_simulator.phone.java_program import KINDS
 
 ROOT = Path(__file__).resolve().parents[3]
 
@@ -141,12 +140,6 @@ def read_options(arguments: Sequence[str] | None) -> argparse.Namespace:
         type=_text_of(link_settings),
         default="",
         help="a bad link from aircraft to proxy: 'delay=80 jitter=20 loss=1 rate=20000'",
-    )
-    parser.add_argument(
-        "--phone",
-        choices=KINDS,
-        default="auto",
-        help="the phone: java, the app's own Up Library; python, a stub; default auto",
     )
     parser.add_argument("--plain", action="store_true", help="fly without end-to-end keys")
     parser.add_argument("--folder", type=Path, help="for configuration and logs (run/demo)")

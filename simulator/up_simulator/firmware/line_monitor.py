@@ -4,11 +4,10 @@ from __future__ import annotations
 
 import struct
 from collections import Counter
-from collections.abc import Iterator
 from dataclasses import dataclass
 
 from up.commands.board_schema import STATUS, BoardStatus
-from up_simulator.firmware.wire import MAX_ENCODED, Command, checked_frame, open_frame
+from up_simulator.firmware.wire import CheckedReader, Command, checked_frame
 
 SIZES = {
     "r": 8, "i": 13, "O": 26, "x": STATUS.size, "K": 2, "!": 3, "m": 1, "G": 72, "C": 54,
@@ -48,12 +47,9 @@ class LineMonitor:
     """
 
     def __init__(self) -> None:
-        self._buffer = b""
-        self._expected: int | None = None
+        self._reader = CheckedReader(SIZES)
         self._sequence = 0
         self.counts: Counter[str] = Counter()
-        self.bad_frames = 0
-        self.missing = 0
         self.status: BoardStatus | None = None
         self.status_s = -float("inf")
         self.orientation: BoardOrientation | None = None
@@ -62,11 +58,18 @@ class LineMonitor:
         self.mode: str | None = None
         self.answers: list[Command] = []
 
+    @property
+    def bad_frames(self) -> int:
+        counters = self._reader.counters
+        return counters.crc_errors + counters.format_errors + counters.timeouts
+
+    @property
+    def missing(self) -> int:
+        return self._reader.counters.lost_by_sequence
+
     def feed(self, data: bytes, now_s: float) -> list[Command]:
         """Take bytes received until ``now_s``; return the messages that they complete."""
-        if not data:
-            return []
-        found = list(self._messages(data))
+        found = self._reader.feed(data, now_s)
         for message in found:
             self.counts[message.type] += 1
             self._take(message, now_s)
@@ -85,31 +88,6 @@ class LineMonitor:
         """Return the answers since the last call: ``K ! m T G C``."""
         answers, self.answers = self.answers, []
         return answers
-
-    def _messages(self, data: bytes) -> Iterator[Command]:
-        *frames, self._buffer = (self._buffer + data).split(b"\0")
-        # An overlong frame is counted when it ends; its length need not be kept.
-        self._buffer = self._buffer[: MAX_ENCODED + 1]
-        for encoded in frames:
-            if not encoded:
-                continue
-            message = self._open(encoded)
-            if message is None:
-                self.bad_frames += 1
-            else:
-                yield message
-
-    def _open(self, encoded: bytes) -> Command | None:
-        body = open_frame(encoded)
-        if body is None:
-            return None
-        sequence, letter, payload = body[0], chr(body[1]), body[2:]
-        if self._expected is not None:
-            self.missing += (sequence - self._expected) % 256
-        self._expected = (sequence + 1) % 256
-        if SIZES.get(letter) != len(payload):
-            return None
-        return Command(letter, payload, sequence)
 
     def _take(self, message: Command, now_s: float) -> None:
         payload = message.payload

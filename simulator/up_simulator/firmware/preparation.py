@@ -5,17 +5,19 @@ from __future__ import annotations
 import contextlib
 import hashlib
 import json
+import struct
 from collections.abc import Mapping
 from typing import Any
 
 from up.commands.board_status import refusal_text
+from up.commands.gains import AXES, MAX_GAIN
 from up.errors import UserError
+from up.flight_controller.profile_wire import flat, pack_profile, read_profile
 from up_rig.imu import motion_at
 from up_simulator.firmware.board import BoardKind, FirmwareBoard
 from up_simulator.firmware.build import aboard
 from up_simulator.firmware.kept import cache_path, keep
 from up_simulator.firmware.line_monitor import LineMonitor
-from up_simulator.firmware.settings_wire import gains_bytes, profile_bytes
 from up_simulator.harness.user_log import Log, no_log
 
 STEP_US = 10_000.0
@@ -25,10 +27,56 @@ QUIET_STEPS = 30
 """An EEPROM unchanged for this time is complete: a byte takes 3.4 ms."""
 WRITE_STEPS = 600
 _ANSWERS = {"c": "C", "G": "G"}
+_GAINS = struct.Struct(">18f")
+_LOOPS = ("rate", "stabilize")
+_GAIN_KEYS = [f"{loop}.{axis}.{term}" for loop in _LOOPS for axis in AXES for term in "pid"]
+
+
+class SettingsError(ValueError):
+    """A setting cannot be put on the wire: one sentence that names it, and its ``code``."""
+
+    # The default lets a process pool copy the error.
+    def __init__(self, message: str, code: str = "invalid_settings") -> None:
+        super().__init__(message)
+        self.code = code
 
 
 class PreparationError(UserError):
     """The board does not take its settings."""
+
+
+def profile_bytes(settings: Mapping[str, Any], held: bytes) -> bytes:
+    """Return the payload of ``C``: what a board holds, with the settings that are not null.
+
+    Raises ``SettingsError``.
+    """
+    profile = read_profile(held)
+    for key, value in flat(settings):
+        if key not in profile:
+            raise SettingsError(f"unknown key of a profile: {key}", "unknown_profile_key")
+        profile[key] = value
+    try:
+        return pack_profile(profile)
+    except (ValueError, TypeError, struct.error) as error:
+        raise SettingsError(str(error), "invalid_profile") from None
+
+
+def gains_bytes(settings: Mapping[str, Any], held: bytes) -> bytes:
+    """Return the payload of ``g``: what a board holds, with the gains that are given.
+
+    Raises ``SettingsError``.
+    """
+    values = list(_GAINS.unpack(held))
+    for key, value in flat(settings):
+        if key == "units":
+            continue
+        if key not in _GAIN_KEYS:
+            raise SettingsError(f"unknown gain {key}", "unknown_gain")
+        if not isinstance(value, int | float) or not 0.0 <= value <= MAX_GAIN:
+            text = f"{key} must be 0 to {MAX_GAIN:g}, not {value!r}"
+            raise SettingsError(text, "gain_out_of_range")
+        values[_GAIN_KEYS.index(key)] = value
+    return _GAINS.pack(*values)
 
 
 def cached_eeprom(

@@ -16,8 +16,7 @@ from up_simulator.aircraft.recorded_flight import read_recording
 from up_simulator.firmware.board import FirmwareBoard
 from up_simulator.firmware.build import FIRMWARE, BoardUnavailableError, choose_board
 from up_simulator.firmware.imu_errors import drawn_errors
-from up_simulator.firmware.preparation import cached_eeprom
-from up_simulator.firmware.settings_wire import SettingsError
+from up_simulator.firmware.preparation import SettingsError, cached_eeprom
 from up_simulator.harness.user_log import Log
 
 

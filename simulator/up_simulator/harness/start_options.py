@@ -16,7 +16,6 @@ from up_simulator.aircraft.flight import FlightUnavailableError
 from up_simulator.aircraft.recorded_flight import read_recording
 from up_simulator.harness.uplink import UplinkError, read_link
 from up_simulator.link.model import LinkSettings
-from up_simulator.phone.java_program import KINDS
 from up_simulator.radio.axis_map import AxisMap, read_axis_map
 from up_simulator.radio.sticks import RadioError
 
@@ -90,8 +89,6 @@ def read_options(arguments: list[str] | None = None) -> argparse.Namespace:
         parser.error("--discover and --runner are two ways of finding the same: choose one")
     options.pairing = None
     if options.signed:
-        if options.phone != "python":
-            parser.error("--signed needs --phone python: the app's library cannot sign yet")
         options.pairing = KeyStore(state_folder(os.environ)).get(options.aircraft_name)
         if options.pairing is None:
             parser.error(f"--signed: no key of {options.aircraft_name}; run 'up-ground pair'")
@@ -165,13 +162,6 @@ def _add_pilot(group: argparse._ArgumentGroup) -> None:
 
 def _add_phone(group: argparse._ArgumentGroup) -> None:
     group.add_argument("--no-phone", action="store_true", help="no phone aboard")
-    group.add_argument(
-        "--phone",
-        choices=KINDS,
-        default="auto",
-        help="the phone: java, the app's own Up Library on a Java virtual machine; python, a"
-        " stub; auto (default): java where available",
-    )
     group.add_argument(
         "--phone-host",
         default="127.0.0.1",

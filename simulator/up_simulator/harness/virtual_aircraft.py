@@ -23,9 +23,6 @@ from up_simulator.harness.uplink import make_uplink
 from up_simulator.harness.user_log import Log
 from up_simulator.link.relay import LinkRelay
 from up_simulator.phone.address import RaspberryPi, Runner, discover, spawn
-from up_simulator.phone.handset import Handset
-from up_simulator.phone.java_handset import JavaHandset
-from up_simulator.phone.java_program import choose_phone
 from up_simulator.phone.link import PythonHandset
 from up_simulator.radio.choice import choose_radio
 from up_simulator.radio.remote import RemoteRadio
@@ -39,9 +36,8 @@ class VirtualAircraft:
 
     ``reactor`` gives time and sockets; its clock must be monotonic. ``on_leave`` is called when the
     pilot at the keyboard leaves. Raises ``FlightUnavailableError``, ``AirframeError``,
-    ``BoardUnavailableError``, ``PtyLineError``, ``RadioError``, ``LinkRelayError``,
-    ``ParticipantError`` (the requested phone is unavailable) and ``OSError`` (the state log) with
-    messages for the user.
+    ``BoardUnavailableError``, ``PtyLineError``, ``RadioError``, ``LinkRelayError``
+    and ``OSError`` (the state log) with messages for the user.
     """
 
     def __init__(
@@ -51,7 +47,7 @@ class VirtualAircraft:
         self._log = log
         self._line: PtyLine | None = None
         self._radio: Radio | None = None
-        self._phone: Handset | None = None
+        self._phone: PythonHandset | None = None
         self._state_log: StateLog | None = None
         self._uplink: LinkRelay | None = None
         self._ticks: list[Callable[[], None]] = []
@@ -157,25 +153,12 @@ class VirtualAircraft:
         aircraft.real_time.on_sent = on_sent
         return aircraft.advance
 
-    def _make_phone(self, options: argparse.Namespace) -> Handset:
+    def _make_phone(self, options: argparse.Namespace) -> PythonHandset:
         def log(text: str, /, *, code: str = "phone", **fields: Any) -> None:
             self._log(f"phone: {text}", code=code, **fields)
 
         names = RECORDED_NAMES if isinstance(self.flight, RecordedFlight) else NAMES
         record = partial(record_of, names=names) if options.truth else None
-        choice = choose_phone(options.phone, log)
-        self._log(f"the phone is {choice.title}", code="phone_selected", phone=choice.title)
-        if choice.java is not None:
-            return JavaHandset(
-                choice.java,
-                self._reactor,
-                self.flight,
-                partial(_address_options, options),
-                options.orientation,
-                log,
-                seed=options.seed,
-                record=record,
-            )
         find = _make_find(self._reactor, options)
         return PythonHandset(
             self._reactor,
@@ -217,15 +200,3 @@ def _make_find(reactor: Any, options: argparse.Namespace) -> Callable[[], Awaita
         return RaspberryPi(host, options.general_port, options.orientation_port)
 
     return find
-
-
-def _address_options(options: argparse.Namespace) -> list[str]:
-    if options.runner:
-        host, port = options.runner
-        return ["--runner", f"{host}:{port}", "--aircraft", options.aircraft_name]
-    ports = f"{options.general_port}:{options.orientation_port}"
-    place = ["--raspberry", f"{options.phone_host}:{ports}"]
-    if options.discover:
-        host, port = options.discover
-        place += ["--discover", f"{host}:{port}"]
-    return place

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import math
 from collections import OrderedDict
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from collections.abc import Mapping
 from pathlib import Path
 from random import Random
 from typing import Any
 
 from twisted.internet.defer import Deferred
 
+from up.flight_log.json_message import number_at
 from up.protocols.general_message import GeneralMessage, encode
 from up.system.backoff import Backoff
 from up_ground.ground_link import GroundLink
@@ -23,50 +23,6 @@ from up_simulator.in_process.host import SimulatedHost
 from up_simulator.in_process.network import ADDRESS
 from up_simulator.in_process.reactor import SimulatedReactor
 
-FrameAge = Callable[[GeneralMessage, float], float | None]
-"""Takes a frame and its arrival time (s); returns its age (s), None: not known."""
-MAX_BEACON_GAP = 1_000_000
-"""Beacons of one run of the daemon are nearer: each run draws its first at random below 2**31."""
-
-
-@dataclass(slots=True)
-class _DaemonRun:
-    beacon: int
-    origin_s: float
-
-
-class UptimeAges:
-    """Measures ages by ``system.uptime_s``, for a daemon with an unreadable clock.
-
-    In each run of the daemon the quickest frame counts as 0 s old. The uptime has whole seconds:
-    an age is up to 1 s too great, and too small by at most that frame's own age and a telemetry
-    period. A run is identified by its beacons, so that an old frame stays one.
-    """
-
-    def __init__(self) -> None:
-        self._runs: list[_DaemonRun] = []
-
-    def age_s(self, message: GeneralMessage, now_s: float) -> float | None:
-        """Return the age of a frame that arrives now; None without a beacon or uptime."""
-        system = message.data.get("system")
-        uptime_s = system.get("uptime_s") if isinstance(system, dict) else None
-        if message.beacon is None or isinstance(uptime_s, bool):
-            return None
-        if not isinstance(uptime_s, int | float):
-            return None
-        run = self._run_of(message.beacon, now_s - uptime_s)
-        run.origin_s = min(run.origin_s, now_s - uptime_s)
-        return now_s - uptime_s - run.origin_s
-
-    def _run_of(self, beacon: int, origin_s: float) -> _DaemonRun:
-        for run in self._runs:
-            if abs(beacon - run.beacon) < MAX_BEACON_GAP:
-                return run
-        run = _DaemonRun(beacon, origin_s)
-        self._runs.append(run)
-        return run
-
-
 MAX_ANSWERS = 256
 MAX_OTHER_MESSAGES = 64
 
@@ -76,7 +32,7 @@ class InProcessGround:
 
     Each Command echoes the newest beacon. A Command without a link is lost and never answered.
     ``others`` keeps the newest message of each name, such as the aircraft's gains or a nack.
-    ``frame_age`` computes the age of a frame; without it the frames' own field is used.
+    A frame's age is exact: the daemon has the monotonic clock of this machine or process.
     """
 
     def __init__(
@@ -85,7 +41,6 @@ class InProcessGround:
         port: int = GROUND_PORT,
         *,
         seed: int = 1,
-        frame_age: FrameAge | None = None,
     ) -> None:
         self.others: OrderedDict[str, Mapping[str, Any]] = OrderedDict()
         self._reactor = reactor
@@ -95,7 +50,6 @@ class InProcessGround:
         self._received = Telemetry()
         self._answers: OrderedDict[str, str] = OrderedDict()
         self._newest_s: float | None = None
-        self._frame_age = frame_age or UptimeAges().age_s
         self._newest_age_s: float | None = None
         self._max_age_s: float | None = None
         self._sent = 0
@@ -157,7 +111,8 @@ class InProcessGround:
         now_s = self._reactor.seconds()
         if self._received.update(message, now_s):
             self._newest_s = now_s
-            age_s = self._frame_age(message, now_s)
+            made_ms = number_at(message.data, ("system", "clock_ms"))
+            age_s = None if made_ms is None else max(0.0, now_s - made_ms / 1000)
             # The age is unknown: it may have any value.
             self._newest_age_s = math.inf if age_s is None else age_s
             self._max_age_s = max(self._newest_age_s, self._max_age_s or 0.0)

@@ -27,42 +27,29 @@ if TYPE_CHECKING:
 PRUNE_AT = 256
 
 
-class TimedCall(DelayedCall):
-    """A delayed call that knows its host."""
-
-    host: SimulatedHost | None = None
-
-
 @implementer(IReactorTCP, IReactorUDP, IReactorPluggableNameResolver)
 class SimulatedHost:
     """The reactor that a program sees; its sockets stay in this process, at 127.0.0.1.
 
-    ``cut_off`` kills the program: no timer, descriptor or port of it is left. Between ``freeze``
-    and ``thaw`` it is suspended like a stopped process: its system still acknowledges arriving
-    data, and the program receives all of it when it resumes.
+    ``cut_off`` kills the program: no timer, descriptor or port of it is left.
     """
 
     def __init__(self, reactor: SimulatedReactor, name: str) -> None:
         self.name = name
         self.running = True
-        self.is_frozen = False
         self.reactor = reactor
         self.network = reactor.network
         self.nameResolver = LiteralResolver()
         self.opened: dict[Any, None] = {}
         self.seconds = reactor.seconds
-        self._calls: list[TimedCall] = []
-        self._late_calls: list[TimedCall] = []
-        self._missed: list[tuple[Callable[..., Any], tuple[Any, ...]]] = []
-        self._suspended_descriptors: list[Callable[[], None]] = []
+        self._calls: list[DelayedCall] = []
         self._descriptors: dict[Any, None] = {}
 
     def callLater(  # noqa: N802 - Twisted's name
         self, delay: float, callable: Callable[..., object], *args: object, **kw: object
-    ) -> TimedCall:
+    ) -> DelayedCall:
         """Call later; ignored after the end of this program."""
         call = self.reactor.callLater(delay, callable, *args, **kw)
-        call.host = self
         self._calls.append(call)
         if len(self._calls) > PRUNE_AT:
             self._calls = [each for each in self._calls if each.active()]
@@ -129,48 +116,16 @@ class SimulatedHost:
         return listening
 
     def do(self, call: Callable[..., Any], *arguments: Any) -> None:
-        """Call into the program now, or when it resumes."""
-        if self.is_frozen:
-            self._missed.append((call, arguments))
-        elif self.running:
+        """Call into the program while it lives."""
+        if self.running:
             call(*arguments)
-
-    def freeze(self) -> None:
-        if not self.is_frozen and self.running:
-            self.is_frozen = True
-            self._suspended_descriptors = self.reactor.suspend_descriptors(self._descriptors)
-
-    def keep_call(self, call: TimedCall) -> None:
-        """Keep a call that became due while frozen."""
-        self._late_calls.append(call)
-
-    def thaw(self) -> None:
-        """Resume the program: late timers first, then the data that has arrived since."""
-        if not self.is_frozen:
-            return
-        self.is_frozen = False
-        calls, self._late_calls = self._late_calls, []
-        for call in calls:
-            if call.active():
-                self.reactor.put_back(call)
-        descriptors, self._suspended_descriptors = self._suspended_descriptors, []
-        for resume in descriptors:
-            resume()
-        self.callLater(0, self._catch_up)
-
-    def _catch_up(self) -> None:
-        missed, self._missed = self._missed, []
-        for call, arguments in missed:
-            self.reactor.guarded(call, *arguments)
 
     def cut_off(self) -> None:
         """Kill the program: its system closes all that it leaves behind."""
         self.running = False
         for call in self._calls:
             cancel(call)
-        for calls in (self._calls, self._late_calls, self._missed, self._suspended_descriptors):
-            calls.clear()
-        self.is_frozen = False
+        self._calls.clear()
         self.removeAll()
         opened, self.opened = self.opened, {}
         for each in opened:

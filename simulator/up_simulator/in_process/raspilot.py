@@ -15,7 +15,6 @@ from twisted.python.failure import Failure
 from zope.interface import implementer
 
 from up.base_module import BaseModule
-from up.commands.beacon import Beacons
 from up.commands.system_commands import SystemStopCommand
 from up.config import load_all
 from up.errors import UserError
@@ -26,7 +25,6 @@ from up.log.levels import level_named, level_of, word_of
 from up.log.text import source_of, text_of, traceback_of
 from up.mode import Mode
 from up.program import make_context
-from up.protocols.general_message import GeneralMessage
 from up.protocols.serial_line import SerialLike
 from up.protocols.serial_port import SerialPortError
 from up.up import Up
@@ -121,7 +119,6 @@ class InProcessRaspilot:
         self._host: SimulatedHost | None = None
         self._life: LifeCycle | None = None
         self._is_stopping = False
-        self._beacons: list[Beacons] = []
 
     @property
     def is_running(self) -> bool:
@@ -165,7 +162,6 @@ class InProcessRaspilot:
             raise ParticipantError("\n".join(dict.fromkeys(problems))) from error
         self.boots += 1
         self._host, self.up, self._is_stopping = host, up, False
-        self._beacons.append(up.beacons)
         self._life = LifeCycle(up)
         up.command_executor.adopt_thread()
         up.command_executor.register_command(SystemStopCommand, lambda _: self.stop())
@@ -192,12 +188,10 @@ class InProcessRaspilot:
         self.up = self._life = None
 
     def freeze(self) -> None:
-        if self._host is not None:
-            self._host.freeze()
+        """Raise ParticipantError: only a process can be suspended."""
+        raise ParticipantError("only a real daemon can be suspended: use 'runs: real'")
 
-    def thaw(self) -> None:
-        if self._host is not None:
-            self._host.thaw()
+    thaw = freeze
 
     def pump(self, board: FirmwareBoard) -> None:
         """Move the bytes of 2 ms between the board and the daemon; call it at every step."""
@@ -206,15 +200,6 @@ class InProcessRaspilot:
         if data:
             board.write(data)
         self.line.write(board.read())
-
-    def frame_age_s(self, message: GeneralMessage, _now_s: float) -> float | None:
-        """Return the age of a telemetry frame, of this run or one before; None: of none."""
-        for beacons in reversed(self._beacons):
-            if message.beacon is not None:
-                age_s = beacons.age_s(message.beacon)
-                if age_s is not None:
-                    return age_s
-        return None
 
     def module(self, class_name: str) -> BaseModule:
         """Return a module that is loaded now; raises LookupError."""

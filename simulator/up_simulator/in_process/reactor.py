@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import select
 from bisect import bisect_right, insort
-from collections.abc import Callable, Iterable
-from functools import partial
+from collections.abc import Callable
 from queue import Empty, SimpleQueue
 from typing import Any
 
@@ -15,7 +14,7 @@ from twisted.internet.task import Clock
 from twisted.logger import Logger
 from twisted.python.failure import Failure
 
-from up_simulator.in_process.host import SimulatedHost, TimedCall
+from up_simulator.in_process.host import SimulatedHost
 from up_simulator.in_process.network import Network
 from up_simulator.link.model import LinkModel
 
@@ -35,7 +34,7 @@ class SimulatedReactor(Clock):
     """
 
     log = Logger()
-    calls: list[TimedCall]  # type: ignore[assignment]
+    calls: list[DelayedCall]
 
     def __init__(self) -> None:
         super().__init__()
@@ -59,13 +58,15 @@ class SimulatedReactor(Clock):
 
     def callLater(  # type: ignore[override]  # noqa: N802 - Twisted's name
         self, when: float, what: Callable[..., object], *a: object, **kw: object
-    ) -> TimedCall:
+    ) -> DelayedCall:
         """Call ``what`` at its time; of equal times the earlier call is first."""
-        call = TimedCall(self.rightNow + when, what, a, kw, self._discard, self._sort, self.seconds)
+        call = DelayedCall(
+            self.rightNow + when, what, a, kw, self._discard, self._sort, self.seconds
+        )
         self.put_back(call)
         return call
 
-    def put_back(self, call: TimedCall) -> None:
+    def put_back(self, call: DelayedCall) -> None:
         insort(self.calls, call, key=DelayedCall.getTime)
 
     def call_from_thread(self, call: Callable[[], Any]) -> None:
@@ -101,18 +102,6 @@ class SimulatedReactor(Clock):
         if number is not None:
             self._watch(number)
 
-    def suspend_descriptors(self, descriptors: Iterable[Any]) -> list[Callable[[], None]]:
-        """Stop watching descriptors; return the calls that watch them again."""
-        resume: list[Callable[[], None]] = []
-        for each in descriptors:
-            if each in self._readers:
-                resume.append(partial(self.add_reader, each))
-            if each in self._writers:
-                resume.append(partial(self.add_writer, each))
-            self.remove_reader(each)
-            self.remove_writer(each)
-        return resume
-
     def guarded(self, call: Callable[..., Any], *arguments: Any, **more: Any) -> Any:
         """Call foreign code; an exception is logged and ends nothing."""
         try:
@@ -139,9 +128,6 @@ class SimulatedReactor(Clock):
         due, self.calls[:count] = self.calls[:count], []
         for call in due:
             if not call.active():
-                continue
-            if call.host is not None and call.host.is_frozen:
-                call.host.keep_call(call)
                 continue
             if call.getTime() > due_s:
                 self.put_back(call)

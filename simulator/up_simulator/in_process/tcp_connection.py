@@ -34,9 +34,9 @@ class TcpConnection:
 
     Queued data leaves at the end of the step, as of a reactor. Unacknowledged data is sent again.
     A connection ends by a FIN, by a reset, or by silence: TCP_USER_TIMEOUT for unacknowledged
-    bytes, keepalive for an idle one. After its program has closed it, or was killed, the system
-    still delivers the sent data. A protocol that raises loses its connection, and the failure is
-    logged.
+    bytes. Nothing probes an idle one: what flies sends all the time. After its program has closed
+    it, or was killed, the system still delivers the sent data. A protocol that raises loses its
+    connection, and the failure is logged.
     """
 
     log = Logger()
@@ -59,11 +59,9 @@ class TcpConnection:
         self._has_program = self._is_established = self._is_finished = self._is_closed = False
         self._sent = self._in_flight = self._expected = 0
         self._unacknowledged: deque[tuple[int, bytes, bool, float]] = deque()
-        self._last_rx_s = self._progress_s = self._clock.seconds()
+        self._progress_s = self._clock.seconds()
         self._retry_s = INITIAL_RETRY_S
         self._retry: DelayedCall | None = None
-        self._probe: DelayedCall | None = None
-        self._probes = 0
 
     # Called by programs.
 
@@ -106,10 +104,7 @@ class TcpConnection:
         """Do nothing: no data is delayed here."""
 
     def setTcpKeepAlive(self, enabled: bool) -> None:  # noqa: N802 - Twisted's name
-        """Probe a silent peer."""
-        if enabled and not self._route.is_perfect:
-            # Its intervals are set in the calls that follow this one.
-            self._host.callLater(0, self._start_probing)
+        """Do nothing: a silent peer is not probed here."""
 
     def registerProducer(self, producer: Any, streaming: bool) -> None:  # noqa: N802
         """Resume a producer when the queue is empty, or pause it when the queue is long."""
@@ -148,15 +143,12 @@ class TcpConnection:
         """Establish the connection: by the handshake, or by bytes that imply it."""
         if not self._is_established and not self._is_closed:
             self._is_established = True
-            self._last_rx_s = self._progress_s = self._clock.seconds()
+            self._progress_s = self._clock.seconds()
             if self._has_program:
                 self._host.do(self._made)
 
     def flush(self) -> None:
         """Send as much as the connection takes, and resume the producer."""
-        if self._host.is_frozen:
-            self._host.do(self._want_to_write)
-            return
         if self.disconnected or not self.connected:
             return
         room = WINDOW - self._in_flight if self._is_established and not self._is_closed else 0
@@ -191,7 +183,7 @@ class TcpConnection:
         if self._is_closed or (data and not self._has_program):
             self._refuse()
             return
-        self._note_packet()
+        self.establish()
         if offset > self._expected:
             return
         is_new = offset == self._expected
@@ -209,7 +201,7 @@ class TcpConnection:
     def on_acknowledged(self, offset: int, sent_s: float) -> None:
         if self._is_closed:
             return
-        self._note_packet()
+        self.establish()
         waiting, before = self._unacknowledged, self._in_flight
         while waiting and waiting[0][0] + len(waiting[0][1]) + waiting[0][2] <= offset:
             self._in_flight -= len(waiting.popleft()[1])
@@ -227,17 +219,6 @@ class TcpConnection:
 
     def on_reset(self) -> None:
         self._break("the connection was reset")
-
-    def on_probe(self) -> None:
-        if self._is_closed:
-            self._refuse()
-        else:
-            self._note_packet()
-            self._route.carry(HEADER, self.peer.on_alive)
-
-    def on_alive(self) -> None:
-        if not self._is_closed:
-            self._note_packet()
 
     # The system's TCP.
 
@@ -259,7 +240,6 @@ class TcpConnection:
         if not self._is_finished and not self._is_closed:
             self._is_finished = True
             self._send(b"", is_last=True)
-        cancel(self._probe)
 
     def _reset(self) -> None:
         if not self._is_closed:
@@ -270,11 +250,6 @@ class TcpConnection:
         """Answer a packet of a connection that no longer exists."""
         if not self.peer._is_closed:
             self._route.carry(HEADER, self.peer.on_reset)
-
-    def _note_packet(self) -> None:
-        self._last_rx_s = self._clock.seconds()
-        self._probes = 0
-        self.establish()
 
     def _schedule_retry(self) -> None:
         left_s = self._progress_s + self.options.give_up_s - self._clock.seconds()
@@ -297,26 +272,6 @@ class TcpConnection:
             self._retry_s = min(2 * self._retry_s, MAX_RETRY_S)
         self._schedule_retry()
 
-    def _start_probing(self) -> None:
-        if self._probe is None:
-            self._probe = self._clock.callLater(self.options.keepalive[0], self._probe_peer)
-
-    def _probe_peer(self) -> None:
-        if self._is_closed or not self._has_program:
-            return
-        idle_s, interval_s, max_probes = self.options.keepalive
-        wait_s, limit_s = interval_s, self.options.user_timeout_s
-        silent_s = self._clock.seconds() - self._last_rx_s
-        if silent_s < idle_s - 1e-6:
-            wait_s = idle_s - silent_s
-        elif self._probes > 0 and silent_s >= limit_s if limit_s else self._probes >= max_probes:
-            self._break("no keepalive was answered")
-            return
-        elif not self._unacknowledged:
-            self._probes += 1
-            self._route.carry(HEADER, self.peer.on_probe)
-        self._probe = self._clock.callLater(wait_s, self._probe_peer)
-
     def _break(self, why: str) -> None:
         """Lose the connection without a notice from the other side."""
         if not self._is_closed:
@@ -330,7 +285,6 @@ class TcpConnection:
         self._unacknowledged.clear()
         self._in_flight = 0
         cancel(self._retry)
-        cancel(self._probe)
 
     # Calls into the program.
 

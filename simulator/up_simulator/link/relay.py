@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from abc import ABC, abstractmethod
 from collections.abc import Callable
 from typing import Any
 
@@ -23,37 +22,6 @@ class LinkRelayError(Exception):
     code = "port_in_use"
 
 
-class ListeningRelay(ABC):
-    """Listens on a local port for traffic to a target.
-
-    Port 0 is any free port; ``port`` has it after ``start``.
-    """
-
-    def __init__(self, reactor: Any, listen_port: int, target: tuple[str, int]) -> None:
-        self._reactor = reactor
-        self._target = target
-        self._listen_port = listen_port
-        self._listener: Any = None
-
-    @property
-    def port(self) -> int:
-        return self._listen_port if self._listener is None else self._listener.getHost().port
-
-    def start(self) -> int:
-        """Listen and return the port; raises ``LinkRelayError``."""
-        try:
-            self._listener = self._listen()
-        except CannotListenError as error:
-            where = f"{LOOPBACK}:{self._listen_port}"
-            text = f"the link cannot listen on {where}: {error.socketError}"
-            raise LinkRelayError(text) from error
-        return self.port
-
-    @abstractmethod
-    def _listen(self) -> Any:
-        """Return the listening port; raises ``CannotListenError``."""
-
-
 WINDOW = 16 * 1024
 """Bytes on their way at most, each way of each connection; more is not read from its sender."""
 CONNECT_S = 30.0
@@ -69,8 +37,10 @@ class _ClientFactory(Factory):
         return self._accept()
 
 
-class LinkRelay(ListeningRelay):
-    """Listens, and carries each connection to the target and back by two models.
+class LinkRelay:
+    """Listens on a local port, and carries each connection to the target and back by two models.
+
+    Port 0 is any free port; ``port`` has it after ``start``.
 
     ``up`` is the direction to the target, ``down`` the one back; all connections share them. The
     models' settings may change at any time. In a blackout nothing passes and neither end is
@@ -94,7 +64,10 @@ class LinkRelay(ListeningRelay):
         user_timeout_s: float | None = None,
         clock: Clock | None = None,
     ) -> None:
-        super().__init__(reactor, listen_port, (target_host, target_port))
+        self._reactor = reactor
+        self._listen_port = listen_port
+        self._target = (target_host, target_port)
+        self._listener: Any = None
         self.up = up
         self.down = down
         self.window = WINDOW
@@ -102,6 +75,21 @@ class LinkRelay(ListeningRelay):
         self.clock: Clock = clock if clock is not None else reactor
         self._connections: set[RelayedConnection] = set()
         self._idle: Deferred[None] | None = None
+
+    @property
+    def port(self) -> int:
+        return self._listen_port if self._listener is None else self._listener.getHost().port
+
+    def start(self) -> int:
+        """Listen and return the port; raises ``LinkRelayError``."""
+        factory = _ClientFactory(self._accept)
+        try:
+            self._listener = self._reactor.listenTCP(self._listen_port, factory, interface=LOOPBACK)
+        except CannotListenError as error:
+            where = f"{LOOPBACK}:{self._listen_port}"
+            text = f"the link cannot listen on {where}: {error.socketError}"
+            raise LinkRelayError(text) from error
+        return self.port
 
     @property
     def connections(self) -> int:
@@ -129,10 +117,6 @@ class LinkRelay(ListeningRelay):
         if self._idle is not None and not self._connections:
             idle, self._idle = self._idle, None
             idle.callback(None)
-
-    def _listen(self) -> Any:
-        factory = _ClientFactory(self._accept)
-        return self._reactor.listenTCP(self._listen_port, factory, interface=LOOPBACK)
 
     def _accept(self) -> Protocol:
         connection = RelayedConnection(self)

@@ -18,8 +18,7 @@ from up.protocols.line_decoder import MAX_LINE_BYTES
 from up_simulator.aircraft.flight import FlightSource
 from up_simulator.harness.user_log import Log
 from up_simulator.phone.address import NotFoundError, RaspberryPi
-from up_simulator.phone.handset import Record
-from up_simulator.phone.phone import Phone
+from up_simulator.phone.phone import Phone, Record
 
 CONNECT_S = 2.0
 FIRST_RETRY_S, LAST_RETRY_S = 0.5, 2.0
@@ -59,7 +58,7 @@ class DroppingWriter:
 
 
 class PythonHandset:
-    """The stub of the phone in Python: for scenarios, and for machines without Java.
+    """The phone aboard, in Python.
 
     Keeps its two links to the Raspberry Pi open, independently and without a limit. ``find`` is
     called before every attempt of the General Message link; the orientation link uses its result.

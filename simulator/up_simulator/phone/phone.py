@@ -19,6 +19,8 @@ MAX_DELAY_MS = 10_000
 SLACK_S = 1e-6
 PANICS = ("up.panic", "load_guard.panic")
 ACK, NACK = "up.ack", "up.nack"
+Record = Callable[[FlightState], dict[str, Any]]
+"""The phone's data for the black box: the data of ``black_box.record``."""
 IGNORED = ("up.telemetry.update", "up.system.state", "arduino.pids.values")
 
 
@@ -50,7 +52,7 @@ class Phone:
         seed: int = 1,
         identity: str = "",
         log: Log = no_log,
-        record: Callable[[FlightState], dict[str, Any]] | None = None,
+        record: Record | None = None,
     ) -> None:
         self._flight = flight
         self._clock = clock

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import random
 from collections import deque
-from typing import Any, Literal, NamedTuple
+from typing import Any, Literal
 
 from up_simulator.aircraft.flight import FlightState
 
@@ -21,66 +21,12 @@ MAX_FIX_AGE_S = 2.0
 """An older fix is not sent; the app has the same limit."""
 BAROMETER_M = 0.3
 COMPASS_DEG = 1.5
-COMPASS_S = 0.2
-"""Correlation time of a compass error, which is the period of the heading."""
 INITIAL_BATTERY_PERCENT = 95.0
 BATTERY_PERCENT_PER_S = 0.01
-SEA_LEVEL_HPA, SEA_LEVEL_K, LAPSE_K_M = 1013.25, 288.15, 0.0065
-PRESSURE_POWER = 9.80665 * 0.0289644 / (8.31446 * LAPSE_K_M)
-"""Of the standard atmosphere (ISO 2533) up to 11 km."""
 _TINY_S = 1e-6
-_HALF = math.sqrt(0.5)
 
 
 GpsState = Literal["back", "lost", "jumped", "frozen"]
-
-
-class Quaternion(NamedTuple):
-    """A rotation w + xi + yj + zk of length one (Hamilton)."""
-
-    w: float
-    x: float
-    y: float
-    z: float
-
-    def times(self, that: Quaternion) -> Quaternion:
-        """Return the rotation of ``that`` followed by this."""
-        return Quaternion(
-            self.w * that.w - self.x * that.x - self.y * that.y - self.z * that.z,
-            self.w * that.x + self.x * that.w + self.y * that.z - self.z * that.y,
-            self.w * that.y - self.x * that.z + self.y * that.w + self.z * that.x,
-            self.w * that.z + self.x * that.y - self.y * that.x + self.z * that.w,
-        )
-
-    def conjugate(self) -> Quaternion:
-        return Quaternion(self.w, -self.x, -self.y, -self.z)
-
-    def turn(self, x: float, y: float, z: float) -> tuple[float, float, float]:
-        turned = self.times(Quaternion(0.0, x, y, z)).times(self.conjugate())
-        return turned.x, turned.y, turned.z
-
-
-def about(axis: int, angle_deg: float) -> Quaternion:
-    """Return the right-handed rotation about an axis: 0, 1 or 2 for x, y or z."""
-    half_rad = math.radians(angle_deg) / 2
-    parts = [math.cos(half_rad), 0.0, 0.0, 0.0]
-    parts[1 + axis] = math.sin(half_rad)
-    return Quaternion(*parts)
-
-
-SWAP = Quaternion(0.0, _HALF, _HALF, 0.0)
-"""Changes the first two axes for each other and turns the third over: north, east, down to east,
-north, up; nose, right wing, down to the axes of a flat phone with its top edge ahead."""
-
-MOUNTING = about(0, -5.0).times(about(2, 12.0)).times(about(1, 80.0)).times(SWAP)
-"""Aircraft (nose, right wing, down) to device (right edge, top edge, out of the screen): on its
-long edge in a narrow fuselage, and slightly crooked, as in a real installation."""
-
-
-def body_to_world(roll_deg: float, pitch_deg: float, yaw_deg: float) -> Quaternion:
-    """Return the rotation from the aircraft's axes to east, north, up."""
-    to_ned = about(2, yaw_deg).times(about(1, pitch_deg)).times(about(0, roll_deg))
-    return SWAP.times(to_ned)
 
 
 class PhoneSensors:
@@ -90,19 +36,17 @@ class PhoneSensors:
     seed. Its error wanders slowly by some metres, as real ones do, plus noise; a seed makes it
     repeatable. ``gps``: ``lost``: no fix; ``jumped``: 300 m beside the truth; ``frozen``: the last
     fix again and again with new times. The battery falls from ``battery_percent``, its
-    level at ``battery_time_s`` of the flight. The raw inputs of a phone's software are included:
-    pressure, rotation and rate, of a phone mounted as in ``mounting`` (aircraft to device).
+    level at ``battery_time_s`` of the flight.
     ``has_barometer``: whether it measures the altitude by pressure.
     """
 
-    def __init__(self, seed: int = 1, mounting: Quaternion = MOUNTING) -> None:
+    def __init__(self, seed: int = 1) -> None:
         self._noise = random.Random(seed)
         self.gps_delay_s = random.Random(f"gps {seed}").uniform(*GPS_DELAY_S)
         self.gps: GpsState = "back"
         self.has_barometer = True
         self._period_s = GPS_PERIOD_S
         self._fix_noise, self._delay_jitter_s = 1.0, GPS_DELAY_JITTER_S
-        self._mounting = mounting
         spread = random.Random(f"gps wander {seed}")
         horizontal_m = spread.uniform(*GPS_WANDER_M)
         self._wander_spread_m = (horizontal_m, horizontal_m, spread.uniform(*GPS_ALTITUDE_WANDER_M))
@@ -110,8 +54,6 @@ class PhoneSensors:
         self._fix_s = self._fix_due_s = -math.inf
         self._newest_fix: dict[str, Any] = {}
         self._coming: deque[tuple[float, float, dict[str, Any]]] = deque()
-        self._compass_deg = 0.0
-        self._compass_s = -math.inf
         self.battery_percent = INITIAL_BATTERY_PERCENT
         self.battery_time_s = 0.0
 
@@ -158,25 +100,6 @@ class PhoneSensors:
         level = self.battery_percent - BATTERY_PERCENT_PER_S * used_s
         return {"level": max(0, round(level))}
 
-    def pressure_hpa(self, state: FlightState) -> float:
-        """Return the barometer's reading, by the standard atmosphere."""
-        self._receive(state)
-        altitude_m = state.altitude_m + self._noise.gauss(0.0, BAROMETER_M)
-        part = 1 - LAPSE_K_M * altitude_m / SEA_LEVEL_K
-        return round(SEA_LEVEL_HPA * math.pow(part, PRESSURE_POWER), 4)
-
-    def rotation(self, state: FlightState) -> list[float]:
-        """Return w, x, y, z of the device's axes in the world (east, north, up).
-
-        North is the compass's: its error lasts for 0.2 s and turns everything.
-        """
-        if not 0 <= state.time_s - self._compass_s < COMPASS_S - _TINY_S:
-            self._compass_s = state.time_s
-            self._compass_deg = self._noise.gauss(0.0, COMPASS_DEG)
-        yaw_deg = state.yaw_deg + self._compass_deg
-        body = body_to_world(state.roll_deg, state.pitch_deg, yaw_deg)
-        return [round(each, 9) for each in body.times(self._mounting.conjugate())]
-
     def _receive(self, state: FlightState) -> None:
         """Measure a fix when a second has passed; every measurement of the phone looks here."""
         passed_s = state.time_s - self._fix_s
@@ -222,9 +145,3 @@ class PhoneSensors:
             "bearing": round(bearing_deg, 1) % 360.0,
             "satellites": GPS_SATELLITES,
         }
-
-    def rate_rad_s(self, state: FlightState) -> list[float]:
-        """Return the gyroscope's reading about the device's axes, rad/s."""
-        rates_deg_s = (state.roll_rate_deg_s, state.pitch_rate_deg_s, state.yaw_rate_deg_s)
-        turned = self._mounting.turn(*map(math.radians, rates_deg_s))
-        return [round(each, 9) for each in turned]

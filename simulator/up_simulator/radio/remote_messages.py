@@ -3,16 +3,46 @@
 from __future__ import annotations
 
 import json
-import math
 from dataclasses import dataclass, fields
 from typing import Any
 
+from up.commands.command import WireFields, value
+from up.fields import printable
+from up.flight_log.json_message import decode
 from up_simulator.aircraft.flight import FlightState
-from up_simulator.radio.sticks import CHANNELS, Sticks
+from up_simulator.radio.sticks import Sticks
 
 MAX_DATAGRAM = 2048
-LOWEST_US, HIGHEST_US = 800, 2200
-STATE_FIELDS = ("roll_deg", "pitch_deg", "height_m", "airspeed_m_s")
+
+
+def _pulse() -> Any:
+    return value(unit="us", minimum=800, maximum=2200)
+
+
+@dataclass(frozen=True, slots=True)
+class _Sticks(WireFields):
+    ailerons: int = _pulse()
+    elevator: int = _pulse()
+    throttle: int = _pulse()
+    rudder: int = _pulse()
+    aux1: int = _pulse()
+    aux2: int = _pulse()
+    is_on: bool = value()
+
+
+@dataclass(frozen=True, slots=True)
+class _State(WireFields):
+    roll_deg: float = value()
+    pitch_deg: float = value()
+    height_m: float = value()
+    airspeed_m_s: float = value()
+
+
+@dataclass(frozen=True, slots=True)
+class _Answer(_State):
+    sticks: dict[str, Any] = value()
+    mode: str = value(max_length=20)
+    is_taken_by_other: bool = value()
 
 
 @dataclass(frozen=True, slots=True)
@@ -30,76 +60,36 @@ class Snapshot:
 
 def write_sticks(sticks: Sticks | None) -> bytes:
     """Return the radio's datagram; None releases the sticks and requests the state."""
-    return json.dumps({"sticks": None if sticks is None else _sticks(sticks)}).encode("ascii")
+    return json.dumps({"sticks": None if sticks is None else _data(_Sticks, sticks)}).encode()
 
 
 def read_sticks_of(datagram: bytes) -> Sticks | None:
     """Return the sticks in a datagram, None if it releases them; raises ``ValueError``."""
-    found = _object(datagram)["sticks"]
-    return None if found is None else _read_sticks(found)
+    found = decode(datagram).get("sticks", {})
+    return None if found is None else _sticks_of(found)
 
 
 def write_snapshot(snapshot: Snapshot) -> bytes:
     """Return the aircraft's answer."""
-    values: dict[str, Any] = {
-        name: round(getattr(snapshot.state, name), 3) for name in STATE_FIELDS
-    }
-    words = {
-        "sticks": _sticks(snapshot.sticks),
-        "mode": snapshot.mode,
-        "is_taken_by_other": snapshot.is_taken_by_other,
-    }
-    return json.dumps({**values, **words}).encode("ascii")
+    state = {name: round(each, 3) for name, each in _data(_State, snapshot.state).items()}
+    more = {"sticks": _data(_Sticks, snapshot.sticks), "mode": snapshot.mode}
+    taken = {"is_taken_by_other": snapshot.is_taken_by_other}
+    return json.dumps({**state, **more, **taken}).encode()
 
 
 def read_snapshot(datagram: bytes) -> Snapshot:
     """Return an answer; raises ``ValueError`` if invalid."""
-    found = _object(datagram)
-    values: dict[str, Any] = {each.name: 0.0 for each in fields(FlightState)}
-    for name in STATE_FIELDS:
-        value = found[name]
-        if type(value) not in (int, float) or not math.isfinite(value):
-            raise ValueError(f"{name} is not a number")
-        values[name] = float(value)
-    mode = found["mode"]
-    if not isinstance(mode, str) or not (mode.isascii() and mode.isprintable()):
-        raise ValueError("mode is not a word")
-    is_taken_by_other = found["is_taken_by_other"]
-    if type(is_taken_by_other) is not bool:
-        raise ValueError("is_taken_by_other is not true or false")
-    return Snapshot(
-        FlightState(**values), _read_sticks(found["sticks"]), mode[:20], is_taken_by_other
-    )
+    found = _Answer.from_data(decode(datagram))
+    known = dict.fromkeys((each.name for each in fields(FlightState)), 0.0)
+    state = FlightState(**(known | _data(_State, found)))
+    return Snapshot(state, _sticks_of(found.sticks), printable(found.mode), found.is_taken_by_other)
 
 
-def _sticks(sticks: Sticks) -> dict[str, Any]:
-    return {**{each: getattr(sticks, each) for each in CHANNELS}, "is_on": sticks.is_on}
-
-
-def _read_sticks(found: Any) -> Sticks:
-    if not isinstance(found, dict) or type(found.get("is_on")) is not bool:
-        raise ValueError("sticks is not an object")
-    pulses: dict[str, int] = {}
-    for channel in CHANNELS:
-        pulse_us = found.get(channel)
-        if type(pulse_us) is not int or not LOWEST_US <= pulse_us <= HIGHEST_US:
-            raise ValueError(f"{channel} is not a pulse")
-        pulses[channel] = pulse_us
-    return Sticks(**pulses, is_on=found["is_on"])
-
-
-def _object(datagram: bytes) -> dict[str, Any]:
-    try:
-        found = json.loads(datagram)
-    except RecursionError:
-        raise ValueError("nested too deeply") from None
+def _sticks_of(found: Any) -> Sticks:
     if not isinstance(found, dict):
-        raise ValueError("not an object")
-    return _Required(found)
+        raise ValueError("sticks is not an object")
+    return Sticks(**_Sticks.from_data(found).data)
 
 
-class _Required(dict[str, Any]):
-    """A mapping in which a missing key is a wrong value, not a bug."""
-
-    def __missing__(self, key: str) -> Any:
-        raise ValueError(f"{key} is missing")
+def _data(kind: type[WireFields], source: object) -> dict[str, Any]:
+    return {each.name: getattr(source, each.name) for each in fields(kind)}

@@ -91,9 +91,8 @@ def _participants(scenario: Scenario, root: MapNode) -> Iterator[Problem]:
         what = f"{ground.through} is a real program: it needs 'raspilot: {{runs: real}}'"
         yield locate(root, "ground", "through"), what
     phone = scenario.phone
-    by_runner = ground is not None and ground.through == "runner"
-    if by_runner and phone is not None and phone.orientation == "udp":
-        what = "a Black Box on a server receives no datagrams: use tcp with 'through: runner'"
+    if scenario.is_real and phone is not None and phone.orientation == "udp":
+        what = "the links of real programs carry no datagrams: use tcp with 'runs: real'"
         yield locate(root, "phone", "orientation"), what
 
 
@@ -111,6 +110,8 @@ def _events(scenario: Scenario, root: MapNode) -> Iterator[Problem]:
             yield node, "needs a ground station: add 'ground: {role: pilot}'"
         if kind in _NEEDS_REAL and not scenario.is_real:
             yield node, "needs real programs: 'raspilot: {runs: real}'"
+        if event.raspilot in ("hung", "awake") and not scenario.is_real:
+            yield node, "needs a process to suspend: 'raspilot: {runs: real}'"
         if event.at_s > scenario.duration_s:
             yield locate(root, "events", at, "at_s"), _after_end(scenario)
 

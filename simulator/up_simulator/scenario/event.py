@@ -117,7 +117,8 @@ class Event:
     )
     raspilot: Literal["killed", "stopped", "started", "hung", "awake"] | None = key(
         None,
-        "The daemon. killed: as by kill -9. stopped: as by systemd. hung: suspended until awake.",
+        "The daemon. killed: as by kill -9. stopped: as by systemd. hung: suspended until awake"
+        " (real programs only).",
     )
     proxy: Literal["killed", "started"] | None = key(None, "The proxy; real programs only.")
     cpu_load_percent: float | None = key(

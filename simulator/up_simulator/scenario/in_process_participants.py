@@ -37,9 +37,7 @@ class InProcessParticipants(DaemonParticipants):
         self.raspilot = self._daemon
         self._reactor.link(GROUND_PORT, up=self.down, down=self.up)
         if scenario.ground is not None:
-            self.ground = InProcessGround(
-                self._reactor, seed=scenario.seed, frame_age=self._daemon.frame_age_s
-            )
+            self.ground = InProcessGround(self._reactor, seed=scenario.seed)
         if scenario.phone is not None:
             self.phone = InProcessPhone(
                 self._reactor,

@@ -172,8 +172,7 @@ class LineBoard:
         arrived = self.wires.pass_on(data, TO_BOARD, self.now_s)
         if arrived:
             for found in self._command_reader.feed(arrived, self.now_s):
-                if isinstance(found, Command):
-                    self.on_command(found)
+                self.on_command(found)
             self._board.write(arrived)
 
     def reset(self, cause: ResetCause) -> None:

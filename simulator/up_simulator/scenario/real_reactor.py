@@ -7,7 +7,6 @@ from typing import Any
 
 from up_simulator.harness.participants import ParticipantError
 from up_simulator.in_process.host import LiteralResolver
-from up_simulator.link.datagram_relay import DatagramRelay
 from up_simulator.link.model import LinkModel
 from up_simulator.link.relay import LOOPBACK, LinkRelay, LinkRelayError
 
@@ -33,7 +32,7 @@ class RealReactor:
             reactor.startRunning(installSignalHandlers=False)
         self._reactor = reactor
         self.targets: dict[int, int] = {}
-        self._relays: list[LinkRelay | DatagramRelay] = []
+        self._relays: list[LinkRelay] = []
         self._due_s = time.monotonic()
         self.skipped_s = 0.0
 
@@ -45,20 +44,16 @@ class RealReactor:
         return self._reactor
 
     def link(self, port: int, up: LinkModel, down: LinkModel) -> None:
-        """Put a link before a port that has a target, for TCP and UDP; raises ParticipantError."""
+        """Put a link before a TCP port that has a target; raises ParticipantError."""
         if port in self.targets:
             self.relay(port, self.targets[port], up, down)
-            self.relay(port, self.targets[port], up, down, is_datagram=True)
 
-    def relay(
-        self, port: int, target: int, up: LinkModel, down: LinkModel, *, is_datagram: bool = False
-    ) -> int:
+    def relay(self, port: int, target: int, up: LinkModel, down: LinkModel) -> int:
         """Listen on a port (0: any), carry everything to another one; return the port.
 
         Raises ParticipantError.
         """
-        kind = DatagramRelay if is_datagram else LinkRelay
-        relay = kind(self._reactor, port, LOOPBACK, target, up, down)
+        relay = LinkRelay(self._reactor, port, LOOPBACK, target, up, down)
         self._relays.append(relay)
         try:
             return relay.start()
@@ -87,7 +82,7 @@ class RealReactor:
         self._reactor.iterate(0)
 
 
-def _begin(relay: LinkRelay | DatagramRelay) -> None:
+def _begin(relay: LinkRelay) -> None:
     from twisted.internet.defer import Deferred
 
     Deferred.fromCoroutine(relay.stop()).addErrback(lambda _: None)

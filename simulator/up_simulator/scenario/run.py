@@ -16,8 +16,7 @@ from up_simulator.aircraft import AirframeError
 from up_simulator.aircraft.flight import FlightUnavailableError
 from up_simulator.firmware.board import BoardCrashedError
 from up_simulator.firmware.build import BoardUnavailableError
-from up_simulator.firmware.preparation import PreparationError
-from up_simulator.firmware.settings_wire import SettingsError
+from up_simulator.firmware.preparation import PreparationError, SettingsError
 from up_simulator.harness.participants import ParticipantError
 from up_simulator.harness.signal_handling import interrupts_between_steps
 from up_simulator.picture.flight_picture import draw_flight

@@ -1,7 +1,6 @@
 """A system with the phone's modules, on the real reactor."""
 
-from android_cog.commands.android_battery_command import AndroidBatteryLowCommand
-from android_cog.commands.android_speak_command import AndroidSpeakCommand
+from android_cog.commands.android_commands import AndroidBatteryLowCommand, AndroidSpeakCommand
 from android_cog.modules.android_battery_provider import AndroidBatteryProvider
 from android_cog.modules.android_provider import AndroidProvider
 

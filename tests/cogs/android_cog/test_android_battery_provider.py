@@ -1,7 +1,7 @@
 """The phone's battery."""
 
 import pytest
-from android_cog.commands.android_battery_command import (
+from android_cog.commands.android_commands import (
     AndroidBatteryCommand,
     AndroidBatteryLowCommand,
 )

@@ -3,7 +3,7 @@
 import struct
 
 import pytest
-from arduino_cog.commands.arduino_profile_commands import ArduinoProfileRequestCommand
+from arduino_cog.commands.arduino_commands import ArduinoProfileRequestCommand
 from twisted.logger import capturedLogs, globalLogPublisher
 
 from tests.cogs.arduino_cog.board import PROFILE, PROFILE_FORMAT, Ground

@@ -3,8 +3,7 @@
 import math
 
 import pytest
-from arduino_cog.commands.arduino_calibrate_command import ArduinoCalibrateCommand
-from arduino_cog.commands.battery_calibrate_command import BatteryCalibrateCommand
+from arduino_cog.commands.arduino_commands import ArduinoCalibrateCommand, BatteryCalibrateCommand
 
 from up.commands.board_schema import Reason
 from up.commands.command import InvalidCommandError

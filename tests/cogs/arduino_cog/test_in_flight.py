@@ -3,7 +3,7 @@
 import struct
 
 import pytest
-from arduino_cog.commands.arduino_calibrate_command import ArduinoCalibrateCommand
+from arduino_cog.commands.arduino_commands import ArduinoCalibrateCommand
 
 from tests.cogs.arduino_cog.board import PROFILE, PROFILE_FORMAT
 from up.commands.flight_state_command import FlightStateCommand

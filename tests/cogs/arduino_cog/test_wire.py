@@ -9,12 +9,12 @@ from pathlib import Path
 import pytest
 from arduino_cog import wire
 from arduino_cog.commands.arduino_status_command import read_status
-from arduino_cog.gains_wire import pack_gains, read_gains
-from arduino_cog.profile import pack_profile, read_profile
 from hypothesis import given
 from hypothesis import strategies as st
 
 from up.commands.board_status import flight_mode_name, refusal_name
+from up.flight_controller.gains_wire import pack_gains, read_gains
+from up.flight_controller.profile_wire import pack_profile, read_profile
 
 VECTORS = Path(__file__).parents[2] / "vectors"
 ALL = [

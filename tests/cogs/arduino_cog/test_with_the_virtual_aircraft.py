@@ -1,4 +1,4 @@
-"""The cog and a board in another process, on a real pty: the compiled firmware, and an old one."""
+"""The cog and a board on a real pty: the compiled firmware, and an old one."""
 
 import os
 import signal
@@ -8,12 +8,14 @@ import sys
 import pytest
 from twisted.internet.task import LoopingCall
 
+from tests.cogs.arduino_cog.bench_board import BenchBoard
 from tests.cogs.arduino_cog.board import MODULES
 from tests.support.firmware import build_firmware
 from tests.support.reactor import reactor, run_in_reactor, until
 from tests.support.system import build_up, started
 from up.base_started_module import BaseStartedModule
 from up.commands.arming_commands import ArmCommand
+from up.commands.board_schema import Veto
 from up.commands.origin import INTERNAL
 from up.commands.output_command import SetpointCommand
 from up.commands.pid_tunings_commands import PIDTuningsCommand
@@ -65,12 +67,6 @@ def fly_aircraft(tmp_path):
         each.end()
 
 
-def firmware():
-    """Return the command of the compiled firmware on a pty."""
-    elf = os.environ.get("RASPILOT_ELF") or build_firmware()
-    return ("up_rig", str(elf), "--pty")
-
-
 def system(tmp_path, framing="checked", modules=MODULES):
     config = {
         "arduino.yml": f"port: {tmp_path / 'board'}\nframing: {framing}\n",
@@ -112,14 +108,23 @@ class Glide(FlightMode):
     ROLL_DEG = -30.0
 
 
-def test_two_modules_that_publish_setpoints_do_not_alternate_on_the_servos(fly_aircraft, tmp_path):
+def test_two_modules_that_publish_setpoints_do_not_alternate_on_the_servos(tmp_path):
+    board = BenchBoard(
+        os.environ.get("RASPILOT_ELF") or build_firmware(),
+        tmp_path / "board",
+        {"throttle": 1000, "aux2": 1000},
+    )
+
     async def fly():
-        plane = fly_aircraft(*firmware())
-        await plane.is_there()
         up = system(tmp_path, modules=[*MODULES, Thermal, Glide])
         life = await started(up)
         arduino = up.get_module(ArduinoProvider)
-        await until(lambda: arduino.status is not None and arduino.status.mode == ord("s"))
+        await until(lambda: arduino.status is not None and arduino.status.vetoes == Veto.AUX2_LOW)
+        # The firmware arms on an edge that follows 300 ms of low.
+        low_s = arduino.status.uptime_s + 2
+        await until(lambda: arduino.status.uptime_s >= low_s)
+        board.move(aux2=2000)
+        await until(lambda: arduino.status.mode == ord("s"), what="SETPOINT")
         owner = up.command_executor.control.owner
         ailerons = []
         up.command_executor.register_command(
@@ -131,7 +136,11 @@ def test_two_modules_that_publish_setpoints_do_not_alternate_on_the_servos(fly_a
         assert set(up.command_executor.control.refused) == {"Thermal", "Glide"} - {owner}
         await life.stop()
 
-    run_in_reactor(fly)
+    board.fly()
+    try:
+        run_in_reactor(fly)
+    finally:
+        board.end()
 
 
 def test_an_old_firmware_with_its_boot_text(fly_aircraft, tmp_path):

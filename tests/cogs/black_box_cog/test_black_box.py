@@ -8,8 +8,7 @@ from pathlib import Path
 
 import pytest
 from black_box_cog import recorder_maker
-from black_box_cog.commands.mark_command import MarkCommand
-from black_box_cog.commands.record_command import RecordCommand
+from black_box_cog.commands.black_box_commands import MarkCommand, RecordCommand
 from black_box_cog.modules import black_box
 from black_box_cog.modules.black_box import BlackBox
 from black_box_cog.record_policy import MAX_MARKS

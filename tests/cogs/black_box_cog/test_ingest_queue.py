@@ -1,4 +1,4 @@
-from black_box_cog.commands.record_command import RecordCommand
+from black_box_cog.commands.black_box_commands import RecordCommand
 from black_box_cog.ingest_queue import LIMIT_BYTES, IngestQueue, LogLine, Recorded
 
 from up.commands.orientation_command import OrientationCommand

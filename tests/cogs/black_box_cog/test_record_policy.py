@@ -1,6 +1,5 @@
 import pytest
-from black_box_cog.commands.mark_command import MarkCommand
-from black_box_cog.commands.record_command import RecordCommand
+from black_box_cog.commands.black_box_commands import MarkCommand, RecordCommand
 from black_box_cog.ingest_queue import Recorded
 from black_box_cog.record_policy import MAX_A_SECOND, MAX_BYTES, TOPICS_LIMIT, RecordPolicy
 from hypothesis import given

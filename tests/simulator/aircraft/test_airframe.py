@@ -5,11 +5,11 @@ import shutil
 import sys
 
 import pytest
-from arduino_cog.profile import AIRFRAME
 from hypothesis import given
 from hypothesis import strategies as st
 
 from up.flight_controller.pids_file import PIDS
+from up.flight_controller.profile_wire import AIRFRAME
 from up.flight_modes.navigation_file import NAVIGATION
 from up_simulator.aircraft import (
     DEFAULT_AIRFRAME,

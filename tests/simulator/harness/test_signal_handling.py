@@ -15,7 +15,6 @@ import pytest
 
 from tests.support.firmware import build_firmware
 from tests.support.waiting import DEADLINE_S, until
-from up_simulator.phone.java_program import choose_phone
 
 LONG = """\
 title: Long
@@ -53,11 +52,6 @@ def ours(folder):
             if is_there and not is_zombie and int(path.name) != os.getpid():
                 found.append(int(path.name))
     return found
-
-
-def with_jvm(programs):
-    """Return how many processes there are where a phone flies: one in Java has its own."""
-    return programs + (choose_phone().java is not None)
 
 
 def words_of(pid):
@@ -261,7 +255,7 @@ def test_the_demo_ends_all_its_processes(in_a_folder, number):
             assert line, output
             output += line
         # Itself, aircraft, proxy, daemon and the page.
-        assert len(ours(in_a_folder)) == with_jvm(5)
+        assert len(ours(in_a_folder)) == 5
         process.send_signal(number)
         assert process.wait(DEADLINE_S) == (-number if number == signal.SIGKILL else 0)
         until(lambda: not ours(in_a_folder), "the end of all")

@@ -193,12 +193,11 @@ def test_it_follows_a_script(tmp_path):
 
 def test_a_request_is_signed_by_the_paired_key_or_not_made(tmp_path, monkeypatch, capsys):
     monkeypatch.setenv("XDG_STATE_HOME", str(tmp_path))
-    words = ["--runner", "127.0.0.1:3002", "--aircraft-name", "kite", "--phone", "python"]
+    words = ["--runner", "127.0.0.1:3002", "--aircraft-name", "kite"]
     assert read_options(words).pairing is None
-    for wrong in (words, words[:-2]):
-        with pytest.raises(SystemExit) as end:
-            read_options([*wrong, "--signed"])
-        assert end.value.code == 2
+    with pytest.raises(SystemExit) as end:
+        read_options([*words, "--signed"])
+    assert end.value.code == 2
     pairing = Pairing("kite", "00" * 8, "00" * 32, "pilot", "phone")
     KeyStore(state_folder(os.environ)).put(pairing)
     assert read_options([*words, "--signed"]).pairing == pairing

@@ -188,17 +188,6 @@ def test_a_short_blackout_only_delays_data():
     assert bench.there.lost is None
 
 
-def test_keepalive_detects_a_vanished_peer():
-    bench = Bench(SLOW)
-    bench.connect()
-    watch_peer(bench.here.transport, 0)
-    bench.reactor.advance(60.0)
-    assert bench.here.lost is None, "a living peer answers every probe"
-    bench.black_out()
-    bench.reactor.advance(10.0)
-    assert bench.here.lost == "ConnectionLost"
-
-
 def test_a_kill_closes_the_connections_of_the_program():
     bench = Bench(SLOW)
     bench.connect()
@@ -237,25 +226,3 @@ def test_addresses_are_available():
     here, there = bench.here.transport, bench.there.transport
     assert here.getPeer().port == PORT == there.getHost().port
     assert here.getHost() == there.getPeer() == bench.server.peers[0]
-
-
-def test_a_frozen_program_receives_all_data_when_it_resumes():
-    bench = Bench(SLOW)
-    bench.connect()
-    watch_peer(bench.here.transport, 1500)
-    due = []
-    bench.pi.callLater(0.5, due.append, "timer")
-    bench.pi.freeze()
-    bench.here.transport.write(b"its system takes this")
-    bench.phone.connectTCP("127.0.0.1", PORT, bench.client)
-    bench.reactor.advance(5.0)
-    assert (bench.there.received, due, len(bench.server.built)) == (b"", [], 1)
-    assert bench.client.built[0].lost is None, "its peer does not notice"
-    bench.pi.thaw()
-    bench.reactor.advance(0.2)
-    assert due == ["timer"]
-    assert bench.server.built[0].received == b"its system takes this"
-    assert len(bench.server.built) == 2
-    bench.server.built[1].transport.write(b"late")
-    bench.reactor.advance(0.2)
-    assert bench.here.received == b"late"

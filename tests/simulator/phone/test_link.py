@@ -18,7 +18,6 @@ from up_simulator.phone.address import (
 )
 
 # The Java phone has its own tests: tests/android/test_interop_*.py.
-PYTHON = ("--phone", "python")
 
 
 @pytest.fixture
@@ -65,7 +64,7 @@ class Peer:
 
 
 def phone(general, *arguments):
-    return Program("--no-board", *PYTHON, "--general-port", port_of(general), *arguments)
+    return Program("--no-board", "--general-port", port_of(general), *arguments)
 
 
 def test_it_sends_its_measurements_and_answers(server):
@@ -155,9 +154,7 @@ def test_it_asks_a_runner_and_goes_where_the_answer_says(server):
     with socket.create_server(("127.0.0.1", 0)) as runner:
         runner.settimeout(DEADLINE_S)
         place = f"127.0.0.1:{port_of(runner)}"
-        with Program(
-            "--no-board", *PYTHON, "--runner", place, "--aircraft-name", "glider-1"
-        ) as program:
+        with Program("--no-board", "--runner", place, "--aircraft-name", "glider-1") as program:
             with Peer(runner) as peer:
                 assert json.loads(peer.file.readline()) == {"aircraft": "glider-1"}
                 peer.send(b'{"running": false, "error": "unknown-aircraft", "ports": null}\n')
@@ -229,7 +226,7 @@ def test_it_ends_at_once_while_it_waits_for_an_answer(option):
         discovery.bind(("127.0.0.1", 0))
         asked = discovery if option == "--discover" else runner
         asked.settimeout(DEADLINE_S)
-        with Program("--no-board", *PYTHON, option, f"127.0.0.1:{port_of(asked)}") as program:
+        with Program("--no-board", option, f"127.0.0.1:{port_of(asked)}") as program:
             question = asked.recv(512) if asked is discovery else asked.accept()[0]
             status, took_s, error = program.end()
             if asked is runner:

@@ -147,6 +147,8 @@ def test_all_problems_are_reported_together():
         ("raspilot: {runs: in process}\nevents: [{at_s: 1, proxy: killed}]\n",
          "4 events[0].proxy"),
         ("raspilot: {runs: in process}\nground: {through: proxy}\n", "4 ground.through"),
+        ("raspilot: {runs: in process}\nevents: [{at_s: 1, raspilot: hung}]\n",
+         "4 events[0].raspilot"),
         ("raspilot: {runs: real}\nground: {through: runner}\nphone: {orientation: udp}\n",
          "5 phone.orientation"),
         ("raspilot: {config: {config.yml: {mod: auto}}}\n", "3 raspilot.config.config.yml"),

@@ -13,7 +13,7 @@ from tools.tuning.trial import StickMove
 from up.commands.gains import Gains, GainSet, LoopGains
 from up_simulator.aircraft import load_airframe
 from up_simulator.firmware.line_monitor import LineMonitor
-from up_simulator.firmware.settings_wire import SettingsError
+from up_simulator.firmware.preparation import SettingsError
 
 ODD = GainSet(
     LoopGains(Gains(2.5, 0.5, 0.125), Gains(1.5), Gains(0.75)),

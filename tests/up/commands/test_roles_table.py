@@ -1,20 +1,19 @@
 """Every Command and every role."""
 
 import pytest
-from android_cog.commands.android_battery_command import (
+from android_cog.commands.android_commands import (
     AndroidBatteryCommand,
     AndroidBatteryLowCommand,
+    AndroidSpeakCommand,
 )
-from android_cog.commands.android_speak_command import AndroidSpeakCommand
-from arduino_cog.commands.arduino_calibrate_command import ArduinoCalibrateCommand
-from arduino_cog.commands.arduino_profile_commands import (
+from arduino_cog.commands.arduino_commands import (
+    ArduinoCalibrateCommand,
     ArduinoProfileRequestCommand,
     ArduinoProfileValuesCommand,
+    BatteryCalibrateCommand,
 )
 from arduino_cog.commands.arduino_status_command import ArduinoStatusCommand
-from arduino_cog.commands.battery_calibrate_command import BatteryCalibrateCommand
-from black_box_cog.commands.mark_command import MarkCommand
-from black_box_cog.commands.record_command import RecordCommand
+from black_box_cog.commands.black_box_commands import MarkCommand, RecordCommand
 
 from tests.up.commands.samples import Border
 from up.commands.builtin import BUILTIN_COMMANDS

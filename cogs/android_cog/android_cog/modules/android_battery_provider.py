@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any, ClassVar
 
-from android_cog.commands.android_battery_command import (
+from android_cog.commands.android_commands import (
     AndroidBatteryCommand,
     AndroidBatteryLowCommand,
 )

@@ -7,14 +7,19 @@ from typing import Any
 from twisted.internet.defer import Deferred
 from twisted.python.failure import Failure
 
-from arduino_cog.commands.arduino_profile_commands import (
+from arduino_cog.commands.arduino_commands import (
     ArduinoProfileRequestCommand,
     ArduinoProfileValuesCommand,
 )
 from arduino_cog.commands.arduino_status_command import ArduinoStatusCommand
 from arduino_cog.mirrored_parameter import MirroredParameter
 from arduino_cog.modules.arduino_provider import ArduinoProvider
-from arduino_cog.profile import (
+from arduino_cog.wire import IN_FLIGHT
+from up.base_module import BaseModule
+from up.commands.flight_state_command import FlyByWireLimitsCommand
+from up.commands.refusal import Code, CommandRefusedError
+from up.config.schema import plain_value
+from up.flight_controller.profile_wire import (
     AIRFRAME,
     Profile,
     differences,
@@ -22,11 +27,6 @@ from arduino_cog.profile import (
     pack_profile,
     read_profile,
 )
-from arduino_cog.wire import IN_FLIGHT
-from up.base_module import BaseModule
-from up.commands.flight_state_command import FlyByWireLimitsCommand
-from up.commands.refusal import Code, CommandRefusedError
-from up.config.schema import plain_value
 from up.mode import WITH_BOARD
 from up.needs import needs, wants
 from up.providers.base_mission_control_provider import BaseMissionControlProvider

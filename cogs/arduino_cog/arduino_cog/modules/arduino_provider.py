@@ -11,8 +11,6 @@ from serial_cog.modules.serial_provider import SerialProvider
 from twisted.internet.defer import Deferred
 
 from arduino_cog.commands.arduino_status_command import ArduinoStatusCommand, read_status
-from arduino_cog.gains_wire import THREE_AXES_SIZE, TWO_AXES_SIZE
-from arduino_cog.profile import PROFILE_SIZE
 from arduino_cog.request_tracker import RequestTracker
 from arduino_cog.wire import ATTITUDE, IN_FLIGHT, INPUTS, ORIENTATION, OUTPUTS
 from up.base_started_module import BaseStartedModule
@@ -33,6 +31,8 @@ from up.commands.rx_command import RXCommand
 from up.commands.servo_command import ServoCommand
 from up.commands.system_commands import LinkStateCommand
 from up.config import ConfigErrors, ConfigProblem
+from up.flight_controller.gains_wire import THREE_AXES_SIZE, TWO_AXES_SIZE
+from up.flight_controller.profile_wire import PROFILE_SIZE
 from up.mode import WITH_BOARD
 from up.needs import needs
 from up.system.clock import Timer, cancel

@@ -6,8 +6,11 @@ from typing import Any
 
 from twisted.internet.defer import Deferred
 
-from arduino_cog.commands.arduino_calibrate_command import CALIBRATIONS, ArduinoCalibrateCommand
-from arduino_cog.commands.battery_calibrate_command import BatteryCalibrateCommand
+from arduino_cog.commands.arduino_commands import (
+    CALIBRATIONS,
+    ArduinoCalibrateCommand,
+    BatteryCalibrateCommand,
+)
 from arduino_cog.modules.arduino_provider import ArduinoProvider
 from arduino_cog.wire import IN_FLIGHT, pack_voltage
 from up.base_module import BaseModule

@@ -8,7 +8,6 @@ from twisted.internet.defer import Deferred
 from twisted.python.failure import Failure
 
 from arduino_cog.commands.arduino_status_command import ArduinoStatusCommand
-from arduino_cog.gains_wire import pack_gains, read_gains, without_rudder
 from arduino_cog.mirrored_parameter import MirroredParameter
 from arduino_cog.modules.arduino_provider import ArduinoProvider
 from arduino_cog.wire import IN_FLIGHT
@@ -17,6 +16,7 @@ from up.commands.gains import GainSet
 from up.commands.pid_tunings_commands import PIDTuningsCommand, PIDTuningsValuesCommand
 from up.commands.refusal import Code, CommandRefusedError
 from up.flight_controller.gains_store import GainsStore, refuse_unused
+from up.flight_controller.gains_wire import pack_gains, read_gains, without_rudder
 from up.flight_controller.pids_file import PIDS, PidsFile
 from up.mode import WITH_BOARD
 from up.needs import needs, wants

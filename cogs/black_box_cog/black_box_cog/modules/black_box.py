@@ -10,8 +10,7 @@ from collections.abc import Mapping
 from dataclasses import asdict
 from typing import TYPE_CHECKING, Any, ClassVar
 
-from black_box_cog.commands.mark_command import MarkCommand
-from black_box_cog.commands.record_command import RecordCommand
+from black_box_cog.commands.black_box_commands import MarkCommand, RecordCommand
 from black_box_cog.config import BLACK_BOX
 from black_box_cog.ingest_queue import IngestQueue, LogForwarder, RecorderStatus
 from black_box_cog.record_policy import RecordPolicy

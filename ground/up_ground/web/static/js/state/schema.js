@@ -2,289 +2,55 @@
 
 /** Effect and holder of each flight mode. */
 export const MODES = {
-  "ACRO": {
-    "about": "the sticks move the surfaces",
-    "holder": "the pilot"
-  },
-  "RATE": {
-    "about": "the sticks ask for rotation",
-    "holder": "the pilot; the Arduino holds the rates"
-  },
-  "FBW": {
-    "about": "the sticks ask for attitude, within limits",
-    "holder": "the pilot; the Arduino holds the attitude"
-  },
-  "SETPOINT": {
-    "about": "the Raspberry Pi sets the attitude",
-    "holder": "Raspberry Pi; the Arduino holds the attitude"
-  },
-  "RETURN": {
-    "about": "the aircraft flies home and circles there",
-    "holder": ""
-  },
-  "OUTPUT": {
-    "about": "the Raspberry Pi sets the servo positions",
-    "holder": "Raspberry Pi"
-  },
-  "RTH": {
-    "about": "return home, sent by old firmware; without behaviour",
-    "holder": "Arduino"
-  },
-  "AUTO": {
-    "about": "the flight mode that the aircraft's navigation.yml names",
-    "holder": ""
-  },
-  "CRUISE": {
-    "about": "the aircraft holds height and course",
-    "holder": ""
-  },
-  "LOITER": {
-    "about": "the aircraft circles where it is, at constant height",
-    "holder": ""
-  },
-  "MISSION": {
-    "about": "the aircraft flies the mission",
-    "holder": ""
-  },
-  "GUIDED": {
-    "about": "the aircraft flies to the target and circles there",
-    "holder": ""
-  },
-  "CIRCLE": {
-    "about": "the aircraft circles in a gentle bank, without a position",
-    "holder": ""
-  },
-  "GLIDE": {
-    "about": "the aircraft glides, motor off",
-    "holder": ""
-  },
-  "LAND": {
-    "about": "the aircraft lands at home or at the target, against the wind",
-    "holder": ""
-  },
-  "TAKEOFF": {
-    "about": "the motor starts when the aircraft is thrown with the throttle stick raised",
-    "holder": ""
-  }
+  "ACRO": {"about": "the sticks move the surfaces", "holder": "the pilot"},
+  "RATE": {"about": "the sticks ask for rotation", "holder": "the pilot; the Arduino holds the rates"},
+  "FBW": {"about": "the sticks ask for attitude, within limits", "holder": "the pilot; the Arduino holds the attitude"},
+  "SETPOINT": {"about": "the Raspberry Pi sets the attitude", "holder": "Raspberry Pi; the Arduino holds the attitude"},
+  "RETURN": {"about": "the aircraft flies home and circles there", "holder": ""},
+  "OUTPUT": {"about": "the Raspberry Pi sets the servo positions", "holder": "Raspberry Pi"},
+  "RTH": {"about": "return home, sent by old firmware; without behaviour", "holder": "Arduino"},
+  "AUTO": {"about": "the flight mode that the aircraft's navigation.yml names", "holder": ""},
+  "CRUISE": {"about": "the aircraft holds height and course", "holder": ""},
+  "LOITER": {"about": "the aircraft circles where it is, at constant height", "holder": ""},
+  "MISSION": {"about": "the aircraft flies the mission", "holder": ""},
+  "GUIDED": {"about": "the aircraft flies to the target and circles there", "holder": ""},
+  "CIRCLE": {"about": "the aircraft circles in a gentle bank, without a position", "holder": ""},
+  "GLIDE": {"about": "the aircraft glides, motor off", "holder": ""},
+  "LAND": {"about": "the aircraft lands at home or at the target, against the wind", "holder": ""},
+  "TAKEOFF": {"about": "the motor starts when the aircraft is thrown with the throttle stick raised", "holder": ""},
 };
 
 /** Rows of the board panel; `style` applies to the value `when`. */
 export const BOARD_ROWS = [
-  {
-    "label": "Receiver",
-    "path": "arduino.receiver_valid",
-    "kind": "flag",
-    "unit": "",
-    "yes": "valid",
-    "no": "NOT VALID",
-    "style": "alarm",
-    "when": false
-  },
-  {
-    "label": "IMU",
-    "path": "arduino.imu_valid",
-    "kind": "flag",
-    "unit": "",
-    "yes": "valid",
-    "no": "NOT VALID",
-    "style": "alarm",
-    "when": false
-  },
-  {
-    "label": "Gyro's bias",
-    "path": "arduino.bias_stored",
-    "kind": "flag",
-    "unit": "",
-    "yes": "an old one",
-    "no": "fresh",
-    "style": "warning",
-    "when": true
-  },
-  {
-    "label": "Last reset",
-    "path": "arduino.reset_cause",
-    "kind": "text",
-    "unit": "",
-    "yes": "yes",
-    "no": "no",
-    "style": "",
-    "when": null
-  },
-  {
-    "label": "Reset in flight",
-    "path": "arduino.restored",
-    "kind": "flag",
-    "unit": "",
-    "yes": "YES",
-    "no": "no",
-    "style": "warning",
-    "when": true
-  },
-  {
-    "label": "Loop",
-    "path": "arduino.loop_us",
-    "kind": "number",
-    "unit": "us",
-    "yes": "yes",
-    "no": "no",
-    "style": "",
-    "when": null
-  },
-  {
-    "label": "Late",
-    "path": "arduino.late_us",
-    "kind": "number",
-    "unit": "us",
-    "yes": "yes",
-    "no": "no",
-    "style": "",
-    "when": null
-  },
-  {
-    "label": "Frame errors",
-    "path": "arduino.frame_errors",
-    "kind": "number",
-    "unit": "",
-    "yes": "yes",
-    "no": "no",
-    "style": "",
-    "when": null
-  },
-  {
-    "label": "Framing",
-    "path": "arduino.framing",
-    "kind": "text",
-    "unit": "",
-    "yes": "yes",
-    "no": "no",
-    "style": "",
-    "when": null
-  },
-  {
-    "label": "Processor",
-    "path": "load.cpu",
-    "kind": "number",
-    "unit": "%",
-    "yes": "yes",
-    "no": "no",
-    "style": "",
-    "when": null
-  },
-  {
-    "label": "Memory",
-    "path": "load.ram",
-    "kind": "number",
-    "unit": "%",
-    "yes": "yes",
-    "no": "no",
-    "style": "",
-    "when": null
-  },
-  {
-    "label": "Up runs for",
-    "path": "system.uptime_s",
-    "kind": "number",
-    "unit": "s",
-    "yes": "yes",
-    "no": "no",
-    "style": "",
-    "when": null
-  }
+  {"label": "Receiver", "path": "arduino.receiver_valid", "kind": "flag", "unit": "", "yes": "valid", "no": "NOT VALID", "style": "alarm", "when": false},
+  {"label": "IMU", "path": "arduino.imu_valid", "kind": "flag", "unit": "", "yes": "valid", "no": "NOT VALID", "style": "alarm", "when": false},
+  {"label": "Gyro's bias", "path": "arduino.bias_stored", "kind": "flag", "unit": "", "yes": "an old one", "no": "fresh", "style": "warning", "when": true},
+  {"label": "Last reset", "path": "arduino.reset_cause", "kind": "text", "unit": "", "yes": "yes", "no": "no", "style": "", "when": null},
+  {"label": "Reset in flight", "path": "arduino.restored", "kind": "flag", "unit": "", "yes": "YES", "no": "no", "style": "warning", "when": true},
+  {"label": "Loop", "path": "arduino.loop_us", "kind": "number", "unit": "us", "yes": "yes", "no": "no", "style": "", "when": null},
+  {"label": "Late", "path": "arduino.late_us", "kind": "number", "unit": "us", "yes": "yes", "no": "no", "style": "", "when": null},
+  {"label": "Frame errors", "path": "arduino.frame_errors", "kind": "number", "unit": "", "yes": "yes", "no": "no", "style": "", "when": null},
+  {"label": "Framing", "path": "arduino.framing", "kind": "text", "unit": "", "yes": "yes", "no": "no", "style": "", "when": null},
+  {"label": "Processor", "path": "load.cpu", "kind": "number", "unit": "%", "yes": "yes", "no": "no", "style": "", "when": null},
+  {"label": "Memory", "path": "load.ram", "kind": "number", "unit": "%", "yes": "yes", "no": "no", "style": "", "when": null},
+  {"label": "Up runs for", "path": "system.uptime_s", "kind": "number", "unit": "s", "yes": "yes", "no": "no", "style": "", "when": null},
 ];
 
 /** Rows of the navigation panel. */
 export const NAVIGATION_ROWS = [
-  {
-    "label": "Time home",
-    "path": "home.time_s",
-    "unit": "s",
-    "decimals": 0,
-    "optional": false
-  },
-  {
-    "label": "Above sea level",
-    "path": "navigation.altitude",
-    "unit": "m",
-    "decimals": 1,
-    "optional": false
-  },
-  {
-    "label": "Above home",
-    "path": "navigation.height",
-    "unit": "m",
-    "decimals": 1,
-    "optional": false
-  },
-  {
-    "label": "Ground speed",
-    "path": "navigation.speed",
-    "unit": "m/s",
-    "decimals": 1,
-    "optional": false
-  },
-  {
-    "label": "Climb",
-    "path": "navigation.climb",
-    "unit": "m/s",
-    "decimals": 1,
-    "optional": false
-  },
-  {
-    "label": "Airspeed",
-    "path": "navigation.airspeed",
-    "unit": "m/s",
-    "decimals": 1,
-    "optional": false
-  },
-  {
-    "label": "Wind",
-    "path": "navigation.wind.speed",
-    "unit": "m/s",
-    "decimals": 1,
-    "optional": false
-  },
-  {
-    "label": "Wind from",
-    "path": "navigation.wind.from",
-    "unit": "deg",
-    "decimals": 0,
-    "optional": false
-  },
-  {
-    "label": "Position sd",
-    "path": "navigation.sd.position",
-    "unit": "m",
-    "decimals": 1,
-    "optional": false
-  },
-  {
-    "label": "Altitude sd",
-    "path": "navigation.sd.altitude",
-    "unit": "m",
-    "decimals": 1,
-    "optional": false
-  },
-  {
-    "label": "Satellites",
-    "path": "location.satellites",
-    "unit": "",
-    "decimals": 0,
-    "optional": true
-  },
-  {
-    "label": "Mission item",
-    "path": "mission.item",
-    "unit": "",
-    "decimals": 0,
-    "optional": true
-  },
-  {
-    "label": "Fence",
-    "path": "fence.margin",
-    "unit": "m",
-    "decimals": 0,
-    "optional": false
-  }
+  {"label": "Time home", "path": "home.time_s", "unit": "s", "decimals": 0, "optional": false},
+  {"label": "Above sea level", "path": "navigation.altitude", "unit": "m", "decimals": 1, "optional": false},
+  {"label": "Above home", "path": "navigation.height", "unit": "m", "decimals": 1, "optional": false},
+  {"label": "Ground speed", "path": "navigation.speed", "unit": "m/s", "decimals": 1, "optional": false},
+  {"label": "Climb", "path": "navigation.climb", "unit": "m/s", "decimals": 1, "optional": false},
+  {"label": "Airspeed", "path": "navigation.airspeed", "unit": "m/s", "decimals": 1, "optional": false},
+  {"label": "Wind", "path": "navigation.wind.speed", "unit": "m/s", "decimals": 1, "optional": false},
+  {"label": "Wind from", "path": "navigation.wind.from", "unit": "deg", "decimals": 0, "optional": false},
+  {"label": "Position sd", "path": "navigation.sd.position", "unit": "m", "decimals": 1, "optional": false},
+  {"label": "Altitude sd", "path": "navigation.sd.altitude", "unit": "m", "decimals": 1, "optional": false},
+  {"label": "Satellites", "path": "location.satellites", "unit": "", "decimals": 0, "optional": true},
+  {"label": "Mission item", "path": "mission.item", "unit": "", "decimals": 0, "optional": true},
+  {"label": "Fence", "path": "fence.margin", "unit": "m", "decimals": 0, "optional": false},
 ];
 
 /** Why a flight mode is not offered, or was replaced, by code. */
@@ -325,7 +91,7 @@ export const MODE_REASONS = {
   "altitude": "altitude missing or too old",
   "heading": "heading missing or too old",
   "battery": "battery missing or too old",
-  "navigation": "navigation missing or too old"
+  "navigation": "navigation missing or too old",
 };
 
 /** An older frame is shown as stale, before the second is over. */
@@ -336,42 +102,15 @@ export const DRIFT = 0.0001;
 
 /** The readings with ages in telemetry; older ones are shown as stale. */
 export const READINGS = {
-  "orientation": {
-    "title": "",
-    "stale_s": 0.9
-  },
-  "rx": {
-    "title": "receiver",
-    "stale_s": 0.9
-  },
-  "servo": {
-    "title": "servos",
-    "stale_s": 0.9
-  },
-  "flight": {
-    "title": "flight state",
-    "stale_s": 0.9
-  },
-  "location": {
-    "title": "",
-    "stale_s": 1.9
-  },
-  "altitude": {
-    "title": "",
-    "stale_s": 1.9
-  },
-  "heading": {
-    "title": "",
-    "stale_s": 1.9
-  },
-  "battery": {
-    "title": "",
-    "stale_s": 120.0
-  },
-  "navigation": {
-    "title": "",
-    "stale_s": 3.0
-  }
+  "orientation": {"title": "", "stale_s": 0.9},
+  "rx": {"title": "receiver", "stale_s": 0.9},
+  "servo": {"title": "servos", "stale_s": 0.9},
+  "flight": {"title": "flight state", "stale_s": 0.9},
+  "location": {"title": "", "stale_s": 1.9},
+  "altitude": {"title": "", "stale_s": 1.9},
+  "heading": {"title": "", "stale_s": 1.9},
+  "battery": {"title": "", "stale_s": 120.0},
+  "navigation": {"title": "", "stale_s": 3.0},
 };
 
 /** The reading whose age a field has. */
@@ -435,13 +174,13 @@ export const READING_OF = {
   "arduino.flight_battery_v": "flight",
   "arduino.flight_battery_low": "flight",
   "arduino.flight_battery_critical": "flight",
-  "android.batteryLevel": "battery"
+  "android.batteryLevel": "battery",
 };
 
 /** Limits of the alarms of numbers. */
 export const LIMITS = {
   "battery_low": 20,
-  "battery_empty": 10
+  "battery_empty": 10,
 };
 
 /** The outcomes of sent Commands. */
@@ -450,5 +189,5 @@ export const OUTCOMES = {
   "nack": "refused",
   "timeout": "outcome unknown",
   "unsent": "not sent",
-  "refused": "refused by the ground station"
+  "refused": "refused by the ground station",
 };

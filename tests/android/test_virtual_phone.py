@@ -5,8 +5,7 @@ import subprocess
 
 import pytest
 
-from tests.support.java import CONSOLE, java_program
-from up_simulator.phone.java_program import MAIN
+from tests.support.java import CONSOLE, MAIN, java_program
 
 LIMIT_S = 60.0
 PLACE = ["--raspberry", "127.0.0.1:50001:50000"]
@@ -28,13 +27,6 @@ def run(program, *options, main=MAIN, text=""):
     )
 
 
-def test_help_shows_usage_and_an_example(program):
-    done = run(program, "--help")
-    assert done.returncode == 0 and done.stderr == ""
-    assert done.stdout.startswith("usage: ") and "try: (" in done.stdout
-    assert all(len(line) < 100 for line in done.stdout.splitlines())
-
-
 @pytest.mark.parametrize(
     "options",
     [
@@ -42,7 +34,6 @@ def test_help_shows_usage_and_an_example(program):
         ["--raspberry", "pi:0:1"],
         ["--runner", "x:1", "--discover", "y:2"],
         ["--orientation-hz", "-1"],
-        ["--mounting", "1 2 3"],
     ],
 )
 def test_a_wrong_option_is_refused_in_one_line_that_names_it(program, options):

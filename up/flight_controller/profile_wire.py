@@ -1,4 +1,4 @@
-"""The airframe profile that the Arduino stores (docs/protocols.md 2.6), by keys of airframe.yml."""
+"""The airframe profile that the board stores (docs/protocols.md 2.6), by keys of airframe.yml."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from up.flight_controller.airframe_profile import (
 )
 
 AIRFRAME = ConfigFile("airframe.yml", AirframeProfile)
-"""The required profile of the Arduino; null values stay unchanged."""
+"""The required profile of the board; null values stay unchanged."""
 
 Profile = dict[str, Any]
 """Every value by its dotted key, such as ``rudder.trim_us``."""

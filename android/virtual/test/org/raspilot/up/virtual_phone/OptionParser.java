@@ -27,7 +27,7 @@ final class OptionParser {
     static String value(String name, Iterator<String> words) throws OptionException {
         if (!words.hasNext()) {
             throw new OptionException(
-                    name + ": no such option, or its value is missing; see --help");
+                    name + ": no such option, or its value is missing");
         }
         return words.next();
     }
@@ -51,7 +51,7 @@ final class OptionParser {
     }
 
     static OptionException unknown(String name) {
-        return new OptionException(name + ": no such option; see --help");
+        return new OptionException(name + ": no such option");
     }
 
     /** Invalid input of a program: one sentence for the user. */

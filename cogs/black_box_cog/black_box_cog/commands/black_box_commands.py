@@ -1,4 +1,4 @@
-"""An object that a companion computer adds to the flight log."""
+"""What the ground and a companion computer add to the flight log."""
 
 from __future__ import annotations
 
@@ -8,6 +8,21 @@ from typing import Any, ClassVar
 
 from up.commands.command import BaseCommand, value
 from up.commands.roles import Role
+
+
+@dataclass(frozen=True, slots=True)
+class MarkCommand(BaseCommand):
+    """A mark in the flight log with a note of the user."""
+
+    NAME: ClassVar[str] = "black_box.mark"
+    TITLE: ClassVar[str] = 'Mark "{}"'
+    ROLES: ClassVar[frozenset[Role]] = frozenset({Role.OPERATOR})
+    text: str = value(max_length=200)
+
+    def __post_init__(self) -> None:
+        if not self.text.strip():
+            raise ValueError("text must have 1 to 200 characters")
+
 
 _TOPIC = re.compile(r"[a-z0-9_]+(\.[a-z0-9_]+)+", re.ASCII)
 

@@ -4,7 +4,6 @@ import struct
 from pathlib import Path
 
 import pytest
-from arduino_cog.profile import AIRFRAME, differences, flat, nested, pack_profile, read_profile
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -12,6 +11,14 @@ from tests.cogs.arduino_cog.board import PROFILE, PROFILE_FORMAT
 from up.config import ConfigErrors
 from up.config.schema import plain_value
 from up.flight_controller.airframe_profile import AirframeProfile
+from up.flight_controller.profile_wire import (
+    AIRFRAME,
+    differences,
+    flat,
+    nested,
+    pack_profile,
+    read_profile,
+)
 
 FACTORY = read_profile(struct.pack(PROFILE_FORMAT, *PROFILE))
 PATH = Path("config/airframe.yml")

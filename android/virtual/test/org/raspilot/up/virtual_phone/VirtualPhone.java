@@ -6,7 +6,7 @@ import org.raspilot.up.virtual_phone.OptionParser.OptionException;
 /**
  * The airborne phone without a phone: the Up Library's core on the JVM, with simulated sensors.
  *
- * <p>It is a child process of the simulator and ends with its standard input. Both directions carry
+ * <p>It is a child process of a test and ends with its standard input. Both directions carry
  * JSON objects, one a line, UTF-8. It writes no log, only events.
  *
  * <p><b>Lines in.</b> Every key is optional; one line may have several.
@@ -17,17 +17,13 @@ import org.raspilot.up.virtual_phone.OptionParser.OptionException;
  * "rotation": [w, x, y, z]        the device's axes to east, north, up
  * "rate": [x, y, z]               rad/s about the device's axes
  * "battery": 87                   percent
- * "record": {"topic", "content"}  sent as black_box.record, slowed by Panic Mode as the
- *                                 rest; with --record only
- * "level": "TOP"                  calibrate: level now, with that Side to the nose
  * </pre>
  *
  * <p><b>Lines out.</b>
  *
  * <pre>
  * {"event": "wants", "sensor": "fix", "period_ms": 500}    send it at this period, the first
- *                          immediately; 0: stop. The sensors are named as the keys above;
- *                          "record" is wanted while there is a link
+ *                          immediately; 0: stop. The sensors are named as the keys above
  * {"event": "connected", "host", "general", "orientation"}
  * {"event": "lost", "code", "reason"}                   the link for Commands is lost, or failed
  * {"event": "says", "text"}                      android.speak
@@ -49,10 +45,6 @@ public final class VirtualPhone {
         } catch (OptionException error) {
             System.err.println("virtual phone: " + error.getMessage());
             System.exit(WRONG_INPUT);
-            return;
-        }
-        if (options.wantsHelp) {
-            System.out.print(PhoneOptions.HELP);
             return;
         }
         EventWriter words = new EventWriter(System.out);

@@ -5,9 +5,10 @@ import struct
 from dataclasses import replace
 
 import pytest
-from arduino_cog.gains_wire import pack_gains, read_gains, without_rudder
 from hypothesis import given
 from hypothesis import strategies as st
+
+from up.flight_controller.gains_wire import pack_gains, read_gains, without_rudder
 
 GAIN = st.floats(min_value=0, max_value=50, width=32)
 

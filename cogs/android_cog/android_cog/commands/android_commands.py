@@ -1,4 +1,4 @@
-"""The phone's battery."""
+"""The phone's battery, and text for its voice."""
 
 from __future__ import annotations
 
@@ -25,3 +25,18 @@ class AndroidBatteryLowCommand(BaseCommand):
     NAME: ClassVar[str] = "android.battery.low"
     level_percent: float = value(key="level", minimum=0, maximum=100, unit="percent")
     low: bool = value()
+
+
+@dataclass(frozen=True, slots=True)
+class AndroidSpeakCommand(BaseCommand):
+    """Text for the phone's voice; carried to the phone, which answers it."""
+
+    NAME: ClassVar[str] = "android.speak"
+    TITLE: ClassVar[str] = 'Speak "{}"'
+    ROLES: ClassVar[frozenset[Role]] = frozenset({Role.OPERATOR})
+    ROUTE: ClassVar[str] = "android"
+    text: str = value(max_length=200)
+
+    def __post_init__(self) -> None:
+        if not self.text:
+            raise ValueError("text must have 1 to 200 characters")

@@ -1,0 +1,68 @@
+"""Commands to the Arduino: its calibrations and its profile."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any, ClassVar
+
+from up.commands.command import BaseCommand, value
+from up.commands.roles import Role
+from up.flight_controller.profile_wire import Profile, nested
+
+CALIBRATIONS = {"level": 0, "receiver_begin": 1, "receiver_end": 2, "gyro": 3}
+
+
+@dataclass(frozen=True, slots=True)
+class ArduinoCalibrateCommand(BaseCommand):
+    """Calibrates the disarmed Arduino: level and gyro while the aircraft stands still and level.
+
+    Between receiver_begin and receiver_end all sticks and switches are moved to both ends and left
+    in the middle.
+    """
+
+    NAME: ClassVar[str] = "arduino.calibrate"
+    TITLE: ClassVar[str] = "Calibrate {}"
+    ROLES: ClassVar[frozenset[Role]] = frozenset({Role.PILOT})
+    what: str = value(choices=tuple(CALIBRATIONS))
+
+
+MAX_V = 65.0
+
+
+@dataclass(frozen=True, slots=True)
+class BatteryCalibrateCommand(BaseCommand):
+    """Tells the disarmed Arduino the voltage of the flight battery, measured with a meter now.
+
+    0: the battery is not wired to the Arduino.
+    """
+
+    NAME: ClassVar[str] = "up.battery.calibrate"
+    TITLE: ClassVar[str] = "Flight battery has {} V"
+    ROLES: ClassVar[frozenset[Role]] = frozenset({Role.PILOT})
+    voltage: float = value(unit="V", minimum=0, maximum=MAX_V)
+
+
+@dataclass(frozen=True, slots=True)
+class ArduinoProfileRequestCommand(BaseCommand):
+    """Requests the active profile of the Arduino."""
+
+    NAME: ClassVar[str] = "arduino.profile.request"
+    TITLE: ClassVar[str] = "Request the profile"
+    ROLES: ClassVar[frozenset[Role]] = frozenset({Role.OBSERVER})
+
+
+@dataclass(frozen=True, slots=True)
+class ArduinoProfileValuesCommand(BaseCommand):
+    """The active profile, with the keys of airframe.yml."""
+
+    NAME: ClassVar[str] = "arduino.profile.values"
+    profile: dict[str, Any] = value()
+
+    @classmethod
+    def of(cls, profile: Profile) -> ArduinoProfileValuesCommand:
+        return cls(nested(profile))
+
+    @property
+    def data(self) -> dict[str, Any]:
+        """Return the profile itself, without an outer key."""
+        return self.profile
