@@ -25,7 +25,7 @@ from up.commands.board_status import (
 )
 from up.commands.command_executor import CommandExecutor
 from up.commands.flight_state_command import FlightStateCommand
-from up.commands.orientation_command import OrientationCommand
+from up.commands.orientation_command import AccelerationCommand, OrientationCommand
 from up.commands.origin import Origin
 from up.commands.refusal import Code, CommandRefusedError
 from up.commands.roles import Role
@@ -309,6 +309,8 @@ class ArduinoProvider(BaseStartedModule):
             )
         self._execute(status, ORIGIN)
         self._execute(flight_state_of(status, self.has_motor), ORIGIN)
+        if status.forward_m_s2 is not None:
+            self._execute(AccelerationCommand(status.forward_m_s2), ORIGIN)
 
     def _on_reset(self, status: ArduinoStatusCommand) -> None:
         self.counters["resets"] += 1
