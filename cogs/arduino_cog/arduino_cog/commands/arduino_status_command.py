@@ -10,7 +10,6 @@ from up.commands.board_status import TOPIC, reset_causes_of, vetoes_of
 from up.commands.command import BaseCommand
 from up.commands.roles import Role
 
-GRAVITY_M_S2 = 9.81
 RECEIVER_WAIT_S = 5
 """A receiver that lost power in the air is received again within this time."""
 
@@ -35,13 +34,6 @@ class ArduinoStatusCommand(BoardStatus, BaseCommand):
         if has_motor:
             return False
         return self.switch in SWITCH_POSITIONS or self.uptime_s < RECEIVER_WAIT_S
-
-    @property
-    def forward_m_s2(self) -> float | None:
-        """Return the acceleration along the nose; None: unknown."""
-        if not (self.acceleration and self.is_imu_valid):
-            return None
-        return (self.acceleration - 128) / 64 * GRAVITY_M_S2
 
     @property
     def is_profile_valid(self) -> bool:

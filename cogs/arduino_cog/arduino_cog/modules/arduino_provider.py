@@ -19,6 +19,7 @@ from up.base_started_module import BaseStartedModule
 from up.commands.board_schema import OLDEST_SIZE, STATUS, VERSION, Reason
 from up.commands.board_status import (
     flight_mode_name,
+    forward_m_s2_of,
     refusal_name,
     refusal_text,
     telemetry_of,
@@ -309,8 +310,9 @@ class ArduinoProvider(BaseStartedModule):
             )
         self._execute(status, ORIGIN)
         self._execute(flight_state_of(status, self.has_motor), ORIGIN)
-        if status.forward_m_s2 is not None:
-            self._execute(AccelerationCommand(status.forward_m_s2), ORIGIN)
+        forward_m_s2 = forward_m_s2_of(status)
+        if forward_m_s2 is not None:
+            self._execute(AccelerationCommand(forward_m_s2), ORIGIN)
 
     def _on_reset(self, status: ArduinoStatusCommand) -> None:
         self.counters["resets"] += 1
