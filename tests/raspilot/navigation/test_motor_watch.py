@@ -83,7 +83,8 @@ def test_a_motor_that_pulls_again_is_seen(flight):
     assert gained_m_s == pytest.approx(1.5 * seen_s)
 
 
-def test_evidence_before_a_pause_does_not_count(flight):
-    for _ in range(4):
-        assert flight.fly(0.4, lost=1.0) is None
-        assert flight.fly(1.5, period_s=1.5) is None
+def test_after_a_pause_the_attitude_may_be_wrong_for_some_seconds(flight):
+    assert flight.fly(1.5, period_s=1.5) is None
+    assert flight.fly(9.8, error_m_s2=-2.4) is None
+    assert flight.fly(9.8) is None
+    assert flight.fly(2, lost=1.0)
